@@ -7,13 +7,15 @@ use congruent::{
     analysis::inverse::read_targets,
     calibration::measurements::read_measurements,
     description::{
-        Diagnostic, FileAccess, RobotDescription, RobotQ, Use, load_robot, parse_urdf, read_configurations,
-        read_mesh, read_states, urdf_text,
+        RobotDescription, RobotQ, load_robot, parse_urdf, read_configurations, read_mesh, read_states,
+        urdf_text,
     },
+    input::{Capability, FileAccess, Findings},
     kinematics::UrdfTree,
     nalgebra::Vector3,
     recording::{inspect, scalars},
-    twin::{RunSetup, trajectory_file},
+    results::trajectory_file,
+    twin::RunSetup,
 };
 
 /// A kind of file that is read.
@@ -109,19 +111,19 @@ impl Readers {
         fs::write(&path, bytes).expect("the folder can be written");
         match kind {
             Kind::Urdf | Kind::RobotToml => {
-                if let Ok(loaded) = told(load_robot(&path)) {
+                if let Ok(loaded) = as_text(load_robot(&path)) {
                     written_and_read_again(&loaded);
                 }
             }
-            Kind::Srdf => _ = told(load_robot(&self.folder.path().join("robot.toml"))),
-            Kind::Scenario => _ = told(RunSetup::load(&path, &[])),
-            Kind::Playback => _ = told(RunSetup::load(&self.folder.path().join("playing.toml"), &[])),
+            Kind::Srdf => _ = as_text(load_robot(&self.folder.path().join("robot.toml"))),
+            Kind::Scenario => _ = as_text(RunSetup::load(&path, &[])),
+            Kind::Playback => _ = as_text(RunSetup::load(&self.folder.path().join("playing.toml"), &[])),
             Kind::Configurations => {
-                _ = told(read_configurations(&path, &self.arm.robot));
-                _ = told(read_states(&path, &self.arm.robot));
+                _ = as_text(read_configurations(&path, &self.arm.robot));
+                _ = as_text(read_states(&path, &self.arm.robot));
             }
-            Kind::Targets => _ = told(read_targets(&path, &self.arm.robot)),
-            Kind::Measurements => _ = told(read_measurements(&path, &self.arm.robot, &[0, 1])),
+            Kind::Targets => _ = as_text(read_targets(&path, &self.arm.robot)),
+            Kind::Measurements => _ = as_text(read_measurements(&path, &self.arm.robot, &[0, 1])),
             Kind::Trajectory | Kind::Parquet => rows(&path),
             Kind::Stl | Kind::Obj | Kind::Dae => self.mesh(kind.file()),
             Kind::Recording => {
@@ -134,7 +136,7 @@ impl Readers {
     fn mesh(&self, file: &str) {
         let access = FileAccess::default();
         let read = read_mesh(self.folder.path(), file, Vector3::new(1.0, -0.5, 2.0), &access);
-        if let Ok(mesh) = told(read.map_err(|fault| vec![fault])) {
+        if let Ok(mesh) = as_text(read.map_err(Findings::from)) {
             let last = mesh.vertices_m.len();
             assert!(mesh.triangles.iter().flatten().all(|&corner| (corner as usize) < last));
             assert!(mesh.vertices_m.iter().all(|vertex| vertex.iter().all(|value| value.is_finite())));
@@ -142,10 +144,9 @@ impl Readers {
     }
 }
 
-/// What a person is told, made into text; a refusal without a word is a bug.
-fn told<T>(result: Result<T, Vec<Diagnostic>>) -> Result<T, ()> {
+/// The findings as text; [`Findings`] panics if a refusal has no reason.
+fn as_text<T>(result: Result<T, Findings>) -> Result<T, ()> {
     result.map_err(|found| {
-        assert!(!found.is_empty(), "refused without a word");
         for diagnostic in &found {
             assert!(!diagnostic.to_string().is_empty());
             let _ = diagnostic.line_column();
@@ -155,8 +156,8 @@ fn told<T>(result: Result<T, Vec<Diagnostic>>) -> Result<T, ()> {
 
 /// A robot that was accepted has poses, can be written, and is the same when it is read again.
 fn written_and_read_again(loaded: &RobotDescription) {
-    for needed in [Use::Kinematics, Use::Clearance, Use::Physics] {
-        let _ = loaded.for_use(needed);
+    for needed in [Capability::Kinematics, Capability::Clearance, Capability::Physics] {
+        let _ = loaded.check_capability(needed);
     }
     let robot = &loaded.robot;
     let (tree, zero) = (UrdfTree::new(robot), RobotQ::zeros(robot.dof()));

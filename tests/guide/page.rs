@@ -16,7 +16,7 @@ pub(crate) struct Page {
 
 /// A block of code that does something.
 pub(crate) enum Block {
-    /// A file, whose name stands behind the language: `toml file=arm/robot.toml`.
+    /// A file, whose name is behind the language: `toml file=arm/robot.toml`.
     File { path: String, text: String },
     /// Commands, `sh` or `console`; the last one ends with this exit code: `console exit=1`.
     Commands { line: usize, exit: i32, commands: Vec<Command> },

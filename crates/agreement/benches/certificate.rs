@@ -10,6 +10,7 @@ use congruent_agreement::bound::{Budget, certify};
 use congruent_kinematics::{DhChain, ScrewChain};
 use divan::{Bencher, black_box};
 use nalgebra::{Isometry3, Vector3};
+
 use support::{TableFigures, panda_table, ur5e_table};
 
 const BUDGET: Budget = Budget { relative_gap: 0.05, corners: 100_000_000 };

@@ -6,7 +6,8 @@
 use std::{fs, path::Path, sync::Arc};
 
 use congruent_agreement::compare::{CheckOptions, check};
-use congruent_description::{RobotDescription, SourceFile, load_robot, parse_robot};
+use congruent_description::{RobotDescription, load_robot, parse_robot};
+use congruent_input::SourceFile;
 use congruent_kinematics::UrdfTree;
 
 /// Two joints that turn about z, the second 0.4 m out, the tip 0.3 m further.

@@ -1,7 +1,8 @@
-//! `congruent derive --base-parameters`: the combinations of inertial parameters that joint torques can tell.
+//! `congruent derive --base-parameters`: the combinations of inertial parameters that are identifiable from joint torques.
 
-use congruent_description::{Finding, RobotDescription, RobotQ};
-use congruent_dynamics::{BodyTree, DynamicsError, InertialParameter, JointMotion};
+use congruent_description::{RobotDescription, RobotQ};
+use congruent_dynamics::{BodyTree, DynamicsError, InertialParameter, JointMotionState};
+use congruent_input::Finding;
 use congruent_kinematics::{Uniform, range};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -23,20 +24,20 @@ pub struct NamedParameter {
 /// A parameter that is added to a base parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct GroupedParameter {
-    /// The parameter.
+    /// The parameter that is added.
     #[serde(flatten)]
     pub of: NamedParameter,
     /// Its factor in the sum.
     pub coefficient: f64,
 }
 
-/// A sum of parameters that torques tell only together.
+/// A sum of parameters that are identifiable only together.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedBaseParameter {
     /// The parameter that the sum is named by; its factor is 1.
     #[serde(flatten)]
     pub of: NamedParameter,
-    /// What is added to it.
+    /// The parameters that are added to it, with their factors.
     pub grouped: Vec<GroupedParameter>,
     /// Value of the sum by the description.
     pub value: f64,
@@ -47,25 +48,25 @@ pub struct ReportedBaseParameter {
 /// The answer of `congruent derive --base-parameters`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BaseParameterReport {
-    /// The URDF.
+    /// Path of the URDF.
     pub file: String,
     /// Name of the robot.
     pub robot: String,
     /// Movable joints; mimic joints are independent.
     pub joints: Vec<String>,
-    /// Inertial parameters of all bodies.
+    /// Number of inertial parameters of all bodies: ten each.
     pub of: usize,
-    /// Those combinations that torques tell, from the base on.
+    /// The identifiable sums, from the base to the tip.
     pub base_parameters: Vec<ReportedBaseParameter>,
-    /// Those that change no torque.
+    /// Parameters without an effect on any torque.
     pub not_seen: Vec<NamedParameter>,
-    /// Seed of the motions at which torques are looked at.
+    /// Seed of the random motions at which the torques are computed.
     pub seed: u64,
-    /// What is suspicious about the description.
+    /// Warnings about the description.
     pub warnings: Vec<Finding>,
 }
 
-/// Random motions that excite every joint. Kind: choice; 20 show the rank of every arm at hand already.
+/// Random motions that excite every joint. Kind: choice; 20 give the rank of every arm that was tried.
 const MOTIONS: usize = 40;
 /// Speeds and accelerations of both signs, as large as gravity in effect. Unit: per second; kind: choice.
 const FASTEST: f64 = 3.0;
@@ -76,10 +77,11 @@ const FASTEST: f64 = 3.0;
 /// [`DynamicsError`] if a motion is another robot's.
 ///
 /// # Examples
-/// Of a body on one hinge that is not vertical torques tell three of ten parameters.
+/// For a body on one hinge that is not vertical, three of ten parameters are identifiable:
 /// ```
 /// use congruent_analysis::base_parameters::base_parameters;
-/// use congruent_description::{SourceFile, parse_robot};
+/// use congruent_description::parse_robot;
+/// use congruent_input::SourceFile;
 /// let urdf = r#"<robot name="rod"><link name="base"/><link name="rod"/>
 ///   <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint></robot>"#;
 /// let source = SourceFile { path: "rod.urdf".into(), text: urdf.into() };
@@ -96,6 +98,7 @@ pub fn base_parameters(
     let robot = &description.robot;
     let tree = BodyTree::new(robot).without_resistances().with_independent_mimics();
     let mut random = Uniform::seeded(seed);
+    // All rates are drawn before the positions: the order of the draws fixes the motions of a seed.
     let mut rates =
         |count: usize| -> Vec<f64> { (0..count).map(|_| random.between((-FASTEST, FASTEST))).collect() };
     let moving: Vec<(Vec<f64>, Vec<f64>)> =
@@ -104,8 +107,8 @@ pub fn base_parameters(
         robot.movable_joints().iter().map(|&joint| random.between(range(robot.joint(joint)))).collect()
     };
     let places: Vec<RobotQ> = (0..MOTIONS).map(|_| place()).collect();
-    let motions: Vec<JointMotion<'_>> =
-        places.iter().zip(&moving).map(|(q, (qd, qdd))| JointMotion { q, qd, qdd }).collect();
+    let motions: Vec<JointMotionState<'_>> =
+        places.iter().zip(&moving).map(|(q, (qd, qdd))| JointMotionState { q, qd, qdd }).collect();
     let found = tree.base_parameters(&motions)?;
     let named = |parameter: &InertialParameter| {
         let joint = robot.joint(robot.movable_joints()[parameter.joint]);
@@ -134,7 +137,7 @@ pub fn base_parameters(
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         of: congruent_dynamics::PARAMETERS * robot.dof(),
         base_parameters: groups.collect(),
-        not_seen: found.unseen.iter().map(named).collect(),
+        not_seen: found.without_effect.iter().map(named).collect(),
         seed,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })

@@ -1,9 +1,8 @@
 //! `congruent dynamics`: torques and accelerations of a robot at given states.
 
-use congruent_description::{
-    Diagnostic, Finding, JointState, JointStateList, ReportedChain, Robot, RobotDescription,
-};
-use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError, JointMotion, SpatialInertia};
+use congruent_description::{JointState, JointStateList, ReportedChain, Robot, RobotDescription};
+use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError, JointMotionState, SpatialInertia};
+use congruent_input::{Diagnostic, Finding, SiUnit};
 use nalgebra::{DMatrix, Point3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,26 +15,26 @@ use crate::stream::Stream;
 pub enum DynamicsSource {
     /// The equations of motion.
     Model,
-    /// The physics engine.
+    /// The physics engine, from its accelerations.
     Simulation,
 }
 
-/// A mass at the tool centre point, or beside it.
+/// A point mass at the tool centre point, or at an offset from it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct Payload {
-    /// Its mass.
+pub struct PointPayload {
+    /// Mass of the payload, kg.
     pub mass_kg: f64,
-    /// Its place in the frame of the TCP (of the tip if no TCP is declared).
+    /// Position in the frame of the TCP (of the tip if no TCP is declared), m.
     pub position_m: [f64; 3],
 }
 
-/// What a robot is asked about its dynamics beside its states.
+/// Options of `congruent dynamics`: friction and payload.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DynamicsOptions {
-    /// With the damping and the dry friction of the description.
+    /// Whether the damping and dry friction of the description count.
     pub friction: bool,
     /// A mass that the tool carries.
-    pub payload: Option<Payload>,
+    pub payload: Option<PointPayload>,
 }
 
 /// The dynamics at one state. Torques are in N m, those of prismatic joints in N.
@@ -56,7 +55,7 @@ pub struct DynamicsResult {
 /// The answer of `congruent dynamics`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "DynamicsReport")]
-pub struct DynamicsReport<Results> {
+pub struct JointDynamicsReport<Results> {
     /// Name of the robot.
     pub robot: String,
     /// Base and tip, on which a payload hangs.
@@ -64,14 +63,15 @@ pub struct DynamicsReport<Results> {
     /// Movable joints, in the order of vectors; mimic joints are independent but in `forward_dynamics`.
     pub joints: Vec<String>,
     /// Unit of each joint's position: `rad` or `m`.
-    pub units: Vec<&'static str>,
-    /// The source.
+    #[schemars(with = "Vec<String>")]
+    pub units: Vec<SiUnit>,
+    /// The source of the torques and accelerations.
     pub source: DynamicsSource,
     /// Whether damping and dry friction of the description take part in `inverse_dynamics_n_m` and
     /// `forward_dynamics`.
     pub friction: bool,
     /// The mass that the tool carries.
-    pub payload: Option<Payload>,
+    pub payload: Option<PointPayload>,
     /// One entry for each state, in input order.
     pub results: Results,
     /// Warnings about the input.
@@ -95,8 +95,9 @@ impl DynamicsResult {
         let mut matrix = DMatrix::zeros(n, n);
         by.gravity_into(q, &mut gravity)?;
         by.mass_matrix_into(q, &mut matrix)?;
-        by.inverse_into(&JointMotion { q, qd, qdd: &zeros }, &mut bias)?;
-        by.inverse_into(&JointMotion { q, qd, qdd }, &mut inverse)?;
+        // Bias by the same source, rather than by subtraction, which would lose digits.
+        by.inverse_into(&JointMotionState { q, qd, qdd: &zeros }, &mut bias)?;
+        by.inverse_into(&JointMotionState { q, qd, qdd }, &mut inverse)?;
         by.forward_into(&DrivenState { q, qd, tau }, &mut forward)?;
         Ok(Self {
             gravity_n_m: gravity,
@@ -114,31 +115,38 @@ impl DynamicsResult {
     }
 }
 
-/// The robot that is asked: with the payload, and without damping and friction unless they are wanted.
+/// The robot with the payload, and without damping and friction unless the options include them.
 ///
 /// # Errors
 /// A payload without a positive mass.
-pub fn robot_of(description: &RobotDescription, options: &DynamicsOptions) -> Result<Robot, Diagnostic> {
+pub fn robot_with_options(
+    description: &RobotDescription,
+    options: &DynamicsOptions,
+) -> Result<Robot, Diagnostic> {
     let robot = if options.friction {
         description.robot.clone()
     } else {
         description.robot.with_joints(|joint| (joint.damping, joint.friction) = (0.0, 0.0))
     };
-    let Some(Payload { mass_kg, position_m }) = options.payload else { return Ok(robot) };
+    let Some(PointPayload { mass_kg, position_m }) = options.payload else { return Ok(robot) };
     let tcp = Point3::from(Vector3::from(position_m));
     let in_tip = description.tip_from_tcp.map_or(tcp, |tip_from_tcp| tip_from_tcp * tcp);
     let carried = SpatialInertia::point_mass(mass_kg, in_tip.coords);
-    let own =
-        robot.link(description.tip).inertia.as_ref().map_or(SpatialInertia::zero(), SpatialInertia::of_link);
+    let own = robot
+        .link(description.tip)
+        .inertia
+        .as_ref()
+        .map_or(SpatialInertia::zero(), SpatialInertia::from_link);
+    // NaN is not above zero either; the sum with the link itself may still be impossible.
     let inertia = Some(mass_kg).filter(|mass| *mass > 0.0).and_then(|_| (own + carried).to_link());
     let inertia = inertia.ok_or_else(|| {
-        Diagnostic::error("dynamics::payload", format!("a payload of {mass_kg} kg is no mass above zero"))
+        Diagnostic::error("dynamics::payload", format!("payload mass must be > 0, but is {mass_kg} kg"))
     })?;
     Ok(robot.with_inertia(description.tip, inertia))
 }
 
-/// Dynamics at each state, computed when it is asked for, by a source that was made for the robot: [`robot_of`] the
-/// description and the options.
+/// Dynamics at each state, computed on demand by a source that was built for `robot`: [`robot_with_options`] the description and the
+/// options.
 ///
 /// # Errors
 /// The source refuses the first state.
@@ -147,16 +155,16 @@ pub fn dynamics<'a>(
     options: &DynamicsOptions,
     (source, mut by): (DynamicsSource, Box<dyn JointDynamics + 'a>),
     states: &'a JointStateList,
-) -> Result<DynamicsReport<DynamicsStream<'a>>, Diagnostic> {
+) -> Result<JointDynamicsReport<DynamicsStream<'a>>, Diagnostic> {
     let at = move |state: JointState| DynamicsResult::at(&state, &mut *by).map_err(|error| refused(&error));
     let results = Stream::begin(states.iter().map(at))?;
     let at_rest = stiction(robot, (source, options), states);
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-    Ok(DynamicsReport {
+    Ok(JointDynamicsReport {
         robot: robot.name().to_owned(),
         chain: description.reported_chain(),
         joints: joints().map(|joint| joint.name.clone()).collect(),
-        units: joints().map(|joint| joint.kind.unit()).collect(),
+        units: joints().map(|joint| joint.kind.si_unit()).collect(),
         source,
         friction: options.friction,
         payload: options.payload,
@@ -165,17 +173,18 @@ pub fn dynamics<'a>(
     })
 }
 
-/// What a source says that refuses a state or a robot.
+/// The diagnostic of a source that refuses a state or a robot.
 pub fn refused(error: &dyn std::error::Error) -> Diagnostic {
     Diagnostic::error("dynamics::source", error.to_string())
 }
 
-/// A warning if joints stand still that dry friction may hold, and the source is one that does not know it.
+/// A warning if joints are at rest that dry friction may hold, and the source does not model this.
 pub fn stiction(
     robot: &Robot,
     (source, options): (DynamicsSource, &DynamicsOptions),
     states: &JointStateList,
 ) -> Option<Diagnostic> {
+    // The physics engine models stiction; without friction there is nothing to hold.
     if source != DynamicsSource::Model || !options.friction {
         return None;
     }
@@ -186,9 +195,10 @@ pub fn stiction(
         .map(|(_, joint)| joint.name.as_str())
         .collect();
     let message = format!(
-        "dry friction does not hold joints at rest in the equations of motion, and may in the robot: {}",
+        "joints at rest, which dry friction may hold in the robot but not in the equations of motion: {}",
         held.join(", ")
     );
-    let help = "their accelerations are those without dry friction: give speeds, or ask --source simulation";
+    let help =
+        "their accelerations are computed without dry friction: give speeds, or use --source simulation";
     (!held.is_empty()).then(|| Diagnostic::warning("dynamics::at_rest", message).with_help(help))
 }

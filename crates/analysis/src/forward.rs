@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{
-    Diagnostic, Finding, ReportedChain, RobotDescription, RobotQ, known_names, serde_name,
-};
+use congruent_description::{ReportedChain, RobotDescription, RobotQ};
+use congruent_input::{Diagnostic, Finding, known_names, serde_name};
 use congruent_kinematics::{
     DhChain, KinematicsError, LinkPoses, LinkPosesError, Pose, ReportedPose, UrdfTree,
 };
@@ -23,7 +22,7 @@ pub enum Source {
     Dh,
     /// Screws (product of exponentials).
     Poe,
-    /// The physics engine.
+    /// The physics engine, by the poses of its bodies.
     Simulation,
 }
 
@@ -50,12 +49,11 @@ pub struct ForwardReport<Results> {
     pub chain: ReportedChain,
     /// Movable joints, in the order of configuration vectors.
     pub joints: Vec<String>,
-    /// The source.
+    /// The source of the poses.
     pub source: Source,
-    /// The frame that the poses are in: a link, a frame of the table or the declared TCP; the root link if none was asked
-    /// for.
+    /// The frame in which the poses are given: a link, a frame of the table or the declared TCP; by default the root link.
     pub from: String,
-    /// The one frame whose pose was asked for; `None` if all are here.
+    /// The one frame whose pose was requested; `None` for all frames.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<String>,
     /// One entry for each configuration, in input order.
@@ -65,14 +63,14 @@ pub struct ForwardReport<Results> {
     pub warnings: Vec<Finding>,
 }
 
-/// Why a source has no poses.
+/// Why a source cannot compute poses.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ForwardError {
     /// The robot file has no table.
     #[error("robot \"{robot}\" has no [dh] table along this chain")]
     NoTable {
-        /// The robot.
+        /// Name of the robot.
         robot: String,
     },
     /// The source refuses the robot.
@@ -96,11 +94,11 @@ impl From<ForwardError> for Diagnostic {
 pub type PoseStream<'a> = Stream<'a, ReportedLinkPoses>;
 
 impl ForwardReport<PoseStream<'_>> {
-    /// The same poses in the frame `from`, and of the frame `to` alone; what is not given stays as it is. `self` has the
-    /// poses of all frames in the root link.
+    /// The same poses expressed in the frame `from`, and only that of the frame `to`; `None` changes nothing. `self` has the poses
+    /// of all frames in the root link.
     ///
     /// # Errors
-    /// The source has no such frame.
+    /// The source has no frame of that name.
     pub fn between(self, from: Option<&str>, to: Option<&str>) -> Result<Self, Diagnostic> {
         let (source, root) = (self.source, self.from.clone());
         let [from, to] = [from, to].map(|frame| frame.map(str::to_owned));
@@ -129,6 +127,7 @@ impl ReportedLinkPoses {
             }
         };
         let from_from_root = from.map(root_from).transpose()?.map(|root_from_from| root_from_from.inverse());
+        // Both frames are looked up before the list is reduced to one of them.
         let root_from_to = to.map(root_from).transpose()?;
         if let (Some(to), Some(root_from_to)) = (to, root_from_to) {
             links = vec![(to.to_owned(), (&root_from_to).into())];
@@ -144,7 +143,7 @@ impl ReportedLinkPoses {
 
 fn unknown_frame(name: &str, source: Source, links: &[(String, ReportedPose)]) -> Diagnostic {
     let known = links.iter().map(|(link, _)| link.as_str());
-    let message = format!("there is no frame \"{name}\" by source {}", serde_name(&source));
+    let message = format!("source {} has no frame \"{name}\"", serde_name(&source));
     Diagnostic::error("fk::frame", message).with_help(known_names(name, "frames", known))
 }
 

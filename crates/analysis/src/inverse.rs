@@ -3,17 +3,17 @@
 use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
 
 use congruent_description::{
-    ArmQ, Diagnostic, Finding, JointValues, JsonList, ReportedChain, Robot, RobotDescription, configuration,
-    read_text, unique_names,
+    ArmQ, JointValues, JsonList, ReportedChain, Robot, RobotDescription, configuration, unique_names,
 };
+use congruent_input::{Diagnostic, Finding, Findings, read_text};
 use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
-
 use crate::arm_joints::joint_names;
+
+pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
 
 /// A file of targets as a list.
 const LIST: JsonList = JsonList {
@@ -41,7 +41,7 @@ struct WrittenTarget {
 /// A pose to be reached, and the start of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseTarget {
-    /// The pose.
+    /// The pose of the tool in link `base`, or its position alone.
     pub target: IkTarget,
     /// Joints with a given start, by name, in rad or m; others start at the middle of their range.
     pub start: BTreeMap<String, f64>,
@@ -65,7 +65,7 @@ pub struct InverseReport {
     pub chain: ReportedChain,
     /// The arm's independent joints, base to tip.
     pub joints: Vec<String>,
-    /// How it was solved.
+    /// The method of the solver.
     pub method: IkMethod,
     /// One entry for each target, in input order.
     pub results: Vec<InverseSolution>,
@@ -96,11 +96,9 @@ pub struct InverseSolution {
 ///
 /// # Errors
 /// The file cannot be read, is no such array, names an unknown joint or has a quaternion not of unit length.
-pub fn read_targets(path: &Path, robot: &Robot) -> Result<InverseTargets, Vec<Diagnostic>> {
+pub fn read_targets(path: &Path, robot: &Robot) -> Result<InverseTargets, Findings> {
     let source = read_text(path, MOST_BYTES)?;
-    let in_file = |found: Vec<Diagnostic>| -> Vec<Diagnostic> {
-        found.into_iter().map(|each| each.in_file(&source)).collect()
-    };
+    let in_file = |found: Diagnostic| found.in_file(&source);
     let (mut warnings, mut index) = (Vec::new(), 0);
     let entry = |written: WrittenTarget, place: Range<usize>| {
         index += 1;
@@ -113,14 +111,16 @@ pub fn read_targets(path: &Path, robot: &Robot) -> Result<InverseTargets, Vec<Di
         }));
         Ok(target)
     };
-    let targets = LIST.read(&source.text, entry).map_err(in_file)?;
-    Ok(InverseTargets { targets, warnings: in_file(warnings) })
+    let targets = LIST.read(&source.text, entry);
+    let targets = targets.map_err(|faults| faults.into_iter().map(in_file).collect::<Findings>())?;
+    Ok(InverseTargets { targets, warnings: warnings.into_iter().map(in_file).collect() })
 }
 
 /// The limits that a start is outside of, unless whole turns of the joint bring it within.
 fn outside(robot: &Robot, name: &str, value: f64) -> Option<String> {
     let joint = robot.joint(robot.find_joint(name)?);
     let limit = joint.limit?;
+    // The solver does the same with a start, so a start one turn away is no reason for a warning.
     let turned = if joint.kind.is_angular() && value > limit.upper {
         value - TAU * ((value - limit.upper) / TAU).ceil()
     } else if joint.kind.is_angular() && value < limit.lower {
@@ -157,7 +157,7 @@ fn unit_quaternion([w, x, y, z]: [f64; 4]) -> Result<UnitQuaternion<f64>, Diagno
     }
     let message = format!("quaternion_wxyz has norm {norm:.7}, it must be 1 within {QUATERNION_NORM}");
     Err(Diagnostic::error("targets::quaternion_norm", message)
-        .with_help("it is not normalised silently: write it with more digits, scalar first"))
+        .with_help("quaternions are not normalised silently: write it with more digits, scalar first"))
 }
 
 /// Solves all targets for the robot's arm, the URDF chain from `base` to `tip` with its tool.
@@ -169,7 +169,7 @@ pub fn inverse(
     InverseTargets { targets, warnings }: &InverseTargets,
     options: &IkOptions,
 ) -> Result<InverseReport, KinematicsError> {
-    let arm = Arm::of(description)?;
+    let arm = Arm::from_description(description)?;
     let joints = joint_names(description, &arm);
     let middle = arm.middle();
     let mut solver = IkSolver::new(arm);

@@ -1,8 +1,7 @@
 //! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
-use congruent_description::{
-    Diagnostic, Finding, JointState, LinkIndex, ReportedChain, RobotDescription, RobotQ, known_names,
-};
+use congruent_description::{JointState, LinkIndex, ReportedChain, RobotDescription, RobotQ};
+use congruent_input::{Diagnostic, Finding, known_names};
 use congruent_kinematics::{Jacobian, KinematicsError, Pose, ReportedPose, UrdfTree};
 use nalgebra::Matrix3xX;
 use schemars::JsonSchema;
@@ -35,10 +34,10 @@ fn rows(block: &Matrix3xX<f64>) -> [Vec<f64>; 3] {
 /// The Jacobian at one configuration.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JacobianResult {
-    /// The Jacobian itself.
+    /// Linear and angular block of the Jacobian.
     #[serde(flatten)]
     pub jacobian: JacobianBlocks,
-    /// Its time derivative at the given joint velocities, each entry per s; absent unless it was asked for.
+    /// Its time derivative at the given joint velocities, each entry per s; absent unless it was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub derivative: Option<JacobianBlocks>,
 }
@@ -77,7 +76,7 @@ pub struct TcpInLink {
     pub link_from_tcp: ReportedPose,
 }
 
-/// A frame whose Jacobian is asked for.
+/// The frame whose Jacobian is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JacobianFrame {
     /// The frame of a link.
@@ -129,7 +128,7 @@ impl JacobianFrame {
 /// Jacobians that are computed while they are written.
 pub type JacobianStream<'a> = Stream<'a, JacobianResult>;
 
-/// Jacobians of one frame at each configuration, from the URDF chain, each computed when it is asked for.
+/// Jacobians of one frame at each configuration, from the URDF chain, each computed on demand.
 ///
 /// # Errors
 /// The first configuration is of another length.
@@ -148,7 +147,7 @@ pub fn jacobians<'a>(
     report(description, frame, kind, configurations.map(at))
 }
 
-/// Jacobians of one frame and their time derivatives, from the URDF chain, each computed when it is asked for.
+/// Jacobians of one frame and their time derivatives, from the URDF chain, each computed on demand.
 ///
 /// # Errors
 /// The first positions or velocities are of another length.

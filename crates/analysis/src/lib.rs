@@ -1,6 +1,6 @@
-//! What a robot is, and what an arm can do: its description in short, forward and inverse kinematics, Jacobians, one model written as another, sensitivity,
-//! manipulability, workspace. The values are computed in `congruent-kinematics`; here they get names, units
-//! and plots.
+//! Analyses of one robot: summary of its description, forward and inverse kinematics, Jacobians, dynamics, conversion between
+//! models, sensitivity, manipulability, workspace. The values are computed in `congruent-kinematics` and
+//! `congruent-dynamics`; here they get names, units and figures.
 
 mod arm_joints;
 pub mod base_parameters;

@@ -1,8 +1,7 @@
 //! `congruent manipulability`: how well the tool moves in each direction.
 
-use congruent_description::{
-    Diagnostic, Elementary as _, Finding, JointValues, LinkIndex, ReportedChain, RobotDescription, RobotQ,
-};
+use congruent_description::{JointValues, LinkIndex, ReportedChain, RobotDescription, RobotQ};
+use congruent_input::{Diagnostic, Finding};
 use congruent_kinematics::{
     Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
 };
@@ -50,7 +49,7 @@ pub struct ConfigurationDexterity {
     pub linear: ReportedEllipsoid,
     /// Angular velocity, rad per rad of joint motion.
     pub angular: ReportedEllipsoid,
-    /// Both, lengths in `metres_per_rad`.
+    /// Dexterity of linear and angular velocity together, lengths in units of `metres_per_rad`.
     pub whole: ReportedDexterity,
 }
 
@@ -59,9 +58,9 @@ pub struct ConfigurationDexterity {
 pub struct ReportedEllipsoid {
     /// Directions in the base, the longest first.
     pub axes: [[f64; 3]; 3],
-    /// Lengths.
+    /// Lengths of the semi-axes, the longest first.
     pub semi_axes: [f64; 3],
-    /// Its dexterity measures.
+    /// Dexterity measures of the ellipsoid.
     #[serde(flatten)]
     pub dexterity: ReportedDexterity,
 }
@@ -103,7 +102,7 @@ impl From<&VelocityEllipsoid> for ReportedEllipsoid {
 /// Dexterity that is computed while it is written.
 pub type DexterityStream<'a> = Stream<'a, ConfigurationDexterity>;
 
-/// Manipulability at configurations of the robot, each computed when it is asked for; `metres_per_rad` is
+/// Manipulability at configurations of the robot, each computed on demand; `metres_per_rad` is
 /// [`Arm::metres_per_rad`] if it is left out.
 ///
 /// # Errors
@@ -114,7 +113,7 @@ pub fn manipulability<'a>(
     metres_per_rad: Option<f64>,
 ) -> Result<ManipulabilityReport<DexterityStream<'a>>, Diagnostic> {
     let refused = |error: KinematicsError| Diagnostic::error("manipulability::robot", error.to_string());
-    let mut arm = Arm::of(description).map_err(refused)?;
+    let mut arm = Arm::from_description(description).map_err(refused)?;
     let metres_per_rad = metres_per_rad.unwrap_or(arm.metres_per_rad());
     let joints = joint_names(description, &arm);
     let slides = arm.joints().iter().zip(&joints).filter(|(joint, _)| arm.turns_and_slides() && !joint.turns);
@@ -163,6 +162,7 @@ pub fn plot(
     let view = |axes: &[usize; 2]| {
         let flat = |point: &Vector3<f64>| [point[axes[0]], point[axes[1]]];
         let ellipse = |(series, ellipsoid): (usize, &ReportedEllipsoid)| {
+            // A singular arm may have an ellipsoid of length zero, which must not divide.
             let longest = ellipsoid.semi_axes[0].max(f64::MIN_POSITIVE);
             let points = outline(ellipsoid, *axes, DRAWN_SHARE * extent / longest);
             let centre = flat(&tcp);
@@ -190,8 +190,7 @@ pub fn plot(
     views(&title, &legend, &PLANES.each_ref().map(view))
 }
 
-/// Outline of an ellipsoid's shadow on a plane: with `B` the semi-axes seen there, `(B B^T)^(1/2)` times
-/// the unit circle.
+/// Outline of an ellipsoid projected onto a plane: with `B` the projected semi-axes, `(B B^T)^(1/2)` times the unit circle.
 fn outline(
     ellipsoid: &ReportedEllipsoid,
     axes: [usize; 2],
@@ -202,7 +201,8 @@ fn outline(
     });
     let eigen = (seen * seen.transpose()).symmetric_eigen();
     (0..=CORNERS).map(move |corner| {
-        let (sin, cos) = (std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS)).sine_cosine();
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS));
+        // Rounding may make a zero eigenvalue slightly negative.
         let lengths = eigen.eigenvalues.map(|square| square.max(0.0).sqrt());
         let point = eigen.eigenvectors.column(0) * (lengths.x * cos)
             + eigen.eigenvectors.column(1) * (lengths.y * sin);

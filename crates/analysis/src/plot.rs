@@ -1,14 +1,14 @@
-//! Plots of a report as SVG text: bars of named values, errors one after another, and plane views to scale. The one file
-//! that decides their appearance.
+//! Figures of a report as SVG text: bars of named values, errors at configurations, and plane views to scale. The appearance
+//! of these figures is decided in this file alone.
 
-use congruent_description::display::number;
+use congruent_input::display::number;
 use plotters::{
     coord::Shift,
     prelude::*,
     style::text_anchor::{HPos, Pos, VPos},
 };
 
-/// Why no plot could be drawn.
+/// The drawing library failed; the message is its own.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot draw the plot: {0}")]
 pub struct PlotError(String);
@@ -44,7 +44,7 @@ pub struct Bar {
 /// Bars in groups, each with one bar for each series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarChart {
-    /// Its title.
+    /// Title above the chart.
     pub title: String,
     /// Name of the axis, with its unit.
     pub axis: String,
@@ -105,7 +105,7 @@ pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
 /// Errors at configurations, each panel with another quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorChart {
-    /// Its title.
+    /// Title above the panels.
     pub title: String,
     /// Names of the series.
     pub series: Vec<String>,
@@ -118,7 +118,7 @@ pub struct ErrorChart {
 pub struct ErrorPanel {
     /// Name of the quantity.
     pub name: String,
-    /// Its unit.
+    /// Unit of the values and the tolerance.
     pub unit: String,
     /// The values of each series, from the first configuration on.
     pub values: Vec<Vec<f64>>,
@@ -148,7 +148,7 @@ pub fn errors(chart: &ErrorChart) -> Result<String, PlotError> {
 fn draw_errors(area: &Area<'_>, panel: &ErrorPanel) -> Result<(), PlotError> {
     let all = || panel.values.iter().flatten().copied().filter(|value| value.is_finite());
     let largest = all().fold(0.0, f64::max);
-    // Without any error the tolerance is what there is to show.
+    // Without any error the tolerance alone gives the scale.
     let top = 1.15 * if largest > 0.0 { largest } else { panel.tolerance };
     let configurations = panel.values.iter().map(Vec::len).max().unwrap_or(0);
     let mut plane = ChartBuilder::on(area)
@@ -191,7 +191,7 @@ fn draw_errors(area: &Area<'_>, panel: &ErrorPanel) -> Result<(), PlotError> {
 /// A curve in a plane view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Its points.
+    /// Points in the plane, m.
     pub points: Vec<[f64; 2]>,
     /// Which colour; `None` for grey.
     pub series: Option<usize>,
@@ -204,9 +204,9 @@ pub struct PlaneView {
     pub axes: [String; 2],
     /// Filled rectangles by opposite corners.
     pub areas: Vec<[[f64; 2]; 2]>,
-    /// Curves over them.
+    /// Curves, drawn over the areas.
     pub curves: Vec<Curve>,
-    /// Marked points.
+    /// Points that are drawn as dots.
     pub marks: Vec<[f64; 2]>,
 }
 

@@ -3,8 +3,9 @@
 use std::fmt;
 
 use congruent_description::{
-    ArmQ, DhRow, DhRowKind, DhTable, Finding, JointValues, ReportedChain, RobotDescription, RobotQ,
+    ArmQ, DhRow, DhRowKind, DhTable, JointValues, ReportedChain, RobotDescription, RobotQ,
 };
+use congruent_input::Finding;
 use congruent_kinematics::{
     Arm, ArmJoint, DhChain, Displacement, KinematicsError, Pose, Sampling, displacement,
 };
@@ -30,7 +31,7 @@ pub struct SensitivityReport {
     pub chain: ReportedChain,
     /// Random configurations behind each mean.
     pub samples: usize,
-    /// Their seed.
+    /// Seed of the random configurations.
     pub seed: u64,
     /// One entry for each length factor.
     pub arms: Vec<ArmSensitivity>,
@@ -42,7 +43,7 @@ pub struct SensitivityReport {
 /// The robot, or one like it with all lengths and strokes multiplied.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ArmSensitivity {
-    /// The factor.
+    /// Factor of all lengths and strokes; 1 for the robot itself.
     pub length_factor: f64,
     /// The effect of each parameter.
     pub parameters: Vec<ParameterEffect>,
@@ -73,23 +74,23 @@ pub struct ParameterEffect {
 pub enum PerturbedParameter {
     /// The zero of a joint.
     Zero,
-    /// Link length.
+    /// Link length `a`.
     A,
-    /// Link twist.
+    /// Link twist `alpha`.
     Alpha,
-    /// Link offset.
+    /// Link offset `d`.
     D,
-    /// Joint angle.
+    /// Joint angle `theta`.
     Theta,
 }
 
 /// The error of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum ParameterError {
-    /// Of an angle.
+    /// 1 degree, of an angle.
     #[serde(rename = "1 deg")]
     OneDegree,
-    /// Of a length.
+    /// 1 millimetre, of a length.
     #[serde(rename = "1 mm")]
     OneMillimetre,
 }
@@ -113,7 +114,7 @@ pub fn sensitivity(
     length_factors: &[f64],
     sampling: Sampling,
 ) -> Result<SensitivityReport, KinematicsError> {
-    let arm = Arm::of(description)?;
+    let arm = Arm::from_description(description)?;
     let names = joint_names(description, &arm);
     let mut effects = zero_effects(&arm, &names, sampling);
     if let Some(table) = &description.dh {
@@ -121,7 +122,7 @@ pub fn sensitivity(
     }
     let scaled = |&length_factor: &f64| ArmSensitivity {
         length_factor,
-        parameters: effects.iter().map(|found| effect(found, (&arm, &names, length_factor))).collect(),
+        parameters: effects.iter().map(|found| effect(found, &arm, &names, length_factor)).collect(),
     };
     Ok(SensitivityReport {
         robot: description.robot.name().to_owned(),
@@ -175,6 +176,7 @@ fn table_effects(
     for at in 0..table.rows.len() {
         for (perturbation, entry) in entries(table.rows[at].kind) {
             let mut perturbed = table.clone();
+            // One entry of a copy: effects of several errors would not add up at large displacements.
             *entry(&mut perturbed.rows[at]) += perturbation.error.in_si();
             let perturbed = DhChain::new(&perturbed, robot);
             let pair = |q: &ArmQ| {
@@ -193,7 +195,7 @@ fn table_effects(
     effects
 }
 
-/// Reaches one entry of a row.
+/// Access to one entry of a row.
 type EntryOfRow = fn(&mut DhRow) -> &mut f64;
 
 fn entries(kind: DhRowKind) -> [(Perturbation, EntryOfRow); 3] {
@@ -234,7 +236,9 @@ impl fmt::Display for PerturbedParameter {
 
 fn effect(
     FoundDisplacement { joint, perturbation, displacement }: &FoundDisplacement,
-    (arm, names, length_factor): (&Arm, &[String], f64),
+    arm: &Arm,
+    names: &[String],
+    length_factor: f64,
 ) -> ParameterEffect {
     // The displacement by an error of an angle is proportional to the lengths of the arm.
     let factor = match perturbation.error {
@@ -249,12 +253,13 @@ fn effect(
         error: perturbation.error,
         worst_mm: displacement.worst_m * factor * 1e3,
         mean_mm: displacement.mean_m * factor * 1e3,
+        // Rotations do not depend on the size of the arm, so no factor.
         worst_deg: displacement.worst_rad.to_degrees(),
         worst_at: JointValues::new(names, &worst_at),
     }
 }
 
-/// The report as a plot: a bar for each parameter and arm.
+/// The report as a figure: one bar for each parameter and arm.
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library refuses.

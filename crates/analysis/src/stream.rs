@@ -1,4 +1,4 @@
-//! Results for many configurations, each made when it is written: no more than one is in memory.
+//! Results for many configurations, each computed when it is written, so that only one is in memory.
 
 use std::{
     cell::RefCell,
@@ -6,7 +6,7 @@ use std::{
     iter::{Peekable, from_fn},
 };
 
-use congruent_description::Diagnostic;
+use congruent_input::Diagnostic;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{
     Serialize, Serializer,
@@ -15,19 +15,19 @@ use serde::{
 
 type Results<'a, T> = Peekable<Box<dyn Iterator<Item = Result<T, Diagnostic>> + 'a>>;
 
-/// Results that are made one at a time, once: by [`Stream::iter`], or while they are serialised, as the list of all.
+/// Results that are computed one at a time, once: by [`Stream::iter`], or while they are serialised as a list.
 ///
-/// What is wrong with the first is told at once, and what is wrong with a later one in the end: [`Stream::end`].
+/// An error of the first result is returned at once, that of a later one at the end, by [`Stream::end`].
 pub struct Stream<'a, T> {
     results: RefCell<Results<'a, T>>,
     fault: RefCell<Option<Diagnostic>>,
 }
 
 impl<'a, T: 'a> Stream<'a, T> {
-    /// Makes the first result.
+    /// A stream of results; the first one is computed at once.
     ///
     /// # Errors
-    /// There is none.
+    /// The first result cannot be computed.
     pub fn begin(results: impl Iterator<Item = Result<T, Diagnostic>> + 'a) -> Result<Self, Diagnostic> {
         let mut results: Results<'a, T> = (Box::new(results) as Box<dyn Iterator<Item = _> + 'a>).peekable();
         match results.next_if(Result::is_err) {
@@ -36,10 +36,10 @@ impl<'a, T: 'a> Stream<'a, T> {
         }
     }
 
-    /// Results made of these.
+    /// A stream of results that are computed from these.
     ///
     /// # Errors
-    /// There is no first one.
+    /// The first result cannot be computed.
     pub fn map<U: 'a>(
         self,
         mut make: impl FnMut(T) -> Result<U, Diagnostic> + 'a,
@@ -47,7 +47,7 @@ impl<'a, T: 'a> Stream<'a, T> {
         Stream::begin(self.results.into_inner().map(move |result| result.and_then(&mut make)))
     }
 
-    /// The results that were not made yet, up to a fault.
+    /// The results that were not computed yet, up to the first error.
     pub fn iter(&self) -> impl Iterator<Item = T> + '_ {
         from_fn(|| match self.results.borrow_mut().next()? {
             Ok(result) => Some(result),
@@ -58,10 +58,10 @@ impl<'a, T: 'a> Stream<'a, T> {
         })
     }
 
-    /// What ended the results.
+    /// Ends the stream, and returns the error that stopped it.
     ///
     /// # Errors
-    /// One of them could not be made: those after it are missing.
+    /// A result could not be computed: it and those after it are missing.
     pub fn end(self) -> Result<(), Diagnostic> {
         self.fault.into_inner().map_or(Ok(()), Err)
     }
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_is_told_at_once_or_in_the_end() {
+    fn a_fault_is_reported_at_once_or_in_the_end() {
         assert_eq!(Stream::<i32>::begin([Err(fault())].into_iter()).unwrap_err(), fault());
         let stream = Stream::begin([Ok(1), Err(fault()), Ok(3)].into_iter()).unwrap();
         assert!(serde_json::to_string(&stream).unwrap_err().to_string().contains("this is wrong"));

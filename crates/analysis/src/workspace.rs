@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use congruent_description::{Finding, JointValues, ReportedChain, RobotDescription};
+use congruent_description::{JointValues, ReportedChain, RobotDescription};
+use congruent_input::Finding;
 use congruent_kinematics::{Arm, KinematicsError, Sampling, Workspace};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -19,22 +20,22 @@ pub struct WorkspaceReport {
     pub robot: String,
     /// Base and tip, and who named them.
     pub chain: ReportedChain,
-    /// Random configurations.
+    /// Number of random configurations.
     pub samples: usize,
-    /// Their seed.
+    /// Seed of the random configurations.
     pub seed: u64,
     /// Smallest and largest distance from the base's origin.
     pub reach: [ReachExtreme; 2],
-    /// Corners of the bounding box.
+    /// Lower corner of the bounding box, in the base.
     pub lower_m: [f64; 3],
-    /// The other corner.
+    /// Upper corner of the bounding box, in the base.
     pub upper_m: [f64; 3],
-    /// Volume; none for an arm that stays in a plane parallel to two axes. It is the share of the tested points
-    /// of the bounding box that inverse kinematics reaches, of the box.
+    /// Volume; none for an arm that moves in a plane parallel to two axes. It is the volume of the bounding box times the share of
+    /// its tested points that inverse kinematics reaches.
     pub volume_m3: Option<f64>,
-    /// Area; for an arm that stays in such a plane.
+    /// Area, for an arm that moves in such a plane.
     pub area_m2: Option<f64>,
-    /// The interval in which the volume or area is, by three standard errors of the estimate.
+    /// Interval of three standard errors around the estimate of volume or area.
     pub between: Option<[f64; 2]>,
     /// Points that were tested, two in each cell of the bounding box.
     pub points: usize,
@@ -48,7 +49,7 @@ pub struct WorkspaceReport {
 /// An extreme distance from the base.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReachExtreme {
-    /// The distance.
+    /// Distance of the tool from the base's origin.
     pub distance_m: f64,
     /// The configuration with it, rad or m.
     pub at: JointValues,
@@ -62,7 +63,7 @@ pub fn workspace(
     description: &RobotDescription,
     sampling: Sampling,
 ) -> Result<(WorkspaceReport, Workspace), KinematicsError> {
-    let mut arm = Arm::of(description)?;
+    let mut arm = Arm::from_description(description)?;
     let names = joint_names(description, &arm);
     let found = arm.workspace(sampling);
     let size = found.size;
@@ -89,12 +90,10 @@ pub fn workspace(
     Ok((report, found))
 }
 
-/// Cells along the largest extent of a drawn view of an area, and of a volume, whose samples are
-/// spread over more.
+/// Cells along the largest extent of a view, for an area and for a volume, whose samples are spread over more cells.
 const DRAWN_CELLS: [f64; 2] = [160.0, 80.0];
 
-/// The positions that were reached, seen along the axes of the base; an arm that stays in a plane is
-/// seen in that plane alone.
+/// The reached positions, projected along the axes of the base; for an arm that moves in a plane, in that plane alone.
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library refuses.

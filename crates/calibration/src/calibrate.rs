@@ -1,6 +1,7 @@
 //! `congruent calibrate`: corrections from measurements, and which of them cannot be identified.
 
-use congruent_description::{ChainQ, Diagnostic, RobotDescription};
+use congruent_description::{ChainQ, RobotDescription};
+use congruent_input::Diagnostic;
 use congruent_kinematics::random_configurations;
 
 use crate::{
@@ -16,7 +17,7 @@ use crate::{
     report::{CalibrationReport, assemble},
 };
 
-/// Configurations among which the most informative are chosen.
+/// Number of random configurations among which the most informative are chosen.
 const CANDIDATES: usize = 400;
 
 /// Noise of an ordinary measurement, as a share of the reach and in rad. Kind: judgement; it is used only to
@@ -34,17 +35,17 @@ pub fn needed_coordinates(description: &RobotDescription) -> Result<Vec<usize>, 
 /// Estimates the free corrections of a robot from measurements.
 ///
 /// # Errors
-/// The robot has no chain, the choice of corrections is unknown or empty, or more configurations are to be suggested than
-/// are tried.
+/// The robot has no chain, a named correction is unknown, none is free, or more configurations are requested than there are
+/// candidates.
 pub fn calibrate(
     description: &RobotDescription,
     rows: &[MeasuredRow],
     options: &CalibrationOptions,
 ) -> Result<CalibrationReport, Diagnostic> {
     if options.suggestions > CANDIDATES {
-        let message = format!("{} configurations to measure next cannot be suggested", options.suggestions);
+        let message = format!("cannot suggest {} configurations to measure next", options.suggestions);
         return Err(Diagnostic::error("calibrate::next", message)
-            .with_help(format!("they are chosen from {CANDIDATES} random ones: ask for at most as many")));
+            .with_help(format!("at most {CANDIDATES}, the number of random candidates")));
     }
     let nominal = NominalChain::new(description)?;
     let parameters = free::parameters(&nominal, &options.free, &options.hold)?;
@@ -62,6 +63,7 @@ pub fn calibrate(
     };
     let least_squares = plain(&problem, &identification.kept);
     let robust = robustly(&problem, &identification.kept);
+    // If most rows are outliers, the estimate is wrong rather than the rows.
     let is_most = 2 * robust.outliers.len() > measurements.len();
     let outlier_rows = if is_most { Vec::new() } else { robust.outliers.clone() };
     let use_robust = !outlier_rows.is_empty();
@@ -69,9 +71,10 @@ pub fn calibrate(
         if use_robust { robustly(problem, kept).fit.corrections } else { plain(problem, kept).corrections }
     });
     let candidates = random_configurations(&description.robot, options.seed, CANDIDATES);
-    let in_chain: Vec<ChainQ> = candidates.iter().map(|q| nominal.of_configuration(q)).collect();
+    let in_chain: Vec<ChainQ> = candidates.iter().map(|q| nominal.chain_positions(q)).collect();
     let best = if use_robust { &robust.fit } else { &least_squares };
     let is_noise_known = redundancy > 0 || options.noise.is_some();
+    // Without redundancy the residuals are zero, and so would be the noise: every gain would be infinite.
     let noise = if is_noise_known { best.noise } else { ordinary_noise(&problem) };
     let next = most_informative(&problem, (&best.corrections, &noise), &in_chain, options.suggestions);
     let computed = Computed {

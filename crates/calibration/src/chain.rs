@@ -1,14 +1,15 @@
 //! The chain that is calibrated: of the table if there is one, otherwise of the URDF, up to the tool.
 
-use congruent_description::{ChainQ, DhTable, Diagnostic, LinkIndex, Robot, RobotDescription, RobotQ};
+use congruent_description::{ChainQ, DhTable, LinkIndex, Robot, RobotDescription, RobotQ};
+use congruent_input::Diagnostic;
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain};
 
-/// How a joint moves.
+/// The kind of motion of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum JointMotionKind {
-    /// It rotates; continuous joints as well.
+    /// A rotation, with or without limits.
     Revolute,
-    /// It slides.
+    /// A translation along the axis.
     Prismatic,
 }
 
@@ -35,7 +36,8 @@ impl<'a> NominalChain<'a> {
         } else {
             let ends = (description.base, description.tip);
             let coordinates = moving(robot, ends).ok_or_else(|| {
-                let message = format!("robot \"{}\": no joint moves the tip against the base", robot.name());
+                let message =
+                    format!("robot \"{}\": no joint moves the tip relative to the base", robot.name());
                 Diagnostic::error("calibrate::robot", message)
             })?;
             (ScrewChain::from_urdf(robot, ends, &coordinates).map_err(refused)?, coordinates)
@@ -45,7 +47,7 @@ impl<'a> NominalChain<'a> {
         Ok(Self { robot, table, chain, coordinates })
     }
 
-    /// The coordinates of its joints that move so.
+    /// Indices, in the configuration vector, of the joints with this kind of motion.
     pub(super) fn coordinates_of(&self, motion: JointMotionKind) -> Vec<usize> {
         let is_revolute =
             |&coordinate: &usize| self.robot.joint(self.robot.movable_joints()[coordinate]).kind.is_angular();
@@ -63,13 +65,13 @@ impl<'a> NominalChain<'a> {
         self.coordinates.iter().map(name).collect()
     }
 
-    /// The chain's part of a configuration vector.
-    pub(super) fn of_configuration(&self, q: &RobotQ) -> ChainQ {
-        q.of_chain(&self.coordinates)
+    /// The positions of the chain's joints from a configuration vector.
+    pub(super) fn chain_positions(&self, q: &RobotQ) -> ChainQ {
+        q.chain_positions(&self.coordinates)
     }
 }
 
-/// The configuration vector's entries that move the tip against the base; `None` for none.
+/// Indices, in the configuration vector, of the joints that move the tip relative to the base; `None` if there are none.
 fn moving(robot: &Robot, (base, tip): (LinkIndex, LinkIndex)) -> Option<Vec<usize>> {
     let joints = robot.chain(base, tip)?;
     let coordinates: Vec<usize> = joints.iter().filter_map(|&joint| robot.coordinate(joint)).collect();

@@ -1,15 +1,17 @@
-//! Everything that a calibration has computed: the input of the report.
+//! All results of a calibration, as the input of the report.
 
 use congruent_description::{RobotDescription, RobotQ};
 
 use crate::{
     chain::NominalChain,
-    estimation::{CorrectedChain, Fit, HeldOut, Identification, Measurement, RobustFit, Suggestion},
+    estimation::{
+        CalibrationFit, CorrectedChain, HeldOut, Identification, Measurement, RobustFit, Suggestion,
+    },
     measurements::MeasuredRow,
     options::CalibrationOptions,
 };
 
-/// Everything that a calibration has computed.
+/// All results of a calibration.
 #[derive(Debug, Clone)]
 pub(crate) struct Computed<'a> {
     pub(crate) description: &'a RobotDescription,
@@ -21,7 +23,7 @@ pub(crate) struct Computed<'a> {
     pub(crate) identification: Identification,
     /// Degrees of freedom to verify the estimated corrections by.
     pub(crate) redundancy: usize,
-    pub(crate) least_squares: Fit,
+    pub(crate) least_squares: CalibrationFit,
     pub(crate) robust: RobustFit,
     /// Outliers of the robust estimate; none if they would be more than half of the rows.
     pub(crate) outlier_rows: Vec<usize>,
@@ -30,23 +32,23 @@ pub(crate) struct Computed<'a> {
     pub(crate) next: Vec<Suggestion>,
 }
 
-/// A row as a measurement of the chain.
+/// A measured row as a measurement of the chain.
 pub(crate) fn measurement(nominal: &NominalChain<'_>, row: &MeasuredRow) -> Measurement {
     Measurement {
-        q: nominal.of_configuration(&row.q),
+        q: nominal.chain_positions(&row.q),
         tip_in_base_m: row.tip_in_base_m,
         base_from_tip: row.orientation.map(|orientation| orientation.base_from_tip()),
     }
 }
 
 impl Computed<'_> {
-    /// Whether the robust estimate is the better one: if there is an outlier.
+    /// Whether the robust estimate is recommended, which it is if there is an outlier.
     pub(crate) fn is_robust_best(&self) -> bool {
         !self.outlier_rows.is_empty()
     }
 
-    /// The better estimate.
-    pub(crate) fn best(&self) -> &Fit {
+    /// The recommended estimate.
+    pub(crate) fn best(&self) -> &CalibrationFit {
         if self.is_robust_best() { &self.robust.fit } else { &self.least_squares }
     }
 }

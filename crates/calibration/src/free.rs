@@ -1,6 +1,6 @@
-//! Which corrections are free, by groups and names.
+//! The free corrections, chosen by groups and names.
 
-use congruent_description::{Diagnostic, known_names};
+use congruent_input::{Diagnostic, known_names};
 
 use crate::{
     chain::NominalChain,
@@ -10,10 +10,10 @@ use crate::{
 /// Groups of corrections that can be freed by one word.
 pub const GROUPS: [&str; 6] = ["zero-offsets", "dh", "axes", "base", "tool", "all"];
 
-/// The corrections that `free` asks for and `hold` does not forbid, each once.
+/// The corrections that `free` names and `hold` does not, each once.
 ///
 /// # Errors
-/// A name is no group and no correction, `dh` is free for a robot without a table, or nothing is free.
+/// A name is neither a group nor a correction, `dh` is free for a robot without a table, or nothing is free.
 pub(super) fn parameters(
     nominal: &NominalChain<'_>,
     free: &[String],
@@ -33,8 +33,7 @@ pub(super) fn parameters(
     let everything: &[&str] =
         if has_table { &["base", "dh", "tool"] } else { &["base", "zero-offsets", "axes", "tool"] };
     if !has_table && free.iter().any(|word| word == "dh") {
-        let message =
-            format!("robot \"{}\" has no [dh] table whose entries could be free", nominal.robot.name());
+        let message = format!("robot \"{}\" has no [dh] table, so dh cannot be free", nominal.robot.name());
         return Err(Diagnostic::error("calibrate::no_table", message)
             .with_help("free zero-offsets, axes, base or tool instead"));
     }
@@ -53,7 +52,7 @@ pub(super) fn parameters(
         .collect();
     if chosen.is_empty() {
         return Err(Diagnostic::error("calibrate::nothing_free", "no correction is free")
-            .with_help(format!("--free takes {}, or single corrections by name", GROUPS.join(", "))));
+            .with_help(format!("--free accepts {}, or single corrections by name", GROUPS.join(", "))));
     }
     Ok(chosen)
 }
@@ -73,7 +72,7 @@ fn known(word: &str, groups: &[(&str, Vec<CorrectionParameter>)]) -> Result<(), 
     let all: Vec<&str> = all.by_ref().collect();
     Err(Diagnostic::error(
         "calibrate::unknown_correction",
-        format!("\"{word}\" is no group and no correction"),
+        format!("\"{word}\" is neither a group of corrections nor a correction"),
     )
     .with_help(known_names(word, "groups and corrections", all.iter().copied())))
 }

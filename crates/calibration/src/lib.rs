@@ -1,7 +1,7 @@
 //! Calibration: corrections of a robot's chain from measured poses or points of its tip, and which of them the
 //! measurements do not identify.
 //!
-//! [`measurements`] reads files, [`estimation`] fits, [`report`] judges the estimates and states them in words.
+//! [`measurements`] reads files, [`estimation`] fits, [`report`] evaluates the estimates and describes them in sentences.
 
 mod calibrate;
 mod chain;

@@ -1,19 +1,19 @@
-//! What to estimate, and how.
+//! Options of a calibration.
 
 use crate::estimation::{Loss, Noise};
 
-/// What to estimate, and how.
+/// Options of a calibration: free corrections, loss, noise, suggestions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibrationOptions {
     /// Groups and names of the corrections that are free.
     pub free: Vec<String>,
     /// Groups and names of corrections that are held at nominal even if `free` names them.
     pub hold: Vec<String>,
-    /// The robust loss.
+    /// The loss of the robust estimate.
     pub loss: Loss,
-    /// Smallest admitted ratio of singular values.
+    /// Smallest singular value of the estimated corrections over the largest of all. No unit.
     pub threshold: f64,
-    /// Noise of the measurement, if it is known.
+    /// Noise of the measurement, if it is known; otherwise it is estimated from the residuals.
     pub noise: Option<Noise>,
     /// Number of suggested configurations.
     pub suggestions: usize,
@@ -22,8 +22,8 @@ pub struct CalibrationOptions {
 }
 
 impl Default for CalibrationOptions {
-    /// Zero offsets; a correction with less than a thousandth of the effect of the best identified one cannot
-    /// be distinguished from noise.
+    /// Zero offsets are free. A correction with less than a thousandth of the effect of the best identified one is fixed, since
+    /// it cannot be distinguished from noise.
     fn default() -> Self {
         Self {
             free: vec!["zero-offsets".to_owned()],

@@ -1,4 +1,4 @@
-//! Laws of calibration: exact derivatives, perfect data come back, what cannot be told is fixed.
+//! Laws of calibration: exact derivatives, perfect data give the true corrections, unidentifiable corrections are fixed.
 
 #[path = "../../kinematics/tests/support/mod.rs"]
 mod support;
@@ -51,7 +51,7 @@ fn measured(chain: &CorrectedChain, p: &[f64], q: ChainQ) -> Measurement {
     Measurement { q, tip_in_base_m: pose.translation.map(Some).into(), base_from_tip: Some(pose.rotation) }
 }
 
-/// Configurations that no generator has to be asked for: a lattice of irrational steps.
+/// Deterministic configurations without a random generator: a lattice of irrational steps.
 fn spread(rows: u32) -> Vec<ChainQ> {
     let at = |row: u32, joint: u32| 2.4 * ((f64::from(row) * f64::from(joint).sqrt()).fract() - 0.5);
     (1..=rows).map(|row| [2, 3, 5, 7].map(|joint| at(row, joint)).into()).collect()
@@ -111,7 +111,7 @@ proptest! {
 }
 
 #[test]
-fn what_cannot_be_told_is_fixed_and_named() {
+fn unidentifiable_corrections_are_fixed_and_named() {
     let chain = corrected();
     let nothing = vec![0.0; 30];
     let measurements: Vec<Measurement> =
@@ -127,7 +127,7 @@ fn what_cannot_be_told_is_fixed_and_named() {
     for fixed in &found.fixed {
         assert_eq!(fit.corrections[fixed.parameter].to_bits(), 0, "{} moved", name(fixed.parameter));
     }
-    // A single configuration tells six things at most.
+    // A single configuration determines six parameters at most.
     let one = Problem { chain: &chain, measurements: &measurements[..1] };
     assert_eq!(identify(&one, THRESHOLD).kept.len(), 6);
 }

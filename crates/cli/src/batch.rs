@@ -10,34 +10,32 @@ use std::{
 };
 
 use congruent::{
-    description::{Diagnostic, Finding, display::quantity},
-    twin::report::{CasePlace, Reason, TestResult, TestSuite},
+    input::{Diagnostic, Finding, display::quantity},
+    results::report::{CasePlace, Reason, TestResult, TestSuite},
+    text::{MOST_FINDINGS, layout::visible_path},
 };
 use serde::Serialize;
 
 use crate::{
     ci::{CiArguments, in_repository},
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
-    terminal::{
-        print::{MOST_FINDINGS, Printer, Refusal},
-        text::shown,
-    },
+    terminal::print::{Printer, Refusal},
 };
 
 /// A text for people in parts of whole lines.
-pub(crate) type Parts<'a> = Box<dyn Iterator<Item = String> + 'a>;
+pub(crate) type TextParts<'a> = Box<dyn Iterator<Item = String> + 'a>;
 
 /// What a command prints for one input.
 pub(crate) trait BatchReport: Serialize {
-    /// The exit code that stands for its verdict.
+    /// The exit code of its verdict.
     fn exit_code(&self) -> u8;
     /// The report for people.
     fn text(&self) -> String;
     /// The same in parts of whole lines, each made when it is printed.
-    fn parts(&self) -> Parts<'_> {
+    fn parts(&self) -> TextParts<'_> {
         Box::new(once_with(|| self.text()))
     }
-    /// The report for CI; `input` tells it from the others of the file.
+    /// The report for CI; `input` names it among the others of the file.
     fn test_suite(&self, input: &str) -> TestSuite;
 }
 
@@ -49,10 +47,10 @@ pub(crate) struct Answer<R> {
     wall_s: f64,
 }
 
-/// One input in the document that stands for several.
+/// One input in the JSON document of several inputs.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Entry<'a, R> {
+enum AnswerEntry<'a, R> {
     Report {
         input: String,
         #[serde(flatten)]
@@ -68,13 +66,13 @@ pub(crate) struct Batch<'a> {
     ci: &'a CiArguments,
     /// The files that were read for them, which no result may replace.
     read: Mutex<Vec<PathBuf>>,
-    /// What the JUnit file says of each input until the end.
+    /// The suites of the JUnit file, one for each input, until all inputs are answered.
     suites: Mutex<Vec<TestSuite>>,
 }
 
 impl<'a> Batch<'a> {
     /// Finds out at once whether the files for CI can be written. Until the end the JUnit file has an error for every
-    /// input, so that a call that is killed is no success.
+    /// input, so that a call that is killed does not look successful.
     pub(crate) fn begin(
         inputs: &'a [PathBuf],
         ci: &'a CiArguments,
@@ -83,14 +81,16 @@ impl<'a> Batch<'a> {
         let unfinished = |input: &PathBuf| {
             let message = "the call ended before this input was answered".to_owned();
             let reason = Reason { kind: "unfinished".to_owned(), message };
-            TestSuite::of_case(shown(input), "end", TestResult::Error(reason))
+            TestSuite::with_case(visible_path(input), "end", TestResult::Error(reason))
         };
         let suites: Vec<TestSuite> = inputs.iter().map(unfinished).collect();
+        // Before any work: a file that cannot be written is known at once, and a call that is killed later has
+        // reported errors.
         ci.begin(inputs, &suites)?;
         Ok(Self { printer, inputs, ci, read: Mutex::new(inputs.to_vec()), suites: Mutex::new(suites) })
     }
 
-    /// To whom the call answers.
+    /// The printer of the answers.
     pub(crate) fn printer(&self) -> &Printer {
         self.printer
     }
@@ -126,20 +126,20 @@ impl<'a> Batch<'a> {
         self.printer.warnings(self.label(input), warnings);
     }
 
-    /// The answer to one input by `work`. Of several inputs it is printed at once why there is no answer; of a single one
-    /// that is the failure of the command. A panic must not lose the answers to the others.
+    /// The answer to one input by `work`. For one of several inputs, the reason of a failure is printed at once; for
+    /// a single input it is the failure of the command. A panic must not lose the answers to the others.
     pub(crate) fn answer<R>(&self, input: &Path, work: impl FnOnce() -> Result<R, Failure>) -> Answer<R> {
         #[expect(clippy::disallowed_methods, reason = "for the JUnit file of the call alone, which CI reads")]
         let start = Instant::now();
         let result = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
-            let message = format!("{} ended in an internal error; please report it", shown(input));
+            let message = format!("{} ended in an internal error; please report it", visible_path(input));
             Err(Failure::Machine(message))
         });
         if let (Err(failure), Some(label)) = (&result, self.label(input)) {
             Printer::explain(Some(label), failure);
         }
         let wall_s = start.elapsed().as_secs_f64();
-        self.printer.detail(|| format!("{}: {} of this machine", input.display(), quantity(wall_s, "s")));
+        self.printer.detail(|| format!("{}: took {}", input.display(), quantity(wall_s, "s")));
         Answer { input: input.to_owned(), result, wall_s }
     }
 
@@ -168,12 +168,12 @@ impl<'a> Batch<'a> {
                 Err(failure) => refused_suite(&answer.input, failure),
             };
         }
-        // What cannot be written is told at the end.
+        // A file that cannot be written is reported by `finish`, which writes it again.
         let _ = self.ci.begin(self.inputs, &suites);
     }
 
-    /// Tells at once how one of several inputs has ended; all of it is told at the end.
-    pub(crate) fn tell<R: BatchReport>(&self, answer: &Answer<R>) {
+    /// Prints at once how one of several inputs has ended; the whole answers follow at the end.
+    pub(crate) fn report<R: BatchReport>(&self, answer: &Answer<R>) {
         let word = WORDS.iter().find_map(|&(code, word)| (code == answer.exit_code()).then_some(word));
         if let (Some(input), Some(word)) = (self.label(&answer.input), word) {
             self.printer.ended(input, word);
@@ -189,7 +189,7 @@ impl<'a> Batch<'a> {
         if let Some(suite) = suites.get_mut(input) {
             *suite = answer.suite();
         }
-        // What cannot be written is told at the end.
+        // A file that cannot be written is reported by `finish`, which writes it again.
         let _ = self.ci.begin(self.inputs, &suites);
     }
 
@@ -199,15 +199,16 @@ impl<'a> Batch<'a> {
         self.finish_with_page(answers, Ok(()))
     }
 
-    /// The same; `written` says whether the page over all answers was written.
+    /// Like `finish`; `written` says whether the page over all answers was written.
     pub(crate) fn finish_with_page<R: BatchReport>(
         &self,
         mut answers: Vec<Answer<R>>,
         written: Result<(), Failure>,
     ) -> Result<u8, Failure> {
+        // The files for CI come first: standard output may be a pipe that is closed, which ends the call.
         let code = self.conclude(&answers, written);
         if answers.len() > 1 {
-            let entries: Vec<Entry<'_, R>> = answers.iter().map(Answer::entry).collect();
+            let entries: Vec<AnswerEntry<'_, R>> = answers.iter().map(Answer::entry).collect();
             self.printer.result(&entries, |_| text(&answers))?;
         } else if let Some(Answer { result, .. }) = answers.pop() {
             self.printer.parts(&result?, R::parts)?;
@@ -215,7 +216,7 @@ impl<'a> Batch<'a> {
         Ok(code)
     }
 
-    /// The same with one document for all answers in the place of theirs.
+    /// Like `finish`, with one document for all answers instead of one for each.
     pub(crate) fn finish_as<R: BatchReport, T: Serialize>(
         &self,
         answers: Vec<Answer<R>>,
@@ -223,6 +224,7 @@ impl<'a> Batch<'a> {
     ) -> Result<u8, Failure> {
         let code = self.conclude(&answers, Ok(()));
         self.printer.verbatim(&document(&answers), |_| String::new())?;
+        // The failure of a single input is that of the command, with its findings in full.
         match <[Answer<R>; 1]>::try_from(answers) {
             Ok([Answer { result: Err(failure), .. }]) => Err(failure),
             _ => Ok(code),
@@ -240,6 +242,7 @@ impl<'a> Batch<'a> {
             let suites: Vec<TestSuite> = answers.iter().map(Answer::suite).collect();
             for failure in self.ci.finish(&suites, &self.read()) {
                 Printer::explain(None, &failure);
+                // CI decides by its file: without it, the verdict of the answers must not look valid.
                 code = BROKEN;
             }
         }
@@ -250,7 +253,7 @@ impl<'a> Batch<'a> {
 impl<R> Answer<R> {
     /// The input as it was named.
     pub(crate) fn input(&self) -> String {
-        shown(&self.input)
+        visible_path(&self.input)
     }
 
     /// The report, or why there is none.
@@ -267,16 +270,16 @@ impl<R: BatchReport> Answer<R> {
         }
     }
 
-    fn entry(&self) -> Entry<'_, R> {
+    fn entry(&self) -> AnswerEntry<'_, R> {
         match &self.result {
-            Ok(report) => Entry::Report { input: self.input.display().to_string(), report },
-            Err(failure) => Entry::Refusal(Refusal::from(failure).of_input(&self.input)),
+            Ok(report) => AnswerEntry::Report { input: self.input.display().to_string(), report },
+            Err(failure) => AnswerEntry::Refusal(Refusal::from(failure).with_input(&self.input)),
         }
     }
 
     fn suite(&self) -> TestSuite {
         let suite = match &self.result {
-            Ok(report) => report.test_suite(&shown(&self.input)),
+            Ok(report) => report.test_suite(&visible_path(&self.input)),
             Err(failure) => refused_suite(&self.input, failure),
         };
         in_repository(suite.measured(self.wall_s))
@@ -289,6 +292,7 @@ impl<R: BatchReport> Answer<R> {
             Err(failure) => {
                 let reason = reason(failure).message;
                 let mut lines = reason.lines();
+                // The others were printed in full when the input was answered.
                 let first = lines.next().unwrap_or_default();
                 let more = match lines.count() {
                     0 => String::new(),
@@ -302,7 +306,7 @@ impl<R: BatchReport> Answer<R> {
 
 /// The suite of an input that could not start.
 fn refused_suite(input: &Path, failure: &Failure) -> TestSuite {
-    let mut suite = TestSuite::of_case(shown(input), "start", TestResult::Error(reason(failure)));
+    let mut suite = TestSuite::with_case(visible_path(input), "start", TestResult::Error(reason(failure)));
     suite.cases.iter_mut().for_each(|case| case.place = place(failure));
     suite
 }
@@ -320,9 +324,10 @@ const WORDS: [(u8, &str); 5] = [
 fn text<R: BatchReport>(answers: &[Answer<R>]) -> String {
     let (mut text, mut counts) = (String::new(), Vec::new());
     for (code, word) in WORDS {
+        // By code rather than by order of the arguments: what failed is read first.
         let of_code = || answers.iter().filter(|answer| answer.exit_code() == code);
         for answer in of_code() {
-            let _ = write!(text, "{}: {word}\n{}", shown(&answer.input), answer.text());
+            let _ = write!(text, "{}: {word}\n{}", visible_path(&answer.input), answer.text());
         }
         if of_code().next().is_some() {
             counts.push(format!("{} {word}", of_code().count()));
@@ -342,7 +347,8 @@ fn reason(failure: &Failure) -> Reason {
             if findings.len() > MOST_FINDINGS {
                 lines.push(format!("and {} more", findings.len() - MOST_FINDINGS));
             }
-            let kind = findings.first().map_or("bad input", |finding| finding.code).to_owned();
+            // The code of the first finding: CI groups failures by it.
+            let kind = findings.first().code.to_owned();
             Reason { kind, message: lines.join("\n") }
         }
     }
@@ -351,7 +357,7 @@ fn reason(failure: &Failure) -> Reason {
 /// The line of the first finding that has one.
 fn place(failure: &Failure) -> Option<CasePlace> {
     let Failure::Input(findings) = failure else { return None };
-    let of = |finding: Finding| CasePlace::of(finding.file.as_deref(), finding.line);
+    let of = |finding: Finding| CasePlace::if_known(finding.file.as_deref(), finding.line);
     findings.iter().map(Finding::from).find_map(of)
 }
 
@@ -373,17 +379,17 @@ mod tests {
         }
 
         fn test_suite(&self, input: &str) -> TestSuite {
-            TestSuite::of_case(input, "test", TestResult::Passed)
+            TestSuite::with_case(input, "test", TestResult::Passed)
         }
     }
 
     #[test]
-    fn a_panic_leaves_the_answers_to_the_others() {
+    fn a_panic_does_not_affect_the_other_answers() {
         let folder = tempfile::tempdir().unwrap();
         let junit = folder.path().join("junit.xml");
         let inputs = ["a.toml", "b.toml", "c.toml"].map(PathBuf::from);
         let printer = Printer::new(Format::Human, Verbosity::Usual);
-        let ci = CiArguments::of_junit(&junit);
+        let ci = CiArguments::with_junit(&junit);
         let batch = Batch::begin(&inputs, &ci, &printer).unwrap();
         // On threads of their own, as scenarios run.
         let work = |input: &Path| {

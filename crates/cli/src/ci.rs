@@ -8,8 +8,8 @@ use std::{
 
 use clap::ValueEnum;
 use congruent::{
-    description::Diagnostic,
-    twin::report::{TestSuite, github_annotations, step_summary, write_junit},
+    input::Diagnostic,
+    results::report::{TestSuite, github_annotations, step_summary, write_junit},
 };
 
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
 /// Names of the folder that a CI host has cloned the repository to.
 const CLONES: [&str; 3] = ["GITHUB_WORKSPACE", "CI_PROJECT_DIR", "WORKSPACE"];
 
-/// In so many bytes a JUnit file begins.
+/// Bytes within which the root element of a JUnit file begins.
 const HEAD_BYTES: u64 = 4096;
 
 /// Files and lines for CI.
@@ -34,12 +34,12 @@ pub(crate) struct CiArguments {
     /// Also append a summary in Markdown to this file, the worst first: on GitHub, --summary `"$GITHUB_STEP_SUMMARY"`.
     #[arg(long, value_name = "FILE")]
     summary: Option<PathBuf>,
-    /// Also print what did not pass to standard error so that CI shows it at its line.
+    /// Also print failures to standard error in the form of a CI host, which shows them at their lines.
     #[arg(long, value_enum, value_name = "HOST")]
     annotate: Option<Host>,
 }
 
-/// Who shows annotations.
+/// The CI host whose form of annotations is printed.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Host {
     /// Workflow commands of GitHub Actions: `::error file=...,line=...::message`.
@@ -49,7 +49,7 @@ enum Host {
 impl CiArguments {
     /// A JUnit file alone.
     #[cfg(test)]
-    pub(crate) fn of_junit(path: &Path) -> Self {
+    pub(crate) fn with_junit(path: &Path) -> Self {
         Self { junit: Some(path.to_owned()), ..Self::default() }
     }
 
@@ -83,17 +83,17 @@ impl CiArguments {
         Ok(())
     }
 
-    /// Whether a JUnit file was asked for.
+    /// Whether `--junit` is given.
     pub(crate) fn has_junit(&self) -> bool {
         self.junit.is_some()
     }
 
-    /// Whether any of it was asked for.
+    /// Whether any option for CI is given.
     pub(crate) fn is_wanted(&self) -> bool {
         self.junit.is_some() || self.summary.is_some() || self.annotate.is_some()
     }
 
-    /// Writes all that was asked for; what cannot be written loses nothing of the others.
+    /// Writes the files of all options that are given; one that cannot be written does not stop the others.
     pub(crate) fn finish(&self, suites: &[TestSuite], inputs: &[PathBuf]) -> Vec<Failure> {
         let junit = self.junit.as_deref().and_then(|path| write_junit(path, suites).err());
         if let Some(Host::Github) = self.annotate {
@@ -103,6 +103,7 @@ impl CiArguments {
             let error = append_to(path, &step_summary(suites)).err()?;
             Some(format!("cannot write {}: {error}", path.display()))
         };
+        // Checked again, since the inputs have named further files since `begin`.
         let summary = self.summary.as_ref().filter(|path| refuse_inputs("--summary", path, inputs).is_ok());
         let summary = summary.and_then(append);
         junit.map(|error| error.to_string()).into_iter().chain(summary).map(Failure::Machine).collect()
@@ -132,6 +133,7 @@ pub(crate) fn top_of_repository() -> Option<PathBuf> {
     let stated = CLONES.into_iter().filter_map(std::env::var_os).map(PathBuf::from);
     let current = std::env::current_dir().ok()?;
     let above = current.ancestors().find(|folder| folder.join(".git").exists()).map(Path::to_owned);
+    // A host may state the folder of another checkout: only one that the call is made in counts.
     let is_here = |top: &PathBuf| current.starts_with(top);
     stated.filter_map(|top| top.canonicalize().ok()).find(is_here).or_else(|| above?.canonicalize().ok())
 }
@@ -155,6 +157,6 @@ fn is_junit(path: &Path) -> Result<(), Diagnostic> {
     if read.is_ok() && String::from_utf8_lossy(&head).contains("<testsuite") {
         return Ok(());
     }
-    let message = format!("--junit {} exists and is no JUnit file", path.display());
+    let message = format!("--junit {} exists and is not a JUnit file", path.display());
     Err(Diagnostic::error("output::refused", message).with_help("choose another name, or remove the file"))
 }

@@ -7,14 +7,14 @@ use serde::Serialize;
 
 use crate::{failure::Failure, terminal::print::Printer};
 
-/// A script with which a shell completes commands, options and their values.
+/// Prints a script that lets a shell complete commands, options and their values.
 ///
 /// For this session of bash: `source <(congruent completions bash)`. For all: bash
 /// `~/.local/share/bash-completion/completions/congruent`, zsh `_congruent` in a folder of `fpath`, fish
 /// `~/.config/fish/completions/congruent.fish`; `PowerShell` and elvish source it from their profile.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// The shell.
+    /// The shell whose script is printed.
     shell: Shell,
 }
 

@@ -1,10 +1,13 @@
 //! Failures of commands and their exit codes.
 
-use congruent::{description::Diagnostic, twin::results::OutputError};
+use congruent::{
+    input::{Diagnostic, Findings},
+    results::files::OutputError,
+};
 
-/// A check failed.
+/// Exit code: the input could be read and compared, and a check failed.
 pub(crate) const FAILED: u8 = 1;
-/// The input is wrong.
+/// The input is wrong: a file, an argument, or a place where nothing may be written.
 pub(crate) const BAD_INPUT: u8 = 2;
 /// The simulation or the machine failed.
 pub(crate) const BROKEN: u8 = 3;
@@ -32,7 +35,7 @@ pub(crate) fn unwritable(error: &OutputError, help: &str) -> Failure {
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// The input is wrong: every finding.
-    Input(Vec<Diagnostic>),
+    Input(Findings),
     /// The machine failed: a full disk, a closed pipe.
     Machine(String),
 }
@@ -48,12 +51,12 @@ impl Failure {
 
 impl From<Diagnostic> for Failure {
     fn from(finding: Diagnostic) -> Self {
-        Self::Input(vec![finding])
+        Self::Input(finding.into())
     }
 }
 
-impl From<Vec<Diagnostic>> for Failure {
-    fn from(findings: Vec<Diagnostic>) -> Self {
+impl From<Findings> for Failure {
+    fn from(findings: Findings) -> Self {
         Self::Input(findings)
     }
 }

@@ -1,18 +1,16 @@
 //! `congruent faults`: which check sees which fault, and what the diagnosis says.
 
 use std::{
-    fmt::Write as _,
     fs,
     path::{Path, PathBuf},
 };
 
 use congruent::{
-    description::Diagnostic,
-    twin::{
-        Run, RunSetup,
-        recorder::NoRecorder,
-        report::{FaultTable, RunReport},
-    },
+    input::Diagnostic,
+    monitors::NoRecorder,
+    results::report::{Causes, FaultTable, RunReport, diagnose_run},
+    text::fault_table_text,
+    twin::{Run, RunSetup},
 };
 
 use crate::{
@@ -25,9 +23,11 @@ use crate::{
     },
 };
 
-/// Runs scenarios that inject faults and shows which checks see them, after how long, and what the diagnosis says.
+/// Runs scenarios that inject faults and shows which checks detect them, after what time, and what the diagnosis
+/// finds.
 ///
-/// Exit codes: 1 if a fault is seen by no check or is not diagnosed, or if something is seen in a scenario without fault.
+/// Exit code 1 if a fault is detected by no check or is not diagnosed, or if a check fails in a scenario without a
+/// fault.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Scenario files, with one [[fault]] or more, or with none for comparison.
@@ -51,13 +51,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         printer.warnings(Some(path), &setup.warnings);
         Ok(setup)
     };
-    let document = arguments.markdown.as_deref().map(Document::read).transpose()?;
+    let document = arguments.markdown.as_deref().map(MarkdownDocument::read).transpose()?;
     let progress = Progress::new(printer);
     let (mut reports, mut exit_code) = (Vec::new(), 0);
     for path in &arguments.scenarios {
-        match load(path).and_then(|setup| report(&setup, &progress.of_run(&setup))) {
+        match load(path).and_then(|setup| report(&setup, &progress.start_run(&setup))) {
             Ok(report) => reports.push(report),
-            // The others are answered all the same.
+            // The other scenarios are still answered.
             Err(failure) if arguments.scenarios.len() > 1 => {
                 Printer::explain(Some(path), &failure);
                 exit_code = worse(exit_code, failure.exit_code());
@@ -70,13 +70,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     if let Some(document) = document.filter(|_| exit_code == 0) {
         document.write(&table.markdown())?;
     }
-    printer.result(&table, text)?;
-    let of_table = match (table.broken.is_empty(), table.is_sound()) {
+    printer.result(&table, fault_table_text)?;
+    let table_code = match (table.broken.is_empty(), table.is_sound()) {
         (false, _) => BROKEN,
         (true, true) => 0,
         (true, false) => FAILED,
     };
-    Ok(worse(exit_code, of_table))
+    Ok(worse(exit_code, table_code))
 }
 
 fn report(setup: &RunSetup, progress: &RunProgress) -> Result<RunReport, Failure> {
@@ -84,20 +84,21 @@ fn report(setup: &RunSetup, progress: &RunProgress) -> Result<RunReport, Failure
         let message = format!("scenario \"{}\" cannot run: {error}", setup.scenario.name);
         Diagnostic::error("run::cannot_run", message)
     };
-    let run = Run::new(setup).map_err(|error| refused(&error))?;
+    let mut run = Run::new(setup).map_err(|error| refused(&error))?;
     let sources = run.model().sources().to_vec();
     let (outcome, result) = run.finish(&mut setup.checks(), &mut NoRecorder, |steps| progress.steps(steps));
-    Ok(RunReport::new(setup, &sources, outcome, result.as_ref().err()))
+    let causes = Causes::from_samples(diagnose_run(&mut run, &outcome));
+    Ok(RunReport::new(setup, &sources, outcome, causes, result.as_ref().err()))
 }
 
 /// A document with a place for the table.
-struct Document<'a> {
+struct MarkdownDocument<'a> {
     path: &'a Path,
     before: String,
     after: String,
 }
 
-impl<'a> Document<'a> {
+impl<'a> MarkdownDocument<'a> {
     fn read(path: &'a Path) -> Result<Self, Diagnostic> {
         let refused = |message: String| {
             Diagnostic::error("faults::markdown", message).with_help(format!(
@@ -121,28 +122,4 @@ impl<'a> Document<'a> {
         // It is read and written.
         replace("--markdown", self.path, &text, &[])
     }
-}
-
-fn text(table: &FaultTable) -> String {
-    let mut text = String::new();
-    for row in &table.rows {
-        let _ = writeln!(text, "{} ({})", row.scenario, row.robot);
-        let _ = writeln!(text, "  injected   {}", row.injected());
-        let seen: Vec<String> = row
-            .checks
-            .iter()
-            .filter(|seen| seen.fails && !seen.before_fault)
-            .map(|seen| match seen.after_s {
-                Some(_) => format!("{} after {}", seen.check, row.cell(seen.check)),
-                None => seen.check.to_string(),
-            })
-            .collect();
-        let seen = if seen.is_empty() { "no check".to_owned() } else { seen.join(", ") };
-        let _ = writeln!(text, "  seen by    {seen}");
-        let _ = writeln!(text, "  diagnosis  {} (right: {})", row.diagnosed(), row.judged());
-    }
-    for remark in table.remarks() {
-        let _ = writeln!(text, "{remark}");
-    }
-    text
 }

@@ -2,25 +2,27 @@
 
 use std::{
     collections::BTreeMap,
+    ffi::OsString,
     path::{Path, PathBuf},
 };
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use congruent::{
+    description::{
+        Configurations, JointState, JointStateList, Robot, RobotDescription, RobotQList, configuration,
+        load_robot_with, outside_limits, outside_limits_warning, read_configurations, read_states,
+    },
+    input::{Capability, Diagnostic, FileAccess, RosPackages, units::Unit},
+};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
-
-use congruent::description::{
-    Configurations, Diagnostic, FileAccess, JointState, JointStateList, Robot, RobotDescription, RobotQList,
-    RosPackages, Use, configuration, load_robot_with, outside_limits, outside_limits_warning,
-    read_configurations, read_states, units::Unit,
-};
 
 use crate::{failure::Failure, terminal::print::Printer};
 
 /// Refuses arguments with control characters or separators of lines: paths and names go into every output.
-pub(crate) fn shown_arguments() -> Result<(), Failure> {
+pub(crate) fn shown_arguments(arguments: &[OsString]) -> Result<(), Failure> {
     let is_refused = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}');
-    let arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
+    let arguments = arguments.iter().map(|argument| argument.to_string_lossy().into_owned());
     match arguments.skip(1).find(|argument| argument.contains(is_refused)) {
         None => Ok(()),
         Some(argument) => Err(Diagnostic::error(
@@ -47,15 +49,15 @@ pub(crate) struct AccessArguments {
     /// Look for the packages of `package://` in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` as well.
     #[arg(long)]
     ros_packages: bool,
-    /// Open files in this folder as well if a scenario, a robot file or a URDF names them. Without it these are files of
-    /// the project: the nearest folder at or above the given file with package.xml or .git, or else the folder above
-    /// its own, or the current folder if that is higher. May be given several times.
+    /// Also open files in this folder if a scenario, a robot file or a URDF names them. Without it only files of the
+    /// project are opened: the nearest folder at or above the given file with package.xml or .git, or else the folder
+    /// above its own, or the current folder if that is higher. May be given several times.
     #[arg(long, value_name = "DIR")]
     allow: Vec<PathBuf>,
 }
 
 impl AccessArguments {
-    /// The environment is not read if its packages were not asked for.
+    /// The environment is read only with `--ros-packages`.
     pub(crate) fn access(&self) -> Result<FileAccess, Diagnostic> {
         let ros = if self.ros_packages { RosPackages::from_environment() } else { RosPackages::default() };
         FileAccess::new(ros, &self.allow)
@@ -63,7 +65,7 @@ impl AccessArguments {
 }
 
 impl RobotArgument {
-    /// Loads it without a word.
+    /// Loads the robot and prints nothing.
     fn read(&self) -> Result<RobotDescription, Failure> {
         Ok(load_robot_with(&self.robot, &self.access()?)?)
     }
@@ -74,9 +76,13 @@ impl RobotArgument {
     }
 
     /// Loads it for a use, which is refused before anything is printed, and prints its warnings.
-    pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
+    pub(crate) fn load_for(
+        &self,
+        needed: Capability,
+        printer: &Printer,
+    ) -> Result<RobotDescription, Failure> {
         let description = self.read()?;
-        description.for_use(needed)?;
+        description.check_capability(needed)?;
         printer.warnings(None, &description.warnings);
         printer.detail(|| read_from(&description));
         Ok(description)
@@ -110,7 +116,7 @@ pub(crate) fn allowing_inputs(access: FileAccess, description: &RobotDescription
 
 /// Whether a new file names another that commands open only if it is allowed.
 pub(crate) fn needs_to_be_allowed(file: &Path, named: &Path) -> Option<Diagnostic> {
-    FileAccess::default().of_file(file).ok()?.check(named).err()?;
+    FileAccess::default().inside_project_of(file).ok()?.check(named).err()?;
     let folder = named.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let message = format!("{} is outside of the project of {}", named.display(), file.display());
     Some(
@@ -125,7 +131,7 @@ pub(crate) struct ChainArguments {
     /// The link that the chain starts from.
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// The link that the chain ends at; with a new base alone, the end of its longest chain.
+    /// The link that the chain ends at; if only --base is given, the end of the longest chain from it.
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
 }
@@ -136,7 +142,7 @@ impl ChainArguments {
         Ok(description.with_chain(self.base.as_deref(), self.tip.as_deref())?)
     }
 
-    /// The same, and its warnings are printed.
+    /// Like `of`, and prints the warnings of the robot along the chain.
     pub(crate) fn choose(
         &self,
         description: RobotDescription,
@@ -161,17 +167,21 @@ pub(crate) struct ArmArguments {
 impl ArmArguments {
     /// Loads the robot along its chain and prints its warnings.
     pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
-        self.load_for(Use::Kinematics, printer)
+        self.load_for(Capability::Kinematics, printer)
     }
 
-    /// The same for a use, which is refused before anything is printed.
-    pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
+    /// Like `load`, for a use that is checked before anything is printed.
+    pub(crate) fn load_for(
+        &self,
+        needed: Capability,
+        printer: &Printer,
+    ) -> Result<RobotDescription, Failure> {
         let description = self.robot.read()?;
-        description.for_use(needed)?;
+        description.check_capability(needed)?;
         self.chain.choose(description, printer)
     }
 
-    /// The same without its table, which a command does not need.
+    /// Like `load`, without the table of the robot file, for commands that do not need it.
     pub(crate) fn load_urdf(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
         let mut description = self.robot.read()?;
         description.dh = None;
@@ -294,6 +304,7 @@ fn position(assignment: &str, robot: &Robot) -> Result<(String, f64), Diagnostic
     };
     let (joint, written) = assignment.split_once('=').ok_or_else(|| refused("is not JOINT=VALUE"))?;
     let (joint, written) = (joint.trim(), written.trim());
+    // In the order of `UNITS`: a value in mm also ends with m.
     let unit = UNITS.iter().find(|unit| written.ends_with(unit.name));
     let number = unit.map_or(written, |unit| written.strip_suffix(unit.name).unwrap_or(written).trim_end());
     let value: f64 = number.parse().map_err(|_| refused("is not JOINT=VALUE"))?;

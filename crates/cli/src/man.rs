@@ -3,7 +3,7 @@
 use std::{fs, path::PathBuf};
 
 use clap_mangen::Man;
-use congruent::description::Diagnostic;
+use congruent::input::Diagnostic;
 use serde::Serialize;
 
 use crate::{failure::Failure, output::file::replace, terminal::print::Printer};

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use congruent::{
-    description::{Diagnostic, known_names},
+    input::{Diagnostic, known_names},
     schema::Document,
 };
 

@@ -2,14 +2,14 @@
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
-use std::{env, path::PathBuf};
+use std::{env, error::Error, path::PathBuf};
 
 use congruent::prelude::*;
 
-fn main() -> Result<(), String> {
+fn main() -> Result<(), Box<dyn Error>> {
     let robot = env::args().nth(1).map_or_else(default_robot, PathBuf::from);
-    let description = load_robot(&robot).map_err(|found| listed(&found))?;
-    let report = check(&description, &CheckOptions::default()).map_err(|e| e.to_string())?;
+    let description = load_robot(&robot)?;
+    let report = check(&description, &CheckOptions::default())?;
     println!("{}: {}", report.geometry.robot, report.geometry.verdict);
     for comparison in &report.geometry.comparisons {
         let worst = comparison.worst.error.position_m;

@@ -3,7 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
-use std::path::Path;
+use std::{error::Error, path::Path};
 
 use congruent::{
     description::ArmQ,
@@ -11,18 +11,17 @@ use congruent::{
     prelude::*,
 };
 
-fn main() -> Result<(), String> {
+fn main() -> Result<(), Box<dyn Error>> {
     let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e"));
-    let description = load_robot(robot).map_err(|found| listed(&found))?;
-    let arm = Arm::of(&description).map_err(|error| error.to_string())?;
+    let description = load_robot(robot)?;
+    let arm = Arm::from_description(&description)?;
     let there = ArmQ::from([0.3, -1.2, 1.4, -0.8, -1.5, 0.2]);
-    let base_from_tcp = arm.clone().base_from_tcp(&there).map_err(|error| error.to_string())?;
+    let base_from_tcp = arm.clone().base_from_tcp(&there)?;
 
     let start = ArmQ::zeros(arm.joints().len());
     let target = IkTarget { base_from_tcp, part: TargetPart::Pose };
     let mut solver = IkSolver::new(arm);
-    let result =
-        solver.solve(&target, &start, &IkOptions::default(), || true).map_err(|error| error.to_string())?;
+    let result = solver.solve(&target, &start, &IkOptions::default(), || true)?;
     println!("converged: {} after {} steps", result.converged, result.iterations);
     println!("joint positions: {:.6?} rad", &result.q[..]);
     println!("residual: {:.1e} m, {:.1e} rad", result.residual_position_m, result.residual_orientation_rad);

@@ -3,18 +3,16 @@
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
-use std::path::Path;
+use std::{error::Error, path::Path};
 
 use congruent::{
     description::RobotQ,
     nalgebra::Isometry3,
     prelude::*,
-    twin::{
-        recorder::NoRecorder,
-        scenario::{AgreementCheck, Check, SimulationSettings},
-        source::{JointSample, JointStateSource, JointStateView, SourceError},
-    },
+    twin::source::{JointStateSource, SourceError},
 };
+use congruent_monitors::{JointSample, JointStateView, NoRecorder};
+use congruent_scenario::{AgreementCheck, Check, SimulationSettings};
 
 /// All joints swing together.
 struct Swing {
@@ -44,9 +42,9 @@ impl JointStateSource for Swing {
     }
 }
 
-fn main() -> Result<(), String> {
+fn main() -> Result<(), Box<dyn Error>> {
     let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/panda"));
-    let description = load_robot(robot).map_err(|found| listed(&found))?;
+    let description = load_robot(robot)?;
     let source = Swing { q: RobotQ::zeros(description.robot.dof()), steps: 0 };
     let scenario = Scenario {
         name: "swing".to_owned(),
@@ -54,10 +52,10 @@ fn main() -> Result<(), String> {
         check: vec![Check::Agreement(AgreementCheck::default())],
         ..Scenario::default()
     };
-    let setup = RunSetup::new(scenario, description).map_err(|found| listed(&found))?;
-    let run = Run::with_source(&setup, Box::new(source)).map_err(|error| error.to_string())?;
+    let setup = RunSetup::new(scenario, description)?;
+    let mut run = Run::with_source(&setup, Box::new(source))?;
     let (outcome, ended) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
-    ended.map_err(|error| error.to_string())?;
+    ended?;
     for measure in outcome.checks.iter().flat_map(|check| &check.measures) {
         let worst = measure.worst.as_ref().map_or(0.0, |moment| moment.value);
         println!("{} steps: {} {worst:.1e} {}", outcome.steps, measure.quantity, measure.unit);

@@ -3,26 +3,23 @@
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
-use std::{collections::BTreeMap, path::Path};
+use std::{collections::BTreeMap, error::Error, path::Path};
 
-use congruent::{
-    prelude::*,
-    twin::{
-        recorder::NoRecorder,
-        scenario::{
-            AgreementCheck, Check, ControllerSettings, JointMotion, MotionSettings, SimulationSettings,
-        },
-    },
+use congruent::prelude::*;
+use congruent_monitors::NoRecorder;
+use congruent_scenario::{
+    AgreementCheck, Check, ControllerKind, ControllerSettings, JointMotion, MotionSettings,
+    SimulationSettings,
 };
 
-fn main() -> Result<(), String> {
+fn main() -> Result<(), Box<dyn Error>> {
     let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e"));
-    let description = load_robot(robot).map_err(|found| listed(&found))?;
+    let description = load_robot(robot)?;
     for stiffness in [500.0, 2000.0, 8000.0] {
-        let setup = RunSetup::new(lift(stiffness), description.clone()).map_err(|found| listed(&found))?;
-        let run = Run::new(&setup).map_err(|error| error.to_string())?;
+        let setup = RunSetup::new(lift(stiffness), description.clone())?;
+        let mut run = Run::new(&setup)?;
         let (outcome, ended) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
-        ended.map_err(|error| error.to_string())?;
+        ended?;
         for measure in outcome.checks.iter().flat_map(|check| &check.measures) {
             let worst = measure.worst.as_ref().map_or(0.0, |moment| moment.value);
             println!("{stiffness} N m/rad: {} {worst:.1e} {}", measure.quantity, measure.unit);
@@ -42,7 +39,7 @@ fn lift(stiffness: f64) -> Scenario {
         name: "lift".to_owned(),
         simulation: SimulationSettings { duration_s: Some(1.5), ..SimulationSettings::default() },
         controller: ControllerSettings {
-            kind: "pd".to_owned(),
+            kind: ControllerKind::Pd,
             stiffness: stiffness.into(),
             damping: (stiffness / 10.0).into(),
             ..ControllerSettings::default()

@@ -2,15 +2,19 @@
 
 use std::{f64::consts::PI, path::PathBuf};
 
-use congruent_description::{Diagnostic, Elementary as _, JointKind, Robot, RobotDescription, RobotQ};
+use congruent_description::{JointKind, Robot, RobotDescription, RobotQ};
+use congruent_input::Findings;
+use congruent_monitors::{JointSample, JointStateView, RecordingError};
 use congruent_recording::RerunFormat;
+use congruent_results::{
+    RecordingFormat,
+    files::{FolderError, OutputError, OutputFolder},
+    report::{Causes, RunReport, diagnose_run},
+};
+use congruent_scenario::{AgreementCheck, Check, Scenario, SimulationSettings};
 use congruent_twin::{
-    RecordingFormat, Run, RunError, RunSetup,
-    recorder::RecordingError,
-    report::RunReport,
-    results::{FolderError, OutputError, OutputFolder},
-    scenario::{AgreementCheck, Check, Scenario, SimulationSettings},
-    source::{JointSample, JointStateSource, JointStateView, SourceError},
+    Run, RunError, RunSetup,
+    source::{JointStateSource, SourceError},
 };
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
@@ -22,19 +26,19 @@ const JOINT_S: f64 = 4.0;
 const STEP_S: f64 = 0.01;
 /// A joint with a wider range of turns has none: descriptions write large numbers for it.
 const WIDEST_RAD: f64 = 8.0 * PI;
-/// Likewise of shifts.
+/// A joint with a wider range of shifts has none. Unit: m. Kind: choice.
 const WIDEST_M: f64 = 100.0;
 
-/// What was recorded.
+/// The report of `congruent view ROBOT`: the recording, and how each joint was moved in it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointSweep {
     /// Name and version of this format.
     pub format: &'static str,
     /// Name of the robot.
     pub robot: String,
-    /// The recording.
+    /// Path of the recording (.rrd).
     pub recording: PathBuf,
-    /// How long it is.
+    /// Duration of the recording. Unit: s.
     pub duration_s: f64,
     /// Every joint that can be moved by itself, in the order in which they move.
     pub joints: Vec<SweptJoint>,
@@ -47,7 +51,7 @@ pub struct JointSweep {
 /// A joint that moves over its range, or why it does not.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweptJoint {
-    /// Its name.
+    /// Name of the joint, as in the URDF.
     pub joint: String,
     /// Unit of its position: `rad` or `m`.
     pub unit: &'static str,
@@ -55,9 +59,9 @@ pub struct SweptJoint {
     pub start: f64,
     /// The positions between which it moves; the same if it stays.
     pub range: [f64; 2],
-    /// When it moves.
+    /// Time at which it begins to move, from the start of the recording. Unit: s.
     pub from_s: f64,
-    /// When it is back.
+    /// Time at which it is back at its start. Unit: s.
     pub until_s: f64,
     /// What decided the range, if it is not that of the description.
     pub note: Option<String>,
@@ -68,8 +72,8 @@ pub struct SweptJoint {
 #[non_exhaustive]
 pub enum SweepError {
     /// The robot cannot be drawn.
-    #[error("{}", crate::listed(.0))]
-    Robot(Vec<Diagnostic>),
+    #[error(transparent)]
+    Robot(#[from] Findings),
     /// The samples cannot be computed.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -105,17 +109,19 @@ pub fn joint_sweep(description: RobotDescription, out: &std::path::Path) -> Resu
         check: vec![Check::Agreement(AgreementCheck::default())],
         ..Scenario::default()
     };
-    let setup = RunSetup::new(scenario, description).map_err(SweepError::Robot)?;
+    let setup = RunSetup::new(scenario, description)?;
     let folder = OutputFolder::create(out, &name, &setup.inputs)?;
     let partial = format!("{}.partial", RerunFormat.file_name());
     let source = SweepSource::new(&setup.description.robot, &joints);
-    let run = Run::with_source(&setup, Box::new(source))?;
+    let mut run = Run::with_source(&setup, Box::new(source))?;
     let sources = run.model().sources().to_vec();
     let mut recording = RerunFormat.begin(&folder.file(&partial), &run)?;
     let mut checks = setup.checks();
     let (outcome, result) = run.finish(&mut checks, &mut *recording, |_| ());
     result?;
-    let report = RunReport::new(&setup, &sources, outcome, None);
+    let causes = Causes::from_samples(diagnose_run(&mut run, &outcome));
+    drop(run); // its source borrows the joints
+    let report = RunReport::new(&setup, &sources, outcome, causes, None);
     recording.finish(&report)?;
     folder.publish(&partial, RerunFormat.file_name())?;
     Ok(JointSweep {
@@ -139,6 +145,7 @@ fn swept(robot: &Robot) -> (Vec<SweptJoint>, Vec<String>) {
             continue;
         }
         let (range, note) = range_of(joint.kind, joint.position_range());
+        // Zero, or the end of the range that is nearest to it: the pose in which the other joints wait.
         let start = 0.0_f64.clamp(range[0], range[1]);
         let is_moving = range[1] > range[0];
         let until_s = if is_moving { from_s + JOINT_S } else { from_s };
@@ -152,17 +159,17 @@ fn swept(robot: &Robot) -> (Vec<SweptJoint>, Vec<String>) {
 /// The range over which a joint moves, and what decided it if it is not that of the description.
 fn range_of(kind: JointKind, range: Option<(f64, f64)>) -> ([f64; 2], Option<String>) {
     let widest = if kind.is_angular() { WIDEST_RAD } else { WIDEST_M };
-    let noted = |range: [f64; 2], note: &str| (range, Some(note.to_owned()));
+    let range_and_note = |range: [f64; 2], note: &str| (range, Some(note.to_owned()));
     match range {
         Some((lower, upper)) if upper < lower || lower.is_nan() || upper.is_nan() => {
-            noted([0.0; 2], "its range is empty or no number: it stays")
+            range_and_note([0.0; 2], "its range is empty or not a number: it does not move")
         }
         Some((lower, upper)) if upper - lower <= widest => {
-            let note = (upper <= lower).then(|| "its range has no width: it stays".to_owned());
+            let note = (upper <= lower).then(|| "its range has no width: it does not move".to_owned());
             ([lower, upper], note)
         }
-        _ if kind.is_angular() => noted([0.0, 2.0 * PI], "without limits: one turn"),
-        _ => noted([0.0; 2], "a shift without limits: it stays"),
+        _ if kind.is_angular() => range_and_note([0.0, 2.0 * PI], "without limits: one turn"),
+        _ => range_and_note([0.0; 2], "a sliding joint without limits: it does not move"),
     }
 }
 
@@ -170,7 +177,8 @@ fn range_of(kind: JointKind, range: Option<(f64, f64)>) -> ([f64; 2], Option<Str
 fn position(joint: &SweptJoint, time_s: f64) -> f64 {
     let [lower, upper] = joint.range;
     let quarter_s = JOINT_S / 4.0;
-    let ease = |share: f64| 0.5 - 0.5 * (PI * share.clamp(0.0, 1.0)).cosine();
+    // Half a cosine: no jump of the velocity at the ends, and pi/2 times the mean velocity in the middle.
+    let ease = |share: f64| 0.5 - 0.5 * libm::cos(PI * share.clamp(0.0, 1.0));
     let between =
         |from: f64, to: f64, begins: f64, lasts: f64| from + (to - from) * ease((time_s - begins) / lasts);
     match time_s {
@@ -204,6 +212,7 @@ impl<'a> SweepSource<'a> {
             let is_moving = (joint.from_s..joint.until_s).contains(&time_s);
             self.q[coordinate] = if is_moving { position(joint, time_s - joint.from_s) } else { joint.start };
         }
+        // After all joints are placed, since a joint that follows may come before its master.
         self.robot.apply_mimic(&mut self.q);
     }
 }
@@ -257,7 +266,7 @@ mod tests {
         assert_eq!(range_of(JointKind::Continuous, None), one_turn);
         assert_eq!(range_of(JointKind::Revolute, Some((-1e16, 1e16))), one_turn);
         let (range, note) = range_of(JointKind::Prismatic, Some((f64::NEG_INFINITY, f64::INFINITY)));
-        assert!(range[0].to_bits() == range[1].to_bits() && note.unwrap().contains("stays"));
+        assert!(range[0].to_bits() == range[1].to_bits() && note.unwrap().contains("does not move"));
         assert_eq!(range_of(JointKind::Revolute, Some((0.5, 1.5))), ([0.5, 1.5], None));
         assert!(range_of(JointKind::Revolute, Some((0.5, 0.5))).1.unwrap().contains("no width"));
     }

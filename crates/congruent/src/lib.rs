@@ -9,10 +9,18 @@ pub use congruent_calibration as calibration;
 pub use congruent_description as description;
 pub use congruent_dynamics as dynamics;
 pub use congruent_dynamics_agreement as dynamics_agreement;
+pub use congruent_fault_diagnosis as fault_diagnosis;
+pub use congruent_input as input;
 pub use congruent_kinematics as kinematics;
+pub use congruent_lint as lint_rules;
+pub use congruent_monitors as monitors;
+pub use congruent_motion as motion;
 pub use congruent_page as page;
+pub use congruent_proximity as proximity;
 #[cfg(feature = "recording")]
 pub use congruent_recording as recording;
+pub use congruent_results as results;
+pub use congruent_scenario as scenario;
 pub use congruent_simulation as simulation;
 pub use congruent_twin as twin;
 pub use nalgebra;
@@ -24,6 +32,7 @@ mod lint;
 mod run_comparison;
 pub mod schema;
 pub mod starter;
+pub mod text;
 mod with_physics;
 
 pub use check::{
@@ -35,25 +44,19 @@ pub use lint::{LintFinding, LintFix, LintReport, LintVerdict, lint, lint_among};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 
-/// What is wrong with an input, one finding in each line, without the lines of the file.
-pub fn listed(found: &[description::Diagnostic]) -> String {
-    found.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
-}
-
 /// What most programs need.
 pub mod prelude {
     pub use congruent_agreement::compare::{Agreement, CheckOptions};
     pub use congruent_analysis::forward::Source;
-    pub use congruent_description::{Diagnostic, Robot, RobotDescription, load_robot};
+    pub use congruent_description::{Robot, RobotDescription, load_robot};
+    pub use congruent_input::{Diagnostic, Findings};
     pub use congruent_kinematics::{Arm, DhChain, LinkPoses, Pose, PoseError, SerialChain, UrdfTree};
+    pub use congruent_monitors::verdict::Verdict;
     #[cfg(feature = "recording")]
     pub use congruent_recording::RerunFormat;
-    pub use congruent_twin::{
-        Options, Run, RunSetup, execute,
-        report::RunReport,
-        scenario::{Override, Scenario},
-        verdict::Verdict,
-    };
+    pub use congruent_results::{Options, execute, report::RunReport};
+    pub use congruent_scenario::{Override, Scenario};
+    pub use congruent_twin::{Run, RunSetup};
 
-    pub use crate::{RobotCheck, check, check_against, forward, listed};
+    pub use crate::{RobotCheck, check, check_against, forward};
 }

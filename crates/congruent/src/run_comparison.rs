@@ -5,11 +5,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-#[cfg(feature = "recording")]
-use congruent_twin::comparison::compare_scalars;
-use congruent_twin::comparison::{ComparedFile, FileComparison, compare_reports, compare_tables};
+use congruent_results::comparison::{ComparedFile, FileComparison, compare_reports, compare_tables};
 use schemars::JsonSchema;
 use serde::Serialize;
+
+#[cfg(feature = "recording")]
+use congruent_results::comparison::compare_scalars;
 
 /// The answer of `congruent compare`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -18,7 +19,7 @@ pub struct RunComparison {
     pub format: &'static str,
     /// What was compared: a file or a folder.
     pub a: String,
-    /// With what.
+    /// The file or folder that `a` is compared with.
     pub b: String,
     /// The largest difference of two numbers that counts as none.
     pub tolerance: f64,
@@ -63,7 +64,7 @@ const FILES: [(ComparedFile, &[&str]); 3] = [
 pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison, NotComparable> {
     let refused = |why: String| Err(NotComparable(why));
     if !(tolerance.is_finite() && tolerance >= 0.0) {
-        return refused(format!("the tolerance {tolerance} is no finite number, 0 or above"));
+        return refused(format!("the tolerance {tolerance} is not a finite number >= 0"));
     }
     for path in [a, b] {
         if let Err(error) = fs::metadata(path) {
@@ -97,6 +98,7 @@ pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison,
         _ => return refused("one is a folder and the other a file: give two of one kind".to_owned()),
     }
     let same = files.iter().all(|file| file.same);
+    // Two tables without rows are equal, and nothing was compared: that must not be success.
     let is_nothing = same && files.iter().all(|file| file.compared == 0);
     let exit_code = if is_nothing { NOTHING_COMPARED } else { u8::from(!same) };
     let [a, b] = [a, b].map(|path| path.display().to_string());
@@ -115,7 +117,7 @@ fn kind(path: &Path) -> Result<ComparedFile, NotComparable> {
         Some("csv" | "parquet") => Ok(ComparedFile::Trajectory),
         Some("rrd") => Ok(ComparedFile::Recording),
         _ => Err(NotComparable(format!(
-            "{} is no report (.json), trajectory (.csv, .parquet) or recording (.rrd)",
+            "{} is not a report (.json), trajectory (.csv, .parquet) or recording (.rrd)",
             path.display()
         ))),
     }

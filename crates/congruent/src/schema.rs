@@ -5,7 +5,7 @@ use congruent_analysis::{
     base_parameters::BaseParameterReport,
     conversion::ConversionReport,
     description_summary::DescriptionSummary,
-    dynamics::{DynamicsReport, DynamicsStream},
+    dynamics::{DynamicsStream, JointDynamicsReport},
     forward::{ForwardReport, PoseStream},
     inverse::InverseReport,
     jacobians::{JacobianReport, JacobianStream},
@@ -15,13 +15,9 @@ use congruent_analysis::{
 };
 use congruent_calibration::report::CalibrationReport;
 use congruent_description::{configurations_schema, robot_file_schema};
-#[cfg(feature = "recording")]
-use congruent_recording::RecordingSummary;
-use congruent_twin::{
-    proximity::{DisabledPairs, DistanceReport},
-    report::{FaultTable, RunReport},
-    scenario::Scenario,
-};
+use congruent_proximity::{DisabledPairs, DistanceReport};
+use congruent_results::report::{FaultTable, RunReport};
+use congruent_scenario::Scenario;
 use schemars::{
     JsonSchema, Schema,
     generate::SchemaSettings,
@@ -37,12 +33,15 @@ use crate::{
     starter::{NewRobot, NewScenario},
 };
 
+#[cfg(feature = "recording")]
+use congruent_recording::RecordingSummary;
+
 /// A kind of file or document that has a schema.
 #[derive(Debug, Clone, Copy)]
 pub struct Document {
     /// Its name: `robot`, `scenario`, `report`, or the command that prints it.
     pub name: &'static str,
-    /// What it is.
+    /// One line about the document, as `congruent schema` lists it.
     pub about: &'static str,
     make: fn() -> Schema,
 }
@@ -71,7 +70,7 @@ impl Document {
         Self::new(
             "dynamics",
             "torques and accelerations, printed by `dynamics`",
-            written::<DynamicsReport<DynamicsStream<'static>>>,
+            written::<JointDynamicsReport<DynamicsStream<'static>>>,
         ),
         Self::new("ik", "solutions, printed by `ik`", written::<InverseReport>),
         Self::new(
@@ -91,12 +90,20 @@ impl Document {
         ),
         Self::new(
             "base_parameters",
-            "what joint torques tell, printed by `derive --base-parameters`",
+            "base inertial parameters, printed by `derive --base-parameters`",
             written::<BaseParameterReport>,
         ),
-        Self::new("new_robot", "a written robot file, printed by `new robot`", written::<NewRobot>),
-        Self::new("new_scenario", "a written scenario, printed by `new scenario`", written::<NewScenario>),
-        Self::new("compare", "two runs, printed by `compare`", written::<RunComparison>),
+        Self::new(
+            "new_robot",
+            "report on the robot file that was written, printed by `new robot`",
+            written::<NewRobot>,
+        ),
+        Self::new(
+            "new_scenario",
+            "report on the scenario that was written, printed by `new scenario`",
+            written::<NewScenario>,
+        ),
+        Self::new("compare", "differences of two runs, printed by `compare`", written::<RunComparison>),
         #[cfg(feature = "recording")]
         Self::new("inspect", "summary of a recording, printed by `inspect`", written::<RecordingSummary>),
         #[cfg(feature = "recording")]

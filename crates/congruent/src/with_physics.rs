@@ -2,16 +2,20 @@
 
 use std::ops::Range;
 
-use congruent_analysis::dynamics::{
-    DynamicsOptions, DynamicsReport, DynamicsResult, DynamicsSource, DynamicsStream, dynamics, refused,
+use congruent_analysis::{
+    dynamics::{
+        DynamicsOptions, DynamicsResult, DynamicsSource, DynamicsStream, JointDynamicsReport, dynamics,
+        refused,
+    },
+    forward::{ForwardReport, PoseStream, Source, forward_by_table},
 };
-use congruent_analysis::forward::{ForwardReport, PoseStream, Source, forward_by_table};
-use congruent_description::{Diagnostic, JointStateList, Robot, RobotDescription, RobotQ, Use};
+use congruent_description::{JointStateList, Robot, RobotDescription, RobotQ};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
+use congruent_input::{Capability, Diagnostic, Findings};
 use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};
 use congruent_twin::source::{SimulatedDynamics, SimulatedPoses};
 
-/// Poses of all links at each configuration, by a chosen source; each is computed when it is asked for.
+/// Poses of all links at each configuration, by a chosen source; each is computed when the iterator reaches it.
 ///
 /// # Errors
 /// What is wrong with the robot or with the first configuration, if the source does not exist or rejects them.
@@ -19,7 +23,7 @@ pub fn forward<'a>(
     description: &'a RobotDescription,
     source: Source,
     configurations: impl Iterator<Item = RobotQ> + 'a,
-) -> Result<ForwardReport<PoseStream<'a>>, Vec<Diagnostic>> {
+) -> Result<ForwardReport<PoseStream<'a>>, Findings> {
     let robot = &description.robot;
     let link_poses: Box<dyn LinkPoses + 'a> = match source {
         Source::Dh => return Ok(forward_by_table(description, configurations)?),
@@ -31,14 +35,14 @@ pub fn forward<'a>(
 }
 
 /// The physics of a robot, or the findings for which it cannot be built.
-pub(crate) fn simulated_poses(description: &RobotDescription) -> Result<SimulatedPoses, Vec<Diagnostic>> {
-    description.for_use(Use::Physics)?;
+pub(crate) fn simulated_poses(description: &RobotDescription) -> Result<SimulatedPoses, Findings> {
+    description.check_capability(Capability::Physics)?;
     SimulatedPoses::new(&description.robot)
-        .map_err(|error| vec![Diagnostic::error("simulation::robot", error.to_string())])
+        .map_err(|error| Diagnostic::error("simulation::robot", error.to_string()).into())
 }
 
 /// Torques and accelerations at each state, by the equations of motion or by the physics; each is computed when it is asked
-/// for. The robot is [`robot_of`](congruent_analysis::dynamics::robot_of) the description and the options.
+/// for. The robot is [`robot_with_options`](congruent_analysis::dynamics::robot_with_options) the description and the options.
 ///
 /// # Errors
 /// The findings for which the robot has no dynamics, or what a source says that refuses a state.
@@ -47,8 +51,8 @@ pub fn joint_dynamics<'a>(
     source: DynamicsSource,
     options: &DynamicsOptions,
     states: &'a JointStateList,
-) -> Result<DynamicsReport<DynamicsStream<'a>>, Vec<Diagnostic>> {
-    description.for_use(Use::Physics)?;
+) -> Result<JointDynamicsReport<DynamicsStream<'a>>, Findings> {
+    description.check_capability(Capability::Physics)?;
     let mut by: Box<dyn JointDynamics + 'a> = match source {
         DynamicsSource::Model => Box::new(TreeDynamics::new(robot)),
         DynamicsSource::Simulation => {
@@ -76,11 +80,10 @@ pub fn joint_dynamics<'a>(
 /// Squares of larger values times lengths and speeds overflow. Kind: range of numbers.
 const LARGEST_VALUE: f64 = 1e100;
 
-/// That torques cannot be computed, with the largest value there is.
+/// The finding that torques overflow, with the largest value as the likely cause.
 fn beyond_numbers(robot: (&RobotDescription, &Robot), states: &JointStateList) -> Diagnostic {
     let (what, value, span) = largest_value(robot, states);
-    let message =
-        format!("{what} = {value:e} is beyond what torques can be computed with: they are not finite");
+    let message = format!("{what} = {value:e} is too large: the computed torques are not finite");
     let found = Diagnostic::error("dynamics::overflow", message);
     match (span, robot.0.places.urdf.as_ref()) {
         (Some(span), Some(places)) => found.at(span).in_file(places.source()),

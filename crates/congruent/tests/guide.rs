@@ -2,7 +2,7 @@
 
 #![expect(clippy::print_stdout, reason = "the programs show their result")]
 
-use std::{env, path::Path, sync::Once};
+use std::{env, error::Error, path::Path, sync::Once};
 
 /// Paths in the programs are relative to the root of the project.
 fn in_root() {
@@ -14,33 +14,34 @@ fn in_root() {
 }
 
 #[test]
-fn the_library_of_the_readme() {
+fn the_library_of_the_readme() -> Result<(), Box<dyn Error>> {
     in_root();
     {
         use congruent::prelude::*;
 
-        let description = load_robot("robots/ur5e".as_ref()).expect("a robot without faults");
-        let report = check(&description, &CheckOptions::default()).expect("sources that accept it");
+        let description = load_robot("robots/ur5e".as_ref())?;
+        let report = check(&description, &CheckOptions::default())?;
         assert_eq!(report.geometry.verdict, Agreement::Agree);
     }
+    Ok(())
 }
 
 #[test]
-fn ten_lines_1() {
+fn ten_lines_1() -> Result<(), Box<dyn Error>> {
     in_root();
     {
         use congruent::prelude::*;
 
-        let description =
-            load_robot("robots/ur5e/wrong_convention.toml".as_ref()).expect("a robot without faults");
-        let report = check(&description, &CheckOptions::default()).expect("sources that accept it");
+        let description = load_robot("robots/ur5e/wrong_convention.toml".as_ref())?;
+        let report = check(&description, &CheckOptions::default())?;
         assert_eq!(report.geometry.verdict, Agreement::Disagree);
-        println!("{}", serde_json::to_string_pretty(&report).expect("a report is JSON"));
+        println!("{}", serde_json::to_string_pretty(&report)?);
     }
+    Ok(())
 }
 
 #[test]
-fn ten_lines_2() {
+fn ten_lines_2() -> Result<(), Box<dyn Error>> {
     in_root();
     {
         use congruent::{
@@ -49,17 +50,18 @@ fn ten_lines_2() {
             prelude::*,
         };
 
-        let description = load_robot("robots/ur5e".as_ref()).expect("a robot without faults");
-        let mut arm = Arm::of(&description).expect("a chain from base to tip");
+        let description = load_robot("robots/ur5e".as_ref())?;
+        let mut arm = Arm::from_description(&description)?;
         let q = ArmQ::from([0.3, -1.2, 1.4, -0.8, -1.5, 0.2]); // rad
-        let base_from_tcp = arm.base_from_tcp(&q).expect("a position for each joint");
+        let base_from_tcp = arm.base_from_tcp(&q)?;
 
         let start = ArmQ::zeros(arm.joints().len());
         let target = IkTarget { base_from_tcp, part: TargetPart::Pose };
         let mut solver = IkSolver::new(arm);
-        let result = solver.solve(&target, &start, &IkOptions::default(), || true).expect("a target");
+        let result = solver.solve(&target, &start, &IkOptions::default(), || true)?;
         assert!(result.converged && result.residual_position_m < 1e-9);
     }
+    Ok(())
 }
 
 #[test]
@@ -67,7 +69,7 @@ fn a_ratio() {
     in_root();
     {
         use congruent::agreement::diagnosis::{
-            Candidate, Cause, Criterion, ModelPair, ReferenceModel, diagnose,
+            CandidateModel, Cause, Criterion, ModelPair, ReferenceModel, diagnose,
         };
         use congruent::description::Tolerance;
         use congruent::kinematics::{Pose, ScrewChain, Twist};
@@ -77,7 +79,7 @@ fn a_ratio() {
             twists_in_base: vec![Twist { angular: Vector3::z(), linear: Vector3::zeros() }],
             base_from_tip_at_zero: Pose::from_parts(Matrix3::identity(), Vector3::new(0.5, 0.1, 0.0)),
         };
-        let mut candidate = Candidate::from_screws(&turntable);
+        let mut candidate = CandidateModel::from_screws(&turntable);
         candidate.rows[0].rate = 0.98; // 0.98 rad for each radian of the joint variable
         let models = ModelPair { candidate, reference: ReferenceModel::from_screws(&turntable) };
         let criterion = Criterion { tolerance: Tolerance::default(), configurations: vec![[1.0].into()] };
@@ -92,7 +94,8 @@ fn a_source_of_torques() {
         use congruent::description::load_robot;
         use congruent::dynamics::{BodyTree, DrivenState};
         use congruent::dynamics_agreement::{
-            AccelerationSource, DynamicsCause, Inertial, NamedSide, Probing, Side, compare_with_source,
+            AccelerationSource, DynamicsCause, DynamicsModel, IdentificationOptions, Inertial, NamedModel,
+            compare_with_source,
         };
         use congruent::nalgebra::Matrix3;
 
@@ -111,7 +114,7 @@ fn a_source_of_torques() {
         }
 
         let robot = load_robot("docs/examples/arm".as_ref()).expect("a robot without faults").robot;
-        let file = Side::new(&robot);
+        let file = DynamicsModel::new(&robot);
         // All names of the explanations that have the same effect on every torque.
         let named = |change: fn(&mut Inertial), resistance: f64| -> Vec<DynamicsCause> {
             let mut imported = file.clone();
@@ -121,11 +124,11 @@ fn a_source_of_torques() {
                 joint.damping *= resistance;
                 joint.friction *= resistance;
             }
-            let description = NamedSide { name: "arm.urdf", side: &file, places: None };
+            let description = NamedModel { name: "arm.urdf", model: &file, places: None };
             let mut engine = Engine(imported.tree());
-            let probing = Probing { seed: 1, step_s: 1e-4 };
+            let options = IdentificationOptions { seed: 1, step_s: 1e-4 };
             let report =
-                compare_with_source(&description, ("engine", &mut engine), probing).expect("it runs");
+                compare_with_source(&description, ("engine", &mut engine), options).expect("it runs");
             let explanations = report.explanations.iter().chain(&report.indistinguishable);
             explanations
                 .flat_map(|found| {
@@ -136,7 +139,7 @@ fn a_source_of_torques() {
         // The engine reads no rotation of the inertial frame.
         let without_rotation = |inertial: &mut Inertial| inertial.link_from_axes = Matrix3::identity();
         assert!(named(without_rotation, 1.0).contains(&DynamicsCause::RpyMissing));
-        // It leaves the inertia of a link out.
+        // It omits the inertia of a link.
         let left_out = |inertial: &mut Inertial| {
             inertial.mass_kg = 0.0;
             inertial.tensor_kg_m2 = Matrix3::zeros();

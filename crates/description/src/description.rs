@@ -1,4 +1,4 @@
-//! Everything that a robot file declares, loaded and checked: what every command starts from.
+//! The checked description of a robot: URDF, chain, table, dynamics, tool and tolerance. Every command starts from it.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -6,19 +6,17 @@ use std::{
     sync::Arc,
 };
 
+use congruent_input::{Capability, Diagnostic, Findings, InputFile, known_names};
 use nalgebra::Isometry3;
 
 use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
-    diagnostic::{Diagnostic, Use, known_names},
-    files::InputFile,
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance, ToleranceScale},
-    robot_file::{DeclaredDynamics, InertialPlaces, RobotFilePlaces},
+    robot_file::{DynamicsTable, InertialPlaces, RobotFilePlaces},
     urdf::UrdfPlaces,
 };
 
-/// The texts that a description was read from: messages show lines of these, whatever stands in the
-/// files by now.
+/// The texts that a description was read from. Messages show lines of these texts, even if the files have changed since.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Places {
     /// The robot file with its table; `None` if there is no table, or none of this chain.
@@ -29,13 +27,16 @@ pub struct Places {
     pub urdf: Option<UrdfPlaces>,
 }
 
-/// The code of the warning that a table is not used since it is of another chain.
+/// The code of the warning that a table is not used because it describes another chain.
 pub const TABLE_DROPPED: &str = "chain::table_dropped";
 
-/// Files and folders that a robot file names besides the URDF.
+/// The code of the warning that several tips are equally likely.
+pub const SEVERAL_TIPS: &str = "chain::several_tips";
+
+/// Files and folders that a robot file names in addition to the URDF.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct NamedFiles {
-    /// The SRDF.
+    /// Path of the SRDF; `None` if the robot file names none.
     pub srdf: Option<PathBuf>,
     /// Folders of packages by name.
     pub packages: BTreeMap<String, PathBuf>,
@@ -48,31 +49,31 @@ pub struct RobotDescription {
     pub path: PathBuf,
     /// The name that the robot file gives, or the URDF's.
     pub name: String,
-    /// The URDF.
+    /// Path of the URDF.
     pub urdf_path: PathBuf,
-    /// Links and joints.
+    /// The tree of links and joints, as the URDF gives it.
     pub robot: Robot,
     /// The link that the model's base frame is declared in.
     pub base: LinkIndex,
     /// The link that the model's last frame is declared in; it hangs below the body of `base`.
     pub tip: LinkIndex,
-    /// Who named these two links.
+    /// Who determined these two links: the file, the command, or an automatic choice.
     pub chain_ends: ChainEnds,
     /// The Denavit-Hartenberg table; `None` for a bare URDF.
     pub dh: Option<DhTable>,
     /// The dynamics that the robot file declares beside the URDF; `None` if it declares none.
-    pub dynamics: Option<DeclaredDynamics>,
+    pub dynamics: Option<DynamicsTable>,
     /// The largest acceleration of each moving joint that the robot file declares, rad/s^2 or m/s^2.
     pub accelerations: Vec<Option<f64>>,
     /// Pose of the tool centre point in link `tip`; `None` if no tool is declared.
     pub tip_from_tcp: Option<Isometry3<f64>>,
-    /// How far model and twin may be apart and still count as the same.
+    /// Largest difference of poses at which model and twin still agree.
     pub tolerance: Tolerance,
     /// The other files and folders that the robot file names.
     pub named_files: NamedFiles,
     /// Link pairs that an SRDF excludes from clearance, the smaller index first.
     pub disabled_collisions: BTreeSet<(LinkIndex, LinkIndex)>,
-    /// What is suspicious, and what stops another use than kinematics.
+    /// Warnings, among them faults that block a use other than kinematics.
     pub warnings: Vec<Diagnostic>,
     /// The files that were read: robot file, URDF, SRDF and meshes.
     pub inputs: Vec<InputFile>,
@@ -81,24 +82,24 @@ pub struct RobotDescription {
 }
 
 impl RobotDescription {
-    /// By what tolerances of its poses are judged.
+    /// The scale with which tolerances of its poses are compared.
     pub fn tolerance_scale(&self) -> ToleranceScale {
-        ToleranceScale::of(&self.robot, self.tip, self.tip_from_tcp.as_ref())
+        ToleranceScale::with_tool(&self.robot, self.tip, self.tip_from_tcp.as_ref())
     }
 
-    /// Whether the robot is fit for a use: whatever asks for more than kinematics asks here first.
+    /// Checks that the robot is complete for a use. Every computation that needs more than kinematics calls this first.
     ///
     /// # Errors
-    /// The findings that stop this use, as errors.
-    pub fn for_use(&self, needed: Use) -> Result<(), Vec<Diagnostic>> {
+    /// The findings that block this use, as errors.
+    pub fn check_capability(&self, needed: Capability) -> Result<(), Findings> {
         let stopping = self.warnings.iter().filter(|found| found.stops == Some(needed));
         let errors: Vec<Diagnostic> =
-            stopping.map(|found| found.clone().needed_by(Some(Use::Kinematics))).collect();
-        if errors.is_empty() { Ok(()) } else { Err(errors) }
+            stopping.map(|found| found.clone().needed_by(Some(Capability::Kinematics))).collect();
+        if errors.is_empty() { Ok(()) } else { Err(errors.into()) }
     }
 
-    /// The same robot with another chain; a name that is left out keeps its link, but a new base alone has a
-    /// tip that is chosen. The table is dropped, with a warning, if the chain is another one.
+    /// The same robot with another chain. A link that is not named stays; a new base without a tip gets a chosen tip. If the
+    /// chain changes, the table is dropped with a warning.
     ///
     /// # Errors
     /// A link is unknown, or `tip` does not hang below `base`.
@@ -117,7 +118,7 @@ impl RobotDescription {
         }
         if self.robot.chain(self.base, self.tip).is_none() {
             let message = format!(
-                "tip \"{}\" does not hang below base \"{}\"",
+                "tip \"{}\" is not a descendant of base \"{}\"",
                 self.name_of(self.tip),
                 self.name_of(self.base)
             );
@@ -127,13 +128,13 @@ impl RobotDescription {
         if before != (self.base, self.tip) {
             self.drop_table(before);
         }
-        Ok(self.with_doubts())
+        Ok(self.with_tip_warning())
     }
 
     fn drop_table(&mut self, (base, tip): (LinkIndex, LinkIndex)) {
         if self.dh.take().is_some() {
             let message = format!(
-                "the [dh] table leads from \"{}\" to \"{}\", not from \"{}\" to \"{}\": it is not used",
+                "the [dh] table describes the chain from \"{}\" to \"{}\", not from \"{}\" to \"{}\", so it is not used",
                 self.name_of(base),
                 self.name_of(tip),
                 self.name_of(self.base),
@@ -141,18 +142,17 @@ impl RobotDescription {
             );
             self.warnings.push(Diagnostic::warning(TABLE_DROPPED, message));
         }
-        // Their frames are those of the table, or of its base.
+        // The frames of the declared dynamics are those of the table or of its base; the tool is declared in the old tip.
         (self.dynamics, self.places.inertials) = (None, None);
         self.tip_from_tcp = None;
         self.places.robot_file = None;
     }
 
-    /// Warns if the tip was chosen among several that are as good, once the chain is what it is.
+    /// Replaces the warning that several tips are equally likely. Called again after each change of the chain.
     #[must_use]
-    pub(crate) fn with_doubts(mut self) -> Self {
-        const SEVERAL: &str = "chain::several_tips";
+    pub(crate) fn with_tip_warning(mut self) -> Self {
         const MOST_NAMED: usize = 10;
-        self.warnings.retain(|warning| warning.code != SEVERAL);
+        self.warnings.retain(|warning| warning.code != SEVERAL_TIPS);
         if self.chain_ends.tip != ChainEnd::Chosen {
             return self;
         }
@@ -168,15 +168,15 @@ impl RobotDescription {
                 if more == 0 { String::new() } else { format!(" and {more} more") }
             );
             self.warnings.push(
-                Diagnostic::warning(SEVERAL, message)
+                Diagnostic::warning(SEVERAL_TIPS, message)
                     .with_help("choose with --tip, or with the keys base and tip of a robot file"),
             );
         }
         self
     }
 
-    /// The links at which the chain from `base` might end, whatever was declared: the one that is taken if no one names a
-    /// tip, then the ends of limbs that are about as long.
+    /// The likely tips of the chain from `base`, whatever is declared: the one that is chosen if none is named, then the ends of
+    /// limbs that are about as long.
     pub fn likely_tips(&self) -> Vec<LinkIndex> {
         let chosen = choose_tip(&self.robot, self.base);
         std::iter::once(chosen.tip).chain(chosen.others).collect()

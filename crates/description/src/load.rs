@@ -1,4 +1,4 @@
-//! From a path to a [`RobotDescription`]: decides which files are opened.
+//! Loads a [`RobotDescription`] from a path: decides which files are opened, and in which order they are checked.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -7,13 +7,15 @@ use std::{
     sync::Arc,
 };
 
+use congruent_input::{
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, NOT_FOUND, Packages, SourceFile, folder_of,
+    not_found, toml_text::parse_toml,
+};
 use toml::Spanned;
 
 use crate::{
     chain::{ChainEnds, choose_tip},
     description::{NamedFiles, Places, RobotDescription},
-    diagnostic::{Diagnostic, Diagnostics, SourceFile, Use},
-    files::{FileAccess, Packages, folder_of, not_found},
     mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
     robot_file::{
@@ -21,7 +23,6 @@ use crate::{
     },
     srdf::{self, SRDF_BYTES},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
-    written::toml_text::parse_toml,
 };
 
 const ACCEPTED: &str =
@@ -33,29 +34,30 @@ const ACCEPTED: &str =
 /// A bare URDF has its root as base, the frame for tools at the end of its longest chain of moving joints (before
 /// a gripper) as tip, and no Denavit-Hartenberg table.
 ///
-/// A fault that kinematics can do without, such as a missing mesh, refuses nothing here: it is a warning, and
-/// [`RobotDescription::for_use`] refuses the use that needs the part.
+/// A fault in a part that kinematics does not need, such as a missing mesh, is a warning here;
+/// [`RobotDescription::check_capability`] refuses the use that needs the part.
 ///
 /// # Errors
 /// Every diagnostic, errors and warnings, if at least one is an error.
-pub fn load_robot(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
+pub fn load_robot(path: &Path) -> Result<RobotDescription, Findings> {
     load_robot_with(path, &FileAccess::default())
 }
 
-/// The same with more files that may be opened, and a list of those that were.
+/// The same with further files that may be opened, and with a record of the files that were read.
 ///
 /// # Errors
 /// As [`load_robot`].
-pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
+    // A record of its own, so that `inputs` has the files of this robot only, whatever the caller has read before.
     let own = access.fresh();
     let loaded = load(path, &own);
-    // What was read before it was refused is an input, too.
+    // Before `?`: files that were read by a load that failed are inputs of the caller, too.
     let inputs = own.files();
     access.add(&inputs);
     Ok(RobotDescription { inputs, ..loaded? })
 }
 
-fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
     let path = file_of_robot(path)?;
     let most_bytes = if is_toml(&path) { ROBOT_FILE_BYTES } else { URDF_BYTES };
     load_source(&open(&path, access, most_bytes)?, access)
@@ -68,7 +70,7 @@ fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagno
 pub fn load_opened_robot(
     source: &Arc<SourceFile>,
     access: &FileAccess,
-) -> Result<RobotDescription, Vec<Diagnostic>> {
+) -> Result<RobotDescription, Findings> {
     let own = access.fresh();
     let loaded = load_source(source, &own);
     let inputs = access.files().into_iter().chain(own.files()).collect();
@@ -76,7 +78,7 @@ pub fn load_opened_robot(
     Ok(RobotDescription { inputs, ..loaded? })
 }
 
-fn load_source(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+fn load_source(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
     if is_toml(&source.path) { load_robot_file(source, access) } else { load_bare_urdf(source, access) }
 }
 
@@ -84,8 +86,11 @@ fn is_toml(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }
 
-/// The file that a path of a robot means: that in a folder, or the path itself.
-pub(crate) fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
+/// The file that the path of a robot means: `robot.toml` in a folder, otherwise the path itself.
+///
+/// # Errors
+/// The folder has no `robot.toml`.
+pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
     if !path.is_dir() {
         return Ok(path.to_owned());
     }
@@ -97,10 +102,13 @@ pub(crate) fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
     Err(Diagnostic::error("load::no_robot_file", message).with_help(ACCEPTED))
 }
 
-/// Opens what a person names as a robot.
-pub(crate) fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
+/// Opens a file that a person gives as a robot. If it does not exist and no similar name does, the help lists what is accepted.
+///
+/// # Errors
+/// The file cannot be read, may not be opened, or is longer than `most_bytes`.
+pub fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
     access.read_named_text(path, most_bytes).map_err(|fault| {
-        let is_helpless = fault.code == "file::not_found" && fault.help.is_none();
+        let is_helpless = fault.code == NOT_FOUND && fault.help.is_none();
         if is_helpless { fault.with_help(ACCEPTED) } else { fault }
     })
 }
@@ -114,7 +122,8 @@ pub(crate) fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<
 /// Every diagnostic, errors and warnings, if at least one is an error.
 /// # Examples
 /// ```
-/// use congruent_description::{SourceFile, parse_robot};
+/// use congruent_description::parse_robot;
+/// use congruent_input::SourceFile;
 /// let source = |name: &str, text: &str| SourceFile { path: name.into(), text: text.into() }.into();
 /// let urdf = source("stand.urdf", "<robot name='stand'><link name='base'/></robot>");
 /// let robot_file = source("robot.toml", "name = 'mine'\ntip = 'tool'");
@@ -125,17 +134,19 @@ pub(crate) fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<
 pub fn parse_robot(
     robot_file: Option<&Arc<SourceFile>>,
     urdf: &Arc<SourceFile>,
-) -> Result<RobotDescription, Vec<Diagnostic>> {
+) -> Result<RobotDescription, Findings> {
     let Some(robot_file) = robot_file else {
         let inputs = UrdfInputs { find_mesh: &mut urdf::no_mesh, repairs: &Repairs::default() };
         let (robot, warnings) = read_urdf(urdf, inputs)?;
         return Ok(bare(urdf, robot, warnings));
     };
     let mut diagnostics = Diagnostics::default();
+    // Unknown keys are faults but still give a value, so that the URDF and the names are checked in the same run.
     let written: Option<WrittenRobot> = parse_toml(&robot_file.text, &mut diagnostics);
     let declared = written.and_then(|written| {
         let repairs = written.repairs(robot_file);
         let inputs = UrdfInputs { find_mesh: &mut urdf::no_mesh, repairs: &repairs };
+        // Faults of both files are collected, since each must be corrected anyway.
         let (robot, warnings) = read_urdf(urdf, inputs).map_err(|faults| diagnostics.extend(faults)).ok()?;
         diagnostics.extend(warnings);
         declared(written, robot_file, urdf, robot, &mut diagnostics)
@@ -143,12 +154,12 @@ pub fn parse_robot(
     checked(declared, diagnostics, robot_file)
 }
 
-fn load_bare_urdf(urdf: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+fn load_bare_urdf(urdf: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
     let (robot, warnings) = load_urdf(urdf, (BTreeMap::new(), access), &Repairs::default())?;
     Ok(bare(urdf, robot, warnings))
 }
 
-/// A description without a robot file.
+/// The description of a bare URDF: root as base, a chosen tip, no table, default tolerance.
 fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> RobotDescription {
     let base = robot.root();
     RobotDescription {
@@ -170,7 +181,7 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
         inputs: Vec::new(),
         places: Places { urdf: Some(UrdfPlaces::new(Arc::clone(urdf))), ..Places::default() },
     }
-    .with_doubts()
+    .with_tip_warning()
 }
 
 /// Reads a URDF with its meshes.
@@ -178,12 +189,13 @@ fn load_urdf(
     source: &Arc<SourceFile>,
     (declared, access): (BTreeMap<String, PathBuf>, &FileAccess),
     repairs: &Repairs,
-) -> Result<(Robot, Vec<Diagnostic>), Vec<Diagnostic>> {
+) -> Result<(Robot, Vec<Diagnostic>), Findings> {
     let path = &source.path;
     let mut packages = Packages::new(folder_of(path), declared, access).map_err(|error| {
         let message = format!("{}: its folder cannot be read: {error}", path.display());
-        vec![Diagnostic::error("file::unreadable", message)]
+        Diagnostic::error("file::unreadable", message)
     })?;
+    // One store for the whole URDF: a mesh that several links use is read and checked once.
     let mut meshes = MeshStore::new(&mut packages, access);
     read_urdf(source, UrdfInputs { find_mesh: &mut |uri, scale| meshes.find(uri, scale), repairs })
 }
@@ -192,25 +204,24 @@ fn load_urdf(
 fn read_urdf(
     source: &Arc<SourceFile>,
     inputs: UrdfInputs<'_, '_>,
-) -> Result<(Robot, Vec<Diagnostic>), Vec<Diagnostic>> {
+) -> Result<(Robot, Vec<Diagnostic>), Findings> {
     let mut diagnostics = Diagnostics::default();
     let robot = urdf::parse(&source.text, inputs, &mut diagnostics);
     let diagnostics = diagnostics.in_file(source);
     match robot {
         Some(robot) => {
+            // Sizes are warned of part by part; which links are large, and so explain their sizes, is known only now.
             let warnings = urdf::without_large_links(&robot, diagnostics);
             Ok((robot, warnings))
         }
-        None => Err(diagnostics),
+        None => Err(diagnostics.into()),
     }
 }
 
-fn load_robot_file(
-    source: &Arc<SourceFile>,
-    access: &FileAccess,
-) -> Result<RobotDescription, Vec<Diagnostic>> {
+fn load_robot_file(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
     let mut diagnostics = Diagnostics::default();
-    let access = access.of_file(&source.path)?;
+    let access = access.inside_project_of(&source.path)?;
+    // The project of the robot file decides which files it may name; set once, it also holds for the URDF that it names.
     let description = read_robot_file(source, &access, &mut diagnostics);
     checked(description, diagnostics, source)
 }
@@ -220,18 +231,20 @@ fn checked(
     description: Option<RobotDescription>,
     diagnostics: Diagnostics,
     robot_file: &Arc<SourceFile>,
-) -> Result<RobotDescription, Vec<Diagnostic>> {
+) -> Result<RobotDescription, Findings> {
+    // Decided before `in_file`, which consumes the diagnostics.
     let is_refused = diagnostics.has_error();
     let diagnostics = diagnostics.in_file(robot_file);
     match description {
         Some(description) if !is_refused => {
-            Ok(RobotDescription { warnings: diagnostics, ..description }.with_doubts())
+            Ok(RobotDescription { warnings: diagnostics, ..description }.with_tip_warning())
         }
-        _ => Err(diagnostics),
+        _ => Err(diagnostics.into()),
     }
 }
 
-/// Everything about a robot file and the files that it names.
+/// Reads a robot file and the files that it names. The order is that of need: the URDF needs packages and repairs, SRDF and
+/// table need the links and joints of the URDF.
 fn read_robot_file(
     robot_file: &Arc<SourceFile>,
     access: &FileAccess,
@@ -245,7 +258,8 @@ fn read_robot_file(
         packages: packages.clone(),
     };
     let repairs = written.repairs(robot_file);
-    let urdf = access.read_text(&urdf_path, URDF_BYTES).map_err(Vec::from);
+    // If the URDF cannot be used, nothing after it can be checked: names of links and joints would all be unknown.
+    let urdf = access.read_text(&urdf_path, URDF_BYTES).map_err(Findings::from);
     let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, (packages, access), &repairs)?, urdf)));
     let ((robot, warnings), urdf) = match robot {
         Ok(read) => read,
@@ -262,7 +276,7 @@ fn read_robot_file(
     Some(RobotDescription { named_files, disabled_collisions, ..description })
 }
 
-/// What a robot file declares about its robot; SRDF and warnings are left to the caller.
+/// The description that follows from a robot file and its robot; the caller adds SRDF and warnings.
 fn declared(
     written: WrittenRobot,
     robot_file: &Arc<SourceFile>,
@@ -272,7 +286,8 @@ fn declared(
 ) -> Option<RobotDescription> {
     let declared = robot_file::check(&written, &robot_file.text, &robot, diagnostics);
     let Declared { base, tip, chain_ends, dh, dynamics, accelerations, tip_from_tcp, tolerance } = declared?;
-    let scale = ToleranceScale::of(&robot, tip, tip_from_tcp.as_ref());
+    // Only here is the reach known (tip and tool are resolved), with which a tolerance is compared.
+    let scale = ToleranceScale::with_tool(&robot, tip, tip_from_tcp.as_ref());
     diagnostics.extend(written.tolerance.iter().flat_map(|tolerance| tolerance.examine(scale)));
     let inertials = dynamics
         .is_some()
@@ -312,14 +327,15 @@ fn disabled_collisions(
             diagnostics.extend(faults);
             pairs
         }
+        // Without an SRDF poses and forces are still right; distances would include pairs that it excludes.
         Err(fault) => {
-            diagnostics.push(placed(fault, &srdf.span()).needed_by(Some(Use::Clearance)));
+            diagnostics.push(placed(fault, &srdf.span()).needed_by(Some(Capability::Clearance)));
             BTreeSet::new()
         }
     }
 }
 
-/// A fault of a file without readable text is shown at the key that names the file.
+/// A fault of a file that has no readable text is placed at the key of the robot file that names it.
 fn placed(fault: Diagnostic, named_at: &Range<usize>) -> Diagnostic {
     if fault.source.is_some() { fault } else { fault.at(named_at.clone()) }
 }
@@ -336,7 +352,9 @@ fn written_robot(
             .with_help("urdf = \"robot.urdf\", relative to the robot file")
     }))?;
     let urdf_path = folder_of(&robot_file.path).join(urdf.get_ref());
+    // Permission before existence, so that a message does not reveal which files exist outside the project.
     diagnostics.keep(access.check(&urdf_path).map_err(|fault| fault.at(urdf.span())))?;
+    // Here instead of when it is read, so that the message points at the key and quotes the path as written.
     if !urdf_path.exists() {
         let message =
             format!("urdf = \"{}\": {} does not exist", urdf.get_ref().display(), urdf_path.display());
@@ -354,6 +372,7 @@ fn declared_packages(
     let mut resolve = |(name, written): (&String, &Spanned<PathBuf>)| {
         let path = folder.join(written.get_ref());
         diagnostics.keep(access.check(&path).map_err(|fault| fault.at(written.span())))?;
+        // Canonical, because mesh paths are compared with this folder after symbolic links are resolved.
         let canonical = path.canonicalize().ok().filter(|path| path.is_dir());
         let folder = diagnostics.keep(canonical.ok_or_else(|| {
             let message = format!("package \"{name}\": {} is not a folder", path.display());
@@ -369,7 +388,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::diagnostic::Severity;
+    use congruent_input::Severity;
 
     const URDF: &str = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'>\
                         <parent link='a'/><child link='b'/></joint></robot>";
@@ -430,22 +449,22 @@ mod tests {
     fn the_robot_file_repairs_an_inertia() {
         let bare = folder(&[("r.urdf", &impossible())]);
         let description = load_robot(&bare.path().join("r.urdf")).unwrap();
-        let refused = description.for_use(Use::Physics).unwrap_err();
+        let refused = description.check_capability(Capability::Physics).unwrap_err();
         assert_eq!((refused[0].code, refused[0].severity), ("urdf::inertia", Severity::Error));
         assert!(refused[0].help.as_ref().unwrap().contains("[inertia]\nb = \"repair\""), "{refused:#?}");
         assert_eq!(refused[0].line_column().map(|(line, _)| line), Some(2));
-        assert_eq!(description.for_use(Use::Clearance), Ok(()));
+        assert_eq!(description.check_capability(Capability::Clearance), Ok(()));
 
         let robot_file = "urdf = 'r.urdf'\n[inertia]\nb = 'repair'";
         let repaired = folder(&[("robot.toml", robot_file), ("r.urdf", &impossible())]);
         let description = load_robot(repaired.path()).unwrap();
-        assert_eq!(description.for_use(Use::Physics), Ok(()));
-        let [told] = &description.warnings[..] else { panic!("{:#?}", description.warnings) };
-        assert_eq!(told.line_column(), Some((3, 5)));
+        assert_eq!(description.check_capability(Capability::Physics), Ok(()));
+        let [warning] = &description.warnings[..] else { panic!("{:#?}", description.warnings) };
+        assert_eq!(warning.line_column(), Some((3, 5)));
         assert_eq!(
-            told.message,
+            warning.message,
             "link \"b\": inertia repaired: principal moments 1 kg m2, 1 kg m2, 3 kg m2 in the URDF, 1.33 kg m2, \
-             1.33 kg m2, 2.67 kg m2 here, 0.577 kg m2 away in the Frobenius norm"
+             1.33 kg m2, 2.67 kg m2 after the repair (0.577 kg m2 apart in the Frobenius norm)"
         );
         let inertia = description.robot.links()[1].inertia.unwrap();
         assert!(inertia.mass_kg > 1.9 && inertia.tensor_kg_m2[(0, 0)] < 2.7, "{inertia:?}");
@@ -475,8 +494,12 @@ mod tests {
         for srdf in ["<robot", ""] {
             let folder = folder(&[("robot.toml", robot_file), ("r.urdf", URDF), ("r.srdf", srdf)]);
             let description = load_robot(folder.path()).unwrap();
-            assert!(description.for_use(Use::Clearance).is_err(), "{:#?}", description.warnings);
-            assert_eq!(description.for_use(Use::Physics), Ok(()));
+            assert!(
+                description.check_capability(Capability::Clearance).is_err(),
+                "{:#?}",
+                description.warnings
+            );
+            assert_eq!(description.check_capability(Capability::Physics), Ok(()));
         }
     }
 

@@ -1,20 +1,18 @@
-//! SRDF: the pairs of links whose collisions do not count.
+//! SRDF: the pairs of links that are excluded from collision checking.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
     sync::Arc,
 };
 
-use crate::{
-    diagnostic::{Diagnostic, SourceFile, Use, known_names},
-    model::{LinkIndex, Robot},
-    xml,
-};
+use congruent_input::{Capability, Diagnostic, SourceFile, known_names, xml};
 
-/// The largest SRDF that is read.
+use crate::model::{LinkIndex, Robot};
+
+/// Size limit of an SRDF, bytes.
 pub(crate) const SRDF_BYTES: u64 = 16 << 20;
 
-/// The pairs that `<disable_collisions>` names, the smaller index first; diagnostics beside them.
+/// The pairs that `<disable_collisions>` names, the smaller index first, and the findings about the file.
 pub(crate) fn parse(
     source: &Arc<SourceFile>,
     robot: &Robot,
@@ -22,7 +20,7 @@ pub(crate) fn parse(
     let mut pairs = BTreeSet::new();
     let document = match xml::parse(&source.text) {
         Ok(document) => document,
-        Err(fault) => return (pairs, vec![fault.needed_by(Some(Use::Clearance)).in_file(source)]),
+        Err(fault) => return (pairs, vec![fault.needed_by(Some(Capability::Clearance)).in_file(source)]),
     };
     let mut diagnostics = Vec::new();
     let links: BTreeMap<&str, LinkIndex> =
@@ -31,9 +29,9 @@ pub(crate) fn parse(
         let mut link = |key: &str| {
             let name = node.attribute(key).unwrap_or_default();
             links.get(name).copied().or_else(|| {
-                let message = format!("<disable_collisions>: {key} \"{name}\" is no link of the robot");
+                let message = format!("<disable_collisions>: {key} \"{name}\" is not a link of the robot");
                 let diagnostic = Diagnostic::warning("srdf::unknown_link", message)
-                    .one_of("times <disable_collisions> names no link of the robot", name)
+                    .one_of("names in <disable_collisions> are not links of the robot", name)
                     .at(node.range())
                     .with_help(known_names(name, "links", links.keys().copied()));
                 diagnostics.push(diagnostic.in_file(source));
@@ -67,7 +65,7 @@ mod tests {
              <disable_collisions link1='b' link2='a'/><disable_collisions link1='a' link2='c'/></robot>",
         );
         assert_eq!(pairs, 1);
-        assert_eq!(diagnostics, ["<disable_collisions>: link2 \"c\" is no link of the robot"]);
+        assert_eq!(diagnostics, ["<disable_collisions>: link2 \"c\" is not a link of the robot"]);
         assert_eq!(read("<robot>").0, 0);
     }
 }

@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use congruent_description::Code;
+use congruent_input::Code;
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a readable folder") {
@@ -57,7 +57,7 @@ fn every_code_is_in_the_table_and_the_table_has_no_other() {
     assert!(used.len() > 200, "{} codes are found: the search has broken", used.len());
     let known: BTreeSet<&str> = Code::all().map(|code| code.name).collect();
     let missing: Vec<_> = used.iter().filter(|(code, _)| !known.contains(code.as_str())).collect();
-    assert!(missing.is_empty(), "give each a new number in description/src/codes: {missing:#?}");
+    assert!(missing.is_empty(), "give each a new number in input/src/codes: {missing:#?}");
     let unused: Vec<_> = known.iter().filter(|name| !used.contains_key(**name)).collect();
     assert!(unused.is_empty(), "no source uses {unused:?}; its number must not be given again");
 }

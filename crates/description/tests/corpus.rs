@@ -3,13 +3,15 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{Diagnostic, Geometry, Mesh, Severity, Use, load_robot};
+use congruent_description::{Geometry, Mesh, load_robot};
+use congruent_input::{Capability, Diagnostic, Findings, Severity};
 use serde_json::Value;
+
 use special_inputs::{chain, make_special};
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
-#[path = "../../../tests/special_inputs.rs"]
+#[path = "../../../tests/support/special_inputs.rs"]
 mod special_inputs;
 
 fn json(path: &Path) -> Value {
@@ -25,8 +27,8 @@ fn line(found: &Diagnostic) -> String {
     format!("{file}{place}: [{}] {}{help}", found.code, found.message)
 }
 
-fn lines(found: &[Diagnostic]) -> String {
-    found.iter().map(line).collect::<Vec<_>>().join("\n")
+fn lines<'a>(found: impl IntoIterator<Item = &'a Diagnostic>) -> String {
+    found.into_iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 fn robots(corpus: &Path) -> Vec<PathBuf> {
@@ -126,23 +128,22 @@ fn check_bounds(mesh: &Mesh, bounds: &[Value]) {
 }
 
 /// Every use of a robot, and then the warnings if none is refused.
-fn for_every_use(path: &Path) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
+fn for_every_use(path: &Path) -> Result<Vec<Diagnostic>, Findings> {
     let description = load_robot(path)?;
-    description.for_use(Use::Physics)?;
-    description.for_use(Use::Clearance)?;
+    description.check_capability(Capability::Physics)?;
+    description.check_capability(Capability::Clearance)?;
     Ok(description.warnings)
 }
 
 /// Whether one case of the index is answered as its README asks for. A case that must be refused is refused for
 /// every use, or for the one that needs what is wrong.
 fn verdict(case: &Value, path: &Path) -> Result<(), String> {
-    let result = for_every_use(path);
-    let (outcome, found) = match &result {
-        Err(found) => ("error", found),
+    let (outcome, found) = match for_every_use(path) {
+        Err(found) => ("error", found.into_vec()),
         Ok(warnings) if warnings.is_empty() => ("ok", warnings),
         Ok(warnings) => ("warn", warnings),
     };
-    let text = lines(found);
+    let text = lines(&found);
     if text.contains("CANARY") {
         return Err("the canary was read".to_owned());
     }
@@ -216,8 +217,10 @@ fn kinematics_goes_on_past_what_it_does_not_need() {
             continue;
         }
         let Ok(description) = load_robot(&path) else { continue };
-        let uses = [Use::Physics, Use::Clearance];
-        for (index, _) in uses.iter().enumerate().filter(|(_, use_)| description.for_use(**use_).is_err()) {
+        let uses = [Capability::Physics, Capability::Clearance];
+        for (index, _) in
+            uses.iter().enumerate().filter(|(_, use_)| description.check_capability(**use_).is_err())
+        {
             counted[index] += 1;
             assert_eq!(description.robot.joints(), good.joints(), "{}", path.display());
         }

@@ -2,7 +2,7 @@
 //!
 //! The benchmark `diagnosis/planted.rs` justifies them together. It plants every cause and detail at every link, several
 //! links, all links, joints and gravity, in the candidate's file and in what was built from it, and counts how often the
-//! true cause is named, listed as having the same effect, or seen by no joint torque; none was missed:
+//! true cause is named, listed as having the same effect, or hidden (without an effect on joint torques); none was missed:
 //!
 //! | robot | file: faults, named / listed / hidden | built from it: faults, named / listed / hidden |
 //! |---|---|---|
@@ -13,31 +13,32 @@
 //! | `rrr_arm` | 856: 750 / 64 / 42 | 863: 679 / 141 / 42, 1 under another name |
 //! | `denso_hsr065` | 220: 114 / 64 / 42 | 225: 128 / 55 / 42 |
 //!
-//! Of 750 pairs of faults on links of two bodies that torque shows (150 on each of the first five) both are named in 672,
+//! Of 750 pairs of identifiable faults on links of two bodies (150 on each of the first five) both are named in 672,
 //! listed in 55; in 20 one of them is named or the same difference has another name, in 3 neither is found.
 //!
-//! Of the 71 faults of the corpus the 57 that torque shows are named, and the others raise no alarm. A changed threshold
+//! Of the 71 faults of the corpus the 57 that change torques are named, and the others raise no alarm. A changed threshold
 //! is measured by `cargo test --release -p congruent-dynamics-agreement --lib planted -- --ignored --nocapture`.
 
-/// What a source of torques is worth: how much of a difference an explanation may leave.
+/// The precision of a source of torques: the largest residual of an explanation that counts as exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Precision {
-    /// Share of the difference that may be left. No unit; kind: rounding, or truncation of the source.
+    /// Largest residual relative to the difference. No unit; kind: rounding, or truncation of the source.
     pub(crate) of_difference: f64,
-    /// Share of both torques that may be left besides. No unit; kind: rounding.
+    /// Residual that is allowed in addition, relative to the sum of both torques. No unit; kind: rounding.
     pub(crate) of_torque: f64,
-    /// Differences below this share of the torque are none. No unit; kind: rounding of somebody's file.
+    /// Differences below this share of the torques count as agreement. No unit; kind: rounding of the values in a file.
     pub(crate) same: f64,
 }
 
 impl Precision {
-    /// Two descriptions. Some thousand products leave 1e-15 of the torque, and a slip of 1e9 that much of its own.
+    /// Two descriptions. Some thousand products round by 1e-15 of the torque, and a value that is 1e9 times too large by 1e-15 of
+    /// itself.
     pub(crate) const EXACT: Self = Self { of_difference: 1e-8, of_torque: 1e-13, same: 1e-10 };
 
     /// Accelerations of a physics engine, extrapolated to a step of zero; worst seen 7.5e-10 of the torques (`xarm7_gripper`), 1e-10 of the acceleration.
     pub(crate) const ENGINE: Self = Self { of_difference: 1e-5, of_torque: 1e-9, same: 1e-8 };
 
-    /// The largest norm that counts as nothing left.
+    /// The largest residual norm that counts as exact.
     pub(crate) fn exact(&self, difference: f64, torques: f64) -> f64 {
         self.of_difference * difference + self.of_torque * torques
     }
@@ -45,7 +46,7 @@ impl Precision {
 
 // States.
 
-/// States that torques are compared at. Kind: choice; the singular values of 20 give the number of base parameters
+/// Number of states at which torques are compared. Kind: choice; the singular values of 20 give the number of base parameters
 /// already, 100 give every column some thousand digits' worth of rows.
 pub(crate) const STATES: usize = 100;
 /// Invariants are compared at so many of the states. Kind: choice; they are an impression, the certificate is the bound.
@@ -61,16 +62,17 @@ pub(crate) const LARGEST_ACCELERATION: f64 = 10.0;
 /// joints: 2.3 s for 50, 4 s for 60, some 20 s for 100.
 pub(crate) const MOST_JOINTS: usize = 60;
 
-// Numbers that torques see.
+// Identifiability.
 
-/// Singular values below this share of the largest are none. No unit; kind: rounding of some thousand products; axes
-/// that a rounded pi/2 leaves almost parallel give 1e-6.
-pub(crate) const SEEN: f64 = 1e-11;
-/// Singular values below this share are seen by the rounding of the axes only. No unit; kind: digits of a file.
-pub(crate) const WEAKLY_SEEN: f64 = 1e-5;
-/// A direction of free numbers with a smaller share of the largest effect stays as it is written: nothing shows it.
-/// No unit; kind: rounding. Weakly seen numbers are above it.
-pub(crate) const FREE_AND_SEEN: f64 = 1e-7;
+/// Singular values below this share of the largest count as zero. No unit; kind: rounding of some thousand products; axes that
+/// are almost parallel because pi/2 is rounded give 1e-6.
+pub(crate) const IDENTIFIABLE: f64 = 1e-11;
+/// Combinations with a singular value below this share are identifiable only because axes are rounded. No unit; kind: digits
+/// of a file.
+pub(crate) const WEAKLY_IDENTIFIABLE: f64 = 1e-5;
+/// A direction of free parameters with a smaller share of the largest effect is not identifiable and keeps its written value.
+/// No unit; kind: rounding. Combinations that are identifiable through rounded axes are above it.
+pub(crate) const FREE_AND_IDENTIFIABLE: f64 = 1e-7;
 /// Effects below this share of the largest there is are rounding. No unit; kind: rounding. Not more: beside a tensor
 /// that is 1e9 times too large, weights make the effect of everything else that small.
 pub(crate) const ROUNDING: f64 = 1e-15;
@@ -81,24 +83,26 @@ pub(crate) const NO_TORQUE: f64 = 1e-12;
 
 /// Parameters that differ by a smaller share of the link's own are equal. No unit; kind: digits of a file.
 pub(crate) const SAME_VALUE: f64 = 1e-9;
-/// A parameter below this share of the link's own is zero: a reader's rotation leaves as much. No unit; kind: rounding.
+/// A parameter below this share of the link's own counts as zero: the rotation of a reader rounds by as much. No unit; kind:
+/// rounding.
 pub(crate) const ZERO_VALUE: f64 = 1e-12;
-/// A slip that leaves a smaller share of the parameter is meant, and its parameters are rounded: a length in inches has four
-/// digits. No unit; kind: digits of a file.
+/// A mistake that explains a parameter except for a smaller share keeps its name, since its values were rounded: a length in
+/// inches has four digits. No unit; kind: digits of a file.
 pub(crate) const FILE_DIGITS: f64 = 1e-5;
 /// A tensor is a power of ten times identity within this share. No unit; kind: rounding.
 pub(crate) const PLACEHOLDER: f64 = 1e-9;
 
 // Choice between explanations.
 
-/// Price of parameters that the file does not have or that stand there as a placeholder, however many they are. Unit:
-/// free numbers; kind: choice, dearer than a slip and cheaper than any free number.
-pub(crate) const PRICE_OF_MISSING: f64 = 0.5;
-/// If every single explanation has more, pairs are tried as well: six or ten free numbers of one link also explain a
-/// fault there and one at the first link, of which torque shows one number. Unit: free numbers; kind: choice.
+/// Complexity of parameters that the file does not have, or has as a placeholder, however many they are. Unit: free
+/// parameters; kind: choice, above that of a mistake without free parameters (0) and below one free parameter.
+pub(crate) const COMPLEXITY_OF_MISSING: f64 = 0.5;
+/// If every single explanation has more free parameters, pairs are tried as well: six or ten free parameters of one link also
+/// explain a fault there together with one at the first link, which has one identifiable parameter. Unit: free parameters;
+/// kind: choice.
 pub(crate) const PAIRS_ABOVE: usize = 3;
-/// Price of each part beyond the first. Unit: free numbers; kind: choice.
-pub(crate) const PRICE_OF_PART: f64 = 1.0;
+/// Complexity of each part beyond the first. Unit: free parameters; kind: choice.
+pub(crate) const COMPLEXITY_PER_PART: f64 = 1.0;
 
 // Fits.
 
@@ -116,16 +120,17 @@ pub(crate) const ROTATION_STEP_RAD: f64 = 1e-5;
 
 // Bounds.
 
-/// Boxes for each joint before a bracket is reported as it stands. Kind: speed; a box of four joints costs 10 us.
+/// Most boxes that are divided for each joint; a bracket that is not closed then is reported with its gap. Kind: speed; a box
+/// of four joints costs 10 us.
 pub(crate) const MAX_BOXES: usize = 20_000;
-/// Control values for each joint before a bracket is reported as it stands. Kind: speed; some 0.2 s.
+/// Most control values that are computed for each joint. Kind: speed; some 0.2 s.
 pub(crate) const MAX_CONTROL_VALUES: usize = 20_000_000;
-/// Joints of which one torque may depend; more have 3^10 coefficients. Kind: speed and memory.
+/// Most joints on which one torque may depend; ten have 3^10 coefficients. Kind: speed and memory.
 pub(crate) const MAX_VARIABLES: usize = 9;
-/// Coefficients of one torque of a motion, which is quadratic in each joint's waves: six joints take 5^6 for each of
-/// some 36 products. Kind: speed and memory.
+/// Most coefficients of one torque of a motion, which is quadratic in sine and cosine of each joint: six joints have 5^6 for
+/// each of some 36 products. Kind: speed and memory.
 pub(crate) const MAX_COEFFICIENTS: usize = 2_500_000;
-/// Control values of the products for each joint before a bracket is reported as it stands. Kind: speed; some 0.1 s.
+/// Most control values of a motion that are computed for each joint. Kind: speed; some 0.1 s.
 pub(crate) const MAX_MOTION_VALUES: usize = 12_000_000;
 /// A bracket is closed within this share. No unit; kind: choice.
 pub(crate) const CLOSED: f64 = 0.005;

@@ -2,13 +2,14 @@
 
 #![expect(clippy::print_stdout, reason = "measured values, for --nocapture")]
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
 
 use congruent_description::{RobotQ, load_robot};
-use congruent_dynamics::{BodyTree, JointMotion, JointResistance};
+use congruent_dynamics::{BodyTree, JointMotionState, JointResistance};
 use congruent_dynamics_agreement::{
-    CoveredMotion, Inertial, NamedSide, Side, TorqueBracket, TorqueCertificate, TorqueCertificates, certify,
+    CoveredMotion, DynamicsModel, Inertial, NamedModel, TorqueBracket, TorqueCertificate, TorqueCertificates,
+    certify,
 };
 use congruent_kinematics::Uniform;
 use nalgebra::Vector3;
@@ -18,18 +19,18 @@ const ROUNDING: f64 = 1e-9;
 /// Random motions that must stay below each bound.
 const MOTIONS: usize = 20_000;
 
-fn load(name: &str) -> Side {
+fn load(name: &str) -> DynamicsModel {
     let path = corpus::workspace().join("robots").join(name);
-    Side::new(&load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot)
+    DynamicsModel::new(&load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot)
 }
 
-fn parameters<'a>(side: &'a mut Side, link: &str) -> &'a mut Inertial {
-    let link = side.frames().find_link(link).expect("a link");
-    side.inertials[link].as_mut().expect("an inertial")
+fn parameters<'a>(model: &'a mut DynamicsModel, link: &str) -> &'a mut Inertial {
+    let link = model.frames().find_link(link).expect("a link");
+    model.inertials[link].as_mut().expect("an inertial")
 }
 
-fn certified(candidate: &Side, reference: &Side) -> TorqueCertificates {
-    let description = |name, side| NamedSide { name, side, places: None };
+fn certified(candidate: &DynamicsModel, reference: &DynamicsModel) -> TorqueCertificates {
+    let description = |name, model| NamedModel { name, model, places: None };
     certify(&description("changed", candidate), &description("original", reference), 1).expect("one chain")
 }
 
@@ -42,20 +43,20 @@ struct Motion {
 
 fn torque(tree: &BodyTree, motion: &Motion) -> Vec<f64> {
     let mut tau = vec![0.0; tree.dof()];
-    let motion = JointMotion { q: &motion.q, qd: &motion.qd, qdd: &motion.qdd };
+    let motion = JointMotionState { q: &motion.q, qd: &motion.qd, qdd: &motion.qdd };
     tree.inverse_into(&motion, &mut tree.buffer(), &mut tau).expect("the robot's own motion");
     tau
 }
 
 /// The four parts of a torque.
-fn parts(side: &Side, motion: &Motion) -> [Vec<f64>; 4] {
+fn parts(model: &DynamicsModel, motion: &Motion) -> [Vec<f64>; 4] {
     let zeros = vec![0.0; motion.qd.len()];
     let of = |tree: &BodyTree, qd: &[f64], qdd: &[f64]| {
         torque(tree, &Motion { q: motion.q.clone(), qd: qd.to_vec(), qdd: qdd.to_vec() })
     };
     let armature = |of: &JointResistance| JointResistance { damping: 0.0, friction: 0.0, ..*of };
-    let armatures = side.resistances.iter().map(armature).collect();
-    let whole = side.tree();
+    let armatures = model.resistances.iter().map(armature).collect();
+    let whole = model.tree();
     let weightless = whole.clone().with_gravity(Vector3::zeros());
     let bare = weightless.clone().with_resistances(armatures).expect("one for each joint");
     [
@@ -86,22 +87,27 @@ fn random_motion(random: &mut Uniform, covered: &[CoveredMotion]) -> Motion {
     Motion { q, qd, qdd }
 }
 
-fn check_attained(what: &str, part: usize, [candidate, reference]: [&Side; 2], bracket: &TorqueBracket) {
+fn check_attained(
+    what: &str,
+    part: usize,
+    [candidate, reference]: [&DynamicsModel; 2],
+    bracket: &TorqueBracket,
+) {
     assert!(bracket.certified_n_m >= bracket.attained_n_m, "{what}: {bracket:?}");
     let motion = Motion { q: bracket.q.clone().into(), qd: bracket.qd.clone(), qdd: bracket.qdd.clone() };
     let joint = candidate.frames().find_joint(&bracket.joint).expect("a joint");
-    let [found, expected] = [candidate, reference].map(|side| parts(side, &motion)[part][joint]);
+    let [found, expected] = [candidate, reference].map(|model| parts(model, &motion)[part][joint]);
     let error = ((found - expected).abs() - bracket.attained_n_m).abs();
     let size = ROUNDING * (bracket.attained_n_m + 1e-3 * (1.0 + found.abs() + expected.abs()));
     assert!(error <= size, "{what}: {} instead of {bracket:?}", found - expected);
 }
 
-fn check_sampled(what: &str, [candidate, reference]: [&Side; 2], all: &TorqueCertificates) {
+fn check_sampled(what: &str, [candidate, reference]: [&DynamicsModel; 2], all: &TorqueCertificates) {
     let mut random = Uniform::seeded(7);
     let names: Vec<&str> = all.covered.iter().map(|covered| covered.joint.as_str()).collect();
     for _ in 0..MOTIONS / names.len() {
         let motion = random_motion(&mut random, &all.covered);
-        let [found, expected] = [candidate, reference].map(|side| parts(side, &motion));
+        let [found, expected] = [candidate, reference].map(|model| parts(model, &motion));
         for (part, (name, certificate)) in certificates(all).into_iter().enumerate() {
             for (joint, joint_name) in names.iter().enumerate() {
                 let (a, b) = (found[part][joint], expected[part][joint]);
@@ -118,7 +124,7 @@ fn check_sampled(what: &str, [candidate, reference]: [&Side; 2], all: &TorqueCer
     }
 }
 
-fn check(what: &str, candidate: &Side, reference: &Side) -> TorqueCertificates {
+fn check(what: &str, candidate: &DynamicsModel, reference: &DynamicsModel) -> TorqueCertificates {
     let all = certified(candidate, reference);
     for (part, (name, certificate)) in certificates(&all).into_iter().enumerate() {
         for bracket in &certificate.by_joint {
@@ -221,8 +227,8 @@ fn fingers_that_follow_each_other_are_one_joint() {
             // The drive of the fingers feels both.
             let at = Motion { q: bracket.q.clone().into(), qd: bracket.qd.clone(), qdd: bracket.qdd.clone() };
             let joint = candidate.frames().find_joint(&bracket.joint).expect("a joint");
-            let [found, expected] = [&candidate, &reference].map(|side| {
-                let tau = &parts(side, &at)[part];
+            let [found, expected] = [&candidate, &reference].map(|model| {
+                let tau = &parts(model, &at)[part];
                 tau[joint] + if joint == driven { tau[follower] } else { 0.0 }
             });
             let error = ((found - expected).abs() - bracket.attained_n_m).abs();
@@ -243,7 +249,7 @@ fn fingers_that_follow_each_other_are_one_joint() {
 
 /// Random motions in which the second finger follows the first stay below every bound.
 fn check_followed(
-    [candidate, reference]: [&Side; 2],
+    [candidate, reference]: [&DynamicsModel; 2],
     all: &TorqueCertificates,
     (driven, follower): (usize, usize),
 ) {
@@ -253,7 +259,7 @@ fn check_followed(
         motion.q[follower] = motion.q[driven];
         motion.qd[follower] = motion.qd[driven];
         motion.qdd[follower] = motion.qdd[driven];
-        let [found, expected] = [candidate, reference].map(|side| parts(side, &motion));
+        let [found, expected] = [candidate, reference].map(|model| parts(model, &motion));
         for (part, (name, certificate)) in certificates(all).into_iter().enumerate() {
             for bracket in &certificate.by_joint {
                 let joint = candidate.frames().find_joint(&bracket.joint).expect("a joint");

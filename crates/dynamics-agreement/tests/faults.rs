@@ -1,18 +1,18 @@
 //! The planted faults of the corpus: 71 changes of inertials and joints, with the torques that they change and the
-//! explanations that leave the same torques.
+//! explanations that give the same torques.
 
 #![expect(clippy::print_stdout, reason = "measured values, for --nocapture")]
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
 
 use std::{collections::BTreeMap, path::Path};
 
 use congruent_description::{Robot, RobotQ, load_robot};
-use congruent_dynamics::{BodyTree, JointMotion};
+use congruent_dynamics::{BodyTree, JointMotionState};
 use congruent_dynamics_agreement::{
-    DynamicsExplanation, DynamicsReport, DynamicsVerdict, Inertial, NamedSide, Side, TorqueCertificate,
-    TorqueCertificates, certify, compare,
+    DynamicsExplanation, DynamicsModel, DynamicsReport, DynamicsVerdict, Inertial, NamedModel,
+    TorqueCertificate, TorqueCertificates, certify, compare,
 };
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::Value;
@@ -21,8 +21,8 @@ use serde_json::Value;
 /// fault. The golden's frames were turned by angles of 16 digits. Worst seen: see the test's output.
 const RELATIVE: f64 = 1e-11;
 
-/// An attained difference is found by climbing: both programs end on the same hill within this share.
-const CLIMBED: f64 = 1e-6;
+/// Attained differences come from local searches: both programs find the same maximum within this share.
+const LOCAL_SEARCH: f64 = 1e-6;
 
 fn read(path: &Path) -> Value {
     let text = std::fs::read_to_string(path).expect("the corpus holds the file");
@@ -65,30 +65,30 @@ fn inertial(value: &Value) -> Option<Inertial> {
 }
 
 /// A side with the changes of a fault.
-fn mutated(robot: &Robot, fault: &Value) -> Side {
-    let mut side = Side::new(robot);
+fn mutated(robot: &Robot, fault: &Value) -> DynamicsModel {
+    let mut model = DynamicsModel::new(robot);
     for (link, parameters) in fault["changes"].as_object().expect("changes by link") {
-        let link = side.frames().find_link(link).expect("a link of the robot");
-        side.inertials[link] = inertial(parameters);
+        let link = model.frames().find_link(link).expect("a link of the robot");
+        model.inertials[link] = inertial(parameters);
     }
     for (joint, terms) in fault["joint_changes"].as_object().expect("changes by joint") {
-        let joint = side.frames().find_joint(joint).expect("a joint of the robot");
+        let joint = model.frames().find_joint(joint).expect("a joint of the robot");
         for (term, value) in terms.as_object().expect("terms") {
             let value = number(value);
             match term.as_str() {
-                "damping" => side.resistances[joint].damping = value,
-                "friction" => side.resistances[joint].friction = value,
-                "velocity" => side.limits[joint].as_mut().expect("a limit").velocity = Some(value),
-                "effort" => side.limits[joint].as_mut().expect("a limit").effort = Some(value),
+                "damping" => model.resistances[joint].damping = value,
+                "friction" => model.resistances[joint].friction = value,
+                "velocity" => model.limits[joint].as_mut().expect("a limit").velocity = Some(value),
+                "effort" => model.limits[joint].as_mut().expect("a limit").effort = Some(value),
                 other => panic!("{other} is no term of a joint"),
             }
         }
     }
-    side
+    model
 }
 
 /// For each fault the robot, the mutated side and the original.
-fn each_fault(mut check: impl FnMut(&Value, &Side, &Side)) {
+fn each_fault(mut check: impl FnMut(&Value, &DynamicsModel, &DynamicsModel)) {
     let Some(corpus) = corpus::corpus() else { return };
     let golden = read(&corpus.join("dynamics-faults/faults.json"));
     let mut robots: BTreeMap<String, Robot> = BTreeMap::new();
@@ -101,17 +101,17 @@ fn each_fault(mut check: impl FnMut(&Value, &Side, &Side)) {
                 .unwrap_or_else(|findings| panic!("{findings:#?}"))
                 .robot
         });
-        check(fault, &mutated(robot, fault), &Side::new(robot));
+        check(fault, &mutated(robot, fault), &DynamicsModel::new(robot));
     }
 }
 
-fn compared(candidate: &Side, reference: &Side) -> DynamicsReport {
-    let description = |name, side| NamedSide { name, side, places: None };
+fn compared(candidate: &DynamicsModel, reference: &DynamicsModel) -> DynamicsReport {
+    let description = |name, model| NamedModel { name, model, places: None };
     compare(&description("mutated", candidate), &description("original", reference), 1).expect("one chain")
 }
 
-fn brackets_of(candidate: &Side, reference: &Side) -> TorqueCertificates {
-    let description = |name, side| NamedSide { name, side, places: None };
+fn brackets_of(candidate: &DynamicsModel, reference: &DynamicsModel) -> TorqueCertificates {
+    let description = |name, model| NamedModel { name, model, places: None };
     certify(&description("mutated", candidate), &description("original", reference), 1).expect("one chain")
 }
 
@@ -167,8 +167,8 @@ fn every_fault_is_named_or_listed() {
 }
 
 /// Values by name in the order of the robot's joints.
-fn by_joint(side: &Side, values: &Value) -> Vec<f64> {
-    (0..side.frames().dof()).map(|joint| number(&values[side.frames().joint_name(joint)])).collect()
+fn by_joint(model: &DynamicsModel, values: &Value) -> Vec<f64> {
+    (0..model.frames().dof()).map(|joint| number(&values[model.frames().joint_name(joint)])).collect()
 }
 
 #[derive(Clone, Copy)]
@@ -180,7 +180,7 @@ struct At<'a> {
 
 fn torque(tree: &BodyTree, at: At<'_>) -> Vec<f64> {
     let mut tau = vec![0.0; tree.dof()];
-    let motion = JointMotion { q: at.q, qd: at.qd, qdd: at.qdd };
+    let motion = JointMotionState { q: at.q, qd: at.qd, qdd: at.qdd };
     tree.inverse_into(&motion, &mut tree.buffer(), &mut tau).expect("the robot's own state");
     tau
 }
@@ -221,8 +221,8 @@ fn torques_differ_by_what_another_program_says() {
     println!("worst relative error {worst:e}");
 }
 
-/// Two climbs of a sum of absolute values end on the same hill within this share.
-const CLIMBED_SUM: f64 = 0.02;
+/// Two local searches of a sum of absolute values find the same maximum within this share.
+const LOCAL_SEARCH_SUM: f64 = 0.02;
 
 /// Of the report's inertia brackets; the golden's is 1.
 const ACCELERATION: f64 = 10.0;
@@ -257,8 +257,8 @@ fn attained_and_certified(golden: &Value) -> [f64; 2] {
     ["attained", "certified"].map(|key| number(&golden[key]))
 }
 
-/// The other program moves the joints of a gripper one by one. Here they follow the first of them, so that what is attained
-/// with them apart bounds nothing from below.
+/// The other program moves the joints of a gripper one by one. Here they follow the first of them, so values attained with
+/// independent fingers are not comparable.
 fn fingers_are_together(q: &Value) -> bool {
     let joints = q.as_object().into_iter().flatten();
     let mut positions = joints.filter(|(name, _)| is_of_gripper(name)).map(|(_, position)| position);
@@ -273,7 +273,7 @@ fn is_of_gripper(joint: &str) -> bool {
 
 fn check_gravity(
     fault: &Value,
-    [candidate, reference]: [&Side; 2],
+    [candidate, reference]: [&DynamicsModel; 2],
     found: &TorqueCertificate,
     brackets: &mut Brackets,
 ) {
@@ -286,7 +286,7 @@ fn check_gravity(
         let Some(bracket) = bracket else { panic!("{id}: nothing at {joint}, expected {golden:?}") };
         brackets.check(&format!("{id} {joint}"), [bracket.attained_n_m, bracket.certified_n_m], golden);
         if is_possible {
-            assert!(bracket.attained_n_m >= golden[0] * (1.0 - CLIMBED), "{id} {joint}: {bracket:?}");
+            assert!(bracket.attained_n_m >= golden[0] * (1.0 - LOCAL_SEARCH), "{id} {joint}: {bracket:?}");
         }
         let at = RobotQ::from(bracket.q.clone());
         let zeros = vec![0.0; at.len()];
@@ -316,7 +316,7 @@ fn check_inertia(fault: &Value, found: &TorqueCertificate, brackets: &mut Bracke
     let [low, high] = [bracket.attained_n_m, bracket.certified_n_m].map(|value| value / ACCELERATION);
     brackets.check(&format!("{id} {joint}, row of inertia"), [low, high], golden);
     if bracket.boxes > 0 && fingers_are_together(&fault["mass_matrix_row"]["q"]) {
-        assert!(low >= golden[0] * (1.0 - CLIMBED_SUM), "{id} {joint}: {bracket:?} {golden:?}");
+        assert!(low >= golden[0] * (1.0 - LOCAL_SEARCH_SUM), "{id} {joint}: {bracket:?} {golden:?}");
     }
 }
 
@@ -337,8 +337,8 @@ fn no_alarm_without_a_fault() {
     for name in ["ur5e", "iiwa14", "panda", "so100", "rrr_arm", "xarm7_gripper", "baxter", "denso_hsr065"] {
         let path = corpus.join("robots").join(name).join("robot.urdf");
         let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
-        let side = Side::new(&robot);
-        let report = compared(&side, &side);
+        let model = DynamicsModel::new(&robot);
+        let report = compared(&model, &model);
         assert_eq!(report.verdict, DynamicsVerdict::Same, "{name}");
         assert!(report.explanations.is_empty() && report.hidden_differences.is_empty(), "{name}");
         let golden = &read(&corpus.join("dynamics-faults/faults.json"))["robots"][name];

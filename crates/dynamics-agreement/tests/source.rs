@@ -3,14 +3,14 @@
 
 #![expect(clippy::print_stdout, reason = "measured values, for --nocapture")]
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
 
 use congruent_description::{RobotQ, load_robot};
 use congruent_dynamics::{BodyTree, DrivenState};
 use congruent_dynamics_agreement::{
-    AccelerationSource, CompareError, DynamicsCause, DynamicsReport, DynamicsVerdict, NamedSide, Probing,
-    Side, compare_with_source,
+    AccelerationSource, CompareError, DynamicsCause, DynamicsModel, DynamicsReport, DynamicsVerdict,
+    IdentificationOptions, NamedModel, compare_with_source,
 };
 
 /// Steps to the next state and looks at it from there, as an implicit engine does: its error is of first order.
@@ -37,22 +37,25 @@ impl AccelerationSource for Engine {
     }
 }
 
-fn original(name: &str) -> Side {
+fn original(name: &str) -> DynamicsModel {
     let path = corpus::workspace().join("robots").join(name);
-    Side::new(&load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot)
+    DynamicsModel::new(&load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot)
 }
 
-fn probe(candidate: &Side, engine: &mut dyn AccelerationSource) -> Result<DynamicsReport, CompareError> {
-    let description = NamedSide { name: "file", side: candidate, places: None };
-    compare_with_source(&description, ("engine", engine), Probing { seed: 1, step_s: 1e-4 })
+fn identified(
+    candidate: &DynamicsModel,
+    engine: &mut dyn AccelerationSource,
+) -> Result<DynamicsReport, CompareError> {
+    let description = NamedModel { name: "file", model: candidate, places: None };
+    compare_with_source(&description, ("engine", engine), IdentificationOptions { seed: 1, step_s: 1e-4 })
 }
 
-fn compared(name: &str, change: impl Fn(&mut Side)) -> DynamicsReport {
+fn compared(name: &str, change: impl Fn(&mut DynamicsModel)) -> DynamicsReport {
     let candidate = original(name);
     let mut wrong = candidate.clone();
     change(&mut wrong);
     let mut engine = Engine { tree: wrong.tree(), spring: 0.0 };
-    probe(&candidate, &mut engine).expect("the engine runs")
+    identified(&candidate, &mut engine).expect("the engine runs")
 }
 
 #[test]
@@ -68,23 +71,23 @@ fn an_engine_that_was_built_right_agrees() {
 
 #[test]
 fn what_an_engine_made_of_the_file_is_named() {
-    let report = compared("ur5e", |side| {
-        let link = side.frames().find_link("forearm_link").expect("a link");
-        side.inertials[link].as_mut().expect("an inertial").com_m *= 1e3;
+    let report = compared("ur5e", |model| {
+        let link = model.frames().find_link("forearm_link").expect("a link");
+        model.inertials[link].as_mut().expect("an inertial").com_m *= 1e3;
     });
     assert_eq!(report.explanations[0].cause, DynamicsCause::ComUnit, "{:?}", report.explanations);
     assert_eq!(report.explanations[0].place, ["forearm_link"]);
     assert_eq!(report.explanations[0].suggestion, None, "the file is right");
-    let report = compared("ur5e", |side| side.resistances.iter_mut().for_each(|of| of.damping = 0.1));
+    let report = compared("ur5e", |model| model.resistances.iter_mut().for_each(|of| of.damping = 0.1));
     assert_eq!(report.explanations[0].cause, DynamicsCause::DampingDefault, "{:?}", report.explanations);
-    let report = compared("ur5e", |side| side.gravity_m_s2 = [0.0, -9.81, 0.0].into());
+    let report = compared("ur5e", |model| model.gravity_m_s2 = [0.0, -9.81, 0.0].into());
     assert_eq!(report.explanations[0].cause, DynamicsCause::GravityDirection, "{:?}", report.explanations);
     assert_eq!(report.explanations[0].detail, "-y");
-    let report = compared("ur5e", |side| {
-        let link = side.frames().find_link("wrist_1_link").expect("a link");
-        side.inertials[link].as_mut().expect("an inertial").mass_kg *= 1.3;
-        let link = side.frames().find_link("upper_arm_link").expect("a link");
-        side.inertials[link].as_mut().expect("an inertial").com_m.z *= -1.0;
+    let report = compared("ur5e", |model| {
+        let link = model.frames().find_link("wrist_1_link").expect("a link");
+        model.inertials[link].as_mut().expect("an inertial").mass_kg *= 1.3;
+        let link = model.frames().find_link("upper_arm_link").expect("a link");
+        model.inertials[link].as_mut().expect("an inertial").com_m.z *= -1.0;
     });
     assert_eq!(report.explanations[0].cause, DynamicsCause::Several, "{:?}", report.explanations);
     let places = &report.explanations[0].place;
@@ -95,7 +98,7 @@ fn what_an_engine_made_of_the_file_is_named() {
 fn what_is_no_rigid_body_chain_breaks_the_premise() {
     let candidate = original("ur5e");
     let mut engine = Engine { tree: candidate.tree(), spring: 3.0 };
-    let report = probe(&candidate, &mut engine).expect("the engine runs");
+    let report = identified(&candidate, &mut engine).expect("the engine runs");
     assert_eq!(report.verdict, DynamicsVerdict::Unexplained);
     let held_out = report.premise.held_out_relative.expect("half of the states are held out");
     assert!(held_out > 1e-3, "{held_out:e}");
@@ -109,6 +112,6 @@ fn a_source_that_fails_says_so() {
             Err("no world".to_owned())
         }
     }
-    let error = probe(&original("ur5e"), &mut Broken).expect_err("it fails");
-    assert_eq!(error.to_string(), "the source of accelerations: no world");
+    let error = identified(&original("ur5e"), &mut Broken).expect_err("it fails");
+    assert_eq!(error.to_string(), "the source of accelerations failed: no world");
 }

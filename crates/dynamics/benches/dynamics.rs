@@ -1,12 +1,12 @@
 //! What one evaluation costs on real arms of the corpus; without a corpus, on the UR5e of `robots/`.
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
 
 use std::path::PathBuf;
 
 use congruent_description::{RobotQ, load_robot};
-use congruent_dynamics::{BodyTree, DrivenState, JointMotion, JointMotions, Rollout};
+use congruent_dynamics::{BodyTree, DrivenState, JointMotionState, JointMotions, Rollout};
 use divan::{Bencher, black_box};
 use nalgebra::DMatrix;
 
@@ -38,7 +38,7 @@ fn inverse(bencher: Bencher<'_, '_>) {
     let (q, qd, qdd) = (RobotQ::from(values(&tree, 0.3)), values(&tree, 0.4), values(&tree, 0.5));
     let (mut buffer, mut tau) = (tree.buffer(), vec![0.0; tree.dof()]);
     bencher.bench_local(|| {
-        tree.inverse_into(black_box(&JointMotion { q: &q, qd: &qd, qdd: &qdd }), &mut buffer, &mut tau)
+        tree.inverse_into(black_box(&JointMotionState { q: &q, qd: &qd, qdd: &qdd }), &mut buffer, &mut tau)
     });
 }
 

@@ -1,4 +1,4 @@
-//! A robot as rigid bodies that joints move against each other, made ready for the algorithms.
+//! A robot as rigid bodies that joints move relative to each other, prepared for the algorithms.
 
 use congruent_description::{JointKind, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{Pose, Twist, frame_about, rotation_exp};
@@ -13,12 +13,12 @@ use crate::{
 /// Gravity in the root link unless another is chosen, in m/s^2.
 pub const GRAVITY_M_S2: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// What resists a joint's motion beside the inertia of what it carries.
+/// The resistance of a joint itself: damping, dry friction and armature.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointResistance {
     /// Viscous damping, N m s/rad or N s/m.
     pub damping: f64,
-    /// Dry friction against the motion, N m or N; none at rest.
+    /// Dry friction against the motion, N m or N; zero at rest.
     pub friction: f64,
     /// Inertia of motor and gear as the joint feels it, kg m^2 or kg.
     pub armature: f64,
@@ -36,7 +36,7 @@ pub struct BodyTree {
     pub(crate) bodies: Vec<TreeBody>,
     pub(crate) resistances: Vec<JointResistance>,
     pub(crate) gravity_in_root: Vector3<f64>,
-    pub(crate) mimics: Vec<Option<Follower>>,
+    pub(crate) mimics: Vec<Option<MimicFollower>>,
     /// The joints without a master.
     pub(crate) independent: Vec<usize>,
     joint_names: Vec<String>,
@@ -45,13 +45,13 @@ pub struct BodyTree {
 /// The body that one moving joint carries. Its frame has the joint's axis as z and the joint's origin.
 #[derive(Debug, Clone)]
 pub(crate) struct TreeBody {
-    /// The body that the joint moves against; `None` for the root.
+    /// The body that the joint moves relative to; `None` for the root.
     pub(crate) parent: Option<usize>,
-    /// The bodies that this one carries are those after it up to here: a robot's joints are sorted depth first.
+    /// End of the index range of the bodies that this one carries, which follow it: joints are sorted depth first.
     pub(crate) subtree_end: usize,
     pub(crate) frame: JointFrame,
     pub(crate) inertia: BodyInertia,
-    /// At position zero.
+    /// Pose in the parent body with the joint at zero.
     pub(crate) parent_from_body: Pose,
     pub(crate) spatial_inertia: SpatialInertia,
     /// Axes of the link that the joint carries; the origins are one.
@@ -61,7 +61,7 @@ pub(crate) struct TreeBody {
 
 /// A coordinate that follows another one rigidly.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Follower {
+pub(crate) struct MimicFollower {
     pub(crate) master: usize,
     pub(crate) ratio: f64,
 }
@@ -74,17 +74,17 @@ pub(crate) struct Follower {
 /// | `qd` | the robot's dof | rad/s, m/s |
 /// | `qdd` | the robot's dof | rad/s^2, m/s^2 |
 #[derive(Debug, Clone, Copy)]
-pub struct JointMotion<'a> {
-    /// Positions.
+pub struct JointMotionState<'a> {
+    /// Joint positions, rad or m.
     pub q: &'a RobotQ,
-    /// Speeds.
+    /// Joint speeds, rad/s or m/s.
     pub qd: &'a [f64],
-    /// Accelerations.
+    /// Joint accelerations, rad/s^2 or m/s^2.
     pub qdd: &'a [f64],
 }
 
 impl BodyTree {
-    /// Prepares a robot.
+    /// The bodies of a robot, with the inertias of links that fixed joints connect added up.
     pub fn new(robot: &Robot) -> Self {
         let mut tree = Self {
             bodies: Vec::with_capacity(robot.dof()),
@@ -100,6 +100,8 @@ impl BodyTree {
             let (parent, parent_from_link) = carriers[joint.parent.get()];
             let parent_from_joint = parent_from_link * Pose::from(joint.parent_from_joint);
             carriers[joint.child.get()] = if joint.kind.is_movable() {
+                // Each body frame has the joint axis as z: motion and torque of every joint are then one
+                // component, without dot products.
                 let joint_from_body = Pose::from_parts(frame_about(&joint.axis_in_joint), Vector3::zeros());
                 let parent_from_body = parent_from_joint * joint_from_body;
                 tree.bodies.push(TreeBody {
@@ -115,7 +117,7 @@ impl BodyTree {
                 let (damping, friction) = (joint.damping, joint.friction);
                 tree.resistances.push(JointResistance { damping, friction, armature: 0.0 });
                 tree.mimics.push(joint.mimic.and_then(|mimic| {
-                    Some(Follower { master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
+                    Some(MimicFollower { master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
                 }));
                 (Some(tree.bodies.len() - 1), joint_from_body.inverse())
             } else {
@@ -124,11 +126,12 @@ impl BodyTree {
         }
         for (link, (body, body_from_link)) in robot.links().iter().zip(carriers) {
             if let (Some(body), Some(inertia)) = (body, &link.inertia) {
-                let inertia = SpatialInertia::of_link(inertia).transformed_by(&body_from_link);
+                let inertia = SpatialInertia::from_link(inertia).transformed_by(&body_from_link);
                 let sum = tree.bodies[body].spatial_inertia + inertia;
                 tree.bodies[body].set_inertia(sum);
             }
         }
+        // From the tip, so that the end of a subtree is known before its parent asks for it.
         for joint in (0..tree.dof()).rev() {
             if let Some(parent) = tree.bodies[joint].parent {
                 tree.bodies[parent].subtree_end =
@@ -174,7 +177,7 @@ impl BodyTree {
         self
     }
 
-    /// What resists each joint.
+    /// Damping, dry friction and armature of each joint.
     pub fn resistances(&self) -> &[JointResistance] {
         &self.resistances
     }
@@ -184,7 +187,7 @@ impl BodyTree {
         self.bodies.len()
     }
 
-    /// The link that a moving joint carries, by which its body is named.
+    /// The link that a moving joint carries, in whose frame the inertia of its body is given.
     ///
     /// # Panics
     /// If there is no such joint.

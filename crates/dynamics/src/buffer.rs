@@ -1,4 +1,4 @@
-//! Memory of the algorithms, made once and used for every sample.
+//! Memory of the algorithms, allocated once and used for every sample.
 
 use congruent_kinematics::SinCos;
 use nalgebra::{DMatrix, DVector};
@@ -25,7 +25,7 @@ pub struct DynamicsBuffer {
     pub(crate) reduced: DVector<f64>,
 }
 
-/// What the algorithms know of one body at a time.
+/// Intermediate values of one body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BodyValues {
     pub(crate) placement: Placement,
@@ -38,14 +38,14 @@ pub(crate) struct BodyValues {
     pub(crate) release: Release,
 }
 
-/// How an articulated body yields at its joint.
+/// The response of an articulated body to its joint: inertia, and the torque that accelerates it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Release {
     /// Wrench for a unit acceleration of the joint.
     pub(crate) along: BodyWrench,
     /// One over the inertia against the joint's own motion.
     pub(crate) mobility: f64,
-    /// Torque less what bias wrenches take.
+    /// Torque of the joint minus that of the bias wrench.
     pub(crate) torque: f64,
 }
 
@@ -68,7 +68,7 @@ impl BodyTree {
         let m = self.independent.len();
         DynamicsBuffer {
             angles_rad: vec![0.0; n],
-            turns: vec![SinCos::of(0.0); n],
+            turns: vec![SinCos::from_angle(0.0); n],
             values: vec![BodyValues::NONE; n],
             zeros: vec![0.0; n],
             bias: vec![0.0; n],
@@ -87,6 +87,6 @@ impl BodyTree {
         for ((angle_rad, body), &q) in buffer.angles_rad.iter_mut().zip(&self.bodies).zip(q) {
             *angle_rad = if body.frame.turns { q } else { 0.0 };
         }
-        SinCos::of_many_into(&buffer.angles_rad, &mut buffer.turns);
+        SinCos::from_angles_into(&buffer.angles_rad, &mut buffer.turns);
     }
 }

@@ -8,9 +8,9 @@ use crate::{body_tree::BodyTree, error::DynamicsError, spatial_inertia::SpatialI
 /// Energy of all bodies that a joint moves, in J. Links that are fixed to the root have no part in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy {
-    /// Of motion, armature included.
+    /// Kinetic energy, armature included, J.
     pub kinetic_j: f64,
-    /// Of gravity; zero if the centre of mass is at the height of the root's origin.
+    /// Potential energy of gravity, J; zero if the centre of mass is at the height of the root's origin.
     pub potential_j: f64,
 }
 
@@ -31,6 +31,8 @@ impl BodyTree {
         let mut energy = Energy { kinetic_j: 0.0, potential_j: 0.0 };
         for MovingBody { inertia_in_root, twist_in_root } in self.moving_bodies(q, qd)? {
             energy.kinetic_j += inertia_in_root.momentum(&twist_in_root).power(&twist_in_root) / 2.0;
+            // Mass times position of the centre of mass is the first moment about the root's origin: V = -g . (m
+            // c).
             energy.potential_j -= self.gravity_in_root.dot(&inertia_in_root.first_moment_kg_m);
         }
         let armature = self.resistances.iter().zip(qd).map(|(resistance, qd)| resistance.armature * qd * qd);

@@ -8,7 +8,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
     algebra::{
-        columns::Column,
+        columns::PaddedVector,
         rigid::{BodyMotion, BodyTwist},
         rooted::ArticulatedInertia,
     },
@@ -26,11 +26,11 @@ use crate::{
 /// | `tau` | the robot's dof | N m, N |
 #[derive(Debug, Clone, Copy)]
 pub struct DrivenState<'a> {
-    /// Positions.
+    /// Joint positions, rad or m.
     pub q: &'a RobotQ,
-    /// Speeds.
+    /// Joint speeds, rad/s or m/s.
     pub qd: &'a [f64],
-    /// Torques of the actuators.
+    /// Torques of the actuators, N m or N.
     pub tau: &'a [f64],
 }
 
@@ -86,18 +86,21 @@ impl BodyTree {
         }
     }
 
-    /// Mimic joints follow: `G' M G ydd = G' (tau - bias)` for the independent joints `y`, `q = G y + offset`.
+    /// Accelerations with mimic joints: `G' M G ydd = G' (tau - bias)` for the independent joints `y`, `q = G y + offset`.
     fn forward_reduced_into(
         &self,
         state: &DrivenState<'_>,
         buffer: &mut DynamicsBuffer,
         qdd: &mut [f64],
     ) -> Result<(), DynamicsError> {
+        // Taken out, because `bias_into` needs the buffer mutably as well; put back even if one of the calls
+        // fails.
         let mut bias = std::mem::take(&mut buffer.bias);
         let mut mass_matrix = std::mem::replace(&mut buffer.mass_matrix, DMatrix::zeros(0, 0));
         let computed = self
             .bias_into(state.q, state.qd, buffer, &mut bias)
             .and_then(|()| self.mass_matrix_into(state.q, buffer, &mut mass_matrix));
+        // Before the error is returned, so that the buffer stays usable.
         (buffer.bias, buffer.mass_matrix) = (bias, mass_matrix);
         computed?;
         buffer.reduced.fill(0.0);
@@ -127,7 +130,7 @@ impl BodyTree {
         (row.expect("a mimicked joint is independent"), ratio)
     }
 
-    /// Solves in place by Cholesky's factors, which are written over the reduced mass matrix.
+    /// Solves in place by a Cholesky decomposition, which overwrites the reduced mass matrix.
     fn solve_reduced(&self, buffer: &mut DynamicsBuffer) -> Result<(), DynamicsError> {
         let (matrix, vector) = (&mut buffer.reduced_mass_matrix, &mut buffer.reduced);
         let m = vector.len();
@@ -156,7 +159,7 @@ impl BodyTree {
     }
 }
 
-/// The algorithm in the widest vectors that the machine has; every joint is independent.
+/// The articulated body algorithm, compiled for the widest vector instructions of the machine; every joint is independent.
 struct ArticulatedBodies<'a> {
     tree: &'a BodyTree,
     state: &'a DrivenState<'a>,
@@ -186,7 +189,7 @@ impl ArticulatedBodies<'_> {
             let (q, qd) = (self.state.q[joint], self.state.qd[joint]);
             let (axes, turning) = match body.parent.map(|parent| &self.buffer.values[parent]) {
                 Some(parent) => (Some(&parent.rooted.axes), parent.motion.angular_velocity),
-                None => (None, Column::ZERO),
+                None => (None, PaddedVector::ZERO),
             };
             let rooted = body.frame.rooted(axes, q, &self.buffer.turns[joint]);
             let acceleration = body.frame.velocity_products(&rooted, turning, qd);
@@ -196,17 +199,19 @@ impl ArticulatedBodies<'_> {
             values.rooted = rooted;
             values.motion = BodyMotion { angular_velocity, acceleration };
             values.wrench = inertia.velocity_wrench(angular_velocity);
-            values.articulated = ArticulatedInertia::of_rigid(&inertia);
+            values.articulated = ArticulatedInertia::from_rigid(&inertia);
         }
     }
 
-    /// Inwards: what a joint yields, and what its body asks of the parent after that.
+    /// Inwards: releases a joint, and adds the articulated inertia and bias force of its body to the parent.
     #[inline(always)]
     fn release(&mut self, joint: usize) -> Result<(), DynamicsError> {
         let (body, resistance) = (&self.tree.bodies[joint], &self.tree.resistances[joint]);
         let values = &mut self.buffer.values[joint];
         let (rooted, frame) = (values.rooted, &body.frame);
         let along = values.articulated.accelerated_along(rooted.axis(), frame);
+        // D = S' I_A S + armature (Featherstone 2008, table 7.1): inertia of the whole subtree against this
+        // joint.
         let inertia = frame.along(rooted.axis(), &along) + resistance.armature;
         if !(inertia.is_finite() && inertia > 0.0) {
             return Err(self.tree.no_inertia(joint));
@@ -218,6 +223,7 @@ impl ArticulatedBodies<'_> {
         let Some(parent) = body.parent else { return Ok(()) };
         let scaled = along.times(mobility);
         let yielding = values.articulated.yielding(&along, &scaled);
+        // At this time `acceleration` holds the velocity products c of the joint: p_a = p_A + I_a c + U u / D.
         let bias = yielding.wrench(&values.motion.acceleration);
         let wrench = values.wrench.plus(bias).plus(scaled.times(torque));
         let parent = &mut self.buffer.values[parent];
@@ -236,6 +242,7 @@ impl ArticulatedBodies<'_> {
             };
             let BodyValues { rooted, motion, release, .. } = &mut self.buffer.values[joint];
             let own = motion.acceleration.plus(rooted.carried(&parent));
+            // qdd = (u - U' a') / D, with a' the acceleration that the parent gives the body.
             let qdd = (release.torque - release.along.power(&own)) * release.mobility;
             self.qdd[joint] = qdd;
             let by_joint = rooted.axis() * qdd;

@@ -6,9 +6,9 @@ use congruent_description::RobotQ;
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
-    algebra::columns::Column,
+    algebra::columns::PaddedVector,
     algebra::rigid::{BodyMotion, BodyTwist},
-    body_tree::{BodyTree, JointMotion, JointResistance},
+    body_tree::{BodyTree, JointMotionState, JointResistance},
     buffer::{BodyValues, DynamicsBuffer},
     error::DynamicsError,
 };
@@ -32,7 +32,7 @@ impl BodyTree {
     /// A rod of 2 kg with its centre 0.5 m out on a hinge about y, which is held still:
     /// ```
     /// use congruent_description::{RobotQ, parse_urdf};
-    /// use congruent_dynamics::{BodyTree, JointMotion};
+    /// use congruent_dynamics::{BodyTree, JointMotionState};
     /// let robot = parse_urdf(
     ///     r#"<robot name="rod"><link name="base"/>
     ///     <link name="rod"><inertial><origin xyz="0.5 0 0"/><mass value="2"/>
@@ -42,14 +42,14 @@ impl BodyTree {
     /// ).unwrap();
     /// let tree = BodyTree::new(&robot);
     /// let mut tau = [0.0];
-    /// let held = JointMotion { q: &RobotQ::zeros(1), qd: &[0.0], qdd: &[0.0] };
+    /// let held = JointMotionState { q: &RobotQ::zeros(1), qd: &[0.0], qdd: &[0.0] };
     /// tree.inverse_into(&held, &mut tree.buffer(), &mut tau)?;
     /// assert!((tau[0] + 2.0 * 9.81 * 0.5).abs() < 1e-14);
     /// # Ok::<(), congruent_dynamics::DynamicsError>(())
     /// ```
     pub fn inverse_into(
         &self,
-        motion: &JointMotion<'_>,
+        motion: &JointMotionState<'_>,
         buffer: &mut DynamicsBuffer,
         tau: &mut [f64],
     ) -> Result<(), DynamicsError> {
@@ -72,8 +72,9 @@ impl BodyTree {
         buffer: &mut DynamicsBuffer,
         tau: &mut [f64],
     ) -> Result<(), DynamicsError> {
+        // Taken out to be passed beside the mutable buffer, without an allocation.
         let zeros = std::mem::take(&mut buffer.zeros);
-        let result = self.rigid_inverse_into(&JointMotion { q, qd: &zeros, qdd: &zeros }, buffer, tau);
+        let result = self.rigid_inverse_into(&JointMotionState { q, qd: &zeros, qdd: &zeros }, buffer, tau);
         buffer.zeros = zeros;
         result
     }
@@ -90,7 +91,7 @@ impl BodyTree {
         tau: &mut [f64],
     ) -> Result<(), DynamicsError> {
         let zeros = std::mem::take(&mut buffer.zeros);
-        let result = self.rigid_inverse_into(&JointMotion { q, qd, qdd: &zeros }, buffer, tau);
+        let result = self.rigid_inverse_into(&JointMotionState { q, qd, qdd: &zeros }, buffer, tau);
         buffer.zeros = zeros;
         result
     }
@@ -98,7 +99,7 @@ impl BodyTree {
     /// Inverse dynamics of the rigid bodies alone.
     fn rigid_inverse_into(
         &self,
-        motion: &JointMotion<'_>,
+        motion: &JointMotionState<'_>,
         buffer: &mut DynamicsBuffer,
         tau: &mut [f64],
     ) -> Result<(), DynamicsError> {
@@ -112,7 +113,7 @@ impl BodyTree {
     /// Compares the lengths of a motion and of the buffer.
     pub(crate) fn check_motion(
         &self,
-        motion: &JointMotion<'_>,
+        motion: &JointMotionState<'_>,
         buffer: &DynamicsBuffer,
     ) -> Result<(), DynamicsError> {
         DynamicsError::check("positions", self.dof(), motion.q)?;
@@ -123,7 +124,7 @@ impl BodyTree {
 
     /// How each body moves, outwards from the root.
     #[inline(always)]
-    pub(crate) fn move_bodies(&self, motion: &JointMotion<'_>, buffer: &mut DynamicsBuffer) {
+    pub(crate) fn move_bodies(&self, motion: &JointMotionState<'_>, buffer: &mut DynamicsBuffer) {
         let root = BodyMotion { acceleration: self.root_acceleration(), ..BodyMotion::ZERO };
         for (joint, body) in self.bodies.iter().enumerate() {
             let parent = body.parent.map_or(root, |parent| buffer.values[parent].motion);
@@ -136,17 +137,17 @@ impl BodyTree {
         }
     }
 
-    /// The root does not move; that it accelerates upwards is gravity for all that it carries.
+    /// Acceleration of the root: gravity acts on all bodies like an upward acceleration of a root that does not move.
     #[inline(always)]
     pub(crate) fn root_acceleration(&self) -> BodyTwist {
-        BodyTwist { angular: Column::ZERO, linear: Column::from(-self.gravity_in_root) }
+        BodyTwist { angular: PaddedVector::ZERO, linear: PaddedVector::from(-self.gravity_in_root) }
     }
 }
 
-/// The algorithm in the widest vectors that the machine has.
+/// The recursive Newton-Euler algorithm, compiled for the widest vector instructions of the machine.
 struct NewtonEuler<'a> {
     tree: &'a BodyTree,
-    motion: &'a JointMotion<'a>,
+    motion: &'a JointMotionState<'a>,
     buffer: &'a mut DynamicsBuffer,
     tau: &'a mut [f64],
 }
@@ -174,10 +175,10 @@ impl WithSimd for NewtonEuler<'_> {
 }
 
 impl JointResistance {
-    /// Damping and dry friction at a speed.
+    /// Torque of damping and dry friction against a speed, N m or N.
     #[inline]
     pub(crate) fn against_speed(&self, qd: f64) -> f64 {
-        // `signum` of zero is one: at rest nothing rubs.
+        // `signum` of zero is one, but there is no friction at rest.
         let direction = if qd == 0.0 { 0.0 } else { qd.signum() };
         self.damping * qd + self.friction * direction
     }

@@ -1,5 +1,5 @@
-//! Inverse dynamics of many samples at once: the steps of `inverse.rs` taken by several samples side by side, in the
-//! widest vector instructions that the machine has.
+//! Inverse dynamics of many samples at once: the algorithm of `inverse.rs` for several samples side by side, in the widest
+//! vector instructions of the machine.
 
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
 
@@ -22,11 +22,11 @@ use crate::{
 /// | `qdd` | m x dof | rad/s^2, m/s^2 |
 #[derive(Debug, Clone, Copy)]
 pub struct JointMotions<'a> {
-    /// Positions.
+    /// Joint positions, rad or m, one sample after another.
     pub q: &'a [f64],
-    /// Speeds.
+    /// Joint speeds, rad/s or m/s, one sample after another.
     pub qd: &'a [f64],
-    /// Accelerations.
+    /// Joint accelerations, rad/s^2 or m/s^2, one sample after another.
     pub qdd: &'a [f64],
 }
 
@@ -36,7 +36,7 @@ pub struct BatchBuffer {
     bodies: Vec<BodyLanes>,
 }
 
-/// What is known of one body in all lanes.
+/// Motion and wrench of one body in all lanes.
 #[derive(Debug, Clone, Copy)]
 struct BodyLanes {
     sin: Lanes,
@@ -107,7 +107,7 @@ impl BodyTree {
     }
 }
 
-/// All samples, in the widest vectors that the machine has.
+/// All samples, compiled for the widest vector instructions of the machine.
 struct Batch<'a> {
     tree: &'a BodyTree,
     motions: &'a JointMotions<'a>,
@@ -126,6 +126,7 @@ impl WithSimd for Batch<'_> {
             return;
         }
         for (group, tau) in tau.chunks_mut(n * LANES).enumerate() {
+            // The last group may have fewer samples than lanes.
             let samples = tau.len() / n;
             let first = group * LANES * n;
             let group = Group { tree, samples, first, bodies: &mut buffer.bodies };
@@ -144,7 +145,7 @@ struct Group<'a> {
 
 impl Group<'_> {
     #[inline(always)]
-    fn of_joint(&self, numbers: &[f64], joint: usize) -> Lanes {
+    fn joint_lanes(&self, numbers: &[f64], joint: usize) -> Lanes {
         let n = self.tree.dof();
         let numbers = &numbers[self.first..][..self.samples * n];
         lanes(|lane| numbers[if lane < self.samples { lane * n } else { 0 } + joint])
@@ -160,14 +161,17 @@ impl Group<'_> {
         }
     }
 
-    /// Outwards: the motion of a body from its parent's, and the wrench that it takes.
+    /// Outwards: the motion of a body from its parent's, and the wrench that this motion requires.
     #[inline(always)]
     fn carry(&mut self, joint: usize, motions: &JointMotions<'_>) {
         let body = &self.tree.bodies[joint];
-        let (q, qd) = (self.of_joint(motions.q, joint), self.of_joint(motions.qd, joint));
-        let qdd = self.of_joint(motions.qdd, joint);
+        let (q, qd) = (self.joint_lanes(motions.q, joint), self.joint_lanes(motions.qd, joint));
+        let qdd = self.joint_lanes(motions.qdd, joint);
         let parent = body.parent.map_or_else(
-            || MotionLanes { linear: LaneVector::of(&-self.tree.gravity_in_root), ..BodyLanes::NONE.motion },
+            || MotionLanes {
+                linear: LaneVector::splat(&-self.tree.gravity_in_root),
+                ..BodyLanes::NONE.motion
+            },
             |parent| self.bodies[parent].motion,
         );
         let lanes = &mut self.bodies[joint];
@@ -176,11 +180,12 @@ impl Group<'_> {
         (lanes.moment, lanes.force) = wrench(&body.spatial_inertia, &lanes.motion);
     }
 
-    /// Inwards: the torque of a joint, and what its body asks of the parent.
+    /// Inwards: the torque of a joint, and the wrench of its body on the parent.
     #[inline(always)]
     fn take_up(&mut self, joint: usize, motions: &JointMotions<'_>, tau: &mut [f64]) {
         let (n, body) = (self.tree.dof(), &self.tree.bodies[joint]);
         let resistance = &self.tree.resistances[joint];
+        // A parent always has a smaller index, so both bodies can be borrowed at once.
         let (before, from) = self.bodies.split_at_mut(joint);
         let from = &from[0];
         let along = if body.frame.turns { &from.moment.0[2] } else { &from.force.0[2] };
@@ -204,10 +209,10 @@ impl BodyLanes {
         let origin = &body.parent_from_body.translation;
         if body.frame.turns {
             let mut turns = [SinCos { sin: 0.0, cos: 1.0 }; LANES];
-            SinCos::of_many_into(q, &mut turns);
+            SinCos::from_angles_into(q, &mut turns);
             self.sin = lanes(|lane| turns[lane].sin);
             self.cos = lanes(|lane| turns[lane].cos);
-            self.origin = LaneVector::of(origin);
+            self.origin = LaneVector::splat(origin);
         } else {
             let axis = body.parent_from_body.rotation.column(2);
             let [ox, oy, oz] = [origin.x, origin.y, origin.z];
@@ -253,11 +258,11 @@ impl BodyLanes {
     }
 }
 
-/// The moment and the force that make a body move so.
+/// The moment and the force that give a body this motion.
 #[inline(always)]
 fn wrench(inertia: &SpatialInertia, motion: &MotionLanes) -> (LaneVector, LaneVector) {
     let MotionLanes { angular_velocity: turning, angular, linear } = motion;
-    let h = LaneVector::of(&inertia.first_moment_kg_m);
+    let h = LaneVector::splat(&inertia.first_moment_kg_m);
     let tensor = &inertia.tensor_kg_m2;
     let moment = angular.turned_by(tensor) + h.cross(linear) + turning.cross(&turning.turned_by(tensor));
     let force = linear.times(inertia.mass_kg) - h.cross(angular) + turning.cross(&turning.cross(&h));

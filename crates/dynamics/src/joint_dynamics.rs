@@ -1,11 +1,10 @@
-//! Where joint torques and accelerations come from: one trait for the equations here, for a physics engine, and for
-//! whatever else moves a robot.
+//! The trait of sources of joint torques and accelerations: the equations of this crate, a physics engine, or another program.
 
 use congruent_description::{Robot, RobotQ};
 use nalgebra::{DMatrix, DVectorView, DVectorViewMut};
 
 use crate::{
-    body_tree::{BodyTree, JointMotion},
+    body_tree::{BodyTree, JointMotionState},
     buffer::DynamicsBuffer,
     error::DynamicsError,
     forward::DrivenState,
@@ -13,7 +12,7 @@ use crate::{
 
 /// A source of the dynamics of a robot.
 ///
-/// Vectors go by the robot's moving joints. In all but [`JointDynamics::forward_into`] mimic joints are independent.
+/// Vectors have one entry for each moving joint. Mimic joints are independent, except in [`JointDynamics::forward_into`].
 pub trait JointDynamics {
     /// Torques that hold the robot still against gravity.
     ///
@@ -43,12 +42,16 @@ pub trait JointDynamics {
     /// [`JointDynamicsError`] if the source refuses the state.
     fn forward_into(&mut self, state: &DrivenState<'_>, qdd: &mut [f64]) -> Result<(), JointDynamicsError>;
 
-    /// Torques of a motion. Unless a source knows better: what its mass matrix asks for the difference between the
-    /// wanted accelerations and those that it has under the torques of gravity.
+    /// Torques of a motion. By default: gravity torques, plus the mass matrix times the difference between the wanted
+    /// accelerations and those under the gravity torques.
     ///
     /// # Errors
     /// [`JointDynamicsError`] if the source refuses the state.
-    fn inverse_into(&mut self, motion: &JointMotion<'_>, tau: &mut [f64]) -> Result<(), JointDynamicsError> {
+    fn inverse_into(
+        &mut self,
+        motion: &JointMotionState<'_>,
+        tau: &mut [f64],
+    ) -> Result<(), JointDynamicsError> {
         let n = motion.qdd.len();
         let (mut matrix, mut found) = (DMatrix::zeros(n, n), vec![0.0; n]);
         self.gravity_into(motion.q, tau)?;
@@ -63,14 +66,14 @@ pub trait JointDynamics {
     }
 }
 
-/// Why a source has no answer.
+/// Why a source cannot compute torques or accelerations.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum JointDynamicsError {
-    /// The equations refuse it.
+    /// An error of the equations of this crate.
     #[error(transparent)]
     Dynamics(#[from] DynamicsError),
-    /// What a source outside this crate says.
+    /// An error of a source outside this crate.
     #[error(transparent)]
     Source(Box<dyn std::error::Error + Send + Sync>),
 }
@@ -91,7 +94,7 @@ pub struct TreeDynamics {
 }
 
 impl TreeDynamics {
-    /// With the damping and dry friction of the description.
+    /// The dynamics of a robot, with the damping and dry friction of its description.
     pub fn new(robot: &Robot) -> Self {
         let tree = BodyTree::new(robot);
         Self { buffer: tree.buffer(), independent: tree.clone().with_independent_mimics(), tree }
@@ -119,7 +122,11 @@ impl JointDynamics for TreeDynamics {
         Ok(self.tree.forward_into(state, &mut self.buffer, qdd)?)
     }
 
-    fn inverse_into(&mut self, motion: &JointMotion<'_>, tau: &mut [f64]) -> Result<(), JointDynamicsError> {
+    fn inverse_into(
+        &mut self,
+        motion: &JointMotionState<'_>,
+        tau: &mut [f64],
+    ) -> Result<(), JointDynamicsError> {
         Ok(self.tree.inverse_into(motion, &mut self.buffer, tau)?)
     }
 }

@@ -1,5 +1,5 @@
-//! Analytical dynamics of robots, the independent source for forces: from the description alone, and with no formula
-//! in common with the physics engine.
+//! Analytical dynamics of robots: the source of torques that is computed from the description alone, independently of the
+//! physics engine.
 //!
 //! | question | call |
 //! |---|---|
@@ -8,11 +8,11 @@
 //! | mass matrix | [`BodyTree::mass_matrix_into`] |
 //! | accelerations under torques | [`BodyTree::forward_into`] |
 //! | energies, momentum | [`BodyTree::energy`], [`BodyTree::momentum_in_root`] |
-//! | which parameters torques tell | [`BodyTree::regressor_into`], [`BodyTree::base_parameters`] |
+//! | which parameters are identifiable | [`BodyTree::regressor_into`], [`BodyTree::base_parameters`] |
 //! | motion under torques | [`Rollout`] |
 //!
-//! Units are SI and radians. Nothing here reads a file, a clock or a random number, and calls that are made per sample
-//! allocate nothing: [`BodyTree::buffer`] makes their memory once.
+//! Units are SI and radians. Nothing here reads a file, a clock or a random number, and calls for one sample allocate nothing:
+//! [`BodyTree::buffer`] allocates their memory once.
 
 mod algebra;
 mod body_tree;
@@ -28,7 +28,7 @@ mod parameters;
 mod rollout;
 mod spatial_inertia;
 
-pub use body_tree::{BodyTree, GRAVITY_M_S2, JointMotion, JointResistance};
+pub use body_tree::{BodyTree, GRAVITY_M_S2, JointMotionState, JointResistance};
 pub use buffer::DynamicsBuffer;
 pub use energy::Energy;
 pub use error::DynamicsError;

@@ -13,7 +13,7 @@ use crate::{
 };
 
 impl BodyTree {
-    /// Torques of unit accelerations, armature on the diagonal: symmetric, dof x dof, kg m^2 (kg m, kg).
+    /// The mass matrix with armature on the diagonal: symmetric, dof x dof; kg m^2, kg m or kg.
     ///
     /// Source: Walker, Orin (1982); Featherstone, *Rigid Body Dynamics Algorithms* (2008), table 6.2.
     ///
@@ -39,7 +39,7 @@ impl BodyTree {
     }
 }
 
-/// The algorithm in the widest vectors that the machine has.
+/// The composite rigid body algorithm, compiled for the widest vector instructions of the machine.
 struct CompositeBodies<'a> {
     tree: &'a BodyTree,
     q: &'a RobotQ,
@@ -59,6 +59,7 @@ impl WithSimd for CompositeBodies<'_> {
             let values = &mut buffer.values[joint];
             (values.rooted, values.composite) = (rooted, body.inertia.turned(&rooted.axes));
         }
+        // From the tip: the composite inertia of a body is complete only after all that it carries were added.
         for (joint, body) in tree.bodies.iter().enumerate().rev() {
             let BodyValues { composite, rooted, .. } = buffer.values[joint];
             let own = composite.accelerated_along(rooted.axis(), &body.frame);
@@ -68,7 +69,8 @@ impl WithSimd for CompositeBodies<'_> {
             let Some(parent) = body.parent else { continue };
             let above = &mut buffer.values[parent];
             above.composite = above.composite.with_child(&composite, rooted.offset);
-            // The wrenches of all joints that this one carries go on together: none waits for another.
+            // The wrenches of all joints in the subtree are moved to the parent in one loop without dependences, so that the
+            // processor overlaps them.
             let (frame, axis) = (&tree.bodies[parent].frame, above.rooted.axis());
             let carried = &mut buffer.values[joint..body.subtree_end];
             let column = &mut mass_matrix.as_mut_slice()[parent * tree.dof()..];
@@ -77,6 +79,7 @@ impl WithSimd for CompositeBodies<'_> {
                 *entry = frame.along(axis, &values.wrench);
             }
         }
+        // Only joints of one branch are coupled; their entries were written below the diagonal.
         mass_matrix.fill_upper_triangle_with_lower_triangle();
     }
 }

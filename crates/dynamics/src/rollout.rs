@@ -7,15 +7,15 @@ use crate::{body_tree::BodyTree, buffer::DynamicsBuffer, error::DynamicsError, f
 /// Positions and speeds of all moving joints at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RolloutState {
-    /// Time since the start.
+    /// Time since the start of the rollout, s.
     pub time_s: f64,
-    /// Positions.
+    /// Positions of all moving joints, rad or m.
     pub q: RobotQ,
-    /// Speeds.
+    /// Speeds of all moving joints, rad/s or m/s.
     pub qd: Vec<f64>,
 }
 
-/// A robot in motion: one state, stepped on without allocation.
+/// A robot in motion: one state that steps advance without allocation.
 #[derive(Debug, Clone)]
 pub struct Rollout<'a> {
     tree: &'a BodyTree,
@@ -28,7 +28,7 @@ pub struct Rollout<'a> {
     speeds: [Vec<f64>; 4],
 }
 
-/// When each stage of a step is, and how far the final sum counts it.
+/// Each stage of a step: its time as a share of the step, and its weight in the final sum.
 const STAGES: [(f64, f64); 4] = [(0.0, 1.0 / 6.0), (0.5, 1.0 / 3.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 6.0)];
 
 impl<'a> Rollout<'a> {
@@ -53,12 +53,12 @@ impl<'a> Rollout<'a> {
         })
     }
 
-    /// The state now.
+    /// The state after the last step.
     pub fn state(&self) -> &RolloutState {
         &self.state
     }
 
-    /// One step under the torques that `torque` writes for a time, positions and speeds; the last argument is where.
+    /// One step under torques: `torque(time_s, q, qd, tau)` writes them into `tau`.
     ///
     /// Source: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I* (1993), table 1.2; error of a
     /// step `O(step^5)`.

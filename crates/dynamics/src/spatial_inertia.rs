@@ -1,5 +1,5 @@
-//! Mass, first moment and rotational inertia of a rigid body about the origin of a frame: the ten numbers in which
-//! all of dynamics is linear.
+//! Mass, first moment and rotational inertia of a rigid body about the origin of a frame: the ten inertial parameters, in
+//! which torques are linear.
 
 use std::ops::{Add, AddAssign};
 
@@ -7,7 +7,7 @@ use congruent_description::Inertia;
 use congruent_kinematics::{Pose, Twist, Wrench};
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
-/// Inertia of a rigid body in a frame; unlike mass and centre of mass, these numbers add.
+/// Inertia of a rigid body in a frame; unlike mass and centre of mass, these parameters add up over bodies.
 ///
 /// | field | shape | unit | frame |
 /// |---|---|---|---|
@@ -28,15 +28,15 @@ use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpatialInertia {
-    /// Mass.
+    /// Mass, kg.
     pub mass_kg: f64,
-    /// Mass times centre of mass.
+    /// Mass times centre of mass, kg m.
     pub first_moment_kg_m: Vector3<f64>,
-    /// Rotational inertia about the frame's origin.
+    /// Rotational inertia about the frame's origin, kg m^2.
     pub tensor_kg_m2: Matrix3<f64>,
 }
 
-/// How many numbers an inertia has.
+/// Number of inertial parameters of a body.
 pub const PARAMETERS: usize = 10;
 
 /// Symbols of [`SpatialInertia::parameters`], in their order.
@@ -44,7 +44,7 @@ pub const PARAMETER_NAMES: [&str; PARAMETERS] =
     ["ixx", "ixy", "ixz", "iyy", "iyz", "izz", "mx", "my", "mz", "m"];
 
 impl SpatialInertia {
-    /// Nothing.
+    /// The inertia of a body without mass.
     pub fn zero() -> Self {
         Self { mass_kg: 0.0, first_moment_kg_m: Vector3::zeros(), tensor_kg_m2: Matrix3::zeros() }
     }
@@ -59,7 +59,7 @@ impl SpatialInertia {
     }
 
     /// The inertia of a link about the link's own origin.
-    pub fn of_link(inertia: &Inertia) -> Self {
+    pub fn from_link(inertia: &Inertia) -> Self {
         let about_center = Self {
             mass_kg: inertia.mass_kg,
             first_moment_kg_m: Vector3::zeros(),
@@ -77,7 +77,7 @@ impl SpatialInertia {
     /// let ball = SpatialInertia::point_mass(2.0, Vector3::new(0.5, 0.0, 0.0));
     /// let inertia = ball.to_link().unwrap();
     /// assert_eq!(inertia.link_from_inertial.translation.vector.x, 0.5);
-    /// assert_eq!(SpatialInertia::of_link(&inertia), ball);
+    /// assert_eq!(SpatialInertia::from_link(&inertia), ball);
     /// ```
     pub fn to_link(&self) -> Option<Inertia> {
         let has_mass = self.mass_kg.is_finite() && self.mass_kg > 0.0;
@@ -125,7 +125,7 @@ impl SpatialInertia {
         }
     }
 
-    /// The ten numbers: `ixx ixy ixz iyy iyz izz` about the origin, then the first moment, then the mass.
+    /// The ten parameters: `ixx ixy ixz iyy iyz izz` about the origin, then the first moment, then the mass.
     pub fn parameters(&self) -> [f64; PARAMETERS] {
         let (tensor, h) = (&self.tensor_kg_m2, &self.first_moment_kg_m);
         [
@@ -142,7 +142,7 @@ impl SpatialInertia {
         ]
     }
 
-    /// The inertia with these ten numbers, in the order of [`SpatialInertia::parameters`].
+    /// The inertia with these ten parameters, in the order of [`SpatialInertia::parameters`].
     pub fn from_parameters([xx, xy, xz, yy, yz, zz, mx, my, mz, mass_kg]: [f64; PARAMETERS]) -> Self {
         Self {
             mass_kg,
@@ -152,7 +152,7 @@ impl SpatialInertia {
     }
 }
 
-/// `-[a][b] - [b][a]`, twice the tensor of a mass if `b` is `m a`.
+/// `-[a][b] - [b][a]`; for `b = m a` this is twice the tensor of a mass `m` at `a`.
 #[inline]
 fn shift(a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_diagonal_element(2.0 * a.dot(b)) - a * b.transpose() - b * a.transpose()

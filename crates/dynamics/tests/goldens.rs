@@ -1,12 +1,12 @@
 //! Dynamics against numbers from independent programs: algorithms against Pinocchio, motion against `MuJoCo`.
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
 
 use std::path::Path;
 
 use congruent_description::{Robot, RobotQ, load_robot};
-use congruent_dynamics::{BodyTree, DrivenState, JointMotion, JointResistance, Rollout};
+use congruent_dynamics::{BodyTree, DrivenState, JointMotionState, JointResistance, Rollout};
 use nalgebra::{DMatrix, Vector3};
 use serde_json::Value;
 
@@ -105,7 +105,8 @@ fn algorithms_agree_with_pinocchio() {
             let q = RobotQ::from(q);
             tree.gravity_into(&q, &mut buffer, &mut tau).unwrap();
             assert_near(name, &tau, &golden.vector(&config["gravity_torque"]));
-            tree.inverse_into(&JointMotion { q: &q, qd: &qd, qdd: &qdd }, &mut buffer, &mut tau).unwrap();
+            tree.inverse_into(&JointMotionState { q: &q, qd: &qd, qdd: &qdd }, &mut buffer, &mut tau)
+                .unwrap();
             assert_near(name, &tau, &golden.vector(&config["rnea"]));
             tree.mass_matrix_into(&q, &mut buffer, &mut matrix).unwrap();
             let rows = array(&config["mass_matrix"]);
@@ -194,7 +195,7 @@ fn assert_case(name: &str, robot: &Robot, case: &Value, places: &[usize]) {
     }
 }
 
-/// The counts of `10 n` numbers that joint torques tell, by an independent program.
+/// The numbers of base parameters among the `10 n` inertial parameters, by an independent program.
 #[test]
 fn as_many_base_parameters_as_known() {
     let Some(corpus) = corpus::corpus() else { return };
@@ -213,8 +214,8 @@ fn as_many_base_parameters_as_known() {
             .map(|config| ["q", "v", "a"].map(|key| golden.vector(&config[key])))
             .collect();
         let positions: Vec<RobotQ> = vectors.iter().map(|[q, ..]| RobotQ::from(q.clone())).collect();
-        let motions: Vec<JointMotion<'_>> =
-            vectors.iter().zip(&positions).map(|([_, qd, qdd], q)| JointMotion { q, qd, qdd }).collect();
+        let motions: Vec<JointMotionState<'_>> =
+            vectors.iter().zip(&positions).map(|([_, qd, qdd], q)| JointMotionState { q, qd, qdd }).collect();
         let base = golden.tree.base_parameters(&motions).unwrap();
         assert_eq!(base.groups.len(), expected, "{name}");
     }

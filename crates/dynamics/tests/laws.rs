@@ -1,10 +1,10 @@
 //! Laws that tie the algorithms to each other, on the project's own robots: no corpus is needed.
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
 
 use congruent_description::{Robot, RobotQ, load_robot};
-use congruent_dynamics::{BodyTree, DrivenState, JointMotion, JointMotions, JointResistance, Rollout};
+use congruent_dynamics::{BodyTree, DrivenState, JointMotionState, JointMotions, JointResistance, Rollout};
 use congruent_kinematics::{JacobianKind, UrdfTree, random_configurations};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -64,7 +64,7 @@ fn assert_near(name: &str, found: &[f64], expected: &[f64]) {
 
 fn inverse(tree: &BodyTree, q: &RobotQ, [qd, qdd]: [&[f64]; 2]) -> Vec<f64> {
     let mut tau = vec![0.0; tree.dof()];
-    let motion = JointMotion { q, qd, qdd };
+    let motion = JointMotionState { q, qd, qdd };
     tree.inverse_into(&motion, &mut tree.buffer(), &mut tau).expect("lengths agree");
     tau
 }
@@ -143,14 +143,14 @@ fn torques_are_linear_in_the_parameters() {
     each_state(|name, _, tree, [qd, qdd], q| {
         let bare = tree.clone().without_resistances();
         let mut regressor = DMatrix::zeros(tree.dof(), 10 * tree.dof());
-        let motion = JointMotion { q, qd, qdd };
+        let motion = JointMotionState { q, qd, qdd };
         bare.regressor_into(&motion, &mut bare.buffer(), &mut regressor).unwrap();
         let tau = regressor * bare.all_parameters();
         assert_near(name, tau.as_slice(), &inverse(&bare, q, [qd, qdd]));
     });
 }
 
-/// Moving what a group names does not change a torque, and the group's value tells all that the parameters tell.
+/// Shifting value between the parameters of a group changes no torque, and the group's value determines the torques.
 #[test]
 fn base_parameters_say_the_same_as_all_parameters() {
     for name in ROBOTS {
@@ -159,8 +159,8 @@ fn base_parameters_say_the_same_as_all_parameters() {
         let n = tree.dof();
         let positions = random_configurations(&robot, 3, 40);
         let speeds: Vec<[Vec<f64>; 2]> = (0..40).map(|at| [values(n, at), values(n, at + 300)]).collect();
-        let motions: Vec<JointMotion<'_>> =
-            positions.iter().zip(&speeds).map(|(q, [qd, qdd])| JointMotion { q, qd, qdd }).collect();
+        let motions: Vec<JointMotionState<'_>> =
+            positions.iter().zip(&speeds).map(|(q, [qd, qdd])| JointMotionState { q, qd, qdd }).collect();
         let base = tree.base_parameters(&motions).unwrap();
         let stacked = tree.stacked_regressor(&motions).unwrap();
         let mut by_groups = DVector::zeros(stacked.nrows());
@@ -195,7 +195,7 @@ fn gravity_is_the_slope_of_potential_energy() {
     });
 }
 
-/// With constant torques and nothing that rubs, energy changes by the work of the torques alone.
+/// With constant torques and without friction, energy changes by the work of the torques alone.
 #[test]
 fn a_rollout_conserves_energy() {
     for name in ROBOTS {

@@ -4,9 +4,9 @@ use congruent_description::{Joint, JointIndex, JointKind, Robot, RobotQ};
 
 use crate::uniform::Uniform;
 
-/// How far one axis is moved alone: 10 degrees.
+/// Position of a single revolute joint in an axis step, rad: 10 degrees.
 const AXIS_STEP_RAD: f64 = std::f64::consts::PI / 18.0;
-/// How far one sliding axis is moved alone.
+/// Position of a single prismatic joint in an axis step, m.
 const AXIS_STEP_M: f64 = 0.01;
 
 /// Zero, one axis at a time, `random` seeded draws within the limits, and the limits themselves:
@@ -16,6 +16,8 @@ pub fn sample_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Rob
     let mut configurations = vec![RobotQ::zeros(joints.len())];
     configurations.extend(axis_steps(robot).into_iter().map(|step| step.q));
     configurations.extend(random_configurations(robot, seed, random));
+    // One joint at its limit with the others half way: errors that grow with a joint (signs, scales) are largest there, and the
+    // others are away from zero, where many errors vanish.
     let middle: RobotQ = joints.iter().map(|joint| f64::midpoint(range(joint).0, range(joint).1)).collect();
     for (coordinate, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.mimic.is_none()) {
         let (lower, upper) = range(joint);
@@ -27,6 +29,7 @@ pub fn sample_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Rob
     }
     configurations.push(joints.iter().map(|joint| range(joint).0).collect());
     configurations.push(joints.iter().map(|joint| range(joint).1).collect());
+    // Last, since mimic joints were set to their own limits above, which their masters need not allow.
     for q in &mut configurations {
         robot.apply_mimic(q);
     }
@@ -36,7 +39,7 @@ pub fn sample_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Rob
 /// One joint moved alone from zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisStep {
-    /// The joint.
+    /// The joint that is moved.
     pub joint: JointIndex,
     /// Its position: 10 degrees or 10 mm.
     pub by: f64,

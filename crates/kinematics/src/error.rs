@@ -1,66 +1,66 @@
-//! What a caller of the kinematics can get wrong. Wrong robots are refused by their reader.
+//! Errors in the arguments of calls. Faulty robots are refused by their reader, before they come here.
 
-/// Why values were refused.
+/// The reason why the arguments of a call were refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KinematicsError {
     /// The configuration vector has another length than the robot has moving joints.
-    #[error("{found} joint positions for {expected} moving joints")]
+    #[error("{found} joint positions are given, but {expected} joints move")]
     JointCount {
         /// The robot's degrees of freedom, mimic joints included.
         expected: usize,
-        /// Length of the vector.
+        /// Length of the vector that was given.
         found: usize,
     },
     /// The buffer for poses has another length than there are poses to write.
-    #[error("room for {found} poses where {expected} are written")]
+    #[error("the buffer has room for {found} poses, but {expected} are written")]
     PoseCount {
-        /// Number of poses.
+        /// Number of poses that the call writes.
         expected: usize,
-        /// Length of the buffer.
+        /// Length of the buffer that was given.
         found: usize,
     },
     /// The buffer for the columns of a Jacobian has another length than there are coordinates.
-    #[error("room for {found} columns of a Jacobian of {expected}")]
+    #[error("the buffer has room for {found} columns, but the Jacobian has {expected}")]
     ColumnCount {
-        /// Number of coordinates.
+        /// Number of columns, one for each coordinate.
         expected: usize,
-        /// Length of the buffer.
+        /// Length of the buffer that was given.
         found: usize,
     },
     /// A Jacobian has no column of this number.
-    #[error("no column {index}: the Jacobian has {count}")]
+    #[error("there is no column {index}: the Jacobian has {count} columns")]
     ColumnIndex {
-        /// The column that was asked for, from 0.
+        /// The requested column, from 0.
         index: usize,
-        /// Number of coordinates.
+        /// Number of columns, one for each coordinate.
         count: usize,
     },
     /// Nothing moves between the two ends of an arm.
     #[error("no joint moves between base and tip")]
     NoJoint,
     /// A table has no frame of this number.
-    #[error("no frame dh{index}: the table's last is dh{last}")]
+    #[error("there is no frame dh{index}: the last frame of the table is dh{last}")]
     FrameIndex {
-        /// The frame that was asked for.
+        /// Number of the requested frame.
         index: usize,
-        /// The table's last frame.
+        /// Number of the last frame of the table.
         last: usize,
     },
     /// A joint's range is no closed interval of finite positions.
-    #[error("joint {joint} has the range {lower} to {upper}")]
+    #[error("joint {joint}: its range {lower} to {upper} is not a finite interval")]
     JointRange {
-        /// The joint, from 0.
+        /// Index of the joint, from 0.
         joint: usize,
-        /// Where the range begins.
+        /// Lower end of the range, rad or m.
         lower: f64,
-        /// Where it ends.
+        /// Upper end of the range, rad or m.
         upper: f64,
     },
 }
 
 impl KinematicsError {
-    /// Compares lengths once, so that the loops behind need no further care.
+    /// Checks a length once at the entry of a call, so that its loops need no checks.
     pub(crate) fn check_joints(expected: usize, q: &[f64]) -> Result<(), Self> {
         Self::check_joint_count(expected, q.len())
     }
@@ -96,23 +96,23 @@ mod tests {
     fn messages_hold_both_numbers() {
         assert_eq!(
             KinematicsError::check_joints(6, &[0.0; 5]).unwrap_err().to_string(),
-            "5 joint positions for 6 moving joints"
+            "5 joint positions are given, but 6 joints move"
         );
         assert_eq!(
             KinematicsError::check_poses(7, &[0.0; 6]).unwrap_err().to_string(),
-            "room for 6 poses where 7 are written"
+            "the buffer has room for 6 poses, but 7 are written"
         );
         assert_eq!(
             KinematicsError::check_columns(7, &[0.0; 6]).unwrap_err().to_string(),
-            "room for 6 columns of a Jacobian of 7"
+            "the buffer has room for 6 columns, but the Jacobian has 7"
         );
         assert_eq!(
             KinematicsError::ColumnIndex { index: 6, count: 6 }.to_string(),
-            "no column 6: the Jacobian has 6"
+            "there is no column 6: the Jacobian has 6 columns"
         );
         assert_eq!(
             KinematicsError::FrameIndex { index: 9, last: 6 }.to_string(),
-            "no frame dh9: the table's last is dh6"
+            "there is no frame dh9: the last frame of the table is dh6"
         );
     }
 }

@@ -1,14 +1,15 @@
-//! Steps of least squares after Levenberg and Marquardt: normal equations from the columns of a Jacobian, damped
-//! and solved. When a step is taken and when the iteration ends is the business of each caller.
+//! Levenberg-Marquardt steps: normal equations from the columns of a Jacobian, damped and solved. Each caller decides whether
+//! to accept a step and when the iteration ends.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// How far a step is held back.
+/// The damping of a step: larger values give shorter steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Damping {
     /// Part of each diagonal entry that is added to it: independent of the units of the unknowns.
     pub relative: f64,
-    /// What is added to each diagonal entry besides: it keeps an unknown that changes nothing as it is.
+    /// Value that is added to each diagonal entry in addition. It makes the equations regular if an unknown has no effect; this
+    /// unknown then keeps its value.
     pub absolute: f64,
 }
 
@@ -19,7 +20,7 @@ pub struct Damping {
 /// ```
 /// use congruent_kinematics::least_squares::{Damping, NormalEquations};
 /// let (offset, slope) = ([1.0, 1.0, 1.0], [0.0, 1.0, 2.0]);
-/// let equations = NormalEquations::of_columns(&[offset, slope], &[-1.0, -3.0, -5.0]);
+/// let equations = NormalEquations::from_columns(&[offset, slope], &[-1.0, -3.0, -5.0]);
 /// let step = equations.damped_step(Damping { relative: 0.0, absolute: 0.0 }).unwrap();
 /// assert!((step[0] - 1.0).abs() < 1e-14 && (step[1] - 2.0).abs() < 1e-14);
 /// ```
@@ -27,13 +28,13 @@ pub struct Damping {
 pub struct NormalEquations {
     /// `J^T J`, symmetric and positive semidefinite.
     pub information: DMatrix<f64>,
-    /// `-J^T r`.
+    /// The negative gradient `-J^T r`.
     pub right_side: DVector<f64>,
 }
 
 impl NormalEquations {
     /// From the columns of a Jacobian, one for each unknown, and the residual.
-    pub fn of_columns(columns: &[impl AsRef<[f64]>], residual: &[f64]) -> Self {
+    pub fn from_columns(columns: &[impl AsRef<[f64]>], residual: &[f64]) -> Self {
         let column = |at: usize| columns[at].as_ref();
         Self {
             information: DMatrix::from_fn(columns.len(), columns.len(), |row, at| {
@@ -76,8 +77,9 @@ pub struct BalancedCholesky {
 }
 
 impl BalancedCholesky {
-    /// Of a symmetric matrix; `None` if it is not positive definite.
+    /// The factor of a symmetric matrix; `None` if the matrix is not positive definite.
     pub fn new(mut matrix: DMatrix<f64>) -> Option<Self> {
+        // A zero diagonal entry has no scale; left at 1, the factorisation finds that the matrix is not positive definite.
         let scale = matrix.diagonal().map(|entry| if entry > 0.0 { 1.0 / entry.sqrt() } else { 1.0 });
         for row in 0..matrix.nrows() {
             for column in 0..matrix.ncols() {
@@ -89,6 +91,7 @@ impl BalancedCholesky {
 
     /// The solution for one right side.
     pub fn solve(&self, right_side: &DVector<f64>) -> DVector<f64> {
+        // With D = diag(scale): A x = b is (D A D) (D^-1 x) = D b, hence the scale before and after.
         self.factor.solve(&right_side.component_mul(&self.scale)).component_mul(&self.scale)
     }
 
@@ -113,7 +116,7 @@ mod tests {
 
     #[test]
     fn an_unknown_that_changes_nothing_stays_and_equations_without_damping_are_refused() {
-        let equations = NormalEquations::of_columns(&[[2.0, 0.0], [0.0, 0.0]], &[-4.0, 1.0]);
+        let equations = NormalEquations::from_columns(&[[2.0, 0.0], [0.0, 0.0]], &[-4.0, 1.0]);
         let step = equations.damped_step(Damping { relative: 0.0, absolute: 1e-15 }).unwrap();
         assert!((step[0] - 2.0).abs() < 1e-14 && step[1].abs() < f64::MIN_POSITIVE, "{step}");
         assert!(equations.damped_step(Damping { relative: 0.0, absolute: 0.0 }).is_none());

@@ -1,5 +1,5 @@
-//! Where link poses come from: one trait for tables, URDF chains, screws, physics, and whatever else places
-//! the links of a robot.
+//! The source of link poses: one trait for tables, URDF chains, screws, physics, and any other model that gives the poses of
+//! a robot's links.
 
 use congruent_description::RobotQ;
 
@@ -9,10 +9,10 @@ use crate::{
     spatial::pose::Pose,
 };
 
-/// A source of link poses: given a configuration, it says where every link is.
+/// A source of link poses: gives the pose of every link at a configuration.
 ///
-/// An analytical model is one, a physics engine that is only asked for the poses of its bodies is another, and so
-/// is a second description of the robot. Whoever compares two sources sees nothing else of them.
+/// An analytical model is a source; so is a physics engine (by the poses of its bodies) and a second description of the robot.
+/// Comparisons of two sources use nothing but this trait.
 pub trait LinkPoses {
     /// Writes the poses of all links at configuration `q`, in the root link's frame and the robot's order.
     ///
@@ -30,14 +30,14 @@ pub trait LinkPoses {
     ) -> Result<(), LinkPosesError>;
 }
 
-/// Why a source has no poses.
+/// The reason why a source cannot give poses.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinkPosesError {
     /// A length does not fit the robot.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
-    /// What a source outside this crate says.
+    /// The error of a source outside this crate.
     #[error(transparent)]
     Source(Box<dyn std::error::Error + Send + Sync>),
 }

@@ -5,12 +5,12 @@ use rand_chacha::{
     rand_core::{RngCore, SeedableRng},
 };
 
-/// Draws numbers evenly from an interval.
+/// Draws uniformly distributed numbers from an interval.
 #[derive(Debug, Clone)]
 pub struct Uniform(ChaCha8Rng);
 
 impl Uniform {
-    /// From a seed.
+    /// A generator that gives the same numbers for the same seed.
     pub fn seeded(seed: u64) -> Self {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }

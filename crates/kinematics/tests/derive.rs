@@ -35,8 +35,8 @@ fn prove(dh: &SerialDh, chain: &ScrewChain) {
         .map(|shift| (0..n).map(|joint| shift + 0.3 * f64::from(u8::try_from(joint).unwrap())).collect())
         .collect();
     let found = &mut |q: &ChainQ| dh.base_from_tip(q).unwrap();
-    let proof = Proof::of(n, &configurations, found, &mut |q| chain.base_from_tip(q).unwrap());
-    // Axes that a random draw leaves nearly parallel have their normal far away, which costs accuracy.
+    let proof = Proof::compare(n, &configurations, found, &mut |q| chain.base_from_tip(q).unwrap());
+    // Axes that a random draw makes nearly parallel have their normal far away, which costs accuracy.
     let furthest_m = dh.rows.iter().map(|row| row.d_m.abs()).fold(0.0, f64::max);
     let bound = ACCURACY.max(FAR_NORMAL * furthest_m);
     assert!(within(proof.worst() / bound, 1.0), "{proof:?}\n{dh:?}\n{chain:?}");
@@ -107,7 +107,7 @@ fn case_18_coincident_axes() {
 }
 
 #[test]
-fn case_18_free_choices_are_told() {
+fn case_18_free_choices_are_reported() {
     let twists = [turn([0., 0., 1.], [0.; 3]), turn([0., 0., 1.], [0.4, 0., 0.]), slide([0., 0., -1.])];
     let choices: Vec<(usize, Choice)> =
         derived(&chain(&twists)).choices.into_iter().map(|free| (free.joint, free.choice)).collect();
@@ -154,7 +154,9 @@ fn case_17_a_refusal_says_which_condition_fails_and_by_how_much() {
     assert_refused(
         &StandardDh::from_transform(&shifted(0.003)).unwrap_err(),
         [0.0, across],
-        &format!("no standard DH transform: x1 passes z0 at {across:.9} m instead of meeting it"),
+        &format!(
+            "not a standard DH transform: x1 passes z0 at a distance of {across:.9} m instead of meeting it"
+        ),
     );
     let turned = |angle| row * Pose::from(Isometry3::rotation(Vector3::y() * angle));
     let refused = StandardDh::from_transform(&turned(0.02)).unwrap_err();
@@ -163,19 +165,19 @@ fn case_17_a_refusal_says_which_condition_fails_and_by_how_much() {
     assert_refused(
         &StandardDh::from_transform(&tilt).unwrap_err(),
         [0.02, 0.0],
-        "no standard DH transform: x1 is 1.145915590 deg off the perpendicular to z0",
+        "not a standard DH transform: x1 is 1.145915590 deg off the perpendicular to z0",
     );
     assert_refused(
         &ModifiedDh::from_transform(&tilt).unwrap_err(),
         [0.02, 0.0],
-        "no modified DH transform: x0 is 1.145915590 deg off the perpendicular to z1",
+        "not a modified DH transform: x0 is 1.145915590 deg off the perpendicular to z1",
     );
     let along_z = Pose::from(Isometry3::new(Vector3::new(0.3, 0.4, 1.0), Vector3::y() * -FRAC_PI_2));
     assert_refused(
         &StandardDh::from_transform(&along_z).unwrap_err(),
         [FRAC_PI_2, 0.5],
-        "no standard DH transform: x1 is 90.000000000 deg off the perpendicular to z0, and x1 passes z0 at \
-         0.500000000 m instead of meeting it",
+        "not a standard DH transform: x1 is 90.000000000 deg off the perpendicular to z0, and x1 passes z0 at a \
+         distance of 0.500000000 m instead of meeting it",
     );
 }
 
@@ -230,26 +232,29 @@ fn a_coarser_accuracy_simplifies_and_shows_what_it_costs() {
     let coarse = derive_dh(&chain, DhConvention::Standard, 1e-8).unwrap();
     assert_eq!(coarse.pairs[0].relation, AxisRelation::Parallel);
     let found = &mut |q: &ChainQ| coarse.dh.base_from_tip(q).unwrap();
-    let proof = Proof::of(2, &[], found, &mut |q| chain.base_from_tip(q).unwrap());
+    let proof = Proof::compare(2, &[], found, &mut |q| chain.base_from_tip(q).unwrap());
     assert!(proof.worst() > 1e-10 && proof.worst() < 1e-8, "{proof:?}");
 }
 
-/// The axes stand 0.3 m and 0.4 m apart and are turned by what 1.5707 for a quarter turn leaves.
+/// The axes are 0.3 m and 0.4 m apart and turned by the error of 1.5707 for a quarter turn.
 #[test]
-fn axes_that_rounding_leaves_nearly_parallel_are_parallel_through_their_origins() {
+fn axes_that_rounding_makes_nearly_parallel_are_parallel_through_their_origins() {
     let off: f64 = 9.632_679_489_66e-5;
     let origin = Vector3::new(0.3, 0.4, 0.1);
     for (sense, relation) in [(1.0, AxisRelation::Parallel), (-1.0, AxisRelation::AntiParallel)] {
         let second = turn([0., off.sin() * sense, off.cos() * sense], origin.into());
         let written = chain(&[turn([0., 0., 1.], [0.; 3]), second]);
-        let (mended, pairs) = without_rounding(&written, &[Vector3::zeros(), origin], ACCURACY).unwrap();
+        let (rounded_out, pairs) = without_rounding(&written, &[Vector3::zeros(), origin], ACCURACY).unwrap();
         let [pair] = pairs[..] else { panic!("{pairs:?}") };
         assert_eq!((pair.joint, pair.relation, pair.distance_m), (0, relation, 0.0));
         assert!(within(pair.angle_rad - off.sin(), 1e-15), "{pair:?}");
         let plain = turn([0., 0., sense], origin.into());
-        assert_eq!(mended.twists_in_base[1].angular, plain.angular);
-        assert!(within((mended.twists_in_base[1].linear - plain.linear).norm(), 1e-15), "{mended:?}");
-        let row = derived(&mended).dh.rows[0];
+        assert_eq!(rounded_out.twists_in_base[1].angular, plain.angular);
+        assert!(
+            within((rounded_out.twists_in_base[1].linear - plain.linear).norm(), 1e-15),
+            "{rounded_out:?}"
+        );
+        let row = derived(&rounded_out).dh.rows[0];
         assert!(within(row.a_m - 0.5, 1e-15) && row.d_m == 0.0, "{row:?}");
         // Two of them and more are a real angle.
         let real =
@@ -259,20 +264,23 @@ fn axes_that_rounding_leaves_nearly_parallel_are_parallel_through_their_origins(
 }
 
 #[test]
-fn axes_that_rounding_leaves_apart_meet_or_are_one_line() {
+fn axes_that_rounding_moves_apart_meet_or_are_one_line() {
     let first = turn([0., 0., 1.], [0.; 3]);
-    let mended = |second: Twist| {
-        let (mended, pairs) = without_rounding(&chain(&[first, second]), &[], ACCURACY).unwrap();
-        (mended.twists_in_base[1], pairs.first().map(|pair| (pair.relation, pair.distance_m)))
+    let rounded_out = |second: Twist| {
+        let (rounded_out, pairs) = without_rounding(&chain(&[first, second]), &[], ACCURACY).unwrap();
+        (rounded_out.twists_in_base[1], pairs.first().map(|pair| (pair.relation, pair.distance_m)))
     };
     let (across, along) = (turn([0., 1., 0.], [2e-5, 0., 0.3]), turn([0., 0., 1.], [0., 3e-5, 0.3]));
-    assert_eq!(mended(across), (turn([0., 1., 0.], [0., 0., 0.3]), Some((AxisRelation::Intersecting, 2e-5))));
-    assert_eq!(mended(along), (turn([0., 0., 1.], [0.; 3]), Some((AxisRelation::Coincident, 3e-5))));
+    assert_eq!(
+        rounded_out(across),
+        (turn([0., 1., 0.], [0., 0., 0.3]), Some((AxisRelation::Intersecting, 2e-5)))
+    );
+    assert_eq!(rounded_out(along), (turn([0., 0., 1.], [0.; 3]), Some((AxisRelation::Coincident, 3e-5))));
     for apart in [2.0 * ROUNDED_M, 1e-12] {
         let as_it_is = turn([0., 1., 0.], [apart, 0., 0.3]);
-        assert_eq!(mended(as_it_is), (as_it_is, None));
+        assert_eq!(rounded_out(as_it_is), (as_it_is, None));
     }
-    let (quill, pair) = mended(slide([1e-5, 0., 1.]));
+    let (quill, pair) = rounded_out(slide([1e-5, 0., 1.]));
     assert_eq!((quill, pair.unwrap().0), (slide([0., 0., 1.]), AxisRelation::Parallel));
 }
 

@@ -184,7 +184,7 @@ proptest! {
     #[test]
     fn turns_about_fixed_axes_are_the_reversed_set(angles_rad in proptest::array::uniform3(-PI..PI)) {
         for set in EulerSet::ALL {
-            // About the fixed axes of the set: each turn stands to the left of the one before.
+            // About the fixed axes of the set: each turn is to the left of the one before.
             let turns = set.name().chars().zip(angles_rad).map(|(axis, angle_rad)| turned(axis, angle_rad));
             let fixed = turns.fold(UnitQuaternion::identity(), |before, turn| turn * before);
             let [first, middle, last] = angles_rad;

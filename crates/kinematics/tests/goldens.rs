@@ -1,7 +1,7 @@
 //! Forward kinematics against numbers from independent programs: tables against
 //! roboticstoolbox-python, trees against Pinocchio.
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
 #[path = "support/mod.rs"]
 mod support;
@@ -161,7 +161,7 @@ fn assert_batches(name: &str, robot: &Robot, golden: &Value) {
         let q: Vec<f64> = configurations
             .iter()
             .flat_map(|configuration| {
-                let q = positions(robot, golden, configuration).of_chain(chain.coordinates());
+                let q = positions(robot, golden, configuration).chain_positions(chain.coordinates());
                 q.to_vec()
             })
             .collect();

@@ -113,7 +113,7 @@ proptest! {
         let all = links(&robot);
         let [base, tip] = ends.map(|end| all[end.index(all.len())]);
         let chain = SerialChain::from_urdf(&robot, (base, tip));
-        let of_chain = q.of_chain(chain.coordinates());
+        let of_chain = q.chain_positions(chain.coordinates());
         let base_from_root = tree.root_from_link(q, base).unwrap().inverse();
         let expected = base_from_root * tree.root_from_link(q, tip).unwrap();
         let found = chain.base_from_tip(&of_chain).unwrap();

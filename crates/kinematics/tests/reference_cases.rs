@@ -376,7 +376,7 @@ fn case_26_body_twist_and_space_twist() {
     let space_from_body = tree.root_from_link(&q, link).unwrap();
     let adjoint = space_from_body.adjoint();
     assert!(within((adjoint * Vector6::from(in_body) - Vector6::from(in_space)).amax(), ROUNDING));
-    // [p] R stands below: angular first, the linear velocity takes from the turn and not the reverse.
+    // [p] R is below: angular first, the linear velocity takes from the turn and not the reverse.
     let p = space_from_body.translation;
     assert_eq!(adjoint.fixed_view::<3, 3>(3, 0), hat(&p) * space_from_body.rotation);
     assert_eq!(adjoint.fixed_view::<3, 3>(0, 3), Matrix3::zeros());

@@ -89,7 +89,7 @@ fn two_links_in_a_plane() {
     // The elbow bends to one side only, and the shoulder by half a turn: a sector of the ring, which polar
     // coordinates make half of it.
     holds(&arm([0.0, PI], [0.0, elbow]), 0.4, ring / 2.0, 0.02);
-    // The plane stands upright.
+    // The plane is vertical.
     let upright = [turning(Y, WHOLE, ORIGIN), turning(Y, [-elbow, elbow], along_x(0.6))];
     holds(&upright, 0.4, ring, 0.02);
 }
@@ -122,7 +122,7 @@ fn shells_and_cylinders() {
 }
 
 /// Yaw, shoulder and elbow, as the arms of the examples: a shell, and a ring about the yaw axis if the
-/// shoulder stands off it (Pappus).
+/// shoulder is off it (Pappus).
 #[test]
 fn articulated_arms() {
     let arm = |off: f64, yaw: [f64; 2]| {

@@ -1,6 +1,6 @@
 //! Files that every page carries; `assets/SOURCE.md` says where they come from.
 
-/// The plots.
+/// The script that draws plots (uPlot), embedded in each page.
 pub(crate) const UPLOT_JS: &str = include_str!("../assets/uPlot.iife.min.js");
 pub(crate) const UPLOT_CSS: &str = include_str!("../assets/uPlot.min.css");
 /// The look of the page, and what draws its plots.

@@ -8,10 +8,8 @@ use congruent_calibration::{
         RowResidual, plot,
     },
 };
-use congruent_description::{
-    Robot,
-    display::{angle, counted, length, number},
-};
+use congruent_description::Robot;
+use congruent_input::display::{angle, counted, length, number};
 use maud::{Markup, html};
 
 use crate::{
@@ -39,11 +37,11 @@ pub fn calibration_page(report: &CalibrationReport, robot: &Robot) -> String {
 fn outcome(verdict: CalibrationVerdict) -> (Outcome, &'static str) {
     match verdict {
         CalibrationVerdict::Explained => (Outcome::Good, "EXPLAINED"),
-        CalibrationVerdict::UnexplainedRows => (Outcome::Unclear, "EXPLAINED BUT FOR OUTLIERS"),
+        CalibrationVerdict::UnexplainedRows => (Outcome::Unclear, "EXPLAINED, EXCEPT OUTLIERS"),
         CalibrationVerdict::NoImprovement => (Outcome::Unclear, "NO IMPROVEMENT"),
         CalibrationVerdict::NoiseExceeded => (Outcome::Bad, "RESIDUAL ABOVE THE NOISE"),
         CalibrationVerdict::Unexplained => (Outcome::Bad, "NOT EXPLAINED"),
-        CalibrationVerdict::Misinterpreted => (Outcome::Bad, "FILE LIKELY MEANT OTHERWISE"),
+        CalibrationVerdict::Misinterpreted => (Outcome::Bad, "FILE LIKELY IN OTHER UNITS, ORDER OR FRAME"),
         CalibrationVerdict::TooLarge => (Outcome::Bad, "CORRECTIONS TOO LARGE"),
         CalibrationVerdict::Unverifiable => (Outcome::Unclear, "CANNOT BE VERIFIED"),
         CalibrationVerdict::NothingIdentified => (Outcome::Unclear, "NOTHING IDENTIFIED"),
@@ -99,7 +97,7 @@ fn corrections(report: &CalibrationReport) -> Markup {
         }
         @if !report.fixed.is_empty() {
             details {
-                summary { (counted(report.fixed.len(), "correction")) " held at nominal, since the measurements do not identify them" }
+                summary { (counted(report.fixed.len(), "correction")) " fixed at nominal, since the measurements do not identify them" }
                 ul { @for each in &report.fixed { li { b { (each.name) } ": " (each.reason) } } }
             }
         }
@@ -133,7 +131,7 @@ fn correction(each: &EstimatedCorrection, report: &CalibrationReport, at: &Point
     }
 }
 
-/// A value of the robot file in the unit of its key, with digits beyond those that a measurement tells.
+/// A value of the robot file in the unit of its key, with more digits than a measurement determines.
 fn to_write(unit: ParameterUnit, value: f64) -> String {
     format!("{:.4}", unit.for_people(value))
 }

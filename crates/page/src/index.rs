@@ -1,10 +1,8 @@
 //! The index over the runs of one call: the worst first, each with a link to its page.
 
-use congruent_description::display::quantity;
-use congruent_twin::{
-    report::{RunReport, lines},
-    verdict::{Bound, Measure, Status, Verdict},
-};
+use congruent_input::display::quantity;
+use congruent_monitors::verdict::{Bound, Measure, Status, Verdict};
+use congruent_results::report::{RunReport, lines};
 use maud::{Markup, html};
 
 use crate::{
@@ -101,7 +99,7 @@ fn happened(report: &RunReport) -> Markup {
     }
 }
 
-/// How near to a limit a run came that violated none.
+/// The share of a limit that a run without violations used most of.
 fn nearest(report: &RunReport) -> Markup {
     let has_failed = report.checks.iter().any(|check| check.status == Status::Fail);
     html! {
@@ -125,6 +123,7 @@ fn tightest(report: &RunReport) -> Option<(&'static str, &Measure, f64)> {
         };
         (measure.limit > 0.0 && share.is_finite()).then_some(share)
     };
+    // Limits of 0, and shares that are not finite, say nothing about how near the run came to failing.
     let shares = measures.filter_map(|(check, measure)| Some((check, measure, share(measure)?)));
     shares.max_by(|a, b| a.2.total_cmp(&b.2))
 }

@@ -1,7 +1,7 @@
 //! Reports as pages: one HTML file each, which carries its style, its script and its data, needs no network, and prints.
 //!
-//! Text and numbers come from the reports; beside a number for people stands the exact one with its place in the JSON
-//! report (`<data data-path value>`), so that a test can compare the two. Text from files is escaped by maud.
+//! Text and numbers come from the reports; each rounded number carries the exact one and its place in the JSON report
+//! (`<data data-path value>`), so that a test can compare the two. Text from files is escaped by maud.
 
 mod assets;
 mod calibration;

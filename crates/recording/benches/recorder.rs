@@ -22,7 +22,7 @@ fn run_and_recording(bencher: divan::Bencher<'_, '_>) {
     let path = std::env::temp_dir().join("congruent-bench.rrd");
     let setup = setup();
     bencher.with_inputs(|| setup.checks()).bench_local_values(|mut checks| {
-        let run = Run::new(&setup).expect("the scenario runs");
+        let mut run = Run::new(&setup).expect("the scenario runs");
         let mut recorder = RerunRecorder::create(&path, &setup, run.names(), run.model().sources())
             .expect("a temporary file");
         run.finish(&mut checks, &mut recorder, |_| ())

@@ -3,15 +3,10 @@
 use std::path::Path;
 
 use congruent_agreement::compare::PoseSource;
-use congruent_description::RobotDescription;
-use congruent_simulation::Obstacle;
-use congruent_twin::{
-    IfIncomplete, Recording, RecordingFormat, Run, RunSetup, Sample,
-    monitor::Names,
-    recorder::{Recorder, RecordingError},
-    report::RunReport,
-    verdict::CheckValue,
-};
+use congruent_description::{Obstacle, RobotDescription};
+use congruent_monitors::{Names, Recorder, RecordingError, Sample, verdict::CheckValue};
+use congruent_results::{IfIncomplete, Recording, RecordingFormat, report::RunReport};
+use congruent_twin::{Run, RunSetup};
 use nalgebra::{Isometry3, Point3};
 use re_log_types::{StoreId, StoreKind};
 
@@ -52,7 +47,7 @@ pub struct RerunRecorder {
     moving: Vec<String>,
     zones: Vec<Obstacle>,
     bodies: Vec<SceneBody>,
-    /// For each link the link that it is fixed to and that a joint moves.
+    /// The body of each link: the link that a joint moves and that it is fixed to.
     body_of_link: Vec<usize>,
     /// Which of the bodies violate a limit at the present sample.
     are_violating: Vec<bool>,
@@ -96,7 +91,7 @@ impl RerunRecorder {
     ) -> Result<Self, RecordingError> {
         let description = &setup.description;
         let (robot, tolerance) = (&description.robot, description.tolerance);
-        let limits = AgreementLimits::of(&setup.scenario.check).unwrap_or(AgreementLimits {
+        let limits = AgreementLimits::tightest(&setup.scenario.check).unwrap_or(AgreementLimits {
             position_m: tolerance.position_m,
             orientation_rad: tolerance.orientation_rad,
         });
@@ -163,9 +158,11 @@ impl RerunRecorder {
 
 impl Recorder for RerunRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
+        // Every sample: a worst value between two recorded samples must not be lost.
         self.checks.observe(sample.values);
         let is_violation = sample.violated_checks > self.violated_checks;
         self.violated_checks = sample.violated_checks;
+        // The stride keeps the file small; a new violation is recorded at its step, and the last sample always.
         let is_due = is_violation || sample.step.is_multiple_of(self.stride) || sample.is_last;
         if !is_due && !self.disagreement.would_change(sample.errors) {
             return Ok(());
@@ -180,12 +177,15 @@ impl Recorder for RerunRecorder {
         let tool_in_world = Point3::from(by_twin.translation.vector);
         for ((twin, model), own) in sample.twin.iter().zip(sample.model).zip(&self.link_boxes) {
             self.robot_box.include_box(own, twin);
+            // The origins of the model, too: if it disagrees, the camera must have both arms in its picture.
             self.robot_box.include(&Point3::from(model.translation));
         }
         self.robot_box.include(&tool_in_world);
         self.tool_path.push(tool_in_world);
         self.batch.push(time, sample, [&by_twin, &by_model]);
         self.extents.include(sample);
+        // Reset for each row: disagreement, pairs and checks mark the bodies again, then the colours take the
+        // marks.
         self.are_violating.fill(false);
         self.disagreement.push(time, sample, &mut self.are_violating);
         self.pairs.push(time, sample, &mut self.are_violating);
@@ -228,6 +228,8 @@ impl Recording for RerunRecorder {
             recorded: &self.checks.recorded(),
             ends_in_violation: self.colors.is_any_violating() || self.checks.is_any_outside(),
         };
+        // Last, since the layout follows from what was recorded; a run that breaks has its samples without a
+        // layout.
         self.writer.open_store(self.layout_store)?;
         layout.write(&mut self.writer)?;
         self.writer.activate_blueprint()?;

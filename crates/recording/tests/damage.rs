@@ -4,9 +4,10 @@
 
 use std::{fs, path::Path};
 
-use congruent_description::{FileAccess, RosPackages};
+use congruent_input::{FileAccess, RosPackages};
 use congruent_recording::{RecordingSummary, RerunFormat, inspect};
-use congruent_twin::{Options, RunSetup, execute};
+use congruent_results::{Options, execute};
+use congruent_twin::RunSetup;
 
 /// A short run of a planar arm: small, with all kinds of messages.
 fn recording(folder: &Path) -> Vec<u8> {
@@ -87,7 +88,7 @@ fn what_is_not_damaged_is_intact() {
     let summary = bench.inspect(&bench.whole).unwrap();
     assert_eq!((summary.exit_code, summary.complete), (0, true), "{}", summary.reason);
     let sums = summary.check_sums.unwrap();
-    // The footer, which follows from the index, is counted besides the messages.
+    // The footer, which follows from the index, is counted beside the messages.
     assert_eq!((sums.intact, sums.damaged.len()), (bench.messages().len() as u64 + 1, 0));
 }
 
@@ -162,13 +163,13 @@ fn whole_messages_that_are_missing_moved_or_repeated_are_noticed() {
 }
 
 #[test]
-fn the_damage_is_told_and_the_rest_is_read() {
+fn the_damage_is_reported_and_the_rest_is_read() {
     let bench = Bench::new();
     let whole = bench.inspect(&bench.whole).unwrap();
     let path = "/joint/position/joint_2";
     let count = |of: &RecordingSummary| of.scalars.iter().filter(|scalar| scalar.path == path).count();
     assert_eq!(count(&whole), 1);
-    // In the check sum, so that the content can still be told.
+    // In the check sum, so that the content can still be verified.
     let damaged = |&(start, length): &(usize, usize)| {
         let mut bytes = bench.whole.clone();
         bytes[start + length - 1] ^= 1;

@@ -9,9 +9,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use congruent_description::display::length;
+use congruent_input::display::length;
 use congruent_recording::{RerunFormat, scalars};
-use congruent_twin::{Options, RunSetup, execute, report::RunReport, scenario::Override};
+use congruent_results::{Options, execute, report::RunReport};
+use congruent_scenario::Override;
+use congruent_twin::RunSetup;
 use re_chunk::{
     Chunk,
     external::arrow::{

@@ -5,8 +5,12 @@
 
 use std::path::{Path, PathBuf};
 
+use congruent_input::Quantity;
+use congruent_monitors::verdict::Status;
 use congruent_recording::{Basis, Recheck, RecordingSummary, RerunFormat, recheck, scalars, scalars_csv};
-use congruent_twin::{Options, RunSetup, comparison::Scalars, execute, scenario::Override, verdict::Status};
+use congruent_results::{Options, comparison::Scalars, execute};
+use congruent_scenario::Override;
+use congruent_twin::RunSetup;
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
@@ -65,7 +69,7 @@ fn a_run_with_every_kind_of_value_follows_from_its_recording() {
 }
 
 #[test]
-fn a_stop_and_a_tool_that_stands_elsewhere_follow_from_their_recordings() {
+fn a_stop_and_a_tool_at_another_pose_follow_from_their_recordings() {
     for scenario in ["ur5e_into_zone.toml", "faults/shifted_tool.toml"] {
         let found = Bench::of(scenario, &[]).recheck();
         assert!(
@@ -104,7 +108,7 @@ fn a_link_error_and_a_worst_value_that_were_changed_are_found() {
         let found = recheck(&bench.summary, &scalars, bench.setup(&[])).unwrap();
         let first = &found.disagreements[0];
         assert_eq!(
-            (first.check.word(), first.quantity.as_deref()),
+            (first.check.word(), first.quantity.map(Quantity::name)),
             ("agreement", Some("position")),
             "{path}"
         );
@@ -128,7 +132,7 @@ fn a_report_that_was_changed_is_found() {
     }
     let found = recheck(&summary, &bench.scalars, bench.setup(&[])).unwrap();
     let first = &found.disagreements[0];
-    assert_eq!((first.check.word(), first.quantity.as_deref()), ("clearance", Some("distance")));
+    assert_eq!((first.check.word(), first.quantity.map(Quantity::name)), ("clearance", Some("distance")));
     assert!(first.value.unwrap() < 0.02 && first.time_s.unwrap() > 1.0);
     assert_eq!(found.exit_code(), 1);
 }

@@ -8,15 +8,16 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use congruent_description::{FileAccess, RosPackages};
+use congruent_input::{FileAccess, RosPackages};
+use congruent_monitors::{Recorder, RecordingError, Sample};
 use congruent_recording::{
     EntitySummary, InspectError, RecordingSummary, RerunFormat, RerunRecorder, ScalarSummary, inspect,
 };
-use congruent_twin::{
-    Options, Recording as _, Run, RunSetup, Sample, execute,
-    recorder::{Recorder, RecordingError},
-    report::RunReport,
+use congruent_results::{
+    Options, Recording as _, execute,
+    report::{Causes, RunReport},
 };
+use congruent_twin::{Run, RunSetup};
 
 /// A folder that goes away with the test.
 struct Folder(PathBuf);
@@ -141,7 +142,7 @@ fn a_run_is_read_back() {
 }
 
 /// A recorder that keeps the errors and joint positions of the recorded samples.
-struct RecorderProbe {
+struct RecorderWithCounts {
     recorder: RerunRecorder,
     tip: usize,
     errors_m: Vec<f64>,
@@ -151,7 +152,7 @@ struct RecorderProbe {
     others: Vec<(&'static str, f64)>,
 }
 
-impl Recorder for RecorderProbe {
+impl Recorder for RecorderWithCounts {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         if sample.step.is_multiple_of(10) || sample.step == 255 {
             self.errors_m.push(sample.errors[self.tip].position_m);
@@ -200,7 +201,7 @@ fn what_checks_measure_is_recorded() {
     let mut compared = 0;
     for (index, check) in report.checks.iter().enumerate() {
         for measure in check.measures.iter().filter(|measure| measure.worst.is_some()) {
-            let unit = measure.unit.replace('/', "_");
+            let unit = measure.unit.symbol().replace('/', "_");
             let quantity = format!("{}{}{unit}", measure.quantity, if unit.is_empty() { "" } else { "_" });
             let path = format!("/check/{}_{}/{quantity}", index + 1, check.check);
             let found = scalar(&summary, &path);
@@ -218,12 +219,12 @@ fn scalars_are_exact() {
     let path = folder.file("recording.rrd");
     let scenario = scenario(&folder, "ur5e");
     let mut checks = scenario.checks();
-    let run = Run::new(&scenario).unwrap();
+    let mut run = Run::new(&scenario).unwrap();
     let sources = run.model().sources().to_vec();
     let names = run.names().clone();
     let recorder = RerunRecorder::create(&path, &scenario, &names, &sources).unwrap();
     let tip = scenario.description.tip.get();
-    let mut probe = RecorderProbe {
+    let mut counted = RecorderWithCounts {
         recorder,
         tip,
         tip_from_tcp: scenario.description.tip_from_tcp.unwrap(),
@@ -231,24 +232,26 @@ fn scalars_are_exact() {
         q: Vec::new(),
         others: Vec::new(),
     };
-    let (outcome, result) = run.finish(&mut checks, &mut probe, |_| ());
+    let (outcome, result) = run.finish(&mut checks, &mut counted, |_| ());
     result.unwrap();
-    Box::new(probe.recorder).finish(&RunReport::new(&scenario, &sources, outcome, None)).unwrap();
+    Box::new(counted.recorder)
+        .finish(&RunReport::new(&scenario, &sources, outcome, Causes::default(), None))
+        .unwrap();
 
     let summary = inspect(&path).unwrap();
     let error = scalar(&summary, "/agreement/position/tool0");
-    assert_eq!(error.count, probe.errors_m.len() as u64);
+    assert_eq!(error.count, counted.errors_m.len() as u64);
     let bits = |value: f64| Some(value.to_bits());
-    assert_eq!(error.last.map(f64::to_bits), bits(probe.errors_m[probe.errors_m.len() - 1]));
-    assert_eq!(error.max.map(f64::to_bits), bits(probe.errors_m.iter().copied().fold(0.0, f64::max)));
-    for (joint, q) in names.joints.iter().zip(&probe.q) {
+    assert_eq!(error.last.map(f64::to_bits), bits(counted.errors_m[counted.errors_m.len() - 1]));
+    assert_eq!(error.max.map(f64::to_bits), bits(counted.errors_m.iter().copied().fold(0.0, f64::max)));
+    for (joint, q) in names.joints.iter().zip(&counted.q) {
         let recorded = scalar(&summary, &format!("/joint/position/{joint}"));
         assert_eq!(recorded.last.map(f64::to_bits), bits(*q), "{joint}");
     }
-    for (path, value) in &probe.others {
+    for (path, value) in &counted.others {
         assert_eq!(scalar(&summary, path).last.map(f64::to_bits), bits(*value), "{path}");
     }
-    assert_eq!(probe.others.len(), 6);
+    assert_eq!(counted.others.len(), 6);
 }
 
 #[test]

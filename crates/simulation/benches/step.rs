@@ -158,7 +158,7 @@ fn body_inertia(robot: &Robot, body: LinkIndex) -> Inertia {
             Some((body_from_link, robot.link(link).inertia?))
         })
         .collect();
-    Inertia::of_body(parts.into_iter())
+    Inertia::sum_of_parts(parts.into_iter())
 }
 
 fn mass_properties(inertia: &Inertia) -> MassProperties {

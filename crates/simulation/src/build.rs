@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{Inertia, Joint, JointIndex, Mimic, Robot};
+use congruent_description::{Inertia, Joint, JointIndex, Mimic, Obstacle, Robot};
 use nalgebra::Isometry3;
 use rapier3d_f64::{
     dynamics::MultibodyDofCoupling,
@@ -19,11 +19,11 @@ use rapier3d_f64::{
 use crate::{
     adapter,
     contact::{near::NearShapes, shapes},
-    drive::Capability,
+    drive::DriveCapability,
     error::SimulationError,
     lumping::Bodies,
     sets::{EngineSets, EngineSlot},
-    settings::{Obstacle, WorldSettings},
+    settings::WorldSettings,
 };
 
 /// A robot in rapier's sets.
@@ -65,7 +65,7 @@ pub(crate) fn build(
         let (parent, child) = (bodies.links[joint.parent.get()].body, bodies.links[joint.child.get()].body);
         let data = generic_joint(joint, bodies, slot);
         let inserted = sets.multibody_joints.insert(handles[parent], handles[child], data, true);
-        assert!(inserted.is_some(), "a tree has no second way to a body");
+        assert!(inserted.is_some(), "a tree has no second path to a body");
     }
     // Masses are zero until this is called.
     for &handle in &handles {
@@ -94,7 +94,7 @@ fn add_colliders(
     robot: &Robot,
     bodies: &Bodies,
 ) -> Result<Vec<ColliderHandle>, SimulationError> {
-    let colliders = shapes::of_links(robot, bodies)?;
+    let colliders = shapes::link_colliders(robot, bodies)?;
     let insert = |(body, collider): (usize, Collider)| {
         sets.colliders.insert_with_parent(collider, handles[body], &mut sets.bodies)
     };
@@ -110,12 +110,12 @@ fn add_obstacles(
     for (index, obstacle) in settings.obstacles.iter().enumerate() {
         if settings.moving_obstacles.contains(&index) {
             let at_origin = Obstacle { world_from_obstacle: Isometry3::identity(), ..obstacle.clone() };
-            let Some(collider) = shapes::of_obstacle(&at_origin)? else { continue };
+            let Some(collider) = shapes::obstacle_collider(&at_origin)? else { continue };
             let pose = adapter::pose(&obstacle.world_from_obstacle);
             let body = sets.bodies.insert(RigidBodyBuilder::kinematic_position_based().pose(pose));
             sets.colliders.insert_with_parent(collider, body, &mut sets.bodies);
             moving.insert(index, body);
-        } else if let Some(collider) = shapes::of_obstacle(obstacle)? {
+        } else if let Some(collider) = shapes::obstacle_collider(obstacle)? {
             standing.push(sets.colliders.insert(collider));
         }
     }
@@ -127,7 +127,7 @@ fn slots(robot: &Robot, settings: &WorldSettings) -> Result<Vec<EngineSlot>, Sim
         robot.movable_joints().iter().map(|&joint| slot(robot, joint)).collect::<Result<Vec<_>, _>>()?;
     if !settings.actuator_limits {
         for slot in &mut slots {
-            slot.capability = Capability { effort: f64::MAX, speed: f64::MAX };
+            slot.capability = DriveCapability { effort: f64::MAX, speed: f64::MAX };
         }
     }
     for (row, &joint) in robot.movable_joints().iter().enumerate() {
@@ -171,7 +171,7 @@ fn slot(robot: &Robot, index: JointIndex) -> Result<EngineSlot, SimulationError>
         axis: if joint.kind.is_angular() { JointAxis::AngX } else { JointAxis::LinX },
         lower,
         upper,
-        capability: Capability { effort, speed },
+        capability: DriveCapability { effort, speed },
         is_mimic: joint.mimic.is_some(),
     })
 }

@@ -1,11 +1,9 @@
-//! Changes of a robot while it runs: what resists a joint, what an actuator delivers, what a link carries.
+//! Changes of a robot during a run: resistances of joints, exerted share of actuators, carried bodies.
 
-use congruent_description::Inertia;
+use congruent_description::{CarriedBody, Inertia};
 use nalgebra::Isometry3;
 
-use crate::{
-    actuation::DriveConnection, carried::CarriedBody, error::SimulationError, settings::Touches, world::World,
-};
+use crate::{actuation::DriveConnection, error::SimulationError, settings::Touches, world::World};
 
 impl World {
     /// Whether a link and an obstacle pushed each other in the last step. Contacts act before the shapes touch if they
@@ -47,8 +45,7 @@ impl World {
         Ok(())
     }
 
-    /// Sets the inertia of motor and gear as the joint feels it, kg m^2 or kg. Descriptions do not give one: it is
-    /// zero at first.
+    /// Sets the inertia of motor and gear, reflected to the joint, kg m^2 or kg. A URDF has no such value: it is zero at first.
     ///
     /// # Errors
     /// As [`World::set_damping`].
@@ -85,7 +82,7 @@ impl World {
         self.engine.dry_friction(coordinate)
     }
 
-    /// Connects the drive of a joint to the controller in another way. The drives of a robot without fault get the
+    /// Connects the drive of a joint to the controller by another connection. The drives of a robot without fault get the
     /// commands of their own joints.
     ///
     /// # Panics
@@ -94,8 +91,8 @@ impl World {
         self.state.connections.set(coordinate, connection);
     }
 
-    /// Sets everything that links carry beside their own masses: replaces what they have carried before. The motion
-    /// goes on with the same velocities.
+    /// Sets all bodies that links carry in addition to their own masses, in place of those carried before. The motion
+    /// continues with the same velocities.
     ///
     /// # Panics
     /// If a link is not one of this robot.
@@ -104,7 +101,7 @@ impl World {
         self.load_links();
     }
 
-    /// Sets everything that links carry of which nobody knows, in addition to [`World::set_carried`].
+    /// Sets all undeclared bodies that links carry, in addition to [`World::set_carried`].
     ///
     /// # Panics
     /// If a link is not one of this robot.
@@ -121,7 +118,7 @@ impl World {
                 (place.body == body).then_some((place.body_from_link, carried.inertia))
             });
             let own = std::iter::once((nalgebra::Isometry3::identity(), *own));
-            let whole = Inertia::of_body(own.chain(on_body));
+            let whole = Inertia::sum_of_parts(own.chain(on_body));
             self.engine.set_inertia(body, &whole);
         }
         self.engine.update_jacobians();

@@ -2,30 +2,30 @@
 //!
 //! The servo's law `stiffness (q - q(t)) + damping (qd - qd(t))` holds for the state at the end of the step. Within
 //! the effort limit it is linear: a spring and a damper, which rapier adds to the mass matrix and solves exactly. A servo
-//! at its effort limit is not: it becomes a constraint, which rapier's sweeps solve.
+//! at its effort limit is not linear: it becomes a constraint, which rapier's sweeps solve.
 
-use crate::actuation::commands::{Gains, Motor};
+use congruent_description::SPEED_MARGIN;
 
-/// How much faster than its limit an actuator may drive a joint, as a share of the limit.
-pub const SPEED_MARGIN: f64 = 1e-3;
-/// A spring takes a torque as a shift of its rest position up to here, rad or m: the sum loses 1e-14 at most.
+use crate::commands::{Gains, Motor};
+
+/// Largest shift of a spring's rest position by which it exerts a constant torque, rad or m: the sum loses at most 1e-14.
 const LARGEST_SHIFT: f64 = 100.0;
 
-/// Which limits of an actuator held it back in a step.
+/// Which limits of an actuator were active in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Saturation {
-    /// It asked for more than its largest effort.
+    /// The controller commanded more than the effort limit.
     pub effort: bool,
-    /// It would have driven the joint faster than its largest speed.
+    /// The actuator would have driven the joint faster than its velocity limit.
     pub speed: bool,
 }
 
-/// What an actuator can do; `f64::MAX` if there is no limit.
+/// Limits of an actuator; `f64::MAX` if there is no limit.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Capability {
-    /// N m or N.
+pub(crate) struct DriveCapability {
+    /// Effort limit of the joint, N m or N.
     pub effort: f64,
-    /// rad/s or m/s.
+    /// Velocity limit of the joint, rad/s or m/s.
     pub speed: f64,
 }
 
@@ -38,15 +38,15 @@ pub(crate) struct CoordinateState {
 
 /// A torque that is constant over the step, and a servo.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Drive {
+pub(crate) struct JointDrive {
     pub torque: f64,
     pub servo: Option<Motor>,
-    /// Whether the servo meets its effort limit and so is no linear law.
+    /// Whether the servo reaches its effort limit, so that its law is not linear.
     pub is_constrained: bool,
     pub saturation: Saturation,
 }
 
-impl Capability {
+impl DriveCapability {
     /// The drive that is commanded, within the limits.
     pub(crate) fn drive(
         self,
@@ -54,24 +54,26 @@ impl Capability {
         servo: Option<Motor>,
         state: CoordinateState,
         step_s: f64,
-    ) -> Drive {
-        let mut drive = Drive { torque: torque.clamp(-self.effort, self.effort), servo, ..Drive::default() };
+    ) -> JointDrive {
+        let mut drive =
+            JointDrive { torque: torque.clamp(-self.effort, self.effort), servo, ..JointDrive::default() };
         drive.saturation.effort = drive.torque.to_bits() != torque.to_bits();
         if !self.limit_speed(&mut drive, state) && drive.servo.is_some() {
+            // A guess of the state at the end, to which the law applies; `correct` repeats the step if it was wrong.
             let end = CoordinateState { q: state.q + step_s * state.qd, ..state };
             drive.is_constrained = drive.effort(end).abs() > self.effort;
         }
         drive
     }
 
-    /// Makes a drive that pushes a joint beyond its largest speed hold this speed instead, which brakes if need be;
+    /// Turns a drive that pushes a joint beyond its largest speed into one that holds this speed, and brakes if necessary;
     /// returns whether it did.
-    fn limit_speed(self, drive: &mut Drive, state: CoordinateState) -> bool {
+    fn limit_speed(self, drive: &mut JointDrive, state: CoordinateState) -> bool {
         let wanted = drive.effort(state).clamp(-self.effort, self.effort);
         if wanted * state.qd <= 0.0 || state.qd.abs() <= self.speed || drive.saturation.speed {
             return false;
         }
-        // The effort falls from what is wanted to zero within the margin: no jump, and stable as it is implicit.
+        // The effort falls linearly from the commanded one to zero within the margin: no jump, and stable, since implicit.
         let margin = SPEED_MARGIN * self.speed;
         let gains = Gains { stiffness: 0.0, damping: wanted.abs() / margin };
         let qd = (self.speed + margin).copysign(wanted);
@@ -82,7 +84,7 @@ impl Capability {
     }
 
     /// Corrects a drive that took the joint beyond a limit in a step that ended in a state; returns whether it did.
-    pub(crate) fn correct(self, drive: &mut Drive, end: CoordinateState) -> bool {
+    pub(crate) fn correct(self, drive: &mut JointDrive, end: CoordinateState) -> bool {
         if self.limit_speed(drive, end) {
             return true;
         }
@@ -92,14 +94,14 @@ impl Capability {
     }
 
     /// The effort of a drive in a step that ended in a state, and whether it is the largest.
-    pub(crate) fn exerted(self, drive: &Drive, end: CoordinateState) -> (f64, bool) {
+    pub(crate) fn exerted(self, drive: &JointDrive, end: CoordinateState) -> (f64, bool) {
         let effort = drive.effort(end);
         (effort.clamp(-self.effort, self.effort), effort.abs() > self.effort)
     }
 }
 
-impl Drive {
-    /// The effort at a state, whatever the limit.
+impl JointDrive {
+    /// The effort at a state, without the limit.
     fn effort(&self, state: CoordinateState) -> f64 {
         let servo = self.servo.map_or(0.0, |Motor { gains, q, qd }| {
             gains.stiffness * (q - state.q) + gains.damping * (qd - state.qd)
@@ -111,6 +113,7 @@ impl Drive {
     pub(crate) fn combined(&self) -> Option<Motor> {
         self.servo.map(|mut motor| {
             let Gains { stiffness, damping } = motor.gains;
+            // By the larger gain, so that the shift is small and a gain of zero is never a divisor.
             if stiffness > damping {
                 motor.q += self.torque / stiffness;
             } else {
@@ -147,7 +150,7 @@ pub(crate) struct Linear {
 mod tests {
     use super::*;
 
-    const CAPABILITY: Capability = Capability { effort: 20.0, speed: 2.0 };
+    const CAPABILITY: DriveCapability = DriveCapability { effort: 20.0, speed: 2.0 };
     const AT_REST: CoordinateState = CoordinateState { q: 0.0, qd: 0.0 };
 
     fn servo(stiffness: f64, damping: f64, q: f64) -> Motor {
@@ -157,9 +160,13 @@ mod tests {
     #[test]
     fn the_combined_servo_exerts_the_torque_as_well() {
         for gains in [(400.0, 40.0), (3.0, 40.0), (0.0, 40.0), (400.0, 0.0)] {
-            let drive = Drive { torque: 7.0, servo: Some(servo(gains.0, gains.1, 0.01)), ..Drive::default() };
+            let drive = JointDrive {
+                torque: 7.0,
+                servo: Some(servo(gains.0, gains.1, 0.01)),
+                ..JointDrive::default()
+            };
             let state = CoordinateState { q: 0.003, qd: -0.2 };
-            let both = Drive { torque: 0.0, servo: drive.combined(), ..drive };
+            let both = JointDrive { torque: 0.0, servo: drive.combined(), ..drive };
             assert!((both.effort(state) - drive.effort(state)).abs() < 1e-13, "{gains:?}");
         }
     }
@@ -167,8 +174,11 @@ mod tests {
     #[test]
     fn the_linear_drive_is_the_same_law() {
         for gains in [(400.0, 40.0), (1e-6, 40.0), (0.0, 40.0), (400.0, 0.0)] {
-            let mut drive =
-                Drive { torque: 7.0, servo: Some(servo(gains.0, gains.1, 0.01)), ..Drive::default() };
+            let mut drive = JointDrive {
+                torque: 7.0,
+                servo: Some(servo(gains.0, gains.1, 0.01)),
+                ..JointDrive::default()
+            };
             drive.servo.as_mut().unwrap().qd = 0.7;
             let state = CoordinateState { q: 0.003, qd: -0.2 };
             let Linear { stiffness, damping, rest, torque } = drive.linear();

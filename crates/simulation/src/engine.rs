@@ -10,10 +10,10 @@ use rapier3d_f64::prelude::{
 };
 
 use crate::{
-    actuation::commands::Commands,
     adapter,
     build::Built,
-    drive::{CoordinateState, Drive, Linear, Saturation},
+    commands::Commands,
+    drive::{CoordinateState, JointDrive, Linear, Saturation},
     sets::{EngineSets, EngineSlot},
     settings::WorldSettings,
 };
@@ -23,15 +23,15 @@ use crate::{
 /// 12 us. Without servos, friction or couplings sweeps cost nothing.
 const SWEEPS: usize = 40;
 
-/// Further sweeps for each mimic joint: couplings to one master settle against each other. A gripper
-/// with five is off by 1.1e-5 rad with 40 sweeps in all, 3.5e-8 with 80, 6.7e-12 with 140.
+/// Further sweeps for each mimic joint: couplings to one master act on each other. A gripper with five has
+/// an error of 1.1e-5 rad with 40 sweeps in all, 3.5e-8 with 80, 6.7e-12 with 140.
 const SWEEPS_PER_MIMIC: usize = 25;
 
-/// Further sweeps if a joint has dry friction: where several joints hold and their inertias are strongly coupled, 40 sweeps
-/// leave speeds of 1e-3 rad/s that no velocity shows. A sweep of a six-joint arm takes some 0.07 us.
+/// Further sweeps if a joint has dry friction: if several joints with strongly coupled inertias are held, 40 sweeps leave residual
+/// speeds of 1e-3 rad/s. A sweep of a six-joint arm takes some 0.07 us.
 const SWEEPS_WITH_FRICTION: usize = 200;
 
-/// Fastest return of a joint that stands outside its limits, rad/s or m/s.
+/// Largest speed at which a joint outside its limits returns, rad/s or m/s.
 ///
 /// rapier by itself returns within one step: a robot placed 1 rad outside would get 1000 rad/s.
 const RETURN_SPEED: f64 = 1.0;
@@ -47,8 +47,8 @@ pub(crate) struct Engine {
     pub(crate) pipeline: PhysicsPipeline,
     pub(crate) parameters: IntegrationParameters,
     pub(crate) gravity: Vector,
-    /// Of the step that is taken.
-    pub(crate) drives: Vec<Drive>,
+    /// Drives of the joints in the present step.
+    pub(crate) drives: Vec<JointDrive>,
     /// Whether some body carries a force of the step before: rapier's forces persist.
     pub(crate) is_forced: bool,
     /// Whether a joint was beyond its limits at the beginning of the last step, which brings it back.
@@ -67,7 +67,7 @@ impl Engine {
         let Built { sets, handles, slots, moving, multibody } = built;
         let gravity = adapter::vector(&settings.gravity_in_world);
         let pipeline = new_pipeline();
-        let drives = vec![Drive::default(); slots.len()];
+        let drives = vec![JointDrive::default(); slots.len()];
         let mut engine = Self {
             sets,
             handles,
@@ -85,7 +85,7 @@ impl Engine {
         engine
     }
 
-    /// As many sweeps as the joints need.
+    /// Sets the number of sweeps by mimic joints and dry friction.
     pub(crate) fn choose_sweeps(&mut self) {
         let mimics = self.slots.iter().filter(|slot| slot.is_mimic).count();
         let has_friction = (0..self.slots.len()).any(|coordinate| self.dry_friction(coordinate) > 0.0);
@@ -135,7 +135,7 @@ impl Engine {
         let sets = &mut self.sets;
         let multibody = sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
         for link in multibody.links_mut().skip(1) {
-            // A new joint stands at zero, whatever the old one was; 0 + q is q to the last bit.
+            // Through a new joint at zero: 0 + q is q to the last bit, while a displacement from the old position is rounded.
             link.joint = MultibodyJoint::new(link.joint.data, false);
         }
         multibody.apply_displacements(q);
@@ -166,8 +166,8 @@ impl Engine {
             *drive = slot.capability.drive(torque, servo, state, step_s);
         }
         self.step_drives();
-        // Rare: the blow of a contact, or a joint that reaches its largest speed in this step. Each correction may take
-        // another joint beyond a limit.
+        // Rare: the impact of a contact, or a joint that reaches its largest speed in this step. Each correction may take
+        // another joint beyond a limit, so there are at most as many rounds as joints; each repeats the step from its start.
         for _ in 0..=self.slots.len() {
             if !self.correct_drives() {
                 break;
@@ -224,7 +224,7 @@ impl Engine {
         }
     }
 
-    /// Each torque acts on the child and, the other way, on the parent. That of a servo is a part of the servo.
+    /// Each torque acts on the child and, with the opposite sign, on the parent. The torque of a constrained servo is part of it.
     fn apply_torques(&mut self) {
         let Some(index) = self.multibody else { return };
         let multibody = self.sets.multibody_joints.get_multibody(index).expect("the multibody exists");
@@ -265,7 +265,7 @@ impl Engine {
             let linear = if drive.is_constrained { Linear::default() } else { drive.linear() };
             link.joint.set_spring(slot.axis as usize, linear.stiffness, linear.rest);
             if let Some(motor) = drive.combined().filter(|_| drive.is_constrained) {
-                // rapier moves the target along for the step; ours is the target at its end.
+                // rapier's target is that at the beginning of the step and moves with its velocity; ours is that at its end.
                 let (target, gains) = (motor.q - step_s * motor.qd, motor.gains);
                 let data = &mut link.joint.data;
                 data.set_motor(slot.axis, target, motor.qd, gains.stiffness, gains.damping);
@@ -273,6 +273,7 @@ impl Engine {
                 data.set_motor_max_force(slot.axis, slot.capability.effort);
             }
         }
+        // Damping of joint and servo goes into the mass matrix, implicitly: stable for any value.
         for (row, (drive, own)) in self.drives.iter().zip(&self.sets.damping).enumerate() {
             let servo = drive.servo.filter(|_| !drive.is_constrained);
             multibody.damping_mut()[row] = own + servo.map_or(0.0, |servo| servo.gains.damping);
@@ -303,7 +304,7 @@ impl Engine {
         (0..factors.nrows()).find(|&row| !pivot(row).is_finite() || pivot(row) == 0.0)
     }
 
-    /// Effort of each actuator in the step that ended in `q`, `qd`, and which of its limits held it back.
+    /// Effort of each actuator in the step that ended in `q`, `qd`, and which of its limits were active.
     pub(crate) fn exerted(&self, q: &[f64], qd: &[f64], torque: &mut [f64], saturations: &mut [Saturation]) {
         for (row, (slot, drive)) in self.slots.iter().zip(&self.drives).enumerate() {
             let (effort, is_largest) =
@@ -318,7 +319,7 @@ impl Engine {
     pub(crate) fn asked(&self, commands: &Commands, q: &[f64], qd: &[f64], torque: &mut [f64]) {
         for (row, slot) in self.slots.iter().enumerate() {
             let servo = commands.motors[row].filter(|_| !slot.is_mimic);
-            let drive = Drive { torque: commands.torque[row], servo, ..Drive::default() };
+            let drive = JointDrive { torque: commands.torque[row], servo, ..JointDrive::default() };
             torque[row] = slot.capability.exerted(&drive, CoordinateState { q: q[row], qd: qd[row] }).0;
         }
     }
@@ -355,7 +356,7 @@ impl Engine {
 
     pub(crate) fn restore(&mut self, sets: &EngineSets) {
         self.sets.clone_from(sets);
-        // Its memory is of the state before.
+        // A new pipeline: the old one keeps contacts and islands of the state before, and steps would not repeat bit by bit.
         self.pipeline = new_pipeline();
         self.is_forced = true;
     }
@@ -365,9 +366,9 @@ impl EngineSlot {
     /// The limits to enforce in a step that begins at `q`; `None` inside the range, in which a limit
     /// does nothing but costs a solve.
     fn passed_limits(&self, q: f64, step_s: f64) -> Option<[f64; 2]> {
-        let way = RETURN_SPEED * step_s;
+        let distance = RETURN_SPEED * step_s;
         let is_inside = (self.lower..=self.upper).contains(&q);
-        (!is_inside).then(|| [self.lower.min(q + way), self.upper.max(q - way)])
+        (!is_inside).then(|| [self.lower.min(q + distance), self.upper.max(q - distance)])
     }
 }
 

@@ -1,6 +1,6 @@
 //! The errors of this crate: one enum, one test for each variant.
 
-/// Why a world was not built, or why it did not step.
+/// Why a world cannot be built, or cannot be stepped.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {
@@ -19,54 +19,54 @@ pub enum SimulationError {
     /// The limits of a joint allow no position.
     #[error("joint \"{joint}\": the lower limit {lower} {unit} is above the upper limit {upper} {unit}")]
     Limits {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// Lower limit.
+        /// Lower position limit, in that unit.
         lower: f64,
-        /// Upper limit.
+        /// Upper position limit, in that unit.
         upper: f64,
-        /// `rad` or `m`.
+        /// Unit of the limits: `rad` or `m`.
         unit: &'static str,
     },
-    /// Damping, dry friction, armature or a share of the effort is no number from zero on.
-    #[error("joint \"{joint}\": a {what} of {value} is not a finite number of at least 0")]
+    /// Damping, dry friction, armature or a share of the effort is negative or not finite.
+    #[error("joint \"{joint}\": {what} = {value} must be finite and >= 0")]
     Resistance {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// Which of them.
+        /// Name of the quantity.
         what: &'static str,
-        /// The value.
+        /// The value that was given.
         value: f64,
     },
     /// A shape with contacts has no convex hull.
-    #[error("{owner}: a shape is flat or empty and has no convex hull; give it a thickness or leave it out")]
+    #[error("{owner}: a shape is flat or empty and has no convex hull; give it a thickness or remove it")]
     Shape {
-        /// The link or the obstacle.
+        /// Kind and name of the link or the obstacle.
         owner: String,
     },
     /// A vector does not hold one entry for each movable joint.
     #[error("{what}: {found} entries, but the robot has {expected} movable joints")]
     Length {
-        /// Which vector.
+        /// Name of the vector.
         what: &'static str,
-        /// Its length.
+        /// Number of its entries.
         found: usize,
-        /// The number of movable joints.
+        /// Number of movable joints of the robot.
         expected: usize,
     },
     /// A value is infinite or NaN.
     #[error("joint \"{joint}\": {what} is not finite at {time_s} s")]
     NotFinite {
-        /// The first such joint.
+        /// Name of the first such joint.
         joint: String,
         /// Simulated time at the end of the step.
         time_s: f64,
-        /// Which quantity.
+        /// Name of the quantity.
         what: &'static str,
     },
     /// A joint moves no inertia, so its dynamics are undefined.
     #[error(
-        "link \"{link}\" and all that it carries have no mass; give it an <inertial>, or use the controller kinematic"
+        "link \"{link}\" and every link that it carries have no mass; give it an <inertial>, or use the controller kinematic"
     )]
     Massless {
         /// The link that the joint carries.

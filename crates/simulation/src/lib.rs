@@ -6,26 +6,25 @@
 mod actuation;
 mod adapter;
 mod build;
-mod carried;
 mod changes;
+mod commands;
 mod contact;
 mod drive;
 mod engine;
 mod engine_changes;
 mod error;
+mod joints_view;
 mod lumping;
 mod sets;
 mod settings;
 mod world;
 
-pub use actuation::{
-    Commands, Controller, DriveConnection, Gains, JointsView, Kinematic, MeasuredState, Motor, Passive, Pd,
-    Setpoint, Torque,
-};
-pub use carried::CarriedBody;
-pub use drive::{SPEED_MARGIN, Saturation};
+pub use actuation::{Controller, DriveConnection, Kinematic, Passive, Pd, Torque};
+pub use commands::{Commands, Gains, Motor};
+pub use drive::Saturation;
 pub use error::SimulationError;
-pub use settings::{Obstacle, Touches, WorldSettings};
+pub use joints_view::{JointsView, MeasuredState, Setpoint};
+pub use settings::{Touches, WorldSettings};
 pub use world::{World, WorldSnapshot};
 
 /// Name and version of the physics engine, as reports give it; a test of the workspace compares it

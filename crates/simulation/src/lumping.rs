@@ -17,12 +17,12 @@ pub(crate) struct LinkOnBody {
 pub(crate) struct Bodies {
     /// In the order of [`Robot::links`].
     pub links: Vec<LinkOnBody>,
-    /// Of each body, in the axes of its first link; zero if none of its links has any.
+    /// Inertia of each body, in the axes of its first link; zero if none of its links has an inertia.
     pub inertias: Vec<Inertia>,
 }
 
 impl Bodies {
-    pub(crate) fn of(robot: &Robot) -> Self {
+    pub(crate) fn lumped(robot: &Robot) -> Self {
         let mut links: Vec<LinkOnBody> = Vec::with_capacity(robot.links().len());
         for link in robot.link_indices() {
             links.push(place(robot, link, &links));
@@ -49,7 +49,7 @@ fn place(robot: &Robot, link: LinkIndex, before: &[LinkOnBody]) -> LinkOnBody {
 
 fn inertia(robot: &Robot, body: usize, links: &[LinkOnBody]) -> Inertia {
     let on_body = links.iter().zip(robot.links()).filter(move |(place, _)| place.body == body);
-    Inertia::of_body(on_body.filter_map(|(place, link)| Some((place.body_from_link, link.inertia?))))
+    Inertia::sum_of_parts(on_body.filter_map(|(place, link)| Some((place.body_from_link, link.inertia?))))
 }
 
 #[cfg(test)]
@@ -87,7 +87,7 @@ mod tests {
             };
             JointParts { joint, parent: parent.into(), child: child.into(), mimic: None }
         };
-        // b stands at (1, 2, 0) in a, turned by 90 deg about z: its (0, 2, 0) is a's (-1, 2, 0).
+        // b is at (1, 2, 0) in a, turned by 90 deg about z: its (0, 2, 0) is a's (-1, 2, 0).
         let quarter_turn = Vector3::z() * std::f64::consts::FRAC_PI_2;
         let a_from_b = Isometry3::new(Vector3::new(1.0, 2.0, 0.0), quarter_turn);
         let links = vec![
@@ -99,7 +99,7 @@ mod tests {
             parts(JointKind::Revolute, "root", "a", Isometry3::translation(5.0, 6.0, 7.0)),
             parts(JointKind::Fixed, "a", "b", a_from_b),
         ];
-        let bodies = Bodies::of(&Robot::new("two", links, joints).unwrap());
+        let bodies = Bodies::lumped(&Robot::new("two", links, joints).unwrap());
 
         assert_eq!(bodies.links.iter().map(|link| link.body).collect::<Vec<_>>(), [0, 1, 1]);
         assert_eq!(bodies.inertias[0].mass_kg.to_bits(), 0.0_f64.to_bits());

@@ -5,7 +5,7 @@ use rapier3d_f64::prelude::{
     NarrowPhase, RigidBodySet, SoftBodySet,
 };
 
-use crate::{contact::near::NearShapes, drive::Capability};
+use crate::{contact::near::NearShapes, drive::DriveCapability};
 
 /// Everything that a step or a change of the robot changes; a clone is a snapshot.
 #[derive(Clone, Default)]
@@ -30,6 +30,6 @@ pub(crate) struct EngineSlot {
     pub axis: JointAxis,
     pub lower: f64,
     pub upper: f64,
-    pub capability: Capability,
+    pub capability: DriveCapability,
     pub is_mimic: bool,
 }

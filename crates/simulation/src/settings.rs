@@ -1,7 +1,7 @@
 //! The settings of a world, apart from the robot.
 
-use congruent_description::Geometry;
-use nalgebra::{Isometry3, Vector3};
+use congruent_description::Obstacle;
+use nalgebra::Vector3;
 
 /// How a [`World`](crate::World) is set up.
 ///
@@ -12,7 +12,7 @@ pub struct WorldSettings {
     pub step_s: f64,
     /// Acceleration of free fall, m/s^2.
     pub gravity_in_world: Vector3<f64>,
-    /// Bodies around the robot.
+    /// Bodies around the robot, with their poses at the start.
     pub obstacles: Vec<Obstacle>,
     /// Numbers of the obstacles that [`World::move_obstacle`](crate::World::move_obstacle) may move.
     pub moving_obstacles: Vec<usize>,
@@ -43,15 +43,4 @@ pub enum Touches {
     Links,
     /// Nothing: a link carries it.
     Nothing,
-}
-
-/// A body around the robot.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Obstacle {
-    /// Name, as in the scenario.
-    pub name: String,
-    /// Pose of the shape's frame in the world at first, m.
-    pub world_from_obstacle: Isometry3<f64>,
-    /// The shape, m; of a mesh, the convex hull has contacts.
-    pub geometry: Geometry,
 }

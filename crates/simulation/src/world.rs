@@ -1,15 +1,16 @@
 //! The world: one robot, fixed at its root, and its obstacles.
 
-use congruent_description::{Inertia, LinkIndex, Robot, RobotQ};
+use congruent_description::{CarriedBody, Inertia, LinkIndex, Robot, RobotQ};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
-    actuation::{Commands, Controller, JointsView, MeasuredState, Motor, Setpoint, connection::Connections},
+    actuation::{Controller, connection::Connections},
     build,
-    carried::CarriedBody,
+    commands::{Commands, Motor},
     drive::Saturation,
     engine::Engine,
     error::SimulationError,
+    joints_view::{JointsView, MeasuredState, Setpoint},
     lumping::{Bodies, LinkOnBody},
     sets::EngineSets,
     settings::WorldSettings,
@@ -26,7 +27,7 @@ const LARGEST: f64 = 1e75;
 
 /// A robot in physics.
 ///
-/// The world frame is the frame of the root link, which stands still. Vectors hold one entry for
+/// The world frame is the frame of the root link, which is at rest. Vectors hold one entry for
 /// each movable joint, mimic joints included, in the order of [`Robot::movable_joints`]; units are
 /// rad and N m, or m and N for a prismatic joint.
 ///
@@ -102,7 +103,7 @@ pub struct WorldSnapshot {
 }
 
 impl World {
-    /// Builds the world; the robot stands at zero, at rest, at time zero.
+    /// Builds the world; the robot is at zero positions, at rest, at time zero.
     ///
     /// A robot without mass is accepted: it can be placed, and stepped by a controller that
     /// places it.
@@ -112,7 +113,7 @@ impl World {
     /// shape with contacts has no volume.
     pub fn new(robot: &Robot, settings: &WorldSettings) -> Result<Self, SimulationError> {
         check(settings)?;
-        let bodies = Bodies::of(robot);
+        let bodies = Bodies::lumped(robot);
         let engine = Engine::new(build::build(robot, &bodies, settings)?, settings);
         let dof = robot.dof();
         let movable = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
@@ -204,7 +205,7 @@ impl World {
     /// When `out` does not hold one entry for each link.
     pub fn root_from_links_into(&self, out: &mut [Isometry3<f64>]) {
         assert_eq!(out.len(), self.links.len(), "one entry for each link");
-        // Links of one body follow each other but for branches, so this converts most bodies once.
+        // Links of one body follow each other except at branches, so this converts most bodies once.
         let mut body = 0;
         let mut root_from_body = Isometry3::identity();
         for (out, link) in out.iter_mut().zip(&self.links) {

@@ -3,10 +3,8 @@
 
 mod support;
 
-use congruent_description::Inertia;
-use congruent_simulation::{
-    CarriedBody, DriveConnection, MeasuredState, Setpoint, SimulationError, World, WorldSettings,
-};
+use congruent_description::{CarriedBody, Inertia};
+use congruent_simulation::{DriveConnection, MeasuredState, Setpoint, SimulationError, World, WorldSettings};
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
 /// Sums of a few products; worst seen 3e-16 of the largest.
@@ -40,7 +38,7 @@ fn what_is_carried_is_as_what_was_built_in() {
 }
 
 #[test]
-fn a_joint_of_very_large_damping_stands_still() {
+fn a_joint_of_very_large_damping_is_at_rest() {
     let mut world = World::new(&support::arm(), &WorldSettings::default()).unwrap();
     world.set_state(&support::arm_q0(), &[0.5; 6]).unwrap();
     world.set_damping(2, 1e9).unwrap();

@@ -4,11 +4,12 @@ mod support;
 
 use std::sync::Arc;
 
-use congruent_description::{Geometry, Mesh, Robot, RobotQ};
+use congruent_description::{Geometry, Mesh, Obstacle, Robot, RobotQ};
 use congruent_simulation::{
-    Commands, Controller, JointsView, Obstacle, Setpoint, SimulationError, World, WorldSettings,
+    Commands, Controller, JointsView, Setpoint, SimulationError, World, WorldSettings,
 };
 use nalgebra::{Isometry3, Point3, Vector3};
+
 use support::{arm, arm_q0, arm_with, limited, make, massless, pendulum, run};
 
 fn refused(settings: &WorldSettings) -> SimulationError {
@@ -73,14 +74,14 @@ fn a_robot_without_mass_is_placed_but_not_stepped() {
     let error = world.step(make("passive", 0.0, 0.0).as_mut(), &setpoint).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "link \"arm\" and all that it carries have no mass; give it an <inertial>, or use the controller kinematic"
+        "link \"arm\" and every link that it carries have no mass; give it an <inertial>, or use the controller kinematic"
     );
     world.step(make("kinematic", 0.0, 0.0).as_mut(), &setpoint).unwrap();
     assert_eq!(world.q()[..], [0.5]);
 }
 
 #[test]
-fn a_robot_without_a_joint_stands() {
+fn a_robot_without_a_joint_is_at_rest() {
     let robot = Robot::new("table", vec![massless("table")], vec![]).unwrap();
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
     run(&mut world, make("pd", 1.0, 1.0).as_mut(), &RobotQ::zeros(0), 3);

@@ -3,7 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "the worst values, for those who run with --nocapture")]
 
-#[path = "../../../tests/corpus.rs"]
+#[path = "../../../tests/support/corpus.rs"]
 mod corpus;
 mod support;
 

@@ -5,11 +5,10 @@
 
 mod support;
 
-use congruent_description::{Geometry, RobotQ};
-use congruent_simulation::{
-    Commands, Controller, Gains, JointsView, Motor, Obstacle, Setpoint, World, WorldSettings,
-};
+use congruent_description::{Geometry, Obstacle, RobotQ};
+use congruent_simulation::{Commands, Controller, Gains, JointsView, Motor, Setpoint, World, WorldSettings};
 use nalgebra::{Isometry3, Vector3};
+
 use support::{arm, arm_q0, arm_with, at, bits, limited, make, mimic_arm, run, swinging_bar, worst};
 
 /// Drift under gravity compensation, rad in 10 s; rounding of g(q), an equilibrium that is not

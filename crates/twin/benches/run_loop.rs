@@ -4,12 +4,9 @@
 
 use std::path::Path;
 
-use congruent_simulation::Obstacle;
-use congruent_twin::{
-    Run, RunSetup,
-    monitor::RunningCheck,
-    recorder::{NoRecorder, Recorder},
-};
+use congruent_description::Obstacle;
+use congruent_monitors::{NoRecorder, Recorder, RunningCheck};
+use congruent_twin::{Run, RunSetup};
 
 fn main() {
     divan::main();
@@ -20,7 +17,7 @@ fn setup() -> RunSetup {
     RunSetup::load(&path, &[]).expect("the scenario is part of the project")
 }
 
-/// What a run does besides physics.
+/// What a run does beside physics.
 #[derive(Clone, Copy)]
 struct Stages {
     compare: bool,

@@ -3,24 +3,22 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use congruent_agreement::{compare::Model, report::ReportedDiagnosis};
+use congruent_agreement::compare::Model;
 use congruent_description::Robot;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
+use congruent_monitors::{
+    Names, Recorder, RecordingError, RunningCheck, Sample, SampleStore,
+    verdict::{CheckResult, CheckValue, RunStop, StopAcceleration, StopLimit},
+};
+use congruent_motion::{ServoResult, SlowedMotion};
+use congruent_proximity::{Clearance, MovingBodies, PairChoice, ProximityError};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 
 use crate::{
-    bodies::MovingBodies,
-    diagnosis::{RunDiagnosis, SampleStore, diagnose},
-    monitor::{Names, RunningCheck},
-    motion::{ServoResult, SlowedMotion},
-    proximity::{Clearance, PairChoice, ProximityError},
-    recorder::{Recorder, RecordingError},
-    sample::Sample,
     setup::RunSetup,
     source::{ActuatorUse, JointStateSource, SimulationSource, SourceError, stop_accelerations},
     stopping::Stopping,
-    verdict::{CheckResult, CheckValue, Status, Stop, StopAcceleration, StopLimit},
 };
 
 /// Why a run cannot start or cannot continue.
@@ -49,10 +47,10 @@ pub enum RunError {
 pub struct Outcome {
     /// Results of all checks, in the order of the scenario.
     pub checks: Vec<CheckResult>,
-    /// Steps taken.
+    /// Number of steps that were taken.
     pub steps: u64,
     /// The check that ended the run early, and when; `None` if none did.
-    pub stopped: Option<Stop>,
+    pub stopped: Option<RunStop>,
     /// The result of each servo: its error at the end.
     pub servos: Vec<ServoResult>,
     /// Motions that were planned in the run and take longer than the scenario says.
@@ -61,10 +59,6 @@ pub struct Outcome {
     pub actuators: Vec<ActuatorUse>,
     /// SHA-256 over the true joint positions of every sample.
     pub trajectory_sha256: String,
-    /// Why model and twin differ, if a check of their agreement failed and the source is the physics.
-    pub diagnoses: Vec<ReportedDiagnosis>,
-    /// What the samples show to be wrong with the twin, if a check failed.
-    pub diagnosis: Option<RunDiagnosis>,
 }
 
 /// A run in progress. [`Run::finish`] does all of it; the stages are public so that a benchmark can
@@ -86,7 +80,7 @@ pub struct Run<'a> {
     values: Vec<CheckValue>,
     hash: Sha256,
     store: SampleStore,
-    /// The way to rest, from the first violation of a check that stops the run.
+    /// The motion to rest, from the first violation of a check that stops the run.
     stopping: Option<Stopping>,
     /// Set by whoever wants the run to end.
     interrupt: Option<&'a AtomicBool>,
@@ -151,7 +145,7 @@ impl<'a> Run<'a> {
         self
     }
 
-    /// What is run.
+    /// The checked scenario of this run.
     pub fn setup(&self) -> &'a RunSetup {
         self.setup
     }
@@ -161,9 +155,14 @@ impl<'a> Run<'a> {
         &self.names
     }
 
-    /// The analytical side.
+    /// The analytical model that the twin is compared with.
     pub fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// Samples that were kept for a diagnosis, and the distances that the run measures.
+    pub fn samples_and_clearance(&mut self) -> (&SampleStore, &mut Clearance) {
+        (&self.store, &mut self.clearance)
     }
 
     /// Number of steps, as far as it is known by now: a motion that is made slower in the run makes the run longer.
@@ -270,7 +269,7 @@ impl<'a> Run<'a> {
     }
 
     /// Whether the run ends here: at its end, or where the arm is at rest after a violation. The first violation of a check
-    /// that stops the run begins the way to rest.
+    /// that stops the run begins the motion to rest.
     fn ends(&mut self, checks: &[RunningCheck<'_>]) -> bool {
         let step = self.source.step_count();
         let time_s = self.setup.clock.time_s(step);
@@ -294,7 +293,7 @@ impl<'a> Run<'a> {
     /// Runs to the end, or to rest after the first violation of a check that stops the run. After an error, the
     /// outcome holds the results up to it.
     pub fn finish(
-        mut self,
+        &mut self,
         checks: &mut [RunningCheck<'_>],
         recorder: &mut dyn Recorder,
         mut progress: impl FnMut(u64),
@@ -318,7 +317,6 @@ impl<'a> Run<'a> {
             Err(error) => (Vec::new(), result.and(Err(error.into()))),
         };
         let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
-        let has_failed = results.iter().any(|check| check.status == Status::Fail);
         let stopped = self.stopping.as_ref().map(|stopping| {
             let result = &mut results[stopping.check()];
             let declared = self.setup.trajectory.declared_accelerations();
@@ -328,15 +326,13 @@ impl<'a> Run<'a> {
             stopping.report(result, &self.names.joints, braked)
         });
         let outcome = Outcome {
-            diagnosis: has_failed.then(|| diagnose(self.setup, &self.store, &mut self.clearance)).flatten(),
             stopped,
             checks: results,
             steps: self.source.step_count(),
             servos,
             actuators: self.source.actuators(),
             slowed: self.source.slowed().to_vec(),
-            trajectory_sha256: hex(&self.hash.finalize()),
-            diagnoses: Vec::new(),
+            trajectory_sha256: hex(&self.hash.finalize_reset()),
         };
         (outcome, result)
     }

@@ -1,15 +1,12 @@
-//! The way of an arm to rest, after the first violation of a check that stops the run.
+//! The path of an arm to rest, after the first violation of a check that stops the run.
 
-use congruent_description::{
-    JointValues, Robot, RobotQ,
-    display::{length, quantity},
+use congruent_description::{JointValues, Robot, RobotQ};
+use congruent_input::display::{length, quantity};
+use congruent_monitors::{
+    JointSample,
+    verdict::{CheckResult, MotionToRest, RunStop, StopAcceleration, StopLimit},
 };
 use nalgebra::Vector3;
-
-use crate::{
-    source::JointSample,
-    verdict::{CheckResult, Stop, StopAcceleration, StopLimit, WayToRest},
-};
 
 /// An arm is at rest if every joint is slower, rad/s and m/s. Kind: engineering; in a second it moves by 0.06 deg.
 const AT_REST: f64 = 1e-3;
@@ -75,9 +72,9 @@ impl Stopping {
             joints.setpoint.is_none_or(|setpoint| setpoint.qd.iter().all(|&qd| qd == 0.0));
         self.slow_since_s =
             (is_commanded_to_rest && slow(joints.truth.qd)).then(|| self.slow_since_s.unwrap_or(time_s));
-        // An arm that is placed, not driven, stands as soon as its setpoint does.
-        let stands = joints.truth.qd.iter().all(|&qd| qd == 0.0);
-        let rest_s = self.slow_since_s.filter(|since_s| stands || time_s - since_s >= STAYS_S);
+        // An arm that is placed, not driven, is at rest as soon as its setpoint does.
+        let is_still = joints.truth.qd.iter().all(|&qd| qd == 0.0);
+        let rest_s = self.slow_since_s.filter(|since_s| is_still || time_s - since_s >= STAYS_S);
         self.is_at_rest = rest_s.is_some();
         self.duration_s = rest_s.unwrap_or(time_s) - self.time_s;
         !self.can_stop || self.is_at_rest || self.duration_s >= LONGEST_S
@@ -90,35 +87,35 @@ impl Stopping {
         if !self.can_stop {
             return note;
         }
-        let (duration, way) = (quantity(self.duration_s, "s"), length(self.tcp_path_m));
+        let (duration, path) = (quantity(self.duration_s, "s"), length(self.tcp_path_m));
         let rest = if self.is_at_rest { "at rest" } else { "not at rest" };
         let declared = accelerations.iter().filter(|used| used.source == StopLimit::Declared).count();
         let braked = match declared {
-            0 => "velocity limits in 0.25 s, none is declared".to_owned(),
+            0 => "none declared, velocity limits / 0.25 s".to_owned(),
             _ if declared == accelerations.len() => "as declared".to_owned(),
             _ => format!("as declared for {declared} of {} joints", accelerations.len()),
         };
         let ends = ends_of_range(robot, accelerations);
         format!(
-            "{note}; the arm is {rest} {duration} later, its TCP {way} further (accelerations: {braked}{ends})"
+            "{note}; the arm is {rest} {duration} later, after {path} of TCP path (accelerations: {braked}{ends})"
         )
     }
 
-    /// For the report.
+    /// The stop for the report of the run.
     pub(crate) fn report(
         &self,
         result: &CheckResult,
         joints: &[String],
         accelerations: Vec<StopAcceleration>,
-    ) -> Stop {
+    ) -> RunStop {
         let gone: Vec<f64> = self.q.iter().zip(&self.from).map(|(to, from)| to - from).collect();
-        Stop {
+        RunStop {
             check: result.check,
             line: result.line,
             step: self.step,
             time_s: self.time_s,
             q: JointValues::new(joints, &self.from),
-            rest: self.can_stop.then(|| WayToRest {
+            rest: self.can_stop.then(|| MotionToRest {
                 is_at_rest: self.is_at_rest,
                 duration_s: self.duration_s,
                 joints: JointValues::new(joints, &gone),
@@ -129,14 +126,17 @@ impl Stopping {
     }
 }
 
-/// Joints that came to the end of their range on the way to rest, in words.
+/// Joints that came to the end of their range on the path to rest, in words.
 fn ends_of_range(robot: &Robot, accelerations: &[StopAcceleration]) -> String {
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let lost =
         joints.zip(accelerations).filter_map(|(joint, used)| Some((joint, used.lost_at_end_of_range?)));
     let words = lost.map(|(joint, speed)| {
         let speed = quantity(speed, &format!("{}/s", joint.kind.unit()));
-        format!(", but {} reached the end of its range at {speed} and was stopped there at once", joint.name)
+        format!(
+            ", but {} reached the end of its range at {speed} and its setpoint stopped at once",
+            joint.name
+        )
     });
     words.collect()
 }
@@ -144,7 +144,7 @@ fn ends_of_range(robot: &Robot, accelerations: &[StopAcceleration]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::JointStateView;
+    use congruent_monitors::JointStateView;
 
     /// When the stop of one joint ends that has this speed.
     fn stopped(speed: impl Fn(f64) -> f64) -> (Stopping, f64) {

@@ -5,13 +5,13 @@ use std::{collections::BTreeMap, path::Path};
 
 use congruent_description::{RobotDescription, RobotQ, load_robot};
 use congruent_dynamics::BodyTree;
+use congruent_scenario::{
+    ControllerKind, ControllerSettings, JointMotion, JointNumbers, JointSettings, MotionSettings,
+    PayloadSettings, Scenario, SensorSettings, SimulationSettings, StartSettings, VelocitySensor,
+};
 use congruent_simulation::{Setpoint, World, WorldSettings};
 use congruent_twin::{
     JointController, RunSetup,
-    scenario::{
-        ControllerSettings, JointMotion, JointNumbers, JointSettings, MotionSettings, PayloadSettings,
-        Scenario, SensorSettings, SimulationSettings, StartSettings, VelocitySensor,
-    },
     source::{JointStateSource, SimulationSource},
 };
 
@@ -50,7 +50,12 @@ fn still(description: &RobotDescription, controller: ControllerSettings) -> Scen
 
 fn gains(kind: &str, stiffness: f64, damping: f64) -> ControllerSettings {
     let (stiffness, damping) = (stiffness.into(), damping.into());
-    ControllerSettings { kind: kind.to_owned(), stiffness, damping, ..ControllerSettings::default() }
+    ControllerSettings {
+        kind: ControllerKind::find(kind).expect("a kind"),
+        stiffness,
+        damping,
+        ..ControllerSettings::default()
+    }
 }
 
 fn setup(description: &RobotDescription, scenario: Scenario) -> RunSetup {

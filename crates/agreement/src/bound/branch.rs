@@ -5,7 +5,7 @@ use std::{cmp::Ordering, collections::BinaryHeap};
 
 use super::{
     budget::{Budget, ROUNDING_LEVEL},
-    corner::Interval,
+    corner::PositionInterval,
     difference_norm::{DifferenceNorm, EnclosureBuffers},
     search::Incumbent,
 };
@@ -18,7 +18,7 @@ const MAX_CORNERS_OF_BOX: u64 = 1 << 20;
 /// the bound that was least for the box that it is half of.
 const ALL_BOUNDS_EVERY: u64 = 8;
 
-/// The bracket that was found: the incumbent attains at most `certified`, up to rounding.
+/// The result of a search: no configuration is above `certified`, and the incumbent shows how close that is.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BracketOutcome {
     pub(super) incumbent: Incumbent,
@@ -37,20 +37,20 @@ pub(super) struct NormConversion {
     pub(super) max_norm: f64,
 }
 
-/// An upper bound of the disagreement: the sum of the disagreements of `differences`, and `slack` for
-/// what they leave out.
+/// An upper bound of the disagreement: the sum of the disagreements of `differences`, and `slack` for what
+/// simplification has removed from them.
 #[derive(Debug, Clone)]
-pub(super) struct UpperBound {
+pub(super) struct DisagreementBound {
     pub(super) differences: Vec<DifferenceNorm>,
     pub(super) slack: f64,
 }
 
-/// One maximisation: the difference that a configuration attains, and upper bounds of it.
+/// One maximisation over the box of all joint ranges: the difference, and upper bounds of it.
 pub(super) struct BracketTask<'a> {
     pub(super) difference: &'a DifferenceNorm,
     /// The first one is the difference itself.
-    pub(super) bounds: Vec<UpperBound>,
-    pub(super) ranges: &'a [Interval],
+    pub(super) bounds: Vec<DisagreementBound>,
+    pub(super) ranges: &'a [PositionInterval],
     pub(super) conversion: NormConversion,
     pub(super) budget: Budget,
 }
@@ -60,7 +60,7 @@ pub(super) struct BracketTask<'a> {
 struct BoxNode {
     bound: f64,
     number: u64,
-    intervals: Vec<Interval>,
+    intervals: Vec<PositionInterval>,
     /// The joint whose interval is split next; past the last joint if the bound depends on none.
     split_joint: usize,
     /// Which of the task's bounds was least.
@@ -88,7 +88,7 @@ impl PartialEq for BoxNode {
 
 impl Eq for BoxNode {}
 
-/// The state of a search.
+/// The state of a search: the best configuration so far, buffers, and the work that was done.
 struct BranchAndBound<'a> {
     task: &'a BracketTask<'a>,
     incumbent: Incumbent,
@@ -109,17 +109,27 @@ impl BranchAndBound<'_> {
     }
 
     /// Bounds a box that is part of a larger one, starting with the bound that was least for the larger.
-    fn bound(&mut self, intervals: Vec<Interval>, (outer, bound_index): (f64, usize)) -> BoxNode {
+    fn bound(&mut self, intervals: Vec<PositionInterval>, (outer, bound_index): (f64, usize)) -> BoxNode {
         self.boxes += 1;
+        // A part of a box has no larger maximum than the box, so the bound of the box is where the bound of the part
+        // starts: bounds never grow from a box to its halves, whichever bound is computed for them.
         let mut node = BoxNode { bound: outer, number: self.boxes, intervals, split_joint: 0, bound_index };
         let reduction = self.bound_by(bound_index, &mut node);
+        // The bound that was least for the larger box is mostly least for its halves as well. Evaluating all of them
+        // for each box would cost up to five times as many corners; now and then suffices to notice a change. The
+        // first box has number 1: it is bounded by all.
         let others = if node.number % ALL_BOUNDS_EVERY == 1 { self.task.bounds.len() } else { 0 };
+        // Bounds over intermediate chains have a gap that no split closes: the steps have their maxima at different
+        // configurations. Only bound 0, of the difference itself, converges to the maximum as boxes shrink. So if
+        // all that were tried are stuck above the target, the box and its parts go back to bound 0, although it may
+        // be wider here.
         let mut is_stuck = bound_index > 0 && self.is_stuck(reduction, &node);
         for other in (1..others).filter(|&other| other != bound_index) {
             let reduction = self.bound_by(other, &mut node);
             is_stuck &= self.is_stuck(reduction, &node);
         }
         if is_stuck && node.bound > self.target() {
+            // Set first: `bound_by` then takes the split joint of bound 0 even if its value is not the least.
             node.bound_index = 0;
             self.bound_by(0, &mut node);
         }
@@ -128,6 +138,8 @@ impl BranchAndBound<'_> {
 
     /// Whether a bound that splitting can reduce by so much cannot reach the target.
     fn is_stuck(&self, reduction: f64, node: &BoxNode) -> bool {
+        // Half, since the reduction is an estimate: it adds up what single joints bring and ignores what they bring
+        // together.
         reduction < 0.5 * (node.bound - self.target())
     }
 
@@ -136,23 +148,31 @@ impl BranchAndBound<'_> {
     /// reduction that splitting can bring. The bound that is lowest, or that the box had before, decides
     /// which joint is split.
     fn bound_by(&mut self, bound_index: usize, node: &mut BoxNode) -> f64 {
-        let UpperBound { differences, slack } = &self.task.bounds[bound_index];
+        let DisagreementBound { differences, slack } = &self.task.bounds[bound_index];
         let (mut sum, mut total_reduction, mut best) = (*slack, 0.0, (-1.0, usize::MAX));
+        // `enclose` writes only the joints that a difference depends on; the others keep the incumbent's positions.
         self.nearest.copy_from_slice(&self.incumbent.at);
         for difference in differences {
             let found = difference.enclose(&node.intervals, &mut self.buffers, &mut self.nearest);
+            // `from_norm` grows with the norm, so a bound of the norm gives a bound of the disagreement, and by the
+            // triangle inequality the disagreements of consecutive steps add up (docs/bound.md, section 8).
             sum += (self.task.conversion.from_norm)(found.bound);
             total_reduction += found.total_reduction;
+            // A constant step names joint 0 for want of another one; splitting that would be useless.
             if !difference.is_constant() && found.reduction > best.0 {
                 best = (found.reduction, found.split_joint);
             }
             self.corners_spent += found.corners;
         }
+        // Attained is what the difference itself has at a configuration; the steps of a sequence attain nothing. The
+        // local search costs as much as many boxes, so it starts only where the difference is already larger.
         let mut found = Incumbent::new(self.task.difference, self.nearest.clone());
         if found.norm > self.incumbent.norm {
             found.ascend(self.task.difference, self.task.ranges);
             self.incumbent = found;
         }
+        // The joint that is split must be one on which the bound in use depends, otherwise the halves get the same
+        // bound again and the search does not end before its budget.
         if sum < node.bound || bound_index == node.bound_index {
             (node.split_joint, node.bound_index) = (best.1, bound_index);
         }
@@ -163,6 +183,7 @@ impl BranchAndBound<'_> {
     fn split(&mut self, node: &BoxNode) -> [BoxNode; 2] {
         let (lower, upper) = node.intervals[node.split_joint];
         let middle = f64::midpoint(lower, upper);
+        // The halves share the middle: they are closed intervals, and no configuration falls between them.
         [(lower, middle), (middle, upper)].map(|half| {
             let mut intervals = node.intervals.clone();
             intervals[node.split_joint] = half;
@@ -173,6 +194,7 @@ impl BranchAndBound<'_> {
 
 /// Brackets the largest disagreement over the ranges.
 pub(super) fn bracket(task: &BracketTask<'_>, incumbent: Incumbent) -> BracketOutcome {
+    // No bound is affordable: the caller has the telescoping bound, which needs no boxes.
     if task.bounds.is_empty() {
         return BracketOutcome { incumbent, certified: f64::INFINITY, boxes: 0 };
     }
@@ -180,17 +202,26 @@ pub(super) fn bracket(task: &BracketTask<'_>, incumbent: Incumbent) -> BracketOu
     let buffers = EnclosureBuffers::default();
     let mut search = BranchAndBound { task, incumbent, buffers, nearest, boxes: 0, corners_spent: 0 };
     let Budget { corners, .. } = task.budget;
+    // The outermost box has nothing around it, so its bound starts at infinity.
     let mut open = BinaryHeap::from([search.bound(task.ranges.to_vec(), (f64::INFINITY, 0))]);
+    // Best first: the top of the heap has the largest bound of all open boxes, and together they cover the whole
+    // range. So its bound holds for every configuration, and the loop may end at any time with it. Nothing is gained
+    // by another order: every box above the target has to be split sooner or later.
     let certified = loop {
         let Some(node) = open.pop() else {
             unreachable!("a box that is taken is replaced by its two halves")
         };
+        // Orientations half a turn apart: no disagreement is larger, so the bracket is closed without a further box.
+        // Beyond that norm the other sign of the quaternion is nearer, and the angle is smaller than half a turn; so
+        // the configuration is moved back to where the norm is exactly the largest.
         if search.incumbent.norm >= task.conversion.max_norm {
             search.incumbent.descend_to(task.conversion.max_norm, task.difference, task.ranges);
             break (task.conversion.from_norm)(task.conversion.max_norm);
         }
+        // If no step depends on a joint, the split joint is past the end and the interval is empty.
         let (lower, upper) = node.intervals.get(node.split_joint).copied().unwrap_or_default();
         let middle = f64::midpoint(lower, upper);
+        // Halves of two neighbouring floating-point numbers would be the box itself, again and again.
         let divisible = lower < middle && middle < upper;
         if node.bound <= search.target() || search.corners_spent >= corners || !divisible {
             break node.bound;
@@ -198,18 +229,23 @@ pub(super) fn bracket(task: &BracketTask<'_>, incumbent: Incumbent) -> BracketOu
         open.extend(search.split(&node));
     };
     let (boxes, attained) = (search.boxes, search.attained());
+    // Where the bound is exact, the attained difference can be above it by rounding.
     BracketOutcome { certified: certified.max(attained), incumbent: search.incumbent, boxes }
 }
 
-impl UpperBound {
+impl DisagreementBound {
     /// Whether its boxes have few enough corners for a budget.
-    pub(super) fn is_affordable(&self, ranges: &[Interval], budget: Budget) -> bool {
+    pub(super) fn is_affordable(&self, ranges: &[PositionInterval], budget: Budget) -> bool {
         self.differences.iter().all(|difference| is_affordable(difference, ranges, budget))
     }
 }
 
 /// Whether the boxes of a difference have few enough corners for a budget.
-pub(super) fn is_affordable(difference: &DifferenceNorm, ranges: &[Interval], budget: Budget) -> bool {
+pub(super) fn is_affordable(
+    difference: &DifferenceNorm,
+    ranges: &[PositionInterval],
+    budget: Budget,
+) -> bool {
     let cost = difference.max_corners(ranges).saturating_add(difference.overhead());
     cost <= MAX_CORNERS_OF_BOX.min(budget.corners)
 }

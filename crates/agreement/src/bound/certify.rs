@@ -14,14 +14,13 @@
 
 use std::f64::consts::PI;
 
-use congruent_description::Elementary as _;
 use congruent_kinematics::{KinematicsError, ScrewChain};
 
 use super::{
-    branch::{BracketOutcome, BracketTask, NormConversion, UpperBound, bracket, is_affordable},
+    branch::{BracketOutcome, BracketTask, DisagreementBound, NormConversion, bracket, is_affordable},
     budget::{Budget, ROUNDING_LEVEL},
     common_order::AlignedChains,
-    corner::Interval,
+    corner::PositionInterval,
     difference_norm::DifferenceNorm,
     intermediate_chains::{self, ChainSequence},
     reach::reach_m,
@@ -30,10 +29,10 @@ use super::{
     telescoping::TelescopingBound,
 };
 
-/// Slack for leaving out joints that hardly matter, as part of the attained disagreement.
+/// Slack for the removal of joints that hardly matter, as part of the attained disagreement.
 const ALLOWANCE: f64 = 1e-4;
-/// One part in so many of the budget is for the bound of the difference itself, before intermediate chains
-/// are tried.
+/// The bound of the difference itself gets one part in this many of the budget, before intermediate chains are
+/// tried.
 const FIRST_PHASE_PART: u64 = 16;
 /// Intermediate chains may help if the maxima of their steps add up to at most this many times the attained
 /// disagreement.
@@ -139,16 +138,22 @@ pub fn certify_driven(
 ) -> Result<Certificate, KinematicsError> {
     KinematicsError::check_joint_count(a.0.joint_count(), a.1.len())?;
     KinematicsError::check_joint_count(b.0.joint_count(), b.1.len())?;
+    // First the common order: all later steps compare the chains joint by joint.
     let AlignedChains { chains: [a, b], drivers } = AlignedChains::new(a, b);
     check_ranges(&drivers, ranges)?;
     let near_zero: Vec<f64> = ranges.iter().map(|&(lower, upper)| 0.0_f64.clamp(lower, upper)).collect();
-    let ranges_of_joints: Vec<Interval> = drivers.iter().map(|&driver| ranges[driver]).collect();
+    let ranges_of_joints: Vec<PositionInterval> = drivers.iter().map(|&driver| ranges[driver]).collect();
+    // Of the given chains, not of the denoised ones: this bound needs no slack.
     let first = TelescopingBound::new(&a, &b, &ranges_of_joints);
     let denoised = Denoised::new((&a, &b), &drivers, ranges);
     let problem = CertificateProblem { denoised: &denoised, near_zero: &near_zero, budget };
+    // Grossly different chains: the telescoping sum counts each fault over the full lever arm and may exceed what
+    // the two arms can reach in opposite directions. Angles have their own limit, half a turn.
     let apart_m = reach_m(&a, &ranges_of_joints) + reach_m(&b, &ranges_of_joints);
     let mut position_m = problem.bracket(&POSITION, first.total_m().min(apart_m));
     let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
+    // The search ran on simplified chains. What is reported as attained comes from the given chains at that
+    // configuration, so that anyone can reproduce it.
     let at = |chain: &ScrewChain, positions: &[f64]| {
         chain.base_from_tip(&drivers.iter().map(|&driver| positions[driver]).collect())
     };
@@ -158,7 +163,7 @@ pub fn certify_driven(
 }
 
 /// Every driver has a range, and every range is a closed interval.
-fn check_ranges(drivers: &[usize], ranges: &[Interval]) -> Result<(), KinematicsError> {
+fn check_ranges(drivers: &[usize], ranges: &[PositionInterval]) -> Result<(), KinematicsError> {
     let driven = drivers.iter().max().map_or(0, |last| last + 1);
     KinematicsError::check_joint_count(driven.max(ranges.len()), ranges.len())?;
     for (joint, &(lower, upper)) in ranges.iter().enumerate() {
@@ -203,7 +208,7 @@ const ORIENTATION: BracketedMeasure = BracketedMeasure {
     conversion: NormConversion {
         // Two orientations differ by half a turn at most; their quaternions differ by sqrt(2) then.
         from_norm: |difference| {
-            if difference < std::f64::consts::SQRT_2 { 4.0 * (difference / 2.0).arcsine() } else { PI }
+            if difference < std::f64::consts::SQRT_2 { 4.0 * libm::asin(difference / 2.0) } else { PI }
         },
         max_norm: std::f64::consts::SQRT_2,
     },
@@ -222,6 +227,8 @@ struct CertificateProblem<'a> {
 impl CertificateProblem<'_> {
     fn bracket(&self, measure: &BracketedMeasure, telescoping_bound: f64) -> Bracket {
         if telescoping_bound <= ROUNDING_LEVEL {
+            // Chains that agree end here, after microseconds. The difference is rounding, which has no maximum worth
+            // searching: a search would find the largest rounding error.
             return Bracket {
                 attained: 0.0,
                 certified: telescoping_bound,
@@ -229,19 +236,24 @@ impl CertificateProblem<'_> {
                 boxes: 0,
             };
         }
-        let ranges: &[Interval] = &self.denoised.positions;
+        let ranges: &[PositionInterval] = &self.denoised.positions;
         let from_norm = measure.conversion.from_norm;
+        // Twice: how much may be left out is a part of the attained difference, which is known only after a search.
+        // The first pass omits rounding only; the second one has fewer joints and so far fewer corners.
         let whole = (measure.simplify)(self.denoised, ROUNDING_LEVEL);
         let found = Incumbent::search(&whole.difference, ranges);
         let allowance = (ALLOWANCE * from_norm(found.norm)).max(ROUNDING_LEVEL);
         let Simplified { difference, slack } = (measure.simplify)(self.denoised, allowance);
         let found = Incumbent::new(&difference, self.with_idle_joints_near_zero(&difference, &found.at));
         let slack = slack + (measure.denoising_slack)(self.denoised);
-        let itself = UpperBound { differences: vec![difference.clone()], slack };
-        let affordable = |bounds: Vec<UpperBound>| -> Vec<UpperBound> {
+        // Idle joints near zero: the reported configuration then shows only joints that matter for the difference.
+        let itself = DisagreementBound { differences: vec![difference.clone()], slack };
+        let affordable = |bounds: Vec<DisagreementBound>| -> Vec<DisagreementBound> {
             bounds.into_iter().filter(|bound| bound.is_affordable(ranges, self.budget)).collect()
         };
         let Budget { corners, relative_gap } = self.budget;
+        // First the difference itself with a small part of the budget. It closes the bracket for most single faults,
+        // and intermediate chains cost local searches of their own.
         let mut task = BracketTask {
             difference: &difference,
             bounds: affordable(vec![itself.clone()]),
@@ -252,11 +264,13 @@ impl CertificateProblem<'_> {
         let mut outcome = bracket(&task, found);
         let attained = from_norm(outcome.incumbent.norm);
         if outcome.certified > (attained * (1.0 + relative_gap)).max(ROUNDING_LEVEL) {
+            // The largest difference is probably flat around its maximum, as if two faults add up: bound it in steps.
             let sequences = self.sequences(measure, (&difference, &outcome.incumbent), allowance);
             task.bounds = affordable([vec![itself], sequences].concat());
             task.budget = Budget { corners: corners - corners / FIRST_PHASE_PART, relative_gap };
             let further = bracket(&task, outcome.incumbent);
             outcome = BracketOutcome {
+                // Both hold, and the second search may have ended on its budget with the wider one.
                 certified: outcome.certified.min(further.certified),
                 boxes: outcome.boxes + further.boxes,
                 ..further
@@ -265,6 +279,8 @@ impl CertificateProblem<'_> {
         let BracketOutcome { incumbent, certified, boxes } = outcome;
         // Outward rounding of the conversions and their sum, some dozen operations.
         let certified = certified * (1.0 + 64.0 * f64::EPSILON);
+        // All three hold for all configurations; the last one is half a turn for orientations and no limit for
+        // positions.
         let certified = certified.min(telescoping_bound).min(from_norm(f64::INFINITY));
         Bracket { attained: from_norm(incumbent.norm), certified, at: incumbent.at, boxes }
     }
@@ -275,13 +291,15 @@ impl CertificateProblem<'_> {
         measure: &BracketedMeasure,
         (difference, incumbent): (&DifferenceNorm, &Incumbent),
         allowance: f64,
-    ) -> Vec<UpperBound> {
+    ) -> Vec<DisagreementBound> {
         let Denoised { a, b, drivers, positions, .. } = self.denoised;
-        let ranges: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
+        let ranges: Vec<PositionInterval> = drivers.iter().map(|&driver| positions[driver]).collect();
         let step = |[from, to]: &[ScrewChain; 2]| -> (Option<DifferenceNorm>, f64) {
             let denoised = Denoised::new((from, to), drivers, positions);
             let Simplified { difference, slack } = (measure.simplify)(&denoised, allowance);
             match intermediate_chains::bound_of_rigid_move(from, to, &ranges) {
+                // Corners are tighter than the closed form, which adds lengths of links; so that is for too many
+                // joints.
                 Some(bounds) if !is_affordable(&difference, positions, self.budget) => {
                     (None, (measure.component)(bounds))
                 }
@@ -294,16 +312,22 @@ impl CertificateProblem<'_> {
                 intermediate_chains.iter().map(step).unzip();
             let steps: Vec<DifferenceNorm> = steps.into_iter().flatten().collect();
             let slack = denoising_slack + slacks.iter().sum::<f64>();
+            // The sum of the steps' maxima is the least that boxes can prove over this sequence. So it decides which
+            // sequences are worth the corners, without a single box. A local search gives it from below, near enough.
             let worst = |difference: &DifferenceNorm| {
                 (measure.conversion.from_norm)(Incumbent::near(difference, positions, &incumbent.at).norm)
             };
-            (slack + steps.iter().map(worst).sum::<f64>(), UpperBound { differences: steps, slack })
+            (slack + steps.iter().map(worst).sum::<f64>(), DisagreementBound { differences: steps, slack })
         };
-        let mut sequences: Vec<(f64, UpperBound)> = (measure.sequences)(a, b).iter().map(bound).collect();
+        let mut sequences: Vec<(f64, DisagreementBound)> =
+            (measure.sequences)(a, b).iter().map(bound).collect();
         if is_affordable(difference, positions, self.budget) {
             let limit = PROMISING * (measure.conversion.from_norm)(incumbent.norm);
+            // The difference itself converges, if slowly; a sequence that cannot come near it only costs corners.
             sequences.retain(|(sum, _)| *sum <= limit);
         } else {
+            // Too many joints for corners: any bound helps, also that of a single step from one chain to the other,
+            // which has a closed form if the chains differ in one place.
             sequences.push(bound(&vec![[b.clone(), a.clone()]]));
         }
         // A step whose boxes cannot be bounded makes its sequence useless.

@@ -29,7 +29,11 @@ impl AlignedChains {
         let spread = |which: usize, chain: &ScrewChain| {
             let mut twists = chain.twists_in_base.iter();
             let twist = |place: &CommonJoint| {
-                if place.is_in[which] { *twists.next().expect("a place for each joint") } else { still }
+                if place.is_in[which] {
+                    *twists.next().expect("each joint of the chain has a place in the common order")
+                } else {
+                    still
+                }
             };
             ScrewChain { twists_in_base: places.iter().map(twist).collect(), ..chain.clone() }
         };
@@ -47,8 +51,12 @@ fn common_order(first: &[usize], second: &[usize]) -> Vec<CommonJoint> {
         second.iter().map(|&driver| CommonJoint { driver, is_in: [false, true] }).collect();
     let mut next = 0;
     for &driver in first {
+        // Only places behind the last match count, so that the first chain keeps its own order as well.
         match places[next..].iter().position(|place| place.driver == driver) {
+            // The places that are skipped belong to the second chain alone.
             Some(ahead) => next += ahead,
+            // The second chain has this joint further towards its base, or not at all. In the first case one position
+            // drives two places, in each of which one chain does not move.
             None => places.insert(next, CommonJoint { driver, is_in: [false, false] }),
         }
         places[next].is_in[0] = true;

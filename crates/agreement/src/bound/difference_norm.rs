@@ -1,34 +1,28 @@
-//! The difference of two chains as a function that is affine in each joint's features, and its
-//! largest norm over a box of joint positions.
+//! The difference of two chains as a function that is affine in each joint's features, and its largest norm over a box
+//! of joint positions.
 //!
-//! A joint's motion is `constant + x first + y second` with `(x, y) = (cos, sin)` of its turn or
-//! `(q, 0)` of its shift. So the difference of two products of motions is affine in the features of
-//! each joint if those of the others are fixed, its norm is convex in them, and over a product of
-//! polygons the norm is largest at corners. A polygon around a short arc exceeds the arc by the square of
-//! its length, and the bound exceeds the maximum by that times the part of the *difference* that depends
-//! on this joint: small faults are bounded as tightly as large ones.
-//!
-//! If a position drives two slots, both take the same corner as long as the difference stays affine in it,
-//! that is, if each chain moves in only one of them. Otherwise the slots count as independent, which
-//! gives a wider bound that holds as well.
+//! A joint's motion is `constant + x first + y second` with `(x, y) = (cos, sin)` of its turn or `(q, 0)` of its
+//! shift. Affine in each joint's features, the norm is convex in them, and over a product of polygons it is largest at
+//! corners (`docs/bound.md`, section 6). If a position drives two slots, both take the same corner as long as the
+//! difference stays affine in it, that is, if each chain moves in only one of them. Otherwise the slots count as
+//! independent, which gives a wider bound that holds as well.
 
-use congruent_description::Elementary as _;
 use nalgebra::{Matrix4, Vector4};
 
 use super::corner::{
-    Corner, Interval, MAX_CORNERS, around_arc, around_segment, corner_count, on_circle, on_line,
+    Corner, MAX_CORNERS, PositionInterval, around_arc, around_segment, corner_count, on_circle, on_line,
     outermost_radius, wraps,
 };
 
-/// Rounding of one motion and its product with a vector, relative to the largest vector: entries of
-/// the motion have a dozen roundings of numbers up to its size (the norm is at most three times an
-/// entry), the product has four. Kind: rounding; the bound is 56 unit roundoffs, 28 eps.
+/// Rounding of one motion and its product with a vector, relative to the largest vector: entries of the motion have a
+/// dozen roundings of numbers up to its size (the norm is at most three times an entry), the product has four. Kind:
+/// rounding; the bound is 56 unit roundoffs, 28 eps.
 const ROUNDING_PER_MOTION: f64 = 32.0 * f64::EPSILON;
-/// The same per radian of the largest turn, whose angle is a product with three roundings.
+/// Rounding of one motion per radian of the largest turn, whose angle is a product with three roundings.
 const ROUNDING_PER_RADIAN: f64 = 6.0 * f64::EPSILON;
 
-/// Motions whose entries differ by less over a whole range count as the same. Kind: rounding; one axis
-/// given at two rates differs by some 1e-16. The difference is added as slack.
+/// Motions whose entries differ by less over a whole range count as the same. Kind: rounding; one axis given at two
+/// rates differs by some 1e-16. The difference is added as slack.
 const SHARED: f64 = 1e-14;
 
 /// One joint's motion in one chain.
@@ -37,8 +31,8 @@ pub(super) struct AffineMotion {
     pub(super) constant: Matrix4<f64>,
     pub(super) first: Matrix4<f64>,
     pub(super) second: Matrix4<f64>,
-    /// Displacement of the origin per unit of the features' distance from `(1, 0)` for a turn and from
-    /// `(0, 0)` for a shift; in metres, or 1.
+    /// Displacement of the origin per unit of the features' distance from `(1, 0)` for a turn and from `(0, 0)` for a
+    /// shift; in metres, or 1.
     pub(super) origin_displacement: f64,
 }
 
@@ -61,7 +55,7 @@ pub(super) struct FeatureSlot {
     pub(super) joint: usize,
     /// Turn per unit of the position; a shift has none.
     pub(super) rate: Option<f64>,
-    /// Of the first chain and of the second.
+    /// The motion in the first chain and in the second.
     pub(super) motions: [AffineMotion; 2],
     /// The later slot that determines its corner.
     pub(super) corner_of: Option<usize>,
@@ -97,32 +91,32 @@ impl FeatureSlot {
         self.rate.map_or_else(|| on_line(position), |rate| on_circle(rate, position, 1.0))
     }
 
-    fn wraps(&self, intervals: &[Interval]) -> bool {
+    fn wraps(&self, intervals: &[PositionInterval]) -> bool {
         self.rate.is_some_and(|rate| wraps(rate, intervals[self.joint]))
     }
 
-    /// The point of the curve at the joint position `position`; for a turn that wraps the point next to
-    /// `corner`, since some configuration near any position reaches it.
-    fn on_curve(&self, intervals: &[Interval], corner: Corner, position: f64) -> Corner {
+    /// The point of the curve at the joint position `position`; for a turn that wraps the point next to `corner`,
+    /// since some configuration near any position reaches it.
+    fn on_curve(&self, intervals: &[PositionInterval], corner: Corner, position: f64) -> Corner {
         if !self.wraps(intervals) {
             return self.corner(position);
         }
         let [x, y] = corner.features;
-        let radius = x.hypotenuse_with(y);
+        let radius = libm::hypot(x, y);
         Corner { features: [x / radius, y / radius], ..corner }
     }
 
     /// The position nearest to `position` at which a turn that wraps has the direction of `corner`.
-    fn phase(&self, corner: &Corner, position: f64, (lower, upper): Interval) -> f64 {
+    fn phase(&self, corner: &Corner, position: f64, (lower, upper): PositionInterval) -> f64 {
         let rate = self.rate.unwrap_or(1.0);
         let [x, y] = corner.features;
-        let ahead = y.arctangent_over(x) - rate * position;
-        (position + ahead.sine().arctangent_over(ahead.cosine()) / rate).clamp(lower, upper)
+        let ahead = libm::atan2(y, x) - rate * position;
+        (position + libm::atan2(libm::sin(ahead), libm::cos(ahead)) / rate).clamp(lower, upper)
     }
 
-    /// Largest factor on a vector's norm, largest factor on the displacement of the origin, and rounding
-    /// of one product.
-    fn growth(&self, interval: Interval) -> (f64, f64, f64) {
+    /// Largest factor on a vector's norm, largest factor on the displacement of the origin, and rounding of one
+    /// product.
+    fn growth(&self, interval: PositionInterval) -> (f64, f64, f64) {
         let furthest = interval.0.abs().max(interval.1.abs());
         match self.rate {
             Some(rate) => {
@@ -137,7 +131,7 @@ impl FeatureSlot {
 /// `|A_1(q) ... A_n(q) a - B_1(q) ... B_n(q) b|`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct DifferenceNorm {
-    /// Base to tip.
+    /// From base to tip; a joint has one slot, or two if it turns and shifts or has two rates.
     pub(super) slots: Vec<FeatureSlot>,
     /// The vectors at the end of the two chains.
     pub(super) tips: [Vector4<f64>; 2],
@@ -180,9 +174,9 @@ impl DifferenceNorm {
         Self { slots, tips }
     }
 
-    /// The difference without leading slots that move both chains alike: they turn the difference and keep
-    /// its norm. The second value is a bound of the effect of rounding between their motions.
-    pub(super) fn without_common_leading_slots(mut self, positions: &[Interval]) -> (Self, f64) {
+    /// The difference without leading slots that move both chains alike: they turn the difference and keep its norm.
+    /// The second value is a bound of the effect of rounding between their motions.
+    pub(super) fn without_common_leading_slots(mut self, positions: &[PositionInterval]) -> (Self, f64) {
         let unlike = |slot: &FeatureSlot| {
             let [a, b] = &slot.motions;
             let parts = [a.constant - b.constant, a.first - b.first, a.second - b.second];
@@ -198,6 +192,7 @@ impl DifferenceNorm {
             {
                 break;
             }
+            // `|A_1 x - B_1 y| = |x - y|` needs `A_1 = B_1`; what the two differ by acts on the second chain's vector.
             slack += unlike * self.largest_norms(positions)[1];
             self.slots.remove(0);
             self.slots.iter_mut().for_each(|slot| slot.corner_of = slot.corner_of.map(|other| other - 1));
@@ -226,38 +221,34 @@ impl DifferenceNorm {
     }
 
     /// Most corners that any part of a box has.
-    pub(super) fn max_corners(&self, intervals: &[Interval]) -> u64 {
+    pub(super) fn max_corners(&self, intervals: &[PositionInterval]) -> u64 {
         let own = self.slots.iter().filter(|slot| slot.corner_of.is_none());
         let count =
             |slot: &FeatureSlot| slot.rate.map_or(2, |rate| corner_count(rate, intervals[slot.joint]));
         own.fold(1, |product, slot| product.saturating_mul(count(slot) as u64))
     }
 
-    /// The cost of a box besides its corners, in corners: its motions, the choice of the joint to split, and
-    /// memory. Measured.
+    /// The cost of a box without its corners, in corners: motions, choice of the joint to split, memory. Measured.
     pub(super) fn overhead(&self) -> u64 {
         let slots = self.slots.len() as u64;
         32 + 20 * slots + 6 * slots * slots
     }
 
-    /// Bounds the difference over a box; `nearest` receives the configuration of the box that is nearest to
-    /// the worst corner, which is likely to have a large difference.
+    /// Bounds the difference over a box; `nearest` receives the configuration of the box that is nearest to the worst
+    /// corner, which is likely to have a large difference.
     pub(super) fn enclose(
         &self,
-        intervals: &[Interval],
+        intervals: &[PositionInterval],
         buffers: &mut EnclosureBuffers,
         nearest: &mut [f64],
     ) -> BoxBound {
         self.spread_corners(intervals, buffers);
         self.multiply_out(buffers);
-        let squared = |[a, b]: &[Vector4<f64>; 2]| (a - b).norm_squared();
-        let (mut worst, mut largest) = (0, -1.0_f64);
-        for (index, pair) in buffers.pairs.iter().enumerate() {
-            let difference = squared(pair);
-            if difference > largest {
-                (worst, largest) = (index, difference);
-            }
-        }
+        let squares = buffers.pairs.iter().map(|[a, b]| (a - b).norm_squared()).enumerate();
+        let (worst, largest) =
+            squares.fold((0, -1.0_f64), |best, next| if next.1 > best.1 { next } else { best });
+        // Turns that wrap come last: any position is near one at which such a turn has the direction of its corner,
+        // so they can follow a position that other slots of the same joint have fixed.
         self.decode(worst, buffers);
         for (slot, corner) in self.slots.iter().zip(&buffers.best).filter(|(slot, _)| !slot.wraps(intervals))
         {
@@ -280,7 +271,7 @@ impl DifferenceNorm {
         (a - b).norm()
     }
 
-    fn spread_corners(&self, intervals: &[Interval], buffers: &mut EnclosureBuffers) {
+    fn spread_corners(&self, intervals: &[PositionInterval], buffers: &mut EnclosureBuffers) {
         buffers.corners.resize_with(self.slots.len(), Vec::new);
         for (slot, corners) in self.slots.iter().zip(&mut buffers.corners) {
             corners.clear();
@@ -291,14 +282,17 @@ impl DifferenceNorm {
         }
     }
 
-    /// Multiplies the tips by the motions of every choice of corners, from the tip to the base: the last
-    /// digit of an index is the corner of the first slot.
+    /// Multiplies the tips by the motions of every choice of corners, from the tip to the base: the last digit of an
+    /// index is the corner of the first slot.
     fn multiply_out(&self, buffers: &mut EnclosureBuffers) {
         let EnclosureBuffers { corners, pairs, next_pairs, .. } = buffers;
         pairs.clear();
         pairs.push(self.tips);
         for (index, slot) in self.slots.iter().enumerate().rev() {
             if let Some(other) = slot.corner_of {
+                // `other` is nearer to the tip, so its digit is in the index already. Every slot between the two that
+                // has a digit of its own was appended after it: dividing by their product of corners brings it to the
+                // last place.
                 let motions = slot.motions_at(&corners[other]);
                 let own = index + 1..other;
                 let stride: usize = own
@@ -314,6 +308,7 @@ impl DifferenceNorm {
             let motions = slot.motions_at(&corners[index]);
             next_pairs.clear();
             for [a, b] in pairs.iter() {
+                // Row-major: the choices of this slot are the last digit of the index so far.
                 let here = &motions[..corners[index].len()];
                 next_pairs.extend(here.iter().map(|[by_a, by_b]| [by_a * a, by_b * b]));
             }
@@ -337,16 +332,17 @@ impl DifferenceNorm {
         }
     }
 
-    /// For each joint the reduction of the difference if its worst corners are moved onto their curves and to
-    /// one position. The joint with the largest reduction is split; if no joint has one, the joint with the
-    /// widest range.
-    fn expected_reductions(&self, intervals: &[Interval], worst: &[Corner], bound: f64) -> BoxBound {
+    /// For each joint the reduction of the difference if its worst corners are moved onto their curves and to one
+    /// position. The joint with the largest reduction is split; if no joint has one, the joint with the widest range.
+    fn expected_reductions(&self, intervals: &[PositionInterval], worst: &[Corner], bound: f64) -> BoxBound {
         let here = self.at_corners(worst.iter().copied());
         let (mut split_joint, mut reduction, mut total_reduction) = (None, 0.0, 0.0);
         for (index, slot) in self.slots.iter().enumerate() {
             if self.slots[..index].iter().any(|before| before.joint == slot.joint) {
                 continue;
             }
+            // A short interval has all its corners near the curve, so this is about what splitting takes away in the
+            // end. Of several positions the largest difference counts: a split cannot get below it.
             let of_joint = self.slots.iter().zip(worst).filter(|(other, _)| other.joint == slot.joint);
             let pulled_in =
                 of_joint.map(|(_, taken)| self.at_one_position(intervals, worst, (slot.joint, taken)));
@@ -367,7 +363,7 @@ impl DifferenceNorm {
     /// The difference with all corners of one joint moved onto their curves, at the position of one of them.
     fn at_one_position(
         &self,
-        intervals: &[Interval],
+        intervals: &[PositionInterval],
         worst: &[Corner],
         (joint, taken): (usize, &Corner),
     ) -> f64 {
@@ -379,17 +375,19 @@ impl DifferenceNorm {
 
     /// Bound of the rounding error of the largest difference that [`DifferenceNorm::enclose`] finds.
     ///
-    /// The rounding of a product is relative to its result, and all later products enlarge both by the same
-    /// factors: so the sum of the relative errors times the largest vector at the base bounds the total.
-    pub(super) fn rounding(&self, intervals: &[Interval]) -> f64 {
+    /// The rounding of a product is relative to its result, and all later products enlarge both by the same factors:
+    /// so the sum of the relative errors times the largest vector at the base bounds the total.
+    pub(super) fn rounding(&self, intervals: &[PositionInterval]) -> f64 {
         let shares = self.slots.iter().map(|slot| slot.growth(intervals[slot.joint]).2).sum::<f64>();
         (ROUNDING_PER_MOTION + shares) * self.largest_norms(intervals).iter().sum::<f64>()
     }
 
     /// The largest norms of the vectors at the base, of both chains, over all corners.
-    fn largest_norms(&self, intervals: &[Interval]) -> [f64; 2] {
+    fn largest_norms(&self, intervals: &[PositionInterval]) -> [f64; 2] {
         let mut norms = self.tips.map(|tip| tip.norm());
         for slot in self.slots.iter().rev() {
+            // `|M x| <= |R| |x| + |p|`: a corner outside of the circle stretches vectors, and the shift of the origin
+            // is at most the displacement per feature times the distance of the corner from position zero's features.
             let (stretch, shift, _) = slot.growth(intervals[slot.joint]);
             for (norm, motion) in norms.iter_mut().zip(&slot.motions) {
                 *norm = stretch * *norm + shift * motion.origin_displacement;

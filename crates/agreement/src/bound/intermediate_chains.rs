@@ -6,12 +6,11 @@
 //!
 //! Any chain can be an intermediate chain: the choice affects how tight the sum is, not whether it holds.
 
-use congruent_description::Elementary as _;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
-    corner::Interval,
+    corner::PositionInterval,
     telescoping::{TelescopingBound, furthest},
 };
 
@@ -35,9 +34,13 @@ pub(super) fn through_fault_locations(a: &ScrewChain, b: &ScrewChain) -> Vec<Cha
     let between = between(a, b);
     let groupings: Vec<Vec<usize>> = if between.len() <= MAX_GROUPED {
         let all = 0..between.len();
+        // Bit `at` of `bits` says whether the sequence passes the place `at`. Without any place it is a single
+        // step, the difference itself, which is bounded anyway: so the count starts at 1. All groupings, because it
+        // is not known which faults add up and which cancel each other.
         let subset = |bits: usize| all.clone().filter(|at| bits >> at & 1 == 1).collect();
         (1..1 << between.len()).map(subset).collect()
     } else {
+        // Groupings double with each place, and each costs local searches.
         (0..between.len()).map(|at| vec![at]).collect()
     };
     let intermediate_chains = |stops: Vec<usize>| {
@@ -54,12 +57,15 @@ pub(super) fn through_points(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequenc
     let points: Vec<Vector3<f64>> = [a, b].into_iter().flat_map(common_normal_midpoints).collect();
     let mut distinct: Vec<Vector3<f64>> = Vec::new();
     for point in points {
+        // Two nearly equal arms give nearly the same points, and each point costs a sequence.
         if distinct.iter().all(|other| (other - point).norm() > PARALLEL) {
             distinct.push(point);
         }
     }
     distinct
         .iter()
+        // Through two chains of which both have their tip at the point: the step between them is zero for
+        // positions.
         .map(|point| vec![[a.clone(), with_tip_at(a, point)], [with_tip_at(b, point), b.clone()]])
         .collect()
 }
@@ -70,6 +76,7 @@ fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
     let joints = a.twists_in_base.len();
     let apart =
         a.twists_in_base.iter().zip(&b.twists_in_base).map(|(a, b)| distance(a, b)).fold(0.0, f64::max);
+    // Relative to the fault: what differs ten thousand times less needs no step of its own.
     let alike = (ALIKE * apart).max(LEAST_ALIKE);
     let matches = |a_from_b: &Pose, joint: usize| {
         distance(&a.twists_in_base[joint], &b.twists_in_base[joint].transformed_by(a_from_b)) <= alike
@@ -81,6 +88,8 @@ fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
             list.push(chain);
         }
     };
+    // From base to tip, greedily: the placement under which the longest run of joints coincides ends at the next
+    // faulty place. Fewer places give fewer steps, and each step adds to the sum.
     let mut a_from_b = Pose::identity();
     let mut from = 0;
     while from < joints {
@@ -92,10 +101,11 @@ fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
         from += run(&a_from_b).max(1);
     }
     push_distinct(spliced(a, b, joints, &a_from_b));
+    // The last chain of every sequence is `a` itself; twice would be a step of zero.
     if is_same(list.last().unwrap_or(b), a) {
         list.pop();
     }
-    // The first is `b` itself.
+    // Every sequence starts with `b` itself.
     list.split_off(list.len().min(1))
 }
 
@@ -126,6 +136,8 @@ fn placements(a: &ScrewChain, b: &ScrewChain) -> Vec<Pose> {
             let [in_a, in_b] = [a, b].map(|chain| frame(chain, first, second));
             if let (Some(in_a), Some(in_b)) = (in_a, in_b) {
                 list.push(in_a * in_b.inverse());
+                // One frame for each first axis: further partners of the same axis give the same placement if both
+                // axes agree.
                 break;
             }
         }
@@ -135,7 +147,7 @@ fn placements(a: &ScrewChain, b: &ScrewChain) -> Vec<Pose> {
 
 /// The frame of two axes that are not parallel: z along the first, x along their common normal.
 fn frame(chain: &ScrewChain, first: usize, second: usize) -> Option<Pose> {
-    let [one, two] = [first, second].map(|joint| ScrewAxis::of(&chain.twists_in_base[joint]));
+    let [one, two] = [first, second].map(|joint| ScrewAxis::from_twist(&chain.twists_in_base[joint]));
     let (one, two) = (one?, two?);
     let across = one.direction.cross(&two.direction);
     let x = across.try_normalize(PARALLEL)?;
@@ -145,7 +157,7 @@ fn frame(chain: &ScrewChain, first: usize, second: usize) -> Option<Pose> {
 
 /// The points at which consecutive axes are closest: the middles of their common normals.
 fn common_normal_midpoints(chain: &ScrewChain) -> Vec<Vector3<f64>> {
-    let axes: Vec<Option<ScrewAxis>> = chain.twists_in_base.iter().map(ScrewAxis::of).collect();
+    let axes: Vec<Option<ScrewAxis>> = chain.twists_in_base.iter().map(ScrewAxis::from_twist).collect();
     let middle = |pair: &[Option<ScrewAxis>]| {
         let [Some(one), Some(two)] = pair else { return None };
         let crosses = one.direction.cross(&two.direction).norm() > PARALLEL;
@@ -158,6 +170,7 @@ fn common_normal_midpoints(chain: &ScrewChain) -> Vec<Vector3<f64>> {
 fn with_tip_at(chain: &ScrewChain, point: &Vector3<f64>) -> ScrewChain {
     let turns_about = |twist: &&Twist| (twist.angular.cross(point) + twist.linear).norm() <= PARALLEL;
     let leading = chain.twists_in_base.iter().take_while(turns_about).count();
+    // The other joints remain as joints that do not move: both chains of a step need the same number of joints.
     let fixed = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
     let twist = |(joint, twist): (usize, &Twist)| if joint < leading { *twist } else { fixed };
     ScrewChain {
@@ -175,35 +188,44 @@ fn with_tip_at(chain: &ScrewChain, point: &Vector3<f64>) -> ScrewChain {
 pub(super) fn bound_of_rigid_move(
     from: &ScrewChain,
     to: &ScrewChain,
-    ranges: &[Interval],
+    ranges: &[PositionInterval],
 ) -> Option<[f64; 2]> {
     let pairs = from.twists_in_base.iter().zip(&to.twists_in_base);
     let first = pairs.take_while(|(from, to)| distance(from, to) <= LEAST_ALIKE).count();
     let moved = |pose: &Pose| spliced(to, from, first, pose);
+    // Some placement of the whole rest must give the second chain; otherwise the step changes more than one place.
     let by = placements(to, from).into_iter().find(|pose| is_same(&moved(pose), to))?;
-    let left = TelescopingBound::new(&moved(&by), to, ranges);
+    // The placement fits up to rounding only; the telescoping bound of what differs makes the sum rigorous.
+    let placement_error = TelescopingBound::new(&moved(&by), to, ranges);
     let tip = from.base_from_tip_at_zero.translation;
+    // Along the links from the tip to the first moved axis, each time to the nearest point of the next axis:
+    // distances between points that one link carries are the same at all configurations.
     let mut reach_m = 0.0;
     let mut point = tip;
     for (twist, range) in from.twists_in_base.iter().zip(ranges).skip(first).rev() {
         let rate = twist.angular.norm();
         if rate <= PARALLEL {
+            // A prismatic joint has no axis to go to, but it lengthens the arm by its travel.
             reach_m += twist.linear.norm() * furthest(*range);
             continue;
         }
         let direction = twist.angular / rate;
         let along = direction * direction.dot(&twist.linear);
         let through = direction.cross(&twist.linear) / rate;
+        // The foot of the perpendicular from the last point.
         let next = through + direction * direction.dot(&(point - through));
         reach_m += (point - next).norm() + along.norm() * furthest(*range);
         point = next;
     }
+    // `|D c - c|`, and `|R - 1| = 2 sin(turn / 2)` times the lever arm `|p - c|`, as the doc comment has it.
     let shift_m = (by.rotation * point + by.translation - point).norm();
     let turn_rad = by.angle_rad(&Pose::identity());
     let outward = 1.0 + ROUNDINGS * f64::EPSILON;
     Some([
-        (shift_m + 2.0 * (turn_rad / 2.0).sine() * reach_m) * outward + left.total_m() + LEAST_ALIKE,
-        turn_rad * outward + left.total_rad() + LEAST_ALIKE,
+        (shift_m + 2.0 * libm::sin(turn_rad / 2.0) * reach_m) * outward
+            + placement_error.total_m()
+            + LEAST_ALIKE,
+        turn_rad * outward + placement_error.total_rad() + LEAST_ALIKE,
     ])
 }
 
@@ -220,7 +242,7 @@ struct ScrewAxis {
 }
 
 impl ScrewAxis {
-    fn of(twist: &Twist) -> Option<Self> {
+    fn from_twist(twist: &Twist) -> Option<Self> {
         let rate = twist.angular.norm();
         let direction = twist.angular.try_normalize(PARALLEL)?;
         Some(Self { direction, through: direction.cross(&twist.linear) / rate })

@@ -1,5 +1,5 @@
-//! The difference at many positions of one joint after the other, base to tip: what stands before a joint and what
-//! comes after it is multiplied once in a round, so that each position costs the joint's own motions alone.
+//! The difference at many positions of one joint after the other, base to tip: the products of the motions before a
+//! joint and behind it are computed once in a round, so that each position costs the joint's own motions alone.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -10,9 +10,9 @@ pub(super) struct JointSweep<'a> {
     difference: &'a DifferenceNorm,
     /// Each joint that the difference depends on, with its first and its last slot, in the order of the first ones.
     joints: Vec<(usize, [usize; 2])>,
-    /// Of each slot, in both chains.
+    /// The motion of each slot at the present position of its joint, in both chains.
     motions: Vec<[Matrix4<f64>; 2]>,
-    /// The tips as seen from each slot on: products of the motions there and after it; one entry more for the tips.
+    /// The tips moved by all motions from a slot on, for each slot; one entry more for the tips themselves.
     rests: Vec<[Vector4<f64>; 2]>,
 }
 
@@ -28,7 +28,8 @@ impl<'a> JointSweep<'a> {
                 None => joints.push((slot.joint, [index, index])),
             }
         }
-        let motions = difference.slots.iter().map(|slot| motions_of(slot, at[slot.joint])).collect();
+        let motions = difference.slots.iter().map(|slot| slot_motions(slot, at[slot.joint])).collect();
+        // Filled at the start of each round; only the last entry, the tips themselves, never changes.
         let rests = vec![difference.tips; difference.slots.len() + 1];
         Self { difference, joints, motions, rests }
     }
@@ -41,15 +42,19 @@ impl<'a> JointSweep<'a> {
         mut choose: impl FnMut(usize, f64, &dyn Fn(f64) -> f64) -> Option<f64>,
     ) {
         let slots = &self.difference.slots;
+        // From the tip to the base once a round: behind a joint nothing has moved yet when its turn comes.
         for index in (0..slots.len()).rev() {
             self.rests[index] = moved(&self.motions[index], &self.rests[index + 1]);
         }
         let mut before = [Matrix4::identity(); 2];
         let mut next = 0;
         for (joint, [first, last]) in self.joints.clone() {
+            // In front of a joint everything has its new position already.
             for [of_a, of_b] in &self.motions[next..first] {
                 before = [before[0] * of_a, before[1] * of_b];
             }
+            // Not behind `last`: between the slots of this joint there can be slots of later joints, which may
+            // still move.
             next = first;
             let difference_at = |position: f64| {
                 let motions = slots[first..=last].iter().zip(&self.motions[first..=last]).rev();
@@ -61,6 +66,7 @@ impl<'a> JointSweep<'a> {
             };
             if let Some(position) = choose(joint, at[joint], &difference_at) {
                 at[joint] = position;
+                // A later joint may lie between the slots of this one, and needs what is behind it as it is now.
                 for index in (first..=last).rev() {
                     self.motions[index] = motions_at(&slots[index], &self.motions[index], (joint, position));
                     self.rests[index] = moved(&self.motions[index], &self.rests[index + 1]);
@@ -71,7 +77,7 @@ impl<'a> JointSweep<'a> {
 }
 
 /// The motions of a slot at a joint position, in both chains.
-fn motions_of(slot: &FeatureSlot, position: f64) -> [Matrix4<f64>; 2] {
+fn slot_motions(slot: &FeatureSlot, position: f64) -> [Matrix4<f64>; 2] {
     let features = slot.corner(position).features;
     slot.motions.each_ref().map(|motion| motion.at(features))
 }
@@ -82,7 +88,7 @@ fn motions_at(
     motions: &[Matrix4<f64>; 2],
     (joint, position): (usize, f64),
 ) -> [Matrix4<f64>; 2] {
-    if slot.joint == joint { motions_of(slot, position) } else { *motions }
+    if slot.joint == joint { slot_motions(slot, position) } else { *motions }
 }
 
 fn moved([by_a, by_b]: &[Matrix4<f64>; 2], [a, b]: &[Vector4<f64>; 2]) -> [Vector4<f64>; 2] {
@@ -128,7 +134,7 @@ mod tests {
         let mut sweep = JointSweep::new(&difference, &at);
         for round in 0..3 {
             let mut expected = at.clone();
-            let mut asked = Vec::new();
+            let mut visited = Vec::new();
             sweep.round(&mut at, |joint, before, difference_at| {
                 assert_eq!(before.to_bits(), expected[joint].to_bits());
                 let to = before + 0.3 * (f64::from(round) + 1.0);
@@ -137,13 +143,13 @@ mod tests {
                     other[joint] = position;
                     assert!((difference_at(position) - difference.at(&other)).abs() < ROUNDING);
                 }
-                asked.push(joint);
+                visited.push(joint);
                 (joint != 2).then(|| {
                     expected[joint] = to;
                     to
                 })
             });
-            assert_eq!(asked, [0, 1, 2]);
+            assert_eq!(visited, [0, 1, 2]);
             assert_eq!(at, expected);
         }
     }

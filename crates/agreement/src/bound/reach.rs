@@ -1,31 +1,36 @@
-//! How far the tip of a chain can be from its base: no two chains with the same base are farther apart than both together.
+//! How far the tip of a chain can be from its base: no two chains with the same base are farther apart than both
+//! together.
 
 use congruent_kinematics::ScrewChain;
 use nalgebra::Vector3;
 
-use super::corner::Interval;
+use super::corner::PositionInterval;
 
 /// Outward rounding of some dozen operations for each joint.
 const OUTWARD: f64 = 1.0 + 1e-12;
 
 /// An upper bound of the distance of the tip from the origin of the base, m; each joint within its range.
 ///
-/// A point of an axis is carried by the links before and behind it. So its distance from a point of the next axis stays,
-/// whatever the joints do, and the tip is no farther than from point to point; a joint that slides adds its travel.
-pub(super) fn reach_m(chain: &ScrewChain, ranges: &[Interval]) -> f64 {
-    let (mut way_m, mut at) = (0.0, Vector3::zeros());
+/// A point of an axis is carried by the links before and behind it. So its distance from a point of the next axis
+/// stays, whatever the joints do, and the tip is no farther than from point to point; a joint that slides adds its
+/// travel.
+pub(super) fn reach_m(chain: &ScrewChain, ranges: &[PositionInterval]) -> f64 {
+    let (mut path_m, mut at) = (0.0, Vector3::zeros());
     for (twist, &(lower, upper)) in chain.twists_in_base.iter().zip(ranges) {
         let (turn, slide) = (twist.angular, twist.linear);
         let (square, travel) = (turn.norm_squared(), lower.abs().max(upper.abs()));
         if square == 0.0 {
-            way_m += slide.norm() * travel;
+            // A prismatic joint has no axis to pass by: the next point is taken from where the last one was.
+            path_m += slide.norm() * travel;
             continue;
         }
+        // The point of the axis nearest to the last point: `w x v / |w|^2` is the one nearest to the origin, and
+        // the second term goes along the axis. Any point would give a bound, this one gives the shortest step.
         let on_axis = turn.cross(&slide) / square + turn * (turn.dot(&at) / square);
-        way_m += (on_axis - at).norm() + (turn.dot(&slide) / square.sqrt()).abs() * travel;
+        path_m += (on_axis - at).norm() + (turn.dot(&slide) / square.sqrt()).abs() * travel;
         at = on_axis;
     }
-    (way_m + (chain.base_from_tip_at_zero.translation - at).norm()) * OUTWARD
+    (path_m + (chain.base_from_tip_at_zero.translation - at).norm()) * OUTWARD
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use congruent_kinematics::{ScrewChain, Twist, hat, quaternion_of};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
 use super::{
-    corner::Interval,
+    corner::PositionInterval,
     difference_norm::{AffineMotion, DifferenceNorm, FeatureSlot},
     telescoping::{TelescopingBound, furthest},
 };
@@ -26,16 +26,16 @@ pub(super) struct Denoised {
     /// For each joint the index of the position that drives it.
     pub(super) drivers: Vec<usize>,
     /// Range of each position; at most one turn if it drives a single joint that only turns.
-    pub(super) positions: Vec<Interval>,
-    /// The same for each joint.
-    ranges: Vec<Interval>,
+    pub(super) positions: Vec<PositionInterval>,
+    /// Range of each joint, that of its driver.
+    ranges: Vec<PositionInterval>,
     /// Bound of the distance between the denoised chains and the given ones, both together, m.
     pub(super) slack_m: f64,
-    /// The same of the orientation, rad.
+    /// Bound of the angle between the denoised chains and the given ones, both together, rad.
     pub(super) slack_rad: f64,
 }
 
-/// A difference, and a bound of what it leaves out.
+/// A difference, and a bound of what was removed from it.
 #[derive(Debug, Clone)]
 pub(super) struct Simplified {
     pub(super) difference: DifferenceNorm,
@@ -44,7 +44,11 @@ pub(super) struct Simplified {
 
 impl Denoised {
     /// Removes turns, pitches and differences of rate that are noise.
-    pub(super) fn new((a, b): (&ScrewChain, &ScrewChain), drivers: &[usize], positions: &[Interval]) -> Self {
+    pub(super) fn new(
+        (a, b): (&ScrewChain, &ScrewChain),
+        drivers: &[usize],
+        positions: &[PositionInterval],
+    ) -> Self {
         let (mut denoised_a, mut denoised_b) = (a.clone(), b.clone());
         let mut one_turn = positions.to_vec();
         let twists = denoised_a.twists_in_base.iter_mut().zip(&mut denoised_b.twists_in_base);
@@ -54,8 +58,11 @@ impl Denoised {
             *b = without_noise(b, furthest);
             let (rate_a, rate_b) = (a.angular.norm(), b.angular.norm());
             if rate_b > 0.0 && (rate_a - rate_b).abs() * furthest <= NOISE {
+                // Rates that differ by noise would get two feature slots instead of one, and several times the corners.
                 let scale = rate_b / rate_a;
                 *a = Twist { angular: a.angular * scale, linear: a.linear * scale };
+                // Cut to one turn only what repeats itself exactly: a pitch moves on with every turn, and another
+                // joint with the same position may have another rate.
                 let repeats = [*a, *b].iter().all(|twist| ScrewParts::new(twist).shift == Vector3::zeros());
                 let alone = drivers.iter().filter(|&&other| other == driver).count() == 1;
                 if repeats && alone {
@@ -63,7 +70,8 @@ impl Denoised {
                 }
             }
         }
-        let whole: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
+        // Over the given ranges, not over one turn: what a wrong rate makes grows with every turn.
+        let whole: Vec<PositionInterval> = drivers.iter().map(|&driver| positions[driver]).collect();
         let slack_a = TelescopingBound::new(a, &denoised_a, &whole);
         let slack_b = TelescopingBound::new(b, &denoised_b, &whole);
         Self {
@@ -81,11 +89,15 @@ impl Denoised {
     pub(super) fn position(&self, allowance_m: f64) -> Simplified {
         let telescoping = TelescopingBound::new(&self.a, &self.b, &self.ranges);
         let first = exchangeable_count(&telescoping.position_m, allowance_m);
+        // The sum of exchanged joints is bounded once, with the joints exchanged together; the entries of
+        // `telescoping` have only decided how many.
         let mut slack = self.exchange_bound(first).total_m();
         let tips = [&self.a, &self.b].map(|chain| chain.base_from_tip_at_zero.translation);
         let mut last = self.ranges.len();
         while last > first {
             let joint = last - 1;
+            // A joint whose axis passes through the tip does not move it: the speed of the tip per unit of the
+            // joint, times the largest position, bounds how far.
             let moved = |twist: &Twist, tip: &Vector3<f64>| (twist.angular.cross(tip) + twist.linear).norm();
             let both = (moved(&self.a.twists_in_base[joint], &tips[0])
                 + moved(&self.b.twists_in_base[joint], &tips[1]))
@@ -112,6 +124,8 @@ impl Denoised {
         let mut last = self.ranges.len();
         let mut allowed = allowance_rad;
         while last > first {
+            // A trailing joint turns both tips about its axis in the tip frame. If that axis is the same in both,
+            // the angle between the tips stays as it is.
             let in_tip = |chain: usize, twist: &Twist| homes[chain].transpose() * twist.angular;
             let joint = last - 1;
             let apart = in_tip(0, &self.a.twists_in_base[joint]) - in_tip(1, &self.b.twists_in_base[joint]);
@@ -264,7 +278,7 @@ fn without_noise(twist: &Twist, furthest: f64) -> Twist {
 }
 
 /// The middle turn of a range of more than one turn: all others repeat it.
-fn within_one_turn((lower, upper): Interval, rate: f64) -> Interval {
+fn within_one_turn((lower, upper): PositionInterval, rate: f64) -> PositionInterval {
     if (upper - lower) * rate <= TAU {
         return (lower, upper);
     }

@@ -6,10 +6,9 @@
 //! The factors on the left only turn the difference, and those on the right only limit the distance of the
 //! tip. Nothing is sampled or iterated, and the bound is proportional to the difference.
 
-use congruent_description::Elementary as _;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 
-use super::corner::Interval;
+use super::corner::PositionInterval;
 
 /// Outward rounding of a sum of a few dozen positive terms.
 const OUTWARD: f64 = 1.0 + 256.0 * f64::EPSILON;
@@ -17,24 +16,27 @@ const OUTWARD: f64 = 1.0 + 256.0 * f64::EPSILON;
 /// How far each exchange can move the tip, in position and in orientation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TelescopingBound {
-    /// For each joint, then for the home pose.
+    /// One entry for each joint, base to tip, then one for the home pose, m.
     pub(super) position_m: Vec<f64>,
-    /// For each joint, then for the home pose.
+    /// One entry for each joint, base to tip, then one for the home pose, rad.
     pub(super) orientation_rad: Vec<f64>,
 }
 
 impl TelescopingBound {
-    /// Of two chains with as many joints as there are ranges.
+    /// The bound of two chains with as many joints as there are ranges.
     ///
     /// Source for one joint: Duhamel's formula
     /// `exp(A) - exp(B) = integral over s in 0..1 of exp(s A) (A - B) exp((1 - s) B)`.
-    pub(super) fn new(a: &ScrewChain, b: &ScrewChain, ranges: &[Interval]) -> Self {
+    pub(super) fn new(a: &ScrewChain, b: &ScrewChain, ranges: &[PositionInterval]) -> Self {
         let (home_a, home_b) = (&a.base_from_tip_at_zero, &b.base_from_tip_at_zero);
         let mut position_m = vec![home_a.distance_m(home_b)];
         let mut orientation_rad = vec![angle_at_most_rad(home_a, home_b)];
+        // From tip to base: the lever arm of joint `i` is what the joints `i..n` of `b` can make of the tip's distance,
+        // and each joint only adds to it.
         let mut radius_m = home_b.translation.norm();
         for ((a, b), range) in a.twists_in_base.iter().zip(&b.twists_in_base).zip(ranges).rev() {
             let furthest = furthest(*range);
+            // Before the joint's own term: Duhamel's integral moves the tip by a part of the joint's own motion, too.
             radius_m += radius_growth_m(b, furthest);
             let turn = (a.angular - b.angular).norm();
             position_m.push(furthest * (turn * radius_m + (a.linear - b.linear).norm()));
@@ -58,7 +60,7 @@ impl TelescopingBound {
 }
 
 /// Largest absolute position in a range.
-pub(super) fn furthest((lower, upper): Interval) -> f64 {
+pub(super) fn furthest((lower, upper): PositionInterval) -> f64 {
     lower.abs().max(upper.abs())
 }
 
@@ -73,6 +75,7 @@ fn radius_growth_m(twist: &Twist, furthest: f64) -> f64 {
     let axis = twist.angular / rate;
     let along = axis.dot(&twist.linear);
     let across = (twist.linear - axis * along).norm();
+    // A large turn does not carry the origin farther than the diameter of its circle, `2 |m|` with the moment `m`.
     path_m.min(along.abs() * furthest + 2.0 * across / rate)
 }
 
@@ -80,5 +83,6 @@ fn radius_growth_m(twist: &Twist, furthest: f64) -> f64 {
 /// `|R_a - R_b| = 2 sqrt(2) sin(angle / 2)`; rounding of the entries counts as rotation.
 fn angle_at_most_rad(a: &Pose, b: &Pose) -> f64 {
     let half_sine = (a.rotation - b.rotation).norm() / 8.0_f64.sqrt();
-    if half_sine < 0.5 { 2.0 * half_sine.arcsine() } else { a.angle_rad(b) }
+    // The arcsine loses digits near 1; from 60 deg on the angle of the poses is accurate enough.
+    if half_sine < 0.5 { 2.0 * libm::asin(half_sine) } else { a.angle_rad(b) }
 }

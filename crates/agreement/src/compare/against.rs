@@ -1,12 +1,12 @@
-//! A robot's URDF against another description of the same joints: the checks of [`check`](super::check::check), added to
-//! its report under the name of that pair, with a cause of their difference that two URDFs can have.
+//! A robot's URDF against another description of the same joints: the checks of [`check`](super::check::check), added
+//! to its report under the name of that pair, with a cause of their difference that two URDFs can have.
 
 use congruent_description::RobotDescription;
 use congruent_kinematics::LinkPoses;
 
 use super::{
     certificate::{Brackets, worst},
-    check::{CheckOptions, Compared, compared, verdict, worst_of},
+    check::{CheckOptions, ComparedSources, compared, verdict, worst_difference},
     check_report::{Agreement, CheckReport},
     differences_at::without_table,
     error::CheckError,
@@ -21,8 +21,9 @@ use crate::{
 };
 
 impl CheckReport {
-    /// Adds the comparison with another description: its difference, certificate and diagnosis. `poses` are those of the
-    /// other description, at the links and the configurations of this one; both have the same moving joints by name.
+    /// Adds the comparison with another description: its difference, certificate and diagnosis. `poses` are those of
+    /// the other description, at the links and the configurations of this one; both have the same moving joints by
+    /// name.
     ///
     /// # Errors
     /// [`CheckError`] if the source rejects a configuration.
@@ -49,7 +50,7 @@ impl CheckReport {
             self.certificates.push(certificate);
         }
         self.verdict = verdict(&self.comparisons);
-        self.worst = worst_of(&self.comparisons, &self.tolerance);
+        self.worst = worst_difference(&self.comparisons, &self.tolerance);
         let brackets = worst(&self.certificates);
         self.certificate = brackets.as_ref().map(Brackets::bounds);
         self.certificate_bracket = brackets;
@@ -57,10 +58,11 @@ impl CheckReport {
     }
 }
 
-/// Why two descriptions differ: joints with another origin or axis, or else what the chain from base to tip tells.
+/// Why two descriptions differ: joints with another origin or axis, or else the diagnosis of the chain from base to
+/// tip.
 fn diagnosed(
     descriptions: [&RobotDescription; 2],
-    Compared { report, identified, diagnosed: configurations }: &Compared,
+    ComparedSources { report, identified, diagnosed: configurations }: &ComparedSources,
     poses: &mut dyn LinkPoses,
 ) -> Result<Option<ReportedDiagnosis>, CheckError> {
     let description = descriptions[0];
@@ -70,6 +72,7 @@ fn diagnosed(
         let pair = SourcePair::UrdfOther;
         of_pair.map(|diagnosis| ReportedDiagnosis { name: pair, title: pair.title(), ..diagnosis })
     };
+    // The chains agree: matching joints would only name frames of links that lie elsewhere.
     if report.verdict == Agreement::Agree {
         return Ok(by_chain());
     }
@@ -79,6 +82,8 @@ fn diagnosed(
     let Some(explained) = explained_by_joints(&robots, poses, &at)? else {
         return Ok(by_chain());
     };
+    // Several origins that are all off by a factor of 1000 are one fault, a wrong unit, which the diagnosis of the
+    // chain names as one.
     if explained.may_be_unit(&robots) {
         let by_unit = by_chain();
         let is_unit = |of: &ReportedDiagnosis| {

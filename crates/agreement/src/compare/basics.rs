@@ -54,11 +54,11 @@ pub enum CoordinateUnit {
 /// The motion of the TCP by one joint alone.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SingleJointMotion {
-    /// The joint.
+    /// Name of the joint that moves.
     pub joint: String,
     /// The change of its coordinate, in `unit`.
     pub by: f64,
-    /// `rad` or `m`.
+    /// Unit of `by`: `rad` or `m`.
     pub unit: CoordinateUnit,
     /// The motion of the TCP.
     pub motion: BySource<TcpDisplacement>,

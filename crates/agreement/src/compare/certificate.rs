@@ -29,7 +29,7 @@ const IDENTIFICATION_ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// Bracket of one worst disagreement.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedBracket {
-    /// The disagreement at `at`; m or rad.
+    /// The difference at the configuration `at`; m or rad.
     pub attained: f64,
     /// The bound that no configuration exceeds; m or rad.
     pub certified: f64,
@@ -40,9 +40,9 @@ pub struct ReportedBracket {
 /// The brackets of position and orientation.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Brackets {
-    /// Of the position, m.
+    /// Bracket of the largest distance of the tips, m.
     pub position_m: ReportedBracket,
-    /// Of the orientation, rad.
+    /// Bracket of the largest angle between the tips, rad.
     pub orientation_rad: ReportedBracket,
 }
 
@@ -80,7 +80,7 @@ pub struct ReportedCertificate {
     /// Both brackets; none if a joint has no limits, or if the premise does not hold.
     #[serde(flatten)]
     pub brackets: Option<Brackets>,
-    /// Of the physics: the premise that each joint is a pure screw motion.
+    /// Premise of a pair with the physics: each joint is a pure screw motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub premise: Option<Premise>,
 }
@@ -95,6 +95,7 @@ impl ReportedCertificate {
 pub(crate) fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
     let brackets = || certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
     let largest = |of: fn(&Brackets) -> &ReportedBracket| {
+        // Position and orientation separately: their worst cases can be of different pairs.
         let larger = |a: &&ReportedBracket, b: &&ReportedBracket| a.certified.total_cmp(&b.certified);
         // Of equal ones the first.
         brackets().map(of).rev().max_by(larger).cloned()
@@ -105,8 +106,8 @@ pub(crate) fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
     })
 }
 
-/// Brackets the disagreements of table and URDF and of table and physics at link `tip` relative to link
-/// `base`; of a robot without table that of URDF and physics. Without physics its pairs are left out.
+/// Brackets the disagreements of table and URDF and of table and physics at link `tip` relative to link `base`; for
+/// a robot without table those of URDF and physics. Without physics there is no pair with it.
 ///
 /// # Errors
 /// [`CheckError`] if table and robot do not fit together, or if the physics rejects a configuration.
@@ -131,9 +132,13 @@ pub(crate) fn certificates(
     }
     let Some((identified, physics)) = physics else { return Ok(certificates) };
     let simulated = ComparedChain::physics(description, identified, physics);
+    // A chain that was identified from poses represents the physics only if the premise holds; otherwise there is no
+    // bound.
     let urdf_physics = if identified.premise.holds { certified(robot, [&urdf, &simulated])? } else { None };
     let (pair, model, certificate) = match (&table, table_urdf, urdf_physics) {
         (None, _, urdf_physics) => (SourcePair::UrdfSimulation, &urdf, urdf_physics),
+        // URDF and physics are the same chain up to rounding, as for every robot that the physics reads from its
+        // URDF. Then the bracket of table and URDF serves again, and a second search is saved.
         (Some(table), Some(table_urdf), Some(urdf_physics)) if is_rounding(&urdf_physics) => {
             (SourcePair::ModelSimulation, table, Some(through_intermediate(&table_urdf, &urdf_physics)))
         }
@@ -219,6 +224,8 @@ fn certified(robot: &Robot, chains: [&ComparedChain<'_>; 2]) -> Result<Option<Ce
         certify_driven((&a.chain, &a.drivers), (&b.chain, &b.drivers), &ranges, Budget::default())?;
     let rounding = a.rounding() + b.rounding();
     let residual = chains.map(|side| side.residual);
+    // The search bounds two screw chains. Each model differs from its chain by at most rounding and residual, so
+    // the triangle inequality gives the bound of the models.
     found.position_m.certified += rounding + residual[0].position_m + residual[1].position_m;
     found.orientation_rad.certified += rounding + residual[0].orientation_rad + residual[1].orientation_rad;
     Ok(Some(found))
@@ -256,6 +263,8 @@ fn report(
         let mut at = RobotQ::from(at);
         robot.apply_mimic(&mut at);
         let [a, b] = chains.map(|side| (side.base_from_tip)(&at));
+        // Attained is what the models themselves give, not their screws; it can be above the bound by rounding
+        // only.
         let attained = measure(PoseError::between(&a?, &b?)).min(certified);
         let name = |index: usize| robot.joint(robot.movable_joints()[index]).name.clone();
         let driving = at.iter().enumerate().filter(|&(index, _)| drives(chains, index));
@@ -278,10 +287,10 @@ struct DrivenScrews {
 }
 
 impl DrivenScrews {
-    /// Of a chain whose joints are these entries of the configuration vector.
+    /// The driven screws of a chain whose joints are these entries of the configuration vector.
     fn new(robot: &Robot, coordinates: &[usize], chain: &ScrewChain) -> Self {
         let relations: Vec<MimicRelation> =
-            coordinates.iter().map(|&coordinate| MimicRelation::of(robot, coordinate)).collect();
+            coordinates.iter().map(|&coordinate| MimicRelation::for_coordinate(robot, coordinate)).collect();
         Self {
             chain: without_offsets(&relations, chain),
             drivers: relations.iter().map(|relation| relation.driver).collect(),
@@ -305,7 +314,7 @@ struct MimicRelation {
 }
 
 impl MimicRelation {
-    fn of(robot: &Robot, coordinate: usize) -> Self {
+    fn for_coordinate(robot: &Robot, coordinate: usize) -> Self {
         let mimic = robot.joint(robot.movable_joints()[coordinate]).mimic;
         let relation = |Mimic { master, multiplier, offset }| {
             Some(Self { driver: robot.coordinate(master)?, multiplier, offset })
@@ -321,6 +330,7 @@ fn without_offsets(relations: &[MimicRelation], chain: &ScrewChain) -> ScrewChai
     let mut twists_in_base = Vec::with_capacity(relations.len());
     for (relation, twist) in relations.iter().zip(&chain.twists_in_base) {
         let twist = twist.transformed_by(&moved);
+        // All later screws and the home pose are carried by the constant turn of the offset.
         moved = twist.exp(relation.offset) * moved;
         let Twist { angular, linear } = twist;
         twists_in_base
@@ -352,7 +362,7 @@ mod tests {
                 let root_from = |link| tree.root_from_link(&q, link).unwrap();
                 let by_tree = root_from(description.base).inverse() * root_from(description.tip);
                 for (side, pose) in [(&table, by_table.base_from_tip(&q).unwrap()), (&urdf, by_tree)] {
-                    let driven = q.of_chain(&side.drivers);
+                    let driven = q.chain_positions(&side.drivers);
                     let error = PoseError::between(&side.chain.base_from_tip(&driven).unwrap(), &pose);
                     worst = worst.max(error.position_m.max(error.orientation_rad) / side.rounding());
                 }

@@ -2,17 +2,16 @@
 
 use std::sync::Arc;
 
-use congruent_description::{
-    Diagnostic, Finding, RobotDescription, RobotQ, RobotQList, Tolerance, display::quantity,
-};
+use congruent_description::{RobotDescription, RobotQ, RobotQList, Tolerance};
+use congruent_input::{Finding, Findings, display::quantity};
 use congruent_kinematics::{LinkPoses, PoseError, ScrewChain, sample_configurations};
 
 use super::{
     basics::basics,
     certificate::{Brackets, ReportedCertificate, certificates, worst},
-    check_report::{Agreement, CheckReport, Comparison, NotAsked, WorstDifference},
+    check_report::{Agreement, CheckReport, ComparedSource, Comparison, NotCompared, WorstDifference},
     comparing::{Comparing, is_turned_only},
-    configurations::Configurations,
+    configurations::CheckConfigurations,
     error::CheckError,
     identified::IdentifiedChain,
 };
@@ -21,12 +20,12 @@ use crate::{
     source_pair::SourcePair,
 };
 
-/// Further configurations of a check, besides zero, single axes, and limits.
+/// Which configurations a check compares, in addition to those at zero, on single axes and at limits.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CheckOptions {
     /// Seed of the random configurations.
     pub seed: u64,
-    /// Configurations that are compared as well.
+    /// Requested configurations of the whole robot, compared in addition.
     pub configurations: Arc<RobotQList>,
 }
 
@@ -39,22 +38,23 @@ pub const RANDOM_CONFIGURATIONS: usize = 200;
 /// compared with a fitted constant and only shown; they follow from the tip: two chains that agree at the
 /// tip for every configuration have the same axes.
 ///
-/// `physics` may be the findings for which it cannot be asked: the others are compared, and the report says so.
+/// `physics` may be the findings that prevent its use: the other sources are then compared, and the report lists
+/// the findings.
 ///
 /// # Errors
 /// [`CheckError`] if a source rejects the robot.
 pub fn check(
     description: &RobotDescription,
-    physics: Result<&mut dyn LinkPoses, Vec<Diagnostic>>,
+    physics: Result<&mut dyn LinkPoses, Findings>,
     options: &CheckOptions,
 ) -> Result<CheckReport, CheckError> {
-    let Compared { mut report, identified, diagnosed } = compared(description, physics, options)?;
+    let ComparedSources { mut report, identified, diagnosed } = compared(description, physics, options)?;
     report.set_diagnoses(diagnose_models(description, identified.as_ref(), &diagnosed));
     Ok(report)
 }
 
-/// A report without a diagnosis, and what a diagnosis starts from.
-pub(super) struct Compared {
+/// A report without a diagnosis, and the input of a diagnosis.
+pub(super) struct ComparedSources {
     pub(super) report: CheckReport,
     /// The chain of the physics.
     pub(super) identified: Option<ScrewChain>,
@@ -65,11 +65,12 @@ pub(super) struct Compared {
 /// The comparisons of [`check`], without the cause of a difference.
 pub(super) fn compared(
     description: &RobotDescription,
-    physics: Result<&mut dyn LinkPoses, Vec<Diagnostic>>,
+    physics: Result<&mut dyn LinkPoses, Findings>,
     options: &CheckOptions,
-) -> Result<Compared, CheckError> {
+) -> Result<ComparedSources, CheckError> {
     let robot = &description.robot;
     resolved(description, &options.configurations)?;
+    // First the configurations that every robot gets: zero, single axes, limits, random ones.
     let mut configurations = sample_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
     let Physics { source, identified, certificates, not_asked } =
         Physics::new(description, physics, &configurations)?;
@@ -77,13 +78,13 @@ pub(super) fn compared(
     // The worst configurations of the certificates count for the verdict: random ones seldom find them.
     let brackets = certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
     configurations.extend(brackets.flat_map(|brackets| brackets.attained_at(robot)));
-    let configurations = Configurations { sampled: configurations, requested: &options.configurations };
+    let configurations = CheckConfigurations { sampled: configurations, requested: &options.configurations };
     for (index, q) in configurations.iter().enumerate() {
         comparing.observe(index, &q)?;
     }
     let comparisons = comparing.finish(description, |index| configurations.at(index));
     let verdict = verdict(&comparisons);
-    // What is left of sources that agree is the rounding of the identified screws: it has no cause.
+    // If all sources agree, the residual is the rounding of the identified screws, which has no cause.
     let diagnosed = match verdict {
         Agreement::Agree => Vec::new(),
         _ => configurations.diagnosed(comparing.worst_at()),
@@ -95,7 +96,7 @@ pub(super) fn compared(
         chain: description.reported_chain(),
         table_compared: description.dh.is_some(),
         verdict,
-        worst: worst_of(&comparisons, &description.tolerance),
+        worst: worst_difference(&comparisons, &description.tolerance),
         tolerance: description.tolerance,
         replaced_tolerance: None,
         configurations: configurations.len(),
@@ -111,7 +112,7 @@ pub(super) fn compared(
         not_asked,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     };
-    Ok(Compared { report, identified, diagnosed })
+    Ok(ComparedSources { report, identified, diagnosed })
 }
 
 impl CheckReport {
@@ -131,6 +132,8 @@ fn resolved(description: &RobotDescription, configurations: &RobotQList) -> Resu
     for (number, q) in (1..).zip(configurations.iter()) {
         for (&joint, &position) in robot.movable_joints().iter().zip(q.iter()) {
             let joint = robot.joint(joint);
+            // Beyond this spacing the sine of the position is rounding noise, and sources would disagree about
+            // nothing.
             let spacing = position.abs().next_up() - position.abs();
             let most = if joint.kind.is_angular() { tolerance.orientation_rad } else { tolerance.position_m };
             if spacing > most {
@@ -144,25 +147,25 @@ fn resolved(description: &RobotDescription, configurations: &RobotQList) -> Resu
     Ok(())
 }
 
-/// The physics and what is known of its chain, or why it was not asked.
+/// The physics and what is known of its chain, or why it was not compared.
 struct Physics<'a> {
     source: Option<&'a mut dyn LinkPoses>,
     identified: Option<ScrewChain>,
     certificates: Vec<ReportedCertificate>,
-    not_asked: Vec<NotAsked>,
+    not_asked: Vec<NotCompared>,
 }
 
 impl<'a> Physics<'a> {
     fn new(
         description: &RobotDescription,
-        physics: Result<&'a mut dyn LinkPoses, Vec<Diagnostic>>,
+        physics: Result<&'a mut dyn LinkPoses, Findings>,
         configurations: &[RobotQ],
     ) -> Result<Self, CheckError> {
         let source = match physics {
             Ok(source) => source,
             Err(findings) => {
                 let findings = findings.iter().map(Finding::from).collect();
-                let not_asked = vec![NotAsked { source: "simulation", findings }];
+                let not_asked = vec![NotCompared { source: ComparedSource::Simulation, findings }];
                 let certificates = certificates(description, None)?;
                 return Ok(Self { source: None, identified: None, certificates, not_asked });
             }
@@ -187,9 +190,11 @@ pub(super) fn verdict(comparisons: &[Comparison]) -> Agreement {
 
 /// The largest difference of all comparisons, separately in position and in orientation; link and configuration are
 /// those of the position, unless the orientation alone is beyond the tolerance.
-pub(super) fn worst_of(comparisons: &[Comparison], tolerance: &Tolerance) -> WorstDifference {
+pub(super) fn worst_difference(comparisons: &[Comparison], tolerance: &Tolerance) -> WorstDifference {
     let errors = comparisons.iter().map(|comparison| comparison.worst.error);
     let error = errors.fold(PoseError::default(), PoseError::larger);
+    // One link and one configuration are reported. If only angles are beyond the tolerance, those of the largest
+    // distance would point at a link that is fine.
     let is_turned_only = is_turned_only(&error, tolerance);
     let size = |error: &PoseError| if is_turned_only { error.orientation_rad } else { error.position_m };
     let mut worst = &comparisons.first().expect("screws are always compared with the URDF").worst;

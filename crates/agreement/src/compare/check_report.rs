@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use congruent_description::{Diagnostic, Finding, JointValues, ReportedChain, Tolerance};
+use congruent_description::{JointValues, ReportedChain, Tolerance};
+use congruent_input::{Diagnostic, Finding, serde_name};
 use congruent_kinematics::{PoseError, ReportedPose};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -23,10 +24,10 @@ use crate::{
 pub enum Agreement {
     /// Within tolerance at every configuration.
     Agree,
-    /// Beyond tolerance somewhere.
+    /// Beyond the tolerance at one configuration or more.
     Disagree,
-    /// There is one description of the robot and nothing to compare it with: no table, and the physics could not
-    /// be asked; or nothing moves.
+    /// There is one description of the robot and nothing to compare it with: no table, and the physics could not be
+    /// compared; or nothing moves.
     NothingCompared,
 }
 
@@ -36,7 +37,7 @@ impl Agreement {
         if chain.joints.is_empty() {
             "no joint moves between base and tip"
         } else {
-            "there is no [dh] table, and the physics was not asked"
+            "there is no [dh] table, and the physics was not compared"
         }
     }
 }
@@ -66,18 +67,18 @@ pub struct Comparison {
     pub name: SourcePair,
     /// The pair in words.
     pub title: &'static str,
-    /// Whether the links that decide are within the tolerance.
+    /// Whether the links that decide the verdict are within the tolerance.
     pub verdict: Agreement,
-    /// The worst over the links that decide.
+    /// The largest differences over the links that decide the verdict.
     pub worst: WorstDifference,
-    /// The worst at each link.
+    /// The largest difference at each link, in the order of the URDF.
     pub links: Vec<LinkDifference>,
 }
 
 /// The largest difference at one link.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LinkDifference {
-    /// The link.
+    /// Name of the link.
     pub link: String,
     /// The origin of the first source's pose.
     pub source: PoseSource,
@@ -86,18 +87,40 @@ pub struct LinkDifference {
     pub error: PoseError,
 }
 
-/// A source that could not be asked.
+/// A source of poses or torques that a check may be unable to compare.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ComparedSource {
+    /// Poses of the physics.
+    Simulation,
+    /// Accelerations of the physics under torques.
+    SimulatedDynamics,
+    /// The inertias that the robot file declares.
+    DeclaredDynamics,
+    /// The inertias of another URDF.
+    OtherDynamics,
+}
+
+impl ComparedSource {
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        serde_name(&self)
+    }
+}
+
+/// A source that could not be compared.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct NotAsked {
+pub struct NotCompared {
     /// The source: `simulation`, `simulated_dynamics`, `declared_dynamics` or `other_dynamics`.
-    pub source: &'static str,
-    /// Why.
+    #[schemars(with = "String")]
+    pub source: ComparedSource,
+    /// The reasons why it was not compared.
     pub findings: Vec<Finding>,
 }
 
-impl NotAsked {
-    /// A source that could not be asked for one reason.
-    pub fn because(source: &'static str, finding: &Diagnostic) -> Self {
+impl NotCompared {
+    /// A source that could not be compared for one reason.
+    pub fn because(source: ComparedSource, finding: &Diagnostic) -> Self {
         Self { source, findings: vec![Finding::from(finding)] }
     }
 }
@@ -113,9 +136,9 @@ pub struct CheckReport {
     pub chain: ReportedChain,
     /// Whether a table was compared; if not, the URDF, its screws and the physics are compared with each other.
     pub table_compared: bool,
-    /// Whether all sources that were asked agree.
+    /// Whether all sources that were compared agree.
     pub verdict: Agreement,
-    /// The worst of all comparisons.
+    /// The largest differences of all comparisons.
     pub worst: WorstDifference,
     /// The largest difference that counts as agreement.
     pub tolerance: Tolerance,
@@ -133,20 +156,20 @@ pub struct CheckReport {
     pub basics: Basics,
     /// Bound of the difference of the models over the whole joint range: the largest of `certificates`.
     pub certificate: Option<PoseError>,
-    /// The same with the configurations that come nearest to the bound.
+    /// The same bounds with the configurations that come nearest to them.
     pub certificate_bracket: Option<Brackets>,
     /// The certificates, two models of the chain each.
     pub certificates: Vec<ReportedCertificate>,
     /// The likeliest cause of a disagreement, then the next best ones: those of the first of `diagnoses`
     /// that has any.
     pub diagnosis: Vec<ReportedCause>,
-    /// Causes with a residual as small as the first one's.
+    /// Causes that cannot be distinguished from the first one.
     pub indistinguishable: Vec<ReportedAlternative>,
     /// The diagnoses, two models of the chain each.
     pub diagnoses: Vec<ReportedDiagnosis>,
-    /// Sources that could not be asked: the verdict says nothing about them.
+    /// Sources that could not be compared: the verdict says nothing about them.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub not_asked: Vec<NotAsked>,
+    pub not_asked: Vec<NotCompared>,
     /// Warnings about the input.
     pub warnings: Vec<Finding>,
 }

@@ -1,4 +1,5 @@
-//! The comparisons of a check while they run: the poses of all links by each source, at one configuration after the other.
+//! The comparisons of a check while they run: the poses of all links by each source, at one configuration after the
+//! other.
 
 use congruent_description::{JointValues, RobotDescription, RobotQ, Tolerance};
 use congruent_kinematics::{KinematicsError, LinkPoses, Pose, PoseError, ScrewTree, UrdfTree};
@@ -10,14 +11,14 @@ use super::{
 };
 use crate::source_pair::SourcePair;
 
-/// All sources of a check, and what their comparisons have found so far.
+/// All sources of a check, and the largest differences so far.
 pub(super) struct Comparing<'a> {
     sources: LinkPoseSources<'a>,
     running: Vec<RunningComparison>,
 }
 
 impl<'a> Comparing<'a> {
-    /// Nothing is compared yet; `physics` may be any source that is held against the URDF.
+    /// Nothing is compared yet; `physics` may be any source of link poses to compare with the URDF.
     pub(super) fn new(
         description: &RobotDescription,
         physics: Option<Box<dyn LinkPoses + 'a>>,
@@ -43,7 +44,7 @@ impl<'a> Comparing<'a> {
         self.running.iter().flat_map(|comparison| [comparison.furthest.1, comparison.most_turned.1])
     }
 
-    /// What was found; `at` gives the configuration of an observation.
+    /// The finished comparisons; `at` gives the configuration of an observation.
     pub(super) fn finish(
         &self,
         description: &RobotDescription,
@@ -53,10 +54,12 @@ impl<'a> Comparing<'a> {
     }
 }
 
-/// The comparisons of the sources that were asked.
+/// The comparisons of all sources that there are.
 fn running(description: &RobotDescription, sources: &LinkPoseSources<'_>) -> Vec<RunningComparison> {
     let mut running = Vec::new();
     if description.dh.is_some() {
+        // Links with a fitted constant do not decide: their constant would hide an error at zero, and the tip,
+        // whose constants are declared, has all errors of the rows.
         let decides = |source| source == PoseSource::Dh;
         let sources = sources.model.sources();
         running.push(RunningComparison::new(SourcePair::ModelUrdf, model_urdf, sources, decides));
@@ -120,6 +123,7 @@ impl LinkPoseSources<'_> {
     fn tips(&self, description: &RobotDescription) -> Vec<TipDifference> {
         let (base, tip) = (description.base.get(), description.tip.get());
         // The base is placed by the URDF, which places the table.
+        // Relative to the base, as a table gives it; each source has its own pose of the root otherwise.
         let in_base = |links: &[Pose], base: &Pose| base.inverse() * links[tip];
         let by_urdf = in_base(&self.by_urdf, &self.by_urdf[base]);
         let between = |pair, first: Pose, second: Pose| TipDifference {
@@ -137,7 +141,7 @@ impl LinkPoseSources<'_> {
 }
 
 /// The difference of two sources at a link.
-type Difference = fn(&LinkPoseSources<'_>, usize) -> PoseError;
+type LinkErrorFn = fn(&LinkPoseSources<'_>, usize) -> PoseError;
 
 fn model_urdf(sources: &LinkPoseSources<'_>, link: usize) -> PoseError {
     PoseError::between(&sources.model.latest()[link], &sources.by_urdf[link])
@@ -154,25 +158,26 @@ fn urdf_simulation(sources: &LinkPoseSources<'_>, link: usize) -> PoseError {
 /// One comparison with the worst differences so far.
 struct RunningComparison {
     pair: SourcePair,
-    difference: Difference,
+    difference: LinkErrorFn,
     sources: Vec<PoseSource>,
     /// Whether a link decides the verdict.
     decides: Vec<bool>,
     worst: Vec<PoseError>,
     /// Link and configuration of the largest distance, of the links that decide.
     furthest: (usize, usize),
-    /// The same of the largest angle.
+    /// Link and configuration of the largest angle, of the links that decide.
     most_turned: (usize, usize),
 }
 
 impl RunningComparison {
     fn new(
         pair: SourcePair,
-        difference: Difference,
+        difference: LinkErrorFn,
         sources: &[PoseSource],
         decides: impl Fn(PoseSource) -> bool,
     ) -> Self {
         let decides: Vec<bool> = sources.iter().map(|&source| decides(source)).collect();
+        // Some link has to be named even if all agree exactly.
         let first = decides.iter().position(|&decides| decides).expect("the tip or every link decides");
         Self {
             pair,
@@ -192,6 +197,7 @@ impl RunningComparison {
             let error = (self.difference)(sources, link);
             if self.decides[link] {
                 here = here.larger(error);
+                // Before `worst` of this link is updated below: the comparison is with the largest so far.
                 if error.position_m > self.worst[self.furthest.0].position_m {
                     self.furthest = (link, configuration);
                 }
@@ -219,7 +225,7 @@ impl RunningComparison {
             worst: WorstDifference {
                 error: worst,
                 link: robot.links()[link].name.clone(),
-                at: JointValues::of_robot(robot, &at(configuration)),
+                at: JointValues::for_movable_joints(robot, &at(configuration)),
             },
             links: links
                 .map(|((link, &source), worst)| LinkDifference {

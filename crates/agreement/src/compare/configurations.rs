@@ -6,12 +6,12 @@ use congruent_description::{RobotQ, RobotQList};
 const MOST_DIAGNOSED: usize = 1000;
 
 /// The configurations of a check; requested ones may be many, and are not copied.
-pub(super) struct Configurations<'a> {
+pub(super) struct CheckConfigurations<'a> {
     pub(super) sampled: Vec<RobotQ>,
     pub(super) requested: &'a RobotQList,
 }
 
-impl Configurations<'_> {
+impl CheckConfigurations<'_> {
     pub(super) fn len(&self) -> usize {
         self.sampled.len() + self.requested.len()
     }
@@ -20,7 +20,7 @@ impl Configurations<'_> {
         self.sampled.iter().cloned().chain(self.requested.iter())
     }
 
-    /// The one of this index of [`Configurations::iter`].
+    /// The configuration with this index in [`CheckConfigurations::iter`].
     pub(super) fn at(&self, index: usize) -> RobotQ {
         let sampled = self.sampled.get(index).cloned();
         let requested = || self.requested.get(index - self.sampled.len());
@@ -31,6 +31,7 @@ impl Configurations<'_> {
     /// grow with their number.
     pub(super) fn diagnosed(&self, worst: impl Iterator<Item = usize>) -> Vec<RobotQ> {
         let step = self.requested.len().div_ceil(MOST_DIAGNOSED).max(1);
+        // Every so many-th, and the worst ones in addition: a fault that shows at few configurations is not missed.
         let evenly = (self.sampled.len()..self.len()).step_by(step);
         let requested = evenly.chain(worst).map(|index| self.at(index));
         self.sampled.iter().cloned().chain(requested).collect()
@@ -45,7 +46,7 @@ mod tests {
     fn causes_are_judged_at_few_of_many_and_at_the_worst() {
         let mut requested = RobotQList::new(1);
         (0..2500).for_each(|index| requested.push(&[f64::from(index)]));
-        let all = Configurations { sampled: vec![[-1.0].into()], requested: &requested };
+        let all = CheckConfigurations { sampled: vec![[-1.0].into()], requested: &requested };
         assert_eq!((all.len(), all.iter().nth(2500)), (2501, Some([2499.0].into())));
         let diagnosed = all.diagnosed([2500].into_iter());
         assert_eq!(diagnosed[..3], [[-1.0].into(), [0.0].into(), [3.0].into()]);

@@ -22,16 +22,16 @@ pub struct DifferenceAt {
     pub tip: Vec<TipDifference>,
 }
 
-/// The differences at requested configurations, each computed when it is read: memory does not grow with their number but
-/// for the configurations themselves. It is serialised as the list of them.
+/// The differences at requested configurations, each computed when it is read: memory does not grow with their number
+/// except for the configurations themselves. It is serialised as the list of them.
 pub struct DifferencesAt {
     configurations: Arc<RobotQList>,
-    /// What is compared with the robot's URDF: its table and the physics, then another description of the robot.
+    /// The comparisons with the robot's URDF: its table and the physics, then another description of the robot.
     compared: RefCell<Vec<(RobotDescription, Comparing<'static>)>>,
 }
 
 impl DifferencesAt {
-    /// The differences of the robot's table, its URDF, and the physics if it is asked.
+    /// The differences of the robot's table, its URDF, and the physics if there is one.
     ///
     /// # Errors
     /// [`CheckError`] if table and robot do not fit together.
@@ -44,7 +44,7 @@ impl DifferencesAt {
         Ok(Self { configurations: configurations.clone(), compared: vec![own].into() })
     }
 
-    /// The same with those of another source of the poses of all links, as [`CheckReport::add_other`] has it.
+    /// Adds the differences from another source of the poses of all links, as [`CheckReport::add_other`] does.
     ///
     /// # Errors
     /// As [`DifferencesAt::new`].
@@ -61,7 +61,7 @@ impl DifferencesAt {
         Ok(self)
     }
 
-    /// How many there are.
+    /// The number of requested configurations.
     pub fn len(&self) -> usize {
         self.configurations.len()
     }
@@ -71,10 +71,10 @@ impl DifferencesAt {
         self.len() == 0
     }
 
-    /// All, in the order of the configurations.
+    /// The differences at all requested configurations, in their order.
     ///
     /// # Panics
-    /// If a source rejects a configuration; [`check`](super::check) has asked them for all.
+    /// If a source rejects a configuration; [`check`](super::check) has evaluated all of them before.
     pub fn iter(&self) -> impl Iterator<Item = DifferenceAt> + '_ {
         self.configurations.iter().map(|q| self.at(&q))
     }
@@ -84,18 +84,18 @@ impl DifferencesAt {
         let (mut error, mut tip) = (PoseError::default(), Vec::new());
         for (index, (description, comparing)) in compared.iter_mut().enumerate() {
             error =
-                error.larger(comparing.observe(0, q).expect("the check has asked for this configuration"));
+                error.larger(comparing.observe(0, q).expect("the check has evaluated this configuration"));
             let tips = comparing.tips(description).into_iter();
             tip.extend(tips.map(|tip| match index {
                 0 => tip,
                 _ => TipDifference { pair: SourcePair::UrdfOther, ..tip },
             }));
         }
-        DifferenceAt { q: JointValues::of_robot(&compared[0].0.robot, q), error, tip }
+        DifferenceAt { q: JointValues::for_movable_joints(&compared[0].0.robot, q), error, tip }
     }
 }
 
-/// The robot as its URDF alone describes it: another source is held against it as the physics is.
+/// The robot as its URDF alone describes it, for a comparison with another source of link poses.
 pub(super) fn without_table(description: &RobotDescription) -> RobotDescription {
     let places = Places { robot_file: None, ..description.places.clone() };
     RobotDescription { dh: None, places, ..description.clone() }

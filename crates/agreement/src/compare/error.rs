@@ -14,13 +14,13 @@ pub enum CheckError {
     Kinematics(#[from] KinematicsError),
     /// A requested position is so large that its digits do not resolve the tolerance.
     #[error(
-        "configuration {number}: joint \"{joint}\" at {}: numbers of this size are {} apart, more than the tolerance of {}; \
-         give the position within a turn, or a larger tolerance", what[0], what[1], what[2]
+        "configuration {number}: joint \"{joint}\" is at {}, where neighbouring floating-point numbers are {} apart, \
+         more than the tolerance of {}; give the position within one turn, or a larger tolerance", what[0], what[1], what[2]
     )]
     Unresolved {
         /// Number of the configuration, from 1.
         number: usize,
-        /// The joint.
+        /// Name of the joint at that position.
         joint: String,
         /// Its position, the distance to the next number, and the tolerance, with their units.
         what: [String; 3],

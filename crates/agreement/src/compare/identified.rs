@@ -47,6 +47,7 @@ impl IdentifiedChain {
         let mut q = RobotQ::zeros(description.robot.dof());
         let mut rejected = None;
         let chain = ScrewChain::identify(coordinates.len(), |values| {
+            // `identify` takes a function without errors: the first rejection is kept and returned after it.
             q.set_chain(&coordinates, values);
             base_from_tip(description, physics, &q).unwrap_or_else(|error| {
                 rejected = Some(error);
@@ -57,9 +58,11 @@ impl IdentifiedChain {
             return Err(error);
         }
         let mut worst = PoseError::default();
+        // The screws come from some `2 n + 1` poses. Whether each joint is one screw can only be verified at other
+        // poses, with all joints of the robot away from zero.
         for q in configurations {
             let expected =
-                chain.base_from_tip(&q.of_chain(&coordinates)).expect("as many positions as joints");
+                chain.base_from_tip(&q.chain_positions(&coordinates)).expect("as many positions as joints");
             worst = worst.larger(PoseError::between(&base_from_tip(description, physics, q)?, &expected));
         }
         let premise = Premise {

@@ -1,11 +1,12 @@
-//! Mimic joints of two URDFs with the same joints: whether each follows the same joint in the same way. The comparison
-//! of poses takes each joint for a driven one, which finds the faults of the chain itself; what follows is compared here.
+//! Mimic joints of two URDFs with the same joints: whether each follows the same joint in the same way. The
+//! comparison of poses takes each joint for a driven one, which finds the faults of the chain itself; what follows is
+//! compared here.
 
 use congruent_description::{JointIndex, JointValues, Mimic, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, Pose, PoseError, Uniform, UrdfTree, range, sample_configurations};
 
 use super::{
-    check::{CheckOptions, RANDOM_CONFIGURATIONS, verdict, worst_of},
+    check::{CheckOptions, RANDOM_CONFIGURATIONS, verdict, worst_difference},
     check_report::{Agreement, CheckReport},
     error::CheckError,
 };
@@ -33,15 +34,19 @@ impl CheckReport {
     ) -> Result<Option<String>, CheckError> {
         let mut joints = Vec::new();
         for joint in differing(&description.robot, &other.robot) {
+            // Numbers of two files differ in their last digits; only what moves a link beyond the tolerance is a
+            // fault.
             if joint.matters(description, options.seed)? {
                 joints.push(joint);
             }
         }
         let Some(first) = joints.first().map(|joint| joint.words.message()) else { return Ok(None) };
-        let mut worst_left = Vec::with_capacity(joints.len() + 1);
+        let mut worst_remaining = Vec::with_capacity(joints.len() + 1);
+        // With none of them corrected, then with the first, the first two, and so on: the residuals of the stages.
         for corrected in 0..=joints.len() {
-            let mut differences = Differences::new(description, &joints[corrected..]);
+            let mut differences = MimicDifferences::new(description, &joints[corrected..]);
             let own = sample_configurations(&description.robot, options.seed, RANDOM_CONFIGURATIONS);
+            // Seeded by the options, so that a second check gives the same numbers.
             let mut random = Uniform::seeded(options.seed);
             for q in own {
                 differences.observe(differences.both(&q, &mut random), poses)?;
@@ -53,19 +58,20 @@ impl CheckReport {
                 }
                 self.enlarge(description, &differences);
             }
-            worst_left.push(differences.links.iter().copied().fold(PoseError::default(), PoseError::larger));
+            worst_remaining
+                .push(differences.links.iter().copied().fold(PoseError::default(), PoseError::larger));
         }
         let at = self.diagnoses.iter().position(|diagnosis| diagnosis.name == SourcePair::UrdfOther);
         let known = at.map(|at| self.diagnoses.remove(at));
         let words: Vec<FollowedJoint> = joints.into_iter().map(|joint| joint.words).collect();
         let mut diagnoses = std::mem::take(&mut self.diagnoses);
-        diagnoses.push(with_mimics(known, &words, [description, other], &worst_left));
+        diagnoses.push(with_mimics(known, &words, [description, other], &worst_remaining));
         self.set_diagnoses(diagnoses);
         Ok(Some(first))
     }
 
     /// The comparison of the two, its certificate and the verdict with these differences.
-    fn enlarge(&mut self, description: &RobotDescription, differences: &Differences<'_>) {
+    fn enlarge(&mut self, description: &RobotDescription, differences: &MimicDifferences<'_>) {
         for comparison in self.comparisons.iter_mut().filter(|of| of.name == SourcePair::UrdfOther) {
             comparison.verdict = Agreement::Disagree;
             let furthest = differences.furthest.as_ref();
@@ -73,33 +79,33 @@ impl CheckReport {
                 && error.position_m >= comparison.worst.error.position_m
             {
                 comparison.worst.link.clone_from(&description.robot.links()[*link].name);
-                comparison.worst.at = JointValues::of_robot(&description.robot, q);
+                comparison.worst.at = JointValues::for_movable_joints(&description.robot, q);
             }
             for (link, error) in comparison.links.iter_mut().zip(&differences.links) {
                 link.error = link.error.larger(*error);
                 comparison.worst.error = comparison.worst.error.larger(*error);
             }
         }
-        // The bounds are of chains whose joints follow in the same way: there is none of the whole.
+        // The bounds hold for chains with the same mimic relations; with different ones there is no bound.
         for certificate in self.certificates.iter_mut().filter(|of| of.name == SourcePair::UrdfOther) {
             certificate.brackets = None;
         }
         (self.certificate, self.certificate_bracket) = (None, None);
         self.verdict = verdict(&self.comparisons);
-        self.worst = worst_of(&self.comparisons, &self.tolerance);
+        self.worst = worst_difference(&self.comparisons, &self.tolerance);
     }
 }
 
 /// A joint with two relations that are not the same.
-struct Differing {
+struct DifferingMimic {
     coordinate: usize,
-    /// Of both files: the coordinate of the master, multiplier and offset.
+    /// The relation in each file: coordinate of the master, multiplier and offset.
     relations: [Option<(usize, f64, f64)>; 2],
     words: FollowedJoint,
 }
 
 /// Both robots have the same moving joints by name.
-fn differing(robot: &Robot, other: &Robot) -> Vec<Differing> {
+fn differing(robot: &Robot, other: &Robot) -> Vec<DifferingMimic> {
     let relation = |of: &Robot, joint: JointIndex| {
         let Mimic { master, multiplier, offset } = of.joint(joint).mimic?;
         Some(Relation { master: of.joint(master).name.clone(), multiplier, offset })
@@ -112,7 +118,7 @@ fn differing(robot: &Robot, other: &Robot) -> Vec<Differing> {
         let name = &robot.joint(joint).name;
         let there = other.find_joint(name).expect("the joints are the same");
         let relations = [relation(robot, joint), relation(other, there)];
-        (relations[0] != relations[1]).then(|| Differing {
+        (relations[0] != relations[1]).then(|| DifferingMimic {
             coordinate,
             relations: [0, 1].map(|file| relations[file].as_ref().map(in_coordinates)),
             words: FollowedJoint { joint: name.clone(), unit: robot.joint(joint).kind.unit(), relations },
@@ -121,16 +127,16 @@ fn differing(robot: &Robot, other: &Robot) -> Vec<Differing> {
     robot.movable_joints().iter().enumerate().filter_map(differs).collect()
 }
 
-impl Differing {
-    /// Whether the two relations are not the same within the tolerance: two that follow the same joint may differ by the
-    /// rounding of their numbers.
+impl DifferingMimic {
+    /// Whether the two relations are not the same within the tolerance: two that follow the same joint may differ by
+    /// the rounding of their numbers.
     fn matters(&self, description: &RobotDescription, seed: u64) -> Result<bool, CheckError> {
         let [Some((master, ..)), Some((other_master, ..))] = self.relations else { return Ok(true) };
         if master != other_master {
             return Ok(true);
         }
         let only = std::slice::from_ref(self);
-        let mut differences = Differences::new(description, only);
+        let mut differences = MimicDifferences::new(description, only);
         let mut same_chain = UrdfTree::new(&description.robot);
         let mut random = Uniform::seeded(seed);
         for q in sample_configurations(&description.robot, seed, RANDOM_CONFIGURATIONS) {
@@ -143,10 +149,10 @@ impl Differing {
     }
 }
 
-/// The differences of two sources if some joints follow in different ways.
-struct Differences<'a> {
+/// The differences of two sources if some joints have different mimic relations.
+struct MimicDifferences<'a> {
     robot: &'a Robot,
-    joints: &'a [Differing],
+    joints: &'a [DifferingMimic],
     own: UrdfTree,
     own_links: Vec<Pose>,
     other_links: Vec<Pose>,
@@ -156,8 +162,8 @@ struct Differences<'a> {
     furthest: Option<(usize, RobotQ, PoseError)>,
 }
 
-impl<'a> Differences<'a> {
-    fn new(description: &'a RobotDescription, joints: &'a [Differing]) -> Self {
+impl<'a> MimicDifferences<'a> {
+    fn new(description: &'a RobotDescription, joints: &'a [DifferingMimic]) -> Self {
         let robot = &description.robot;
         let links = robot.links().len();
         Self {
@@ -186,7 +192,7 @@ impl<'a> Differences<'a> {
     /// The configuration of the other description.
     fn followed(&self, q: &RobotQ) -> RobotQ {
         let mut there = q.clone();
-        for Differing { coordinate, relations, .. } in self.joints {
+        for DifferingMimic { coordinate, relations, .. } in self.joints {
             if let Some((master, multiplier, offset)) = relations[1] {
                 there[*coordinate] = multiplier * there[master] + offset;
             }

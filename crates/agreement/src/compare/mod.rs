@@ -19,7 +19,8 @@ pub use basics::{Basics, BySource, CoordinateUnit, SingleJointMotion, TcpDisplac
 pub use certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate};
 pub use check::{CheckOptions, RANDOM_CONFIGURATIONS, check};
 pub use check_report::{
-    Agreement, CheckReport, Comparison, LinkDifference, NotAsked, TipDifference, WorstDifference,
+    Agreement, CheckReport, ComparedSource, Comparison, LinkDifference, NotCompared, TipDifference,
+    WorstDifference,
 };
 pub use diagnosis::diagnose;
 pub use differences_at::{DifferenceAt, DifferencesAt};

@@ -103,6 +103,8 @@ impl DhModel {
             let declared = link == description.tip;
             // The tip is declared in the last frame, whatever row its joint is in.
             let frame = if declared { chain.joint_count() } else { frame };
+            // The tip has a declared constant, which can be wrong and is compared. Every other link gets the
+            // constant that makes it agree at zero, since no table says where link frames lie.
             let dhk_from_link = if declared {
                 table.dhn_from_tip.into()
             } else {

@@ -12,11 +12,11 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DhEntry {
-    /// Link length.
+    /// Link length `a`: distance from one joint axis to the next along their common normal, m.
     A,
-    /// Link twist.
+    /// Link twist `alpha`: angle from one joint axis to the next about their common normal, rad.
     Alpha,
-    /// Link offset.
+    /// Link offset `d`: shift along the joint axis, m; the position of a prismatic joint is added to it.
     D,
     /// Joint angle at position zero; of a model in screws, the joint's zero.
     Theta,
@@ -67,7 +67,7 @@ impl ModelParameter {
 /// beyond a turn, as a wrong unit gives it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeclaredTransform {
-    /// The transform.
+    /// The transform as one rigid motion, m.
     pub pose: Pose,
     /// Rotations about the fixed axes x, y, z as the file writes them, in radians.
     pub written_rpy_rad: Option<[f64; 3]>,
@@ -86,13 +86,13 @@ pub struct CandidateRow {
     pub joint: usize,
     /// How much it moves for one unit of the joint: the sign of a table's row.
     pub rate: f64,
-    /// Its constants.
+    /// What does not move: the entries of a table, or a screw.
     pub link: RowConstants,
 }
 
 impl CandidateRow {
     /// A row of a table that this joint drives.
-    pub(super) fn of_table<J>(joint: usize, row: &DhRow<J>) -> Self {
+    pub(super) fn from_dh_row<J>(joint: usize, row: &DhRow<J>) -> Self {
         let DhRow { kind, a_m, alpha_rad, d_m, theta_rad, sign, .. } = *row;
         Self { joint, rate: sign, link: RowConstants::Dh { kind, a_m, alpha_rad, d_m, theta_rad } }
     }
@@ -105,13 +105,13 @@ pub enum RowConstants {
     Dh {
         /// Which entry the joint drives.
         kind: DhRowKind,
-        /// Link length.
+        /// Link length, m.
         a_m: f64,
-        /// Link twist.
+        /// Link twist, rad.
         alpha_rad: f64,
-        /// Link offset.
+        /// Link offset, m.
         d_m: f64,
-        /// Joint angle at position zero.
+        /// Joint angle at position zero, rad.
         theta_rad: f64,
     },
     /// A screw, without parameters of a table.
@@ -134,7 +134,7 @@ impl CandidateRow {
 
 /// The candidate: base, rows, tool.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Candidate {
+pub struct CandidateModel {
     /// The convention of its table; `None` for a model in screws.
     pub convention: Option<DhConvention>,
     /// The declared transform before the rows.
@@ -166,7 +166,7 @@ pub(super) struct ChainWalk {
     base_from_dhn: Pose,
 }
 
-impl Candidate {
+impl CandidateModel {
     /// A candidate of which only the screws are known, its joints in the order of the reference model.
     pub fn from_screws(chain: &ScrewChain) -> Self {
         let row = |(joint, &twist): (usize, &Twist)| CandidateRow {
@@ -233,7 +233,7 @@ impl Candidate {
         }
     }
 
-    /// Forward kinematics at `q` with what derivatives need.
+    /// Forward kinematics at `q`, with the twists from which derivatives are computed.
     pub(super) fn walk(&self, q: &ChainQ) -> ChainWalk {
         let mut pose = self.base.pose;
         let mut row_twists = Vec::with_capacity(self.rows.len());
@@ -246,20 +246,26 @@ impl Candidate {
                         DhRowKind::Revolute => (theta_rad + motion, d_m),
                         DhRowKind::Prismatic => (theta_rad, d_m + motion),
                     };
-                    let (theta, alpha) = (SinCos::of(turn), SinCos::of(alpha_rad));
-                    let before = Axes::of(&pose);
+                    let (theta, alpha) = (SinCos::from_angle(turn), SinCos::from_angle(alpha_rad));
+                    let before = Axes::from_pose(&pose);
+                    // Standard: Rz(theta) Tz(d) Tx(a) Rx(alpha), Denavit and Hartenberg 1955; modified: Rx(alpha)
+                    // Tx(a) Rz(theta) Tz(d), Craig 2005. A row of a table always comes with its convention.
                     let convention = self.convention.unwrap_or(DhConvention::Standard);
                     let behind = match convention {
                         DhConvention::Standard => before.about_z(theta, slide).about_x(alpha, a_m),
                         DhConvention::Modified => before.about_x(alpha, a_m).about_z(theta, slide),
                     };
                     let by = DhRowTwists::between(convention, &before, &behind);
+                    // A DH joint turns about its z axis or slides along it: its screw is the twist of `theta` or of
+                    // `d`.
                     let along_z = if kind == DhRowKind::Revolute { by.theta } else { by.d };
                     row_twists.push(along_z * row.rate);
                     entries.push(by);
                     pose = behind.pose();
                 }
                 RowConstants::Screw { twist, offset } => {
+                    // The rows before it have moved its axis: a column of the space Jacobian (Lynch and Park 2017,
+                    // eq. 5.11).
                     let theta = twist.transformed_by(&pose);
                     row_twists.push(theta * row.rate);
                     entries.push(DhRowTwists { theta, ..DhRowTwists::default() });
@@ -272,7 +278,7 @@ impl Candidate {
 
     /// The effect of a parameter at `q`, given the walk there; `None` if the candidate does not have the
     /// parameter.
-    pub(super) fn effect_of(
+    pub(super) fn parameter_effect(
         &self,
         parameter: ModelParameter,
         q: &ChainQ,
@@ -294,10 +300,14 @@ impl Candidate {
                 }
             }
             ModelParameter::Rate(row) => {
+                // The motion of the row is `rate * q`, and `row_twists` are per unit of `q`: `S rate` divided by
+                // the rate is the screw of the row itself, and one unit of the rate moves it by `q`.
                 let share = q[self.rows[row].joint] / self.rows[row].rate;
                 let generator = walk.row_twists[row] * share;
                 Some(CandidateEffect { generator, from_row: row + 1, scales_row: Some(row) })
             }
+            // `moved` adds translations in the frame before the transform, and turns about axes of the frame behind
+            // it: so the generator of a translation is at the base, that of a rotation in the transformed frame.
             ModelParameter::Base(component) if component < 3 => rigid(unit(component), 0),
             ModelParameter::Base(component) => rigid(unit(component).transformed_by(&self.base.pose), 0),
             ModelParameter::Tool(component) if component < 3 => {

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
-    candidate::{Candidate, CandidateRow, DhEntry, RowConstants},
+    candidate::{CandidateModel, CandidateRow, DhEntry, RowConstants},
     explanation::{Criterion, Explanation},
     hypothesis::ModelPair,
     thresholds::{PARALLEL, SAME_PART_OF_RESIDUAL, SAME_VALUE},
@@ -62,6 +62,7 @@ pub(super) fn equivalence(
     named: &Explanation,
     other: &Explanation,
 ) -> Equivalence {
+    // First, since all reasons below claim that no pose can distinguish the two.
     if !is_same_model(criterion, named, other) {
         return Equivalence::WithinTolerance;
     }
@@ -72,6 +73,9 @@ pub(super) fn equivalence(
     let along_axis = |entry: DhEntry| matches!(entry, DhEntry::Theta | DhEntry::D);
     let modified = models.candidate.convention == Some(DhConvention::Modified);
     let last = models.candidate.rows.len().saturating_sub(1);
+    // A modified row begins with `alpha` and `a`, before the joint's axis, so all four entries of its first row are
+    // constant transforms in front of the first joint's motion or along its axis. A standard row begins with the
+    // axis: only `theta` and `d` commute with the motion. At the last row it is the other order.
     let before_first = |change: &ModelChange| matches!(change, ModelChange::DhEntry(0, entry) if modified || along_axis(*entry));
     let behind_last = |change: &ModelChange| matches!(change, ModelChange::DhEntry(row, entry) if *row == last && (!modified || along_axis(*entry)));
     let flips =
@@ -96,6 +100,7 @@ pub(super) fn equivalence(
 fn is_same_model(criterion: &Criterion, named: &Explanation, other: &Explanation) -> bool {
     let residuals =
         [&named.residual, &other.residual].map(|residual| [residual.position_m, residual.orientation_rad]);
+    // Two models that both equal the reference up to rounding are equal to each other: no poses are needed.
     if residuals.as_flattened().iter().all(|residual| *residual <= SAME_VALUE) {
         return true;
     }
@@ -105,6 +110,7 @@ fn is_same_model(criterion: &Criterion, named: &Explanation, other: &Explanation
     let distance =
         criterion.configurations.iter().map(distance_at).fold(PoseError::default(), PoseError::larger);
     let same = |residual: f64| SAME_VALUE.max(SAME_PART_OF_RESIDUAL * residual);
+    // Otherwise their distance must be small compared with what both fail to explain, which is the file's rounding.
     one.reference == two.reference
         && distance.position_m <= same(named.residual.position_m)
         && distance.orientation_rad <= same(named.residual.orientation_rad)
@@ -132,7 +138,7 @@ fn changes(from: &ModelPair, to: &ModelPair) -> Vec<ModelChange> {
         list.extend((one.rate * two.rate < 0.0).then_some(ModelChange::Flip(row)));
         list.extend(is_another(one, two).then_some(ModelChange::Other));
         for entry in [DhEntry::A, DhEntry::Alpha, DhEntry::D, DhEntry::Theta] {
-            let value = |candidate: &Candidate| candidate.entry(row, entry).unwrap_or_default();
+            let value = |candidate: &CandidateModel| candidate.entry(row, entry).unwrap_or_default();
             let is_off = (value(before) - value(after)).abs() > SAME_VALUE;
             list.extend(is_off.then_some(ModelChange::DhEntry(row, entry)));
         }
@@ -176,6 +182,7 @@ fn are_offsets_along_parallels(models: &ModelPair, changes: &[ModelChange]) -> b
             None // a prismatic joint does not turn
         }
     };
+    // A joint between the two rows that turns about another axis turns the second offset away from the first.
     let directions: Vec<Vector3<f64>> = (first..=last).filter_map(direction).collect();
     directions.iter().all(|each| each.cross(&directions[0]).norm() < PARALLEL)
 }

@@ -5,7 +5,7 @@ use congruent_kinematics::PoseError;
 
 use super::{
     candidate::ModelParameter,
-    hypothesis::{Cause, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair},
 };
 
 /// The tolerance, and the configurations at which a residual is measured.
@@ -20,10 +20,10 @@ pub struct Criterion {
 /// One fault of an explanation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExplainedFault {
-    /// What is wrong.
+    /// The cause that this fault has.
     pub cause: Cause,
     /// The place of the fault in the models.
-    pub place: Place,
+    pub place: FaultPlace,
     /// The parameters that were fitted.
     pub free: Vec<ModelParameter>,
 }

@@ -6,7 +6,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::{
-    candidate::{Candidate, DhEntry, ModelParameter},
+    candidate::{CandidateModel, DhEntry, ModelParameter},
     reference_model::ReferenceModel,
 };
 
@@ -33,7 +33,7 @@ macro_rules! causes {
 }
 
 causes! {
-    /// A joint turns the other way.
+    /// A joint moves in the opposite direction.
     AxisFlipped = "axis_flipped",
     /// The table is read under the other convention.
     ConventionSwapped = "convention_swapped",
@@ -49,7 +49,7 @@ causes! {
     ParametersExchanged = "parameters_exchanged",
     /// Roll, pitch and yaw are in another order.
     RpyOrder = "rpy_order",
-    /// The model leaves out a fixed joint of the reference model.
+    /// The model lacks a fixed joint of the reference model.
     FixedJointDropped = "fixed_joint_dropped",
     /// A joint's zero is shifted.
     ZeroOffset = "zero_offset",
@@ -61,7 +61,7 @@ causes! {
     Parameter = "parameter",
     /// A joint moves more or less than its variable says.
     Ratio = "ratio",
-    /// A joint follows another one in only one of two files, or in another way.
+    /// The `<mimic>` of a joint differs between two files, or only one of them has it.
     Mimic = "mimic",
     /// A joint of one URDF has another `<origin>` than in another URDF.
     JointOrigin = "joint_origin",
@@ -69,7 +69,7 @@ causes! {
     JointAxis = "joint_axis",
     /// Several of these together.
     Several = "several",
-    /// None of these.
+    /// None of the known causes explains the difference.
     #[default]
     Unexplained = "unexplained",
 }
@@ -82,7 +82,7 @@ impl fmt::Display for Cause {
 
 /// The place of a fault in the two models.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Place {
+pub enum FaultPlace {
     /// The table as a whole.
     Model,
     /// Rows of the candidate, by number from 0.
@@ -103,15 +103,15 @@ pub enum Place {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelPair {
     /// The model whose faults are searched.
-    pub candidate: Candidate,
+    pub candidate: CandidateModel,
     /// The model that counts as correct.
     pub reference: ReferenceModel,
 }
 
-/// One possible fault.
-pub(super) struct Hypothesis {
+/// One possible fault: what is wrong, where, and how it is undone.
+pub(super) struct PoseHypothesis {
     pub(super) cause: Cause,
-    pub(super) place: Place,
+    pub(super) place: FaultPlace,
     /// The correction without free parameters, applied before the fit.
     pub(super) edit: Option<Edit>,
     /// The parameters that are fitted.
@@ -121,18 +121,18 @@ pub(super) struct Hypothesis {
 /// A change to the models.
 pub(super) type Edit = Box<dyn Fn(&mut ModelPair) + Send + Sync>;
 
-impl Hypothesis {
+impl PoseHypothesis {
     /// A correction without free parameters.
     pub(super) fn edit(
         cause: Cause,
-        place: Place,
+        place: FaultPlace,
         edit: impl Fn(&mut ModelPair) + Send + Sync + 'static,
     ) -> Self {
         Self { cause, place, edit: Some(Box::new(edit)), free: Vec::new() }
     }
 
     /// A correction that is a fit only.
-    pub(super) fn fit(cause: Cause, place: Place, free: Vec<ModelParameter>) -> Self {
+    pub(super) fn fit(cause: Cause, place: FaultPlace, free: Vec<ModelParameter>) -> Self {
         Self { cause, place, edit: None, free }
     }
 

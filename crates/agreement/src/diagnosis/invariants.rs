@@ -3,7 +3,6 @@
 
 use std::fmt;
 
-use congruent_description::Elementary as _;
 use congruent_kinematics::{ScrewChain, Twist};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -47,19 +46,20 @@ impl fmt::Display for Invariant {
 /// One quantity in which two chains differ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointDifference {
-    /// The quantity.
+    /// The quantity that differs, with its unit.
     pub invariant: Invariant,
     /// The joint, from 0; of two or three consecutive axes the first.
     pub joint: usize,
-    /// Of the candidate.
+    /// The value of the candidate; not a number if the candidate does not have the quantity.
     pub found: f64,
-    /// Of the reference.
+    /// The value of the reference model; not a number if it does not have the quantity.
     pub expected: f64,
 }
 
 /// All differences of the chains, the most invariant quantities first.
 pub(crate) fn compare(models: &ModelPair) -> Vec<JointDifference> {
     let joints = models.reference.joint_count();
+    // Both as screws: rows of a table and joints of a URDF have no quantities in common.
     let candidate = ScrewChain::identify(joints, |q| models.candidate.base_from_tip(q));
     let reference = models.reference.screws();
     let mut differences = Vec::new();
@@ -68,10 +68,13 @@ pub(crate) fn compare(models: &ModelPair) -> Vec<JointDifference> {
         list.iter().find(|(joint, (kind, _))| (*joint, *kind) == (at, of)).map(|(_, (_, value))| *value)
     };
     for &(joint, (invariant, found)) in &found_here {
+        // Quantities that one chain has and the other lacks, as for parallel axes, compare as not a number: `off >
+        // ..` is false.
         let expected = value(&expected_here, joint, invariant).unwrap_or(f64::NAN);
+        // Angles about an axis differ modulo one turn.
         let off = if invariant == Invariant::Zero {
             let turn = found - expected;
-            turn.sine().arctangent_over(turn.cosine()).abs()
+            libm::atan2(libm::sin(turn), libm::cos(turn)).abs()
         } else {
             (found - expected).abs()
         };
@@ -88,9 +91,8 @@ pub(crate) fn compare(models: &ModelPair) -> Vec<JointDifference> {
     if let (Some(found), Some(expected)) =
         (candidate.twists_in_base.first(), reference.twists_in_base.first())
     {
-        let off = (found.angular - expected.angular)
-            .norm()
-            .hypotenuse_with((found.linear - expected.linear).norm());
+        let off =
+            libm::hypot((found.angular - expected.angular).norm(), (found.linear - expected.linear).norm());
         if off > SAME_VALUE {
             differences.push(JointDifference {
                 invariant: Invariant::Base,
@@ -101,7 +103,7 @@ pub(crate) fn compare(models: &ModelPair) -> Vec<JointDifference> {
         }
     }
     let (found, expected) = (candidate.base_from_tip_at_zero, reference.base_from_tip_at_zero);
-    let off = found.distance_m(&expected).hypotenuse_with(found.angle_rad(&expected));
+    let off = libm::hypot(found.distance_m(&expected), found.angle_rad(&expected));
     if off > SAME_VALUE {
         let joint = joints.saturating_sub(1);
         differences.push(JointDifference { invariant: Invariant::Tool, joint, found: off, expected: 0.0 });
@@ -119,7 +121,7 @@ struct JointAxisLine {
 
 impl JointAxisLine {
     /// `None` for a joint that moves nothing.
-    fn of(twist: &Twist) -> Option<Self> {
+    fn from_twist(twist: &Twist) -> Option<Self> {
         let Twist { angular, linear } = twist;
         let turn = angular.norm();
         if turn > NO_TURN {
@@ -157,7 +159,8 @@ type JointQuantity = (usize, (Invariant, f64));
 
 /// All quantities that a chain has.
 fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
-    let axes: Vec<Option<JointAxisLine>> = chain.twists_in_base.iter().map(JointAxisLine::of).collect();
+    let axes: Vec<Option<JointAxisLine>> =
+        chain.twists_in_base.iter().map(JointAxisLine::from_twist).collect();
     let mut list = Vec::new();
     for (joint, axis) in axes.iter().enumerate() {
         let Some(axis) = axis else { continue };
@@ -166,7 +169,7 @@ fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
         let Some(Some(next)) = axes.get(joint + 1) else { continue };
         let (sine, cosine) =
             (axis.direction.cross(&next.direction).norm(), axis.direction.dot(&next.direction));
-        list.push((joint, (Invariant::AxisAngle, sine.arctangent_over(cosine.abs()))));
+        list.push((joint, (Invariant::AxisAngle, libm::atan2(sine, cosine.abs()))));
         list.push((joint, (Invariant::Sign, if cosine.abs() < PARALLEL { 0.0 } else { cosine.signum() })));
         list.extend(axis.distance(next).map(|distance| (joint, (Invariant::AxisDistance, distance))));
         let Some(Some(last)) = axes.get(joint + 2) else { continue };
@@ -176,7 +179,7 @@ fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
         let normals = (axis.direction.cross(&next.direction), next.direction.cross(&last.direction));
         if normals.0.norm() > PARALLEL && normals.1.norm() > PARALLEL {
             let sine = normals.0.cross(&normals.1).dot(&next.direction);
-            list.push((joint, (Invariant::Zero, sine.arctangent_over(normals.0.dot(&normals.1)))));
+            list.push((joint, (Invariant::Zero, libm::atan2(sine, normals.0.dot(&normals.1)))));
         }
     }
     list

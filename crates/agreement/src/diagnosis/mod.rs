@@ -10,10 +10,10 @@
 
 mod candidate;
 mod cause;
-mod described;
 mod equivalence;
 mod explanation;
 mod fit;
+mod from_description;
 mod hypothesis;
 mod invariants;
 pub(crate) mod joints;
@@ -23,10 +23,10 @@ mod score;
 mod search;
 pub(crate) mod thresholds;
 
-pub use candidate::{Candidate, CandidateRow, DeclaredTransform, DhEntry, ModelParameter, RowConstants};
+pub use candidate::{CandidateModel, CandidateRow, DeclaredTransform, DhEntry, ModelParameter, RowConstants};
 pub use equivalence::Equivalence;
 pub use explanation::{Criterion, ExplainedFault, Explanation};
-pub use hypothesis::{Cause, ModelPair, Place};
+pub use hypothesis::{Cause, FaultPlace, ModelPair};
 pub(crate) use invariants::compare as differences;
 pub use invariants::{Invariant, JointDifference};
 pub(crate) use nearest_table::nearest_table;

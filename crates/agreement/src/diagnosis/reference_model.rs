@@ -1,5 +1,5 @@
 //! The reference model that the candidate is compared with: a chain of constant transforms and joints.
-//! Hypotheses can leave out one of them or read its angles in another order.
+//! Hypotheses can remove one of them or read its angles in another order.
 
 use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
@@ -49,6 +49,7 @@ impl ReferenceModel {
             is_written: false,
         };
         let mut joints: Vec<ReferenceJoint> = chain.twists_in_base.iter().map(moving).collect();
+        // The home pose comes last, as in the product of exponentials (Lynch and Park 2017, eq. 4.14).
         joints.push(ReferenceJoint {
             parent_from_joint: chain.base_from_tip_at_zero,
             twist_in_joint: None,
@@ -58,7 +59,7 @@ impl ReferenceModel {
         Self { joints }
     }
 
-    /// Number of coordinates.
+    /// Number of moving joints: the length of a configuration `q`.
     pub fn joint_count(&self) -> usize {
         self.joints.iter().filter(|joint| joint.twist_in_joint.is_some()).count()
     }
@@ -78,8 +79,10 @@ impl ReferenceModel {
         let mut pose = Pose::identity();
         let mut twists = Vec::with_capacity(q.len());
         for joint in &self.joints {
+            // First the constant transform, then the joint's own motion, as a URDF defines it.
             pose = pose * joint.step();
             if let Some(twist) = joint.twist_in_joint {
+                // The number of screws so far is the number of the coordinate.
                 let position = q[twists.len()];
                 twists.push(twist.transformed_by(&pose));
                 pose = pose * twist.exp(position);

@@ -9,10 +9,10 @@
 use congruent_kinematics::PoseError;
 
 use super::{
-    candidate::{Candidate, DeclaredTransform, DhEntry, ModelParameter},
+    candidate::{CandidateModel, DeclaredTransform, DhEntry, ModelParameter},
     explanation::Criterion,
     fit::hypothesis_fit::{FitContext, HypothesisFit},
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
     thresholds::{
         BELOW_TOLERANCE, CERTAIN, EVIDENT, FAR_BELOW_TOLERANCE, QUARTER_TURNS, REFUTED, ROUNDING_RESIDUAL,
     },
@@ -20,7 +20,7 @@ use super::{
 
 /// The order in which explanations are named; smaller is first.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Rank {
+pub(super) struct ExplanationRank {
     /// Free parameters, choices that count as such, and one for each fault beyond the first.
     cost: usize,
     /// Class of the residual: 0 far below the tolerance, 1 below it, 2 near it.
@@ -35,33 +35,38 @@ pub(super) struct Rank {
     hypotheses: Vec<usize>,
 }
 
-pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Criterion) -> Rank {
+pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Criterion) -> ExplanationRank {
     let hypotheses = || fit.hypotheses.iter().map(|&at| &context.hypotheses[at]);
     let residual = context.corrected(fit).residual(criterion);
     let in_tolerances = criterion.in_tolerances(&residual);
     let mut causes: Vec<Cause> = hypotheses().map(|hypothesis| hypothesis.cause).collect();
+    // Sorted, so that a pair has one rank whichever fault was tried first.
     causes.sort_unstable();
     let unproven: usize = hypotheses()
-        .filter_map(|hypothesis| UnitEvidence::of(context, fit, hypothesis))
+        .filter_map(|hypothesis| UnitEvidence::for_hypothesis(context, fit, hypothesis))
         .map(|wrong_unit| wrong_unit.unproven(&residual))
         .sum();
     let given_as_zero = hypotheses()
         .filter(|hypothesis| {
             is_given_as_zero(&context.models.candidate, hypothesis)
-                && !is_left_out_turn(context, fit, hypothesis)
+                && !is_missing_base_turn(context, fit, hypothesis)
         })
         .count();
     let in_place_of_base =
         hypotheses().filter(|hypothesis| is_zero_in_place_of_base(context, fit, hypothesis)).count();
     let choices: usize = hypotheses().map(|hypothesis| choices(context, fit, hypothesis)).sum();
-    Rank {
+    ExplanationRank {
+        // One for each further fault: two faults without parameters must not win against one fault with one
+        // parameter.
         cost: choices + unproven + fit.hypotheses.len() - 1,
+        // Classes, not the residual itself: within a class it differs by rounding, which must not decide.
         residual_class: if in_tolerances <= FAR_BELOW_TOLERANCE {
             0
         } else {
             u8::from(in_tolerances > BELOW_TOLERANCE) + 1
         },
         unlikely: given_as_zero + in_place_of_base + unproven,
+        // The reference counts as correct, so a fault in its file is named only if nothing simpler fits.
         in_reference: hypotheses().filter(|hypothesis| is_in_reference(hypothesis)).count(),
         causes,
         hypotheses: fit.hypotheses.clone(),
@@ -83,9 +88,11 @@ pub(super) fn is_refuted(
         })
     };
     let is_certain = |at: &usize| {
-        UnitEvidence::of(context, fit, &context.hypotheses[*at])
+        UnitEvidence::for_hypothesis(context, fit, &context.hypotheses[*at])
             .is_some_and(|wrong_unit| wrong_unit.is_above(CERTAIN, &own))
     };
+    // Below the rounding of a file, residuals of 1e-15 and 1e-13 are equally good: the ratio would refute by
+    // chance.
     rounded_up(&own) > REFUTED * rounded_up(best) && !fit.hypotheses.iter().all(is_certain)
 }
 
@@ -99,8 +106,8 @@ impl Criterion {
 
 /// The number of free choices of a hypothesis: its free parameters. Another order of angles in the reference
 /// model's file counts as one; as three for quarter turns, since every order of them gives quarter turns.
-fn choices(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> usize {
-    let Place::ReferenceJoints(joints) = &hypothesis.place else { return hypothesis.free.len() };
+fn choices(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &PoseHypothesis) -> usize {
+    let FaultPlace::ReferenceJoints(joints) = &hypothesis.place else { return hypothesis.free.len() };
     if !is_in_reference(hypothesis) {
         return hypothesis.free.len();
     }
@@ -109,12 +116,14 @@ fn choices(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesi
             joints.iter().map(|&joint| models.reference.joints[joint].parent_from_joint.rotation);
         rotations.all(|rotation| (rotation - rotation.map(f64::round)).amax() < QUARTER_TURNS)
     };
+    // As many as the parameters of a rotation: an order of quarter turns that fits is no better evidence than a
+    // fit.
     if by_quarters(context.models) && by_quarters(&context.corrected(fit)) { 3 } else { 1 }
 }
 
 /// Whether the fault is in the reference model's file itself, not in how the candidate was derived from it.
-fn is_in_reference(hypothesis: &Hypothesis) -> bool {
-    hypothesis.cause == Cause::RpyOrder && matches!(hypothesis.place, Place::ReferenceJoints(_))
+fn is_in_reference(hypothesis: &PoseHypothesis) -> bool {
+    hypothesis.cause == Cause::RpyOrder && matches!(hypothesis.place, FaultPlace::ReferenceJoints(_))
 }
 
 /// The parameters that the correction of a wrong unit changes.
@@ -128,14 +137,19 @@ struct UnitEvidence {
 }
 
 impl UnitEvidence {
-    /// Of a hypothesis about the unit of parameters; `None` for other hypotheses, also about joint positions.
-    fn of(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> Option<Self> {
+    /// The evidence for a hypothesis about the unit of parameters; `None` for other hypotheses, also about joint
+    /// positions.
+    fn for_hypothesis(
+        context: &FitContext<'_>,
+        fit: &HypothesisFit,
+        hypothesis: &PoseHypothesis,
+    ) -> Option<Self> {
         let is_angle = match hypothesis.cause {
             Cause::DegreesAsRadians | Cause::RadiansAsDegrees => true,
             Cause::MillimetresAsMetres => false,
             _ => return None,
         };
-        let values = |candidate: &Candidate| -> Vec<f64> {
+        let values = |candidate: &CandidateModel| -> Vec<f64> {
             let column = |entries: &[DhEntry]| {
                 let rows = 0..candidate.rows.len();
                 let entries =
@@ -143,6 +157,7 @@ impl UnitEvidence {
                 entries.collect()
             };
             let constant = |constant: &DeclaredTransform| match constant.written_rpy_rad {
+                // The angles as written: the pose has lost whole turns, which a wrong unit produces.
                 Some(rpy) if is_angle => rpy.to_vec(),
                 _ if is_angle => {
                     congruent_kinematics::rotation_log(&constant.pose.rotation).as_slice().to_vec()
@@ -150,22 +165,23 @@ impl UnitEvidence {
                 _ => constant.pose.translation.as_slice().to_vec(),
             };
             match &hypothesis.place {
-                Place::Entries(entry, rows) => candidate.entry(rows[0], *entry).into_iter().collect(),
-                Place::Column(entries) => column(entries),
-                Place::Base => constant(&candidate.base),
-                Place::Tool => constant(&candidate.tool),
-                Place::Model => {
+                FaultPlace::Entries(entry, rows) => candidate.entry(rows[0], *entry).into_iter().collect(),
+                FaultPlace::Column(entries) => column(entries),
+                FaultPlace::Base => constant(&candidate.base),
+                FaultPlace::Tool => constant(&candidate.tool),
+                FaultPlace::Model => {
                     [column(&[DhEntry::A, DhEntry::D]), constant(&candidate.base), constant(&candidate.tool)]
                         .concat()
                 }
-                Place::Rows(_) | Place::ReferenceJoints(_) => Vec::new(),
+                FaultPlace::Rows(_) | FaultPlace::ReferenceJoints(_) => Vec::new(),
             }
         };
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let (found, expected) =
             (values(&context.models.candidate), values(&context.corrected(fit).candidate));
         let is_written = found.iter().any(|value| *value != 0.0);
-        let is_vector = matches!(hypothesis.place, Place::Base | Place::Tool);
+        // A vector that becomes almost zero proves as little as a fit of its three components.
+        let is_vector = matches!(hypothesis.place, FaultPlace::Base | FaultPlace::Tool);
         let count = found.iter().filter(|value| is_vector || **value != 0.0).count();
         is_written.then(|| Self { is_angle, count, found: largest(&found), expected: largest(&expected) })
     }
@@ -181,9 +197,9 @@ impl UnitEvidence {
     }
 }
 
-/// Whether a hypothesis is about a single parameter that is 0 as given: a zero is rarely a typing error. Does
-/// not apply to a joint's zero, which tables leave out.
-fn is_given_as_zero(candidate: &Candidate, hypothesis: &Hypothesis) -> bool {
+/// Whether a hypothesis is about a single parameter that is 0 as given: a zero is rarely a typing error. Does not
+/// apply to a joint's zero, for which 0 is the default.
+fn is_given_as_zero(candidate: &CandidateModel, hypothesis: &PoseHypothesis) -> bool {
     if hypothesis.cause == Cause::ZeroOffset {
         return false;
     }
@@ -195,9 +211,9 @@ fn is_given_as_zero(candidate: &Candidate, hypothesis: &Hypothesis) -> bool {
     }
 }
 
-/// Whether the whole declared base is left out, and is a turn by quarters: data sheets give tables without it, so
-/// that its zeros are no evidence against it.
-fn is_left_out_turn(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> bool {
+/// Whether the declared base is missing and should be a rotation by quarter turns: data sheets give tables without
+/// it, so its zeros are no evidence against this fault.
+fn is_missing_base_turn(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &PoseHypothesis) -> bool {
     let corrected = context.corrected(fit);
     let base = &corrected.candidate.base.pose;
     hypothesis.cause == Cause::Base
@@ -206,11 +222,16 @@ fn is_left_out_turn(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &
         && base.translation == context.models.candidate.base.pose.translation
 }
 
-/// Whether the zero of the first joint is off by quarter turns in a table without a base: then it is the base
-/// that is left out, which the first joint's zero cannot be told from if both are about one axis.
-fn is_zero_in_place_of_base(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> bool {
-    let theta_rad = |candidate: &Candidate| candidate.entry(0, DhEntry::Theta);
+/// Whether the zero of the first joint is off by quarter turns in a table without a base: then the missing base is
+/// the likelier fault. If both are about one axis, no pose distinguishes the two.
+fn is_zero_in_place_of_base(
+    context: &FitContext<'_>,
+    fit: &HypothesisFit,
+    hypothesis: &PoseHypothesis,
+) -> bool {
+    let theta_rad = |candidate: &CandidateModel| candidate.entry(0, DhEntry::Theta);
     let turn = theta_rad(&context.corrected(fit).candidate).zip(theta_rad(&context.models.candidate));
+    // A calibrated zero is off by fractions of a degree; quarter turns are a matter of definition.
     let quarters = turn.map(|(expected, found)| (expected - found) / std::f64::consts::FRAC_PI_2);
     hypothesis.cause == Cause::ZeroOffset
         && hypothesis.free[..] == [ModelParameter::Row(0, DhEntry::Theta)]

@@ -56,16 +56,17 @@ pub(super) const QUARTER_TURNS: f64 = 1e-3;
 /// kind: digits of a file, which may have as few as ten.
 pub(super) const SINGULAR_BELOW_RAD: f64 = 1e-9;
 
-/// Numbers of files with few digits that differ by a unit have its ratio within this part. No unit; kind: digits of a file.
+/// Numbers of files with few digits that differ by a unit have its ratio within this part. No unit; kind: digits of a
+/// file.
 pub(crate) const SAME_UNIT_RATIO: f64 = 1e-3;
 
 // Choice between explanations.
 
-/// An explanation with a residual so many times the best one's is refuted. No unit; kind: judgement. The
-/// rounding of one file does not change a residual that much.
+/// An explanation whose residual is more than this many times the best one is refuted. No unit; kind: judgement.
+/// The rounding of one file does not change a residual that much.
 pub(super) const REFUTED: f64 = 10.0;
 
-/// A value below so many times the residual could as well be zero. No unit; kind: judgement.
+/// A value below this many times the residual could as well be zero. No unit; kind: judgement.
 pub(super) const EVIDENT: f64 = 3.0;
 
 /// A corrected unit that gives a value of so many times the residual is no coincidence, even if a fitted
@@ -86,8 +87,8 @@ pub(super) const EVALUATED_BELOW: f64 = 1e4;
 
 // Extent of the search.
 
-/// Most hypotheses that are tried in pairs, those with the smallest norms first. Kind: speed; 34,000 pairs, fewer in the
-/// measure in which a chain is longer than 60 rows, as a pair takes the longer the more rows there are.
+/// Most hypotheses that are tried in pairs, those with the smallest norms first. Kind: speed; 34,000 pairs for
+/// chains of up to 60 rows, fewer for longer ones, since the fit of a pair takes longer with more rows.
 pub(super) fn most_in_pairs(rows: usize) -> usize {
     const MOST: usize = 260;
     const ROWS: usize = 60;
@@ -101,7 +102,7 @@ pub(super) const MAX_PARAMETERS: usize = 8;
 /// A cause is gross if correcting it reduces the norm to less than this part. No unit; kind: choice.
 pub(super) const GROSS_PART: f64 = 0.3;
 
-/// Gross causes with up to so many times the smallest residual are alike: what they leave is due to other
+/// Gross causes with up to this many times the smallest residual are alike: their residuals are due to other
 /// faults, which a fit with more parameters absorbs in part. No unit; kind: choice.
 pub(super) const GROSS_WITHIN: f64 = 3.0;
 
@@ -119,8 +120,8 @@ pub(super) const MAX_NEXT_BEST: usize = 4;
 
 // The nearest table that agrees.
 
-/// A value is independent of others if its effect is not theirs but for this part. No unit; kind: rounding of
-/// directions of axes in a file with six digits.
+/// A value is independent of others if more than this part of its effect is not a combination of theirs. No unit;
+/// kind: rounding of directions of axes in a file with six digits.
 pub(super) const INDEPENDENT: f64 = 1e-5;
 
 /// Most fits of all values, each with the values that are independent there. Kind: loop bound.
@@ -131,7 +132,7 @@ pub(super) const DERIVED_WITHIN: f64 = 1e-9;
 
 // Fits.
 
-/// Starts of an angle besides its present value. Unit: rad; kind: choice. Starts a third of a turn apart
+/// Starts of an angle in addition to its present value. Unit: rad; kind: choice. Starts a third of a turn apart
 /// miss no minimum, and at half a turn the slope is zero.
 pub(super) const ANGLE_STARTS_RAD: [f64; 2] = [2.1, -2.1];
 

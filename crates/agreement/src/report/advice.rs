@@ -1,16 +1,16 @@
 //! What to write into the robot file: every value in which the corrected table differs from the given one, as
 //! whole lines, by the shortest text that the tolerance allows.
 
-use congruent_description::{
-    ChangedLines, ConstantKey, DhRowKind, RobotFilePlaces, RowKey, Slack, TextEdit, units::Unit,
-};
+use congruent_description::{ConstantKey, DhRowKind, RobotFilePlaces, RowKey};
+use congruent_input::{ChangedLines, Slack, TextEdit, units::Unit};
 
 use super::{
     fault_message::row_key,
     values::{isometry, value_literal},
 };
 use crate::diagnosis::{
-    Candidate, Cause, Criterion, DhEntry, ExplainedFault, Explanation, ModelPair, Place, RowConstants,
+    CandidateModel, Cause, Criterion, DhEntry, ExplainedFault, Explanation, FaultPlace, ModelPair,
+    RowConstants,
 };
 
 /// Most that a written value may be off if the fit is exact. Unit: m or rad; kind: choice, a digit below
@@ -23,7 +23,7 @@ const PART_OF_RESIDUAL: f64 = 0.3;
 /// A fitted ratio of 1. No unit; kind: rounding of a fit.
 const SAME_RATIO: f64 = 1e-9;
 
-/// Part of what the tolerance leaves that the written digits may use up. Kind: choice.
+/// Part of the margin between residual and tolerance that rounding the written values may use. Kind: choice.
 const PART_OF_MARGIN: f64 = 0.5;
 
 /// How far the written values of a corrected model may be from the fitted ones: so little that all of them
@@ -35,11 +35,15 @@ pub(super) fn slack(models: &ModelPair, explanation: &Explanation, criterion: &C
     let (residual, tolerance) = (explanation.residual, criterion.tolerance);
     #[expect(clippy::cast_precision_loss, reason = "tables have few entries")]
     let values = count as f64;
+    // Digits below the residual are noise of the fit; with an exact fit they end where data sheets end.
     let least = (PART_OF_RESIDUAL * residual.position_m).max(MOST_SLACK);
+    // An angle at the base moves the tip by the angle times the reach, so it needs as many more digits.
     let angle_rad = (least / reach_m).max(PART_OF_RESIDUAL * residual.orientation_rad);
+    // Nothing to stay within: the model is not accepted with all digits either.
     if !criterion.accepts(&residual) {
         return Slack { length_m: least, angle_rad };
     }
+    // All written values may round to the same side; each gets an equal share of the margin.
     let share = |residual: f64, tolerance: f64| PART_OF_MARGIN * (tolerance - residual) / values;
     let length_m = least.min(share(residual.position_m, tolerance.position_m));
     let by_length = share(residual.position_m, tolerance.position_m) / reach_m;
@@ -56,7 +60,7 @@ enum FileValue {
 }
 
 /// The values in which two tables differ.
-fn changed(before: &Candidate, after: &Candidate) -> Vec<FileValue> {
+fn changed(before: &CandidateModel, after: &CandidateModel) -> Vec<FileValue> {
     let mut list = Vec::new();
     list.extend((before.convention != after.convention).then_some(FileValue::Convention));
     let constants = [
@@ -83,12 +87,12 @@ fn changed(before: &Candidate, after: &Candidate) -> Vec<FileValue> {
 
 impl FileValue {
     /// Whether correcting a fault changes this value.
-    fn is_of(self, fault: &ExplainedFault) -> bool {
+    fn is_changed_by(self, fault: &ExplainedFault) -> bool {
         match (self, &fault.place) {
-            (_, Place::Model) => (fault.cause == Cause::ConventionSwapped) == (self == Self::Convention),
-            (Self::Constant(ConstantKey::BaseFromDh0), Place::Base)
-            | (Self::Constant(ConstantKey::DhnFromTip), Place::Tool) => true,
-            (Self::Row(row, key), Place::Rows(rows)) => {
+            (_, FaultPlace::Model) => (fault.cause == Cause::ConventionSwapped) == (self == Self::Convention),
+            (Self::Constant(ConstantKey::BaseFromDh0), FaultPlace::Base)
+            | (Self::Constant(ConstantKey::DhnFromTip), FaultPlace::Tool) => true,
+            (Self::Row(row, key), FaultPlace::Rows(rows)) => {
                 rows.contains(&row)
                     && match fault.cause {
                         Cause::JointsSwapped => true,
@@ -97,10 +101,12 @@ impl FileValue {
                         _ => key == RowKey::Sign,
                     }
             }
-            (Self::Row(row, key), Place::Entries(entry, rows)) => {
+            (Self::Row(row, key), FaultPlace::Entries(entry, rows)) => {
                 rows.contains(&row) && row_key(*entry) == key
             }
-            (Self::Row(_, key), Place::Column(entries)) => entries.iter().any(|&entry| row_key(entry) == key),
+            (Self::Row(_, key), FaultPlace::Column(entries)) => {
+                entries.iter().any(|&entry| row_key(entry) == key)
+            }
             _ => false,
         }
     }
@@ -109,7 +115,7 @@ impl FileValue {
     fn edits(
         self,
         places: &RobotFilePlaces,
-        [before, after]: [&Candidate; 2],
+        [before, after]: [&CandidateModel; 2],
         slack: Slack,
     ) -> Vec<TextEdit> {
         let (row, key) = match self {
@@ -126,6 +132,7 @@ impl FileValue {
         };
         let literal = match key {
             RowKey::Joint => {
+                // The name is copied from the row that has it now, quotes included.
                 let own = before.rows.iter().position(|each| each.joint == after.rows[row].joint);
                 let place = own.and_then(|own| places.value(own, RowKey::Joint));
                 place.map(|place| places.source().text[place.span].to_owned())
@@ -137,7 +144,7 @@ impl FileValue {
             },
             RowKey::A | RowKey::Alpha | RowKey::D | RowKey::Theta => {
                 let entry = DhEntry::ALL.into_iter().find(|&entry| row_key(entry) == key);
-                let value = |of: &Candidate| entry.and_then(|entry| of.entry(row, entry));
+                let value = |of: &CandidateModel| entry.and_then(|entry| of.entry(row, entry));
                 let unit =
                     if matches!(key, RowKey::Alpha | RowKey::Theta) { Unit::Angle } else { Unit::Length };
                 let place = places.value(row, key);
@@ -162,11 +169,13 @@ pub(super) fn lines_by_fault(
     let mut edits: Vec<(usize, TextEdit)> = Vec::new();
     let values = changed(tables[0], tables[1]);
     for &value in &values {
-        let is_of_entry = |fault: &ExplainedFault| matches!(fault.place, Place::Entries(..));
+        let is_entry_fault = |fault: &ExplainedFault| matches!(fault.place, FaultPlace::Entries(..));
         let faults = || explanation.faults.iter();
         // A fault of this entry alone comes before one of the whole row.
-        let own = faults().position(|fault| is_of_entry(fault) && value.is_of(fault));
-        let Some(fault) = own.or_else(|| faults().position(|fault| value.is_of(fault))) else { continue };
+        let own = faults().position(|fault| is_entry_fault(fault) && value.is_changed_by(fault));
+        let Some(fault) = own.or_else(|| faults().position(|fault| value.is_changed_by(fault))) else {
+            continue;
+        };
         edits.extend(value.edits(places, tables, slack).into_iter().map(|edit| (fault, edit)));
     }
     let text = &places.source().text;
@@ -175,15 +184,16 @@ pub(super) fn lines_by_fault(
         .map(|(_, edit)| edit.clone())
         .filter(|edit| text[edit.span.clone()] != *edit.text)
         .collect();
-    let is_said = |fault| values.iter().any(|value: &FileValue| value.is_of(fault));
+    let is_said = |fault| values.iter().any(|value: &FileValue| value.is_changed_by(fault));
     let mut by_fault: Vec<Option<Vec<ChangedLines>>> =
         explanation.faults.iter().map(|fault| is_said(fault).then(Vec::new)).collect();
     for lines in places.changed_lines(&all) {
         let is_in = |edit: &TextEdit| {
-            let line = congruent_description::line_column(text, edit.span.start).0;
+            let line = congruent_input::line_column(text, edit.span.start).0;
             (lines.from_line..=lines.to_line).contains(&line)
         };
         let first = edits.iter().filter(|(_, edit)| is_in(edit)).map(|(fault, _)| *fault).min();
+        // Two faults in one line would both print it, each without the other's correction.
         if let Some(of_first) = first.and_then(|fault| by_fault[fault].as_mut()) {
             of_first.push(lines);
         }

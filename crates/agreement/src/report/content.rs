@@ -1,6 +1,6 @@
 //! The diagnosis as programs read it.
 
-use congruent_description::{ChangedLines, Diagnostic};
+use congruent_input::{ChangedLines, Diagnostic};
 use congruent_kinematics::PoseError;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -20,7 +20,7 @@ pub struct ReportedDiagnosis {
     pub title: &'static str,
     /// The likeliest cause, then the next best ones, with larger residuals; empty if the models agree.
     pub causes: Vec<ReportedCause>,
-    /// Causes with a residual as small as the first one's.
+    /// Causes that cannot be distinguished from the first one.
     pub indistinguishable: Vec<ReportedAlternative>,
     /// Screws and distances that differ, the most invariant first.
     pub invariants: Vec<ReportedDifference>,
@@ -35,7 +35,7 @@ pub struct ReportedDiagnosis {
 /// A cause with the residual after it is corrected.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedCause {
-    /// What is wrong.
+    /// Cause, place, found and expected value; of several faults the summary.
     #[serde(flatten)]
     pub fault: Fault,
     /// The largest remaining distance of the tips, m.
@@ -47,8 +47,8 @@ pub struct ReportedCause {
     /// The faults of `several`, the one with the largest effect first.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub parts: Vec<Fault>,
-    /// The difference before and after each fault is corrected, one after the other: of each of `parts`, or
-    /// of the only fault.
+    /// The difference before and after the correction of each fault, one after the other: for each of `parts`, or
+    /// for the only fault.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub stages: Vec<ReportedStage>,
 }
@@ -56,9 +56,9 @@ pub struct ReportedCause {
 /// The difference of the tips before and after a fault is corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedStage {
-    /// With all faults before it corrected.
+    /// The difference with all faults before this one corrected.
     pub before: PoseError,
-    /// With this fault corrected as well.
+    /// The difference with this fault corrected, too.
     pub after: PoseError,
 }
 
@@ -74,14 +74,14 @@ pub struct TableComparison {
 /// One value of the table.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedValue {
-    /// The joint of the row; left out for a declared transform.
+    /// The joint of the row; missing for a declared transform.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
     /// The key as the robot file has it.
     pub key: String,
     /// The value as the file writes it.
     pub found: String,
-    /// The same of the nearest table that agrees.
+    /// The value in the nearest table that agrees.
     pub expected: String,
     /// Whether the two differ.
     pub differs: bool,
@@ -90,42 +90,42 @@ pub struct ComparedValue {
 /// A cause that cannot be distinguished from the first.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedAlternative {
-    /// The cause.
+    /// The other cause, with its residual.
     #[serde(flatten)]
     pub cause: ReportedCause,
     /// Why the two cannot be distinguished.
     pub equivalence: Equivalence,
-    /// The same in words.
+    /// The reason as a sentence.
     pub reason: &'static str,
 }
 
 /// One fault: the cause, the place, the found and the expected value.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct Fault {
-    /// The cause.
+    /// Name of the cause; `unexplained` if none of the known ones fits.
     pub cause: Cause,
-    /// The joint, if it is one.
+    /// Name of the joint, if the fault is in one joint.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
-    /// The joints, if they are several.
+    /// Names of the joints, if the fault is in several.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub joints: Vec<String>,
     /// `a`, `alpha`, `d`, `theta`, `kind`, `rpy`, `xyz`, or several of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
-    /// The error: found minus expected in rad or m; of a ratio or a column's unit, found divided by expected.
+    /// The error: found minus expected, rad or m; for a ratio or the unit of a column, found divided by expected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// The value in the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub found: Option<ReportedValue>,
-    /// The correct value.
+    /// The value with which the models agree, in the unit of `found`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected: Option<ReportedValue>,
-    /// Of a declared transform, or of the origin of a joint: found minus expected, m.
+    /// Translation error of a declared transform or of a joint origin: found minus expected, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub translation_m: Option<[f64; 3]>,
-    /// Of a declared transform, or of the origin or the axis of a joint: the rotation from expected to found, axis times
+    /// Rotation error of a declared transform, a joint origin or a joint axis: from expected to found, axis times
     /// angle, rad.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_rad: Option<[f64; 3]>,
@@ -135,7 +135,7 @@ pub struct Fault {
     /// Line in the file, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
-    /// Of a joint of two URDFs: the other file, if one of its joints has the expected value.
+    /// The other URDF, if one of its joints has the expected value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected_file: Option<String>,
     /// Line in that file, from 1.
@@ -143,9 +143,9 @@ pub struct Fault {
     pub expected_line: Option<usize>,
     /// The fault in words.
     pub message: String,
-    /// What to change: whole lines of the robot file, or a sentence if the file cannot say it.
+    /// What to change: whole lines of the robot file, or a sentence if the file has no key for it.
     pub suggestion: String,
-    /// The lines of the robot file that change, with what they become.
+    /// The lines of the robot file that change, with their new text.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub changes: Vec<ChangedLines>,
     /// The new lines to paste, with a comment that says where.
@@ -156,13 +156,13 @@ pub struct Fault {
 /// A quantity in which the chains differ.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedDifference {
-    /// The quantity.
+    /// The quantity that differs: a distance, m, an angle, rad, a ratio or a class.
     pub invariant: Invariant,
-    /// The joint; of consecutive axes the first.
+    /// Name of the joint; for consecutive axes the first.
     pub joint: String,
-    /// Its value in the first model; of `base` and `tool` the distance of the two models; `null` if the model
-    /// does not have it.
+    /// Value in the first model; for `base` and `tool` the distance of the two models; `null` if the model does not
+    /// have it.
     pub found: f64,
-    /// Its value in the second model; `null` if the model does not have it.
+    /// Value in the second model; `null` if the model does not have it.
     pub expected: f64,
 }

@@ -1,6 +1,6 @@
 //! A diagnosis in names of the robot, as a report for programs and as findings for people.
 
-use congruent_description::{Diagnostic, display::length_and_angle};
+use congruent_input::{Diagnostic, display::length_and_angle};
 use congruent_kinematics::PoseError;
 
 use super::{
@@ -8,7 +8,7 @@ use super::{
     content::{
         Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference, ReportedStage,
     },
-    fault_message::{FaultContext, FaultMessage, FileLocation, fault_message_of},
+    fault_message::{FaultContext, FaultMessage, FileLocation, describe_fault},
     names::ModelNames,
     table::table_comparison,
 };
@@ -51,7 +51,7 @@ fn describe(
 ) -> (ReportedCause, Vec<Diagnostic>) {
     let slack = advice::slack(models, explanation, criterion);
     let message = |fault| {
-        fault_message_of(&FaultContext { fault, before: models, after: &explanation.corrected, slack, names })
+        describe_fault(&FaultContext { fault, before: models, after: &explanation.corrected, slack, names })
     };
     let mut messages: Vec<FaultMessage> = explanation.faults.iter().map(message).collect();
     if let Some(places) = names.places {
@@ -64,6 +64,7 @@ fn describe(
     }
     let stages = explanation.stages.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] });
     let stages: Vec<ReportedStage> = stages.collect();
+    // After the advice: the findings show the lines to write.
     let findings = messages.iter().zip(&stages).map(|(message, stage)| finding(message, stage));
     let findings = findings.collect();
     let mut parts: Vec<Fault> = messages.into_iter().map(|message| message.fault).collect();
@@ -118,8 +119,12 @@ fn involved(parts: &[Fault]) -> Vec<String> {
 /// A fault as a finding in its file.
 pub(super) fn finding(fault_message: &FaultMessage, stage: &ReportedStage) -> Diagnostic {
     let FaultMessage { fault, message, location } = fault_message;
-    let shown = |error: &PoseError| length_and_angle(error.position_m, error.orientation_rad);
-    let error = format!("error before the fix: {}, after it: {}", shown(&stage.before), shown(&stage.after));
+    let formatted = |error: &PoseError| length_and_angle(error.position_m, error.orientation_rad);
+    let error = format!(
+        "difference before the fix: {}, after it: {}",
+        formatted(&stage.before),
+        formatted(&stage.after)
+    );
     let advice = if fault.pasted.is_empty() { fault.suggestion.clone() } else { fault.pasted.join("\n") };
     let finding =
         Diagnostic::error(fault.cause.code(), message.clone()).with_help(format!("{advice}\n{error}"));

@@ -12,14 +12,16 @@ use super::{
     names::ModelNames,
 };
 use crate::{
-    diagnosis::{Candidate, Criterion, DeclaredTransform, ModelPair, ReferenceModel, diagnose, differences},
+    diagnosis::{
+        CandidateModel, Criterion, DeclaredTransform, ModelPair, ReferenceModel, diagnose, differences,
+    },
     source_pair::SourcePair,
 };
 
 /// The diagnosis of each pair of models of the chain from base to tip.
 ///
-/// `configurations` are configurations of the whole robot at which residuals are measured, `physics` is the
-/// chain that was identified from the physics, `None` if it could not be asked.
+/// `configurations` are configurations of the whole robot at which residuals are measured, `physics` is the chain
+/// that was identified from the physics, `None` if there is no physics to compare.
 pub fn diagnose_models(
     description: &RobotDescription,
     physics: Option<&ScrewChain>,
@@ -38,7 +40,7 @@ pub fn diagnose_models(
         tolerance: description.tolerance,
         configurations: configurations
             .iter()
-            .map(|q| within_a_turn(robot, &moving, q.of_chain(&coordinates)))
+            .map(|q| within_a_turn(robot, &moving, q.chain_positions(&coordinates)))
             .collect(),
     };
     let names = ModelNames { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
@@ -47,8 +49,9 @@ pub fn diagnose_models(
         let against_physics = physics.map(|reference| ModelPair { candidate: candidate.clone(), reference });
         pairs.push((SourcePair::ModelUrdf, ModelPair { candidate, reference: urdf }));
         pairs.extend(against_physics.map(|models| (SourcePair::ModelSimulation, models)));
+    // Without a table the URDF takes its place: the physics is then the model that counts as correct.
     } else if let Some(reference) = physics {
-        let candidate = Candidate::from_screws(&urdf.screws());
+        let candidate = CandidateModel::from_screws(&urdf.screws());
         pairs.push((SourcePair::UrdfSimulation, ModelPair { candidate, reference }));
     }
     let diagnosis = |(pair, models): &(SourcePair, ModelPair)| {
@@ -68,7 +71,7 @@ pub(crate) fn screw_differences(
     };
     let moving = chain.iter().copied().filter(|&joint| robot.joint(joint).kind.is_movable()).collect();
     let names = ModelNames { description, moving, chain, places: None, urdf: None };
-    let candidate = Candidate::from_screws(&urdf.screws());
+    let candidate = CandidateModel::from_screws(&urdf.screws());
     let models = ModelPair { candidate, reference: ReferenceModel::from_screws(identified) };
     differences(&models).iter().map(|each| difference(each, &names)).collect()
 }
@@ -85,14 +88,14 @@ fn within_a_turn(robot: &Robot, moving: &[JointIndex], mut q: ChainQ) -> ChainQ 
 }
 
 /// The table with the roll, pitch and yaw of its declared transforms as the file writes them.
-fn candidate(names: &ModelNames<'_>) -> Option<Candidate> {
+fn candidate(names: &ModelNames<'_>) -> Option<CandidateModel> {
     use congruent_description::ConstantKey::{BaseFromDh0, DhnFromTip};
-    let candidate = Candidate::from_table(names.description.dh.as_ref()?, &names.moving)?;
+    let candidate = CandidateModel::from_table(names.description.dh.as_ref()?, &names.moving)?;
     let written = |transform: DeclaredTransform, key| DeclaredTransform {
         written_rpy_rad: names.places.and_then(|places| places.rpy_rad(key)),
         ..transform
     };
-    Some(Candidate {
+    Some(CandidateModel {
         base: written(candidate.base, BaseFromDh0),
         tool: written(candidate.tool, DhnFromTip),
         ..candidate

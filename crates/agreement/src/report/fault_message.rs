@@ -6,9 +6,9 @@ use std::{
     sync::Arc,
 };
 
-use congruent_description::{
-    ChangedLines, ConstantKey, ConstantPart, DhConvention, DhRowKind, Elementary as _, RobotFilePlaces,
-    RowKey, Slack, SourceFile,
+use congruent_description::{ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey};
+use congruent_input::{
+    ChangedLines, Slack, SourceFile,
     display::{angle, length, length_and_angle, number},
     fitted_number, fitted_transform, line_column,
     units::{Unit, UnitSystem},
@@ -20,7 +20,7 @@ use super::{
     names::ModelNames,
     values::{ReportedValue, isometry, value_literal},
 };
-use crate::diagnosis::{Candidate, Cause, DhEntry, ExplainedFault, ModelPair, Place, RowConstants};
+use crate::diagnosis::{CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants};
 
 /// A fault for programs, its message for people, and its place.
 pub(super) struct FaultMessage {
@@ -75,19 +75,19 @@ pub(super) struct FaultContext<'a> {
 }
 
 /// The message of one fault.
-pub(super) fn fault_message_of(context: &FaultContext<'_>) -> FaultMessage {
+pub(super) fn describe_fault(context: &FaultContext<'_>) -> FaultMessage {
     let fault = context.fault;
     let mut described = match &fault.place {
-        Place::Model => context.model(),
-        Place::Rows(rows) => context.rows(rows),
-        Place::Entries(entry, rows) => context.entries(*entry, rows),
-        Place::Column(entries) if fault.cause == Cause::ParametersExchanged => {
+        FaultPlace::Model => context.model(),
+        FaultPlace::Rows(rows) => context.rows(rows),
+        FaultPlace::Entries(entry, rows) => context.entries(*entry, rows),
+        FaultPlace::Column(entries) if fault.cause == Cause::ParametersExchanged => {
             context.columns_exchanged(entries)
         }
-        Place::Column(entries) => context.columns(entries),
-        Place::Base => context.declared_transform(ConstantKey::BaseFromDh0),
-        Place::Tool => context.declared_transform(ConstantKey::DhnFromTip),
-        Place::ReferenceJoints(joints) => context.reference_joints(joints),
+        FaultPlace::Column(entries) => context.columns(entries),
+        FaultPlace::Base => context.declared_transform(ConstantKey::BaseFromDh0),
+        FaultPlace::Tool => context.declared_transform(ConstantKey::DhnFromTip),
+        FaultPlace::ReferenceJoints(joints) => context.reference_joints(joints),
     };
     described.fault.cause = fault.cause;
     described.fault.message.clone_from(&described.message);
@@ -104,7 +104,7 @@ impl FaultContext<'_> {
             return self.columns(&[DhEntry::A, DhEntry::D]);
         }
         let span = self.names.places.and_then(RobotFilePlaces::convention);
-        let word = |candidate: &Candidate| match candidate.convention {
+        let word = |candidate: &CandidateModel| match candidate.convention {
             Some(DhConvention::Modified) => "modified",
             _ => "standard",
         };
@@ -163,7 +163,10 @@ impl FaultContext<'_> {
             Cause::ParametersExchanged => self.lengths_exchanged(named, rows[0]),
             _ => (
                 ratio(named),
-                format!("the position of joint \"{listed}\" is read in the wrong unit"),
+                format!(
+                    "the position of joint \"{listed}\" is in the wrong unit: {}",
+                    self.unit_misreading()
+                ),
                 "give joint positions in rad".to_owned(),
             ),
         };
@@ -176,13 +179,22 @@ impl FaultContext<'_> {
         FaultMessage { fault: Fault { suggestion, ..fault }, message, location: self.location(rows[0], key) }
     }
 
+    /// How joint positions are misread if their unit is wrong.
+    fn unit_misreading(&self) -> &'static str {
+        match self.fault.cause {
+            Cause::DegreesAsRadians => "degrees are read as radians",
+            _ => "radians are read as degrees",
+        }
+    }
+
     fn kind(&self, row: usize) -> FaultMessage {
         let kind = |models: &ModelPair| match models.candidate.rows[row].link {
             RowConstants::Dh { kind: DhRowKind::Prismatic, .. } => "prismatic",
             _ => "revolute",
         };
         let (found, expected, joint) = (kind(self.before), kind(self.after), self.joint(row));
-        let message = format!("the row of joint \"{joint}\" is {found}, the joint is {expected}");
+        let message =
+            format!("the row of joint \"{joint}\" has kind = \"{found}\", but the joint is {expected}");
         let fault = Fault {
             joint: Some(joint),
             parameter: Some("kind".to_owned()),
@@ -230,7 +242,7 @@ impl FaultContext<'_> {
         let given = if self.is_written(row, row_key(entry)) {
             self.given(row, entry, found)
         } else {
-            format!("{entry} is not given (0)")
+            format!("{entry} is not written (default 0)")
         };
         let expected = within_a_turn(entry, expected);
         let message = format!("joint \"{joint}\": {given}, expected {right}");
@@ -258,7 +270,12 @@ impl FaultContext<'_> {
         let how = match self.fault.cause {
             Cause::RpyOrder => "has its roll, pitch and yaw in the wrong order".to_owned(),
             Cause::Tool | Cause::Base => format!("is off by {}", off_by(shift.norm(), turn.norm())),
-            _ => "is not in the unit of its keys".to_owned(),
+            Cause::DegreesAsRadians => "has angles in degrees, but its key says radians".to_owned(),
+            Cause::RadiansAsDegrees => "has angles in radians, but its key says degrees".to_owned(),
+            _ if found.translation.norm() > expected.translation.norm() => {
+                "has lengths in millimetres, but its key says metres".to_owned()
+            }
+            _ => "has lengths in metres, but its key says millimetres".to_owned(),
         };
         let places = self.names.places;
         let [found, expected] = [found, expected].map(|pose| isometry(&pose));
@@ -271,6 +288,8 @@ impl FaultContext<'_> {
             suggestion,
             ..Fault::default()
         };
+        // The label of the snippet is at the part that is more wrong, metres against radians: near enough for an
+        // arm of 1 m.
         let part =
             if shift.norm() > turn.norm() { ConstantPart::Translation } else { ConstantPart::Rotation };
         let span = places.map(|places| places.constant(key, part));
@@ -307,7 +326,7 @@ impl FaultContext<'_> {
         self.corrected(row, entry, (f64::INFINITY, value))
     }
 
-    /// The expected value of a row, with the digits that tell it from the found one.
+    /// The expected value of a row, with enough digits to differ from the found one.
     fn corrected(&self, row: usize, entry: DhEntry, values: (f64, f64)) -> String {
         let place = self.names.places.and_then(|places| places.value(row, row_key(entry)));
         let unit = if entry.is_angle() { Unit::Angle } else { Unit::Length };
@@ -338,9 +357,9 @@ fn within_a_turn(entry: DhEntry, value: f64) -> f64 {
 
 /// A ratio, with its distance from 1 if the digits for people do not show one.
 fn times(ratio: f64) -> String {
-    let shown = number(ratio);
+    let formatted = number(ratio);
     let sign = if ratio < 1.0 { '-' } else { '+' };
-    if shown == "1" { format!("1 {sign} {}", number((ratio - 1.0).abs())) } else { shown }
+    if formatted == "1" { format!("1 {sign} {}", number((ratio - 1.0).abs())) } else { formatted }
 }
 
 /// The error of a transform; a part that is rounding is left out if the other is not.
@@ -358,7 +377,7 @@ pub(super) fn off_by(shift_m: f64, turn_rad: f64) -> String {
 /// Found minus expected; of angles within half a turn.
 fn off(entry: DhEntry, found: f64, expected: f64) -> f64 {
     let off = found - expected;
-    if entry.is_angle() { off.sine().arctangent_over(off.cosine()) } else { off }
+    if entry.is_angle() { libm::atan2(libm::sin(off), libm::cos(off)) } else { off }
 }
 
 pub(super) fn row_key(entry: DhEntry) -> RowKey {

@@ -1,10 +1,11 @@
-//! An `<origin>` or an `<axis>` of a joint that another URDF has otherwise: as a fault with the places in both files, what
-//! each writes, and the line to write.
+//! An `<origin>` or an `<axis>` of a joint that another URDF has otherwise: as a fault with the places in both files,
+//! what each writes, and the line to write.
 
 use std::{ops::Range, sync::Arc};
 
-use congruent_description::{
-    Elementary as _, Joint, RobotDescription, Slack, UrdfPlaces, changed_lines,
+use congruent_description::{Joint, RobotDescription, UrdfPlaces};
+use congruent_input::{
+    Slack, changed_lines,
     display::angle,
     fitted_rpy_fixed_xyz_rad, line_column,
     units::{Unit, UnitSystem},
@@ -30,14 +31,14 @@ use crate::{
 };
 
 /// An attribute of a part of a joint: its name, as the file writes it, and as it is expected.
-struct Attribute {
+struct JointAttribute {
     name: &'static str,
     found: String,
     expected: String,
 }
 
-impl Attribute {
-    /// That the found numbers are the expected ones in another unit.
+impl JointAttribute {
+    /// The end of the sentence if the found numbers are the expected ones in another unit.
     fn other_unit(&self) -> Option<&'static str> {
         let (factor, words) = match self.name {
             "rpy" => (1_f64.to_degrees(), ": the rpy is in degrees"),
@@ -130,13 +131,13 @@ impl JointParts<'_> {
         let expected_at = there.zip(other).and_then(|(there, places)| place(places, part, &there.name));
         let expected_line =
             expected_at.zip(other).map(|(span, places)| line_column(&places.source().text, span.start).0);
-        let words = |value: fn(&Attribute) -> &str| {
+        let words = |value: fn(&JointAttribute) -> &str| {
             let written = attributes.iter().map(|of| format!("{}=\"{}\"", of.name, value(of)));
             written.collect::<Vec<_>>().join(" ")
         };
         let [found, expected] = [words(|of| &of.found), words(|of| &of.expected)];
         let as_in = self.as_in(joint, there, expected_line);
-        let unit = attributes.iter().find_map(Attribute::other_unit).unwrap_or_default();
+        let unit = attributes.iter().find_map(JointAttribute::other_unit).unwrap_or_default();
         let text = sentence(&fault, &joint.name, [&found, &format!("{expected}{as_in}")]) + unit;
         let fault = Fault {
             joint: Some(joint.name.clone()),
@@ -163,6 +164,7 @@ impl JointParts<'_> {
         match expected {
             JointPart::Axis(_) => self.robots.namesake(joint),
             JointPart::Origin(origin) => {
+                // The joint between the same links first: a file may use the name for another place of the chain.
                 let candidates = [self.robots.same_joint(joint), self.robots.namesake(joint)];
                 candidates
                     .into_iter()
@@ -181,14 +183,14 @@ impl JointParts<'_> {
     }
 
     /// `xyz` and `rpy` of an origin, each if it differs.
-    fn origin(&self, joint: &Joint, expected: &Isometry3<f64>) -> Vec<Attribute> {
+    fn origin(&self, joint: &Joint, expected: &Isometry3<f64>) -> Vec<JointAttribute> {
         let there = self.there(joint, &JointPart::Origin(*expected));
         let found = &joint.parent_from_joint;
         let numbers = |name: &str, pose: &Isometry3<f64>| match name {
             "xyz" => listed(Unit::Length, pose.translation.vector.into()),
             _ => listed(Unit::Angle, fitted_rpy_fixed_xyz_rad(pose, Slack::default())),
         };
-        let attribute = |name: &'static str| Attribute {
+        let attribute = |name: &'static str| JointAttribute {
             name,
             found: self.written(0, (joint, "origin", name), || numbers(name, found)),
             expected: match there {
@@ -202,17 +204,17 @@ impl JointParts<'_> {
         xyz.into_iter().chain(rpy).collect()
     }
 
-    fn axis(&self, joint: &Joint, expected: &UnitVector<Vector3<f64>>) -> Vec<Attribute> {
+    fn axis(&self, joint: &Joint, expected: &UnitVector<Vector3<f64>>) -> Vec<JointAttribute> {
         let numbers = |axis: &UnitVector<Vector3<f64>>| listed(Unit::Length, axis.into_inner().into());
         let found = self.written(0, (joint, "axis", "xyz"), || numbers(&joint.axis_in_joint));
         let expected = match self.robots.namesake(joint) {
             Some(there) => self.written(1, (there, "axis", "xyz"), || numbers(expected)),
             None => numbers(expected),
         };
-        vec![Attribute { name: "xyz", found, expected }]
+        vec![JointAttribute { name: "xyz", found, expected }]
     }
 
-    /// An attribute as a file writes it; what is not written has the value that the reader takes.
+    /// An attribute as a file writes it, or the default of the URDF reader if the file does not write it.
     fn written(
         &self,
         file: usize,
@@ -226,12 +228,12 @@ impl JointParts<'_> {
     }
 }
 
-/// Place of a part of a joint, or of the joint if it has none.
+/// Where a part of a joint is in the file, or the joint itself if it does not write that part.
 fn place(places: &UrdfPlaces, part: &str, joint: &str) -> Option<Range<usize>> {
     if part == "origin" { places.joint_origin(joint) } else { places.joint_axis(joint) }
 }
 
-/// What is wrong, with what stands there and what is expected.
+/// The sentence for one fault: what the file has, and what is expected.
 fn sentence(fault: &Fault, joint: &str, [found, expected]: [&str; 2]) -> String {
     match fault.cause {
         Cause::AxisFlipped => {
@@ -253,7 +255,7 @@ fn advise(
     message: &mut FaultMessage,
     places: &UrdfPlaces,
     (joint, part): (&str, &str),
-    attributes: &[Attribute],
+    attributes: &[JointAttribute],
 ) {
     let new: Vec<(&'static str, String)> =
         attributes.iter().map(|of| (of.name, of.expected.clone())).collect();
@@ -291,9 +293,10 @@ fn origin_fault(joint: &Joint, expected: &Isometry3<f64>) -> Fault {
 
 fn axis_fault(joint: &Joint, expected: &UnitVector<Vector3<f64>>) -> Fault {
     let found = joint.axis_in_joint.into_inner();
+    // An axis of the opposite direction is called a flipped joint, not an axis that is off by 180 deg.
     let is_flipped = (found + expected.into_inner()).norm() < OPPOSITE;
     let across = expected.cross(&found);
-    let angle_rad = across.norm().arctangent_over(expected.dot(&found));
+    let angle_rad = libm::atan2(across.norm(), expected.dot(&found));
     let turn = across.try_normalize(0.0).map(|about| about * angle_rad);
     Fault {
         cause: if is_flipped { Cause::AxisFlipped } else { Cause::JointAxis },

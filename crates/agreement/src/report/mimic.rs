@@ -1,8 +1,9 @@
 //! A joint that follows another one in two files in different ways: as a fault with the lines of both, and what to
 //! write.
 
-use congruent_description::{
-    Diagnostic, RobotDescription,
+use congruent_description::RobotDescription;
+use congruent_input::{
+    Diagnostic,
     display::{number, quantity},
     line_column,
 };
@@ -63,6 +64,7 @@ pub(crate) fn with_mimics(
         let of_poses = diagnosis.causes.remove(0);
         residual = PoseError { position_m: of_poses.residual_m, orientation_rad: of_poses.residual_rad };
         within_tolerance = of_poses.within_tolerance;
+        // The chain is diagnosed with all joints driven, so its faults are others than these and come after them.
         if of_poses.fault.cause != Cause::Unexplained {
             stages.extend(of_poses.stages);
             findings.append(&mut diagnosis.findings);
@@ -123,18 +125,18 @@ impl FollowedJoint {
     /// The two relations, without places.
     pub(crate) fn message(&self) -> String {
         let [found, expected] = [0, 1].map(|file| self.words(self.relations[file].as_ref()));
-        format!("joint \"{}\" {found} here, and {expected}", self.joint)
+        format!("joint \"{}\" {found} here, but {expected}", self.joint)
     }
 
     fn words(&self, relation: Option<&Relation>) -> String {
         let Some(Relation { master, multiplier, offset }) = relation else {
-            return "moves on its own".to_owned();
+            return "has no <mimic>".to_owned();
         };
-        let follows = format!("follows \"{master}\" x {}", number(*multiplier));
+        let follows = format!("follows {} x \"{master}\"", number(*multiplier));
         if *offset == 0.0 { follows } else { format!("{follows} + {}", quantity(*offset, self.unit)) }
     }
 
-    /// What a file with the relation has.
+    /// The `<mimic>` that a file with the relation has, as an instruction.
     fn to_write(&self, relation: Option<&Relation>) -> String {
         let Some(Relation { master, multiplier, offset }) = relation else {
             return format!("remove the <mimic> of joint \"{}\"", self.joint);

@@ -1,8 +1,8 @@
-//! Messages about joints of the URDF: one that the model leaves out, angles in another order, and rounded ones.
+//! Messages about joints of the URDF: one that the model omits, angles in another order, and rounded ones.
 
 use std::{f64::consts::FRAC_PI_2, sync::Arc};
 
-use congruent_description::display::angle;
+use congruent_input::display::angle;
 use congruent_kinematics::rotation_log;
 
 use super::{
@@ -24,12 +24,14 @@ impl FaultContext<'_> {
         let mut fault = Fault::default();
         let (message, suggestion) = match self.fault.cause {
             Cause::FixedJointDropped => (
-                format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
-                format!("put the origin of \"{listed}\" into the model"),
+                format!("the model lacks the fixed joint \"{listed}\" of the URDF"),
+                format!(
+                    "write the <origin> of \"{listed}\" into base_from_dh0 or dhn_from_tip, or declare another base or tip"
+                ),
             ),
             Cause::RpyOrder => (
                 format!("the rpy of joint \"{listed}\" has another order in the URDF than in the model"),
-                format!("check the rpy of joint \"{listed}\": R = Rz(yaw) Ry(pitch) Rx(roll)"),
+                format!("check the rpy of joint \"{listed}\": a URDF means R = Rz(yaw) Ry(pitch) Rx(roll)"),
             ),
             _ => {
                 fault.parameter = Some("rpy".to_owned());
@@ -58,7 +60,7 @@ impl FaultContext<'_> {
             expected.push(format!("rpy=\"{}\" in line {line}", with_exact_quarters(&rpy)));
         }
         let most = angle(most_rad);
-        let message = format!("the URDF rounds quarter turns, off by up to {most}: {}", found.join(", "));
+        let message = format!("the URDF rounds quarter turns, by up to {most}: {}", found.join(", "));
         (message, format!("in the URDF: {}", expected.join(", ")))
     }
 }
@@ -68,6 +70,7 @@ fn with_exact_quarters(rpy: &str) -> String {
     let exact = |word: &str| {
         let quarters = (word.parse::<f64>().ok()? / FRAC_PI_2).round() * FRAC_PI_2;
         let off = word.parse::<f64>().ok()? - quarters;
+        // Adding 0.0 turns -0 into 0, which is how a person writes it.
         (off.abs() < ROUNDED_QUARTER_RAD).then(|| (quarters + 0.0).to_string())
     };
     rpy.split_whitespace()

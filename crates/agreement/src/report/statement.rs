@@ -2,13 +2,13 @@
 
 use std::slice;
 
-use congruent_description::{Diagnostic, Finding, display::length_and_angle};
+use congruent_input::{Diagnostic, Finding, display::length_and_angle};
 
 use super::content::{Fault, ReportedCause, ReportedDiagnosis};
 use crate::diagnosis::Cause;
 
 impl ReportedDiagnosis {
-    /// Whether a cause was found that leaves no more than the tolerance.
+    /// Whether a cause was found whose residual is within the tolerance.
     pub fn is_explained(&self) -> bool {
         self.named_cause().is_some_and(|cause| cause.within_tolerance)
     }
@@ -24,6 +24,7 @@ impl ReportedDiagnosis {
         let Some(cause) = self.named_cause() else { return Vec::new() };
         let faults = if cause.parts.is_empty() { slice::from_ref(&cause.fault) } else { &cause.parts };
         let line = |(finding, fault): (&Diagnostic, &Fault)| {
+            // Without the lines to paste: a report of a run has one line for each fault.
             let help = Some(fault.suggestion.clone());
             Finding { help, ..Finding::from(finding) }.to_string()
         };

@@ -1,7 +1,8 @@
 //! The given table beside the nearest one that agrees, value by value.
 
-use congruent_description::{
-    ConstantKey, Elementary as _, RowKey, Slack, fitted_transform,
+use congruent_description::{ConstantKey, RowKey};
+use congruent_input::{
+    Slack, fitted_transform,
     units::{Unit, UnitSystem},
 };
 
@@ -12,7 +13,7 @@ use super::{
     values::isometry,
 };
 use crate::diagnosis::{
-    Candidate, Criterion, DhEntry, Explanation, ModelPair, ModelParameter, nearest_table,
+    CandidateModel, Criterion, DhEntry, Explanation, ModelPair, ModelParameter, nearest_table,
 };
 
 /// Part of the tolerance by which a value must differ to be marked. Kind: choice.
@@ -33,6 +34,8 @@ pub(super) fn table_comparison(
         first.faults.iter().flat_map(|fault| fault.free.iter().copied()).collect();
     let corrected =
         ModelPair { reference: models.reference.clone(), candidate: first.corrected.candidate.clone() };
+    // From the corrected candidate: with a gross cause still in it, most values of the nearest table would be
+    // different.
     let nearest = nearest_table(&corrected, &preferred)?;
     let slack = Slack {
         length_m: (PART_OF_TOLERANCE * criterion.tolerance.position_m).max(SAME),
@@ -53,8 +56,12 @@ pub(super) fn table_comparison(
 }
 
 /// The sign of a row, if the two differ.
-fn signs([given, nearest]: [&Candidate; 2], row: usize, names: &ModelNames<'_>) -> Option<ComparedValue> {
-    let sign = |of: &Candidate| if of.rows[row].rate < 0.0 { "-1" } else { "1" };
+fn signs(
+    [given, nearest]: [&CandidateModel; 2],
+    row: usize,
+    names: &ModelNames<'_>,
+) -> Option<ComparedValue> {
+    let sign = |of: &CandidateModel| if of.rows[row].rate < 0.0 { "-1" } else { "1" };
     let (found, expected) = (sign(given), sign(nearest));
     (found != expected).then(|| ComparedValue {
         joint: Some(names.moving_joint(given.rows[row].joint)),
@@ -66,7 +73,7 @@ fn signs([given, nearest]: [&Candidate; 2], row: usize, names: &ModelNames<'_>) 
 }
 
 fn entries(
-    [given, nearest]: [&Candidate; 2],
+    [given, nearest]: [&CandidateModel; 2],
     (row, entry): (usize, DhEntry),
     names: &ModelNames<'_>,
     slack: Slack,
@@ -78,7 +85,7 @@ fn entries(
     let (key, units) =
         place.map_or_else(|| (entry.to_string(), UnitSystem::Si), |place| (place.key, place.units));
     let off = found - expected;
-    let off = if entry.is_angle() { off.sine().arctangent_over(off.cosine()) } else { off };
+    let off = if entry.is_angle() { libm::atan2(libm::sin(off), libm::cos(off)) } else { off };
     let differs = off.abs() > most;
     let found = unit.fitted(found, units, Slack::default());
     Some(ComparedValue {
@@ -90,8 +97,8 @@ fn entries(
     })
 }
 
-fn constant([given, nearest]: [&Candidate; 2], key: ConstantKey, slack: Slack) -> ComparedValue {
-    let pose = |of: &Candidate| match key {
+fn constant([given, nearest]: [&CandidateModel; 2], key: ConstantKey, slack: Slack) -> ComparedValue {
+    let pose = |of: &CandidateModel| match key {
         ConstantKey::BaseFromDh0 => of.base.pose,
         ConstantKey::DhnFromTip => of.tool.pose,
     };

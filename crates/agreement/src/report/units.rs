@@ -1,13 +1,13 @@
 //! Messages about whole columns: a wrong unit, and exchanged columns.
 
-use congruent_description::fitted_number;
+use congruent_input::fitted_number;
 
 use super::{
     content::Fault,
     fault_message::{FaultContext, FaultMessage, row_key},
     values::ReportedValue,
 };
-use crate::diagnosis::{DhEntry, ModelPair, Place};
+use crate::diagnosis::{DhEntry, FaultPlace, ModelPair};
 
 impl FaultContext<'_> {
     /// Two columns that are exchanged in every row.
@@ -45,24 +45,45 @@ impl FaultContext<'_> {
             let columns: Vec<String> = entries.iter().map(|&entry| column(models, entry)).collect();
             Some(ReportedValue::Text(columns.join(", ")))
         };
-        let (unit, right) = match (entry.is_angle(), factor > 1.0) {
+        // A model in screws has no rows: then the declared transforms show in which direction the unit is wrong.
+        let is_too_large = if factor.is_nan() { self.is_declared_too_large() } else { factor > 1.0 };
+        let (unit, right) = match (entry.is_angle(), is_too_large) {
             (true, true) => ("degrees", "radians"),
             (true, false) => ("radians", "degrees"),
             (false, true) => ("millimetres", "metres"),
             (false, false) => ("metres", "millimetres"),
         };
         let names = entries.iter().map(DhEntry::to_string).collect::<Vec<_>>().join(" and ");
-        let also = if self.fault.place == Place::Model { " and of the declared transforms" } else { "" };
+        let is_table = self.before.candidate.convention.is_some();
+        let also = if self.fault.place == FaultPlace::Model { " and of the declared transforms" } else { "" };
+        let (message, suggestion) = if is_table {
+            (
+                format!("{names} of the whole table{also} are in {unit}, but their keys say {right}"),
+                format!("write {names} in {right}, or change the keys"),
+            )
+        } else {
+            (
+                format!("all lengths of the chain are in {unit} instead of {right}"),
+                format!("write all lengths in {right}"),
+            )
+        };
         let fault = Fault {
             parameter: Some(names.replace(" and ", ", ")),
             value: factor.is_finite().then_some(factor),
             found: table(self.before),
             expected: table(self.after),
-            suggestion: format!("write {names} in {right}"),
+            suggestion,
             ..Fault::default()
         };
-        let message =
-            format!("{names} of the whole table{also} are in {unit}, not in the unit of their keys");
         FaultMessage { fault, message, location: self.location(row, row_key(entry)) }
+    }
+
+    /// Whether the declared transforms are longer than they should be.
+    fn is_declared_too_large(&self) -> bool {
+        let length_m = |models: &ModelPair| {
+            let lengths = [&models.candidate.base, &models.candidate.tool];
+            lengths.iter().map(|declared| declared.pose.translation.norm()).sum::<f64>()
+        };
+        length_m(self.before) > length_m(self.after)
     }
 }

@@ -1,6 +1,6 @@
 //! Values and poses in the forms that reports need.
 
-use congruent_description::{
+use congruent_input::{
     Slack,
     units::{Unit, UnitSystem},
 };
@@ -25,7 +25,7 @@ pub(super) fn isometry(pose: &Pose) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(pose.translation), rotation)
 }
 
-/// The expected value as a file writes it: short, but with the digits that tell it from the found one.
+/// The expected value as a file writes it: short, but with enough digits to differ from the found one.
 pub(super) fn value_literal(
     unit: Unit,
     units: UnitSystem,
@@ -34,6 +34,8 @@ pub(super) fn value_literal(
 ) -> String {
     /// Part of its change that a value may be off.
     const PART_OF_CHANGE: f64 = 0.05;
+    // A correction of 1e-8 must not be rounded away: the written value has to differ clearly from the one in the
+    // file.
     let most = PART_OF_CHANGE * (found - expected).abs();
     let slack = Slack { length_m: slack.length_m.min(most), angle_rad: slack.angle_rad.min(most) };
     unit.fitted(expected, units, slack)

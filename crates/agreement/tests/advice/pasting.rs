@@ -38,7 +38,7 @@ impl Random {
         usize::try_from(self.0.next_u64() % u64::try_from(count).unwrap()).unwrap()
     }
 
-    fn of<T: Copy>(&mut self, list: &[T]) -> T {
+    fn pick<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len())]
     }
 }
@@ -73,7 +73,7 @@ fn mutate(file: &mut Vec<String>, random: &mut Random) -> Option<()> {
         }
         6 => {
             let joints = lines_with(file, &["joint"]);
-            let (one, two) = (random.of(&joints), random.of(&joints));
+            let (one, two) = (random.pick(&joints), random.pick(&joints));
             file.swap(one, two);
             Some(())
         }
@@ -87,24 +87,24 @@ fn mutate(file: &mut Vec<String>, random: &mut Random) -> Option<()> {
     }
 }
 
-/// Another number in a line, or no line for a theta, which may be left out.
+/// Another number in a line, or no line for a theta, which has a default.
 fn value(
     file: &mut Vec<String>,
     keys: &[&str],
     changes: &[fn(f64) -> f64],
     random: &mut Random,
 ) -> Option<()> {
-    let line = random.of(&lines_with(file, keys));
+    let line = random.pick(&lines_with(file, keys));
     let (key, value) = number(&file[line])?;
     if key == "theta_deg" && random.below(3) == 0 {
         file.remove(line);
     } else {
-        file[line] = format!("{key} = {:?}", random.of(changes)(value));
+        file[line] = format!("{key} = {:?}", random.pick(changes)(value));
     }
     Some(())
 }
 
-/// Another declared transform in one of the ways to write it, or none.
+/// Another declared transform in one of its notations, or none.
 fn transform(file: &mut Vec<String>, random: &mut Random) -> Option<()> {
     const WRITTEN: [&str; 7] = [
         "{}",
@@ -128,7 +128,7 @@ fn transform(file: &mut Vec<String>, random: &mut Random) -> Option<()> {
     Some(())
 }
 
-/// Ways to write the same file.
+/// Notations of the same file.
 const STYLES: [fn(&str) -> String; 4] = [str::to_owned, inline_rows, headers, str::to_owned];
 
 /// Each row as an inline table on one line.
@@ -176,8 +176,8 @@ fn headers(file: &str) -> String {
     kept
 }
 
-/// Checks a file with faults and mends it as advised; `Some(explained)` if the faults matter.
-fn mend(texts: &Texts, tolerance: f64) -> Option<bool> {
+/// Checks a file with faults and corrects it as advised; `Some(explained)` if the faults matter.
+fn correct(texts: &Texts, tolerance: f64) -> Option<bool> {
     let report = texts.check(tolerance);
     if agrees(&report) {
         return None;
@@ -190,12 +190,12 @@ fn mend(texts: &Texts, tolerance: f64) -> Option<bool> {
     }
     for cause in every {
         let parts = if cause.parts.is_empty() { vec![&cause.fault] } else { cause.parts.iter().collect() };
-        // What a robot file cannot say is told in words.
+        // A correction without a key in the robot file is a sentence.
         if !parts.iter().all(|fault| is_written(fault)) {
             continue;
         }
-        let mended = texts.mended(cause);
-        let again = mended.check(tolerance);
+        let corrected = texts.corrected(cause);
+        let again = corrected.check(tolerance);
         assert!(
             agrees(&again),
             "{} at {tolerance:e}: {}\n{}\n{:?}\n--- was\n{}\n--- is\n{}",
@@ -204,7 +204,7 @@ fn mend(texts: &Texts, tolerance: f64) -> Option<bool> {
             cause.fault.suggestion,
             again.worst,
             texts.robot_file,
-            mended.robot_file
+            corrected.robot_file
         );
     }
     Some(true)
@@ -223,7 +223,7 @@ fn advice_agrees(rounds: usize, faults: usize) {
             }
             let robot_file = STYLES[round % STYLES.len()](&(file.join("\n") + "\n"));
             let mutated = Texts { robot_file, ..texts.clone() };
-            if let Some(is_explained) = mend(&mutated, TOLERANCES[round % TOLERANCES.len()]) {
+            if let Some(is_explained) = correct(&mutated, TOLERANCES[round % TOLERANCES.len()]) {
                 all_of_them += 1;
                 explained += usize::from(is_explained);
             }

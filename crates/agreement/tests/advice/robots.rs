@@ -6,7 +6,8 @@ use congruent_agreement::{
     compare::{Agreement, CheckOptions, CheckReport, check},
     report::{Fault, ReportedCause},
 };
-use congruent_description::{SourceFile, Tolerance, parse_robot};
+use congruent_description::{Tolerance, parse_robot};
+use congruent_input::SourceFile;
 use congruent_kinematics::UrdfTree;
 
 /// The text of a robot file and of its URDF.
@@ -64,7 +65,7 @@ impl Texts {
     }
 
     /// With the lines of a cause in place of those of the file.
-    pub(crate) fn mended(&self, cause: &ReportedCause) -> Self {
+    pub(crate) fn corrected(&self, cause: &ReportedCause) -> Self {
         let parts = if cause.parts.is_empty() { vec![&cause.fault] } else { cause.parts.iter().collect() };
         let mut changes: Vec<_> = parts.iter().flat_map(|fault: &&Fault| &fault.changes).collect();
         changes.sort_by_key(|change| change.from_line);

@@ -83,8 +83,8 @@ fn first_faults(report: &CheckReport) -> Vec<&Fault> {
     report.diagnosis.first().into_iter().chain(others).map(|cause| parts(cause)[0]).collect()
 }
 
-/// The named cause explains everything, each stage leaves less than the one before, and its advice makes the models
-/// agree.
+/// The named cause explains everything, each stage has a smaller residual than the one before, and its advice makes
+/// the models agree.
 #[track_caller]
 fn explains(texts: &Texts, report: &CheckReport, tolerance: f64) {
     let cause = &report.diagnosis[0];
@@ -93,13 +93,14 @@ fn explains(texts: &Texts, report: &CheckReport, tolerance: f64) {
     assert!(cause.stages.windows(2).all(|pair| pair[0].after == pair[1].before));
     let largest = &cause.stages[0];
     assert!(largest.after.position_m < 0.1 * largest.before.position_m, "{:?}", cause.stages);
-    // A joint that the table leaves out is told in words, and listed beside it is what the file can say.
+    // A joint that the table lacks is reported in a sentence; the corrections that the file has keys for are listed
+    // as well.
     let others = report.indistinguishable.iter().map(|other| &other.cause);
     let can_be_written = |cause: &&ReportedCause| parts(cause).iter().all(|fault| is_written(fault));
     let advised = [cause].into_iter().chain(others).find(can_be_written);
     let advised = advised.unwrap_or_else(|| panic!("{} at {tolerance:e}: {cause:?}", texts.name));
-    let mended = texts.mended(advised);
-    assert!(agrees(&mended.check(tolerance)), "{}\n{}", texts.name, mended.robot_file);
+    let corrected = texts.corrected(advised);
+    assert!(agrees(&corrected.check(tolerance)), "{}\n{}", texts.name, corrected.robot_file);
 }
 
 #[test]
@@ -110,7 +111,7 @@ fn the_base_of_a_data_sheet_is_named_before_its_lengths() {
         explains(&texts, &report, tolerance);
         let cause = &report.diagnosis[0];
         assert_eq!(parts(cause)[0].suggestion, "base_from_dh0 = { rpy_deg = [0, 0, 180] }");
-        // The zero of the first joint cannot be told from it.
+        // No pose distinguishes it from the zero of the first joint.
         assert!(first_faults(&report).iter().any(|fault| fault.cause == Cause::ZeroOffset));
         assert!(cause.stages[0].before.position_m > 2.6 && cause.stages[0].after.position_m < 3e-3);
         let mut lines: Vec<&str> = cause.parts[1..].iter().map(|fault| fault.suggestion.as_str()).collect();
@@ -127,7 +128,7 @@ fn a_loose_tolerance_needs_fewer_lengths() {
         explains(&texts, &report, tolerance);
         let cause = &report.diagnosis[0];
         assert!(faults.contains(&parts(cause).len()), "{}", cause.fault.message);
-        // Digits that the residual does not determine are left out.
+        // Digits that the residual does not determine are not written.
         assert_eq!(parts(cause)[0].suggestion, "base_from_dh0 = { rpy_deg = [0, 0, 180] }");
     }
 }
@@ -201,7 +202,7 @@ fn three_signs_are_named_together() {
                 cause.parts.len() == 3 && cause.parts.iter().all(|fault| fault.cause == Cause::AxisFlipped)
             };
             assert!([cause].into_iter().chain(others).any(is_signs), "{robot} {a} {b} {c}: {cause:?}");
-            assert!(agrees(&flipped.mended(cause).check(1e-9)), "{robot} {a} {b} {c}");
+            assert!(agrees(&flipped.corrected(cause).check(1e-9)), "{robot} {a} {b} {c}");
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use congruent_agreement::diagnosis::{Cause, DhEntry, ModelPair, Place, ReferenceJoint, RowConstants};
+use congruent_agreement::diagnosis::{Cause, DhEntry, FaultPlace, ModelPair, ReferenceJoint, RowConstants};
 use congruent_description::{DhConvention, DhRowKind};
 use congruent_kinematics::{Pose, rotation_exp};
 use nalgebra::{Matrix3, Vector3};
@@ -15,12 +15,12 @@ const RATIOS: [f64; 3] = [0.5, 1.02, -3.0];
 /// One fault: its cause, its place, and the change to the models.
 pub(crate) struct InjectedFault {
     pub(crate) cause: Cause,
-    pub(crate) place: Place,
+    pub(crate) place: FaultPlace,
     inject: Box<dyn Fn(&mut ModelPair)>,
 }
 
 impl InjectedFault {
-    fn new(cause: Cause, place: Place, inject: impl Fn(&mut ModelPair) + 'static) -> Self {
+    fn new(cause: Cause, place: FaultPlace, inject: impl Fn(&mut ModelPair) + 'static) -> Self {
         Self { cause, place, inject: Box::new(inject) }
     }
 
@@ -34,7 +34,7 @@ pub(crate) fn all(models: &ModelPair) -> Vec<InjectedFault> {
     let rows = models.candidate.rows.len();
     let mut list = Vec::new();
     for row in 0..rows {
-        of_row(models, row, &mut list);
+        row_faults(models, row, &mut list);
         for other in row + 1..rows {
             order(row, other, &mut list);
         }
@@ -55,31 +55,31 @@ fn entry(models: &mut ModelPair, row: usize, entry: DhEntry) -> &mut f64 {
     }
 }
 
-fn of_row(models: &ModelPair, row: usize, list: &mut Vec<InjectedFault>) {
+fn row_faults(models: &ModelPair, row: usize, list: &mut Vec<InjectedFault>) {
     let flip = move |models: &mut ModelPair| models.candidate.rows[row].rate *= -1.0;
-    list.push(InjectedFault::new(Cause::AxisFlipped, Place::Rows(vec![row]), flip));
+    list.push(InjectedFault::new(Cause::AxisFlipped, FaultPlace::Rows(vec![row]), flip));
     for what in [DhEntry::A, DhEntry::Alpha, DhEntry::D, DhEntry::Theta] {
         let is_angle = matches!(what, DhEntry::Alpha | DhEntry::Theta);
         let is_zero = what == models.candidate.zero_entry(row);
         let cause = if is_zero { Cause::ZeroOffset } else { Cause::Parameter };
-        let place = Place::Entries(what, vec![row]);
+        let place = FaultPlace::Entries(what, vec![row]);
         for &by in if is_angle { &ANGLES_RAD[..] } else { &LENGTHS_M[..] } {
             list.push(InjectedFault::new(cause, place.clone(), move |models| {
                 *entry(models, row, what) += by;
             }));
         }
-        let slips: &[(Cause, f64)] = if is_angle {
+        let mistakes: &[(Cause, f64)] = if is_angle {
             &[(Cause::DegreesAsRadians, 180.0 / PI), (Cause::RadiansAsDegrees, PI / 180.0)]
         } else {
             &[(Cause::MillimetresAsMetres, 1e3), (Cause::MillimetresAsMetres, 1e-3)]
         };
-        for &(cause, factor) in slips {
+        for &(cause, factor) in mistakes {
             list.push(InjectedFault::new(cause, place.clone(), move |models| {
                 *entry(models, row, what) *= factor;
             }));
         }
     }
-    list.push(InjectedFault::new(Cause::Parameter, Place::Rows(vec![row]), move |models| {
+    list.push(InjectedFault::new(Cause::Parameter, FaultPlace::Rows(vec![row]), move |models| {
         if let RowConstants::Dh { kind, .. } = &mut models.candidate.rows[row].link {
             *kind = match *kind {
                 DhRowKind::Revolute => DhRowKind::Prismatic,
@@ -91,17 +91,17 @@ fn of_row(models: &ModelPair, row: usize, list: &mut Vec<InjectedFault>) {
         let (a, d) = (*entry(models, row, DhEntry::A), *entry(models, row, DhEntry::D));
         (*entry(models, row, DhEntry::A), *entry(models, row, DhEntry::D)) = (d, a);
     };
-    list.push(InjectedFault::new(Cause::ParametersExchanged, Place::Rows(vec![row]), swap_lengths));
+    list.push(InjectedFault::new(Cause::ParametersExchanged, FaultPlace::Rows(vec![row]), swap_lengths));
     for ratio in RATIOS {
         let slower = move |models: &mut ModelPair| models.candidate.rows[row].rate *= ratio;
-        list.push(InjectedFault::new(Cause::Ratio, Place::Rows(vec![row]), slower));
+        list.push(InjectedFault::new(Cause::Ratio, FaultPlace::Rows(vec![row]), slower));
     }
     let in_degrees = move |models: &mut ModelPair| models.candidate.rows[row].rate *= 180.0 / PI;
-    list.push(InjectedFault::new(Cause::DegreesAsRadians, Place::Rows(vec![row]), in_degrees));
+    list.push(InjectedFault::new(Cause::DegreesAsRadians, FaultPlace::Rows(vec![row]), in_degrees));
 }
 
 fn order(row: usize, other: usize, list: &mut Vec<InjectedFault>) {
-    let place = Place::Rows(vec![row, other]);
+    let place = FaultPlace::Rows(vec![row, other]);
     list.push(InjectedFault::new(Cause::JointsSwapped, place.clone(), move |models| {
         let rows = &mut models.candidate.rows;
         (rows[row].joint, rows[other].joint) = (rows[other].joint, rows[row].joint);
@@ -110,7 +110,7 @@ fn order(row: usize, other: usize, list: &mut Vec<InjectedFault>) {
         models.candidate.rows.swap(row, other);
     }));
     if other == row + 1 {
-        let place = Place::Entries(DhEntry::Alpha, vec![row, other]);
+        let place = FaultPlace::Entries(DhEntry::Alpha, vec![row, other]);
         list.push(InjectedFault::new(Cause::ParametersExchanged, place, move |models| {
             let (first, second) =
                 (*entry(models, row, DhEntry::Alpha), *entry(models, other, DhEntry::Alpha));
@@ -120,14 +120,14 @@ fn order(row: usize, other: usize, list: &mut Vec<InjectedFault>) {
 }
 
 fn table(list: &mut Vec<InjectedFault>) {
-    list.push(InjectedFault::new(Cause::ConventionSwapped, Place::Model, |models| {
+    list.push(InjectedFault::new(Cause::ConventionSwapped, FaultPlace::Model, |models| {
         models.candidate.convention = match models.candidate.convention {
             Some(DhConvention::Standard) => Some(DhConvention::Modified),
             _ => Some(DhConvention::Standard),
         };
     }));
     for column in [[DhEntry::A, DhEntry::D], [DhEntry::Alpha, DhEntry::Theta]] {
-        let place = Place::Column(column.to_vec());
+        let place = FaultPlace::Column(column.to_vec());
         list.push(InjectedFault::new(Cause::ParametersExchanged, place, move |models| {
             for row in 0..models.candidate.rows.len() {
                 let [one, two] = column.map(|what| *entry(models, row, what));
@@ -145,7 +145,7 @@ fn table(list: &mut Vec<InjectedFault>) {
         (Cause::MillimetresAsMetres, 1e3, vec![DhEntry::A, DhEntry::D]),
         (Cause::MillimetresAsMetres, 1e-3, vec![DhEntry::A, DhEntry::D]),
     ] {
-        list.push(InjectedFault::new(cause, Place::Column(column.clone()), move |models| {
+        list.push(InjectedFault::new(cause, FaultPlace::Column(column.clone()), move |models| {
             for row in 0..models.candidate.rows.len() {
                 for &what in &column {
                     *entry(models, row, what) *= factor;
@@ -163,10 +163,10 @@ fn constants(list: &mut Vec<InjectedFault>) {
     let by = shifts.iter().map(|&shift| off(shift, Vector3::zeros()));
     let by = by.chain(turns.iter().map(|&turn| off(Vector3::zeros(), turn)));
     for by in by.chain([off(shifts[1], Vector3::new(0.4, -0.3, 0.7))]) {
-        list.push(InjectedFault::new(Cause::Tool, Place::Tool, move |models| {
+        list.push(InjectedFault::new(Cause::Tool, FaultPlace::Tool, move |models| {
             models.candidate.tool = (models.candidate.tool.pose * by).into();
         }));
-        list.push(InjectedFault::new(Cause::Base, Place::Base, move |models| {
+        list.push(InjectedFault::new(Cause::Base, FaultPlace::Base, move |models| {
             models.candidate.base = (by * models.candidate.base.pose).into();
         }));
     }
@@ -181,7 +181,7 @@ fn reference(models: &ModelPair, list: &mut Vec<InjectedFault>) {
         [turn(0, roll) * turn(1, pitch) * turn(2, yaw), turn(2, roll) * turn(1, pitch) * turn(0, yaw)];
     for wrong in wrong {
         // A robot with a rotated base, whose model has the base's angles in another order.
-        list.push(InjectedFault::new(Cause::RpyOrder, Place::Base, move |models| {
+        list.push(InjectedFault::new(Cause::RpyOrder, FaultPlace::Base, move |models| {
             let base = models.candidate.base.pose;
             let rotated = Pose::from_parts(right, base.translation) * base.inverse();
             let fixed = ReferenceJoint {
@@ -197,7 +197,7 @@ fn reference(models: &ModelPair, list: &mut Vec<InjectedFault>) {
     for joint in 0..models.reference.joints.len() {
         list.push(InjectedFault::new(
             Cause::FixedJointDropped,
-            Place::ReferenceJoints(vec![joint]),
+            FaultPlace::ReferenceJoints(vec![joint]),
             move |models| {
                 let rotation = turn(1, 0.2) * turn(0, -0.1);
                 let parent_from_joint = Pose::from_parts(rotation, Vector3::new(0.03, -0.02, 0.05));

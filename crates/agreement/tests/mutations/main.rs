@@ -45,7 +45,7 @@ fn judge(models: &ModelPair, faults: &[&InjectedFault], tolerance: f64) -> Optio
     if criterion.accepts(&mutated.residual(&criterion)) {
         return None;
     }
-    Some(Outcome::of(&diagnose(&mutated, &criterion), faults))
+    Some(Outcome::from_diagnosis(&diagnose(&mutated, &criterion), faults))
 }
 
 /// Every `stride`th single fault of every robot.

@@ -25,7 +25,7 @@ enum Verdict {
 }
 
 impl Outcome {
-    pub(crate) fn of(diagnosis: &Diagnosis, faults: &[&InjectedFault]) -> Self {
+    pub(crate) fn from_diagnosis(diagnosis: &Diagnosis, faults: &[&InjectedFault]) -> Self {
         let first = &diagnosis.explanations[0];
         let verdict = if is_true(first, faults) {
             Verdict::First

@@ -4,7 +4,7 @@
 use std::{fs, path::Path};
 
 use congruent_agreement::diagnosis::{
-    Candidate, CandidateRow, ModelPair, ReferenceJoint, ReferenceModel, RowConstants,
+    CandidateModel, CandidateRow, ModelPair, ReferenceJoint, ReferenceModel, RowConstants,
 };
 use congruent_description::{DhConvention, DhRowKind, load_robot};
 use congruent_kinematics::{Pose, Twist, rotation_exp};
@@ -33,7 +33,7 @@ pub(crate) fn all() -> Vec<Mutable> {
             ReferenceModel::from_urdf(&description.robot, description.base, description.tip).unwrap();
         let moving: Vec<_> =
             joints.into_iter().filter(|&joint| description.robot.joint(joint).kind.is_movable()).collect();
-        let candidate = Candidate::from_table(description.dh.as_ref().unwrap(), &moving).unwrap();
+        let candidate = CandidateModel::from_table(description.dh.as_ref().unwrap(), &moving).unwrap();
         let range = |&joint| description.robot.joint(joint).position_range().unwrap_or(TURN);
         let ranges = moving.iter().map(range).collect();
         robots.push(Mutable {
@@ -90,7 +90,8 @@ fn table(table: &Value) -> Mutable {
         is_upward: false,
         is_written: true,
     });
-    let candidate = Candidate { convention: Some(convention), base: base.into(), rows, tool: tool.into() };
+    let candidate =
+        CandidateModel { convention: Some(convention), base: base.into(), rows, tool: tool.into() };
     let name = table["name"].as_str().unwrap().to_owned();
     let ranges = table["rows"].as_array().unwrap().iter().map(range).collect();
     Mutable { name, models: ModelPair { candidate, reference: ReferenceModel { joints } }, ranges }

@@ -1,9 +1,11 @@
 //! One model of a chain written as another, and the proof of it.
 
 use congruent_description::{
-    ChainQ, DhConvention, Diagnostic, JointIndex, RobotDescription, RobotQ, dh_section,
+    ChainQ, DhConvention, JointIndex, RobotDescription, RobotQ, dh_section, parse_urdf, urdf_text,
+};
+use congruent_input::{
+    Diagnostic, Findings,
     display::{angle, length},
-    parse_urdf, urdf_text,
 };
 use congruent_kinematics::{
     DeriveError, Pose, Proof, ScrewChain, SerialDh, UrdfTree, derive_dh, sample_configurations,
@@ -18,7 +20,7 @@ use super::{
     tree,
 };
 
-/// Random configurations of a proof, besides zero, single axes and limits.
+/// Random configurations of a proof, in addition to zero, single axes and limits.
 const RANDOM_CONFIGURATIONS: usize = 100;
 
 /// Writes the model of a robot's chain from base to tip as another and proves it.
@@ -43,14 +45,14 @@ pub fn convert(
 }
 
 fn within_limit(proof: &Proof, report: &ConversionReport) -> Result<(), Diagnostic> {
-    // A residual that is no number proves nothing either.
+    // A comparison with NaN is false, so a residual that is not a number fails the proof as well.
     let is_within = matches!(proof.worst().partial_cmp(&report.proof.limit), Some(order) if order.is_le());
     if is_within { Ok(()) } else { Err(unproved(report, proof)) }
 }
 
 fn configurations(model: &ConvertedModel<'_>, conversion: &Conversion) -> Vec<ChainQ> {
     let sampled = sample_configurations(&model.description.robot, conversion.seed, RANDOM_CONFIGURATIONS);
-    sampled.iter().map(|q| q.of_chain(&model.coordinates)).collect()
+    sampled.iter().map(|q| q.chain_positions(&model.coordinates)).collect()
 }
 
 fn prove(
@@ -58,7 +60,7 @@ fn prove(
     conversion: &Conversion,
     found: &mut dyn FnMut(&ChainQ) -> Pose,
 ) -> Proof {
-    Proof::of(model.joints.len(), &configurations(model, conversion), found, &mut model.forward())
+    Proof::compare(model.joints.len(), &configurations(model, conversion), found, &mut model.forward())
 }
 
 fn to_table(
@@ -67,7 +69,7 @@ fn to_table(
     conversion: &Conversion,
     mut report: ConversionReport,
 ) -> Result<ConversionReport, Diagnostic> {
-    let mut mended = None;
+    let mut corrected = None;
     let dh = if let Some(declared) = model.declared() {
         SerialDh::from_table(declared).to_convention(convention)
     } else {
@@ -75,7 +77,7 @@ fn to_table(
         let derivation =
             derive_dh(&chain, convention, conversion.accuracy).map_err(|error| no_table(&error, model))?;
         report.keep_choices(&derivation, model);
-        mended = Some(chain).filter(|_| !report.rounded_axes.is_empty());
+        corrected = Some(chain).filter(|_| !report.rounded_axes.is_empty());
         derivation.dh
     };
     let robot = &model.description.robot;
@@ -87,12 +89,15 @@ fn to_table(
     let mut found = |q: &ChainQ| written.base_from_tip(q).expect("one position for each row");
     let proof = prove(model, conversion, &mut found);
     report.proof = ProofReport::new(&proof, conversion);
-    match &mended {
+    match &corrected {
         None => within_limit(&proof, &report)?,
         Some(chain) => {
             let mut expected = |q: &ChainQ| chain.base_from_tip(q).expect("one position for each screw");
-            let of_mended = configurations(model, conversion);
-            within_limit(&Proof::of(model.joints.len(), &of_mended, &mut found, &mut expected), &report)?;
+            let of_corrected = configurations(model, conversion);
+            within_limit(
+                &Proof::compare(model.joints.len(), &of_corrected, &mut found, &mut expected),
+                &report,
+            )?;
         }
     }
     let warnings =
@@ -101,7 +106,7 @@ fn to_table(
     Ok(report)
 }
 
-/// The model's screws with axes that are parallel or meet but for rounding as such, unless they are kept.
+/// The model's screws; axes that are parallel or intersecting within rounding are made exactly so, unless they are kept.
 fn without_rounded_axes(
     model: &ConvertedModel<'_>,
     conversion: &Conversion,
@@ -151,8 +156,7 @@ fn to_urdf(
             .to_owned(),
     );
     // The proof is of the text, parsed again.
-    let robot = parse_urdf(&text)
-        .map_err(|findings| findings.into_iter().next().expect("a refusal has a finding"))?;
+    let robot = parse_urdf(&text).map_err(Findings::into_first)?;
     let tree = UrdfTree::new(&robot);
     let link =
         |link| robot.find_link(&model.description.robot.link(link).name).expect("written by that name");
@@ -183,7 +187,7 @@ fn no_table(error: &DeriveError, model: &ConvertedModel<'_>) -> Diagnostic {
 }
 
 fn unproved(report: &ConversionReport, proof: &Proof) -> Diagnostic {
-    // Places of normals are relative: one that is far away makes the next one far, too. The axes that are nearest to
+    // The position of a common normal is relative to the one before: if one is far away, the next is, too. The axes nearest to
     // parallel are the cause.
     let furthest_m = report.axes.iter().map(|pair| pair.normal_at_m.abs()).fold(0.0, f64::max);
     let far = report.axes.iter().filter(|pair| pair.normal_at_m.abs() >= furthest_m / 2.0);
@@ -202,7 +206,6 @@ fn unproved(report: &ConversionReport, proof: &Proof) -> Diagnostic {
         proof.worst(),
         report.proof.limit
     );
-    Diagnostic::error("convert::unproved", message).with_help(
-        "a coarser --accuracy, say 1e-9, takes such axes as parallel; the error of this is reported",
-    )
+    Diagnostic::error("convert::unproved", message)
+        .with_help("a coarser --accuracy, such as 1e-9, treats these axes as parallel, and reports the error")
 }

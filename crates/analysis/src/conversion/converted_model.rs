@@ -1,8 +1,8 @@
 //! The model that is converted: its joints by name, and its forward kinematics.
 
-use congruent_description::{ChainQ, DhTable, Diagnostic, JointIndex, RobotDescription, RobotQ};
+use congruent_description::{ChainQ, DhTable, JointIndex, RobotDescription, RobotQ};
+use congruent_input::Diagnostic;
 use congruent_kinematics::{DhChain, Pose, ScrewChain, SerialDh, UrdfTree};
-
 use nalgebra::Vector3;
 
 use super::options::ConversionSource;

@@ -1,4 +1,4 @@
-//! What is converted, to what, and how exactly.
+//! Options of a conversion: source, target, accuracy.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,13 +30,13 @@ pub enum ConversionSource {
     Urdf,
 }
 
-/// What a table makes of axes that are parallel or meet but for rounded values, as a quarter turn of 1.5708.
+/// How a table treats axes that are parallel or intersecting within rounded values, such as a quarter turn of 1.5708.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RoundedAxes {
-    /// They are taken as parallel or as meeting; the table is off by what the rounding makes.
+    /// They are made parallel or intersecting; the table differs from the source by the effect of the rounding.
     #[default]
-    Mended,
-    /// They stay as they are; the table is exact, and its values may be huge.
+    Corrected,
+    /// They are kept; the table is exact, and its values may be huge.
     Kept,
 }
 
@@ -51,6 +51,6 @@ pub struct Conversion {
     pub accuracy: f64,
     /// Seed of the random configurations.
     pub seed: u64,
-    /// What a table makes of axes that are parallel or meet but for rounded values.
+    /// How a table treats axes that are parallel or intersecting within rounded values.
     pub rounded_axes: RoundedAxes,
 }

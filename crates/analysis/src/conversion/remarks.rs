@@ -1,6 +1,6 @@
-//! What a reader of a converted model must be warned of: axes that were taken as parallel, and huge values.
+//! Warnings about a converted model: axes that were made parallel or intersecting, and huge values.
 
-use congruent_description::{
+use congruent_input::{
     Diagnostic,
     display::{angle, length, length_and_angle},
     serde_name,
@@ -9,10 +9,10 @@ use congruent_kinematics::Proof;
 
 use super::report::{AxisReport, ConversionReport, RoundedReport};
 
-/// A length of a table beyond this multiple of the reach is warned of: no arm is built so.
+/// A length of a table above this multiple of the reach gives a warning. No unit; kind: plausibility.
 const FAR_REACHES: f64 = 100.0;
 
-/// That axes were taken as what they are but for rounding, and what it changes.
+/// The warning that rounded axes were made parallel or intersecting, with its effect.
 pub(super) fn rounded(pairs: &[RoundedReport], against_source: &Proof) -> Option<Diagnostic> {
     let sentence = |pair: &RoundedReport| {
         let [a, b] = &pair.joints;
@@ -26,8 +26,8 @@ pub(super) fn rounded(pairs: &[RoundedReport], against_source: &Proof) -> Option
     let listed: Vec<String> = pairs.iter().map(sentence).collect();
     let Proof { position_m, orientation_rad, configurations, .. } = *against_source;
     let message = format!(
-        "the source has rounded values, axes are taken as they are meant: {}; the table differs from the source by \
-         up to {} at {configurations} configurations",
+        "the source has rounded values, so these axes were made exact: {}; the table differs from the source by up \
+         to {} at {configurations} configurations",
         listed.join(", "),
         length_and_angle(position_m, orientation_rad)
     );
@@ -38,7 +38,7 @@ pub(super) fn rounded(pairs: &[RoundedReport], against_source: &Proof) -> Option
     })
 }
 
-/// That rows have lengths which no arm of this reach has.
+/// The warning that rows have lengths far beyond the reach of the arm.
 pub(super) fn far(report: &ConversionReport, reach_m: f64) -> Option<Diagnostic> {
     let rows = report.table.iter().flat_map(|table| &table.rows);
     let values =
@@ -48,7 +48,7 @@ pub(super) fn far(report: &ConversionReport, reach_m: f64) -> Option<Diagnostic>
         .filter(|(.., value)| is_far(*value))
         .map(|(row, entry, value)| format!("{entry} of {} is {}", row.joint, length(value)))
         .collect();
-    // Places of normals are relative: one that is far away makes the next one far, too, whatever its axes are.
+    // The position of a common normal is relative to the one before: if one is far away, the next is, too.
     let is_cause = |pair: &&AxisReport| {
         is_far(pair.normal_at_m) && pair.off_parallel_rad() * pair.normal_at_m.abs() <= FAR_REACHES * reach_m
     };
@@ -61,14 +61,14 @@ pub(super) fn far(report: &ConversionReport, reach_m: f64) -> Option<Diagnostic>
         )
     });
     let message = format!(
-        "an arm that reaches {} has no such lengths: {}{}",
+        "lengths far beyond the reach of {}: {}{}",
         length(reach_m),
         far.join(", "),
         pairs.collect::<String>()
     );
     (!far.is_empty()).then(|| {
         Diagnostic::warning("convert::far_normal", message).with_help(
-            "the table is right within its accuracy; a coarser --accuracy takes such axes as parallel",
+            "the table is correct within its accuracy; a coarser --accuracy treats such axes as parallel",
         )
     })
 }

@@ -1,8 +1,7 @@
 //! The answer of `congruent derive` and `congruent convert`.
 
-use congruent_description::{
-    DhConvention, DhRow, DhRowKind, DhTable, Diagnostic, Finding, ReportedChain, Robot,
-};
+use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, ReportedChain, Robot};
+use congruent_input::{Diagnostic, Finding};
 use congruent_kinematics::{
     AxisRelation, Choice, DhDerivation, Pose, Proof, ReportedPose, ScrewChain, Twist,
 };
@@ -31,7 +30,7 @@ pub struct ConversionReport {
     pub tip: String,
     /// The joints, base to tip.
     pub joints: Vec<String>,
-    /// The table.
+    /// The table, if the target is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<TableReport>,
     /// The section `[dh]` of a robot file.
@@ -40,25 +39,24 @@ pub struct ConversionReport {
     /// Screws and home pose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poe: Option<PoeReport>,
-    /// URDF text.
+    /// Text of the URDF, if the target is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub urdf: Option<String>,
     /// Relations of consecutive axes, if a table was derived from them.
     pub axes: Vec<AxisReport>,
-    /// Pairs of axes that were taken as parallel, as meeting or as one line, which they are not in the source but
-    /// for rounding.
+    /// Pairs of axes that were made parallel, intersecting or collinear, which they are in the source within rounding.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rounded_axes: Vec<RoundedReport>,
-    /// The free choices of the derivation, and what was taken.
+    /// The free choices of the derivation, with the choice that was made.
     pub free_choices: Vec<ChoiceReport>,
-    /// What else a reader must know.
+    /// Further notes for the reader.
     pub notes: Vec<String>,
-    /// Errors of the result against its source. If axes were taken as parallel or as meeting, they are what that
-    /// changes, and the limit is kept against the source with such axes.
+    /// Errors of the result relative to its source. If axes were made parallel or intersecting, they contain the effect of this,
+    /// and the limit holds relative to the source with such axes.
     pub proof: ProofReport,
     /// Warnings about the input and the result.
     pub warnings: Vec<Finding>,
-    /// Those about the result.
+    /// The warnings about the result, as diagnostics.
     #[serde(skip)]
     pub findings: Vec<Diagnostic>,
 }
@@ -66,7 +64,7 @@ pub struct ConversionReport {
 /// A table as programs read it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TableReport {
-    /// Which equation the rows stand for.
+    /// The convention of the rows.
     pub convention: DhConvention,
     /// The equation of a row.
     pub equation: &'static str,
@@ -78,22 +76,22 @@ pub struct TableReport {
     pub dhn_from_tip: ReportedPose,
 }
 
-/// One row.
+/// One row of a table, with SI values.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RowReport {
     /// The joint that drives it.
     pub joint: String,
     /// Which entry the joint drives.
     pub kind: DhRowKind,
-    /// Link length.
+    /// Link length `a`, m.
     pub a_m: f64,
-    /// Link twist.
+    /// Link twist `alpha`, rad.
     pub alpha_rad: f64,
-    /// Link offset.
+    /// Link offset `d`, m.
     pub d_m: f64,
-    /// Joint angle.
+    /// Joint angle `theta`, rad.
     pub theta_rad: f64,
-    /// 1 or -1.
+    /// Sign of the joint's position in the row, 1 or -1.
     pub sign: f64,
 }
 
@@ -104,14 +102,14 @@ pub struct PoeReport {
     pub space_screws: Vec<ScrewReport>,
     /// Twists at zero in link `tip`, of `M exp([B_1] q_1) ... exp([B_n] q_n)`.
     pub body_screws: Vec<ScrewReport>,
-    /// `M`.
+    /// Home pose `M`: tip in the base, joints at zero.
     pub base_from_tip_at_zero: ReportedPose,
 }
 
-/// One screw.
+/// The screw of one joint, joints at zero.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ScrewReport {
-    /// The joint.
+    /// Name of the joint.
     pub joint: String,
     /// Rotation per unit of the joint.
     pub angular: [f64; 3],
@@ -122,9 +120,9 @@ pub struct ScrewReport {
 /// Relation of two consecutive axes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct AxisReport {
-    /// The two joints.
+    /// The two joints, the one nearer to the base first.
     pub joints: [String; 2],
-    /// How they lie.
+    /// Parallel, intersecting, collinear or skew.
     pub relation: AxisRelation,
     /// Angle between the axes.
     pub angle_rad: f64,
@@ -141,27 +139,27 @@ impl AxisReport {
     }
 }
 
-/// Two consecutive axes that were taken as what they are but for rounding.
+/// Two consecutive axes that were made parallel, intersecting or collinear.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RoundedReport {
-    /// The two joints.
+    /// The two joints, the one nearer to the base first.
     pub joints: [String; 2],
-    /// What their axes were taken as.
+    /// The relation that their axes were given.
     pub relation: AxisRelation,
-    /// The angle by which they are not.
+    /// Angle by which the source differs from this relation.
     pub angle_rad: f64,
-    /// The distance by which they are not.
+    /// Distance by which the source differs from this relation.
     pub distance_m: f64,
 }
 
-/// Something that the axes do not determine.
+/// A choice that the axes do not determine.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ChoiceReport {
     /// The joint whose row it affects.
     pub joint: String,
-    /// Which choice.
+    /// The kind of choice.
     pub choice: Choice,
-    /// What is free and what was taken.
+    /// The choice in words, with the value that was chosen.
     pub text: String,
 }
 
@@ -172,17 +170,17 @@ pub struct ProofReport {
     pub limit: f64,
     /// The largest of the errors below.
     pub worst: f64,
-    /// Directions of the screws, rad per unit of the joint.
+    /// Error of the directions of the screws, rad per unit of the joint.
     pub screw_rad: f64,
-    /// Moments of the screws, m per unit of the joint.
+    /// Error of the moments of the screws, m per unit of the joint.
     pub screw_m: f64,
-    /// Home orientation.
+    /// Error of the home orientation.
     pub home_rad: f64,
-    /// Home origin.
+    /// Error of the home position.
     pub home_m: f64,
-    /// Orientation at any of the configurations.
+    /// Largest error of the orientation at the configurations.
     pub orientation_rad: f64,
-    /// Origin at any of the configurations.
+    /// Largest error of the position at the configurations.
     pub position_m: f64,
     /// Number of configurations: zero, single axes, random ones, limits.
     pub configurations: usize,
@@ -249,7 +247,7 @@ fn notes(model: &ConvertedModel<'_>) -> Vec<String> {
     let mimic = model.joints.iter().filter_map(|&joint| {
         let mimic = robot.joint(joint).mimic?;
         Some(format!(
-            "joint \"{}\" has a variable of its own here; as a mimic joint it follows \"{}\": {} times its position, \
+            "joint \"{}\" is an independent variable here; as a mimic joint it follows \"{}\": {} times its position, \
              plus {}",
             robot.joint(joint).name,
             robot.joint(mimic.master).name,

@@ -1,8 +1,7 @@
 //! Screws as a tree of joints: each joint frame on its axis, at zero parallel to the base.
 
-use congruent_description::{
-    Diagnostic, Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, Mimic, Robot,
-};
+use congruent_description::{Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, Mimic, Robot};
+use congruent_input::Diagnostic;
 use congruent_kinematics::Twist;
 use nalgebra::{Isometry3, Unit, Vector3};
 
@@ -37,6 +36,7 @@ pub(super) fn tree(model: &ConvertedModel<'_>) -> Result<Robot, Diagnostic> {
         here_in_base = origin_in_base;
     }
     let mut last = screws.base_from_tip_at_zero.to_isometry();
+    // The tip keeps its own orientation, which no joint frame has.
     last.translation.vector = (last.translation.vector - here_in_base).map(clean);
     links.push(link(&tip));
     parts.push(fixed(&parent, &tip, last, model.description.base));
@@ -55,8 +55,9 @@ fn placed(written: &Joint, twist: &Twist, here_in_base: &Vector3<f64>) -> Result
     if is_revolute != written.kind.is_angular() {
         let message =
             format!("joint \"{}\" is revolute in one model and prismatic in the other", written.name);
-        return Err(Diagnostic::error("convert::kind", message)
-            .with_help("a URDF joint needs limits, and those of the other kind mean nothing"));
+        return Err(Diagnostic::error("convert::kind", message).with_help(
+            "a URDF joint needs limits, and an angle limit cannot become a length limit, or the reverse",
+        ));
     }
     if !is_revolute {
         let axis = Unit::new_normalize(twist.linear.map(clean));
@@ -64,6 +65,8 @@ fn placed(written: &Joint, twist: &Twist, here_in_base: &Vector3<f64>) -> Result
     }
     let axis = Unit::new_normalize(twist.angular.map(clean));
     let on_axis = axis.cross(&twist.linear);
+    // The origin slides along the axis to the point nearest to the joint before: links stay short, and the model
+    // is the same.
     let nearest = on_axis + axis.into_inner() * (here_in_base - on_axis).dot(&axis);
     Ok(PlacedJoint { axis, origin_in_base: nearest.map(clean) })
 }

@@ -1,4 +1,4 @@
-//! `congruent describe`: what a robot's files say, and what they leave open for which use.
+//! `congruent describe`: the contents of a robot's files, and what is missing for which use.
 
 mod parts;
 mod summary;

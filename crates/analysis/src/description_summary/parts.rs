@@ -7,20 +7,20 @@ use congruent_kinematics::{Pose, ReportedPose};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// One link.
+/// One link, with its joint, mass and shapes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LinkSummary {
-    /// Its name.
+    /// Name of the link.
     pub name: String,
     /// The joint that carries it; `None` for the root.
     pub joint: Option<String>,
-    /// Its mass; `None` without an `<inertial>`.
+    /// Mass; `None` without an `<inertial>`.
     pub mass_kg: Option<f64>,
-    /// Its centre of mass, in its frame.
+    /// Centre of mass in the frame of the link.
     pub com_m: Option<[f64; 3]>,
-    /// Its visual shapes.
+    /// Kinds of its visual shapes.
     pub visuals: Vec<ShapeSummary>,
-    /// Its collision shapes.
+    /// Kinds of its collision shapes.
     pub collisions: Vec<ShapeSummary>,
 }
 
@@ -28,22 +28,22 @@ pub struct LinkSummary {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ShapeSummary {
-    /// A box.
+    /// A box by its edge lengths.
     Box,
-    /// A cylinder.
+    /// A cylinder by radius and length.
     Cylinder,
-    /// A sphere.
+    /// A sphere by its radius.
     Sphere,
     /// A mesh: one of `meshes`.
     Mesh,
 }
 
-/// One joint.
+/// One joint, with its links, axis, limits and resistances.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointSummary {
-    /// Its name.
+    /// Name of the joint.
     pub name: String,
-    /// How it moves.
+    /// Type of the joint: revolute, continuous, prismatic or fixed.
     pub kind: JointKind,
     /// The link nearer to the root.
     pub parent: String,
@@ -82,20 +82,20 @@ pub struct MimicSummary {
     pub offset: f64,
 }
 
-/// One mesh file.
+/// One mesh file, with the links that use it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct MeshSummary {
     /// The file, relative to the folder of the URDF if it is in it.
     pub file: String,
     /// Its triangles; 0 for an empty file, which is no shape.
     pub triangles: usize,
-    /// Links that show it.
+    /// Links that have it as a visual shape.
     pub visual_of: Vec<String>,
-    /// Links that collide with it.
+    /// Links that have it as a collision shape.
     pub collision_of: Vec<String>,
 }
 
-/// 0 is what descriptions write for an unknown limit.
+/// A limit above 0; descriptions write 0 for an unknown one.
 pub(super) fn stated(limit: Option<f64>) -> Option<f64> {
     limit.filter(|&limit| limit > 0.0)
 }

@@ -1,8 +1,9 @@
-//! The whole of a description in short.
+//! A short summary of a description.
 
 use std::path::Path;
 
-use congruent_description::{DhConvention, Finding, ReportedChain, RobotDescription, is_standard_input};
+use congruent_description::{DhConvention, ReportedChain, RobotDescription};
+use congruent_input::{Finding, is_standard_input};
 use congruent_kinematics::Pose;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -18,7 +19,7 @@ use crate::jacobians::TcpInLink;
 pub struct DescriptionSummary {
     /// The robot file, or the URDF if there is none.
     pub file: String,
-    /// The URDF.
+    /// Path of the URDF.
     pub urdf: String,
     /// The SRDF that the robot file names.
     pub srdf: Option<String>,
@@ -26,10 +27,10 @@ pub struct DescriptionSummary {
     pub robot: String,
     /// Base and tip, and who named them.
     pub chain: ReportedChain,
-    /// The links at which a chain from the base might end: first the one that is taken if no one names a tip, then the
-    /// ends of limbs that are about as long.
+    /// The links at which a chain from the base might end: first the default tip, then the ends of branches of about the same
+    /// length.
     pub likely_tips: Vec<LikelyTip>,
-    /// The declared table.
+    /// The declared DH table, if there is one.
     pub table: Option<TableSummary>,
     /// The declared tool centre point.
     pub tcp: Option<TcpInLink>,
@@ -45,7 +46,7 @@ pub struct DescriptionSummary {
     pub joints: Vec<JointSummary>,
     /// All mesh files that were read.
     pub meshes: Vec<MeshSummary>,
-    /// What the description is fit for.
+    /// Whether the description is complete enough for each use.
     pub uses: Vec<UseSummary>,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -55,22 +56,22 @@ pub struct DescriptionSummary {
 /// A link at which a chain might end.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct LikelyTip {
-    /// The link.
+    /// Name of the link.
     pub link: String,
     /// The moving joints from the base to it, mimic joints included.
     pub joints: usize,
 }
 
-/// A declared table.
+/// Convention and size of a declared DH table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TableSummary {
-    /// Its convention.
+    /// Standard or modified convention.
     pub convention: DhConvention,
-    /// Its rows.
+    /// Number of rows.
     pub rows: usize,
 }
 
-/// What the files of a robot say.
+/// The summary of a robot's files.
 pub fn describe(description: &RobotDescription) -> DescriptionSummary {
     let robot = &description.robot;
     let tip = |link| {
@@ -117,7 +118,8 @@ fn folder_of(urdf: &Path) -> &Path {
 mod tests {
     use std::sync::Arc;
 
-    use congruent_description::{SourceFile, Use, parse_robot};
+    use congruent_description::parse_robot;
+    use congruent_input::{Capability, SourceFile};
 
     use super::*;
 
@@ -135,14 +137,14 @@ mod tests {
              <limit lower='1' upper='2' effort='0' velocity='3'/></joint>",
         );
         assert_eq!((summary.joints[0].effort, summary.joints[0].velocity), (None, Some(3.0)));
-        let missing = |needed_for: Use| -> Vec<Vec<String>> {
+        let missing = |needed_for: Capability| -> Vec<Vec<String>> {
             let found = summary.uses.iter().find(|each| each.needed_for == needed_for).unwrap();
             found.missing.iter().map(|missing| missing.names.clone()).collect()
         };
-        assert_eq!(missing(Use::Kinematics), [vec![], vec!["j".to_owned()]]);
-        assert_eq!(missing(Use::Clearance), [["a".to_owned()]]);
+        assert_eq!(missing(Capability::Kinematics), [vec![], vec!["j".to_owned()]]);
+        assert_eq!(missing(Capability::Clearance), [["a".to_owned()]]);
         let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<String>>();
-        assert_eq!(missing(Use::Physics), [names(&["b"]), names(&["j"]), names(&["a", "b"])]);
+        assert_eq!(missing(Capability::Physics), [names(&["b"]), names(&["j"]), names(&["a", "b"])]);
     }
 
     #[test]

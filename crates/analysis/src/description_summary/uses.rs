@@ -1,29 +1,30 @@
-//! What is missing for which use: the findings that stop it, and what it goes on without.
+//! What is missing for which use: findings that block it, and values that it does without.
 
-use congruent_description::{Finding, Joint, Link, Robot, RobotDescription, Use};
+use congruent_description::{Joint, Link, Robot, RobotDescription};
+use congruent_input::{Capability, Finding, Findings};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::parts::stated;
 
-/// Whether a robot is fit for a use.
+/// Whether a description is complete enough for a use.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct UseSummary {
-    /// The use.
+    /// Kinematics, clearance or physics.
     #[serde(rename = "use")]
-    pub needed_for: Use,
-    /// Whether nothing stops it.
+    pub needed_for: Capability,
+    /// Whether no finding blocks the use.
     pub is_ready: bool,
-    /// What stops it.
+    /// The findings that block the use.
     pub stopped_by: Vec<Finding>,
-    /// What is not stated, so that commands do without it.
+    /// Values that are not stated and that commands do without.
     pub missing: Vec<Missing>,
 }
 
-/// What is not stated.
+/// A value that the description does not state.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Missing {
-    /// What it is, and what follows from it.
+    /// The value, and the consequence, as a sentence.
     pub what: &'static str,
     /// The links or joints that lack it; empty if it is about the robot as a whole.
     pub names: Vec<String>,
@@ -31,21 +32,23 @@ pub struct Missing {
 
 /// All uses, in the order in which they need more of a description.
 pub(super) fn uses(description: &RobotDescription) -> Vec<UseSummary> {
-    [Use::Kinematics, Use::Clearance, Use::Physics].map(|each| of_use(description, each)).into()
+    [Capability::Kinematics, Capability::Clearance, Capability::Physics]
+        .map(|each| use_summary(description, each))
+        .into()
 }
 
-fn of_use(description: &RobotDescription, needed_for: Use) -> UseSummary {
-    let stopped_by = description.for_use(needed_for).err().unwrap_or_default();
+fn use_summary(description: &RobotDescription, needed_for: Capability) -> UseSummary {
+    let stopped_by = description.check_capability(needed_for).err().map_or_else(Vec::new, Findings::into_vec);
     UseSummary {
         needed_for,
         is_ready: stopped_by.is_empty(),
         stopped_by: stopped_by.iter().map(Finding::from).collect(),
         missing: match needed_for {
-            Use::Kinematics => for_kinematics(description),
-            // Shapes that cannot be read are no shapes that are missing.
-            Use::Clearance if stopped_by.is_empty() => for_clearance(&description.robot),
-            Use::Clearance => Vec::new(),
-            Use::Physics => for_physics(description),
+            Capability::Kinematics => for_kinematics(description),
+            // A shape that cannot be read is an error of its own, not a missing shape.
+            Capability::Clearance if stopped_by.is_empty() => for_clearance(&description.robot),
+            Capability::Clearance => Vec::new(),
+            Capability::Physics => for_physics(description),
         },
     }
 }
@@ -65,7 +68,7 @@ fn for_kinematics(description: &RobotDescription) -> Vec<Missing> {
         let range = joint.position_range().filter(|_| joint.mimic.is_none());
         range.is_some_and(|(lower, upper)| !(lower..=upper).contains(&0.0))
     };
-    missing.extend(of_joints(&description.robot, "position 0 is outside of the limits", is_beyond));
+    missing.extend(missing_at_joints(&description.robot, "position 0 is outside of the limits", is_beyond));
     missing
 }
 
@@ -75,7 +78,9 @@ fn for_clearance(robot: &Robot) -> Vec<Missing> {
         return vec![Missing { what, names: Vec::new() }];
     }
     let lacks = |link: &Link| link.collisions.is_empty() && !link.visuals.is_empty();
-    of_links(robot, "shown, but without a collision shape: nothing can touch it", lacks).into_iter().collect()
+    missing_at_links(robot, "visual shape without a collision shape: clearance ignores it", lacks)
+        .into_iter()
+        .collect()
 }
 
 fn for_physics(description: &RobotDescription) -> Vec<Missing> {
@@ -89,9 +94,9 @@ fn for_physics(description: &RobotDescription) -> Vec<Missing> {
     let no_mass = |link: &Link| has_body(link) && link.inertia.is_none();
     let missing = [
         some("moves without any mass: cannot be simulated with forces", massless(robot)),
-        of_joints(robot, "no limit of speed is stated", no_speed),
-        of_joints(robot, "no limit of effort is stated", no_effort),
-        of_links(robot, "has a shape, but no <inertial>: its mass counts as 0", no_mass),
+        missing_at_joints(robot, "no limit of speed is stated", no_speed),
+        missing_at_joints(robot, "no limit of effort is stated", no_effort),
+        missing_at_links(robot, "has a shape, but no <inertial>: its mass counts as 0", no_mass),
     ];
     missing.into_iter().flatten().collect()
 }
@@ -110,12 +115,12 @@ fn massless(robot: &Robot) -> Vec<String> {
     massless.map(|joint| robot.link(joint.child).name.clone()).collect()
 }
 
-fn of_joints(robot: &Robot, what: &'static str, lacks: impl Fn(&Joint) -> bool) -> Option<Missing> {
+fn missing_at_joints(robot: &Robot, what: &'static str, lacks: impl Fn(&Joint) -> bool) -> Option<Missing> {
     let names = robot.joints().iter().filter(|joint| lacks(joint)).map(|joint| joint.name.clone());
     some(what, names.collect())
 }
 
-fn of_links(robot: &Robot, what: &'static str, lacks: impl Fn(&Link) -> bool) -> Option<Missing> {
+fn missing_at_links(robot: &Robot, what: &'static str, lacks: impl Fn(&Link) -> bool) -> Option<Missing> {
     let names = robot.links().iter().filter(|link| lacks(link)).map(|link| link.name.clone());
     some(what, names.collect())
 }

@@ -26,15 +26,15 @@ const MOST_DAMPING: f64 = 1e12;
 /// Alternations of estimating the noise and the corrections; three suffice.
 const NOISE_ROUNDS: usize = 8;
 
-/// An estimate.
+/// An estimate of the corrections, with its uncertainty and residuals.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fit {
+pub struct CalibrationFit {
     /// One entry for each correction of the chain, rad or m; 0 for those that were not estimated.
     pub corrections: Vec<f64>,
     /// Standard deviations of the same, from the noise; 0 for those that were not estimated, not a number
     /// if the noise is not known and there is no redundancy to estimate it from.
     pub standard_deviations: Vec<f64>,
-    /// Covariance of those that were, in their order.
+    /// Covariance of the estimated corrections, in their order; rad and m.
     pub covariance: DMatrix<f64>,
     /// Residual of each measurement.
     pub residuals: Vec<PoseResidual>,
@@ -42,7 +42,7 @@ pub struct Fit {
     pub noise: Noise,
     /// Whether the last step was below rounding; otherwise the best that was found.
     pub converged: bool,
-    /// Steps taken.
+    /// Number of steps of the iteration.
     pub iterations: usize,
 }
 
@@ -50,7 +50,7 @@ pub struct Fit {
 ///
 /// # Panics
 /// If a measurement's `q` has another length than the chain has joints.
-pub fn fit(problem: &Problem<'_>, kept: &[usize], noise: Noise) -> Fit {
+pub fn fit(problem: &Problem<'_>, kept: &[usize], noise: Noise) -> CalibrationFit {
     let start = vec![0.0; problem.chain.parameters().len()];
     weighted_fit(problem, kept, start, &Weighting { noise: noise.floored(), rows: &[] })
 }
@@ -62,10 +62,13 @@ pub fn fit(problem: &Problem<'_>, kept: &[usize], noise: Noise) -> Fit {
 ///
 /// # Panics
 /// As [`fit`].
-pub fn fit_with_estimated_noise(problem: &Problem<'_>, kept: &[usize]) -> Fit {
+pub fn fit_with_estimated_noise(problem: &Problem<'_>, kept: &[usize]) -> CalibrationFit {
+    // Any ratio starts the iteration; this one makes an angle of 1 rad count like a distance of one reach.
     let mut noise = Noise { position_m: 1.0, orientation_rad: 1.0 / problem.reach_m() };
     let mut best = fit(problem, kept, noise);
     for _ in 0..NOISE_ROUNDS {
+        // Noise and corrections depend on each other (the weights are 1 / noise^2), so they are estimated in
+        // turn.
         noise = estimated_noise(problem, kept, &best).floored();
         let start = best.corrections.clone();
         best = weighted_fit(problem, kept, start, &Weighting { noise, rows: &[] });
@@ -73,11 +76,12 @@ pub fn fit_with_estimated_noise(problem: &Problem<'_>, kept: &[usize]) -> Fit {
     best.with_redundancy(problem.redundancy(kept))
 }
 
-impl Fit {
+impl CalibrationFit {
     /// Without redundancy the residuals vanish whatever the noise was, so the deviations are not known.
     #[must_use]
     pub(super) fn with_redundancy(mut self, redundancy: usize) -> Self {
         if redundancy == 0 {
+            // Zero would claim a perfect estimate. NaN becomes null in the report.
             self.covariance.fill(f64::NAN);
             let estimated = self.standard_deviations.iter_mut().filter(|deviation| **deviation != 0.0);
             estimated.for_each(|deviation| *deviation = f64::NAN);
@@ -87,7 +91,7 @@ impl Fit {
 }
 
 /// The noise of positions and orientations, estimated from the residuals of a fit.
-fn estimated_noise(problem: &Problem<'_>, kept: &[usize], fit: &Fit) -> Noise {
+fn estimated_noise(problem: &Problem<'_>, kept: &[usize], fit: &CalibrationFit) -> Noise {
     let weighting = Weighting { noise: fit.noise, rows: &[] };
     let equations = problem.normal_equations(&fit.corrections, &weighting).only(kept);
     // The share of the corrections that positions determine; orientations determine the rest.
@@ -96,6 +100,7 @@ fn estimated_noise(problem: &Problem<'_>, kept: &[usize], fit: &Fit) -> Noise {
     let count = |of: fn(&Measurement) -> usize| -> usize { problem.measurements.iter().map(of).sum() };
     let positions: f64 = fit.residuals.iter().map(|each| each.position_m.norm_squared()).sum();
     let rotations: f64 = fit.residuals.iter().map(|each| each.orientation_rad.norm_squared()).sum();
+    // Traces add up to the number of corrections: trace(N^-1 N_position) + trace(N^-1 N_orientation) = trace(I).
     let by_orientation = as_f64(kept.len()) - by_position;
     Noise {
         position_m: deviation(positions, count(Measurement::position_count), by_position),
@@ -110,6 +115,7 @@ fn deviation(squares: f64, count: usize, determined: f64) -> f64 {
         return 0.0;
     }
     let redundancy = as_f64(count) - determined;
+    // The redundancy of a block is a trace, not an integer: below one half it is zero within rounding.
     (squares / if redundancy >= 0.5 { redundancy } else { as_f64(count) }).sqrt()
 }
 
@@ -124,7 +130,7 @@ pub(super) fn weighted_fit(
     kept: &[usize],
     start: Vec<f64>,
     weighting: &Weighting<'_>,
-) -> Fit {
+) -> CalibrationFit {
     let mut p = start;
     let mut equations = problem.normal_equations(&p, weighting).only(kept);
     let (mut damping, mut last_step, mut converged, mut iterations) =
@@ -132,6 +138,7 @@ pub(super) fn weighted_fit(
     while !converged && iterations < MOST_ITERATIONS && damping < MOST_DAMPING {
         iterations += 1;
         let damped = Damping { relative: damping, absolute: 0.0 };
+        // Not positive definite at this damping: more of it makes the matrix diagonally dominant.
         let Some(step) = damped_step(&equations.information, &equations.gradient, damped) else {
             damping *= 10.0;
             continue;
@@ -140,43 +147,52 @@ pub(super) fn weighted_fit(
         kept.iter().zip(step.iter()).for_each(|(&at, step)| moved[at] += step);
         let size = step.amax();
         let cost = problem.cost(&moved, weighting);
+        // Near the solution the cost changes by rounding alone; without the margin good last steps would be
+        // refused.
         if cost <= equations.cost * (1.0 + COST_ROUNDING) {
             p = moved;
             equations = problem.normal_equations(&p, weighting).only(kept);
+            // Far below the diagonal damping has no effect: zero gives the quadratic convergence of Gauss-Newton.
             damping = if damping < 1e-14 { 0.0 } else { damping / 100.0 };
+            // A step that no longer shrinks below 1e-9 is the rounding of the residuals, not progress.
             converged = size <= STEP || (size < ROUNDING_STEP && size >= last_step);
             last_step = size;
         } else if size < ROUNDING_STEP {
             // The cost cannot resolve such a step: the solution is the current value.
             converged = true;
         } else {
+            // Damping may be zero here, which no factor increases.
             damping = (damping * 10.0).max(FIRST_DAMPING);
         }
     }
-    // A gross error may move an angle by whole turns on its way; these change nothing.
+    // A gross error may move an angle through whole turns; these have no effect on the poses.
     for &at in kept {
         if problem.chain.parameters()[at].unit() == ParameterUnit::Angle {
             p[at] -= TAU * (p[at] / TAU).round();
         }
     }
-    finished(problem, kept, p, (weighting, &equations, converged, iterations))
-}
-
-fn finished(
-    problem: &Problem<'_>,
-    kept: &[usize],
-    corrections: Vec<f64>,
-    (weighting, equations, converged, iterations): (&Weighting<'_>, &CalibrationEquations, bool, usize),
-) -> Fit {
-    let unknown = || DMatrix::from_element(kept.len(), kept.len(), f64::NAN);
-    let covariance = inverse(&equations.information).unwrap_or_else(unknown);
-    let mut standard_deviations = vec![0.0; corrections.len()];
+    let covariance = covariance(&equations, kept.len());
+    let mut standard_deviations = vec![0.0; p.len()];
     for (row, &at) in kept.iter().enumerate() {
         standard_deviations[at] = covariance[(row, row)].sqrt();
     }
-    let residuals = problem.residuals(&corrections);
-    let noise = weighting.noise;
-    Fit { corrections, standard_deviations, covariance, residuals, noise, converged, iterations }
+    let (residuals, noise) = (problem.residuals(&p), weighting.noise);
+    CalibrationFit {
+        corrections: p,
+        standard_deviations,
+        covariance,
+        residuals,
+        noise,
+        converged,
+        iterations,
+    }
+}
+
+/// Covariance of the corrections that are estimated, `count` of them: inverse of their information.
+fn covariance(equations: &CalibrationEquations, count: usize) -> DMatrix<f64> {
+    // A singular matrix cannot arise from corrections that were identified, except at a gross misfit: then
+    // nothing is known.
+    inverse(&equations.information).unwrap_or_else(|| DMatrix::from_element(count, count, f64::NAN))
 }
 
 /// Inverse of a positive definite matrix.

@@ -7,8 +7,7 @@ use super::{
     problem::{CalibrationEquations, Noise, Problem, Weighting},
 };
 
-/// A relation leaves out corrections that take part with less than this share of the largest.
-/// Kind: display.
+/// Corrections with a smaller share of the largest factor are not listed in a relation. No unit; kind: display.
 const NEGLIGIBLE_SHARE: f64 = 0.01;
 
 /// Which corrections the measurements identify.
@@ -53,8 +52,11 @@ pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
     let singular_values = singular_values(&information);
     let largest = singular_values.first().copied().unwrap_or(0.0);
     let mut order: Vec<usize> = (0..parameters.len()).collect();
+    // A stable sort: within one kind of entry the order stays base to tip.
     order.sort_by_key(|&at| parameters[at].entry);
     let (mut kept, mut fixed, mut kept_ratio) = (Vec::new(), Vec::new(), 1.0);
+    // Greedy, because the result must be explainable: of two corrections that cannot be distinguished the more
+    // physical one is estimated, whatever the singular vectors are.
     for candidate in order {
         kept.push(candidate);
         let smallest = self::singular_values(&select(&information, &kept)).last().copied().unwrap_or(0.0);
@@ -65,12 +67,14 @@ pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
             fixed.push(candidate);
         }
     }
+    // The order of admission is no longer needed; the fits expect the order of the parameters.
     kept.sort_unstable();
     fixed.sort_unstable();
     let effect = threshold * largest;
     let in_own_units = |parameter: usize| {
         let mut fixed = relation((&information, effect), &kept, parameter);
         for (other, factor) in &mut fixed.correlated_with {
+            // Factors were found in scaled units (metres at the tip); the report says them in rad and m.
             *factor *= scale(&parameters[parameter], reach_m) / scale(&parameters[*other], reach_m);
         }
         fixed
@@ -99,6 +103,8 @@ fn scaled_information(problem: &Problem<'_>) -> (DMatrix<f64>, f64) {
     let components = problem.component_count().max(1) as f64;
     for (row, of_row) in parameters.iter().enumerate() {
         for (column, of_column) in parameters.iter().enumerate() {
+            // J^T J / components, so that the singular values do not grow with the number of measurements and one
+            // threshold suits all files.
             information[(row, column)] /= components * scale(of_row, reach_m) * scale(of_column, reach_m);
         }
     }
@@ -115,6 +121,8 @@ fn singular_values(information: &DMatrix<f64>) -> Vec<f64> {
         return Vec::new();
     }
     let eigenvalues = SymmetricEigen::new(information.clone()).eigenvalues;
+    // Eigenvalues of J^T J are squares of the singular values of J; forming the product loses half of the digits,
+    // and thresholds are far above 1e-8.
     let mut values: Vec<f64> = eigenvalues.iter().map(|value| value.max(0.0).sqrt()).collect();
     values.sort_by(|a, b| b.total_cmp(a));
     values
@@ -128,20 +136,25 @@ fn relation(
 ) -> FixedParameter {
     let effect_squared = information[(parameter, parameter)];
     let nothing = FixedParameter { parameter, correlated_with: Vec::new(), unexplained_share: 1.0 };
+    // A column this small is noise for the threshold: a relation fitted to it would be one of rounding.
     if effect_squared.sqrt() < least_effect || effect_squared <= 0.0 {
         return nothing;
     }
     let Some(cholesky) = select(information, kept).cholesky() else { return nothing };
     let across = information.select_rows(kept).column(parameter).into_owned();
+    // Normal equations of min | J_kept x - j |: both sides are blocks of the information matrix that is known
+    // already.
     let factors = cholesky.solve(&across);
     let explained = factors.dot(&across);
     let largest = factors.amax();
-    let shown = |(&other, &factor): (&usize, &f64)| {
+    let notable = |(&other, &factor): (&usize, &f64)| {
         (factor.abs() > NEGLIGIBLE_SHARE * largest).then_some((other, factor))
     };
     FixedParameter {
         parameter,
-        correlated_with: kept.iter().zip(factors.iter()).filter_map(shown).collect(),
+        correlated_with: kept.iter().zip(factors.iter()).filter_map(notable).collect(),
+        // | j |^2 = explained + unexplained, since the residual of least squares is orthogonal to what it
+        // explains.
         unexplained_share: ((effect_squared - explained).max(0.0) / effect_squared).sqrt(),
     }
 }

@@ -16,7 +16,7 @@ mod profile;
 mod robust;
 mod validate;
 
-pub use estimate::{Fit, fit, fit_with_estimated_noise};
+pub use estimate::{CalibrationFit, fit, fit_with_estimated_noise};
 pub use identify::{FixedParameter, Identification, identify};
 pub use model::{
     CorrectedChain, CorrectionEntry, CorrectionParameter, ParameterUnit, base_pose, dh_entries, joint_axes,

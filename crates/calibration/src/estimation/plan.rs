@@ -1,6 +1,6 @@
 //! Where to measure next: the configurations that would be most informative about the corrections.
 
-use congruent_description::{ChainQ, Elementary as _};
+use congruent_description::ChainQ;
 use congruent_kinematics::Pose;
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
@@ -45,8 +45,11 @@ pub fn most_informative(
     let Some(like) = problem.measurements.first() else { return Vec::new() };
     let noise = noise.floored();
     let mut information =
+        // Without a prior the determinant is zero as long as one correction is not identified, and every gain
+        // would be infinite.
         prior(problem) + problem.normal_equations(corrections, &Weighting { noise, rows: &[] }).information;
     let mut at_corrections = Linearisation::new(problem.chain, corrections);
+    // Linearised at the present estimate once: the information of a candidate does not depend on the others.
     let added: Vec<DMatrix<f64>> = candidates
         .iter()
         .map(|q| {
@@ -62,9 +65,12 @@ pub fn most_informative(
         let Some(before) = information.clone().cholesky().map(|factor| log_volume(&factor)) else { break };
         let gain = |candidate: usize| {
             let after = (&information + &added[candidate]).cholesky()?;
+            // Half of log2 det after minus before: the volume of the uncertainty is det^(-1/2).
             let gain_bits = (log_volume(&after) - before) / std::f64::consts::LN_2;
             Some(Suggestion { candidate, gain_bits })
         };
+        // The most informative configuration repeated may still have the largest gain; a repetition cannot show
+        // whether the model holds elsewhere.
         let is_new = |&candidate: &usize| {
             suggestions
                 .iter()
@@ -73,6 +79,8 @@ pub fn most_informative(
         let best = (0..candidates.len()).filter(is_new).filter_map(gain).fold(
             None,
             |best: Option<Suggestion>, next| {
+                // Strictly larger, so that of equal gains the first candidate is taken and the result does not
+                // depend on the order of evaluation.
                 if best.as_ref().is_none_or(|best| next.gain_bits > best.gain_bits) {
                     Some(next)
                 } else {
@@ -128,5 +136,5 @@ fn prior(problem: &Problem<'_>) -> DMatrix<f64> {
 
 /// Half the logarithm of the determinant.
 fn log_volume(factor: &Cholesky<f64, Dyn>) -> f64 {
-    factor.l_dirty().diagonal().iter().map(|entry| entry.logarithm()).sum()
+    factor.l_dirty().diagonal().iter().map(|entry| libm::log(*entry)).sum()
 }

@@ -1,7 +1,7 @@
-//! The cost over the values of one correction, for the plot of a calibration.
+//! The cost as a function of one correction, for the figure of a calibration.
 
 use super::{
-    estimate::Fit,
+    estimate::CalibrationFit,
     problem::{Problem, median_norm},
     robust::{Loss, RobustFit, distance},
 };
@@ -29,7 +29,7 @@ pub struct CostPoint {
 /// If the chain has no correction of this index.
 pub fn cost_curve(
     problem: &Problem<'_>,
-    (plain, robust, loss): (&Fit, &RobustFit, Loss),
+    (plain, robust, loss): (&CalibrationFit, &RobustFit, Loss),
     parameter: usize,
     values: impl Iterator<Item = f64>,
 ) -> Vec<CostPoint> {
@@ -43,6 +43,7 @@ pub fn cost_curve(
         let residuals = problem.residuals(&robust_p);
         let rows = problem.measurements.iter().zip(&residuals);
         let costs = rows.map(|(measurement, residual)| {
+            // `distance` was scaled to one component; the cost of a row with three has three times the squares.
             let stretch = median_norm(measurement.component_count()) / median_norm(1);
             stretch * stretch * loss.cost(distance(measurement, residual, &noise))
         });

@@ -2,12 +2,11 @@
 
 use std::fmt;
 
-use congruent_description::Elementary as _;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    estimate::{Fit, as_f64, weighted_fit},
+    estimate::{CalibrationFit, as_f64, weighted_fit},
     problem::{Measurement, Noise, PoseResidual, Problem, Weighting, median_norm, outlying_norm},
 };
 
@@ -75,7 +74,7 @@ impl Loss {
         let in_k = match self {
             Self::Huber if ratio <= 1.0 => ratio.powi(2),
             Self::Huber => 2.0 * ratio - 1.0,
-            Self::Cauchy => ratio.powi(2).logarithm_of_one_more(),
+            Self::Cauchy => libm::log1p(ratio.powi(2)),
             Self::Tukey => (1.0 - (1.0 - ratio.powi(2)).max(0.0).powi(3)) / 3.0,
         };
         in_k * k * k
@@ -95,7 +94,7 @@ impl Loss {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobustFit {
     /// The estimate; its noise is that of the inliers.
-    pub fit: Fit,
+    pub fit: CalibrationFit,
     /// Weight of each row, in 0 to 1.
     pub weights: Vec<f64>,
     /// The noise that scales the weights: that of the half of the rows which agree best.
@@ -121,13 +120,14 @@ pub fn fit_robustly(
     problem: &Problem<'_>,
     kept: &[usize],
     loss: Loss,
-    (start, known_noise): (&Fit, Option<Noise>),
+    (start, known_noise): (&CalibrationFit, Option<Noise>),
 ) -> RobustFit {
     let mut fit = start_of_agreement(problem, kept, (start, known_noise));
-    let noise_of = |fit: &Fit, factor: f64| {
+    let noise_of = |fit: &CalibrationFit, factor: f64| {
         known_noise.unwrap_or_else(|| median_noise(problem, &fit.residuals, factor)).floored()
     };
     let components = as_f64(problem.component_count());
+    // At least 1: without redundancy the factors below would divide by zero.
     let redundancy = (components - as_f64(kept.len())).max(1.0);
     let scale = noise_of(&fit, 1.0 + 5.0 / redundancy);
     let mut weights = vec![1.0; problem.measurements.len()];
@@ -135,6 +135,8 @@ pub fn fit_robustly(
     for _ in 0..MOST_ROUNDS {
         let rows = problem.measurements.iter().zip(&fit.residuals);
         for (weight, (measurement, residual)) in weights.iter_mut().zip(rows) {
+            // The scale is held during the reweighting: if it followed the residuals, a bounded loss could shrink
+            // it to nothing.
             *weight = loss.weight(distance(measurement, residual, &scale));
         }
         let before = fit.corrections.clone();
@@ -171,21 +173,23 @@ pub(super) fn distance(measurement: &Measurement, residual: &PoseResidual, noise
 fn start_of_agreement(
     problem: &Problem<'_>,
     kept: &[usize],
-    (plain, known_noise): (&Fit, Option<Noise>),
-) -> Fit {
+    (plain, known_noise): (&CalibrationFit, Option<Noise>),
+) -> CalibrationFit {
     let noise_of = |residuals: &[PoseResidual]| {
         known_noise.unwrap_or_else(|| comparable_noise(problem, residuals)).floored()
     };
     let nothing = vec![0.0; plain.corrections.len()];
+    // The nominal model is close to the truth for most arms, and no measured row has moved it.
     let nominal = problem.residuals(&nothing);
     let found = [(plain.corrections.clone(), &plain.residuals), (nothing, &nominal)].map(
-        |(corrections, residuals)| concentrated(problem, kept, (corrections, residuals, noise_of(residuals))),
+        |(corrections, residuals)| concentrated(problem, kept, corrections, residuals, noise_of(residuals)),
     );
-    let size = |fit: &Fit| {
+    let size = |fit: &CalibrationFit| {
         let Noise { position_m, orientation_rad } = comparable_noise(problem, &fit.residuals).floored();
         let count = |of: fn(&Measurement) -> usize| as_f64(problem.measurements.iter().map(of).sum());
-        count(Measurement::position_count) * position_m.logarithm()
-            + count(Measurement::orientation_count) * orientation_rad.logarithm()
+        // The logarithm of the likelihood of normal noise at its maximum: n log sigma, for both kinds together.
+        count(Measurement::position_count) * libm::log(position_m)
+            + count(Measurement::orientation_count) * libm::log(orientation_rad)
     };
     let [from_plain, from_nominal] = found;
     // Of two that agree alike the one from nominal, which moved less.
@@ -197,6 +201,8 @@ fn comparable_noise(problem: &Problem<'_>, residuals: &[PoseResidual]) -> Noise 
     let Noise { position_m, orientation_rad } = median_noise(problem, residuals, 1.0);
     let reach_m = problem.reach_m();
     Noise {
+        // Exact orientations beside noisy positions, as of a simulation, would have weights whose squares are
+        // beyond the digits of a double.
         position_m: position_m.max(LEAST_RATIO * orientation_rad * reach_m),
         orientation_rad: orientation_rad.max(LEAST_RATIO * position_m / reach_m),
     }
@@ -210,8 +216,10 @@ fn comparable_noise(problem: &Problem<'_>, residuals: &[PoseResidual]) -> Noise 
 fn concentrated(
     problem: &Problem<'_>,
     kept: &[usize],
-    (start, residuals, noise): (Vec<f64>, &[PoseResidual], Noise),
-) -> Fit {
+    start: Vec<f64>,
+    residuals: &[PoseResidual],
+    noise: Noise,
+) -> CalibrationFit {
     let rows = problem.measurements.len();
     // Half, and as many more as the corrections need.
     let per_row = (problem.component_count() / rows.max(1)).max(1);
@@ -231,6 +239,8 @@ fn concentrated(
     let mut fit = fit_of(start, &chosen);
     for _ in 0..MOST_ROUNDS {
         let next = nearest_half(&fit.residuals);
+        // Each step lowers the sum of the chosen squares, so the choice cannot return to an earlier one: equal
+        // means converged.
         if next == chosen {
             break;
         }
@@ -261,5 +271,6 @@ fn median_noise(problem: &Problem<'_>, residuals: &[PoseResidual], factor: f64) 
 /// The median, 0 of nothing; of an even number the upper of the two in the middle.
 pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
+    // The upper one: the half that agrees must hold at least half of the rows.
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

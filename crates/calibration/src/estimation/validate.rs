@@ -3,28 +3,29 @@
 use super::{
     identify::identify,
     model::CorrectedChain,
-    problem::{Measurement, PoseResidual, Problem, configurations},
+    problem::{Measurement, PoseResidual, Problem},
 };
+use crate::estimation::configurations;
 
-/// Most folds; fewer configurations are left out one at a time.
+/// Most folds; with fewer configurations each is a fold.
 const MOST_FOLDS: usize = 10;
 
 /// Residuals of held-out rows, which the estimate had not used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldOut {
-    /// Number of folds, each left out once.
+    /// Number of folds, each held out once.
     pub folds: usize,
     /// Root mean square of the distances.
     pub position_m: f64,
     /// Root mean square of the angles.
     pub orientation_rad: f64,
-    /// Residual of each row in the round that left it out.
+    /// Residual of each row with the estimate that did not use it.
     pub residuals: Vec<PoseResidual>,
 }
 
-/// Leaves out each fold once, estimates on the rest and takes the residuals of the fold; configuration i is in
-/// fold i modulo the number of folds, so the result is always the same. Rows that repeat a
-/// configuration are left out with it: otherwise the estimate would have used that configuration.
+/// Holds out each fold once, estimates on the other rows and computes the residuals of the fold. Configuration i is in fold i
+/// modulo the number of folds, so the result is deterministic. Rows that repeat a configuration are in its fold: otherwise the
+/// estimate would have used that configuration.
 ///
 /// `estimate` gives the corrections from a problem and the corrections that it may estimate, which
 /// are identified anew for each round with `threshold`. `None` for fewer than two
@@ -47,9 +48,12 @@ pub fn held_out(
     for fold in 0..folds {
         let rows = measurements.iter().zip(&configuration_of);
         let (held_out, used): (Vec<_>, Vec<_>) =
+            // By configuration, modulo the folds: neighbouring rows of a sweep fall into different folds.
             rows.enumerate().partition(|(_, (_, configuration))| *configuration % folds == fold);
         let used: Vec<Measurement> = used.into_iter().map(|(_, (each, _))| each.clone()).collect();
         let problem = Problem { chain, measurements: &used };
+        // Identified anew on the remaining rows: what only the left-out configurations identify would otherwise
+        // be estimated from noise.
         let corrections = estimate(&problem, &identify(&problem, threshold).kept);
         for (row, (measurement, _)) in held_out {
             residuals[row] = measurement.residual(&chain.base_from_tip(&measurement.q, &corrections));

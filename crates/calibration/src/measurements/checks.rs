@@ -1,13 +1,14 @@
 //! Checks that both formats of measurements share.
 
-use congruent_description::{Diagnostic, Robot};
+use congruent_description::Robot;
+use congruent_input::Diagnostic;
 
-/// Largest joint position or coordinate of the tip, rad and m.
+/// Largest joint position or coordinate of the tip, rad and m. Kind: plausibility.
 const MOST: f64 = 1e6;
 
 /// The fault of a file without measurements.
 pub(super) fn no_rows() -> Diagnostic {
-    Diagnostic::error("measurements::none", "the file holds no measurement").at(0..0)
+    Diagnostic::error("measurements::none", "the file has no measurement").at(0..0)
 }
 
 /// The needed joints whose positions are not given.
@@ -25,7 +26,8 @@ pub(super) fn missing_joints(
     (!missing.is_empty()).then(|| missing.join(", "))
 }
 
-/// Refuses a value, in rad or m, that no robot has and whose square would make all others insignificant.
+/// Refuses a value, in rad or m, that no robot has and whose square would exceed all others by more than the digits of a
+/// double.
 pub(super) fn plausible(value: f64) -> Result<f64, String> {
-    if value.abs() <= MOST { Ok(value) } else { Err(format!("is beyond {MOST:e} rad or m")) }
+    if value.abs() <= MOST { Ok(value) } else { Err(format!("is too large (limit {MOST:e} rad or m)")) }
 }

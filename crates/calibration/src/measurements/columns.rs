@@ -1,41 +1,42 @@
 //! Columns of a table of measurements, by their names.
 
-use congruent_description::{Diagnostic, JointKind, Robot, known_names, units::Unit};
+use congruent_description::{JointKind, Robot};
+use congruent_input::{Diagnostic, known_names, units::Unit};
 
-/// What a column holds.
+/// The quantity in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum MeasuredQuantity {
-    /// A joint's position: a coordinate of the configuration vector.
+    /// A joint's position, by its index in the configuration vector.
     Joint(usize),
-    /// x, y or z of the tip.
+    /// Coordinate x, y or z of the tip in the base.
     Position(usize),
-    /// w, x, y or z of a quaternion.
+    /// Component w, x, y or z of the orientation as a quaternion.
     Quaternion(usize),
-    /// Roll, pitch or yaw.
+    /// Roll, pitch or yaw of the orientation.
     Rpy(usize),
 }
 
-/// A column and how its values become SI.
+/// A column with the conversion of its values to SI.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Column {
+pub(super) struct MeasurementColumn {
     pub(super) quantity: MeasuredQuantity,
-    /// The quantity if its values are in degrees or millimetres; `None` for SI.
-    handy: Option<Unit>,
+    /// The kind of unit if the values are in degrees or millimetres; `None` for SI.
+    engineering_unit: Option<Unit>,
 }
 
-impl Column {
+impl MeasurementColumn {
     /// A value of the column in rad or m.
     pub(super) fn to_si(self, value: f64) -> f64 {
-        self.handy.map_or(value, |unit| unit.convert(value))
+        self.engineering_unit.map_or(value, |unit| unit.convert(value))
     }
 
-    /// The column of a name.
+    /// The column with this name.
     ///
     /// # Errors
-    /// The name is no joint or measured quantity with a fitting unit.
+    /// The name is neither a joint nor a measured quantity, or its unit does not fit.
     pub(super) fn parse(name: &str, robot: &Robot) -> Result<Self, Diagnostic> {
         if let Some(at) = ["qw", "qx", "qy", "qz"].iter().position(|known| *known == name) {
-            return Ok(Self { quantity: MeasuredQuantity::Quaternion(at), handy: None });
+            return Ok(Self { quantity: MeasuredQuantity::Quaternion(at), engineering_unit: None });
         }
         let split = [
             ("_rad", Unit::Angle, false),
@@ -44,9 +45,11 @@ impl Column {
             ("_m", Unit::Length, false),
         ]
         .into_iter()
-        .find_map(|(suffix, unit, is_handy)| Some((name.strip_suffix(suffix)?, unit, is_handy)));
-        let Some((stem, unit, is_handy)) = split else { return Err(without_unit(name, robot)) };
-        let handy = is_handy.then_some(unit);
+        .find_map(|(suffix, unit, is_engineering_unit)| {
+            Some((name.strip_suffix(suffix)?, unit, is_engineering_unit))
+        });
+        let Some((stem, unit, is_engineering_unit)) = split else { return Err(without_unit(name, robot)) };
+        let engineering_unit = is_engineering_unit.then_some(unit);
         let joint = robot.find_joint(stem).and_then(|joint| Some((joint, robot.coordinate(joint)?)));
         let measured = match unit {
             Unit::Length => {
@@ -59,19 +62,19 @@ impl Column {
             }
         };
         if let Some(quantity) = measured {
-            return Ok(Self { quantity, handy });
+            return Ok(Self { quantity, engineering_unit });
         }
         let Some((joint, coordinate)) = joint else { return Err(unknown(name, stem, robot)) };
         let expected =
             if robot.joint(joint).kind == JointKind::Prismatic { Unit::Length } else { Unit::Angle };
         let fits = matches!((expected, unit), (Unit::Length, Unit::Length) | (Unit::Angle, Unit::Angle));
         if !fits {
-            let [plain, handy] = expected.keys(stem);
+            let [plain, engineering_unit] = expected.keys(stem);
             let message = format!("column \"{name}\" has the wrong unit for its joint");
             return Err(Diagnostic::error("measurements::unit", message)
-                .with_help(format!("write {plain} or {handy}")));
+                .with_help(format!("write {plain} or {engineering_unit}")));
         }
-        Ok(Self { quantity: MeasuredQuantity::Joint(coordinate), handy })
+        Ok(Self { quantity: MeasuredQuantity::Joint(coordinate), engineering_unit })
     }
 }
 
@@ -81,20 +84,20 @@ fn without_unit(name: &str, robot: &Robot) -> Diagnostic {
     if !is_known {
         return unknown(name, name, robot);
     }
-    Diagnostic::error("measurements::unit", format!("column \"{name}\" does not say its unit"))
-        .with_help("units are in the names: _rad or _deg for an angle, _m or _mm for a length")
+    Diagnostic::error("measurements::unit", format!("column \"{name}\" has no unit in its name"))
+        .with_help("add _rad or _deg for an angle, _m or _mm for a length")
 }
 
 fn unknown(name: &str, stem: &str, robot: &Robot) -> Diagnostic {
     if name.contains([';', '\t']) {
-        let message = format!("column \"{name}\" holds a semicolon or a tab");
+        let message = format!("column name \"{name}\" contains a semicolon or a tab");
         return Diagnostic::error("measurements::unknown_column", message)
-            .with_help("columns are divided by commas, and decimals are written with a point");
+            .with_help("separate columns with commas, and write decimals with a point");
     }
     let joints: Vec<&str> = robot.movable_joint_names().collect();
     let known = joints.into_iter().chain(["x", "y", "z", "qw", "qx", "qy", "qz", "roll", "pitch", "yaw"]);
     let message =
-        format!("column \"{name}\" is no joint of robot \"{}\" and no measured quantity", robot.name());
+        format!("column \"{name}\" is neither a joint of robot \"{}\" nor a measured quantity", robot.name());
     Diagnostic::error("measurements::unknown_column", message).with_help(known_names(
         stem,
         "columns (with _rad, _deg, _m or _mm)",

@@ -3,19 +3,20 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use congruent_description::{Diagnostic, LineCounter, Robot, RobotQ};
+use congruent_description::{Robot, RobotQ};
+use congruent_input::{Diagnostic, Findings, LineCounter};
 use csv::{ByteRecord, ReaderBuilder};
 
 use super::{
     checks::{missing_joints, no_rows, plausible},
-    columns::{Column, MeasuredQuantity},
+    columns::{MeasuredQuantity, MeasurementColumn},
     measured_row::{MeasuredRow, WrittenOrientation},
 };
 
-/// Faults after this many are not listed: one wrong column is a fault of every row, one wrong header of every column.
+/// Most faults that are listed: one wrong column gives a fault in every row, one wrong header in every column.
 const MOST_FAULTS: usize = 20;
 
-/// A record with the places of its cells in the text.
+/// A row of the file with the places of its cells in the text.
 struct Record<'a> {
     line: usize,
     span: Range<usize>,
@@ -23,13 +24,9 @@ struct Record<'a> {
 }
 
 /// Parses a whole file.
-pub(super) fn parse(
-    text: &str,
-    robot: &Robot,
-    needed: &[usize],
-) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
+pub(super) fn parse(text: &str, robot: &Robot, needed: &[usize]) -> Result<Vec<MeasuredRow>, Findings> {
     let mut records = records(text)?.into_iter();
-    let header = records.next().ok_or_else(|| vec![no_rows()])?;
+    let header = records.next().ok_or_else(no_rows)?;
     let columns = columns(&header, robot, needed)?;
     let (mut rows, mut faults) = (Vec::new(), Vec::new());
     for record in records {
@@ -37,14 +34,15 @@ pub(super) fn parse(
             Ok(row) => rows.push(row),
             Err(fault) => faults.push(fault),
         }
+        // More of the same would hide the first message.
         if faults.len() >= MOST_FAULTS {
             break;
         }
     }
-    if faults.is_empty() { Ok(rows) } else { Err(faults) }
+    if faults.is_empty() { Ok(rows) } else { Err(faults.into()) }
 }
 
-fn records(text: &str) -> Result<Vec<Record<'_>>, Vec<Diagnostic>> {
+fn records(text: &str) -> Result<Vec<Record<'_>>, Findings> {
     let mut reader = ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -57,7 +55,7 @@ fn records(text: &str) -> Result<Vec<Record<'_>>, Vec<Diagnostic>> {
                 records.push(cells(text, &record, offset(reader.position().byte()), &mut lines));
             }
             Ok(false) => return Ok(records),
-            Err(fault) => return Err(vec![Diagnostic::error("measurements::csv", fault.to_string())]),
+            Err(fault) => return Err(Diagnostic::error("measurements::csv", fault.to_string()).into()),
         }
     }
 }
@@ -94,22 +92,22 @@ fn cells<'a>(text: &'a str, record: &ByteRecord, end: usize, lines: &mut LineCou
     Record { line: lines.line_column(start).0, span, cells }
 }
 
-/// What to do about two columns of one quantity. Of a gantry they may be a joint and a coordinate.
+/// The help for two columns of one quantity. For a gantry they may be a joint and a coordinate.
 fn repeated_help(robot: &Robot, column: &str) -> String {
     match column.rsplit_once('_') {
         Some((stem, _)) if robot.find_joint(stem).is_some() && ["x", "y", "z"].contains(&stem) => format!(
-            "\"{stem}\" is a joint of the robot and a coordinate of what was measured, which a table cannot tell apart: \
-             write the rows as JSON, where the joints are in \"q\""
+            "\"{stem}\" is both a joint of the robot and a measured coordinate, so a table is ambiguous: write the rows as \
+             JSON, where the joints are in \"q\""
         ),
-        _ => "leave one of them out".to_owned(),
+        _ => "remove one of them".to_owned(),
     }
 }
 
-fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<Column>, Vec<Diagnostic>> {
+fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<MeasurementColumn>, Findings> {
     let (mut columns, mut faults) = (Vec::new(), Vec::new());
     let mut places: BTreeMap<MeasuredQuantity, usize> = BTreeMap::new();
     for (at, (name, span)) in header.cells.iter().enumerate() {
-        match Column::parse(name, robot) {
+        match MeasurementColumn::parse(name, robot) {
             Ok(column) => {
                 if let Some(first) = places.insert(column.quantity, at) {
                     let message = format!("columns {} and {} give the same quantity", first + 1, at + 1);
@@ -125,7 +123,7 @@ fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<C
         }
     }
     if !faults.is_empty() {
-        return Err(faults);
+        return Err(faults.into());
     }
     let has = |quantity| places.contains_key(&quantity);
     if let Some(missing) =
@@ -151,8 +149,8 @@ fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<C
     }
     if ![0, 4].contains(&quaternion) || ![0, 3].contains(&rpy) || (quaternion > 0 && rpy > 0) {
         faults.push(
-            Diagnostic::error("measurements::orientation", "the orientation is not complete or given twice")
-                .with_help("give qw, qx, qy, qz, or roll, pitch, yaw, or neither"),
+            Diagnostic::error("measurements::orientation", "the orientation is incomplete or given twice")
+                .with_help("give all of qw, qx, qy, qz, or all of roll, pitch, yaw, or none of them"),
         );
     }
     let placed = |fault: Diagnostic| fault.at(header.span.clone());
@@ -162,12 +160,12 @@ fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<C
 fn row(
     record: &Record<'_>,
     header: &Record<'_>,
-    columns: &[Column],
+    columns: &[MeasurementColumn],
     robot: &Robot,
 ) -> Result<MeasuredRow, Diagnostic> {
     if record.cells.len() != columns.len() {
         let message =
-            format!("line {}: {} cells for {} columns", record.line, record.cells.len(), columns.len());
+            format!("line {} has {} cells, the header {}", record.line, record.cells.len(), columns.len());
         return Err(Diagnostic::error("measurements::cells", message).at(record.span.clone()));
     }
     let mut row = MeasuredRow {
@@ -188,7 +186,8 @@ fn row(
         match column.quantity {
             MeasuredQuantity::Joint(coordinate) => {
                 row.q[coordinate] = value.ok_or_else(|| {
-                    let message = format!("line {}, column \"{name}\": no position", record.line);
+                    let message =
+                        format!("line {}, column \"{name}\": the joint position is missing", record.line);
                     Diagnostic::error("measurements::empty_cell", message).at(record.span.clone())
                 })?;
             }
@@ -197,6 +196,7 @@ fn row(
             MeasuredQuantity::Rpy(at) => rpy[at] = value,
         }
     }
+    // Mimic joints need no column: they follow from their masters.
     robot.apply_mimic(&mut row.q);
     let fault = |message: String| {
         Diagnostic::error("measurements::orientation", format!("line {}: {message}", record.line))
@@ -209,7 +209,7 @@ fn row(
         (None, Some(Ok(rpy))) => Some(WrittenOrientation::RpyRad(rpy)),
         (None, None) => None,
         (Some(Err(())), _) | (None, Some(Err(()))) => {
-            return Err(fault("the orientation is not complete".to_owned()));
+            return Err(fault("the orientation is incomplete".to_owned()));
         }
     };
     Ok(row)
@@ -231,7 +231,7 @@ fn finite(cell: &str, span: &Range<usize>, (name, line): (&str, usize)) -> Resul
     match cell.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(Some(value)),
         _ => {
-            let message = format!("line {line}, column \"{name}\": \"{cell}\" is no finite number");
+            let message = format!("line {line}, column \"{name}\": \"{cell}\" is not a finite number");
             Err(Diagnostic::error("measurements::number", message).at(span.clone()))
         }
     }

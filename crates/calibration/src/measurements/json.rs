@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{
-    Diagnostic, JsonList, LineCounter, Robot, configuration, unique_names, units::Unit,
-};
+use congruent_description::{JsonList, Robot, configuration, unique_names};
+use congruent_input::{Diagnostic, Findings, LineCounter, units::Unit};
 use serde::Deserialize;
 
 use super::{
@@ -19,7 +18,7 @@ const LIST: JsonList = JsonList {
     help: r#"expected [{"q": {"joint": 0.1}, "translation_m": [0.5, 0, 0.3], "quaternion_wxyz": [1, 0, 0, 0]}]"#,
 };
 
-/// One measurement as written.
+/// One measurement as it is written in the file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WrittenMeasurement {
@@ -33,11 +32,7 @@ struct WrittenMeasurement {
 }
 
 /// Parses a whole file.
-pub(super) fn parse(
-    text: &str,
-    robot: &Robot,
-    needed: &[usize],
-) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
+pub(super) fn parse(text: &str, robot: &Robot, needed: &[usize]) -> Result<Vec<MeasuredRow>, Findings> {
     let mut lines = LineCounter::new(text);
     LIST.read(text, |written: WrittenMeasurement, place| {
         Ok(MeasuredRow { line: lines.line_column(place.start).0, ..row(&written, robot, needed)? })
@@ -56,7 +51,7 @@ fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<
         (Some(_), Some(_)) => {
             return Err(Diagnostic::error(
                 "measurements::repeated",
-                "translation_m and translation_mm are both given",
+                "both translation_m and translation_mm are given",
             ));
         }
         (Some(metres), None) => metres.clone(),
@@ -64,7 +59,7 @@ fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<
         (None, None) => Vec::new(),
     };
     if ![0, 2, 3].contains(&translation.len()) {
-        let message = format!("a translation of {} coordinates", translation.len());
+        let message = format!("the translation has {} coordinates, expected 3 or 2", translation.len());
         return Err(Diagnostic::error("measurements::translation", message)
             .with_help("give x, y, z, or x, y for a planar measurement"));
     }
@@ -89,10 +84,13 @@ fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<
         _ => return Err(Diagnostic::error("measurements::orientation", "the orientation is given twice")),
     };
     if translation.is_empty() && orientation.is_none() {
-        return Err(Diagnostic::error("measurements::nothing_measured", "nothing was measured here")
-            .with_help(
-                "add \"translation_m\": [x, y, z], and \"quaternion_wxyz\" if the orientation was measured",
-            ));
+        return Err(Diagnostic::error(
+            "measurements::nothing_measured",
+            "this measurement has neither a position nor an orientation",
+        )
+        .with_help(
+            "add \"translation_m\": [x, y, z], and \"quaternion_wxyz\" if the orientation was measured",
+        ));
     }
     Ok(MeasuredRow { line: 0, q, tip_in_base_m, orientation })
 }

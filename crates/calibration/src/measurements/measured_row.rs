@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector4};
 /// How far a quaternion's norm may be from 1. Kind: digits of the file; four decimals give 1e-4.
 const NORM_DIGITS: f64 = 1e-3;
 
-/// One measured row.
+/// One measured row: joint positions, and the position or orientation of the tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredRow {
     /// Line in the file, from 1.
@@ -34,12 +34,12 @@ impl WrittenOrientation {
     pub(super) fn from_quaternion_wxyz(quaternion: [f64; 4]) -> Result<Self, String> {
         let norm = Quaternion::from(Vector4::from(quaternion)).norm();
         if (norm - 1.0).abs() > NORM_DIGITS {
-            return Err(format!("quaternion of norm {norm:.6}, a rotation has norm 1"));
+            return Err(format!("the quaternion has norm {norm:.6}, expected 1 within {NORM_DIGITS}"));
         }
         Ok(Self::QuaternionWxyz(quaternion))
     }
 
-    /// The rotation.
+    /// The rotation from the measured frame to link `base`.
     pub fn base_from_tip(&self) -> Matrix3<f64> {
         match *self {
             Self::QuaternionWxyz([w, x, y, z]) => {

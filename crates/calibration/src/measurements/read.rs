@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use congruent_description::{Diagnostic, Robot, read_text};
+use congruent_description::Robot;
+use congruent_input::{Findings, read_text};
 
 use super::{checks::no_rows, csv, json, measured_row::MeasuredRow};
 
@@ -21,17 +22,13 @@ const MOST_BYTES: u64 = 64 << 20;
 ///
 /// # Errors
 /// Every fault that was found, with its line and column.
-pub fn read_measurements(
-    path: &Path,
-    robot: &Robot,
-    needed: &[usize],
-) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
-    let source = read_text(path, MOST_BYTES).map_err(|fault| vec![fault])?;
+pub fn read_measurements(path: &Path, robot: &Robot, needed: &[usize]) -> Result<Vec<MeasuredRow>, Findings> {
+    let source = read_text(path, MOST_BYTES)?;
     let rows = if source.text.trim_start().starts_with(['[', '{']) {
         json::parse(&source.text, robot, needed)
     } else {
         csv::parse(&source.text, robot, needed)
     };
-    let rows = rows.and_then(|rows| if rows.is_empty() { Err(vec![no_rows()]) } else { Ok(rows) });
+    let rows = rows.and_then(|rows| if rows.is_empty() { Err(no_rows().into()) } else { Ok(rows) });
     rows.map_err(|faults| faults.into_iter().map(|fault| fault.in_file(&source)).collect())
 }

@@ -1,6 +1,7 @@
-//! From computed values to the report.
+//! Assembles the report from the results of a calibration.
 
-use congruent_description::{DhRowKind, Finding, JointValues, RowKey, line_column};
+use congruent_description::{DhRowKind, JointValues, RowKey};
+use congruent_input::{Finding, line_column};
 
 use super::{
     calibration_report::{
@@ -15,18 +16,18 @@ use super::{
 use crate::{
     computed::Computed,
     estimation::{
-        CorrectionEntry, CorrectionParameter, Fit, FixedParameter, Measurement, Noise, ParameterUnit,
-        PoseResidual, Problem, Suggestion, cost_curve,
+        CalibrationFit, CorrectionEntry, CorrectionParameter, FixedParameter, Measurement, Noise,
+        ParameterUnit, PoseResidual, Problem, Suggestion, cost_curve,
     },
     measurements::MeasuredRow,
 };
 
-/// A correction of fewer standard deviations is not significant: 95 % of normal noise.
+/// A correction below this many standard deviations is not significant. No unit; kind: choice, 95 % of normal noise.
 const SIGNIFICANT_SIGMAS: f64 = 2.0;
-/// How many standard deviations of chi-squared the residuals may exceed a stated noise by.
+/// Number of standard deviations of chi-squared by which the residuals may exceed a stated noise. No unit; kind: choice.
 const NOISE_EXCESS_SIGMAS: f64 = 4.0;
 
-/// The whole report.
+/// The report of a calibration, with verdict, estimates, residuals and sentences.
 pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let robot = &computed.description.robot;
     let tip = &robot.link(computed.description.tip).name;
@@ -90,14 +91,14 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     report
 }
 
-/// The length of the arm that would change by too much, with its correction.
+/// The length whose correction is too large for an assembly error, with its correction, m.
 fn largest<'a>(
     computed: &Computed<'_>,
     estimates: &'a [EstimatedCorrection],
 ) -> Option<(&'a EstimatedCorrection, f64)> {
     let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
     let corrections = &computed.best().corrections;
-    let at = ReachScale::of(&problem).too_large(&computed.chain, corrections)?;
+    let at = ReachScale::for_problem(&problem).too_large(&computed.chain, corrections)?;
     let estimate = computed.identification.kept.iter().position(|&kept| kept == at)?;
     Some((&estimates[estimate], corrections[at]))
 }
@@ -131,7 +132,7 @@ fn angle(residual: &PoseResidual) -> f64 {
     residual.orientation_rad.norm()
 }
 
-fn fit_summary(computed: &Computed<'_>, fit: &Fit) -> FitSummary {
+fn fit_summary(computed: &Computed<'_>, fit: &CalibrationFit) -> FitSummary {
     let Noise { position_m, orientation_rad } = fit.noise;
     let is_known = computed.redundancy > 0 || computed.options.noise.is_some();
     let known = |noise: f64| if is_known { noise } else { f64::NAN };
@@ -160,10 +161,10 @@ fn held_out(computed: &Computed<'_>, nominal: &[PoseResidual]) -> Option<HeldOut
     })
 }
 
-/// Residual of the inliers with the corrections, held out if some could be; and with the nominal model.
+/// Residual of the inliers with the corrections (held out if possible) and with the nominal model.
 fn residual_sizes(computed: &Computed<'_>, nominal: &[PoseResidual]) -> (ResidualSize, ResidualSize) {
     let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
-    let reach_scale = ReachScale::of(&problem);
+    let reach_scale = ReachScale::for_problem(&problem);
     let held_out = computed.held_out.as_ref().map(|held_out| &held_out.residuals);
     let residuals = held_out.unwrap_or(&computed.best().residuals);
     let size = |residuals: &[PoseResidual]| reach_scale.residual_size(residuals, &computed.outlier_rows);
@@ -178,7 +179,8 @@ fn reinterpreted(
     residual: &ResidualSize,
 ) -> (CalibrationVerdict, Option<LikelyReason>) {
     let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
-    let size = ReachScale::of(&problem).correction_size(&computed.chain, &computed.best().corrections);
+    let size =
+        ReachScale::for_problem(&problem).correction_size(&computed.chain, &computed.best().corrections);
     let misfit = match verdict {
         CalibrationVerdict::Unexplained => Misfit::Residual(residual.share()),
         CalibrationVerdict::Explained
@@ -191,7 +193,9 @@ fn reinterpreted(
         _ => return (verdict, None),
     };
     let is_too_large = verdict != CalibrationVerdict::Unexplained
-        && ReachScale::of(&problem).too_large(&computed.chain, &computed.best().corrections).is_some();
+        && ReachScale::for_problem(&problem)
+            .too_large(&computed.chain, &computed.best().corrections)
+            .is_some();
     match interpretation::likely_reason(&computed.nominal, computed.rows, computed.options, misfit) {
         Some(reason) if verdict != CalibrationVerdict::Unexplained => {
             (CalibrationVerdict::Misinterpreted, Some(reason))
@@ -214,6 +218,8 @@ fn explanation(
     if corrected.explains_nothing(nominal) && !is_noise {
         return CalibrationVerdict::Unexplained;
     }
+    // After the check for large residuals: a misfit can be seen without redundancy, a good fit cannot be trusted
+    // without it.
     if computed.redundancy == 0 || held_out.is_none() {
         return CalibrationVerdict::Unverifiable;
     }
@@ -224,6 +230,7 @@ fn explanation(
         return CalibrationVerdict::NoiseExceeded;
     }
     let Noise { position_m, orientation_rad } = computed.least_squares.noise;
+    // Positions and angles are made comparable by their noise, as in the cost.
     let size = |m: f64, rad: f64| (m / position_m).powi(2) + (rad / orientation_rad).powi(2);
     match held_out {
         Some(error)
@@ -235,7 +242,7 @@ fn explanation(
     }
 }
 
-/// Chi-squared of least squares against its degrees of freedom.
+/// Whether chi-squared of the residuals exceeds its degrees of freedom by more than the stated noise allows.
 fn exceeds_noise(computed: &Computed<'_>) -> bool {
     let Noise { position_m, orientation_rad } = computed.least_squares.noise;
     let residuals = summary(&computed.least_squares.residuals);
@@ -251,6 +258,7 @@ fn estimates(computed: &Computed<'_>) -> Vec<EstimatedCorrection> {
     let (plain, robust) = (&computed.least_squares, &computed.robust.fit);
     let estimate = |&at: &usize| {
         let parameter = &computed.chain.parameters()[at];
+        // NaN deviations compare as false: without a known noise nothing is significant.
         let significant = best.corrections[at].abs() > SIGNIFICANT_SIGMAS * best.standard_deviations[at];
         EstimatedCorrection {
             name: parameter.name.clone(),
@@ -266,8 +274,8 @@ fn estimates(computed: &Computed<'_>) -> Vec<EstimatedCorrection> {
     computed.identification.kept.iter().map(estimate).collect()
 }
 
-/// The entry of the table that a correction changes, if it changes one alone: table entries do, and
-/// zeros, by the row's sign.
+/// The table entry that a correction changes, if it changes exactly one: table entries do, and joint zeros, with the sign of
+/// the row.
 fn in_table(
     computed: &Computed<'_>,
     parameter: &CorrectionParameter,
@@ -275,6 +283,8 @@ fn in_table(
 ) -> Option<CorrectedTableEntry> {
     let (table, _) = computed.nominal.table.as_ref()?;
     let row = &table.rows[parameter.joint?];
+    // A zero is corrected in the direction of the joint, which the sign of the row may reverse; table entries
+    // have no sign.
     let sign = if parameter.entry == CorrectionEntry::Zero { row.sign } else { 1.0 };
     let (entry, nominal) = match (parameter.entry, row.kind) {
         (CorrectionEntry::Zero | CorrectionEntry::JointEntry, DhRowKind::Revolute)
@@ -333,8 +343,8 @@ fn rows(computed: &Computed<'_>, nominal: &[PoseResidual]) -> Vec<RowResidual> {
     computed.rows.iter().enumerate().map(row).collect()
 }
 
-/// The cost over the most significant correction, from a few deviations below to a few above
-/// both estimates and nominal.
+/// The cost as a function of the most significant correction, over a range that contains nominal and both estimates with a
+/// margin.
 fn curve(computed: &Computed<'_>) -> Option<CostCurve> {
     const MARGIN_SIGMAS: f64 = 2.5;
     const STEPS: u32 = 160;
@@ -342,6 +352,7 @@ fn curve(computed: &Computed<'_>) -> Option<CostCurve> {
     let significance = |at: usize| best.corrections[at].abs() / best.standard_deviations[at];
     let kept = computed.identification.kept.iter().enumerate();
     let (index, &parameter) =
+        // Of equal significance the first correction, so that the figure does not depend on rounding.
         kept.max_by(|a, b| significance(*a.1).total_cmp(&significance(*b.1)).then(b.0.cmp(&a.0)))?;
     let (plain, robust) = (&computed.least_squares, &computed.robust);
     let marked = [0.0, plain.corrections[parameter], robust.fit.corrections[parameter]];
@@ -363,7 +374,7 @@ fn curve(computed: &Computed<'_>) -> Option<CostCurve> {
 fn next(computed: &Computed<'_>) -> Vec<SuggestedConfiguration> {
     let names: Vec<String> = computed.nominal.joint_names().into_iter().map(str::to_owned).collect();
     let pose = |suggestion: &Suggestion| {
-        let q = computed.nominal.of_configuration(&computed.candidates[suggestion.candidate]);
+        let q = computed.nominal.chain_positions(&computed.candidates[suggestion.candidate]);
         SuggestedConfiguration { q: JointValues::new(&names, &q), gain_bits: suggestion.gain_bits }
     };
     computed.next.iter().map(pose).collect()

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{Finding, JointValues, ReportedChain};
+use congruent_description::{JointValues, ReportedChain};
+use congruent_input::Finding;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -26,20 +27,20 @@ pub struct CalibrationReport {
     /// Degrees of freedom to verify the corrections by: measured components on which an estimated correction
     /// has an effect, each configuration once, less the number of these corrections.
     pub redundancy: usize,
-    /// Whether the measurements are explained, in one word.
+    /// Whether the corrections explain the measurements, as one word.
     pub verdict: CalibrationVerdict,
     /// Another interpretation of the file that would explain the measurements, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub likely_reason: Option<LikelyReason>,
     /// Which estimate to use.
     pub recommended: Recommendation,
-    /// The same in sentences.
+    /// Verdict, insignificant and fixed corrections, and convergence, as sentences.
     pub statements: Vec<String>,
-    /// The estimated corrections.
+    /// The estimated corrections, each with both estimates.
     pub parameters: Vec<EstimatedCorrection>,
     /// The corrections that are fixed (held at nominal) since the measurements do not identify them.
     pub fixed: Vec<ReportedFixedParameter>,
-    /// The singular values by which that was decided.
+    /// The singular values by which corrections are identified or fixed.
     pub identifiability: Identifiability,
     /// Residuals of the nominal model.
     pub nominal: ResidualSummary,
@@ -53,12 +54,12 @@ pub struct CalibrationReport {
     pub held_out: Option<HeldOutSummary>,
     /// Outliers: rows that the recommended estimate does not fit.
     pub outliers: Vec<RowResidual>,
-    /// Every row.
+    /// Residuals of every measured row.
     pub row_residuals: Vec<RowResidual>,
     /// Covariance of the estimated corrections by least squares, in their order; `null` if it is not known.
     #[schemars(with = "Vec<Vec<Option<f64>>>")]
     pub covariance: Vec<Vec<f64>>,
-    /// The cost over the most significant correction; `null` if none is estimated.
+    /// The cost as a function of the most significant correction; `null` if none is estimated.
     pub cost_curve: Option<CostCurve>,
     /// The most informative configurations to measure next, the best first.
     pub next: Vec<SuggestedConfiguration>,
@@ -71,18 +72,18 @@ pub struct CalibrationReport {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CalibratedModel {
-    /// The declared table.
+    /// The DH table of the robot file.
     Dh,
     /// The chain of the URDF.
     Urdf,
 }
 
-/// The cost over one correction, the others as estimated.
+/// The cost as a function of one correction, the others as estimated.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CostCurve {
     /// Index of the correction among `parameters`.
     pub parameter: usize,
-    /// Values of it, rad or m.
+    /// Values of the correction, rad or m.
     pub values: Vec<f64>,
     /// Squared residuals; those of orientations weighted by the noise.
     pub least_squares_m2: Vec<f64>,
@@ -104,11 +105,11 @@ pub enum CalibrationVerdict {
     NoImprovement,
     /// The residuals are too large for measurement noise, or large and hardly less than without corrections.
     Unexplained,
-    /// The corrections explain the measurements only by being as large as the arm, and another interpretation
-    /// of the file does so with small ones.
+    /// The corrections explain the measurements only with values as large as the arm, but another interpretation of the file does
+    /// so with small ones.
     Misinterpreted,
-    /// The corrections explain the measurements only by a length beyond a tenth of the reach, which is no correction of
-    /// an arm; base and tool may be anywhere.
+    /// The corrections explain the measurements only with a length error above a tenth of the reach, too large for an assembly
+    /// error; base and tool may be anywhere.
     TooLarge,
     /// There is no redundancy, or all rows are at one configuration: the estimate cannot be verified.
     Unverifiable,
@@ -119,11 +120,11 @@ pub enum CalibrationVerdict {
 /// Another interpretation of the measurements under which the same corrections explain them.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LikelyReason {
-    /// A clause that follows "if".
+    /// The interpretation, as a clause after "if".
     pub condition: String,
-    /// Root mean square distance under it.
+    /// Root mean square distance under this interpretation, m.
     pub rms_m: f64,
-    /// Root mean square angle under it.
+    /// Root mean square angle under this interpretation, rad.
     pub rms_rad: f64,
 }
 
@@ -131,29 +132,29 @@ pub struct LikelyReason {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Recommendation {
-    /// The nominal model.
+    /// The nominal model, without corrections.
     Nominal,
-    /// Least squares.
+    /// The least-squares estimate.
     LeastSquares,
-    /// The robust estimate.
+    /// The robust estimate, which has outliers.
     Robust,
 }
 
-/// One estimated correction.
+/// One estimated correction, by least squares and by the robust loss.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct EstimatedCorrection {
     /// `<joint>.<entry>`, `base.<axis>` or `tool.<axis>`.
     pub name: String,
     /// Unit of the values.
     pub unit: ParameterUnit,
-    /// By least squares.
+    /// Estimate by least squares, in `unit`.
     pub correction: f64,
     /// Its standard deviation; `null` if the noise is not known and cannot be estimated.
     #[schemars(with = "Option<f64>")]
     pub standard_deviation: f64,
-    /// By the robust loss.
+    /// Estimate by the robust loss, in `unit`.
     pub robust_correction: f64,
-    /// Its standard deviation; likewise.
+    /// Its standard deviation; `null` as above.
     #[schemars(with = "Option<f64>")]
     pub robust_standard_deviation: f64,
     /// Whether the recommended correction is more than two of its standard deviations from zero.
@@ -168,9 +169,9 @@ pub struct EstimatedCorrection {
 pub struct CorrectedTableEntry {
     /// Which entry of the row.
     pub entry: RowEntry,
-    /// Its value in the robot file.
+    /// Its value in the robot file, rad or m.
     pub nominal: f64,
-    /// Its corrected value.
+    /// Its corrected value, rad or m.
     pub corrected: f64,
     /// Its line in the robot file; that of its row if the file leaves it out.
     pub line: usize,
@@ -180,32 +181,32 @@ pub struct CorrectedTableEntry {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RowEntry {
-    /// Joint angle.
+    /// Joint angle `theta`, rad.
     Theta,
-    /// Link offset.
+    /// Link offset `d`, m.
     D,
-    /// Link length.
+    /// Link length `a`, m.
     A,
-    /// Link twist.
+    /// Link twist `alpha`, rad.
     Alpha,
 }
 
 /// A correction that is fixed (held at nominal).
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedFixedParameter {
-    /// Its name.
+    /// Name of the correction.
     pub name: String,
     /// The estimated corrections that together have nearly the effect of one unit of it, with their values;
     /// empty if it has no effect.
     pub correlated_with: BTreeMap<String, f64>,
-    /// In words.
+    /// Why it is fixed, as a sentence.
     pub reason: String,
 }
 
 /// The singular values that decide which corrections are identified.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Identifiability {
-    /// Smallest admitted ratio of singular values.
+    /// Smallest admitted ratio of singular values: corrections below it are fixed.
     pub threshold: f64,
     /// Of all free corrections, scaled to metres, the largest first.
     pub singular_values: Vec<f64>,
@@ -220,27 +221,27 @@ pub struct ResidualSummary {
     pub cost_m2: f64,
     /// Sum of squared orientation residuals.
     pub cost_rad2: f64,
-    /// Root mean square distance.
+    /// Root mean square distance over the rows, m.
     pub rms_m: f64,
-    /// Root mean square angle.
+    /// Root mean square angle over the rows, rad.
     pub rms_rad: f64,
-    /// Largest distance.
+    /// Largest distance of a row, m.
     pub worst_m: f64,
-    /// Largest angle.
+    /// Largest angle of a row, rad.
     pub worst_rad: f64,
 }
 
-/// An estimate as a whole.
+/// Residuals, noise and convergence of one estimate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct FitSummary {
-    /// Its residuals.
+    /// Residuals with this estimate.
     #[serde(flatten)]
     pub residuals: ResidualSummary,
     /// Noise of one coordinate of a position, estimated from the residuals or as stated; `null` if it is not
     /// known.
     #[schemars(with = "Option<f64>")]
     pub noise_m: f64,
-    /// Noise of one component of an orientation; likewise.
+    /// Noise of one component of an orientation, rad; `null` as above.
     #[schemars(with = "Option<f64>")]
     pub noise_rad: f64,
     /// Whether the iteration ended below rounding.
@@ -252,11 +253,11 @@ pub struct FitSummary {
 /// Residuals of held-out rows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct HeldOutSummary {
-    /// Number of folds, each left out once.
+    /// Number of folds, each held out once.
     pub folds: usize,
-    /// Root mean square distance, outliers of a robust estimate not counted.
+    /// Root mean square distance without the outliers of a robust estimate, m.
     pub rms_m: f64,
-    /// Root mean square angle, likewise.
+    /// Root mean square angle without the outliers of a robust estimate, rad.
     pub rms_rad: f64,
     /// Root mean square distance with the nominal model on the same rows.
     pub nominal_rms_m: f64,

@@ -1,5 +1,5 @@
-//! Other interpretations of a file of measurements: common errors of units, order and frame, each tried
-//! if the free corrections explain nothing.
+//! Other interpretations of a file of measurements: common mistakes with units, order and frames, each tried if the free
+//! corrections do not explain the measurements.
 
 use std::f64::consts::PI;
 
@@ -36,16 +36,16 @@ const SOME_ROWS: usize = 60;
 /// A row interpreted differently; `None` if the interpretation does not apply to it.
 type Reinterpret<'a> = Box<dyn Fn(&MeasuredRow) -> Option<MeasuredRow> + 'a>;
 
-/// One way in which the file may be meant.
+/// One other interpretation of the file.
 struct Interpretation<'a> {
-    /// A clause that follows "if".
+    /// The interpretation, as a clause after "if".
     condition: String,
     reinterpret: Reinterpret<'a>,
-    /// Groups of corrections that are free besides those of the options.
+    /// Groups of corrections that are free in addition to those of the options.
     free: &'static [&'static str],
 }
 
-/// Why the file is probably meant differently.
+/// Why the file probably needs another interpretation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Misfit {
     /// The residual is this large, as a share of the reach or as an angle.
@@ -59,7 +59,7 @@ pub(super) enum Misfit {
 struct InterpretedFit {
     residual: ResidualSize,
     correction_size: f64,
-    /// Whether a frame is free besides: a joint's zero may be a rotation as large as that of the frame.
+    /// Whether a frame is free in addition: then a joint's zero may be as large as the rotation of the frame.
     is_of_a_frame: bool,
 }
 
@@ -90,6 +90,8 @@ pub(super) fn likely_reason(
     for interpretation in interpretations(nominal) {
         let fit = interpreted_fit(nominal, rows, options, &interpretation);
         let Some(fit) = fit.filter(|fit| misfit.is_resolved_by(fit)) else { continue };
+        // Later interpretations have more free corrections, which always reduce the residual a little: they must
+        // be clearly better.
         if best.as_ref().is_none_or(|(_, best)| fit.residual.share() < BETTER * best.share()) {
             best = Some((interpretation.condition, fit.residual));
         }
@@ -114,11 +116,13 @@ fn interpreted_fit(
     let chain = CorrectedChain::new(nominal.chain.clone(), parameters);
     let problem = Problem { chain: &chain, measurements: &measurements };
     let kept = identify(&problem, options.threshold).kept;
+    // Without redundancy every interpretation has a residual of zero.
     if problem.redundancy(&kept) == 0 {
         return None;
     }
-    let reach_scale = ReachScale::of(&problem);
+    let reach_scale = ReachScale::for_problem(&problem);
     // Estimates that explain nothing converge slowly, so the median of some rows decides first.
+    // Spread over the file rather than the first rows, which may be at neighbouring configurations.
     let step = measurements.len().div_ceil(SOME_ROWS);
     let some: Vec<_> = measurements.iter().step_by(step).cloned().collect();
     let alike = Noise { position_m: 1.0, orientation_rad: 1.0 / problem.reach_m() };

@@ -1,4 +1,4 @@
-//! Plot of a calibration as SVG: the cost over the most significant correction, and the residual of each
+//! Figure of a calibration as SVG: the cost as a function of the most significant correction, and the residual of each
 //! measurement.
 
 use plotters::{
@@ -17,17 +17,17 @@ const GRID: RGBColor = RGBColor(228, 228, 228);
 
 /// Width and height in points.
 const SIZE: (u32, u32) = (860, 780);
-/// Everything is drawn this many times larger and shown smaller, since the backend rounds to whole
-/// units and a curve would show the steps.
+/// Everything is drawn this many times larger and displayed smaller: the backend rounds to whole units, which would make
+/// curves stepped.
 const FINE: u32 = 8;
-/// The same as a coordinate.
+/// [`FINE`] as a coordinate.
 const UNIT: i32 = FINE.cast_signed();
 const FONT: &str = "sans-serif";
 const CAPTION: u32 = 19 * FINE;
 const DESCRIPTION: u32 = 15 * FINE;
 const LABEL: u32 = 14 * FINE;
 
-/// Why a plot was not drawn.
+/// The drawing library failed; the message is its own.
 #[derive(Debug, thiserror::Error)]
 #[error("the plot cannot be drawn: {message}")]
 pub struct CalibrationPlotError {
@@ -67,7 +67,7 @@ pub fn svg(report: &CalibrationReport) -> Result<String, CalibrationPlotError> {
     Ok(text.replacen(&fine, &format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1), 1))
 }
 
-/// The cost over one correction, with marks at nominal and at the estimates.
+/// Draws the cost as a function of one correction, with marks at nominal and at the estimates.
 fn cost(
     area: &DrawingArea<SVGBackend<'_>, Shift>,
     report: &CalibrationReport,
@@ -106,7 +106,7 @@ fn cost(
     legend(&mut chart, SeriesLabelPosition::UpperMiddle)
 }
 
-/// Residual of each row, with the nominal model and after each estimate.
+/// Draws the residual of each row with the nominal model and with each estimate.
 fn rows(
     area: &DrawingArea<SVGBackend<'_>, Shift>,
     report: &CalibrationReport,

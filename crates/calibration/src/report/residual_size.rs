@@ -1,11 +1,11 @@
-//! Residuals and corrections against the size of the arm: which are too large for noise.
+//! Residuals and corrections relative to the size of the arm: which are too large for measurement noise.
 
 use crate::estimation::{
     CorrectedChain, CorrectionEntry, CorrectionParameter, ParameterUnit, PoseResidual, Problem,
 };
 
-/// A residual beyond this share of the reach, or as an angle in rad, is no noise of a measurement. Kind:
-/// judgement: a ruler reads to 1 %, a wrong unit, axis or frame gives tens of per cent.
+/// A residual above this share of the reach, or above this angle in rad, is too large for measurement noise. Kind: judgement: a
+/// ruler reads to 1 %, a wrong unit, axis or frame gives tens of per cent.
 const LARGE_SHARE: f64 = 0.03;
 /// From this share on corrections must also at least halve the residuals. Kind: judgement; an arm whose
 /// zeros are off by half a degree is off by a hundredth of its reach.
@@ -34,12 +34,12 @@ pub(super) struct ResidualSize {
 }
 
 impl ReachScale {
-    pub(super) fn of(problem: &Problem<'_>) -> Self {
+    pub(super) fn for_problem(problem: &Problem<'_>) -> Self {
         Self { reach_m: problem.reach_m() }
     }
 
-    /// The largest correction of the arm, as a share of the reach or as an angle; the poses of base and tool
-    /// may be anything.
+    /// The largest correction of the arm, as a share of the reach or as an angle in rad; base and tool do not count, since they
+    /// may be anywhere.
     pub(super) fn correction_size(self, chain: &CorrectedChain, corrections: &[f64]) -> f64 {
         let size =
             |(parameter, correction): (&CorrectionParameter, &f64)| match (parameter.entry, parameter.unit())
@@ -64,8 +64,8 @@ impl ReachScale {
         largest.filter(|&at| corrections[at].abs() > LARGEST_LENGTH * self.reach_m)
     }
 
-    /// The residual of the rows besides `outlier_rows`; of all rows if those are more than half of them, since
-    /// then it is the estimate that is wrong.
+    /// The residual of all rows except `outlier_rows`; of all rows if more than half are outliers, since then the estimate is
+    /// wrong.
     pub(super) fn residual_size(self, residuals: &[PoseResidual], outlier_rows: &[usize]) -> ResidualSize {
         let outlier_rows = if 2 * outlier_rows.len() > residuals.len() { &[] } else { outlier_rows };
         let inliers = || residuals.iter().enumerate().filter(|(row, _)| !outlier_rows.contains(row));
@@ -97,7 +97,7 @@ impl ReachScale {
 }
 
 impl ResidualSize {
-    /// As a share of the reach, or as an angle, whichever is larger.
+    /// The residual as a share of the reach or as an angle in rad, whichever is larger.
     pub(super) fn share(&self) -> f64 {
         (self.rms_m / self.reach_m).max(self.rms_rad)
     }

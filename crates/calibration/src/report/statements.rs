@@ -1,17 +1,17 @@
-//! The report in sentences.
+//! The sentences of the report.
 
-use congruent_description::display::{length, length_and_angle, number};
+use congruent_input::display::{length, length_and_angle, number};
 
 use super::calibration_report::{
     CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, RowResidual,
 };
 use crate::estimation::ParameterUnit;
 
-/// Most terms of a relation that are written out.
+/// Most terms of a relation that are listed.
 const MOST_TERMS: usize = 4;
 /// Most rows that are listed.
 const MOST_ROWS: usize = 8;
-/// A factor this near to 1 is written as none. Kind: display.
+/// A factor this near to 1 is not written. No unit; kind: display.
 const UNIT_FACTOR: f64 = 1e-3;
 
 /// Why a correction is fixed at nominal: the estimated corrections that it is correlated with, each with its
@@ -28,19 +28,20 @@ pub(super) fn why_fixed(unit: ParameterUnit, terms: &[(&str, f64, ParameterUnit)
         return "has no effect on these measurements".to_owned();
     }
     let mut largest = terms.to_vec();
+    // The largest factors explain most of the effect, and only a few are listed.
     largest.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
     let term =
         |(name, factor, of): &(&str, f64, ParameterUnit)| format!("{} {of} of {name}", number(*factor));
-    let shown: Vec<String> = largest.iter().take(MOST_TERMS).map(term).collect();
+    let listed_terms: Vec<String> = largest.iter().take(MOST_TERMS).map(term).collect();
     let more = match terms.len().saturating_sub(MOST_TERMS) {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    format!("is correlated: 1 {unit} of it has nearly the effect of {}{more}", shown.join(", "))
+    format!("is correlated: 1 {unit} of it has nearly the effect of {}{more}", listed_terms.join(", "))
 }
 
-/// What one should know before using a correction, the most important first; `largest` is the length of the arm that
-/// would change by too much.
+/// The sentences for a person who wants to use the corrections, the most important first; `largest` is a length with a
+/// correction that is too large.
 pub(super) fn statements(
     report: &CalibrationReport,
     largest: Option<(&EstimatedCorrection, f64)>,
@@ -131,7 +132,7 @@ fn unexplained(report: &CalibrationReport) -> String {
 fn misinterpreted(report: &CalibrationReport) -> String {
     report.likely_reason.as_ref().map_or_else(String::new, |reason| {
         format!(
-            "the measurements are explained only by corrections as large as parts of the arm; if {}, small \
+            "the measurements are explained only by corrections as large as the arm itself; if {}, small \
              corrections explain them with a residual of {}",
             reason.condition,
             length_and_angle(reason.rms_m, reason.rms_rad)
@@ -142,8 +143,8 @@ fn misinterpreted(report: &CalibrationReport) -> String {
 fn too_large(largest: Option<(&EstimatedCorrection, f64)>) -> String {
     largest.map_or_else(String::new, |(parameter, correction)| {
         format!(
-            "the measurements are explained only by {} being off by {}, more than a tenth of the reach, which is no \
-             correction: look for wrong rows of the file, or a wrong value of the model",
+            "the measurements are explained only if {} is off by {}, more than a tenth of the reach: check the file for \
+             wrong rows, and the model for a wrong value",
             parameter.name,
             length(correction.abs())
         )

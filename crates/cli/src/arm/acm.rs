@@ -1,41 +1,41 @@
-//! `congruent acm`: pairs of links that need not be looked at for collisions.
+//! `congruent acm`: pairs of links to exclude from collision checking.
 
 use std::{fmt::Write, path::PathBuf};
 
 use congruent::{
-    description::{
-        Diagnostic, Use,
+    input::{
+        Capability, Diagnostic,
         display::{counted, length},
     },
     kinematics::Sampling,
-    twin::proximity::{DisableReason, DisabledPairs, srdf_text, suggest_disabled},
+    proximity::{DisableReason, DisabledPairs, srdf_text, suggest_disabled},
 };
 
 use crate::{
     failure::{Failure, NOTHING},
     input::{RobotArgument, files_of},
     output::file::{NewFile, folder_of},
-    terminal::{print::Printer, progress::waiting, table::paragraph},
+    terminal::{layout::paragraph, print::Printer, progress::waiting},
 };
 
-/// The pairs of links that need not be looked at for collisions (allowed collision matrix).
+/// Suggests link pairs to exclude from collision checking (allowed collision matrix).
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    what: What,
+    what: AcmCommand,
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum What {
+enum AcmCommand {
     Suggest(SuggestArguments),
 }
 
-/// An SRDF of pairs that cannot or always touch, with the reasons of MoveIt's setup assistant.
+/// Suggests an SRDF of link pairs that never or always touch, with the reasons of MoveIt's setup assistant.
 ///
-/// Adjacent: joined. Default: touching with all joints at 0, or at the middle of a range without 0. Always: touching in 95 %
-/// of the sampled configurations. Never: touching in none of them, which is no proof. Meshes are taken as their convex
-/// hulls. Nothing is applied: the SRDF is printed, or written with --out; the key `srdf` of a robot file names it. What the
-/// robot's own SRDF disables is compared, and not taken over.
+/// Adjacent: connected by a joint. Default: touching with all joints at 0, or at the middle of a range without 0.
+/// Always: touching in 95 % of the sampled configurations. Never: touching in none of them, which is no proof. Meshes
+/// are taken as their convex hulls. Nothing is applied: the SRDF is printed, or written with --out; the key `srdf` of
+/// a robot file names it. Pairs that the robot's own SRDF disables are compared with these, and not copied.
 #[derive(Debug, clap::Args)]
 struct SuggestArguments {
     #[command(flatten)]
@@ -55,8 +55,8 @@ struct SuggestArguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let What::Suggest(arguments) = &arguments.what;
-    let description = arguments.robot.load_for(Use::Clearance, printer)?;
+    let AcmCommand::Suggest(arguments) = &arguments.what;
+    let description = arguments.robot.load_for(Capability::Clearance, printer)?;
     let inputs = files_of(&description);
     let file = arguments.out.as_deref().map(|path| NewFile { option: "--out", path, force: arguments.force });
     if let Some(file) = &file {
@@ -86,40 +86,50 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     Ok(0)
 }
 
-/// How many pairs have which reason, and what to look at before the SRDF is used.
+/// How many pairs have which reason, and what to examine before the SRDF is used.
 fn summary(pairs: &DisabledPairs) -> String {
     let mut text = String::new();
     let (of_links, links) = (counted(pairs.pairs, "pair"), counted(pairs.links, "link"));
     let _ = writeln!(text, "{}: {of_links} of {links} with a shape", pairs.robot);
     if pairs.pairs == 0 {
-        return text + "  nothing to look at: no SRDF is made\n";
+        return text + "  no pair to examine: no SRDF is written\n";
     }
     let counts = [
-        (DisableReason::Adjacent, "joined".to_owned()),
+        (DisableReason::Adjacent, "connected by a joint".to_owned()),
         (DisableReason::Default, "touch in the default position".to_owned()),
         (DisableReason::Always, format!("touch in 95 % of {} samples, seed {}", pairs.samples, pairs.seed)),
-        (DisableReason::Never, "touch nowhere that was looked at, which is no proof".to_owned()),
+        (DisableReason::Never, "no contact in any sample, which is no proof".to_owned()),
     ];
     for (reason, words) in counts {
         let _ = writeln!(text, "  {:4} {reason:?}: {words}", pairs.count(reason));
     }
-    let _ =
-        writeln!(text, "  {:4} touch at times, and are to be looked at", pairs.pairs - pairs.suggested.len());
+    let _ = writeln!(
+        text,
+        "  {:4} touch in some configurations: keep them in collision checking",
+        pairs.pairs - pairs.suggested.len()
+    );
     if let Some(nearest) = pairs.nearest_never()
         && let Some(least_m) = nearest.least_m
     {
         let [a, b] = &nearest.pair;
-        text += &paragraph(&format!("nearest of Never: {a} and {b}, {} at the least", length(least_m)), 2, 4);
+        text += &paragraph(
+            &format!("nearest pair of Never: {a} and {b}, smallest distance {}", length(least_m)),
+            2,
+            4,
+        );
     }
     if let Some(declared) = &pairs.declared {
         let line = format!(
-            "pairs that the robot's SRDF disables: {}; suggested too: {}; without a shape: {}",
+            "pairs that the robot's SRDF disables: {}; also suggested: {}; without a shape: {}",
             declared.pairs, declared.suggested, declared.without_shape
         );
         text += &paragraph(&line, 2, 4);
         for [a, b] in &declared.hidden {
-            text +=
-                &paragraph(&format!("it disables {a} and {b}, which touch at times and not always"), 2, 4);
+            text += &paragraph(
+                &format!("it disables {a} and {b}, which touch in some configurations and not in others"),
+                2,
+                4,
+            );
         }
     }
     text

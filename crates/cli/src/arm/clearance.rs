@@ -3,11 +3,12 @@
 use std::{fmt::Write, iter::once};
 
 use congruent::{
-    description::{
-        Diagnostic, Robot, Use,
+    description::Robot,
+    input::{
+        Capability, Diagnostic,
         display::{in_column, length},
     },
-    twin::proximity::{
+    proximity::{
         DistanceError, DistanceOptions, DistanceReport, Distances, Overlap, PairChoice, PairNames, distances,
     },
 };
@@ -16,7 +17,7 @@ use super::length::positive_length;
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ConfigurationArguments, RobotArgument},
-    terminal::{print::Printer, table::Table},
+    terminal::{columns, layout::Table, print::Printer},
 };
 
 /// Distances between the convex hulls of links.
@@ -31,7 +32,7 @@ pub(crate) struct Arguments {
     /// Give overlaps as negative depths instead of 0.
     #[arg(long)]
     penetration: bool,
-    /// Leave out only pairs that cannot move against each other.
+    /// Leave out only pairs that cannot move relative to each other.
     #[arg(long)]
     all_pairs: bool,
     /// Measure only this pair of links; may be given several times. `*` stands for any characters.
@@ -53,7 +54,7 @@ fn pair(text: &str) -> Result<[String; 2], String> {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let mut description = arguments.robot.load_for(Use::Clearance, printer)?;
+    let mut description = arguments.robot.load_for(Capability::Clearance, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
     let options = DistanceOptions {
         choice: if arguments.all_pairs { PairChoice::All } else { PairChoice::Usual },
@@ -78,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     Ok(if is_nothing { NOTHING } else { u8::from(has_failed) * FAILED })
 }
 
-/// What was left out and what is below the limit, then the distances at each configuration.
+/// Ignored pairs and pairs below the limit, then the distances at each configuration.
 fn parts<'a>(report: &'a DistanceReport<'_>, robot: &Robot) -> impl Iterator<Item = String> + 'a {
     // Without a pair there is nothing to say of a configuration.
     let shown = if report.pairs.is_empty() { 0 } else { usize::MAX };
@@ -119,18 +120,20 @@ fn nearest(report: &DistanceReport<'_>, number: usize, result: &Distances) -> St
         let [a, b] = &report.pairs[pair];
         table.row([format!("{a} -- {b}"), in_column(result.distances_m[pair], "m")]);
     }
-    table.write(&mut text);
+    table.write(&mut text, columns());
     text
 }
 
 fn below(text: &mut String, report: &DistanceReport<'_>, limit_m: f64) {
     if report.below.is_empty() {
-        let left_m = report.least_m.unwrap_or(f64::INFINITY) - limit_m;
-        let _ = writeln!(text, "no pair is below {}: {} left", length(limit_m), length(left_m));
+        let least_m = report.least_m.unwrap_or(f64::INFINITY);
+        let [least, limit, margin] = [least_m, limit_m, least_m - limit_m].map(length);
+        let _ = writeln!(text, "no pair is below the limit: {least}, limit >= {limit}, margin {margin}");
         return;
     }
     let all = report.pairs.len();
-    let _ = writeln!(text, "{} of {all} pairs are below {}", report.below.len(), length(limit_m));
+    let _ =
+        writeln!(text, "{} of {all} pairs are below the limit of {}", report.below.len(), length(limit_m));
     let mut table = Table::headed(["", "least mm", "below mm", "configuration"]);
     for found in &report.below {
         let [a, b] = &found.pair;
@@ -138,5 +141,5 @@ fn below(text: &mut String, report: &DistanceReport<'_>, limit_m: f64) {
         let named = [format!("{a} -- {b}")].into_iter().chain(values);
         table.row(named.chain([found.configuration.to_string()]));
     }
-    table.write(text);
+    table.write(text, columns());
 }

@@ -4,22 +4,22 @@ use std::{fmt::Write, iter::once};
 
 use congruent::{
     analysis::dynamics::{
-        DynamicsOptions, DynamicsReport, DynamicsResult, DynamicsSource, DynamicsStream, Payload, robot_of,
-        stiction,
+        DynamicsOptions, DynamicsResult, DynamicsSource, DynamicsStream, JointDynamicsReport, PointPayload,
+        robot_with_options, stiction,
     },
-    description::{Use, display::quantity, serde_name},
+    input::{Capability, SiUnit, display::quantity, serde_name},
 };
 
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
-    terminal::{print::Printer, table::column_width},
+    terminal::{layout::column_width, print::Printer},
 };
 
 /// Torques that hold and move a robot, its mass matrix, and its accelerations under torques.
 ///
 /// A state of --configurations may have velocities "v", accelerations "a" and torques "tau" beside its
-/// positions "q"; what is left out is zero.
+/// positions "q"; a value that is not given is zero.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -29,15 +29,15 @@ pub(crate) struct Arguments {
     source: DynamicsSource,
     #[command(flatten)]
     configurations: ConfigurationArguments,
-    /// With the damping and the dry friction of the description.
+    /// Include the damping and the dry friction of the description.
     #[arg(long)]
     friction: bool,
     /// A mass at the tool centre point, in kg; with X,Y,Z in m it is there in the frame of the TCP.
     #[arg(long, value_name = "KG[,X,Y,Z]", value_parser = payload, allow_hyphen_values = true)]
-    payload: Option<Payload>,
+    payload: Option<PointPayload>,
 }
 
-fn payload(text: &str) -> Result<Payload, String> {
+fn payload(text: &str) -> Result<PointPayload, String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse::<f64>()).collect();
     let numbers =
         numbers.map_err(|_| "expected KG or KG,X,Y,Z, for example 2.5 or 2.5,0,0,0.05".to_owned())?;
@@ -48,16 +48,16 @@ fn payload(text: &str) -> Result<Payload, String> {
     };
     let is_possible = mass_kg > 0.0 && numbers.iter().all(|number| number.is_finite());
     is_possible
-        .then_some(Payload { mass_kg, position_m })
-        .ok_or_else(|| format!("a payload of {mass_kg} kg is no mass above zero at a finite place"))
+        .then_some(PointPayload { mass_kg, position_m })
+        .ok_or_else(|| format!("payload mass must be > 0 and its position finite, not {mass_kg} kg"))
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load_urdf(printer)?;
     let states = arguments.configurations.read_states_or_rest(&mut description, printer)?;
     let options = DynamicsOptions { friction: arguments.friction, payload: arguments.payload };
-    description.for_use(Use::Physics)?;
-    let robot = robot_of(&description, &options)?;
+    description.check_capability(Capability::Physics)?;
+    let robot = robot_with_options(&description, &options)?;
     let report = congruent::joint_dynamics((&description, &robot), arguments.source, &options, &states)?;
     printer.warnings(None, stiction(&description.robot, (arguments.source, &options), &states).as_slice());
     let printed = printer.parts(&report, parts);
@@ -66,18 +66,18 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     Ok(0)
 }
 
-type Report<'a> = DynamicsReport<DynamicsStream<'a>>;
+type Report<'a> = JointDynamicsReport<DynamicsStream<'a>>;
 
 /// The heading, and each state.
 fn parts<'a>(report: &'a Report<'_>) -> impl Iterator<Item = String> + 'a {
     let source = serde_name(&report.source);
     let mut text = format!("{}: dynamics by the {source}", report.robot);
     text += if report.friction { ", with damping and dry friction" } else { ", without friction" };
-    if let Some(Payload { mass_kg, position_m: [x, y, z] }) = report.payload {
+    if let Some(PointPayload { mass_kg, position_m: [x, y, z] }) = report.payload {
         let _ = write!(text, ", with {mass_kg} kg at ({x}, {y}, {z}) m from the TCP");
     }
     let _ = writeln!(text, "\n  {}", report.chain);
-    text += "  gravity: torque that holds it still; bias: at the speeds v; motion: at v and a; acceleration: under tau\n";
+    text += "  gravity: holding torque; bias: torque at velocities v; motion: torque at v and accelerations a; acceleration: under torques tau\n";
     let one = |(number, result): (usize, DynamicsResult)| {
         let mut text = format!("state {number}\n");
         state(&mut text, report, &result);
@@ -97,7 +97,7 @@ fn state(text: &mut String, report: &Report<'_>, result: &DynamicsResult) {
         [&result.gravity_n_m, &result.bias_n_m, &result.inverse_dynamics_n_m, &result.forward_dynamics]
             .map(|values| without_rounding(values));
     for (row, (joint, &unit)) in report.joints.iter().zip(&report.units).enumerate() {
-        let (torque, acceleration) = if unit == "m" { ("N", "m/s^2") } else { ("N m", "rad/s^2") };
+        let (torque, acceleration) = if unit == SiUnit::Metre { ("N", "m/s^2") } else { ("N m", "rad/s^2") };
         let [gravity, bias, inverse] =
             [&gravity, &bias, &inverse].map(|values| quantity(values[row], torque));
         let forward = quantity(forward[row], acceleration);
@@ -112,7 +112,7 @@ fn state(text: &mut String, report: &Report<'_>, result: &DynamicsResult) {
 
 /// Values that are nothing but rounding of the largest one are zero for people.
 fn without_rounding(values: &[f64]) -> Vec<f64> {
-    /// Some thousand roundings.
+    /// Some thousand roundings, as a share of the largest value. No unit. Kind: rounding.
     const ROUNDING: f64 = 1e-12;
     let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     values.iter().map(|&value| if value.abs() > ROUNDING * largest { value } else { 0.0 }).collect()

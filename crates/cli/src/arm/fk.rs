@@ -4,23 +4,25 @@ use std::iter::once;
 
 use congruent::{
     analysis::forward::{ForwardReport, PoseStream, ReportedLinkPoses, Source},
-    description::Use,
+    input::Capability,
 };
 
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
     terminal::{
+        columns,
+        layout::{POSE_COLUMNS, Table, pose_cells},
         print::Printer,
-        table::{POSE_COLUMNS, Table, pose_cells},
     },
 };
 
 /// Poses of all links in the root link's frame, by a chosen source.
 ///
-/// With --from in another frame, with --to of one frame alone: --from A --to B is the pose of B in A. Frames are links, with
-/// --source dh `dh0` to `dhn`, base and tip, and `tcp`, the declared tool centre point (`declared_tcp` if a link is called
-/// `tcp`). --base and --tip choose the chain of the table, not the frame of the poses.
+/// --from gives the poses in another frame, --to the pose of one frame only: --from A --to B is the pose of B in A. A
+/// frame is a link (with --source dh: `dh0` to `dhn`, base or tip), or `tcp`, the declared tool centre point
+/// (`declared_tcp` if a link is called `tcp`). --base and --tip choose the chain of the table, not the frame of the
+/// poses.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -39,7 +41,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let needed = if arguments.source == Source::Simulation { Use::Physics } else { Use::Kinematics };
+    let needed =
+        if arguments.source == Source::Simulation { Capability::Physics } else { Capability::Kinematics };
     let mut description = arguments.arm.load_for(needed, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
     let report = congruent::forward(&description, arguments.source, configurations.iter())?;
@@ -60,7 +63,7 @@ fn parts<'a>(report: &'a ForwardReport<PoseStream<'_>>, root: &str) -> impl Iter
         for (name, pose) in &poses.links {
             table.row([name.clone()].into_iter().chain(pose_cells(pose)));
         }
-        table.write(&mut text);
+        table.write(&mut text, columns());
         text
     };
     once(format!("{}\n", report.chain)).chain((1..).zip(report.results.iter()).map(configuration))

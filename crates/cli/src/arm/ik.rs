@@ -6,8 +6,9 @@ use congruent::{
     analysis::inverse::{
         IkMethod, IkOptions, InverseReport, InverseSolution, TargetPart, inverse, read_targets,
     },
-    description::{
-        Diagnostic, Joint, Robot,
+    description::{Joint, Robot},
+    input::{
+        Diagnostic,
         display::{length, length_and_angle, position},
     },
 };
@@ -15,7 +16,7 @@ use congruent::{
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, named},
-    terminal::{print::Printer, table::Table},
+    terminal::{columns, layout::Table, print::Printer},
 };
 
 /// Joint positions that bring the tip, or the TCP if one is declared, to given poses.
@@ -33,7 +34,7 @@ pub(crate) struct Arguments {
     /// Method by which steps are found.
     #[arg(long, default_value = "lm", value_parser = named::<IkMethod>())]
     method: IkMethod,
-    /// Reach the positions alone, even if a target has an orientation.
+    /// Reach only the positions, even if a target has an orientation.
     #[arg(long)]
     position_only: bool,
     /// Seed of the restarts.
@@ -98,22 +99,22 @@ fn text(report: &InverseReport, robot: &Robot, tolerance: f64) -> String {
     text
 }
 
-/// Each joint with its position, what is left to the nearer of its limits, and its range.
+/// Each joint with its position, its margin to the nearer limit, and its range.
 fn joints(text: &mut String, result: &InverseSolution, robot: &Robot) {
-    let mut table = Table::headed(["joint", "position", "left", "range"]);
+    let mut table = Table::headed(["joint", "position", "margin", "range"]);
     for (name, value) in result.q.iter() {
         let joint = robot.find_joint(name).map(|joint| robot.joint(joint));
         let unit = joint.map_or("", |joint| joint.kind.unit());
-        let [left, range] = match joint.and_then(Joint::position_range) {
+        let [margin, range] = match joint.and_then(Joint::position_range) {
             None => ["no limit".to_owned(), String::new()],
             Some((lower, upper)) => {
                 let is_held = result.limits_held.iter().any(|held| held == name);
-                let left = position((value - lower).min(upper - value), unit);
+                let margin = position((value - lower).min(upper - value), unit);
                 let ends = format!("{} to {}", position(lower, unit), position(upper, unit));
-                [if is_held { "at its limit".to_owned() } else { left }, ends]
+                [if is_held { "at its limit".to_owned() } else { margin }, ends]
             }
         };
-        table.row([name.to_owned(), position(value, unit), left, range]);
+        table.row([name.to_owned(), position(value, unit), margin, range]);
     }
-    table.write(text);
+    table.write(text, columns());
 }

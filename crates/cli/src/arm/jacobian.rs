@@ -7,13 +7,14 @@ use congruent::{
         JacobianBlocks, JacobianFrame, JacobianKind, JacobianReport, JacobianResult, JacobianStream,
         jacobians, jacobians_in_motion,
     },
-    description::{RobotDescription, display::in_column, serde_name},
+    description::RobotDescription,
+    input::{display::in_column, serde_name},
 };
 
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
-    terminal::{print::Printer, table::Table},
+    terminal::{self, layout::Table, print::Printer},
 };
 
 /// The Jacobian of a link: its velocity per velocity of each joint, linear and angular block by name.
@@ -59,11 +60,11 @@ fn parts<'a>(report: &'a Report<'_>, description: &RobotDescription) -> impl Ite
     let frame = frame(report, description);
     let mut text = format!("{}\n{} Jacobian of {frame}\n", report.chain, serde_name(&report.kind));
     text += match report.kind {
-        JacobianKind::Space => "  axes of the root; linear: the point that passes the root's origin",
-        JacobianKind::Body => "  its own axes; linear: its origin",
-        JacobianKind::Geometric => "  axes of the root; linear: its origin",
+        JacobianKind::Space => "  in the axes of the root link; linear part at the root's origin",
+        JacobianKind::Body => "  in its own axes; linear part at its origin",
+        JacobianKind::Geometric => "  in the axes of the root link; linear part at its origin",
     };
-    text += "; in m and rad per rad, of sliding joints per m\n";
+    text += "; unit m and rad per rad, for sliding joints per m\n";
     let configuration = |(number, result): (usize, JacobianResult)| {
         let mut text = format!("configuration {number}\n");
         columns(&mut text, &report.joints, &result.jacobian);
@@ -98,5 +99,5 @@ fn columns(text: &mut String, joints: &[String], blocks: &JacobianBlocks) {
         let values = blocks.linear.iter().chain(&blocks.angular).map(|row| in_column(row[at], ""));
         table.row([joint.clone()].into_iter().chain(values));
     }
-    table.write(text);
+    table.write(text, terminal::columns());
 }

@@ -1,6 +1,6 @@
 //! Lengths on the command line.
 
-use congruent::description::units::Unit;
+use congruent::input::units::Unit;
 
 /// A positive length: `20mm`, `0.02m`, or in m without a unit.
 pub(super) fn positive_length(text: &str) -> Result<f64, String> {

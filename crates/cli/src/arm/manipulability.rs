@@ -7,10 +7,8 @@ use congruent::{
         ConfigurationDexterity, DexterityStream, ManipulabilityReport, ReportedDexterity, ReportedEllipsoid,
         manipulability, plot,
     },
-    description::{
-        Robot,
-        display::{in_column, length, number, quantity},
-    },
+    description::Robot,
+    input::display::{in_column, length, number, quantity},
 };
 
 use super::length::positive_length;
@@ -18,7 +16,7 @@ use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, files_of},
     output::plot::PlotArgument,
-    terminal::{print::Printer, table::Table},
+    terminal::{columns, layout::Table, print::Printer},
 };
 
 /// Velocity ellipsoids of the tool, Yoshikawa's measure, condition and distance to singularity.
@@ -92,7 +90,7 @@ fn ellipsoid(text: &mut String, (name, unit): (&str, &str), ellipsoid: &Reported
         let along = axis.map(|value| in_column(value, ""));
         table.row([String::new(), size(*semi_axis), "along".to_owned()].into_iter().chain(along));
     }
-    table.write(text);
+    table.write(text, columns());
 }
 
 fn measures(found: &ReportedDexterity, size: impl Fn(f64) -> String) -> String {

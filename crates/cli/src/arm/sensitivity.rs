@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use congruent::{
     analysis::sensitivity::{SensitivityReport, plot, sensitivity},
-    description::{
-        Diagnostic, Robot,
+    description::Robot,
+    input::{
+        Diagnostic,
         display::{in_column, length, number},
     },
     kinematics::Sampling,
@@ -16,13 +17,14 @@ use crate::{
     input::{ArmArguments, files_of},
     output::plot::PlotArgument,
     terminal::{
+        columns,
+        layout::{Table, wrapped},
         print::Printer,
         progress::waiting,
-        table::{Table, wrapped},
     },
 };
 
-/// How far the tool is displaced by 1 degree or 1 mm in each joint's zero and each DH parameter.
+/// Displacement of the tool by an error of 1 degree or 1 mm in each joint's zero and each DH parameter.
 ///
 /// Worst and mean over the joint range, with the configuration of the worst.
 #[derive(Debug, clap::Args)]
@@ -78,12 +80,12 @@ fn text(report: &SensitivityReport, robot: &Robot) -> String {
                 [parameter.joint.clone(), parameter.parameter.to_string(), parameter.error.to_string()];
             table.row(named.into_iter().chain(values).chain([rotation]));
         }
-        table.write(&mut text);
+        table.write(&mut text, columns());
         let worst = arm.parameters.iter().max_by(|a, b| a.worst_mm.total_cmp(&b.worst_mm));
         if let Some(worst) = worst {
             let _ = writeln!(
                 text,
-                "  largest: {} by {} of {} at {}, at",
+                "  largest: {} for an error of {} in {} of {}, at",
                 length(worst.worst_mm / 1e3),
                 worst.error,
                 worst.parameter,

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use congruent::description::Elementary as _;
 use congruent::{
     analysis::workspace::{WorkspaceReport, plot, workspace},
-    description::{
-        Diagnostic, Robot,
+    description::Robot,
+    input::{
+        Diagnostic,
         display::{in_column, position, quantity},
     },
     kinematics::Sampling,
@@ -17,9 +17,10 @@ use crate::{
     input::{ArmArguments, files_of},
     output::plot::PlotArgument,
     terminal::{
+        columns,
+        layout::{Table, wrapped},
         print::Printer,
         progress::waiting,
-        table::{Table, wrapped},
     },
 };
 
@@ -73,7 +74,7 @@ fn text(report: &WorkspaceReport, robot: &Robot) -> String {
         let ends = [report.lower_m[at], report.upper_m[at]].map(|end| in_column(end, "m"));
         table.row([axis.to_owned()].into_iter().chain(ends));
     }
-    table.write(&mut text);
+    table.write(&mut text, columns());
     size(&mut text, report);
     text
 }
@@ -105,5 +106,5 @@ fn size(text: &mut String, report: &WorkspaceReport) {
 
 /// One unit of the third digit, of which half makes rounding go outwards.
 fn third_digit(value: f64) -> f64 {
-    if value > 0.0 { 10_f64.to_power(value.decimal_logarithm().floor() - 2.0) } else { 0.0 }
+    if value > 0.0 { libm::pow(10_f64, libm::log10(value).floor() - 2.0) } else { 0.0 }
 }

@@ -1,51 +1,50 @@
 //! `congruent check`: compares model, URDF and physics.
 
-use std::{
-    iter::{empty, once, once_with},
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use congruent::{
     RobotCheck,
     agreement::compare::{Agreement, CheckOptions},
     analysis::plot::errors,
     check_suite, checked_robot,
-    description::{Diagnostic, RobotDescription, RobotQList, Severity, load_robot_with, read_configurations},
+    description::{RobotDescription, RobotQList, UNUSABLE_INERTIAL, load_robot_with, read_configurations},
+    input::{Diagnostic, Findings, Severity},
     page::{CheckEntry, check_page},
-    twin::report::TestSuite,
+    results::report::TestSuite,
+    text::{CheckTextParts, TextOptions, check_text_parts, layout::visible_path},
 };
-
 use serde::{Serialize, Serializer};
 
-use super::{
-    check_text::{basics, compared_text, explained_text},
-    errors_at::{chart, lines, table},
-    tolerance::ToleranceArgument,
-};
+use super::{errors_at::chart, tolerance::ToleranceArgument};
 use crate::{
-    batch::{Answer, Batch, BatchReport, Parts},
+    batch::{Answer, Batch, BatchReport, TextParts},
     ci::CiArguments,
     failure::{FAILED, Failure, NOTHING},
     input::{AccessArguments, ChainArguments, files_of},
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
-    terminal::{print::Printer, progress::waiting, text::shown},
+    terminal::{
+        print::{Printer, text_options},
+        progress::waiting,
+    },
 };
 
-/// Whether a robot's table, its URDF and its physics twin are the same robot, in geometry and in dynamics.
+/// Checks whether a robot's DH table, its URDF and its physics simulation describe the same robot, in geometry and in
+/// dynamics.
 ///
 /// Poses are compared at zero, one axis at a time, at 200 seeded random configurations within the limits,
-/// at the limits, and at the worst configurations of the certificates. Dynamics, which is masses, centres of mass, inertias,
-/// damping, friction, gravity and limits, is compared with the physics, which is probed as a black box, and with the
-/// `[[inertial]]` entries of robot.toml, or with the URDF of --against: torques at 100 random states may differ by 1e-10 of
-/// themselves between two descriptions and by 1e-8 between a description and the physics, which is rounding. Exit code 1 if they disagree, 4 if
-/// there is neither a table nor a robot that can be simulated, so that nothing was compared.
+/// at the limits, and at the worst configurations of the certificates. Dynamics (masses, centres of mass, inertias,
+/// damping, friction, gravity and limits) is compared with the physics, whose parameters are identified from its
+/// torques, with the `[[inertial]]` entries of robot.toml, and with the URDF of --against. Torques at 100 random
+/// states may differ by 1e-10 (relative) between two descriptions, and by 1e-8 between a description and the physics,
+/// which is rounding. Exit code 1 if they disagree, 4 if nothing was compared, since there is neither a table nor a
+/// robot that can be simulated.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
-    /// Compare the URDF with that of another description of the robot as well, in geometry and, if it is the same chain
-    /// within the tolerance, in dynamics: a folder with robot.toml, a robot file, or a bare .urdf.
+    /// Also compare with the URDF of another description of the robot (a folder with robot.toml, a robot file, or a
+    /// bare .urdf), in geometry and, if both are the same chain within the tolerance, in dynamics.
     #[arg(long, value_name = "ROBOT")]
     against: Option<PathBuf>,
     #[command(flatten)]
@@ -53,8 +52,8 @@ pub(crate) struct Arguments {
     /// Seed of the random configurations.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Compare at the configurations of this file as well and show the difference at each: a JSON array of
-    /// {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
+    /// Also compare at the configurations of this file and show the difference at each: a JSON array of {"q":
+    /// {"joint": value}} in rad and m; joints that are not named are at 0.
     #[arg(long, value_name = "FILE")]
     configurations: Option<PathBuf>,
     /// Show the position of the tip by both models and the error at each configuration as a table.
@@ -63,7 +62,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     plot: PlotArgument,
     /// Tolerance of positions and orientations in place of the robot file's, each with its unit: 1mm,0.1deg; a part
-    /// that is not given stays the file's.
+    /// that is not given is taken from the file.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArgument>,
     /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
@@ -84,6 +83,7 @@ struct Checked {
     other: Option<RobotDescription>,
     with_basics: bool,
     with_table: bool,
+    options: TextOptions,
 }
 
 impl Serialize for Checked {
@@ -105,16 +105,9 @@ impl BatchReport for Checked {
         self.parts().collect()
     }
 
-    fn parts(&self) -> Parts<'_> {
-        let Self { report, description: RobotDescription { robot, .. }, .. } = self;
-        let at_configurations = match &report.at_configurations {
-            Some(differences) if self.with_table => table(&report.geometry, differences),
-            Some(differences) => lines(differences),
-            None => Box::new(empty()),
-        };
-        let basics = if self.with_basics { basics(&report.geometry.basics) } else { String::new() };
-        let explained = once_with(move || explained_text(report, robot) + &basics);
-        Box::new(once(compared_text(report, robot)).chain(at_configurations).chain(explained))
+    fn parts(&self) -> TextParts<'_> {
+        let parts = CheckTextParts { with_basics: self.with_basics, with_table: self.with_table };
+        Box::new(check_text_parts(&self.report, &self.description.robot, parts, &self.options))
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -126,7 +119,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     one_plot(arguments)?;
     refuse_same(arguments.ci.outputs().chain(arguments.page.output()).chain(arguments.plot.output()))?;
     if arguments.table && arguments.configurations.is_none() {
-        let error = Diagnostic::error("check::table", "--table is of configurations, and none are given");
+        let error = Diagnostic::error("check::table", "--table needs configurations, and none are given");
         return Err(error.with_help("give --configurations FILE").into());
     }
     let batch = Batch::begin(&arguments.robots, &arguments.ci, printer)?;
@@ -162,8 +155,10 @@ fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
         return Ok(());
     }
     match (&arguments.configurations, arguments.robots.len()) {
-        (None, _) => refused("--plot is of configurations, and none are given", "give --configurations FILE"),
-        (Some(_), 2..) => refused("--plot is of one robot, and several are given", "check them one by one"),
+        (None, _) => refused("--plot needs configurations, and none are given", "give --configurations FILE"),
+        (Some(_), 2..) => {
+            refused("--plot works for one robot, and several are given", "check them one by one")
+        }
         (Some(_), _) => Ok(()),
     }
 }
@@ -181,7 +176,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     if let Some(tolerance) = arguments.tolerance {
         let (wrong, wide) = tolerance.examine(description.tolerance_scale());
         if !wrong.is_empty() {
-            return Err(wrong.into());
+            return Err(Findings::from(wrong).into());
         }
         description.warnings.extend(wide);
         description.tolerance = tolerance.replace(declared);
@@ -202,21 +197,21 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     if let Some(other) = &other {
         batch.warn(&other.path, &other.warnings);
     }
-    let compared = waiting(batch.printer(), &format!("checking {}", shown(path)), compare);
+    let compared = waiting(batch.printer(), &format!("checking {}", visible_path(path)), compare);
     let mut report = compared
         .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
     let unusable = unusable_inertials(&description);
     if report.geometry.verdict == Agreement::Agree && !unusable.is_empty() {
-        return Err(unusable.into());
+        return Err(Findings::from(unusable).into());
     }
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
     let (with_basics, with_table) = (arguments.basics, arguments.table);
-    Ok(Checked { report, description, other, with_basics, with_table })
+    Ok(Checked { report, description, other, with_basics, with_table, options: text_options() })
 }
 
-/// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the geometry
-/// tells.
+/// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the
+/// comparison of poses decides.
 fn unusable_inertials(description: &RobotDescription) -> Vec<Diagnostic> {
-    let of_inertials = description.warnings.iter().filter(|warning| warning.code == "robot_file::inertial");
+    let of_inertials = description.warnings.iter().filter(|warning| warning.code == UNUSABLE_INERTIAL);
     of_inertials.map(|warning| Diagnostic { severity: Severity::Error, ..warning.clone() }).collect()
 }

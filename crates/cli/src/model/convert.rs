@@ -2,7 +2,8 @@
 
 use congruent::{
     analysis::conversion::{Conversion, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes},
-    description::{Diagnostic, TABLE_DROPPED},
+    description::TABLE_DROPPED,
+    input::Diagnostic,
 };
 
 use crate::{
@@ -13,7 +14,7 @@ use crate::{
     terminal::print::Printer,
 };
 
-/// Writes a robot's model as another one, proved by comparing back.
+/// Converts a robot's model between DH tables, screws and URDF, proved by comparing back.
 ///
 /// Converts the declared table, or the chain of the URDF if no table is declared.
 #[derive(Debug, clap::Args)]
@@ -41,14 +42,14 @@ pub(crate) struct AccuracyArguments {
     /// Seed of the random configurations of the proof.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Keep axes that are parallel or meet but for rounded values (a quarter turn of 1.5708) as they are.
+    /// Keep axes as written that are parallel or intersect except for rounding (a quarter turn of 1.5708).
     #[arg(long)]
     exact: bool,
 }
 
 impl AccuracyArguments {
     pub(crate) fn conversion(self, from: Option<ConversionSource>, to: ConversionTarget) -> Conversion {
-        let rounded_axes = if self.exact { RoundedAxes::Kept } else { RoundedAxes::Mended };
+        let rounded_axes = if self.exact { RoundedAxes::Kept } else { RoundedAxes::Corrected };
         Conversion { from, to, accuracy: self.accuracy, seed: self.seed, rounded_axes }
     }
 }

@@ -1,4 +1,4 @@
-//! `congruent derive`: a Denavit-Hartenberg table from a URDF, or what of its inertias joint torques can tell.
+//! `congruent derive`: a Denavit-Hartenberg table from a URDF, or its base inertial parameters.
 
 use std::fmt::Write;
 
@@ -10,8 +10,9 @@ use congruent::{
         },
         conversion::{ConversionSource, ConversionTarget},
     },
-    description::{
-        Diagnostic, RobotDescription,
+    description::RobotDescription,
+    input::{
+        Diagnostic,
         display::{number, quantity},
     },
 };
@@ -21,13 +22,15 @@ use crate::{
     input::ArmArguments,
     model::{convert::AccuracyArguments, written_model::answer},
     output::file::OutputArgument,
-    terminal::{print::Printer, table::wrapped},
+    terminal::{layout::wrapped, print::Printer},
 };
 
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.
 ///
-/// Prints the section `[dh]` of a robot file, with the free choices beside it, or writes a whole robot file with
-/// --out. With --base-parameters prints which sums of inertial parameters joint torques tell instead. Axes that are parallel or meet but for rounded values of the URDF are taken as such, and told.
+/// Prints the section `[dh]` of a robot file, with the free choices as comments, or writes a whole robot file with
+/// --out. With --base-parameters prints the base parameters instead, which are the sums of inertial parameters that
+/// are identifiable from joint torques. Axes that are parallel or intersect except for rounding in the URDF are taken
+/// as exactly so, and reported.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -35,8 +38,8 @@ pub(crate) struct Arguments {
     /// Which equation the rows stand for; the same values are another robot in the other one.
     #[arg(long, value_enum, required_unless_present = "base_parameters")]
     convention: Option<ConventionArgument>,
-    /// Print the base parameters instead: the sums of masses, first moments and inertias that joint torques tell, with
-    /// what is grouped in each, and the parameters that change no torque.
+    /// Print the base parameters instead: the sums of masses, first moments and inertias that are identifiable from
+    /// joint torques, with the parameters grouped in each, and the parameters that change no torque.
     #[arg(long, conflicts_with_all = ["convention", "exact", "out"])]
     base_parameters: bool,
     #[command(flatten)]
@@ -64,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     answer(&description, &conversion, &arguments.output, printer)
 }
 
-/// Motions at which torques are looked at: the result does not depend on them.
+/// Seed of the motions at which torques are computed; the result does not depend on it.
 const SEED: u64 = 0;
 
 fn base_parameters(description: &RobotDescription, printer: &Printer) -> Result<u8, Failure> {
@@ -80,14 +83,17 @@ fn base_parameters(description: &RobotDescription, printer: &Printer) -> Result<
 }
 
 fn text(report: &BaseParameterReport) -> String {
-    let (seen, all) = (report.base_parameters.len(), report.of);
-    let mut text = format!("{}: joint torques tell {seen} of {all} inertial parameters\n", report.file);
+    let (identifiable, all) = (report.base_parameters.len(), report.of);
+    let mut text = format!(
+        "{}: {identifiable} base parameters of {all} inertial parameters are identifiable from joint torques\n",
+        report.file
+    );
     text += "  about the origin and in the axes of each link: ixx to izz inertia, mx to mz mass times centre of mass, m mass\n";
     for group in &report.base_parameters {
         let _ = writeln!(text, "  {}", sum(group));
     }
     if !report.not_seen.is_empty() {
-        let _ = writeln!(text, "  no joint torque shows");
+        let _ = writeln!(text, "  not identifiable, since they change no joint torque:");
         let names: Vec<String> = report.not_seen.iter().map(name).collect();
         text += &wrapped(&names.join(", "));
     }

@@ -2,7 +2,10 @@
 
 use std::str::FromStr;
 
-use congruent::description::{Diagnostic, Severity, Tolerance, ToleranceScale, units::Unit};
+use congruent::{
+    description::{Tolerance, ToleranceScale},
+    input::{Diagnostic, Severity, units::Unit},
+};
 
 /// A tolerance that replaces the one of the robot file; a part that is not given is not replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -4,10 +4,11 @@ use std::{fmt::Write, path::PathBuf};
 
 use congruent::{
     analysis::conversion::{Conversion, ConversionReport, ConversionSource, PoeReport, ScrewReport, convert},
-    description::{
-        Diagnostic, FileAccess, RobotDescription, Tolerance,
+    description::{RobotDescription, Tolerance, load_robot_with, robot_file_text},
+    input::{
+        Diagnostic, FileAccess,
         display::{angle, length, length_and_angle},
-        is_standard_input, load_robot_with, robot_file_text, serde_name,
+        is_standard_input, serde_name,
     },
 };
 
@@ -15,7 +16,7 @@ use crate::{
     failure::Failure,
     input::{allowing_inputs, files_of},
     output::file::{OutputArgument, folder_of},
-    terminal::{print::Printer, table::column_width},
+    terminal::{layout::column_width, print::Printer},
 };
 
 /// The tolerance of a written robot file whose table is off by rounded axes, as a multiple of what was found at
@@ -54,7 +55,7 @@ pub(super) fn answer(
     Ok(0)
 }
 
-/// A whole robot file, as seen from its folder.
+/// A whole robot file, with paths relative to its folder.
 fn robot_file(
     description: &RobotDescription,
     report: &ConversionReport,
@@ -70,6 +71,8 @@ fn robot_file(
     from_root.urdf_path = absolute(&description.urdf_path);
     from_root.named_files.srdf = description.named_files.srdf.as_ref().map(absolute);
     let mut tolerance = description.tolerance;
+    // The table differs from the URDF by the rounding of its axes: with the declared tolerance the written file
+    // would fail its own check.
     if !report.rounded_axes.is_empty() {
         let enough = |declared: f64, found: f64| declared.max(one_digit(TOLERANCE_MARGIN * found));
         tolerance = Tolerance {
@@ -84,7 +87,7 @@ fn one_digit(value: f64) -> f64 {
     format!("{value:.0e}").parse().unwrap_or(value)
 }
 
-/// What can be pasted or saved as it is: everything besides the model itself is a comment.
+/// Text that can be pasted or saved as it is: everything but the model itself is a comment.
 fn text(report: &ConversionReport) -> String {
     if let Some(urdf) = &report.urdf {
         // Two hyphens end a comment in XML.
@@ -118,7 +121,7 @@ fn remarks(report: &ConversionReport) -> String {
     let proof = &report.proof;
     let _ = writeln!(
         text,
-        "proof: screws within {} and {}, home {}, {} configurations {}; limit {:e} rad and m",
+        "proof: screws agree within {} and {}, home pose within {}, poses at {} configurations within {}; limit {:e} rad and m",
         angle(proof.screw_rad),
         length(proof.screw_m),
         length_and_angle(proof.home_m, proof.home_rad),

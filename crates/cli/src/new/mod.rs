@@ -9,18 +9,18 @@ use crate::{failure::Failure, terminal::print::Printer};
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    what: What,
+    what: NewCommand,
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum What {
+enum NewCommand {
     Robot(robot::Arguments),
     Scenario(scenario::Arguments),
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     match &arguments.what {
-        What::Robot(arguments) => robot::run(arguments, printer),
-        What::Scenario(arguments) => scenario::run(arguments, printer),
+        NewCommand::Robot(arguments) => robot::run(arguments, printer),
+        NewCommand::Scenario(arguments) => scenario::run(arguments, printer),
     }
 }

@@ -11,10 +11,8 @@ use congruent::{
     RobotCheck,
     agreement::compare::{Agreement, CheckOptions},
     analysis::conversion::ConversionTarget,
-    description::{
-        Diagnostic, Finding, RobotDescription, Use, display::length_and_angle, is_standard_input,
-        load_robot_with,
-    },
+    description::{RobotDescription, load_robot_with},
+    input::{Capability, Diagnostic, Finding, display::length_and_angle, is_standard_input},
     starter::{NewRobot, RobotFileDraft, robot_file},
 };
 
@@ -22,7 +20,7 @@ use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, allowing_inputs, files_of, needs_to_be_allowed},
     output::file::{NewFile, unwritable},
-    terminal::{print::Printer, table::paragraph},
+    terminal::{layout::paragraph, print::Printer},
 };
 
 /// A commented robot file for a URDF, with a derived table.
@@ -110,6 +108,7 @@ impl Folders {
                 Diagnostic::error("output::refused", message).with_help("give a folder, or a new name")
             );
         }
+        // Only folders that do not exist are made, and so only these are removed if the file is refused.
         let missing =
             path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
         let made = Self(missing.map(Path::to_owned).collect());
@@ -147,17 +146,19 @@ fn is_urdf(path: &Path) -> Result<(), Diagnostic> {
 fn checked(written: &Path, before: &RobotDescription, arguments: &Arguments) -> Result<RobotCheck, Failure> {
     let access = allowing_inputs(arguments.arm.robot.access()?, before);
     let description = load_robot_with(written, &access)?;
-    for each in [Use::Clearance, Use::Physics] {
-        if before.for_use(each).is_ok()
-            && let Err(mut lost) = description.for_use(each)
+    for each in [Capability::Clearance, Capability::Physics] {
+        // A robot.toml marks the top of a project: meshes above the new file would no longer be opened, and the
+        // robot lose a use.
+        if before.check_capability(each).is_ok()
+            && let Err(mut lost) = description.check_capability(each)
         {
             let message = format!(
                 "a robot.toml in {} marks the top of a project, so that files above it are not opened",
                 arguments.out.display()
             );
-            lost.push(Diagnostic::error("new::project", message).with_help(
+            lost.extend([Diagnostic::error("new::project", message).with_help(
                 "choose a folder beside or above that of the URDF, such as the one that holds both URDF and meshes",
-            ));
+            )]);
             return Err(lost.into());
         }
     }
@@ -197,7 +198,7 @@ fn text(report: &NewRobot) -> String {
         Agreement::NothingCompared => {
             writeln!(text, "  check: nothing to compare: {}", Agreement::why_nothing(&report.chain))
         }
-        verdict => writeln!(text, "  check: {verdict}, worst {worst} (tolerance {tolerance})"),
+        verdict => writeln!(text, "  check: {verdict}, largest difference {worst} (tolerance {tolerance})"),
     };
     text
 }

@@ -3,28 +3,27 @@
 use std::path::PathBuf;
 
 use congruent::{
-    description::{Diagnostic, Finding, RobotDescription, Use, is_standard_input},
+    description::RobotDescription,
+    input::{Capability, Diagnostic, Finding, is_standard_input},
+    monitors::verdict::{CheckResult, Status},
+    results::report::lines,
     starter::{NewScenario, ScenarioDraft, scenario, try_scenario},
-    twin::{
-        Outcome, RunSetup,
-        report::lines,
-        verdict::{CheckResult, Status},
-    },
+    twin::{Outcome, RunSetup},
 };
 
 use crate::{
     failure::Failure,
     input::{RobotArgument, allowing_inputs, files_of, needs_to_be_allowed},
     output::file::{NewFile, folder_of},
-    terminal::{print::Printer, table::paragraph},
+    terminal::{layout::paragraph, print::Printer},
 };
 
 /// A commented scenario for a robot, which passes.
 ///
-/// The joints of the chain move a little and come back, within their limits and with links apart; the controller is
-/// computed torque, or playback without forces for a robot that no forces can move. Model and twin, limits, tracking and
-/// distances are checked. The scenario is run before it is written. A robot that cannot be simulated, or of which no
-/// scenario passes, gets none, with the reason.
+/// The joints of the chain move a little and come back, within their limits and without contact between links; the
+/// controller is computed torque, or playback without forces for a robot whose joints forces cannot move. Model and
+/// twin, limits, tracking and distances are checked. The scenario is run before it is written. For a robot that
+/// cannot be simulated, or for which no scenario passes, nothing is written, and the reason is printed.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -48,7 +47,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         let message = format!("--out {}: the name of a scenario file ends in .toml", out.display());
         return Err(refused(message, "for example --out scenarios/first.toml").into());
     }
-    let description = arguments.robot.load_for(Use::Physics, printer)?;
+    let description = arguments.robot.load_for(Capability::Physics, printer)?;
     let inputs = files_of(&description);
     let file = NewFile { option: "--out", path: out, force: arguments.force };
     let folder = folder_of(out)?;
@@ -95,7 +94,7 @@ fn report(
         robot: description.name.clone(),
         chain: description.reported_chain(),
         joints: draft.joints,
-        controller: setup.scenario.controller.kind.clone(),
+        controller: setup.scenario.controller.kind.name().to_owned(),
         duration_s: setup.clock.duration_s(),
         remarks: draft.remarks,
         checks: outcome.checks,

@@ -7,8 +7,8 @@ use std::{
 };
 
 use congruent::{
-    description::Diagnostic,
-    twin::results::{OutputError, is_same_file, write_whole},
+    input::Diagnostic,
+    results::files::{OutputError, is_same_file, write_whole},
 };
 
 use crate::failure::{self, Failure};
@@ -112,7 +112,7 @@ pub(crate) fn refuse_same<'a>(
     };
     for (at, (option, path)) in outputs.iter().enumerate() {
         if let Some((other, _)) = outputs[..at].iter().find(|(_, before)| is_same(before, path)) {
-            let message = format!("{other} and {option} name one file, {}", path.display());
+            let message = format!("{other} and {option} name the same file, {}", path.display());
             return Err(
                 Diagnostic::error("output::refused", message).with_help("give each a file of its own")
             );
@@ -126,8 +126,9 @@ pub(crate) fn refuse_inputs(option: &str, path: &Path, inputs: &[PathBuf]) -> Re
     if !inputs.iter().any(|input| is_same_file(path, input)) {
         return Ok(());
     }
-    let message = format!("{option} {} is a file that is read", path.display());
-    Err(Diagnostic::error("output::refused", message).with_help("choose another name"))
+    let message = format!("{option} {} is an input file", path.display());
+    Err(Diagnostic::error("output::refused", message)
+        .with_help("inputs are not overwritten: choose another name"))
 }
 
 /// Writes what an option asks for, whole, in a folder that is made if there is none; it replaces any file but those of

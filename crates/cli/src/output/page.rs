@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent::description::Diagnostic;
+use congruent::input::Diagnostic;
 
 use crate::{
     failure::Failure,

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use congruent::description::Diagnostic;
+use congruent::input::Diagnostic;
 
 use crate::{
     failure::Failure,
@@ -26,7 +26,7 @@ impl PlotArgument {
         Some(("--plot", self.plot.as_deref()?))
     }
 
-    /// Whether a plot is asked for.
+    /// Whether `--plot` is given.
     pub(crate) fn is_given(&self) -> bool {
         self.plot.is_some()
     }
@@ -37,7 +37,8 @@ impl PlotArgument {
         refuse_inputs("--plot", path, inputs)?;
         let extension = path.extension().unwrap_or_default();
         if !extension.is_empty() && !extension.eq_ignore_ascii_case("svg") {
-            let message = format!("--plot {} is no name of a plot, which is an SVG", path.display());
+            let message =
+                format!("--plot {}: a plot is an SVG file, so its name must end in .svg", path.display());
             return Err(
                 Diagnostic::error("output::refused", message).with_help("give a file that ends in .svg")
             );

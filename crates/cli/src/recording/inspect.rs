@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    description::{Diagnostic, FileAccess},
+    input::{Diagnostic, FileAccess},
     recording::{Recheck, RecordingSummary, RerunFormat, inspect, recheck, scalars, scalars_csv},
-    twin::{RecordingFormat, RunSetup, report::TestSuite, results::result_files},
+    results::{RecordingFormat, files::result_files, report::TestSuite},
+    text::{disagreement_sentence, recording_text},
+    twin::RunSetup,
 };
 use serde_json::Value;
 
 use super::{
-    inspect_text::{sentence, text},
     inspected_files::{compare_files, judge_inputs, overrides},
     inspected_suite::suite,
 };
@@ -20,15 +21,15 @@ use crate::{
     failure::{BAD_INPUT, BROKEN, Failure, worse},
     input::AccessArguments,
     output::file::{refuse_inputs, refuse_same, replace},
-    terminal::print::Printer,
+    terminal::print::{Printer, text_options},
 };
 
-/// What recordings hold: verdict, worst values, duration, entities, statistics of their scalars, problems of the file.
+/// Summarises recordings: verdict, worst values, duration, entities, statistics of scalars, and problems of the file.
 ///
-/// The exit code is that of the recorded run, so 1 if it went against expectation; 2 if a file is cut off, damaged or no
-/// recording, has no footer, values that are NaN or times that are not in order, or lies beside the report of another run; 4
-/// without a verdict, or with one about files that have changed since. With --check it is 1 as well if series and report
-/// disagree, and changed files are told alone. Of several recordings it is the worst.
+/// The exit code is that of the recorded run, so 1 if its verdict was not as expected; 2 if a file is cut off,
+/// damaged or not a recording, has no footer, NaN values or times out of order, or lies beside the report of another
+/// run; 4 without a verdict, or if files of the run have changed since. With --check it is also 1 if series and
+/// report disagree, and changed files are only reported. For several recordings it is the worst.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Recordings (.rrd), or folders of results.
@@ -36,8 +37,8 @@ pub(crate) struct Arguments {
     recordings: Vec<PathBuf>,
     /// Evaluate the checks of this scenario again, on the recordings alone, and compare with the report in each.
     ///
-    /// Values that replaced those of the file in the run replace them here, too. A scenario with other limits than the run
-    /// tells whether the run would have passed with these.
+    /// Values that --set replaced in the run are replaced here, too. With a scenario that has different limits, the
+    /// answer is whether the run would have passed with these limits.
     #[arg(long, value_name = "SCENARIO")]
     check: Option<PathBuf>,
     /// Also write all scalar series of one recording as a table: time, then a column for each series.
@@ -57,7 +58,7 @@ impl BatchReport for RecordingSummary {
     }
 
     fn text(&self) -> String {
-        text(self)
+        recording_text(self, &text_options())
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -141,9 +142,9 @@ fn take(summary: &mut RecordingSummary, result: Recheck) {
     // Other limits have a verdict of their own.
     summary.exit_code = if result.same_limits || before == BROKEN { worse(before, code) } else { code };
     if let Some(first) = result.disagreements.first() {
-        summary.reason = format!("the series do not show what the report says: {}", sentence(first));
+        summary.reason = format!("the series contradict the report: {}", disagreement_sentence(first));
     } else if let Some(first) = result.samples.first() {
-        summary.reason = format!("the recording does not have the samples of its run: {first}");
+        summary.reason = format!("the samples are not those of the run: {first}");
     } else if !result.same_verdict {
         "the limits of this scenario change the verdict".clone_into(&mut summary.reason);
     }

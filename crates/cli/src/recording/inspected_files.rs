@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use congruent::{
-    description::{Diagnostic, FileAccess, InputFile},
+    input::{Diagnostic, FileAccess, Findings, InputFile, MESH_OUTSIDE, OUTSIDE},
     recording::{RecordingSummary, RerunFormat},
-    twin::{
-        RecordingFormat, RunSetup,
-        results::{DIGESTS, REPORT, compare_results, read_result},
-        scenario::Override,
+    results::{
+        RecordingFormat,
+        files::{DIGESTS, REPORT, compare_results, read_result},
     },
+    scenario::Override,
+    twin::RunSetup,
 };
 use serde_json::Value;
 
@@ -19,6 +20,7 @@ use crate::failure::{BAD_INPUT, NOTHING, worse};
 pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access: &FileAccess) {
     let Some(report) = &summary.report else { return };
     summary.changed_inputs = changed_inputs(report, access);
+    // A recording under another name was moved out of the folder of its run: what lies beside it now is unrelated.
     if path.file_name().is_none_or(|name| name != RerunFormat.file_name()) {
         return;
     }
@@ -26,10 +28,10 @@ pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access:
     let is_its_own = |beside: Vec<u8>| serde_json::from_slice::<Value>(&beside).ok().as_ref() == Some(report);
     let problem = if beside.is_some_and(|beside| !is_its_own(beside)) {
         format!(
-            "{REPORT} beside the recording is not the report of its run: it is damaged, or of another run"
+            "{REPORT} beside the recording differs from the report inside the recording: {REPORT} has been changed, or belongs to another run"
         )
     } else if let Some(changed) = changed_results(path) {
-        format!("{changed} beside the recording: not as the run wrote it (by {DIGESTS})")
+        format!("{changed} beside the recording has changed since the run wrote it (by {DIGESTS})")
     } else {
         return;
     };
@@ -52,6 +54,7 @@ fn changed_results(recording: &Path) -> Option<String> {
 /// A verdict about files that have changed says nothing about those that are there.
 pub(super) fn judge_inputs(summary: &mut RecordingSummary) {
     let Some([first, others @ ..]) = summary.changed_inputs.as_deref() else { return };
+    // Only if it makes the answer worse: a damaged file and a broken run stay what they are.
     let code = worse(summary.exit_code, NOTHING);
     if code != summary.exit_code {
         let more = if others.is_empty() { String::new() } else { format!(" (and {} more)", others.len()) };
@@ -66,7 +69,7 @@ pub(super) fn overrides(report: &Value) -> Result<Vec<Override>, Diagnostic> {
     texts.map(str::parse).collect()
 }
 
-/// What of the files of a run is not as it was; `None` if its scenario is not there, or names what may not be opened.
+/// Files of a run that have changed since; `None` if its scenario is missing, or names a file that may not be opened.
 fn changed_inputs(report: &Value, access: &FileAccess) -> Option<Vec<String>> {
     let scenario = Path::new(report["scenario_file"].as_str()?);
     let before: Vec<(&str, &str)> = report["inputs"]
@@ -78,15 +81,17 @@ fn changed_inputs(report: &Value, access: &FileAccess) -> Option<Vec<String>> {
         return None;
     }
     let setup = overrides(report)
-        .map_err(|error| vec![error])
+        .map_err(Findings::from)
         .and_then(|overrides| RunSetup::load_with(scenario, &overrides, access));
     Some(match setup {
         Ok(setup) => differences(&before, &setup.inputs),
         // What may not be opened here need not have changed.
-        Err(findings) if findings.iter().any(|finding| finding.code.ends_with("::outside")) => return None,
+        Err(findings) if findings.iter().any(|finding| [OUTSIDE, MESH_OUTSIDE].contains(&finding.code)) => {
+            return None;
+        }
         Err(findings) => {
-            let first = findings.first().map_or_else(String::new, |finding| format!(": {}", finding.message));
-            vec![format!("{} cannot be loaded as it is now{first}", scenario.display())]
+            let first = &findings.first().message;
+            vec![format!("{} cannot be loaded as it is now: {first}", scenario.display())]
         }
     })
 }
@@ -94,7 +99,7 @@ fn changed_inputs(report: &Value, access: &FileAccess) -> Option<Vec<String>> {
 fn differences(before: &[(&str, &str)], now: &[InputFile]) -> Vec<String> {
     let found = |file: &str| now.iter().find(|input| input.file == file);
     let old = before.iter().filter_map(|&(file, sha256)| match found(file) {
-        None => Some(format!("{file} is not read any more")),
+        None => Some(format!("{file} is no longer read")),
         Some(input) if input.sha256 != sha256 => Some(format!("{file} has changed since the run")),
         Some(_) => None,
     });
@@ -107,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_difference_is_told() {
+    fn each_difference_is_reported() {
         let input = |file: &str, sha256: &str| InputFile {
             file: file.to_owned(),
             sha256: sha256.to_owned(),
@@ -116,7 +121,7 @@ mod tests {
         let now = [input("same", "1"), input("edited", "3"), input("new", "4")];
         let found = differences(&[("same", "1"), ("edited", "2"), ("gone", "5")], &now);
         let expected =
-            ["edited has changed since the run", "gone is not read any more", "new was not read in the run"];
+            ["edited has changed since the run", "gone is no longer read", "new was not read in the run"];
         assert_eq!(found, expected);
     }
 }

@@ -2,14 +2,14 @@
 
 use congruent::{
     recording::{Recheck, RecordingSummary},
-    twin::report::{Reason, TestCase, TestResult, TestSuite, judged, recorded_suite},
+    results::report::{Reason, TestCase, TestResult, TestSuite, judged, recorded_suite},
+    text::rechecked_text,
 };
 
-use super::inspect_text::rechecked_text;
 use crate::failure::{BAD_INPUT, FAILED};
 
-/// A case for each check, as it is by the recording if that was evaluated again, and one for the whole. The checks of a
-/// file that is damaged are not told: nothing says that they are those of the run.
+/// A case for each check, as it is by the recording if that was evaluated again, and one for the whole. The checks of
+/// a damaged file are left out: nothing says that they are those of the run.
 pub(super) fn suite(summary: &RecordingSummary, input: &str) -> TestSuite {
     let reason = Reason { kind: "recording".to_owned(), message: summary.reason.clone() };
     let verdict = match summary.exit_code {
@@ -17,7 +17,7 @@ pub(super) fn suite(summary: &RecordingSummary, input: &str) -> TestSuite {
         FAILED => TestResult::Failed(reason),
         _ => TestResult::Error(reason),
     };
-    let mut suite = TestSuite::of_case(input, "verdict", verdict);
+    let mut suite = TestSuite::with_case(input, "verdict", verdict);
     let recorded =
         summary.report.as_ref().filter(|_| summary.exit_code != BAD_INPUT).and_then(recorded_suite);
     let mut cases = recorded.map(|suite| suite.cases).unwrap_or_default();

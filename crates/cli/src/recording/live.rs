@@ -15,12 +15,10 @@ use std::{
 };
 
 use congruent::{
+    monitors::{Recorder, RecordingError, Sample},
     recording::RerunFormat,
-    twin::{
-        IfIncomplete, Recording, RecordingFormat, Run, Sample,
-        recorder::{Recorder, RecordingError},
-        report::RunReport,
-    },
+    results::{IfIncomplete, Recording, RecordingFormat, report::RunReport},
+    twin::Run,
 };
 
 use super::viewer::Viewer;
@@ -95,13 +93,14 @@ impl Recording for LiveRecording {
     fn finish(self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
         let Self { recording, mut viewer, is_complete, copying } = *self;
         let result = recording.finish(report);
+        // Release pairs with the acquire of the copying thread: it then finds all bytes that `finish` has written.
         is_complete.store(true, Ordering::Release);
         // The thread ends with the input of the viewer, which stays open.
         let _ = copying.join();
         if let Ok(Some(status)) = viewer.try_wait()
             && !status.success()
         {
-            let message = format!("the viewer ended with {status}; the recording is written all the same");
+            let message = format!("the viewer ended with {status}; the recording is still written");
             Printer::explain(None, &Failure::Machine(message));
         }
         result

@@ -1,7 +1,6 @@
 //! Commands about recordings, and the viewer that shows them.
 
 pub(crate) mod inspect;
-mod inspect_text;
 mod inspected_files;
 mod inspected_suite;
 pub(crate) mod live;

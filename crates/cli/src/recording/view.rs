@@ -8,11 +8,13 @@ use std::{
 
 use congruent::{
     JointSweep, SweepError, SweptJoint,
-    description::{Diagnostic, display::position, load_robot_with},
+    description::load_robot_with,
+    input::{Diagnostic, display::position},
     joint_sweep,
     page::PageFormat,
     recording::RerunFormat,
-    twin::{Options, RecordingFormat, RunSetup},
+    results::{Options, RecordingFormat},
+    twin::RunSetup,
 };
 
 use super::viewer::Viewer;
@@ -21,13 +23,14 @@ use crate::{
     failure::Failure,
     input::AccessArguments,
     run::{no_folder, run_one},
-    terminal::{print::Printer, progress::Progress, table::Table},
+    terminal::{columns, layout::Table, print::Printer, progress::Progress},
 };
 
 /// Opens the rerun viewer on a recording, on a robot with each joint moving over its range, or on the run of a scenario.
 ///
-/// `rerun` is looked for in PATH. Without it the recording is written all the same, it is said how to get the viewer, and
-/// the exit code is 3; --no-viewer only writes. Otherwise the exit code is 0, of a scenario that of its run.
+/// `rerun` must be in PATH. Without it the recording is still written, the message says how to install the viewer,
+/// and the exit code is 3; --no-viewer only writes. Otherwise the exit code is 0, or that of the run if a scenario is
+/// given.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// A recording (.rrd), a robot (folder, robot file or .urdf), or a scenario file.
@@ -42,7 +45,7 @@ pub(crate) struct Arguments {
     access: AccessArguments,
 }
 
-/// What there is to see.
+/// Kind of the input, which decides how it is shown.
 enum Input {
     Recording,
     Robot,
@@ -50,7 +53,7 @@ enum Input {
 }
 
 impl Input {
-    fn of(path: &Path) -> Result<Self, Diagnostic> {
+    fn from_path(path: &Path) -> Result<Self, Diagnostic> {
         let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
         match ending.as_deref() {
             _ if path.is_dir() => Ok(Self::Robot),
@@ -58,7 +61,7 @@ impl Input {
             Some("urdf" | "xml") => Ok(Self::Robot),
             Some("toml") => Ok(if is_robot_file(path) { Self::Robot } else { Self::Scenario }),
             _ => {
-                let message = format!("{} is no recording, robot or scenario", path.display());
+                let message = format!("{} is not a recording, a robot or a scenario", path.display());
                 Err(Diagnostic::error("view::input", message)
                     .with_help("give a file that ends in .rrd, .urdf or .toml, or the folder of a robot"))
             }
@@ -66,7 +69,8 @@ impl Input {
     }
 }
 
-/// Whether a file names a URDF before its first section, as a robot file does. What cannot be read is told by the reader.
+/// Whether a file names a URDF before its first section, as a robot file does. A file that cannot be read is reported
+/// by its reader.
 fn is_robot_file(path: &Path) -> bool {
     let text = fs::read_to_string(path).unwrap_or_default();
     let mut keys = text.lines().map(str::trim_start).take_while(|line| !line.starts_with('['));
@@ -74,7 +78,7 @@ fn is_robot_file(path: &Path) -> bool {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    match Input::of(&arguments.input)? {
+    match Input::from_path(&arguments.input)? {
         Input::Recording => {
             // The viewer would open an empty window.
             let summary = congruent::recording::inspect(&arguments.input)
@@ -140,7 +144,7 @@ fn text(sweep: &JointSweep) -> String {
         let note = note.clone().unwrap_or_default();
         table.row([joint.clone(), position(*lower, unit), position(*upper, unit), at, note]);
     }
-    table.write(&mut text);
+    table.write(&mut text, columns());
     if !sweep.follow.is_empty() {
         let _ = writeln!(text, "  joints that follow others: {}", sweep.follow.join(", "));
     }

@@ -11,14 +11,14 @@ use congruent::recording::RERUN_VERSION;
 
 use crate::failure::Failure;
 
-/// The program's name.
+/// Name of the viewer program, which is looked for in `PATH`.
 const PROGRAM: &str = "rerun";
 
-/// An installed viewer.
+/// A viewer that is installed on this machine, with the version that it reports.
 #[derive(Debug, Clone)]
 pub(crate) struct Viewer {
     program: PathBuf,
-    /// Its version, as far as it tells.
+    /// Its version; `None` if it does not print one.
     pub(super) version: Option<String>,
 }
 
@@ -26,7 +26,8 @@ impl Viewer {
     /// The viewer in `PATH`.
     ///
     /// # Errors
-    /// How to get it, if it is not there; `recording` is what could be opened elsewhere.
+    /// If it is not installed, the error says how to install it; `recording` is the file that can be opened on
+    /// another machine.
     pub(crate) fn find(recording: Option<&Path>) -> Result<Self, Failure> {
         let program = in_path(env::var_os("PATH").as_deref()).ok_or_else(|| missing(recording))?;
         let output = Command::new(&program).arg("--version").stdin(Stdio::null()).output();
@@ -57,7 +58,7 @@ impl Viewer {
                 recording.display()
             ))
         };
-        // What the viewer says is no answer of this command.
+        // The output of the viewer is not part of this command's answer.
         let status = Command::new(&self.program)
             .arg(recording)
             .stdin(Stdio::null())
@@ -112,7 +113,7 @@ fn missing(recording: Option<&Path>) -> Failure {
             recording.display()
         )
     });
-    Failure::Machine(format!("there is no `{PROGRAM}` in PATH: get the viewer by {}{elsewhere}", install()))
+    Failure::Machine(format!("`{PROGRAM}` is not in PATH: install the viewer with {}{elsewhere}", install()))
 }
 
 #[cfg(test)]

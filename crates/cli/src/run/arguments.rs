@@ -1,35 +1,33 @@
-//! What `congruent run` is asked for.
+//! The arguments of `congruent run`.
 
 use std::path::PathBuf;
 
-use congruent::{
-    description::Diagnostic,
-    page::PageFormat,
-    twin::{RecordingFormat, scenario::Override},
-};
+use congruent::{input::Diagnostic, page::PageFormat, results::RecordingFormat, scenario::Override};
+
+use crate::{ci::CiArguments, failure::Failure, input::AccessArguments, terminal::print::Printer};
 
 #[cfg(feature = "recording")]
 use crate::recording::{live::LiveFormat, viewer::Viewer};
-use crate::{ci::CiArguments, failure::Failure, input::AccessArguments, terminal::print::Printer};
 
-/// Runs scenario files and writes report, page, JUnit and recording of each to its own folder; of several an index of the
-/// pages besides.
+/// Runs scenario files and writes report, page, JUnit and recording of each to its own folder, and, for several, an
+/// index page.
 ///
 /// Ctrl-C and SIGTERM end the runs in order: what was computed until then is written, and the exit code is 3. The second
 /// ends the call at once.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Scenario files.
+    /// Scenario files (.toml) to run.
     #[arg(required = true)]
     pub(super) scenarios: Vec<PathBuf>,
     /// Folder for results; each scenario gets a folder of its name in it.
     #[arg(long, default_value = "out")]
     pub(super) out: PathBuf,
-    /// Keep what an earlier call has left in the folder for scenarios that are finished and were made from the same files,
-    /// values and version; run the others, among them those whose report tells the cause of a failed agreement. Index, JUnit file and summary are of all.
+    /// Keep the results of an earlier call for scenarios that finished with the same files, values and version; run
+    /// the others, and those again whose report names the cause of a failed agreement. Index, JUnit file and summary
+    /// cover all scenarios.
     #[arg(long)]
     pub(super) resume: bool,
-    /// How many scenarios run at once; as many as the machine has cores if it is left out. The results are the same.
+    /// Number of scenarios that run at once; by default the number of cores. The results do not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
     /// Replace a value of all scenarios, for example controller.stiffness=500 or check.1.position_m=1e-6.
@@ -42,7 +40,6 @@ pub(crate) struct Arguments {
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX.unsigned_abs()))]
     seed: Option<u64>,
     #[command(flatten)]
-    #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "without the feature there is none"))]
     recording: RecordingArguments,
     #[command(flatten)]
     pub(super) ci: CiArguments,
@@ -50,12 +47,11 @@ pub(crate) struct Arguments {
     pub(super) access: AccessArguments,
 }
 
-/// What becomes of the recording.
+/// Whether a recording is written, and whether it is shown.
 #[derive(Debug, clap::Args)]
 struct RecordingArguments {
-    /// Write no recording.
+    /// Write no recording (recording.rrd).
     #[arg(long)]
-    #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "without the feature there is none"))]
     no_recording: bool,
     /// Show the recording of one scenario in the rerun viewer while it is written; the viewer stays open.
     ///
@@ -72,7 +68,7 @@ fn parse_override(text: &str) -> Result<Override, String> {
 }
 
 impl Arguments {
-    /// Number of threads for so many scenarios.
+    /// Number of threads for this number of scenarios.
     pub(super) fn threads(&self, scenarios: usize) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         self.jobs.map_or_else(cores, usize::from).min(scenarios)

@@ -4,10 +4,10 @@ use std::{fs, path::Path};
 
 use congruent::{
     page::{IndexEntry, index_page},
-    twin::results::write_whole,
+    results::files::write_whole,
 };
 
-use super::ran::Ran;
+use super::run_answer::RunAnswer;
 use crate::{
     batch::Answer,
     failure::{Failure, unwritable},
@@ -16,13 +16,14 @@ use crate::{
 /// The page over several scenarios.
 const INDEX: &str = "index.html";
 
-/// Removes that of an earlier call. If it cannot be removed, it cannot be replaced either, which is told at the end.
+/// Removes the index of an earlier call. If it cannot be removed, it cannot be replaced either, and writing it
+/// reports that.
 pub(super) fn remove_index(out: &Path) {
     let _ = fs::remove_file(out.join(INDEX));
 }
 
 /// The page over all scenarios of a call, beside their folders, if there are several and one of them ran.
-pub(super) fn write_index(answers: &[Answer<Ran>], out: &Path) -> Result<(), Failure> {
+pub(super) fn write_index(answers: &[Answer<RunAnswer>], out: &Path) -> Result<(), Failure> {
     if answers.len() < 2 || answers.iter().all(|answer| answer.report().is_err()) {
         return Ok(());
     }
@@ -32,8 +33,8 @@ pub(super) fn write_index(answers: &[Answer<Ran>], out: &Path) -> Result<(), Fai
         .map_err(|error| unwritable(&error, "choose a folder that can be written with --out"))
 }
 
-fn entry(answer: &Answer<Ran>) -> IndexEntry<'_> {
-    let page = |ran: &Ran| {
+fn entry(answer: &Answer<RunAnswer>) -> IndexEntry<'_> {
+    let page = |ran: &RunAnswer| {
         let folder = ran.results.as_ref().ok()?.file_name()?;
         Some(format!("{}/report.html", folder.to_string_lossy()))
     };

@@ -1,26 +1,21 @@
 //! `congruent run`: runs scenario files without a display.
 
 mod arguments;
-mod described;
 mod index;
-mod kept;
-mod ran;
+mod resumed;
+mod run_answer;
 
 use std::sync::{
     Mutex,
     atomic::{AtomicBool, Ordering},
 };
 
-use congruent::twin::Options;
+use congruent::results::Options;
 
-pub(crate) use self::{
-    arguments::Arguments,
-    ran::{Ran, no_folder, run_one},
-};
 use self::{
     arguments::{recording_format, recordings},
     index::write_index,
-    kept::{Loaded, load},
+    resumed::{LoadedScenario, load},
 };
 use crate::{
     batch::{Answer, Batch},
@@ -29,13 +24,20 @@ use crate::{
     terminal::{print::Printer, progress::Progress},
 };
 
+#[cfg(feature = "recording")]
+pub(crate) use self::run_answer::no_folder;
+pub(crate) use self::{
+    arguments::Arguments,
+    run_answer::{RunAnswer, run_one},
+};
+
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let recording = recording_format(arguments, printer)?;
     let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
     let recordings = recordings(recording.as_deref());
     let options = Options { out: arguments.out.clone(), recordings, interrupt: None };
     let loaded = load(arguments, &options, &batch)?;
-    batch.plan(&loaded, Loaded::suite);
+    batch.plan(&loaded, LoadedScenario::suite);
     let interrupt = flag_of_signals();
     let progress = Progress::new(printer);
     let options = Options { interrupt: Some(&interrupt), ..options };
@@ -51,11 +53,11 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 
 /// Runs scenarios on `--jobs` threads; answers are in the order of the arguments.
 fn run_all(
-    loaded: Vec<Answer<Loaded>>,
+    loaded: Vec<Answer<LoadedScenario>>,
     (arguments, interrupt): (&Arguments, &AtomicBool),
     options: &Options<'_>,
     (batch, progress): (&Batch<'_>, &Progress),
-) -> Vec<Answer<Ran>> {
+) -> Vec<Answer<RunAnswer>> {
     let jobs = arguments.threads(loaded.len());
     let waiting = Mutex::new(loaded.into_iter().enumerate());
     let work = || {
@@ -64,20 +66,20 @@ fn run_all(
             let next = waiting.lock().expect("no thread panics while it takes a scenario").next();
             let Some((index, loaded)) = next else { return answers };
             let answer = batch.go_on(loaded, |loaded| match loaded {
-                Loaded::Finished(report, folder) => {
-                    Ok(Ran { report: *report, results: Ok(folder), is_kept: true })
+                LoadedScenario::Finished(report, folder) => {
+                    Ok(RunAnswer { report: *report, results: Ok(folder), is_kept: true })
                 }
-                Loaded::New(_) if interrupt.load(Ordering::Relaxed) => {
+                LoadedScenario::New(_) if interrupt.load(Ordering::Relaxed) => {
                     Err(Failure::Machine("interrupted before it started".to_owned()))
                 }
-                Loaded::New(setup) => run_one(&setup, options, progress),
+                LoadedScenario::New(setup) => run_one(&setup, options, progress),
             });
             batch.keep(index, &answer);
-            progress.suspended(|| batch.tell(&answer));
+            progress.suspended(|| batch.report(&answer));
             answers.push((index, answer));
         }
     };
-    let mut answers: Vec<(usize, Answer<Ran>)> = std::thread::scope(|scope| {
+    let mut answers: Vec<(usize, Answer<RunAnswer>)> = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..jobs).map(|_| scope.spawn(work)).collect();
         threads
             .into_iter()

@@ -1,14 +1,17 @@
 //! Results as JSON, written while they are serialised: the text of a long one is never in memory.
 
-use std::io::{self, Write};
+use std::{
+    borrow::Cow,
+    fmt::Write as _,
+    io::{self, Write},
+};
 
+use congruent::input::is_hidden;
 use serde::Serialize;
 use serde_json::{
     Serializer,
     ser::{CharEscape, CompactFormatter, Formatter},
 };
-
-use super::text::for_programs;
 
 /// Writes a document in one line, which no terminal and no CI host obeys.
 pub(crate) fn write_json<T: Serialize>(document: &T, out: &mut impl Write) -> io::Result<()> {
@@ -45,6 +48,27 @@ impl Formatter for ForPrograms {
         self.is_after_hash = false;
         CompactFormatter.write_char_escape(writer, escape)
     }
+}
+
+/// A JSON document that no terminal and no CI host obeys. These characters are in strings alone: it stays the same
+/// document.
+fn for_programs(json: &str) -> Cow<'_, str> {
+    let is_obeyed = |c: char| is_hidden(c) && c != '\n';
+    if !json.contains(is_obeyed) && !json.contains("##") {
+        return Cow::Borrowed(json);
+    }
+    let mut written = String::with_capacity(json.len());
+    let mut units = [0; 2];
+    for c in json.chars() {
+        if is_obeyed(c) || (c == '#' && written.ends_with('#')) {
+            for unit in c.encode_utf16(&mut units) {
+                let _ = write!(written, "\\u{unit:04x}");
+            }
+        } else {
+            written.push(c);
+        }
+    }
+    Cow::Owned(written)
 }
 
 #[cfg(test)]
@@ -87,7 +111,7 @@ mod tests {
         check(&Pieces(&["#", "\n", "#", "\"", "##"]));
     }
 
-    /// Each entry of a long document is on its way out before the next one is made.
+    /// Each entry of a long document is written before the next one is made.
     #[test]
     fn a_long_document_is_never_in_memory() {
         const ENTRIES: usize = 10_000;
@@ -116,7 +140,7 @@ mod tests {
         assert!(written.get() > ENTRIES);
     }
 
-    /// A fault of the output keeps its kind: a closed pipe is no failure of the command.
+    /// A fault of the output keeps its kind: a closed pipe is not a failure of the command.
     #[test]
     fn a_fault_of_the_output_keeps_its_kind() {
         struct Closed;
@@ -129,5 +153,13 @@ mod tests {
             }
         }
         assert_eq!(write_json(&[1, 2], &mut Closed).unwrap_err().kind(), io::ErrorKind::BrokenPipe);
+    }
+
+    #[test]
+    fn a_document_stays_the_same() {
+        let document = serde_json::json!({"name": "\u{202e}##[x]\u{e0041}\u{85}\u{1b}\n"});
+        let written = for_programs(&document.to_string()).into_owned();
+        assert!(!written.contains(is_hidden) && !written.contains("##"), "{written}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&written).unwrap(), document);
     }
 }

@@ -2,9 +2,9 @@
 //! writes.
 
 mod json_output;
-pub(crate) mod layout;
 pub(crate) mod print;
 pub(crate) mod progress;
-mod status_colour;
-pub(crate) mod table;
-pub(crate) mod text;
+mod width;
+
+pub(crate) use congruent::text::layout;
+pub(crate) use width::columns;

@@ -2,7 +2,6 @@
 //! standard error.
 
 use std::{
-    fmt::Write as _,
     io::{self, BufWriter, IsTerminal, Write},
     iter::once_with,
     path::Path,
@@ -10,47 +9,48 @@ use std::{
 };
 
 use clap::ValueEnum;
-use congruent::description::{Diagnostic, Finding, SourceFile, serde_name, visible};
-use miette::{GraphicalReportHandler, GraphicalTheme};
+use congruent::{
+    input::{Diagnostic, Finding, serde_name, visible},
+    text::{
+        MOST_FINDINGS, TextOptions, finding_text,
+        layout::{for_people, visible_path},
+        listed_findings,
+    },
+};
 use serde::Serialize;
 
 use crate::{
     failure::Failure,
-    terminal::{
-        json_output::write_json,
-        layout::{columns, fitted},
-        status_colour::with_coloured_status,
-        text::{Colours, for_people, shown, with_visible_lines},
-    },
+    terminal::{columns, json_output::write_json},
 };
 
 /// How results are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// For people.
+    /// Text for people.
     #[value(alias = "text")]
     Human,
     /// One JSON document on standard output.
     Json,
-    /// One SARIF document on standard output, which code hosts show: of `lint` alone.
+    /// One SARIF document on standard output, for code hosts (lint only).
     Sarif,
 }
 
-/// When what people read is coloured.
+/// When text for people is coloured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Color {
     /// On a terminal, unless `NO_COLOR` is set.
     Auto,
     /// In a pipe, too.
     Always,
-    /// Never.
+    /// Never, not even on a terminal.
     Never,
 }
 
 /// How much is printed beside the answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Verbosity {
-    /// Errors alone.
+    /// Only the answer and errors (`--quiet`).
     Quiet,
     /// Warnings, and progress on a terminal.
     Usual,
@@ -97,33 +97,24 @@ fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
-/// Most findings that are shown; the others appear once these are corrected.
-pub(crate) const MOST_FINDINGS: usize = 100;
-/// Longest message or help that is shown to people, in bytes.
-const MOST_SHOWN: usize = 2000;
-/// Columns of a finding, unless the terminal has less.
-const WIDEST_FINDING: usize = 100;
-/// Longest snippet: beyond it, a line fills the terminal and what is marked in it is not found.
-const LONGEST_SNIPPET: usize = 500;
-
 impl<'a> From<&'a Failure> for Refusal<'a> {
     fn from(failure: &'a Failure) -> Self {
         let (error, findings) = match failure {
-            Failure::Input(findings) => ("bad input", findings.as_slice()),
-            Failure::Machine(message) => (message.as_str(), [].as_slice()),
+            Failure::Input(findings) => ("bad input", findings.iter()),
+            Failure::Machine(message) => (message.as_str(), [].iter()),
         };
         Self {
             input: None,
             error,
-            findings: findings.iter().take(MOST_FINDINGS).map(Finding::from).collect(),
             left_out: findings.len().saturating_sub(MOST_FINDINGS),
+            findings: findings.take(MOST_FINDINGS).map(Finding::from).collect(),
         }
     }
 }
 
 impl Refusal<'_> {
     /// The same with the name of the input.
-    pub(crate) fn of_input(self, input: &Path) -> Self {
+    pub(crate) fn with_input(self, input: &Path) -> Self {
         Self { input: Some(input.display().to_string()), ..self }
     }
 }
@@ -152,17 +143,13 @@ impl Printer {
     }
 
     /// The same for a long text, whose parts of whole lines are made while it is written.
-    pub(crate) fn parts<'a, T: Serialize, Parts: Iterator<Item = String> + 'a>(
+    pub(crate) fn parts<'a, T: Serialize, TextParts: Iterator<Item = String> + 'a>(
         &self,
         document: &'a T,
-        text: impl FnOnce(&'a T) -> Parts,
+        text: impl FnOnce(&'a T) -> TextParts,
     ) -> Result<(), Failure> {
-        let within = |text: String| match columns() {
-            Some(columns) => fitted(&text, columns),
-            None => text,
-        };
-        let in_colour = |text: String| if is_coloured() { with_coloured_status(&text) } else { text };
-        self.write(document, |document| text(document).map(within).map(in_colour))
+        let options = text_options();
+        self.write(document, |document| text(document).map(move |text| options.laid_out(text)))
     }
 
     /// The same for a text that is a file, of which no line is broken.
@@ -174,15 +161,15 @@ impl Printer {
         self.write(document, |document| once_with(move || text(document)))
     }
 
-    fn write<'a, T: Serialize, Parts: Iterator<Item = String> + 'a>(
+    fn write<'a, T: Serialize, TextParts: Iterator<Item = String> + 'a>(
         &self,
         document: &'a T,
-        text: impl FnOnce(&'a T) -> Parts,
+        text: impl FnOnce(&'a T) -> TextParts,
     ) -> Result<(), Failure> {
         let mut out = BufWriter::new(io::stdout().lock());
         let written = match self.format {
             Format::Human => {
-                let colours = colours();
+                let colours = text_options().colours();
                 text(document).try_for_each(|part| {
                     let mut lines = part.split_inclusive('\n');
                     lines.try_for_each(|line| out.write_all(for_people(line, colours).as_bytes()))
@@ -210,8 +197,7 @@ impl Printer {
         to_stderr(&warnings.iter().map(shown).collect::<String>());
     }
 
-    /// Remarks that are no part of the answer, one line each.
-    #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "said about recordings alone"))]
+    /// Remarks beside the answer, one line each.
     pub(crate) fn notes<'a>(&self, notes: impl IntoIterator<Item = &'a str>) {
         if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
             notes.into_iter().for_each(|note| to_stderr(&format!("note: {note}\n")));
@@ -238,7 +224,9 @@ impl Printer {
     pub(crate) fn explain(input: Option<&Path>, failure: &Failure) {
         let text = match failure {
             Failure::Machine(message) => format!("error: {}{}\n", named(input), visible(message)),
-            Failure::Input(findings) => shown_findings(findings.iter(), |finding| labelled(input, finding)),
+            Failure::Input(findings) => {
+                listed_findings(findings.iter(), &text_options(), |finding| labelled(input, finding))
+            }
         };
         to_stderr(&text);
     }
@@ -246,7 +234,7 @@ impl Printer {
     /// How one of several inputs has ended, for people, on standard error: the results follow in the order of the inputs.
     pub(crate) fn ended(&self, input: &Path, word: &str) {
         if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
-            to_stderr(&format!("{}: {word}\n", shown(input)));
+            to_stderr(&format!("{}: {word}\n", visible_path(input)));
         }
     }
 
@@ -273,14 +261,14 @@ fn machine(error: impl std::fmt::Display) -> Failure {
 
 fn to_stderr(text: &str) {
     // There is nothing to be done if standard error is closed.
-    let _ = io::stderr().lock().write_all(for_people(text, colours()).as_bytes());
+    let _ = io::stderr().lock().write_all(for_people(text, text_options().colours()).as_bytes());
 }
 
 /// A finding below the name of the input that it belongs to.
 fn labelled(input: Option<&Path>, finding: &Diagnostic) -> String {
     let word = serde_name(&finding.severity);
-    let heading = input.map(|input| format!("{}: {word}\n", shown(input)));
-    heading.unwrap_or_default() + &rendered(finding)
+    let heading = input.map(|input| format!("{}: {word}\n", visible_path(input)));
+    heading.unwrap_or_default() + &finding_text(finding, &text_options())
 }
 
 /// `robot.toml: warning: robot.urdf:12: link "tool" has no mass; ...`.
@@ -292,7 +280,7 @@ fn in_one_line(input: Option<&Path>, finding: &Diagnostic) -> String {
 
 /// The name of an input in front of what is said of it.
 fn named(input: Option<&Path>) -> String {
-    input.map(|input| format!("{}: ", shown(input))).unwrap_or_default()
+    input.map(|input| format!("{}: ", visible_path(input))).unwrap_or_default()
 }
 
 /// Whether text is coloured. On its own only if both outputs are terminals, since findings are shown on either, and the user
@@ -308,130 +296,19 @@ fn is_coloured() -> bool {
     }
 }
 
-fn colours() -> Colours {
-    if is_coloured() { Colours::Kept } else { Colours::Escaped }
-}
-
-/// The first findings, all with `--verbose`, and how many there are besides.
-pub(crate) fn shown_findings<'a>(
-    mut findings: impl ExactSizeIterator<Item = &'a Diagnostic>,
-    show: impl Fn(&Diagnostic) -> String,
-) -> String {
-    let most = if IN_FULL.get().is_some() { usize::MAX } else { MOST_FINDINGS };
-    let mut text: String = findings.by_ref().take(most).map(show).collect();
-    if findings.len() > 0 {
-        let _ = writeln!(text, "and {} more; --verbose shows all", findings.len());
-    }
-    text
-}
-
-/// A finding with the line it is about, as a compiler shows it.
-pub(crate) fn rendered(finding: &Diagnostic) -> String {
-    let plain = !is_coloured();
-    let theme = if plain { GraphicalTheme::unicode_nocolor() } else { GraphicalTheme::unicode() };
-    let handler = GraphicalReportHandler::new_themed(theme)
-        .with_width(columns().map_or(WIDEST_FINDING, |columns| columns.min(WIDEST_FINDING)))
-        .with_links(false);
-    let mut text = String::new();
-    let finding = &with_visible_lines(shortened(finding));
-    // Without a place in a text there is no snippet with the file's name.
-    if let (None, Some(source)) = (&finding.span, &finding.source) {
-        let _ = writeln!(text, "{}:", shown(&source.path));
-    }
-    if handler.render_report(&mut text, finding).is_err() {
-        // The renderer rejects spans outside the text; the message is printed all the same.
-        let _ = writeln!(text, "{}: {finding}", finding.code);
-    }
-    text.push('\n');
-    text
-}
-
-/// The finding without what would fill the terminal: no snippet if its lines are long, and long messages
-/// are cut.
-fn shortened(finding: &Diagnostic) -> Diagnostic {
-    let mut shortened = finding.clone();
-    // Beside the sign, which not everybody sees or knows.
-    shortened.message.insert_str(0, ": ");
-    shortened.message.insert_str(0, serde_name(&finding.severity));
-    if let Some(stopped) = finding.stops {
-        let _ = write!(shortened.message, " (stops {} alone)", serde_name(&stopped));
-    }
-    if IN_FULL.get().is_some() {
-        return shortened;
-    }
-    clip(&mut shortened.message);
-    shortened.help.as_mut().map(clip);
-    let is_related_long = |source: &SourceFile| {
-        let span = shortened.kind.related.as_ref().and_then(|related| related.span.as_ref());
-        span.is_some_and(|span| snippet_bytes(&source.text, span) > LONGEST_SNIPPET)
-    };
-    if finding.source.as_deref().is_some_and(is_related_long) {
-        shortened.kind.related = None;
-    }
-    if let (Some(source), Some(span), Some((line, column))) =
-        (&finding.source, &finding.span, finding.line_column())
-        && snippet_bytes(&source.text, span) > LONGEST_SNIPPET
-    {
-        let _ = write!(shortened.message, " ({}:{line}:{column})", shown(&source.path));
-        (shortened.source, shortened.span) = (None, None);
-    }
-    shortened
-}
-
-/// Length of the lines that a snippet would show.
-fn snippet_bytes(text: &str, span: &std::ops::Range<usize>) -> usize {
-    let bytes = text.as_bytes();
-    let is_break = |&byte: &u8| byte == b'\n';
-    let (start, end) = (span.start.min(bytes.len()), span.end.min(bytes.len()));
-    let before = bytes[..start].iter().rev().position(is_break).unwrap_or(start);
-    let after = bytes[end..].iter().position(is_break).unwrap_or(bytes.len() - end);
-    before + end.saturating_sub(start) + after
-}
-
-fn clip(text: &mut String) {
-    if text.len() > MOST_SHOWN {
-        let end = (0..=MOST_SHOWN).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
-        text.truncate(end);
-        text.push_str("...");
-    }
+/// How texts of this call are laid out.
+pub(crate) fn text_options() -> TextOptions {
+    TextOptions { columns: columns(), is_coloured: is_coloured(), is_in_full: IN_FULL.get().is_some() }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use congruent::description::SourceFile;
-
     use super::*;
 
-    fn finding(text: &str, span: std::ops::Range<usize>) -> Diagnostic {
-        let source = Arc::new(SourceFile { path: "some.toml".into(), text: text.to_owned() });
-        Diagnostic::error("a::fault", "this is wrong").at(span).in_file(&source)
-    }
-
     #[test]
-    fn a_finding_shows_its_line() {
-        let text = rendered(&finding("a = 1\nb = 2\n", 6..7));
-        assert!(text.contains("some.toml:2:1") && text.contains("b = 2"), "{text}");
-    }
-
-    #[test]
-    fn a_long_line_is_not_shown_but_its_place_is() {
-        let long = format!("a = 1\nb = \"{}\"\n", "x".repeat(1_000_000));
-        let text = rendered(&finding(&long, 6..7));
-        assert!(text.contains("some.toml:2:1") && text.len() < 1000, "{} bytes", text.len());
-    }
-
-    #[test]
-    fn long_words_end() {
-        let mut long = finding("a", 0..1);
-        long.message = "\u{e9}".repeat(1_000_000);
-        assert!(rendered(&long.clone().with_help(long.message.clone())).len() < 10 * MOST_SHOWN);
-    }
-
-    #[test]
-    fn so_many_findings_are_counted_not_told() {
-        let failure = Failure::Input(vec![finding("a", 0..1); MOST_FINDINGS + 7]);
+    fn findings_beyond_the_limit_are_counted() {
+        let finding = Diagnostic::error("a::fault", "this is wrong");
+        let failure = Failure::Input(vec![finding; MOST_FINDINGS + 7].into());
         let refusal = Refusal::from(&failure);
         assert_eq!((refusal.findings.len(), refusal.left_out), (MOST_FINDINGS, 7));
     }

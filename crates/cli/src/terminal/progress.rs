@@ -12,7 +12,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::print::Printer;
 
-/// Steps between two looks at the clock.
+/// Steps after which the clock is read again.
 const STEPS_A_TICK: u64 = 256;
 
 /// A computation that is over by then shows no line.
@@ -58,7 +58,7 @@ impl Progress {
     }
 
     /// A line of at most 80 columns: name, bar, share, time left.
-    pub(crate) fn of_run(&self, setup: &RunSetup) -> RunProgress {
+    pub(crate) fn start_run(&self, setup: &RunSetup) -> RunProgress {
         let style = ProgressStyle::with_template("{prefix:28!} {bar:24} {percent:>3} %  {eta:>5} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         let bar = |bars: &MultiProgress| {

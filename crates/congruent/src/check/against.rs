@@ -2,19 +2,18 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{CheckError, CheckOptions, CheckReport, NotAsked},
+    compare::{CheckError, CheckOptions, CheckReport, ComparedSource, NotCompared},
 };
-use congruent_description::{
-    Diagnostic, JointIndex, Robot, RobotDescription, RobotQ, display::length_and_angle,
-};
-use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedSide};
+use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ};
+use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedModel};
+use congruent_input::{Diagnostic, display::length_and_angle};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
+    model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::PosesOfOther,
-    sides::{two_descriptions, unreadable_value, urdf_places, urdf_side},
 };
 
 /// The other description of a robot.
@@ -48,13 +47,16 @@ pub(super) fn compared(
         return Ok((against, None));
     }
     let mut poses = PosesOfOther::new(&description.robot, &other.robot);
+    // Joints as if all were driven; how mimic joints follow is compared after it, with them following.
     geometry.add_other((description, other), &mut poses, options)?;
     if let Some(followed) = geometry.add_mimics((description, other), &mut poses, options)? {
         against.dynamics_not_compared = Some(format!(
-            "torques are those of driven joints, which are not the same: {followed} in the other file"
+            "the driven joints differ, so the joint torques cannot be compared: {followed} in the other file"
         ));
         return Ok((against, None));
     }
+    // Torques in the same joints need the same axes. Frames that only lie elsewhere in links that move alike are no
+    // obstacle.
     let misplaced = misplaced_joint(description, geometry);
     let in_other_frames = match &misplaced {
         Some(_) => moved_alike((description, other), options.seed)?,
@@ -68,9 +70,10 @@ pub(super) fn compared(
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
-    let [found, mut expected] = [description, other].map(urdf_side);
+    let [found, mut expected] = [description, other].map(urdf_model);
     if !in_other_frames.is_empty() {
-        // Equal as they are written, in frames that differ: it is the geometry that is wrong, which is said already.
+        // The written numbers are equal and only the frames differ: the fault is in the geometry, which is reported
+        // already.
         let is_written_alike =
             expected.inertials == found.inertials && expected.resistances == found.resistances;
         let Some(in_frames) = expected.in_frames_of(&found).filter(|_| !is_written_alike) else {
@@ -81,14 +84,14 @@ pub(super) fn compared(
     }
     against.links_in_other_frames = in_other_frames;
     let [name, other_name] = [description, other].map(|of| of.urdf_path.display().to_string());
-    let candidate = NamedSide { name: &name, side: &found, places: urdf_places(description) };
-    let reference = NamedSide { name: &other_name, side: &expected, places: urdf_places(other) };
+    let candidate = NamedModel { name: &name, model: &found, places: urdf_places(description) };
+    let reference = NamedModel { name: &other_name, model: &expected, places: urdf_places(other) };
     match two_descriptions(&candidate, &reference, options.seed) {
         Ok(report) => Ok((against, Some(report))),
         // No difference of the two: the poses agree.
         Err(error @ CompareError::NoJoint) => {
             let finding = Diagnostic::error("check::other_dynamics", error.to_string());
-            geometry.not_asked.push(NotAsked::because("other_dynamics", &finding));
+            geometry.not_asked.push(NotCompared::because(ComparedSource::OtherDynamics, &finding));
             Ok((against, None))
         }
         Err(error) => {
@@ -116,6 +119,8 @@ fn moved_alike(
     let moving: Vec<usize> =
         robot.movable_joints().iter().map(|&joint| robot.joint(joint).child.get()).collect();
     let at_zero = at(&RobotQ::zeros(robot.dof()))?;
+    // If a link moves alike, its pose in the link of the same name is constant: it must be at random positions what
+    // it is at zero.
     let mut random = Uniform::seeded(seed);
     for _ in 0..POSITIONS {
         let q = robot.movable_joints().iter().map(|&joint| random.between(range(robot.joint(joint))));
@@ -134,7 +139,7 @@ fn moved_alike(
 /// Positions at which links are found to move alike. Kind: choice.
 const POSITIONS: usize = 50;
 
-/// The first moving joint that one of the two does not have, or that moves in another way.
+/// The first moving joint that one of the two descriptions lacks, or that turns in one and slides in the other.
 fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
     let missing = |joint: &str, (of, lacks): (&str, &Robot)| match lacks.find_joint(joint) {
         Some(_) => format!("joint \"{joint}\" does not move in {of}"),
@@ -152,6 +157,8 @@ fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
             ));
         }
     }
+    // Joints of the other that are lacking here, after those of this robot, so that the first of the chain is
+    // named.
     let mut others = other.movable_joint_names();
     others
         .find(|name| moving(robot, name).is_none())
@@ -172,8 +179,8 @@ fn misplaced_joint(description: &RobotDescription, geometry: &CheckReport) -> Op
     });
     first.map(|(joint, worst)| {
         format!(
-            "the two are not the same chain within the tolerance: link \"{}\" of joint \"{}\" is the first that is \
-             elsewhere, by up to {}",
+            "the two are not the same chain within the tolerance: link \"{}\" of joint \"{}\" is the first whose \
+             pose differs, by up to {}",
             worst.link,
             joint.name,
             length_and_angle(worst.error.position_m, worst.error.orientation_rad)

@@ -2,15 +2,16 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckError, CheckOptions, CheckReport, DifferencesAt, NotAsked},
+    compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, NotCompared},
 };
-use congruent_description::{DeclaredDynamics, Diagnostic, Finding, InertialFrame, RobotDescription};
+use congruent_description::{DynamicsTable, InertialFrame, RobotDescription};
 use congruent_dynamics_agreement::DynamicsReport;
+use congruent_input::{Diagnostic, Finding};
 use congruent_kinematics::LinkPoses;
 
 use super::{
-    against, declared, physics, poses_of_other::PosesOfOther, robot_check::RobotCheck,
-    sides::unreadable_value,
+    against, declared, model_frames::unreadable_value, physics, poses_of_other::PosesOfOther,
+    robot_check::RobotCheck,
 };
 use crate::with_physics::simulated_poses;
 
@@ -23,7 +24,7 @@ pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<R
     checked(description, None, options)
 }
 
-/// The same, and the URDF with the URDF of another description of the robot.
+/// Like [`check`], and also compares the URDF with that of another description of the robot.
 ///
 /// Dynamics is compared if the two are the same chain: the same moving joints by name, at the same poses.
 ///
@@ -49,6 +50,7 @@ fn checked(
     let mut compared = Vec::new();
     let against = match other {
         Some(other) => {
+            // First, since it adds to the geometry on which the verdicts of dynamics below depend.
             let (against, dynamics) = against::compared(&mut geometry, (description, other), options)?;
             compared.extend(dynamics);
             geometry.warnings.extend(other.warnings.iter().map(Finding::from));
@@ -59,6 +61,7 @@ fn checked(
     let at_configurations = at_configurations((description, other), &geometry, options)?;
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
+        // A value that cannot be read was taken as 0 and would appear as a difference.
         let readable = unreadable_value(description).map_or(Ok(()), Err);
         match readable.and_then(|()| comparable(declared, &geometry)).and_then(|()| {
             declared::compared(description, declared, options.seed).map_err(|error| error.to_string())
@@ -69,14 +72,16 @@ fn checked(
             }
             Err(why) => {
                 let finding = Diagnostic::error("check::declared_dynamics", why);
-                geometry.not_asked.push(NotAsked::because("declared_dynamics", &finding));
+                geometry.not_asked.push(NotCompared::because(ComparedSource::DeclaredDynamics, &finding));
             }
         }
     }
     if is_simulated {
         match physics::compared(description, options.seed) {
             Ok(report) => compared.push(report),
-            Err(finding) => geometry.not_asked.push(NotAsked::because("simulated_dynamics", &finding)),
+            Err(finding) => {
+                geometry.not_asked.push(NotCompared::because(ComparedSource::SimulatedDynamics, &finding));
+            }
         }
     }
     // A comparison that disagrees comes first; the order is otherwise kept.
@@ -119,7 +124,7 @@ fn at_configurations(
 
 /// Whether there is anything to compare, and if parameters are in frames of the table, whether these are those of the
 /// URDF: a wrong row would be taken for wrong masses.
-fn comparable(declared: &DeclaredDynamics, geometry: &CheckReport) -> Result<(), String> {
+fn comparable(declared: &DynamicsTable, geometry: &CheckReport) -> Result<(), String> {
     if declared.inertials.is_empty() && declared.gravity_in_base_m_s2.is_none() {
         return Err("[dynamics] of the robot file declares neither gravity nor an [[inertial]]: there is nothing to compare".to_owned());
     }
@@ -127,7 +132,7 @@ fn comparable(declared: &DeclaredDynamics, geometry: &CheckReport) -> Result<(),
     let mut table = geometry.comparisons.iter().filter(|of| of.name == SourcePair::ModelUrdf);
     if uses_table && table.any(|of| of.verdict == Agreement::Disagree) {
         return Err(
-            "parameters are in frames of the table, which is not the chain of the URDF: correct the table first"
+            "its parameters are in frames of the table, which disagrees with the URDF: correct the table first"
                 .to_owned(),
         );
     }

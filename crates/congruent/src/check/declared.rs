@@ -3,27 +3,27 @@
 use std::ops::Range;
 
 use congruent_description::{
-    DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces, InertialPoint, Robot,
-    RobotDescription, SourceFile, TextEdit,
+    DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, Robot, RobotDescription,
 };
 use congruent_dynamics::JointResistance;
 use congruent_dynamics_agreement::{
-    CompareError, DynamicsCause, DynamicsExplanation, DynamicsReport, Inertial, NamedSide,
-    ParameterDifference, ParameterPlaces, Side,
+    CompareError, DynamicsCause, DynamicsExplanation, DynamicsModel, DynamicsReport, Inertial, NamedModel,
+    ParameterDifference, ParameterPlaces,
 };
+use congruent_input::{SourceFile, TextEdit};
 use congruent_kinematics::Pose;
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::sides::{AtZero, two_descriptions, urdf_places, urdf_side};
+use super::model_frames::{AtZero, two_descriptions, urdf_model, urdf_places};
 
 /// The dynamics that the robot file declares beside the URDF.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct DeclaredSource {
     /// Where the values come from, as the file says.
     pub source: Option<String>,
-    /// What the file does not declare, so that it is not compared.
+    /// Values that the file does not declare, so that they are not compared.
     pub not_declared: Vec<String>,
 }
 
@@ -31,40 +31,43 @@ pub struct DeclaredSource {
 /// costs less, and the URDF if both cost the same.
 pub(super) fn compared(
     description: &RobotDescription,
-    declared: &DeclaredDynamics,
+    declared: &DynamicsTable,
     seed: u64,
 ) -> Result<(DeclaredSource, DynamicsReport), CompareError> {
-    let urdf = urdf_side(description).by_bodies();
+    // By bodies, since an entry declares all that fixed joints hold to the link of its joint.
+    let urdf = urdf_model(description).by_bodies();
     let zero =
         AtZero::new(description).map_err(|error| CompareError::Source { message: error.to_string() })?;
-    let bodies: Vec<Body> =
-        declared.inertials.iter().map(|of| Body::new(of, &zero, &description.robot)).collect();
-    let side = declared_side(declared, (&bodies, &zero), &urdf);
+    let bodies: Vec<DeclaredBody> =
+        declared.inertials.iter().map(|of| DeclaredBody::new(of, &zero, &description.robot)).collect();
+    let model = declared_model(declared, (&bodies, &zero), &urdf);
     let places = description.places.inertials.as_deref();
     let robot = &description.robot;
     let places =
         places.map(|places| DeclaredPlaces { places, bodies: &bodies, robot, parameters: InFrame::Link });
     let names = [&description.urdf_path, &description.path].map(|path| path.display().to_string());
-    let by_urdf = NamedSide { name: &names[0], side: &urdf, places: urdf_places(description) };
+    let by_urdf = NamedModel { name: &names[0], model: &urdf, places: urdf_places(description) };
     let by_file = places.as_ref().map(|places| places as &dyn ParameterPlaces);
-    let by_file = NamedSide { name: &names[1], side: &side, places: by_file };
+    let by_file = NamedModel { name: &names[1], model: &model, places: by_file };
     let mut report = two_descriptions(&by_urdf, &by_file, seed)?;
     if !report.has_same_torques() {
         // A mistake in the file was made in the frames of the file.
         let frames: Vec<(usize, Pose)> =
             bodies.iter().map(|body| (body.link, body.link_from_frame)).collect();
-        let [urdf, side] = [&urdf, &side].map(|side| side.in_frames(&frames));
+        let [urdf, model] = [&urdf, &model].map(|model| model.in_frames(&frames));
         let places = places.as_ref().map(|places| DeclaredPlaces { parameters: InFrame::Entry, ..*places });
-        let by_file = NamedSide {
-            side: &side,
+        let by_file = NamedModel {
+            model: &model,
             places: places.as_ref().map(|places| places as &dyn ParameterPlaces),
             ..by_file
         };
-        let mut other = two_descriptions(&by_file, &NamedSide { side: &urdf, ..by_urdf }, seed)?;
+        let mut other = two_descriptions(&by_file, &NamedModel { model: &urdf, ..by_urdf }, seed)?;
+        // Both explanations are tried: the numbers alone do not say which of the two files is wrong.
         let [of_urdf, of_file] = [&report, &other].map(|report| cost(report, urdf.frames().reach_m()));
         if of_file < of_urdf {
             std::mem::swap(&mut report, &mut other);
         }
+        // As many free numbers in either file: neither is more likely, so the report names the other one as well.
         if of_file.numbers == of_urdf.numbers {
             report.add_otherwise(&other);
         }
@@ -73,11 +76,11 @@ pub(super) fn compared(
     Ok((DeclaredSource { source, not_declared: not_declared(declared, &description.robot) }, report))
 }
 
-/// What it costs to take one of the two for wrong; the smaller first.
+/// Cost of the explanation that one of the two files is wrong. Fields are compared in their order.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Cost {
-    /// Whether it is unexplained, whether it leaves no body, and whether the file cannot say it, as a URDF cannot say
-    /// gravity.
+    /// Whether it is unexplained, whether its correction is physically impossible, and whether the file has no place
+    /// for it, as a URDF has none for gravity.
     against_it: [bool; 3],
     /// Free numbers, in halves.
     numbers: u32,
@@ -113,8 +116,8 @@ fn has_plausible_com(explanation: &DynamicsExplanation, reach_m: f64) -> bool {
         && (found > expected || expected > reach_m)
 }
 
-/// What is left out of the entries.
-fn not_declared(declared: &DeclaredDynamics, robot: &Robot) -> Vec<String> {
+/// Parameters without an entry, in words.
+fn not_declared(declared: &DynamicsTable, robot: &Robot) -> Vec<String> {
     let names: Vec<&str> = robot.movable_joint_names().collect();
     let entry = |name: &str| declared.inertials.iter().find(|of| robot.joint(of.joint).name == name);
     let lacking = |what: &str, is_there: fn(&DeclaredInertial) -> bool| {
@@ -139,18 +142,18 @@ fn not_declared(declared: &DeclaredDynamics, robot: &Robot) -> Vec<String> {
 
 /// A declared body in the frame of the link that its joint carries.
 #[derive(Debug, Clone)]
-struct Body {
+struct DeclaredBody {
     joint: usize,
     link: usize,
     link_from_frame: Pose,
     about: InertialPoint,
-    /// What is not declared is zero here.
+    /// Declared parameters; those that are not declared are zero here.
     parameters: Inertial,
     has_com: bool,
     has_tensor: bool,
 }
 
-impl Body {
+impl DeclaredBody {
     fn new(declared: &DeclaredInertial, zero: &AtZero, robot: &Robot) -> Self {
         let link = robot.joint(declared.joint).child.get();
         let link_from_frame = match declared.frame {
@@ -163,6 +166,8 @@ impl Body {
             link_from_axes: Matrix3::identity(),
             tensor_kg_m2: declared.tensor_kg_m2.unwrap_or_else(Matrix3::zeros),
         };
+        // Parallel axes (Steiner): the tensor about the centre of mass is that about the frame minus m (c.c I - c
+        // c^T).
         if declared.about == InertialPoint::Frame && declared.tensor_kg_m2.is_some() {
             in_frame.tensor_kg_m2 -= in_frame.shift();
         }
@@ -206,12 +211,17 @@ impl Body {
     }
 }
 
-/// What the file declares; what it leaves out is as in the URDF.
-fn declared_side(declared: &DeclaredDynamics, (bodies, zero): (&[Body], &AtZero), urdf: &Side) -> Side {
-    let mut side = urdf.clone();
+/// The dynamics that the file declares; values that it omits are those of the URDF.
+fn declared_model(
+    declared: &DynamicsTable,
+    (bodies, zero): (&[DeclaredBody], &AtZero),
+    urdf: &DynamicsModel,
+) -> DynamicsModel {
+    let mut model = urdf.clone();
     for (body, declared) in bodies.iter().zip(&declared.inertials) {
         let mut parameters = body.parameters;
-        if let Some(written) = &side.inertials[body.link] {
+        // Values without an entry are copied from the URDF, so that they cannot differ and are not compared.
+        if let Some(written) = &model.inertials[body.link] {
             if !body.has_com {
                 parameters.com_m = written.com_m;
             }
@@ -220,33 +230,33 @@ fn declared_side(declared: &DeclaredDynamics, (bodies, zero): (&[Body], &AtZero)
                     (written.link_from_axes, written.tensor_kg_m2);
             }
         }
-        side.inertials[body.link] = Some(parameters);
-        let terms = &mut side.resistances[body.joint];
+        model.inertials[body.link] = Some(parameters);
+        let terms = &mut model.resistances[body.joint];
         terms.armature = declared.armature.unwrap_or(terms.armature);
         terms.damping = declared.damping.unwrap_or(terms.damping);
         terms.friction = declared.friction.unwrap_or(terms.friction);
     }
     if let Some(gravity) = declared.gravity_in_base_m_s2 {
-        side.gravity_m_s2 = zero.root_from_base.rotation * gravity;
+        model.gravity_m_s2 = zero.root_from_base.rotation * gravity;
     }
-    side
+    model
 }
 
 /// The entries of the file as parameters of links and joints.
 #[derive(Debug)]
 struct DeclaredPlaces<'a> {
     places: &'a InertialPlaces,
-    bodies: &'a [Body],
+    bodies: &'a [DeclaredBody],
     robot: &'a Robot,
     parameters: InFrame,
 }
 
-/// The frame of the parameters that are asked for.
+/// The frame in which parameters are compared and written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum InFrame {
-    /// The link's.
+    /// The frame of the link that the joint carries.
     Link,
-    /// That of the entry.
+    /// The frame that the entry declares.
     Entry,
 }
 
@@ -277,6 +287,7 @@ impl ParameterPlaces for DeclaredPlaces<'_> {
             InFrame::Entry => body.about_point(parameters),
         };
         let mut edits = self.places.set_mass(entry, parameters.mass_kg);
+        // Relative to the larger vector, since a component that is zero has no scale of its own.
         let length = written.com_m.amax().max(new.com_m.amax());
         if (new.com_m - written.com_m).amax() > ROUNDING * length {
             let com = new.com_m.map(|value| cleaned(value, length));

@@ -3,11 +3,11 @@
 mod against;
 mod checked;
 mod declared;
+mod model_frames;
 mod page;
 mod physics;
 mod poses_of_other;
 mod robot_check;
-mod sides;
 mod suite;
 
 pub use against::OtherDescription;

@@ -23,7 +23,7 @@ pub fn checked_robot<'a>(
     not_compared.extend(
         declared
             .filter(|left_out| !left_out.is_empty())
-            .map(|left_out| format!("[[inertial]] does not declare, so that it is not compared: {left_out}")),
+            .map(|left_out| format!("not compared (no [[inertial]] entry): {left_out}")),
     );
     CheckedRobot {
         description,

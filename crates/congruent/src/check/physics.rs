@@ -1,45 +1,46 @@
-//! The dynamics of a URDF against the physics that was built from it, which is probed as a black box: what accelerations
-//! follow from torques.
+//! The dynamics of a URDF against the physics that was built from it. Its parameters are identified as those of a
+//! black box, from the accelerations that follow from torques.
 
-use congruent_description::{Diagnostic, RobotDescription, display::number};
+use congruent_description::{MASSLESS, RobotDescription};
 use congruent_dynamics::{DrivenState, JointDynamics};
 use congruent_dynamics_agreement::{
-    AccelerationSource, DynamicsReport, NamedSide, Probing, compare_with_source,
+    AccelerationSource, DynamicsReport, IdentificationOptions, NamedModel, compare_with_source,
 };
+use congruent_input::{Diagnostic, display::number};
 use congruent_twin::source::SimulatedDynamics;
 
-use super::sides::{urdf_places, urdf_side};
+use super::model_frames::{urdf_model, urdf_places};
 
-/// The code of the finding that the physics could not be probed.
+/// Code of the finding that the parameters of the physics could not be identified.
 const CODE: &str = "check::simulated_dynamics";
 
 /// Compares masses, inertias, joint terms and gravity of a URDF with those of the physics.
 pub(super) fn compared(description: &RobotDescription, seed: u64) -> Result<DynamicsReport, Diagnostic> {
-    if let Some(massless) = description.warnings.iter().find(|found| found.code == "urdf::massless") {
-        let message = format!("without a mass no acceleration follows from a force: {}", massless.message);
+    if let Some(massless) = description.warnings.iter().find(|found| found.code == MASSLESS) {
+        let message = format!("a moving body without mass has no defined acceleration: {}", massless.message);
         return Err(Diagnostic::error(CODE, message));
     }
     let refused = |error: &dyn std::error::Error| Diagnostic::error(CODE, error.to_string());
-    let urdf = urdf_side(description);
+    let urdf = urdf_model(description);
     let name = description.urdf_path.display().to_string();
-    let candidate = NamedSide { name: &name, side: &urdf, places: urdf_places(description) };
-    // Accelerations of a step of zero are asked for, whatever the step.
-    let probing = Probing { seed, step_s: 0.0 };
-    let probed = |part_of_step: f64| {
+    let candidate = NamedModel { name: &name, model: &urdf, places: urdf_places(description) };
+    // Accelerations are extrapolated to a step of zero, whatever the step of the physics is.
+    let options = IdentificationOptions { seed, step_s: 0.0 };
+    let compared_at = |part_of_step: f64| {
         let simulated = SimulatedDynamics::with_part_of_step(&description.robot, part_of_step)
             .map_err(|error| refused(&error))?;
-        compare_with_source(&candidate, ("physics", &mut Extrapolated(simulated)), probing)
+        compare_with_source(&candidate, ("physics", &mut Extrapolated(simulated)), options)
             .map_err(|error| refused(&error))
     };
-    let report = probed(1.0)?;
+    let report = compared_at(1.0)?;
     if report.agrees() {
         return Ok(report);
     }
     // Masses differ by the same whatever the step; what the step does is half, or what rounding does twice.
-    let [whole, half] = [report.difference_relative, probed(0.5)?.difference_relative];
+    let [whole, half] = [report.difference_relative, compared_at(0.5)?.difference_relative];
     if (whole - half).abs() > CHANGED * whole.max(half) {
         let message = format!(
-            "damping or dry friction stops a light link so fast that the physics tells its torques to {} % alone",
+            "damping or dry friction stops a light link so fast that the torques of the physics are known only to {} %",
             number(100.0 * whole.max(half))
         );
         return Err(Diagnostic::error(CODE, message));

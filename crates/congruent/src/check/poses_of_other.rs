@@ -6,8 +6,8 @@ use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
 /// The poses of another description at the links of a robot; both have the same moving joints by name.
 pub(super) struct PosesOfOther {
     tree: UrdfTree,
-    links: Vec<Place>,
-    /// For each coordinate of the other that of the robot.
+    links: Vec<LinkCorrespondence>,
+    /// Coordinate of the robot for each coordinate of the other description, by the name of the joint.
     coordinates: Vec<usize>,
     /// The other robot if its mimic joints follow; otherwise each joint counts as driven.
     followed: Option<Robot>,
@@ -16,12 +16,12 @@ pub(super) struct PosesOfOther {
 }
 
 /// Where a link of the robot is found.
-enum Place {
+enum LinkCorrespondence {
     /// At this link of the other, which moves as it does.
     Other(usize),
     /// The other lacks it: it moves with this link of the robot.
     Behind(usize, Pose),
-    /// It is the root.
+    /// The link is the root.
     Root,
 }
 
@@ -30,14 +30,18 @@ impl PosesOfOther {
     pub(super) fn new(robot: &Robot, other: &Robot) -> Self {
         let place = |link| {
             let joint = robot.parent_joint(link).map(|joint| robot.joint(joint));
+            // A link of a moving joint is found by the name of the joint, which must be the same in both; the names
+            // of links need not be.
             let there = match joint.filter(|joint| joint.kind.is_movable()) {
                 Some(joint) => other.find_joint(&joint.name).map(|there| other.joint(there).child),
                 None => other.find_link(&robot.link(link).name),
             };
             match (there, joint) {
-                (Some(there), _) => Place::Other(there.get()),
-                (None, Some(joint)) => Place::Behind(joint.parent.get(), Pose::from(joint.parent_from_joint)),
-                (None, None) => Place::Root,
+                (Some(there), _) => LinkCorrespondence::Other(there.get()),
+                (None, Some(joint)) => {
+                    LinkCorrespondence::Behind(joint.parent.get(), Pose::from(joint.parent_from_joint))
+                }
+                (None, None) => LinkCorrespondence::Root,
             }
         };
         let coordinate = |name: &str| robot.coordinate(robot.find_joint(name)?);
@@ -72,10 +76,12 @@ impl LinkPoses for PosesOfOther {
         self.tree.root_from_links_into(&self.q, &mut self.poses)?;
         for (link, place) in self.links.iter().enumerate() {
             root_from_links[link] = match *place {
-                Place::Other(there) => self.poses[there],
+                LinkCorrespondence::Other(there) => self.poses[there],
                 // A parent comes before its children.
-                Place::Behind(parent, parent_from_link) => root_from_links[parent] * parent_from_link,
-                Place::Root => Pose::identity(),
+                LinkCorrespondence::Behind(parent, parent_from_link) => {
+                    root_from_links[parent] * parent_from_link
+                }
+                LinkCorrespondence::Root => Pose::identity(),
             };
         }
         Ok(())

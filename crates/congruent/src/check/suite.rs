@@ -1,18 +1,19 @@
 //! The report of a check as a test suite, which CI reads as JUnit: one case for each comparison of poses and of dynamics.
 
 use congruent_agreement::{
-    compare::{Agreement, CheckReport, Comparison, NotAsked, ReportedCertificate},
+    compare::{Agreement, CheckReport, Comparison, NotCompared, ReportedCertificate},
     report::{ReportedDiagnosis, foremost},
 };
-use congruent_description::{TABLE_DROPPED, display::length_and_angle, serde_name};
+use congruent_description::TABLE_DROPPED;
 use congruent_dynamics_agreement::DynamicsReport;
-use congruent_twin::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
+use congruent_input::{display::length_and_angle, serde_name};
+use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
 use super::robot_check::RobotCheck;
 
 /// The comparisons of a report as test cases; what failed names its cause with the line.
 ///
-/// `name` tells this robot from the others of the file, as its path does.
+/// `name` distinguishes this robot from the others of the file, as its path does.
 pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
     let geometry = &report.geometry;
     let mut cases: Vec<TestCase> =
@@ -36,7 +37,7 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
     let worst = &comparison.worst;
     let (limit, error) = (report.tolerance, worst.error);
     let mut lines = vec![format!(
-        "worst {} at {}, tolerance {}",
+        "largest difference {} at {}, tolerance {}",
         length_and_angle(error.position_m, error.orientation_rad),
         worst.link,
         length_and_angle(limit.position_m, limit.orientation_rad)
@@ -53,9 +54,9 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
     TestCase { name: comparison.title.to_owned(), result, output: lines.join("\n"), place }
 }
 
-fn not_asked_case(not_asked: &NotAsked) -> TestCase {
+fn not_asked_case(not_asked: &NotCompared) -> TestCase {
     let reasons: Vec<&str> = not_asked.findings.iter().map(|found| found.message.as_str()).collect();
-    skipped(not_asked.source, reasons.join("\n"))
+    skipped(not_asked.source.name(), reasons.join("\n"))
 }
 
 /// A source that was not compared.
@@ -80,7 +81,10 @@ fn dynamics_case(report: &DynamicsReport) -> TestCase {
         name: format!("dynamics of {} against {}", report.sides.candidate, report.sides.reference),
         result,
         output,
-        place: report.explanations.first().and_then(|first| CasePlace::of(first.file.as_deref(), first.line)),
+        place: report
+            .explanations
+            .first()
+            .and_then(|first| CasePlace::if_known(first.file.as_deref(), first.line)),
     }
 }
 
@@ -114,5 +118,5 @@ fn diagnosis_of<'a>(comparison: &Comparison, report: &'a CheckReport) -> Option<
 fn place(diagnosis: &ReportedDiagnosis) -> Option<CasePlace> {
     let first = diagnosis.findings.first()?;
     let (line, _) = first.line_column()?;
-    CasePlace::of(first.source.as_ref()?.path.to_str(), Some(line))
+    CasePlace::if_known(first.source.as_ref()?.path.to_str(), Some(line))
 }

@@ -1,6 +1,6 @@
 //! `lint`: everything that is wrong or suspicious in a file, whatever its kind, as one report.
 
-mod beside;
+mod find_robot;
 mod report;
 mod tables;
 
@@ -11,10 +11,13 @@ use std::{
 
 use congruent_analysis::inverse::read_targets;
 use congruent_calibration::{measurements::read_measurements, needed_coordinates};
-use congruent_description::{
-    Diagnostic, FileAccess, FileKind, FileToLint, Finding, Ignores, RobotDescription, SafeFix, Severity,
-    SourceFile, Use, declared_encoding, examine_srdf, load_opened_robot, read_states, read_text, safe_fixes,
-    safe_robot_file_fixes, still_mimics, undefined_materials, unit_slips, unknown_references, zero_limits,
+use congruent_description::{INERTIA_SIZE, RobotDescription, SEVERAL_TIPS, load_opened_robot, read_states};
+use congruent_input::{
+    Capability, Diagnostic, FileAccess, Finding, Findings, Severity, SourceFile, read_text,
+};
+use congruent_lint::{
+    FileKind, FileToLint, INERTIA_UNIT, Ignores, SafeFix, declared_encoding, examine_srdf, safe_fixes,
+    safe_robot_file_fixes, still_mimics, undefined_materials, unit_mistakes, unknown_references, zero_limits,
 };
 use congruent_twin::RunSetup;
 
@@ -42,7 +45,8 @@ struct Subject<'a> {
 /// # let folder = std::env::temp_dir().join("congruent_lint");
 /// # std::fs::create_dir_all(&folder).unwrap();
 /// # let path = folder.join("a.urdf");
-/// use congruent::{description::FileAccess, lint, LintVerdict};
+/// use congruent::{LintVerdict, lint};
+/// use congruent_input::FileAccess;
 /// std::fs::write(&path, "<robot name='r'><link name='a'/><link name='a'/></robot>").unwrap();
 /// let report = lint(&path, &FileAccess::default());
 /// assert_eq!(report.verdict, LintVerdict::Errors);
@@ -52,8 +56,8 @@ pub fn lint(path: &Path, access: &FileAccess) -> LintReport {
     lint_among(path, &[], access)
 }
 
-/// The same of one file of several: an SRDF is compared with the robot among them, as is a table of configurations, targets
-/// or measurements.
+/// Like `lint`, for one file among several: an SRDF is compared with the robot among them, as is a table of
+/// configurations, targets or measurements.
 pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintReport {
     let Examined { kind, found, ignores } = examined(path, files, access);
     let is_unreadable = found.iter().any(|found| found.source.is_none() && is_about_the_file(found));
@@ -65,7 +69,7 @@ pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintRe
         .iter()
         .map(|found| LintFinding { finding: Finding::from(found), stopped_uses: stopped_uses(found, kind) })
         .collect();
-    let is_stopped = |needed: &Use| findings.iter().any(|found| found.stopped_uses.contains(needed));
+    let is_stopped = |needed: &Capability| findings.iter().any(|found| found.stopped_uses.contains(needed));
     let verdict = match (errors, warnings) {
         _ if is_unreadable => LintVerdict::Unreadable,
         (0, 0) => LintVerdict::Clean,
@@ -99,7 +103,7 @@ fn fixes(found: &[Diagnostic], kind: Option<FileKind>) -> Vec<LintFix> {
             (true, _) => Vec::new(),
         };
         let fixes = fixes.into_iter().filter(found);
-        fixes.map(|fix| LintFix::of(fix, source)).collect::<Vec<_>>()
+        fixes.map(|fix| LintFix::from_safe_fix(fix, source)).collect::<Vec<_>>()
     };
     sources.into_iter().flat_map(of).collect()
 }
@@ -110,9 +114,9 @@ fn judged(found: Diagnostic) -> Diagnostic {
     Diagnostic { severity, ..found }
 }
 
-const ALL_USES: [Use; 3] = [Use::Kinematics, Use::Clearance, Use::Physics];
+const ALL_USES: [Capability; 3] = [Capability::Kinematics, Capability::Clearance, Capability::Physics];
 
-fn stopped_uses(found: &Diagnostic, kind: Option<FileKind>) -> Vec<Use> {
+fn stopped_uses(found: &Diagnostic, kind: Option<FileKind>) -> Vec<Capability> {
     match (found.severity, found.stops, kind) {
         (_, Some(stopped), _) => vec![stopped],
         (Severity::Error, None, Some(FileKind::Urdf | FileKind::RobotFile)) => ALL_USES.to_vec(),
@@ -146,7 +150,7 @@ fn examined(path: &Path, others: &[PathBuf], access: &FileAccess) -> Examined {
 
 fn robot(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
     let loaded = load_opened_robot(subject.source, subject.access);
-    let found = loaded.map_or_else(|found| found, |robot| suspicions(&robot));
+    let found = loaded.map_or_else(Findings::into_vec, |robot| suspicions(&robot));
     (found, ignores_of(subject.source))
 }
 
@@ -154,42 +158,45 @@ fn robot(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
 fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
     let mut found = description.warnings.clone();
     if description.places.robot_file.is_none() {
-        // A URDF has no place to choose one; commands that need a tip tell of the others.
-        found.retain(|found| found.code != "chain::several_tips");
+        // A URDF has no place to choose a tip; commands that need one report the others.
+        found.retain(|found| found.code != SEVERAL_TIPS);
     }
-    let slips = unit_slips(description);
-    // Judged by mass and shapes, which tells the unit as well.
-    found = found.into_iter().filter_map(|found| without_inertias(found, &slips)).collect();
-    found.extend(slips);
+    let unit_mistakes = unit_mistakes(description);
+    // Mass and shapes say which unit an inertia is in, so `units::inertia` replaces the reader's finding of its size.
+    found = found.into_iter().filter_map(|found| without_inertias(found, &unit_mistakes)).collect();
+    found.extend(unit_mistakes);
     found.extend(zero_limits(description));
     found.extend(still_mimics(description));
     found.extend(undefined_materials(description));
     found.extend(unknown_references(description));
     found.extend(description.places.urdf.as_ref().and_then(|places| declared_encoding(places.source())));
     if let Some(source) = srdf_of(description) {
-        // Its names were compared when it was read, those of its pairs alone.
-        let is_told_here =
+        // The reader has compared only the names of its pairs: its findings on this file are replaced by those of the
+        // whole SRDF.
+        let is_reported_here =
             |found: &Diagnostic| found.source.as_ref().is_some_and(|of| of.path == source.path);
-        found.retain(|found| !is_told_here(found));
-        let told = examine_srdf(&source, Some(&description.robot)).into_iter();
-        // What is no XML has no pairs, which stops clearance alone.
-        found.extend(told.map(|found| match found.severity {
-            Severity::Error => found.needed_by(Some(Use::Clearance)),
+        found.retain(|found| !is_reported_here(found));
+        let srdf_findings = examine_srdf(&source, Some(&description.robot)).into_iter();
+        // A file that is not XML has no pairs, which blocks clearance only.
+        found.extend(srdf_findings.map(|found| match found.severity {
+            Severity::Error => found.needed_by(Some(Capability::Clearance)),
             Severity::Warning => found,
         }));
     }
     found
 }
 
-/// A finding of the reader on tensors that are too large, without the links of which the judgement of units tells more.
-fn without_inertias(found: Diagnostic, slips: &[Diagnostic]) -> Option<Diagnostic> {
-    if found.code != "urdf::inertia_size" {
+/// The reader's finding on tensors that are too large, without the links for which `units::inertia` names the unit.
+fn without_inertias(found: Diagnostic, unit_mistakes: &[Diagnostic]) -> Option<Diagnostic> {
+    if found.code != INERTIA_SIZE {
         return Some(found);
     }
-    let of_inertia = slips.iter().filter(|slip| slip.code == "units::inertia");
-    let own = |slip: &Diagnostic| slip.kind.words.iter().map(|(_, name)| name.clone()).collect::<Vec<_>>();
-    let names = of_inertia.flat_map(|slip| match &slip.kind.occurrences[..] {
-        [] => own(slip),
+    let of_inertia = unit_mistakes.iter().filter(|unit_mistake| unit_mistake.code == INERTIA_UNIT);
+    let own = |unit_mistake: &Diagnostic| {
+        unit_mistake.kind.plural_and_name.iter().map(|(_, name)| name.clone()).collect::<Vec<_>>()
+    };
+    let names = of_inertia.flat_map(|unit_mistake| match &unit_mistake.kind.occurrences[..] {
+        [] => own(unit_mistake),
         several => several.iter().filter_map(|each| each.name.clone()).collect(),
     });
     names.collect::<Vec<_>>().iter().try_fold(found, |found, name| found.without(name))
@@ -197,10 +204,10 @@ fn without_inertias(found: Diagnostic, slips: &[Diagnostic]) -> Option<Diagnosti
 
 /// Largest file that is read a second time: larger ones were refused when they were read.
 const MOST_BYTES: u64 = 16 << 20;
-/// The same of tables of measurements.
+/// Largest table of measurements that is read a second time, in bytes.
 const MOST_TABLE_BYTES: u64 = 64 << 20;
 
-/// The SRDF of a robot file; `None` if it cannot be read, which the reader of the robot has told.
+/// The SRDF of a robot file; `None` if it cannot be read, which the reader of the robot has reported.
 fn srdf_of(description: &RobotDescription) -> Option<Arc<SourceFile>> {
     let srdf = description.named_files.srdf.as_ref()?;
     let is_read = description.inputs.iter().any(|file| file.path == *srdf);
@@ -209,7 +216,7 @@ fn srdf_of(description: &RobotDescription) -> Option<Arc<SourceFile>> {
 
 /// An SRDF by itself, with the robot that is given beside it or lies beside it.
 fn srdf(subject: &Subject<'_>) -> Vec<Diagnostic> {
-    match beside::robot_of_srdf(subject.path, subject.source, (subject.others, subject.access)) {
+    match find_robot::robot_of_srdf(subject.path, subject.source, (subject.others, subject.access)) {
         Ok(robot) => examine_srdf(subject.source, Some(&robot)),
         Err(unknown) => {
             let mut found = examine_srdf(subject.source, None);
@@ -221,7 +228,7 @@ fn srdf(subject: &Subject<'_>) -> Vec<Diagnostic> {
 
 /// A table, as the command reads it that takes such a table.
 fn table(path: &Path, kind: FileKind, (others, access): (&[PathBuf], &FileAccess)) -> Vec<Diagnostic> {
-    let description = match beside::robot_of_table(path, (others, access)) {
+    let description = match find_robot::robot_of_table(path, (others, access)) {
         Ok(description) => description,
         Err(unknown) => return vec![unknown],
     };
@@ -232,7 +239,7 @@ fn table(path: &Path, kind: FileKind, (others, access): (&[PathBuf], &FileAccess
             read.warnings.into_iter().chain(far).collect()
         }),
         FileKind::Measurements => needed_coordinates(&description)
-            .map_err(Vec::from)
+            .map_err(Findings::from)
             .and_then(|needed| {
                 Ok((read_measurements(path, robot, &needed)?, read_text(path, MOST_TABLE_BYTES)?))
             })
@@ -240,7 +247,7 @@ fn table(path: &Path, kind: FileKind, (others, access): (&[PathBuf], &FileAccess
         // Velocities, accelerations and torques are checked with the positions.
         _ => read_states(path, robot).map(|read| read.warning.into_iter().collect()),
     };
-    read.unwrap_or_else(|found| found)
+    read.unwrap_or_else(Findings::into_vec)
 }
 
 fn scenario(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
@@ -257,7 +264,7 @@ fn scenario(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
             }
             (found, ignores)
         }
-        Err(found) => (found, Ignores::default()),
+        Err(found) => (found.into_vec(), Ignores::default()),
     }
 }
 
@@ -265,9 +272,9 @@ fn is_same(one: &Diagnostic, other: &Diagnostic) -> bool {
     one.code == other.code && one.message == other.message
 }
 
-/// What a robot file ignores; nothing of a URDF.
+/// The findings that a robot file ignores; none for a URDF.
 fn ignores_of(robot: &Arc<SourceFile>) -> Ignores {
     let is_robot_file =
         robot.path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
-    if is_robot_file { Ignores::of(robot) } else { Ignores::default() }
+    if is_robot_file { Ignores::from_robot_file(robot) } else { Ignores::default() }
 }

@@ -1,11 +1,11 @@
-//! What `lint` tells of a file.
+//! The report of `lint` on one file.
 
 use std::sync::Arc;
 
-use congruent_description::{
-    ChangedLines, Code, Diagnostic, FileKind, Finding, IgnoredFinding, SafeFix, SourceFile, TextEdit, Use,
-    changed_lines,
+use congruent_input::{
+    Capability, ChangedLines, Code, Diagnostic, Finding, SourceFile, TextEdit, changed_lines,
 };
+use congruent_lint::{FileKind, IgnoredFinding, SafeFix};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -14,17 +14,17 @@ use serde::Serialize;
 pub struct LintReport {
     /// What the file is; `None` if it is nothing that can be linted.
     pub kind: Option<FileKind>,
-    /// What the findings come to.
+    /// Verdict of all findings.
     pub verdict: LintVerdict,
     /// Number of findings that are errors.
     pub errors: usize,
     /// Number of findings that are warnings; those of one kind are one.
     pub warnings: usize,
-    /// What the robot cannot be used for because of them; empty of a scenario.
-    pub stops: Vec<Use>,
+    /// Uses that the findings block: kinematics, clearance, physics; empty for a scenario.
+    pub stops: Vec<Capability>,
     /// The findings, in the order of the file.
     pub findings: Vec<LintFinding>,
-    /// What the robot file ignores.
+    /// Findings that the robot file ignores.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub ignored: Vec<IgnoredFinding>,
     /// Corrections that are safe.
@@ -35,16 +35,16 @@ pub struct LintReport {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// A correction that is safe: the file means the same after it, or what was refused has the one meaning that was left.
+/// A safe correction: the file keeps its meaning, or refused text has only one possible meaning.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct LintFix {
     /// Number of the finding that it answers.
     pub id: String,
-    /// Its name.
+    /// Name of the code, such as `urdf::tree`.
     pub code: &'static str,
-    /// What it does.
+    /// What the correction changes, in a sentence.
     pub about: String,
-    /// The file.
+    /// The file that the correction changes, as it was named.
     pub file: String,
     /// The lines that change.
     pub changed: Vec<ChangedLines>,
@@ -60,11 +60,11 @@ pub struct LintFix {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LintVerdict {
-    /// Nothing was found.
+    /// There is no finding.
     Clean,
     /// Nothing is wrong, something is suspicious or missing.
     Warnings,
-    /// Something is wrong.
+    /// At least one finding is an error.
     Errors,
     /// The file cannot be read.
     Unreadable,
@@ -73,15 +73,15 @@ pub enum LintVerdict {
 /// A finding, and what it stops.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct LintFinding {
-    /// The finding.
+    /// The finding: severity, code, place, message and help.
     #[serde(flatten)]
     pub finding: Finding,
-    /// What the robot cannot be used for because of it; an error without a use of its own stops all.
-    pub stopped_uses: Vec<Use>,
+    /// Uses that the finding blocks; an error that is not about a single use blocks all.
+    pub stopped_uses: Vec<Capability>,
 }
 
 impl LintFix {
-    pub(super) fn of(fix: SafeFix, source: &Arc<SourceFile>) -> Self {
+    pub(super) fn from_safe_fix(fix: SafeFix, source: &Arc<SourceFile>) -> Self {
         Self {
             id: Code::find(fix.code).map_or_else(String::new, |code| code.to_string()),
             code: fix.code,

@@ -4,13 +4,12 @@ use std::{collections::BTreeMap, ops::Range, sync::Arc};
 
 use congruent_analysis::inverse::InverseTargets;
 use congruent_calibration::measurements::MeasuredRow;
-use congruent_description::{
-    Diagnostic, Diagnostics, Robot, RobotDescription, SourceFile, display::length, outside_limits,
-};
+use congruent_description::{Robot, RobotDescription, outside_limits};
+use congruent_input::{Diagnostic, Diagnostics, SourceFile, display::length};
 use congruent_kinematics::Pose;
 
-/// From the middle of all measured points, in reaches of the robot: two points that it can reach are two reaches apart, and a
-/// slip of a unit is a factor of ten or more.
+/// From the middle of all measured points, in reaches of the robot: two points that it can reach are at most two
+/// reaches apart, and a wrong unit is a factor of ten or more.
 const FARTHEST_MEASURED: f64 = 5.0;
 /// From the base, in reaches of the robot: the first axis may be some reaches away from it.
 const FARTHEST_TARGET: f64 = 10.0;
@@ -25,6 +24,8 @@ pub(super) fn measured(
     let mut found = Diagnostics::default();
     let lines = lines(&source.text);
     let reach_m = description.tolerance_scale().reach_m();
+    // The median of each axis: one point in millimetres among points in metres does not move it, as it would a
+    // mean.
     let middle_m: [Option<f64>; 3] =
         std::array::from_fn(|axis| middle(rows.iter().filter_map(|row| row.tip_in_base_m[axis])));
     for row in rows {
@@ -33,13 +34,13 @@ pub(super) fn measured(
             let message = format!("line {} is outside the joint limits: {what}", row.line);
             let warning = Diagnostic::warning("measurements::outside_limits", message)
                 .one_of("measurements are outside the joint limits", format!("line {}", row.line))
-                .with_help("the ending of a column is its unit: are the positions in degrees or mm?");
+                .with_help("the ending of a column's name is its unit: are the positions in degrees or mm?");
             found.push(warning.at(at()));
         }
         let away_m = distance_m(&row.tip_in_base_m, &middle_m);
         if let Some(reach_m) = reach_m.filter(|reach_m| away_m > FARTHEST_MEASURED * reach_m) {
             let message = format!(
-                "line {} has a point {} from the middle one of all, and the reach of the robot is {}",
+                "line {}: the measured point is {} from the median of all points, but the reach of the robot is {}",
                 row.line,
                 length(away_m),
                 length(reach_m)

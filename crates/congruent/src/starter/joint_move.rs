@@ -1,10 +1,11 @@
 //! A modest motion of a chain: where it starts, where it goes, how long it takes.
 
-use congruent_description::{Elementary as _, Joint, JointKind, Robot, RobotDescription, RobotQ};
+use congruent_description::{Joint, JointKind, Robot, RobotDescription, RobotQ};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::random_configurations;
 
-/// Starts that are tried: 0, the middle of all ranges, and random ones, of which the first half leaves joints that hold at 0.
+/// Starts that are tried: 0, the middle of all ranges, and random ones, of which the first half keeps the joints that
+/// do not move at 0.
 const STARTS: usize = 400;
 /// Share of an effort limit that gravity may take.
 const HELD: f64 = 0.6;
@@ -26,16 +27,16 @@ const LEAST_S: f64 = 1.5;
 pub(super) struct JointMove {
     pub(super) start: RobotQ,
     pub(super) target: RobotQ,
-    /// Coordinates that move.
+    /// Coordinates that move, as indices of configuration vectors (`Robot::movable_joints` order).
     pub(super) moving: Vec<usize>,
-    /// Of one way.
+    /// Time from the start to the target, and as long back.
     pub(super) duration_s: f64,
     /// Whether the actuators can hold the robot against gravity at both ends.
     pub(super) is_held: bool,
 }
 
 impl JointMove {
-    /// The configuration at a share of the way.
+    /// The configuration at a share of the path, 0 at the start, 1 at the target.
     pub(super) fn at(&self, robot: &Robot, share: f64) -> RobotQ {
         let mut q = self.start.clone();
         for (coordinate, q) in q.iter_mut().enumerate() {
@@ -57,13 +58,16 @@ impl JointMove {
         for &coordinate in &moving {
             let joint = joint_of(robot, coordinate);
             let (lower, upper) = inner_range(joint);
+            // The inner range lacks `MARGIN` at both ends; divided by what remains, `SHARE` is one of the whole
+            // range.
             let most = if joint.kind == JointKind::Prismatic { MOST_M } else { MOST_RAD };
-            let way = size * most.min(SHARE / (1.0 - 2.0 * MARGIN) * (upper - lower));
+            let distance = size * most.min(SHARE / (1.0 - 2.0 * MARGIN) * (upper - lower));
             let (up, down) = (upper - start[coordinate], start[coordinate] - lower);
-            let signed = if up >= down { way.min(up) } else { -way.min(down) };
+            // Towards the farther end of the range, where there is more room.
+            let signed = if up >= down { distance.min(up) } else { -distance.min(down) };
             target[coordinate] = rounded(joint, start[coordinate] + signed);
-            let way = (target[coordinate] - start[coordinate]).abs();
-            duration_s = duration_s.max(least_s(joint, way));
+            let distance = (target[coordinate] - start[coordinate]).abs();
+            duration_s = duration_s.max(least_s(joint, distance));
         }
         robot.apply_mimic(&mut target);
         // Tenths of a second are enough.
@@ -91,7 +95,7 @@ pub(super) fn moves(description: &RobotDescription) -> Vec<JointMove> {
             let joint = joint_of(robot, coordinate);
             let is_moving = moving.contains(&coordinate);
             let wanted = if is_moving || at >= STARTS / 2 { *q } else { 0.0 };
-            // Of a range whose width is no number, a draw is none either.
+            // If the width of a range is not finite, neither is a random value in it.
             let wanted = if wanted.is_finite() { wanted } else { 0.0 };
             let (lower, upper) = if is_moving { inner_range(joint) } else { range(joint) };
             *q = rounded(joint, wanted.clamp(lower, upper));
@@ -104,6 +108,7 @@ pub(super) fn moves(description: &RobotDescription) -> Vec<JointMove> {
         .map(|start| JointMove::from(robot, start, (moving.clone(), 1.0)))
         .map(|motion| JointMove { is_held: is_held(robot, &mut gravity, &motion), ..motion })
         .collect();
+    // Stable: within both groups the plainest start, zero, stays first.
     moves.sort_by_key(|motion| !motion.is_held);
     moves
 }
@@ -156,12 +161,14 @@ fn rounded(joint: &Joint, value: f64) -> f64 {
 
 /// The time of a quintic move within a share of the limits that a scenario takes from the velocity limit: its largest
 /// velocity is 1.875 s/T, its acceleration 5.78 s/T^2, its jerk 60 s/T^3.
-fn least_s(joint: &Joint, way: f64) -> f64 {
+fn least_s(joint: &Joint, distance: f64) -> f64 {
     let velocity = joint.limit.and_then(|limit| limit.velocity).filter(|&velocity| velocity > 0.0);
     let Some(velocity) = velocity else { return LEAST_S };
     let (acceleration, jerk) = (velocity / 0.25, velocity / 0.025);
-    let by_velocity = 1.875 * way / (EFFORT * velocity);
-    let by_acceleration = (5.78 * way / (EFFORT * acceleration)).sqrt();
-    let by_jerk = (60.0 * way / (EFFORT * jerk)).cube_root();
+    // Quintic s(x) = 10 x^3 - 15 x^4 + 6 x^5 with x = t/T: largest s' = 15/8 at x = 1/2, s'' = 10/sqrt(3), s''' =
+    // 60 at the ends (Lynch & Park, ch. 9). The longest of the three times keeps all limits.
+    let by_velocity = 1.875 * distance / (EFFORT * velocity);
+    let by_acceleration = (5.78 * distance / (EFFORT * acceleration)).sqrt();
+    let by_jerk = libm::cbrt(60.0 * distance / (EFFORT * jerk));
     by_velocity.max(by_acceleration).max(by_jerk)
 }

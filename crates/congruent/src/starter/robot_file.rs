@@ -6,10 +6,8 @@ use congruent_agreement::compare::{Agreement, WorstDifference};
 use congruent_analysis::conversion::{
     Conversion, ConversionReport, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes, convert,
 };
-use congruent_description::{
-    ChainEnd, Diagnostic, Finding, ReportedChain, RobotDescription, Tolerance, display::length_and_angle,
-    robot_file_values,
-};
+use congruent_description::{ChainEnd, ReportedChain, RobotDescription, Tolerance, robot_file_values};
+use congruent_input::{Diagnostic, Finding, display::length_and_angle};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -22,11 +20,11 @@ const TOLERANCE_MARGIN: f64 = 3.0;
 /// The text of a robot file, and what is in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotFileDraft {
-    /// The text.
+    /// Text of the file, TOML with comments.
     pub text: String,
     /// Why it has no table; `None` if it has one.
     pub no_table: Option<Diagnostic>,
-    /// Its tolerance.
+    /// Tolerance that the file declares: rounding, or wider if axes were rounded. Unit: m and rad.
     pub tolerance: Tolerance,
 }
 
@@ -46,7 +44,7 @@ pub struct NewRobot {
     /// Why it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_table: Option<Finding>,
-    /// How far table and URDF may be apart.
+    /// Tolerance of the written file, by which table and URDF may differ.
     pub tolerance: Tolerance,
     /// What `check` says of the written file.
     pub verdict: Agreement,
@@ -65,7 +63,7 @@ pub fn robot_file(description: &RobotDescription, to: ConversionTarget, folder: 
         to,
         accuracy: DEFAULT_ACCURACY,
         seed: 0,
-        rounded_axes: RoundedAxes::Mended,
+        rounded_axes: RoundedAxes::Corrected,
     };
     let mut from_root = description.clone();
     from_root.urdf_path = absolute(&description.urdf_path);
@@ -84,7 +82,7 @@ pub fn robot_file(description: &RobotDescription, to: ConversionTarget, folder: 
     text += &comment(OPTIONAL);
     text.push('\n');
     text += &match &derived {
-        Ok(report) => comment(&of_table(report)) + report.robot_toml.as_deref().unwrap_or_default(),
+        Ok(report) => comment(&table_comment(report)) + report.robot_toml.as_deref().unwrap_or_default(),
         Err(why) => {
             comment(&format!("No [dh] table: {why}\nA robot with one has the sections [dh] and [[dh.row]]."))
         }
@@ -92,7 +90,7 @@ pub fn robot_file(description: &RobotDescription, to: ConversionTarget, folder: 
     RobotFileDraft { text, no_table: derived.err(), tolerance }
 }
 
-/// Keys that no URDF tells.
+/// Keys whose values no URDF has.
 const OPTIONAL: &str = "To be completed, if the robot has them:
 tcp = { xyz_m = [0, 0, 0.1], rpy_deg = [0, 0, 0] } # the tool centre point in link tip
 srdf = \"robot.srdf\" # pairs of links that cannot collide: congruent acm suggest
@@ -109,7 +107,7 @@ fn head(description: &RobotDescription) -> String {
 /// What a key means here, and why it has its value.
 fn about(key: &str, description: &RobotDescription, report: Option<&ConversionReport>) -> String {
     let named = |end: ChainEnd, why: &str, option: &str| match end {
-        ChainEnd::Chosen => format!("chosen, {why}"),
+        ChainEnd::Chosen => format!("chosen automatically: {why}"),
         ChainEnd::Given => format!("given by {option}"),
         ChainEnd::Declared => "declared".to_owned(),
     };
@@ -117,7 +115,7 @@ fn about(key: &str, description: &RobotDescription, report: Option<&ConversionRe
         "urdf" => "Relative to this file. The URDF and its meshes are referred to, not copied.".to_owned(),
         "base" => {
             let why = named(description.chain_ends.base, "the root link of the URDF", "--base");
-            format!("The link that the model's base frame is declared in: {why}.")
+            format!("Link in which the table's base frame is given; {why}.")
         }
         "tip" => {
             let why =
@@ -135,11 +133,11 @@ fn about(key: &str, description: &RobotDescription, report: Option<&ConversionRe
         "tolerance" => match report {
             Some(report) if !report.rounded_axes.is_empty() => {
                 format!(
-                    "Table and URDF agree up to this: {TOLERANCE_MARGIN} times the {} that rounded axes make.",
+                    "Largest difference of table and URDF that is accepted: {TOLERANCE_MARGIN} times the {} that rounded axes cause.",
                     found(report)
                 )
             }
-            _ => "Sources of poses agree up to this, which is rounding: widen it for a measured table."
+            _ => "Largest difference of poses that is accepted. These values are rounding: widen them for a measured table."
                 .to_owned(),
         },
         _ => String::new(),
@@ -151,14 +149,14 @@ fn found(report: &ConversionReport) -> String {
     length_and_angle(report.proof.position_m, report.proof.orientation_rad)
 }
 
-fn of_table(report: &ConversionReport) -> String {
+fn table_comment(report: &ConversionReport) -> String {
     let mut text = String::from("Derived from the axes of the URDF");
     if let Some(table) = &report.table {
         let _ = write!(text, "; each row is {}", table.equation);
     }
     let _ = writeln!(
         text,
-        ".\nProved: {} from the URDF at {} configurations.",
+        ".\nLargest difference from the URDF: {}, at {} configurations.",
         found(report),
         report.proof.configurations
     );
@@ -169,7 +167,7 @@ fn of_table(report: &ConversionReport) -> String {
         let [a, b] = &pair.joints;
         let _ = writeln!(
             text,
-            "Axes of {a} and {b} are taken as they are but for rounding: {} off.",
+            "Axes of {a} and {b} are taken as exact; in the URDF they are {} off by rounding.",
             length_and_angle(pair.distance_m, pair.angle_rad)
         );
     }
@@ -179,7 +177,7 @@ fn of_table(report: &ConversionReport) -> String {
     text
 }
 
-/// A tolerance that holds for a table with mended axes.
+/// A tolerance that holds for a table with corrected axes.
 fn wider(declared: Tolerance, report: &ConversionReport) -> Tolerance {
     let enough = |declared: f64, found: f64| declared.max(one_digit(TOLERANCE_MARGIN * found));
     Tolerance {

@@ -2,32 +2,32 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{
-    Diagnostic, Elementary as _, Finding, ReportedChain, RobotDescription, Use, display::quantity,
-    relative_path,
-};
-use congruent_twin::{
-    Outcome, Run, RunSetup,
-    recorder::NoRecorder,
-    report::lines,
-    scenario::{Check, CheckKind, ClearanceCheck, ContactCheck, ControllerSettings, OnViolation, Scenario},
+use congruent_description::{ReportedChain, RobotDescription, relative_path};
+use congruent_input::{Capability, Diagnostic, Finding, Findings, display::quantity};
+use congruent_monitors::{
+    NoRecorder,
     verdict::{CheckResult, Status},
 };
+use congruent_results::report::lines;
+use congruent_scenario::{
+    Check, CheckKind, ClearanceCheck, ContactCheck, ControllerKind, ControllerSettings, OnViolation, Scenario,
+};
+use congruent_twin::{Outcome, Run, RunSetup};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
     joint_move::{JointMove, moves},
-    scenario_text::{Content, text},
+    scenario_text::{ScenarioContent, text},
     settings::{checks, computed_torque, gravity_compensation, motion_settings, start_settings},
     touching::{Distances, FarthestMove},
     written::absolute,
 };
 
-/// Links must stay apart by this at least, and by half of what the motion leaves them if that is less.
+/// Distance that links must keep at least, or half of the smallest distance of the motion if that is less. Unit: m.
 const MOST_MINIMUM_M: f64 = 0.02;
 /// The controller that places the robot at its setpoint.
-const PLAYBACK: &str = "kinematic";
+const PLAYBACK: ControllerKind = ControllerKind::Kinematic;
 /// Sizes of the motion that are tried with forces, the largest first.
 const SIZES: [f64; 3] = [1.0, 0.5, 0.25];
 
@@ -38,7 +38,7 @@ pub struct ScenarioDraft {
     pub text: String,
     /// The links that come nearest to each other, and what was left out with the reason.
     pub remarks: Vec<String>,
-    /// Joints that move.
+    /// Names of the joints that move, in the order of the robot.
     pub joints: Vec<String>,
 }
 
@@ -51,13 +51,13 @@ pub struct NewScenario {
     pub robot: String,
     /// Base and tip, and who named them.
     pub chain: ReportedChain,
-    /// Joints that move.
+    /// Names of the joints that move, in the order of the robot.
     pub joints: Vec<String>,
     /// Kind of the controller.
     pub controller: String,
-    /// Simulated time.
+    /// Simulated duration of the scenario. Unit: s.
     pub duration_s: f64,
-    /// What is left out, and why.
+    /// Checks that are omitted, and why.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remarks: Vec<String>,
     /// The checks of the written file, which was run.
@@ -72,10 +72,12 @@ pub struct NewScenario {
 ///
 /// # Errors
 /// What keeps the robot from being simulated, or from passing.
-pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioDraft, Vec<Diagnostic>> {
-    description.for_use(Use::Physics)?;
+pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioDraft, Findings> {
+    description.check_capability(Capability::Physics)?;
     let (mut content, largest) = content(description, file)?;
     let mut last = String::new();
+    // With forces first, and the largest motion first: the more of the robot a scenario exercises, the more it
+    // checks. Playback always remains.
     let forces = [computed_torque(), gravity_compensation()];
     let forces = forces.into_iter().flat_map(|controller| SIZES.map(|size| (size, controller.clone())));
     let playback = std::iter::once((1.0, ControllerSettings::default()));
@@ -88,11 +90,12 @@ pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioD
             Ok(tried) => tried,
             Err(findings) if is_playback => return Err(findings),
             Err(findings) => {
-                last = crate::listed(&findings);
+                last = findings.to_string();
                 continue;
             }
         };
         match refused(&results) {
+            // No controller or size changes the geometry: to try further would not help.
             Some((CheckKind::Agreement, why)) => return Err(disagrees(description, &why).into()),
             Some((_, why)) => last = why,
             None => {
@@ -120,10 +123,10 @@ pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioD
 ///
 /// # Errors
 /// What is wrong with it, or what has broken the run.
-pub fn try_scenario(setup: &RunSetup) -> Result<Outcome, Vec<Diagnostic>> {
-    let broken = |error: &dyn std::error::Error| vec![Diagnostic::error("new::run", error.to_string())];
+pub fn try_scenario(setup: &RunSetup) -> Result<Outcome, Findings> {
+    let broken = |error: &dyn std::error::Error| Diagnostic::error("new::run", error.to_string());
     let mut checks = setup.checks();
-    let run = Run::new(setup).map_err(|error| broken(&error))?;
+    let mut run = Run::new(setup).map_err(|error| broken(&error))?;
     let (outcome, result) = run.finish(&mut checks, &mut NoRecorder, |_| {});
     result.map_err(|error| broken(&error))?;
     Ok(outcome)
@@ -132,7 +135,7 @@ pub fn try_scenario(setup: &RunSetup) -> Result<Outcome, Vec<Diagnostic>> {
 fn tried(
     scenario: &Scenario,
     description: &RobotDescription,
-) -> Result<(Vec<CheckResult>, RunSetup), Vec<Diagnostic>> {
+) -> Result<(Vec<CheckResult>, RunSetup), Findings> {
     let setup = RunSetup::new(scenario.clone(), description.clone())?;
     Ok((try_scenario(&setup)?.checks, setup))
 }
@@ -153,7 +156,7 @@ fn refused(results: &[CheckResult]) -> Option<(CheckKind, String)> {
 }
 
 /// Takes out the checks that have nothing to check, and the optional ones that do not pass, and says so.
-fn leave_out(content: &mut Content, results: &[CheckResult]) {
+fn leave_out(content: &mut ScenarioContent, results: &[CheckResult]) {
     let does_not_pass = |result: &&CheckResult| match result.status {
         Status::Pass => false,
         // There was nothing to check, such as limits that no one states.
@@ -178,8 +181,8 @@ fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
         .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
 }
 
-/// The scenario but for its controller, and its motion.
-fn content(description: &RobotDescription, file: &Path) -> Result<(Content, JointMove), Vec<Diagnostic>> {
+/// The scenario without its controller, and its motion.
+fn content(description: &RobotDescription, file: &Path) -> Result<(ScenarioContent, JointMove), Findings> {
     let moves = moves(description);
     let Some(first) = moves.first() else {
         let message = format!(
@@ -191,9 +194,9 @@ fn content(description: &RobotDescription, file: &Path) -> Result<(Content, Join
             .with_help("choose a chain in the robot file: base and tip")
             .into());
     };
-    let mut content = Content { scenario: Scenario::default(), remarks: Vec::new() };
+    let mut content = ScenarioContent { scenario: Scenario::default(), remarks: Vec::new() };
     content.scenario.check = checks(description);
-    let farthest = of_distances(description, &moves, &mut content)?;
+    let farthest = add_distance_checks(description, &moves, &mut content)?;
     let motion = farthest.unwrap_or_else(|| first.clone());
     let folder = file.parent().unwrap_or(Path::new("."));
     content.scenario.name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -203,27 +206,29 @@ fn content(description: &RobotDescription, file: &Path) -> Result<(Content, Join
 }
 
 /// Adds the checks of distances, with what is to be said of them; returns the motion that they are for.
-fn of_distances(
+fn add_distance_checks(
     description: &RobotDescription,
     moves: &[JointMove],
-    content: &mut Content,
-) -> Result<Option<JointMove>, Vec<Diagnostic>> {
+    content: &mut ScenarioContent,
+) -> Result<Option<JointMove>, Findings> {
     let remarks = &mut content.remarks;
-    if let Err(findings) = description.for_use(Use::Clearance) {
-        remarks.push(format!("no check of distances: {}", crate::listed(&findings).replace('\n', "; ")));
+    if let Err(findings) = description.check_capability(Capability::Clearance) {
+        remarks.push(format!("no check of distances: {}", findings.to_string().replace('\n', "; ")));
         return Ok(None);
     }
     let distances = Distances::new(description)
-        .map_err(|error| vec![Diagnostic::error("new::shape", error.to_string())])?
+        .map_err(|error| Diagnostic::error("new::shape", error.to_string()))?
         .farthest(description, moves);
     let Some(FarthestMove { motion, least_m, ignored, touching }) = distances else { return Ok(None) };
     if !ignored.is_empty() {
         let why = "since their convex hulls overlap or are nearer than 1 mm";
-        remarks.push(format!("pairs that are ignored, {why}: {}", listed_pairs(&ignored)));
+        remarks.push(format!("ignored pairs, {why}: {}", listed_pairs(&ignored)));
     }
     if !touching.is_empty() {
         let pairs = listed_pairs(&touching);
-        remarks.push(format!("of these only touch on this motion: {pairs}; none without was found"));
+        remarks.push(format!(
+            "of these, pairs that touch on this motion only: {pairs}; no motion without contact was found"
+        ));
     }
     let Some(least_m) = least_m else {
         remarks.push("no check of distances: no two links could come near each other".to_owned());
@@ -247,7 +252,7 @@ fn listed_pairs(pairs: &[[String; 2]]) -> String {
     pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect::<Vec<_>>().join(", ")
 }
 
-/// What a scenario names: the folder of a `robot.toml`, or the file.
+/// The path by which a scenario names its robot: the folder of a `robot.toml`, or the file.
 fn description_path(description: &RobotDescription) -> PathBuf {
     let path = &description.path;
     let is_usual = path.file_name().is_some_and(|name| name == "robot.toml");
@@ -260,8 +265,8 @@ fn description_path(description: &RobotDescription) -> PathBuf {
 
 /// The largest number with one digit that is not above `value`.
 fn one_digit_below(value: f64) -> f64 {
-    let power = value.decimal_logarithm().floor();
-    let digit = 10_f64.to_power(power);
+    let power = libm::log10(value).floor();
+    let digit = libm::pow(10_f64, power);
     ((value / digit).floor() * digit * 1e9).round() / 1e9
 }
 

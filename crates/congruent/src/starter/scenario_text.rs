@@ -3,19 +3,19 @@
 use std::{collections::BTreeMap, fmt::Write};
 
 use congruent_description::{RobotDescription, toml_key, toml_string};
-use congruent_twin::scenario::{Check, JointMotion, MotionSettings, Scenario, TrackingCheck};
+use congruent_scenario::{Check, ControllerKind, JointMotion, MotionSettings, Scenario, TrackingCheck};
 
 use super::written::comment;
 
-/// What a scenario is made of, before its text.
-pub(super) struct Content {
+/// Content of a scenario before it is written as text.
+pub(super) struct ScenarioContent {
     pub(super) scenario: Scenario,
-    /// What comes near, and what is left out with the reason.
+    /// Remarks: the smallest distance, ignored pairs, and checks that are omitted with the reason.
     pub(super) remarks: Vec<String>,
 }
 
-/// The file; what is left out has its default.
-pub(super) fn text(description: &RobotDescription, content: &Content, duration_s: f64) -> String {
+/// The file; a key that is not given has its default.
+pub(super) fn text(description: &RobotDescription, content: &ScenarioContent, duration_s: f64) -> String {
     let scenario = &content.scenario;
     let mut text = comment(&format!(
         "{}: made by `congruent new scenario`, which has run it: every check passed. {duration_s:.1} s of motion.\n\
@@ -35,7 +35,7 @@ pub(super) fn text(description: &RobotDescription, content: &Content, duration_s
         joint_motion(&mut text, description, (motion, about));
     }
     for check in &scenario.check {
-        let (keys, about) = of_check(check);
+        let (keys, about) = keys_and_purpose(check);
         let _ = writeln!(text, "\n[[check]] # {about}\nkind = {}", toml_string(check.kind().word()));
         for (key, value) in keys {
             let _ = writeln!(text, "{key} = {value}");
@@ -54,13 +54,15 @@ fn start(text: &mut String, description: &RobotDescription, scenario: &Scenario)
 }
 
 fn controller(text: &mut String, scenario: &Scenario) {
-    let kind = &scenario.controller.kind;
-    let _ = writeln!(text, "\n[controller]\nkind = {}", toml_string(kind));
-    text.push_str(match kind.as_str() {
-        "computed_torque" => {
+    let kind = scenario.controller.kind;
+    let _ = writeln!(text, "\n[controller]\nkind = {}", toml_string(kind.name()));
+    text.push_str(match kind {
+        ControllerKind::ComputedTorque => {
             "stiffness = 400.0 # 1/s^2: critically damped, whatever the masses are\ndamping = 40.0 # 1/s\n"
         }
-        "gravity_compensation" => "stiffness = 2000.0 # N m/rad, N/m\ndamping = 120.0 # N m s/rad, N s/m\n",
+        ControllerKind::GravityCompensation => {
+            "stiffness = 2000.0 # N m/rad, N/m\ndamping = 120.0 # N m s/rad, N s/m\n"
+        }
         _ => "",
     });
 }
@@ -88,7 +90,7 @@ fn by_name(text: &mut String, description: &RobotDescription, keys: [(&str, &BTr
 }
 
 /// The keys of a check, and what it is for.
-fn of_check(check: &Check) -> (Vec<(&'static str, String)>, &'static str) {
+fn keys_and_purpose(check: &Check) -> (Vec<(&'static str, String)>, &'static str) {
     let number = |value: f64| format!("{value:?}");
     let given = |key: &'static str, value: Option<f64>| value.map(|value| (key, number(value)));
     match check {

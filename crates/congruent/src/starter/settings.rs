@@ -1,9 +1,9 @@
 //! What a scenario is made of: controllers, checks, positions by name.
 
 use congruent_description::{JointKind, RobotDescription, RobotQ};
-use congruent_twin::scenario::{
-    AgreementCheck, Check, ControllerSettings, DynamicsCheck, InvariantsCheck, JointMotion, LimitsCheck,
-    MotionSettings, PowerCheck, Profile, StartSettings, TrackingCheck, TwistCheck,
+use congruent_scenario::{
+    AgreementCheck, Check, ControllerKind, ControllerSettings, DynamicsCheck, InvariantsCheck, JointMotion,
+    LimitsCheck, MotionSettings, PowerCheck, Profile, StartSettings, TrackingCheck, TwistCheck,
 };
 
 use super::joint_move::JointMove;
@@ -19,7 +19,7 @@ const GOAL_MM: f64 = 0.5;
 /// Any masses are moved alike.
 pub(super) fn computed_torque() -> ControllerSettings {
     ControllerSettings {
-        kind: "computed_torque".to_owned(),
+        kind: ControllerKind::ComputedTorque,
         stiffness: 400.0.into(),
         damping: 40.0.into(),
         ..ControllerSettings::default()
@@ -29,7 +29,7 @@ pub(super) fn computed_torque() -> ControllerSettings {
 /// Stiffer than computed torque where dry friction holds light links.
 pub(super) fn gravity_compensation() -> ControllerSettings {
     ControllerSettings {
-        kind: "gravity_compensation".to_owned(),
+        kind: ControllerKind::GravityCompensation,
         stiffness: 2000.0.into(),
         damping: 120.0.into(),
         ..ControllerSettings::default()

@@ -2,18 +2,19 @@
 
 use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{Pose, UrdfTree, move_inside_limits};
-use congruent_twin::proximity::{Clearance, PairChoice, ProximityError};
+use congruent_proximity::{Clearance, PairChoice, ProximityError};
 use nalgebra::Isometry3;
 
 use super::joint_move::JointMove;
 
 /// Configurations along a motion at which distances are measured.
-const ON_THE_WAY: u32 = 6;
-/// Links that are nearer count as touching: shapes that only just do not.
+const SAMPLES_OF_PATH: u32 = 6;
+/// Links that are nearer count as touching, though their shapes do not quite. Unit: m. Kind: choice.
 const TOUCH_M: f64 = 1e-3;
-/// So many motions are looked at once one is found, and so many starts for the pairs that always touch.
+/// Motions that are tried after one without contact is found, and starts that are sampled for pairs that always
+/// touch. Kind: choice, time.
 const MOST: usize = 40;
-/// No other start is looked for if links stay this far apart.
+/// No other start is tried if links stay this far apart. Kind: choice.
 const FAR_M: f64 = 0.02;
 
 /// The distances of all pairs that a scenario would measure.
@@ -24,25 +25,26 @@ pub(super) struct Distances {
     root_from_links: Vec<Isometry3<f64>>,
 }
 
-/// The motion whose links stay farthest apart, of those that were looked at.
+/// The motion whose links stay farthest apart, among those that were tried.
 pub(super) struct FarthestMove {
     pub(super) motion: JointMove,
     /// Smallest distance of the pairs that are not ignored; `None` without such pairs.
     pub(super) least_m: Option<f64>,
-    /// Pairs that touch on the way.
+    /// Pairs that touch along the motion.
     pub(super) ignored: Vec<[String; 2]>,
-    /// Those of them that do not overlap at 0 or nearly always: no motion without touching links was found.
+    /// Touching pairs that do not overlap at 0 or at nearly all starts; not empty only if no motion without contact
+    /// was found.
     pub(super) touching: Vec<[String; 2]>,
 }
 
-/// A motion that was looked at.
-struct Candidate<'a> {
+/// A motion that was tried, with its distances.
+struct CandidateMove<'a> {
     motion: &'a JointMove,
-    /// Pairs that touch, but for those that usually do; and all of them.
+    /// Pairs that touch, without those that usually do; then all pairs that touch.
     touching: (usize, usize),
     /// The smallest distance of the others.
     least_m: f64,
-    /// Of all pairs.
+    /// Smallest distance along the motion, for each pair. Unit: m.
     distances_m: Vec<f64>,
 }
 
@@ -66,30 +68,36 @@ impl Distances {
     ) -> Option<FarthestMove> {
         let (usual, always) = self.usually_touching(description, moves);
         let held = moves.iter().filter(|motion| motion.is_held).count();
-        let mut best: Option<Candidate<'_>> = None;
+        let mut best: Option<CandidateMove<'_>> = None;
         for (at, motion) in moves.iter().enumerate() {
             let is_apart = best.as_ref().is_some_and(|best| best.touching.0 == 0);
+            // Motions that the actuators hold come first in `moves`. Others are tried only if links touch on all of
+            // those, and a few of each are enough.
             let is_enough = is_apart && (at >= MOST || at >= held);
             if is_enough || at >= held + MOST {
                 break;
             }
             let distances_m = self.along(description, motion);
             let others = || distances_m.iter().zip(&usual).filter(|(_, usual)| !**usual).map(|(&m, _)| m);
+            // Pairs that usually touch do so because of their hulls: they do not count against a motion, but decide
+            // between equal ones.
             let touching = others().filter(|&distance_m| distance_m < TOUCH_M).count();
             let all = distances_m.iter().filter(|&&distance_m| distance_m < TOUCH_M).count();
             let touching = (touching, all);
+            // Pairs that touch are ignored by the scenario, so that the smallest distance is that of the other
+            // pairs.
             let least_m = others().filter(|&m| m >= TOUCH_M).fold(f64::INFINITY, f64::min);
-            let is_better = |known: &Candidate<'_>| {
+            let is_better = |known: &CandidateMove<'_>| {
                 touching < known.touching || (touching == known.touching && least_m > known.least_m)
             };
             if best.as_ref().is_none_or(is_better) {
-                best = Some(Candidate { motion, touching, least_m, distances_m });
+                best = Some(CandidateMove { motion, touching, least_m, distances_m });
             }
             if touching.0 == 0 && touching.1 <= always && least_m >= FAR_M {
                 break;
             }
         }
-        let Candidate { motion, distances_m, .. } = best?;
+        let CandidateMove { motion, distances_m, .. } = best?;
         let touches = |pair: &usize| distances_m[*pair] < TOUCH_M;
         let names = |pair: usize| {
             let (a, b) = self.clearance.names(pair);
@@ -118,6 +126,7 @@ impl Distances {
             let distances = self.at(&motion.start);
             counts.iter_mut().zip(distances).for_each(|(count, m)| *count += usize::from(m < TOUCH_M));
         }
+        // Zero is the pose in which descriptions are drawn: shapes that overlap there do so by design.
         let mut zero = RobotQ::zeros(description.robot.dof());
         move_inside_limits(&mut zero, &description.robot);
         let at_zero = self.at(&zero);
@@ -131,8 +140,8 @@ impl Distances {
     /// The least distance of each pair along a motion.
     fn along(&mut self, description: &RobotDescription, motion: &JointMove) -> Vec<f64> {
         let mut least = vec![f64::INFINITY; self.clearance.pairs().len()];
-        for at in 0..=ON_THE_WAY {
-            let q = motion.at(&description.robot, f64::from(at) / f64::from(ON_THE_WAY));
+        for at in 0..=SAMPLES_OF_PATH {
+            let q = motion.at(&description.robot, f64::from(at) / f64::from(SAMPLES_OF_PATH));
             least.iter_mut().zip(self.at(&q)).for_each(|(least, m)| *least = least.min(m));
         }
         least

@@ -1,4 +1,4 @@
-//! What both files have in common: comments, and paths to what they refer to.
+//! Parts of both files: comments, and relative paths to the files that they name.
 
 use std::path::{Path, PathBuf};
 

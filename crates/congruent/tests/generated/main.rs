@@ -16,15 +16,13 @@ use congruent::{
     },
     analysis::conversion::{
         Conversion, ConversionReport, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes,
-        convert,
     },
     check,
-    description::{
-        Diagnostic, Robot, RobotDescription, SourceFile, parse_robot, parse_urdf, toml_string, urdf_text,
-    },
+    description::{Robot, RobotDescription, parse_robot, parse_urdf, toml_string, urdf_text},
     kinematics::{UrdfTree, sample_configurations},
-    listed,
 };
+use congruent_analysis::conversion::convert;
+use congruent_input::{Findings, SourceFile};
 use proptest::{
     prelude::*,
     test_runner::{Config, RngAlgorithm, TestRng, TestRunner},
@@ -56,8 +54,8 @@ fn source(name: &str, text: &str) -> Arc<SourceFile> {
     Arc::new(SourceFile { path: name.into(), text: text.to_owned() })
 }
 
-fn failed(found: &[Diagnostic], text: &str) -> TestCaseError {
-    TestCaseError::fail(format!("{}\n{text}", listed(found)))
+fn failed(found: &Findings, text: &str) -> TestCaseError {
+    TestCaseError::fail(format!("{found}\n{text}"))
 }
 
 fn poses_are_same(one: &Robot, other: &Robot) -> Result<(), TestCaseError> {
@@ -105,7 +103,7 @@ fn converted(
     match convert(description, &conversion) {
         Ok(report) => Ok(Some(report)),
         Err(found) if REFUSED.contains(&found.code) => Ok(None),
-        Err(found) => Err(failed(&[found], "")),
+        Err(found) => Err(failed(&found.into(), "")),
     }
 }
 
@@ -207,10 +205,11 @@ fn one_changed_number_of_a_table_is_found() {
         let also = checked.indistinguishable.iter().any(|other| names_joint(&other.cause, &joint));
         let explained = checked.diagnosis.first().is_some_and(|cause| cause.within_tolerance);
         let several = explained && !checked.indistinguishable.is_empty();
-        let told: Vec<&str> = checked.diagnosis.iter().map(|cause| cause.fault.message.as_str()).collect();
+        let messages: Vec<&str> =
+            checked.diagnosis.iter().map(|cause| cause.fault.message.as_str()).collect();
         prop_assert!(
             explained && (named || also || several),
-            "{what} of {joint}: {told:#?}\n{section}\n{urdf}"
+            "{what} of {joint}: {messages:#?}\n{section}\n{urdf}"
         );
         Ok(())
     });

@@ -119,7 +119,7 @@ fn numbers(values: [f64; 3]) -> String {
 }
 
 impl GeneratedRobot {
-    /// The URDF.
+    /// The robot as a URDF text, one link and joint for each row.
     pub(crate) fn urdf(&self) -> String {
         let mut text = format!("<robot name=\"{}\">\n", escaped(self.name));
         let link = |index: usize| format!("{} {index}", escaped(NAMES[index % NAMES.len()]));

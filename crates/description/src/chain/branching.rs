@@ -1,4 +1,4 @@
-//! Where the chain of a robot ends if nobody says it: at the frame for tools before the gripper.
+//! Chooses the tip of the chain if no file and no command names it: the tool frame before the gripper.
 //!
 //! The chain follows the branch with most moving joints. Where several branches have as many, they are the
 //! fingers of a gripper if the chain has as many joints behind it already, and the chain ends before them;
@@ -7,30 +7,33 @@
 use super::frame_name::{is_jaw, preference};
 use crate::model::{JointIndex, LinkIndex, Robot};
 
-/// The tip that was chosen, and those that might have been meant as well.
+/// The chosen tip, and the other tips that might have been meant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ChosenTip {
     pub(crate) tip: LinkIndex,
-    /// Tips of limbs as long as this one; empty if there is no doubt.
+    /// Tips of other limbs that are about as long; empty if the choice is unambiguous.
     pub(crate) others: Vec<LinkIndex>,
 }
 
 /// The tip of the chain that starts at `base`.
 pub(crate) fn choose_tip(robot: &Robot, base: LinkIndex) -> ChosenTip {
-    let bodies = Bodies::new(robot);
-    let (tip, doubts) = bodies.follow(robot.body(base), Vec::new());
-    let others = doubts.into_iter().map(|passed| bodies.follow_branch(&passed)).filter(|&other| other != tip);
+    let bodies = LinkBodies::new(robot);
+    // From the body of the base instead of its link: joints may hang on any of the links that are fixed to each other.
+    let (tip, equal_limbs) = bodies.follow(robot.body(base), Vec::new());
+    // Each doubtful branch is followed to its own tip; two branches may end at the same one, which is then no other tip.
+    let others =
+        equal_limbs.into_iter().map(|passed| bodies.follow_branch(&passed)).filter(|&other| other != tip);
     ChosenTip { tip, others: others.collect() }
 }
 
-/// The robot as bodies: links that are joined by moving joints only.
-struct Bodies<'a> {
+/// The robot as a tree of bodies, which are joined by moving joints; a body is all links that are fixed to each other.
+struct LinkBodies<'a> {
     robot: &'a Robot,
-    /// For each link, the most moving joints that follow each other below its body.
+    /// For each link the largest number of successive moving joints below it.
     depths: Vec<usize>,
 }
 
-impl<'a> Bodies<'a> {
+impl<'a> LinkBodies<'a> {
     fn new(robot: &'a Robot) -> Self {
         let mut depths = vec![0; robot.links().len()];
         // Children come after their parents, so from the end each depth is complete if it is used.
@@ -42,31 +45,36 @@ impl<'a> Bodies<'a> {
         Self { robot, depths }
     }
 
-    /// Moving joints from this one on.
+    /// The largest number of successive moving joints from this one on, itself included.
     fn depth(&self, branch: JointIndex) -> usize {
         1 + self.depths[self.robot.joint(branch).child.get()]
     }
 
-    /// The tip from `link` on, after these moving joints, and for each limb as long as the one that was
-    /// followed the joints that lead into it.
+    /// The tip of the chain that continues at `link` after the moving joints `passed`, and the joints into each other limb that
+    /// is about as long as the followed one.
     fn follow(&self, mut link: LinkIndex, mut passed: Vec<JointIndex>) -> (LinkIndex, Vec<Vec<JointIndex>>) {
-        let mut doubts = Vec::new();
+        let mut equal_limbs = Vec::new();
         loop {
             let body = self.body(link);
             let branches = self.branches(&body, &passed);
             let Some(deepest) = branches.iter().map(|&branch| self.depth(branch)).max() else {
-                return (self.frame(&body), doubts);
+                return (self.frame(&body), equal_limbs);
             };
+            // A limb that is one joint shorter still counts as equal, so that it is named as a candidate.
             let is_shorter = |&branch: &JointIndex| self.depth(branch) + 1 < deepest.max(2);
             let equal: Vec<JointIndex> = branches.into_iter().filter(|branch| !is_shorter(branch)).collect();
+            // Several equal branches are fingers if the chain before them is at least as long; limbs of a torso have a short
+            // chain or none before them. A single last joint ends the chain only if its name says that it is a jaw, since
+            // the last joint of an arm is single, too.
             let are_fingers = equal.len() > 1 && passed.len() >= deepest;
             let is_gripper =
                 !passed.is_empty() && deepest == 1 && equal.iter().all(|&one| is_jaw(self.robot.joint(one)));
             if are_fingers || is_gripper {
-                return (self.frame(&body), doubts);
+                return (self.frame(&body), equal_limbs);
             }
+            // Of equal branches the deepest counts, and of equally deep ones the first in file order.
             let first = equal.iter().position(|&branch| self.depth(branch) == deepest).unwrap_or(0);
-            doubts.extend(
+            equal_limbs.extend(
                 equal
                     .iter()
                     .enumerate()
@@ -83,11 +91,12 @@ impl<'a> Bodies<'a> {
         self.follow(self.robot.joint(last).child, passed.to_vec()).0
     }
 
-    /// The links that hang on `link` by fixed joints, each with the number of those.
+    /// `link` and the links that are fixed to it from there down, each with the number of fixed joints between.
     fn body(&self, link: LinkIndex) -> Vec<(LinkIndex, usize)> {
         let mut distances = vec![None; self.robot.links().len()];
         distances[link.get()] = Some(0);
         let mut body = vec![(link, 0)];
+        // One pass is enough, since parents come before children in the list of joints.
         for joint in self.robot.joints().iter().filter(|joint| !joint.kind.is_movable()) {
             let Some(distance) = distances[joint.parent.get()] else { continue };
             distances[joint.child.get()] = Some(distance + 1);
@@ -96,18 +105,18 @@ impl<'a> Bodies<'a> {
         body
     }
 
-    /// The moving joints that leave a body, without linkages: what only follows joints of the chain is no
-    /// continuation of it.
+    /// The moving joints whose parent belongs to a body, except linkages: joints that only mimic joints of the chain do not
+    /// continue it.
     fn branches(&self, body: &[(LinkIndex, usize)], passed: &[JointIndex]) -> Vec<JointIndex> {
-        let leaves = |joint: JointIndex| {
+        let starts_on_body = |joint: JointIndex| {
             let joint = self.robot.joint(joint);
             body.iter().any(|(link, _)| *link == joint.parent)
         };
         let movable = self.robot.movable_joints().iter().copied();
-        movable.filter(|&joint| leaves(joint) && !self.is_linkage(joint, passed)).collect()
+        movable.filter(|&joint| starts_on_body(joint) && !self.is_linkage(joint, passed)).collect()
     }
 
-    /// Whether all moving joints from this one on follow joints of the chain.
+    /// Whether this joint and all moving joints below it mimic joints of the chain.
     fn is_linkage(&self, branch: JointIndex, passed: &[JointIndex]) -> bool {
         let mut is_below = vec![false; self.robot.links().len()];
         is_below[self.robot.joint(branch).child.get()] = true;
@@ -117,6 +126,7 @@ impl<'a> Bodies<'a> {
         if !follows(branch) {
             return false;
         }
+        // Parents come before children, so a link is marked before the joints below it are reached.
         let mut all = true;
         for (index, joint) in self.robot.joints().iter().enumerate() {
             if is_below[joint.parent.get()] {
@@ -127,7 +137,7 @@ impl<'a> Bodies<'a> {
         all
     }
 
-    /// The frame of a body in which a tool is programmed.
+    /// The frame of a body in which tools are most likely programmed, by name and position.
     fn frame(&self, body: &[(LinkIndex, usize)]) -> LinkIndex {
         let rank =
             |&(link, distance): &(LinkIndex, usize)| preference(self.robot.link(link), distance, link.get());

@@ -1,5 +1,5 @@
-//! What names of links and joints say about a tool: the one place that reads a meaning out of names, and only
-//! if no chain is declared.
+//! Derives from the names of links and joints which frame is for tools: the only place that interprets names, used only if no
+//! chain is declared.
 
 use std::cmp::Reverse;
 
@@ -8,9 +8,9 @@ use crate::model::{Joint, Link};
 /// Words for the frames in which tools are programmed, the most specific last.
 const TOOL_FRAMES: [&[&str]; 4] =
     [&["flange"], &["ee", "eef", "effector", "endpoint"], &["tool", "tool0"], &["tcp"]];
-/// Words that only say that something is a link or a frame.
+/// Words without meaning for the choice: they only say that something is a link or a frame.
 const FILLERS: [&str; 3] = ["link", "frame", "joint"];
-/// Words for what looks on, and is no place for a tool.
+/// Words for sensors, whose frames are not for tools.
 const SENSORS: [&str; 9] = ["camera", "cam", "optical", "lidar", "laser", "imu", "sensor", "rgb", "depth"];
 /// Words for joints that open and close a gripper.
 const JAWS: [&str; 6] = ["gripper", "finger", "jaw", "knuckle", "claw", "thumb"];
@@ -23,6 +23,7 @@ fn words(name: &str) -> impl DoubleEndedIterator<Item = String> {
 
 /// How much a link's name says that tools are programmed in its frame: 0 if it says nothing.
 pub(super) fn tool_rank(link: &Link) -> usize {
+    // The last word that is not a filler decides: `tool_changer_link` is a changer, `gripper_tcp_frame` is a TCP.
     let Some(last) = words(&link.name).rev().find(|word| !FILLERS.contains(&word.as_str())) else { return 0 };
     TOOL_FRAMES.iter().position(|names| names.contains(&last.as_str())).map_or(0, |rank| rank + 1)
 }
@@ -32,6 +33,8 @@ pub(super) fn tool_rank(link: &Link) -> usize {
 pub(super) fn preference(link: &Link, fixed_joints: usize, index: usize) -> impl Ord + use<> {
     let is_frame = link.inertia.is_none() && link.visuals.is_empty() && link.collisions.is_empty();
     let is_sensor = words(&link.name).any(|word| SENSORS.contains(&word.as_str()));
+    // Compared in this order. More fixed joints mean farther out on the body, where a tool is attached; a link without mass
+    // and shapes is a pure frame; `Reverse` prefers the first of equal frames in file order.
     (tool_rank(link), !is_sensor, fixed_joints, is_frame, Reverse(index))
 }
 

@@ -1,13 +1,12 @@
-//! Which chain a command used, as its report says it.
+//! The chain that a command used, as reports print it.
 
 use std::fmt;
 
+use congruent_input::display::counted;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::display::counted;
-
-/// Why an end of the chain is where it is.
+/// Who determined an end of the chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ChainEnd {
@@ -21,12 +20,12 @@ pub enum ChainEnd {
     Chosen,
 }
 
-/// Why base and tip are where they are.
+/// Who determined base and tip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ChainEnds {
-    /// The base.
+    /// Who determined the base link.
     pub base: ChainEnd,
-    /// The tip.
+    /// Who determined the tip link.
     pub tip: ChainEnd,
 }
 
@@ -35,11 +34,11 @@ pub struct ChainEnds {
 pub struct ReportedChain {
     /// The link that the chain starts from.
     pub base: String,
-    /// Why this one.
+    /// Who determined the base.
     pub base_is: ChainEnd,
     /// The link that it ends at.
     pub tip: String,
-    /// Why this one.
+    /// Who determined the tip.
     pub tip_is: ChainEnd,
     /// The moving joints between them, mimic joints included.
     pub joints: Vec<String>,

@@ -2,17 +2,16 @@
 
 use std::ops::Range;
 
+use congruent_input::{Diagnostic, Findings};
 use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
-
-use crate::diagnostic::Diagnostic;
 
 /// A kind of list, as diagnostics name it.
 #[derive(Debug, Clone, Copy)]
 pub struct JsonList {
-    /// What an entry is called.
+    /// The word for an entry in messages, such as `configuration`.
     pub entry: &'static str,
-    /// Code of a text that is no such list.
+    /// Code of the error about a text that is not such a list.
     pub code: &'static str,
     /// Help for such a text: what was expected.
     pub help: &'static str,
@@ -27,9 +26,9 @@ impl JsonList {
         &self,
         text: &str,
         mut check: impl FnMut(Written, Range<usize>) -> Result<T, Diagnostic>,
-    ) -> Result<Vec<T>, Vec<Diagnostic>> {
+    ) -> Result<Vec<T>, Findings> {
         let entries: Vec<&RawValue> =
-            serde_json::from_str(text).map_err(|error| vec![self.malformed(text, 0, &error)])?;
+            serde_json::from_str(text).map_err(|error| self.malformed(text, 0, &error))?;
         let (mut read, mut faults) = (Vec::with_capacity(entries.len()), Vec::new());
         for (index, entry) in entries.iter().map(|entry| entry.get()).enumerate() {
             // The entry borrows from the text, so the difference of the addresses is its place.
@@ -46,7 +45,7 @@ impl JsonList {
                 Err(fault) => faults.push(self.of_entry(index + 1, fault)),
             }
         }
-        if faults.is_empty() { Ok(read) } else { Err(faults) }
+        if faults.is_empty() { Ok(read) } else { Err(faults.into()) }
     }
 
     /// The fault with the number of its entry, from 1.
@@ -60,7 +59,7 @@ impl JsonList {
         self.not_read(error).at(offset..offset)
     }
 
-    /// What the parser says, without the line and column that it counts from the entry.
+    /// The error of the parser without its line and column, which count from the beginning of the entry.
     pub(super) fn not_read(&self, error: &serde_json::Error) -> Diagnostic {
         let said = error.to_string();
         let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);

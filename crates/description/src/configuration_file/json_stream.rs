@@ -8,6 +8,7 @@ use std::{
     sync::Arc,
 };
 
+use congruent_input::{Diagnostic, Findings, InputFile, SourceFile, TextStream};
 use serde::{
     Deserializer as _,
     de::{DeserializeOwned, SeqAccess, Visitor},
@@ -15,22 +16,18 @@ use serde::{
 use serde_json::{Deserializer, value::RawValue};
 
 use super::json_list::{JsonList, offset_of};
-use crate::{
-    diagnostic::{Diagnostic, SourceFile},
-    files::{InputFile, TextStream},
-};
 
-/// Most faults that are told; of more, the last one is their number.
+/// Most faults that are reported; if there are more, the last message gives the number of the others.
 const MOST_FAULTS: usize = 100;
 
-/// The first line of an entry.
+/// The first line of an entry, as a byte range of the file.
 pub(super) struct EntryPlace<'a> {
     text: &'a RefCell<TextStream>,
     first_line: Range<usize>,
 }
 
 impl EntryPlace<'_> {
-    /// Where it is in the text that comes with the file.
+    /// Keeps the line among the excerpts. Returns its range there.
     pub(super) fn keep(&self) -> Range<usize> {
         self.text.borrow_mut().keep(self.first_line.clone())
     }
@@ -46,7 +43,7 @@ impl JsonList {
         &self,
         text: TextStream,
         mut check: impl FnMut(Written, &EntryPlace<'_>) -> Result<(), Diagnostic>,
-    ) -> Result<(InputFile, Arc<SourceFile>), Vec<Diagnostic>> {
+    ) -> Result<(InputFile, Arc<SourceFile>), Findings> {
         let text = RefCell::new(text);
         let (mut number, mut faults, mut count) = (0, Vec::new(), 0);
         let entry = |entry: &str, start: usize| {
@@ -76,15 +73,18 @@ impl JsonList {
         }
         drop(parser);
         if number == 0 {
-            // Whoever needs an entry shows where the text begins.
+            // A caller that refuses an empty list points at the beginning of the text.
             text.borrow_mut().keep(0..0);
         }
-        // Whatever is wrong with the file as a whole comes before what is wrong in it.
+        // Faults of the file as a whole, such as another encoding, come first: they may be the cause of the faults in it.
         let (input, source) = text.into_inner().close()?;
         if count > MOST_FAULTS {
             faults.truncate(MOST_FAULTS - 1);
-            let more = format!("{} more of the list cannot be used", count - faults.len());
-            faults.push(Diagnostic::error(self.code, more).with_help("correct the first ones and try again"));
+            let more = format!("{} more entries of the list have errors", count - faults.len());
+            faults.push(
+                Diagnostic::error(self.code, more)
+                    .with_help("correct the first ones and run the command again"),
+            );
         }
         if faults.is_empty() {
             return Ok((input, source));
@@ -93,7 +93,7 @@ impl JsonList {
     }
 }
 
-/// The parser's end of a text whose place its visitor asks for.
+/// The reader of the parser. It is shared with the visitor, which needs the byte offset of each entry.
 struct Shared<'a>(&'a RefCell<TextStream>);
 
 impl Read for Shared<'_> {
@@ -120,7 +120,7 @@ impl<'de, F: FnMut(&str, usize)> Visitor<'de> for Entries<'_, F> {
             self.text.borrow_mut().forget();
             let Some(entry) = entries.next_element::<Box<RawValue>>()? else { return Ok(()) };
             let entry = entry.get();
-            // The parser sees where a number ends only after its end.
+            // A number has no closing character, so the parser has read one byte beyond its end.
             let (read, last) = (self.text.borrow().offset(), self.text.borrow().last());
             let end = read - usize::from(last != entry.bytes().last());
             (self.entry)(entry, end - entry.len());
@@ -135,7 +135,7 @@ mod tests {
     use serde::Deserialize;
 
     use super::*;
-    use crate::files::read_text;
+    use congruent_input::read_text;
 
     const MOST_BYTES: u64 = 1 << 20;
     const LIST: JsonList = JsonList { entry: "entry", code: "some::json", help: "expected a list" };
@@ -150,7 +150,7 @@ mod tests {
         if value < 0.0 { Err(Diagnostic::error("some::sign", "is negative")) } else { Ok(value) }
     }
 
-    type Outcome = Result<Vec<f64>, Vec<Diagnostic>>;
+    type Outcome = Result<Vec<f64>, Findings>;
 
     /// The list as the reader of whole texts reads it, whose faults have the whole text.
     fn whole(path: &Path) -> Outcome {
@@ -167,7 +167,7 @@ mod tests {
     }
 
     /// What a fault says, where, and the lines that a snippet shows of it.
-    fn told(fault: &Diagnostic) -> (String, Option<String>, Option<(usize, usize)>, String) {
+    fn summary(fault: &Diagnostic) -> (String, Option<String>, Option<(usize, usize)>, String) {
         let source = fault.source.as_ref().unwrap();
         let span = fault.span.clone().unwrap();
         let line = source.text[..span.start].rfind('\n').map_or(0, |at| at + 1);
@@ -181,7 +181,7 @@ mod tests {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), bytes).unwrap();
         let [expected, found] = [whole(file.path()), streamed(file.path())]
-            .map(|outcome| outcome.map_err(|faults| faults.iter().map(told).collect::<Vec<_>>()));
+            .map(|outcome| outcome.map_err(|faults| faults.iter().map(summary).collect::<Vec<_>>()));
         let start = String::from_utf8_lossy(&bytes[..bytes.len().min(60)]).into_owned();
         assert_eq!(found, expected, "{start} ... ({} bytes)", bytes.len());
     }
@@ -256,7 +256,10 @@ mod tests {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), long(",\n").replace("\"a\"", "\"b\"")).unwrap();
         let faults = streamed(file.path()).unwrap_err();
-        let last = faults.last().unwrap();
-        assert_eq!((faults.len(), last.message.as_str()), (100, "19901 more of the list cannot be used"));
+        let last = &faults[faults.len() - 1];
+        assert_eq!(
+            (faults.len(), last.message.as_str()),
+            (100, "19901 more entries of the list have errors")
+        );
     }
 }

@@ -1,41 +1,39 @@
 //! Configurations by joint name, as batch commands read them: JSON, SI units.
 
+mod beyond_limits;
 mod json_list;
 mod json_stream;
-mod outside;
 mod rows;
 mod states;
 mod unique;
 
 use std::{collections::BTreeMap, path::Path};
 
+use congruent_input::{Diagnostic, Findings, InputFile, TextStream, known_names};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 
-use crate::{
-    diagnostic::{Diagnostic, known_names},
-    files::{InputFile, TextStream},
-    model::{Robot, RobotQ},
-};
+use self::{beyond_limits::OutsideLimits, json_stream::EntryPlace};
+use crate::model::{Robot, RobotQ};
 
 pub use self::{
+    beyond_limits::{outside_limits, outside_limits_warning},
     json_list::JsonList,
-    outside::{outside_limits, outside_limits_warning},
     rows::RobotQList,
     states::{JointState, JointStateList},
     unique::unique_names,
 };
-use self::{json_stream::EntryPlace, outside::OutsideLimits};
 
-/// How far a given mimic position or speed may be from what its master implies. Kind: digits of the file.
+/// How far a given mimic position (rad, m) or speed may be from the value that follows from its master. Kind: digits of the
+/// file.
 const MIMIC_DIGITS: f64 = 1e-9;
-/// What a file of configurations is.
+/// The words and codes of messages about files of configurations.
 const LIST: JsonList = JsonList {
     entry: "configuration",
     code: "configurations::json",
     help: r#"expected a JSON array: [{"q": {"joint name": 0.1}}]"#,
 };
-/// Largest file of configurations that is read.
+/// Size limit of a file of configurations, bytes.
 const MOST_BYTES: u64 = 256 << 20;
 
 /// One entry of a batch, joints by name; joints of groups that a command does not use are checked too.
@@ -62,14 +60,14 @@ pub fn configurations_schema() -> Schema {
     schema_for!(Vec<WrittenConfiguration>)
 }
 
-/// What is in a file of configurations.
+/// The contents of a file of configurations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Configurations<List> {
     /// The entries in the order of the file, at least one.
     pub entries: List,
-    /// Given positions outside the joint limits.
+    /// A warning of positions outside the joint limits; `None` if there are none.
     pub warning: Option<Diagnostic>,
-    /// The file; `None` if they come from none.
+    /// The file that was read; `None` if the configurations were given otherwise.
     pub input: Option<InputFile>,
 }
 
@@ -78,10 +76,7 @@ pub struct Configurations<List> {
 ///
 /// # Errors
 /// The file cannot be read, is no such array, is empty, or names an unknown joint.
-pub fn read_configurations(
-    path: &Path,
-    robot: &Robot,
-) -> Result<Configurations<RobotQList>, Vec<Diagnostic>> {
+pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Configurations<RobotQList>, Findings> {
     let mut list = RobotQList::new(robot.dof());
     let add = |written: &WrittenConfiguration| {
         list.push(&configuration(&written.q, robot)?);
@@ -96,7 +91,7 @@ pub fn read_configurations(
 ///
 /// # Errors
 /// As [`read_configurations`], or a mimic joint has another speed or acceleration than its master implies.
-pub fn read_states(path: &Path, robot: &Robot) -> Result<Configurations<JointStateList>, Vec<Diagnostic>> {
+pub fn read_states(path: &Path, robot: &Robot) -> Result<Configurations<JointStateList>, Findings> {
     let in_ratio = |values: &BTreeMap<String, f64>| {
         followed(values, robot, |robot, rates| robot.apply_mimic_to_speeds(rates)).map(|rates| rates.to_vec())
     };
@@ -115,7 +110,7 @@ fn read(
     path: &Path,
     robot: &Robot,
     mut add: impl FnMut(&WrittenConfiguration) -> Result<(), Diagnostic>,
-) -> Result<(Option<Diagnostic>, InputFile), Vec<Diagnostic>> {
+) -> Result<(Option<Diagnostic>, InputFile), Findings> {
     let (mut index, mut outside, mut first_outside) = (0, OutsideLimits::default(), None);
     let entry = |written: WrittenConfiguration, place: &EntryPlace<'_>| {
         index += 1;
@@ -140,7 +135,7 @@ fn read(
 }
 
 fn no_entry() -> Diagnostic {
-    Diagnostic::error("configurations::none", "there are no configurations in the list")
+    Diagnostic::error("configurations::none", "the list has no configurations")
         .at(0..0)
         .with_help(r#"one configuration with all joints at 0 is [{"q": {}}]"#)
 }
@@ -169,8 +164,9 @@ fn followed(
             let message = format!(
                 "joint \"{name}\" is given as {given}, but the joint that it mimics implies {implied}"
             );
-            return Err(Diagnostic::error("configurations::mimic", message)
-                .with_help("leave mimic joints out, or give the value that their master implies"));
+            return Err(Diagnostic::error("configurations::mimic", message).with_help(
+                "leave mimic joints out, or give the value that follows from the mimicked joint",
+            ));
         }
     }
     Ok(vector)

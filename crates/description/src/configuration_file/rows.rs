@@ -18,12 +18,12 @@ use crate::model::RobotQ;
 pub struct RobotQList(Rows);
 
 impl RobotQList {
-    /// No configuration of a robot with so many movable joints.
+    /// An empty list for a robot with this number of movable joints.
     pub fn new(joints: usize) -> Self {
         Self(Rows::new(joints))
     }
 
-    /// Adds one.
+    /// Adds a configuration at the end.
     ///
     /// # Panics
     /// If it has not one value for each movable joint.
@@ -31,22 +31,22 @@ impl RobotQList {
         self.0.push(q);
     }
 
-    /// How many there are.
+    /// Number of configurations.
     pub fn len(&self) -> usize {
         self.0.count
     }
 
-    /// Whether there is none.
+    /// Whether the list has no configuration.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The one of this number, from 0.
+    /// The configuration with this index, from 0; `None` beyond the end.
     pub fn get(&self, index: usize) -> Option<RobotQ> {
         (index < self.len()).then(|| RobotQ::from(self.0.row(index)))
     }
 
-    /// All, in their order.
+    /// All configurations in the order in which they were added.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = RobotQ> + Clone + '_ {
         (0..self.len()).map(|index| RobotQ::from(self.0.row(index)))
     }
@@ -60,7 +60,8 @@ impl From<&RobotQ> for RobotQList {
     }
 }
 
-/// Rows of as many values each. Those that come before the first one with a value that is not zero take no memory.
+/// Rows of equally many values. The leading rows that are zero throughout take no memory: torques and accelerations are often
+/// zero in the whole file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Rows {
     width: usize,
@@ -79,7 +80,7 @@ impl Rows {
     pub(super) fn push(&mut self, row: &[f64]) {
         assert_eq!(row.len(), self.width, "one value for each movable joint");
         self.count += 1;
-        // The sign of a zero is kept.
+        // By bits, since a row with -0.0 must be read back as -0.0.
         if self.values.is_empty() && row.iter().all(|value| value.to_bits() == 0) {
             self.leading += 1;
         } else {

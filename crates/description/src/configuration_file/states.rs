@@ -25,12 +25,12 @@ pub struct JointStateList {
 }
 
 impl JointStateList {
-    /// No state of a robot with so many movable joints.
+    /// An empty list for a robot with this number of movable joints.
     pub fn new(joints: usize) -> Self {
         Self { count: 0, parts: std::array::from_fn(|_| Rows::new(joints)) }
     }
 
-    /// Adds one.
+    /// Adds a state at the end.
     ///
     /// # Panics
     /// If it has not one value for each movable joint.
@@ -41,7 +41,7 @@ impl JointStateList {
         }
     }
 
-    /// All, in their order.
+    /// All states in the order in which they were added.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = JointState> + Clone + '_ {
         (0..self.count).map(|index| {
             let [q, qd, qdd, tau] = self.parts.each_ref().map(|rows| rows.row(index).to_vec());

@@ -1,6 +1,6 @@
 //! The formats of mesh files: a new one is a file beside this one and a line in each match.
 
-use crate::xml::LFS_POINTER;
+use congruent_input::xml::LFS_POINTER;
 
 use super::{
     dae,
@@ -18,7 +18,7 @@ pub(super) enum MeshFormat {
 
 impl MeshFormat {
     /// The format that the extension of a file name says, in capitals or not.
-    pub(super) fn of(extension: &str) -> Result<Self, MeshError> {
+    pub(super) fn from_extension(extension: &str) -> Result<Self, MeshError> {
         match extension.to_ascii_lowercase().as_str() {
             "stl" => Ok(Self::Stl),
             "obj" => Ok(Self::Obj),
@@ -27,7 +27,7 @@ impl MeshFormat {
         }
     }
 
-    /// Reads a mesh.
+    /// Reads the bytes of a mesh file of this format.
     ///
     /// An empty result is an empty COLLADA scene, which real robots hold; every other mesh without a
     /// triangle that has area is refused.
@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn other_formats_are_refused_by_name() {
-        let message = MeshFormat::of("step").unwrap_err().to_string();
+        let message = MeshFormat::from_extension("step").unwrap_err().to_string();
         assert_eq!(message, "mesh format \".step\" is not supported (use STL, OBJ or DAE)");
         let pointer = MeshFormat::Stl.parse(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
         assert_eq!(pointer, Err(MeshError::LfsPointer));

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 /// The furthest that a vertex may be from the origin of its shape.
 pub(super) const FURTHEST_M: f64 = 1e6;
 
-/// What a mesh file holds, in metres and in the file's own axes.
+/// The contents of a mesh file, in metres and in the file's own axes.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct MeshFile {
     pub(crate) vertices_m: Vec<Point3<f64>>,
@@ -14,17 +14,17 @@ pub(crate) struct MeshFile {
     pub(crate) material_libraries: Vec<String>,
 }
 
-/// Why bytes are no usable mesh.
+/// The reason why bytes are not a usable mesh.
 #[derive(Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub(crate) enum MeshError {
     /// The file name's extension is none of the three.
     #[error("mesh format \"{extension}\" is not supported (use STL, OBJ or DAE)")]
     Unsupported { extension: String },
-    /// The file is in the place of one that is stored elsewhere.
+    /// The file is a Git LFS pointer instead of the mesh.
     #[error("it is a Git LFS pointer, not the mesh itself: `git lfs pull` fetches it")]
     LfsPointer,
-    /// There is nothing in the file.
+    /// The file has no bytes, or only white space.
     #[error("the file is empty")]
     Empty,
     /// Fewer bytes than any STL has.
@@ -33,10 +33,8 @@ pub(crate) enum MeshError {
     /// The count in the header and the length of the file disagree.
     #[error("the header promises {promised} triangles, the file holds {held}: it is truncated")]
     Truncated { promised: u32, held: usize },
-    /// The same, the other way round.
-    #[error(
-        "the header promises {promised} triangles, the file holds {held}: the others are skipped by every reader"
-    )]
+    /// The header promises fewer triangles than the file holds.
+    #[error("the header promises {promised} triangles, the file holds {held}: readers ignore the others")]
     Surplus { promised: u32, held: usize },
     /// A fault with its line.
     #[error("line {line}: {what}")]
@@ -44,7 +42,7 @@ pub(crate) enum MeshError {
     /// A fault that the reader of the format describes.
     #[error("{what}")]
     Format { what: String },
-    /// A corner names a vertex that is not there.
+    /// A corner refers to a vertex index beyond the list of vertices.
     #[error("triangle {triangle} uses vertex index {index}, out of range: there are {vertices} vertices")]
     Index { triangle: usize, index: u32, vertices: usize },
     /// A coordinate is NaN or infinite.
@@ -59,7 +57,7 @@ pub(crate) enum MeshError {
 }
 
 impl MeshFile {
-    /// Refuses corners that are not there, coordinates that are not finite, and meshes without area.
+    /// Refuses vertex indices out of range, coordinates that are not finite, and meshes without area.
     pub(super) fn check(&self) -> Result<(), MeshError> {
         let mut has_area = false;
         for (triangle, corners) in self.triangles.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Wavefront OBJ: vertices and faces, the rest is of no meaning for a shape.
+//! Wavefront OBJ: vertices and faces; all other lines do not change the shape and are skipped.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
         let mut words = text.split_whitespace();
         match words.next() {
             Some("v") => {
-                vertices.push(vertex(words).ok_or_else(|| refused("a vertex has three numbers".to_owned()))?);
+                vertices
+                    .push(vertex(words).ok_or_else(|| refused("a vertex needs three numbers".to_owned()))?);
             }
             Some("f") => {
                 let corner = |word: &str| corner(word, vertices.len()).map_err(refused);
@@ -26,7 +27,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
                         u32::try_from(mesh.vertices_m.len() - 1).unwrap_or(u32::MAX)
                     })
                 };
-                // A polygon is a fan, as all readers take it; a point or a line has no surface.
+                // A polygon is split into a fan, as by all readers; a point or a line has no surface. Only vertices of faces are
+                // kept: the others would still count in a convex hull.
                 let corners: Vec<u32> = if corners.len() < 3 {
                     Vec::new()
                 } else {
@@ -51,7 +53,7 @@ fn vertex<'a>(words: impl Iterator<Item = &'a str>) -> Option<Point3<f64>> {
 /// The vertex of a corner `vertex/texture/normal`: from 1, or from the last one back if it is negative.
 fn corner(word: &str, vertices: usize) -> Result<usize, String> {
     let written = word.split('/').next().unwrap_or_default();
-    let index: i64 = written.parse().map_err(|_| format!("\"{word}\" is no corner of a face"))?;
+    let index: i64 = written.parse().map_err(|_| format!("\"{word}\" is not a face vertex"))?;
     let back = usize::try_from(index.unsigned_abs()).unwrap_or(usize::MAX);
     let found = if index > 0 { back.checked_sub(1) } else { vertices.checked_sub(back) };
     found

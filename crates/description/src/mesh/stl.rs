@@ -7,9 +7,9 @@ use nalgebra::Point3;
 
 use super::mesh_file::{MeshError, MeshFile};
 
-/// Free text and the number of triangles.
+/// Length of the header: 80 bytes of free text, then the number of triangles.
 const HEADER_BYTES: usize = 84;
-/// A normal, three corners, two bytes of attributes.
+/// Length of a triangle: a normal and three corners of three floats each, two bytes of attributes.
 const TRIANGLE_BYTES: usize = 50;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
@@ -35,7 +35,8 @@ fn count(bytes: &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(*bytes.get(HEADER_BYTES - 4..)?.first_chunk()?))
 }
 
-/// Length of the binary STL that `bytes` begin with; exporters that pad the end are allowed to, but not by triangles.
+/// Length of the binary STL at the beginning of `bytes`. Padding after the last triangle is accepted; padding of exactly whole
+/// triangles means that the count in the header is wrong.
 fn binary_length(bytes: &[u8]) -> Result<usize, MeshError> {
     let promised = count(bytes).ok_or(MeshError::TooShort { bytes: bytes.len() })?;
     let held = (bytes.len() - HEADER_BYTES) / TRIANGLE_BYTES;

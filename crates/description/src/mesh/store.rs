@@ -6,19 +6,16 @@ use std::{
     sync::Arc,
 };
 
+use congruent_input::{Diagnostic, FileAccess, MESH_OUTSIDE, Packages, Resolved};
 use nalgebra::{Point3, Vector3};
 
 use super::{
     format::MeshFormat,
     mesh_file::{FURTHEST_M, MeshError, MeshFile},
 };
-use crate::{
-    diagnostic::Diagnostic,
-    files::{FileAccess, Packages, Resolved},
-    model::Mesh,
-};
+use crate::model::Mesh;
 
-/// The largest mesh file that is read.
+/// Size limit of a mesh file, bytes.
 const MESH_BYTES: u64 = 256 << 20;
 
 /// A mesh with its warnings, which come only when its file is read for the first time.
@@ -34,7 +31,7 @@ pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh
 pub(crate) struct MeshStore<'a> {
     packages: &'a mut Packages,
     access: &'a FileAccess,
-    /// By file and the bits of the scale.
+    /// Meshes that were read, by file and the bits of their scale: floats are no ordered keys.
     read: BTreeMap<(PathBuf, [u64; 3]), Arc<Mesh>>,
 }
 
@@ -55,8 +52,8 @@ impl<'a> MeshStore<'a> {
             Diagnostic::error("mesh::invalid", format!("mesh \"{uri}\": {error}"))
                 .one_of("mesh files cannot be used", uri)
         };
-        // A format that is not read is not opened either.
-        let format = MeshFormat::of(&extension).map_err(refused)?;
+        // The format is checked by the extension first, so that a file of an unsupported format is never opened.
+        let format = MeshFormat::from_extension(&extension).map_err(refused)?;
         let read = format.parse(&self.access.read_mesh(uri, &path, MESH_BYTES)?).map_err(refused)?;
         let mut warnings = self.warnings(uri, &path, &read);
         warnings.extend(warning);
@@ -68,17 +65,18 @@ impl<'a> MeshStore<'a> {
     fn warnings(&self, uri: &str, path: &std::path::Path, mesh: &MeshFile) -> Vec<Diagnostic> {
         let folder = path.parent().unwrap_or(path);
         let outside = |library: &&String| !self.packages.allows(&folder.join(library));
-        let leaves = |library: &String| {
-            let message = format!("mesh \"{uri}\": mtllib \"{library}\" leaves the project folder");
+        let outside_project = |library: &String| {
+            let message = format!("mesh \"{uri}\": mtllib \"{library}\" is outside of the project folder");
             Diagnostic::warning("mesh::material_outside", message)
                 .with_help("material libraries are never read; remove the line")
         };
-        let mut warnings: Vec<_> = mesh.material_libraries.iter().filter(outside).map(leaves).collect();
+        let mut warnings: Vec<_> =
+            mesh.material_libraries.iter().filter(outside).map(outside_project).collect();
         if mesh.triangles.is_empty() {
-            let message = format!("mesh \"{uri}\": the scene is empty, the link has no shape here");
+            let message = format!("mesh \"{uri}\": the scene is empty, so the link gets no shape from it");
             warnings.push(
                 Diagnostic::warning("mesh::empty", message)
-                    .one_of("meshes are empty scenes, so their links have no shape there", uri),
+                    .one_of("meshes are empty scenes, so their links get no shape from them", uri),
             );
         }
         warnings
@@ -101,9 +99,7 @@ pub fn read_mesh(
         Diagnostic::error("file::unreadable", format!("{} cannot be read: {error}", folder.display()))
     })?;
     let found = MeshStore::new(&mut packages, access).find(uri, scale).map_err(|fault| match fault.code {
-        "mesh::outside" => {
-            fault.with_help("put the mesh into the project folder, which is the only one that is read")
-        }
+        MESH_OUTSIDE => fault.with_help("put the mesh into the project folder, the only folder that is read"),
         _ => fault,
     })?;
     if found.mesh.triangles.is_empty() {
@@ -120,7 +116,7 @@ fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, Me
         return Err(MeshError::TooFar { furthest_m });
     }
     let mut triangles = mesh.triangles;
-    // A mirrored mesh would be inside out.
+    // An odd number of negative factors is a reflection, which turns the surface inside out: two corners are swapped back.
     if scale.iter().filter(|factor| **factor < 0.0).count() % 2 == 1 {
         for corners in &mut triangles {
             corners.swap(1, 2);
@@ -163,6 +159,6 @@ mod tests {
         let found =
             MeshStore::new(&mut packages, &access).find("a.obj", Vector3::new(1.0, 1.0, 1.0)).unwrap();
         let messages: Vec<_> = found.warnings.into_iter().map(|warning| warning.message).collect();
-        assert_eq!(messages, ["mesh \"a.obj\": mtllib \"/etc/hosts\" leaves the project folder"]);
+        assert_eq!(messages, ["mesh \"a.obj\": mtllib \"/etc/hosts\" is outside of the project folder"]);
     }
 }

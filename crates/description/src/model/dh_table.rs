@@ -1,14 +1,14 @@
 //! The Denavit-Hartenberg table as a robot file declares it: values only. The kinematics crate computes
 //! with it.
 
+use congruent_input::serde_name;
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::joint::JointIndex;
-use crate::written::name::serde_name;
 
-/// Which of the two equations a table stands for.
+/// The equation of a row: the order of its four elementary transforms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DhConvention {
@@ -19,7 +19,7 @@ pub enum DhConvention {
 }
 
 impl DhConvention {
-    /// The name in files and reports.
+    /// The name of the variant in files and reports.
     pub fn name(self) -> &'static str {
         serde_name(&self)
     }
@@ -44,7 +44,7 @@ pub enum DhRowKind {
 }
 
 impl DhRowKind {
-    /// The name in files and reports.
+    /// The name of the variant in files and reports.
     pub fn name(self) -> &'static str {
         serde_name(&self)
     }
@@ -56,17 +56,17 @@ impl DhRowKind {
 pub struct DhRow<J = JointIndex> {
     /// The joint whose position drives the row.
     pub joint: J,
-    /// Which entry it drives.
+    /// The entry that the joint position is added to.
     pub kind: DhRowKind,
-    /// Link length.
+    /// Link length a, m.
     pub a_m: f64,
-    /// Link twist.
+    /// Link twist alpha, rad.
     pub alpha_rad: f64,
-    /// Link offset.
+    /// Link offset d, m; of a prismatic row, d at position zero.
     pub d_m: f64,
-    /// Joint angle at position zero.
+    /// Joint angle theta, rad; of a revolute row, theta at position zero.
     pub theta_rad: f64,
-    /// `1.0` or `-1.0`.
+    /// Sign of the joint position in the row: `1.0` or `-1.0`.
     pub sign: f64,
     /// Line of the row in the robot file, from 1; 0 if it was not read from one.
     pub line: usize,
@@ -75,9 +75,9 @@ pub struct DhRow<J = JointIndex> {
 /// A declared table with its constant transforms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DhTable {
-    /// Which equation the rows stand for.
+    /// The equation of the rows.
     pub convention: DhConvention,
-    /// Where the values come from.
+    /// The publication that the values are from.
     pub source: Option<String>,
     /// Pose of the table's frame 0 in link `base`.
     pub base_from_dh0: Isometry3<f64>,

@@ -1,4 +1,4 @@
-//! Why links and joints form no robot; `tree.rs` finds it out.
+//! The reasons why links and joints do not form a robot; `tree.rs` detects them.
 
 /// Why links and joints do not make a robot.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -10,33 +10,33 @@ pub enum RobotError {
     /// Two links share a name.
     #[error("duplicate link name \"{link}\"")]
     DuplicateLink {
-        /// The name.
+        /// The name that two links have.
         link: String,
     },
     /// Two joints share a name.
     #[error("duplicate joint name \"{joint}\"")]
     DuplicateJoint {
-        /// The name.
+        /// The name that two joints have.
         joint: String,
     },
     /// A joint names a link that does not exist.
     #[error("joint \"{joint}\": {role} link \"{link}\" not found")]
     UnknownLink {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// `parent` or `child`.
+        /// Role of the missing link: `parent` or `child`.
         role: &'static str,
-        /// The name that is not there.
+        /// The name that the robot does not have.
         link: String,
-        /// All links.
+        /// Names of all links, for suggestions.
         known: Vec<String>,
     },
     /// A joint connects a link with itself.
     #[error("joint \"{joint}\": parent and child are the same link \"{link}\"")]
     SelfJoint {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The link.
+        /// Name of the link.
         link: String,
     },
     /// A link is the child of two joints.
@@ -44,11 +44,11 @@ pub enum RobotError {
         "link \"{link}\" already has a parent: it is the child of joint \"{first}\" and of joint \"{second}\""
     )]
     TwoParents {
-        /// The link.
+        /// Name of the link.
         link: String,
-        /// The first joint.
+        /// The joint above the link that comes first in the file.
         first: String,
-        /// The second joint.
+        /// The joint above the link that comes second.
         second: String,
     },
     /// A link is its own ancestor.
@@ -68,19 +68,19 @@ pub enum RobotError {
     /// A joint mimics a joint that does not exist or does not move.
     #[error("joint \"{joint}\": mimicked joint \"{target}\" not found among the moving joints")]
     UnknownMimic {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The name that is not there.
+        /// The name that the robot does not have.
         target: String,
-        /// All moving joints.
+        /// Names of all moving joints, for suggestions.
         known: Vec<String>,
     },
     /// A joint mimics itself, directly or through others.
     #[error("joint \"{joint}\" mimics itself{}", if .through.is_empty() { String::new() } else { format!(" through {}", .through.join(", ")) })]
     MimicLoop {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The joints between.
+        /// The joints of the loop after it.
         through: Vec<String>,
     },
 }

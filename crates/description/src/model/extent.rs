@@ -1,4 +1,4 @@
-//! The box around shapes.
+//! Axis-aligned bounding boxes of shapes.
 
 use nalgebra::{Point3, Vector3};
 
@@ -6,7 +6,7 @@ use super::{Geometry, Shape};
 
 /// An axis-aligned box in the frame of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Extent {
+pub struct Extent {
     least: Vector3<f64>,
     most: Vector3<f64>,
 }
@@ -16,17 +16,20 @@ impl Extent {
         Self { least: point, most: point }
     }
 
-    pub(crate) fn with(self, other: Self) -> Self {
+    /// The smallest box around both.
+    #[must_use]
+    pub fn with(self, other: Self) -> Self {
         Self { least: self.least.inf(&other.least), most: self.most.sup(&other.most) }
     }
 
     /// The same with a point in it.
-    pub(crate) fn including(self, point: Vector3<f64>) -> Self {
+    #[must_use]
+    pub fn including(self, point: Vector3<f64>) -> Self {
         self.with(Self::of_point(point))
     }
 
     /// Around a shape in its own frame; `None` if it has no vertices.
-    pub(crate) fn of_geometry(geometry: &Geometry) -> Option<Self> {
+    pub fn of_geometry(geometry: &Geometry) -> Option<Self> {
         let half = match geometry {
             Geometry::Box { size_m } => size_m / 2.0,
             Geometry::Cylinder { radius_m, length_m } => Vector3::new(*radius_m, *radius_m, length_m / 2.0),
@@ -40,38 +43,38 @@ impl Extent {
     }
 
     /// Around a shape in the frame of its link.
-    pub(crate) fn of_shape(shape: &Shape) -> Option<Self> {
+    pub fn of_shape(shape: &Shape) -> Option<Self> {
         let own = Self::of_geometry(&shape.geometry)?;
         let corner =
             |corner: Vector3<f64>| Self::of_point((shape.link_from_shape * Point3::from(corner)).coords);
         own.corners().into_iter().map(corner).reduce(Self::with)
     }
 
-    /// The corners.
-    pub(crate) fn corners(&self) -> [Vector3<f64>; 8] {
+    /// The eight corners in the frame of the box.
+    pub fn corners(&self) -> [Vector3<f64>; 8] {
         std::array::from_fn(|at| {
             let pick = |axis: usize| if at >> axis & 1 == 0 { self.least[axis] } else { self.most[axis] };
             Vector3::new(pick(0), pick(1), pick(2))
         })
     }
 
-    /// Length of the diagonal.
-    pub(crate) fn diagonal_m(&self) -> f64 {
+    /// Length of the diagonal, m.
+    pub fn diagonal_m(&self) -> f64 {
         (self.most - self.least).norm()
     }
 
-    /// Volume, no side less than a tenth of a millimetre.
-    pub(crate) fn volume_m3(&self) -> f64 {
+    /// Volume, m^3. Each side counts as at least 0.1 mm, so that the density of a flat shape stays finite.
+    pub fn volume_m3(&self) -> f64 {
         (self.most - self.least).map(|side| side.max(1e-4)).product()
     }
 
     /// Distance of a point from the box, 0 inside.
-    pub(crate) fn distance_m(&self, point: Vector3<f64>) -> f64 {
+    pub fn distance_m(&self, point: Vector3<f64>) -> f64 {
         (self.least - point).sup(&(point - self.most)).map(|beyond| beyond.max(0.0)).norm()
     }
 
     /// The largest distance of a point of the box from the origin.
-    pub(crate) fn farthest_m(&self) -> f64 {
+    pub fn farthest_m(&self) -> f64 {
         self.least.abs().sup(&self.most.abs()).norm()
     }
 }

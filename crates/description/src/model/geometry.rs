@@ -20,22 +20,22 @@ pub struct Shape {
 pub enum Geometry {
     /// A box with edges along the axes.
     Box {
-        /// Full edge lengths.
+        /// Full edge lengths along x, y, z.
         size_m: Vector3<f64>,
     },
     /// A cylinder along z.
     Cylinder {
-        /// Radius.
+        /// Radius about the z axis, m.
         radius_m: f64,
         /// Full length along z.
         length_m: f64,
     },
-    /// A sphere.
+    /// A sphere about the origin.
     Sphere {
-        /// Radius.
+        /// Radius of the sphere, m.
         radius_m: f64,
     },
-    /// A triangle mesh.
+    /// A triangle mesh, shared by all shapes that use the same file and scale.
     Mesh(Arc<Mesh>),
 }
 

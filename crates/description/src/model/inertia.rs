@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Matrix3, SymmetricEigen, Translation3, UnitQuaternion,
 /// Inertia of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inertia {
-    /// Mass.
+    /// Mass, kg; may be zero for a frame.
     pub mass_kg: f64,
     /// Pose of the inertial frame in the link; its origin is the centre of mass.
     pub link_from_inertial: Isometry3<f64>,
@@ -14,14 +14,14 @@ pub struct Inertia {
 }
 
 impl Inertia {
-    /// Whether the tensor is 1 kg m^2 about every axis, which examples have.
-    pub(crate) fn is_example(&self) -> bool {
+    /// Whether the tensor is 1 kg m^2 about every axis, the placeholder of many examples.
+    pub fn is_example(&self) -> bool {
         self.tensor_kg_m2 == Matrix3::identity()
     }
 
     /// The inertia of links that move as one, each with its pose in the body, in the axes of the body; zero if
     /// there are none. Source: the parallel axis theorem.
-    pub fn of_body(parts: impl Iterator<Item = (Isometry3<f64>, Self)> + Clone) -> Self {
+    pub fn sum_of_parts(parts: impl Iterator<Item = (Isometry3<f64>, Self)> + Clone) -> Self {
         // Adding zero makes the sum of nothing, which is -0.0, plain zero.
         let mass_kg = parts.clone().map(|(_, part)| part.mass_kg).sum::<f64>() + 0.0;
         let com = |(body_from_link, part): (Isometry3<f64>, Self)| {
@@ -29,6 +29,7 @@ impl Inertia {
         };
         let weighted = parts.clone().map(|part| part.1.mass_kg * com(part)).sum::<Vector3<f64>>();
         let com_in_body = if mass_kg > 0.0 { weighted / mass_kg } else { Vector3::zeros() };
+        // Parallel axis theorem: I = R I_c R^T + m (|d|^2 1 - d d^T), with d from the common centre of mass to that of the part.
         let about_com = |part: (Isometry3<f64>, Self)| {
             let turn = (part.0.rotation * part.1.link_from_inertial.rotation).to_rotation_matrix();
             let shift = com(part) - com_in_body;

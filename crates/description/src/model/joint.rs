@@ -1,11 +1,14 @@
-//! Joints: what moves, about which axis, how far. `tree.rs` makes a tree of them.
+//! Joints: kind of motion, axis, limits. `tree.rs` builds the tree of them.
 
+use congruent_input::{SiUnit, serde_name};
 use nalgebra::{Isometry3, Unit, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::link::LinkIndex;
-use crate::written::name::serde_name;
+
+/// How much faster than its limit an actuator may drive a joint, as a share of the limit.
+pub const SPEED_MARGIN: f64 = 1e-3;
 
 /// Position of a joint in [`Robot::joints`](crate::Robot::joints).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,10 +53,15 @@ impl JointKind {
 
     /// The unit of the coordinate: `rad` or `m`, empty for a fixed joint.
     pub fn unit(self) -> &'static str {
+        self.si_unit().symbol()
+    }
+
+    /// The same as a type; a fixed joint has a ratio.
+    pub fn si_unit(self) -> SiUnit {
         match self {
-            Self::Fixed => "",
-            Self::Revolute | Self::Continuous => "rad",
-            Self::Prismatic => "m",
+            Self::Fixed => SiUnit::Ratio,
+            Self::Revolute | Self::Continuous => SiUnit::Radian,
+            Self::Prismatic => SiUnit::Metre,
         }
     }
 }
@@ -90,7 +98,7 @@ pub struct Mimic {
 pub struct Joint {
     /// Name, unique in the robot.
     pub name: String,
-    /// How it moves.
+    /// The kind of motion between parent and child.
     pub kind: JointKind,
     /// The link nearer to the root.
     pub parent: LinkIndex,

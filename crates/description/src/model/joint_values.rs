@@ -2,6 +2,7 @@
 
 use std::{borrow::Cow, fmt};
 
+use congruent_input::display::position;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer,
@@ -9,7 +10,6 @@ use serde::{
 };
 
 use super::robot::Robot;
-use crate::display::position;
 
 /// One value for each joint, base to tip; a map in JSON.
 ///
@@ -30,7 +30,7 @@ impl JointValues {
     }
 
     /// The values of all movable joints of a robot, in its order.
-    pub fn of_robot(robot: &Robot, values: &[f64]) -> Self {
+    pub fn for_movable_joints(robot: &Robot, values: &[f64]) -> Self {
         robot.movable_joint_names().map(str::to_owned).zip(values.iter().copied()).collect()
     }
 
@@ -50,7 +50,7 @@ impl JointValues {
     ///     <limit lower='0' upper='1' velocity='1' effort='1'/></joint></robot>",
     /// )
     /// .unwrap();
-    /// assert_eq!(JointValues::of_robot(&robot, &[0.25]).for_people(&robot), "lift 250 mm");
+    /// assert_eq!(JointValues::for_movable_joints(&robot, &[0.25]).for_people(&robot), "lift 250 mm");
     /// ```
     pub fn for_people(&self, robot: &Robot) -> String {
         let unit = |joint: &str| robot.find_joint(joint).map_or("", |joint| robot.joint(joint).kind.unit());

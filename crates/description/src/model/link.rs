@@ -20,8 +20,8 @@ pub struct Link {
     pub name: String,
     /// Mass and rotational inertia; `None` for a link without an `<inertial>`.
     pub inertia: Option<Inertia>,
-    /// Visual shapes.
+    /// Shapes that are drawn, in the link frame.
     pub visuals: Vec<Shape>,
-    /// Collision shapes.
+    /// Shapes for distances and contacts, in the link frame.
     pub collisions: Vec<Shape>,
 }

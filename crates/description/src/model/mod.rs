@@ -1,5 +1,6 @@
 //! The validated robot: links, joints and their tree, the table that models its chain, and joint values.
 
+mod carried_body;
 mod dh_table;
 mod error;
 mod extent;
@@ -8,19 +9,22 @@ mod inertia;
 mod joint;
 mod joint_values;
 mod link;
+mod obstacle;
 mod positions;
 mod robot;
 mod tolerance;
 mod tree;
 
+pub use carried_body::CarriedBody;
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
 pub use error::RobotError;
-pub(crate) use extent::Extent;
+pub use extent::Extent;
 pub use geometry::{Geometry, Mesh, Shape};
 pub use inertia::{Inertia, principal_moments};
-pub use joint::{Joint, JointIndex, JointKind, JointLimit, JointParts, Mimic};
+pub use joint::{Joint, JointIndex, JointKind, JointLimit, JointParts, Mimic, SPEED_MARGIN};
 pub use joint_values::JointValues;
 pub use link::{Link, LinkIndex};
+pub use obstacle::Obstacle;
 pub use positions::{ArmQ, ChainQ, RobotQ};
 pub use robot::Robot;
 pub use tolerance::{Tolerance, ToleranceScale};

@@ -98,9 +98,9 @@ impl RobotQ {
     /// ```
     /// use congruent_description::{ChainQ, RobotQ};
     /// let q = RobotQ::from([0.1, 0.2, 0.3]);
-    /// assert_eq!(q.of_chain(&[2, 0]), ChainQ::from([0.3, 0.1]));
+    /// assert_eq!(q.chain_positions(&[2, 0]), ChainQ::from([0.3, 0.1]));
     /// ```
-    pub fn of_chain(&self, coordinates: &[usize]) -> ChainQ {
+    pub fn chain_positions(&self, coordinates: &[usize]) -> ChainQ {
         coordinates.iter().map(|&coordinate| self.0[coordinate]).collect()
     }
 

@@ -84,7 +84,7 @@ impl Robot {
         self
     }
 
-    /// The robot's name.
+    /// Name of the robot in its URDF.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -104,7 +104,7 @@ impl Robot {
         LinkIndex(0)
     }
 
-    /// One link.
+    /// The link with this index.
     pub fn link(&self, index: LinkIndex) -> &Link {
         &self.links[index.0]
     }
@@ -114,7 +114,7 @@ impl Robot {
         self.links[link.0].inertia = Some(inertia);
     }
 
-    /// One joint.
+    /// The joint with this index.
     pub fn joint(&self, index: JointIndex) -> &Joint {
         &self.joints[index.0]
     }
@@ -166,7 +166,7 @@ impl Robot {
     }
 
     /// The joints that move link `tip` against link `base`, fixed ones between them included, from
-    /// the first that leaves the body of `base`; `None` if `tip` does not hang below that body.
+    /// the first out of the body of `base`; `None` if `tip` is not a descendant of that body.
     ///
     /// `base` need not be above `tip` itself, as the link `base` of a Universal Robots arm is not: its body
     /// must be.
@@ -230,6 +230,7 @@ impl Robot {
 
     fn follow_masters(&self, vector: &mut [f64], constant: fn(&Mimic) -> f64) {
         assert_eq!(vector.len(), self.dof(), "one entry for each movable joint");
+        // One pass is enough: chains of mimic joints were resolved when the robot was built, so no master is a mimic itself.
         for (coordinate, &joint) in self.movable.iter().enumerate() {
             if let Some(mimic) = &self.joint(joint).mimic {
                 let master = self.coordinates[mimic.master.0].expect("a mimicked joint moves");

@@ -1,54 +1,55 @@
 //! How far two poses may be apart and still count as the same.
 
+use congruent_input::{
+    Diagnostic,
+    display::{angle, length},
+    units::Unit,
+};
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{joint::JointKind, link::LinkIndex, robot::Robot};
-use crate::{
-    diagnostic::Diagnostic,
-    display::{angle, length},
-    units::Unit,
-};
 
 /// How far two poses may be apart and still count as the same.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Tolerance {
-    /// Distance of the origins.
+    /// Largest distance of the origins, m.
     pub position_m: f64,
-    /// Angle between the orientations.
+    /// Largest angle between the orientations, rad.
     pub orientation_rad: f64,
 }
 
 impl Default for Tolerance {
-    /// What files allow that write pi/2 with ten digits: a nanometre and a nanoradian.
+    /// A nanometre and a nanoradian, which a file that writes pi/2 with ten digits meets.
     fn default() -> Self {
         Self { position_m: 1e-9, orientation_rad: 1e-9 }
     }
 }
 
-/// By what a tolerance is judged: one that is as large as the robot, or half a turn, allows every pose.
+/// The scale that a tolerance is compared with: one as large as the robot, or as half a turn, accepts every pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToleranceScale {
     /// An upper bound of the reach; `None` if sliding joints without limits leave it open, or nothing is away from the axis.
     reach_m: Option<f64>,
 }
 
-/// Above this share of the reach, or of half a turn, a tolerance is told of.
+/// A tolerance above this share of the reach, or of half a turn, is reported as wide.
 const WIDE: f64 = 0.1;
 
 impl ToleranceScale {
-    /// That of a robot with a tool.
-    pub(crate) fn of(robot: &Robot, tip: LinkIndex, tip_from_tcp: Option<&Isometry3<f64>>) -> Self {
+    /// The scale of a robot with a tool centre point at `tip_from_tcp` on link `tip`.
+    pub(crate) fn with_tool(robot: &Robot, tip: LinkIndex, tip_from_tcp: Option<&Isometry3<f64>>) -> Self {
         let tool_m = tip_from_tcp.map_or(0.0, |tool| tool.translation.vector.norm());
-        let longest = |start: Start| {
+        let longest = |start: DistanceStart| {
             let distances_m = distances(robot, start);
             let tcp_m = distances_m.get(tip.get()).map_or(0.0, |tip_m| tip_m + tool_m);
             distances_m.into_iter().fold(tcp_m, f64::max)
         };
-        // Of a wheel on a frame all that moves is in the axis.
-        let found =
-            [longest(Start::FirstAxis), longest(Start::Root)].into_iter().find(|&reach_m| reach_m > 0.0);
+        // A wheel on a frame has all its parts on the first axis, so the distance from it is 0; then the root counts.
+        let found = [longest(DistanceStart::FirstAxis), longest(DistanceStart::Root)]
+            .into_iter()
+            .find(|&reach_m| reach_m > 0.0);
         Self { reach_m: found.filter(|reach_m| reach_m.is_finite()) }
     }
 
@@ -62,12 +63,12 @@ impl ToleranceScale {
     ///
     /// # Examples
     /// ```
-    /// use congruent_description::units::Unit;
+    /// use congruent_input::units::Unit;
     /// let urdf = r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
     ///     <joint name="i" type="continuous"><parent link="a"/><child link="b"/></joint>
     ///     <joint name="j" type="continuous"><parent link="b"/><child link="c"/><origin xyz="2 0 0"/></joint></robot>"#;
     /// let robot = congruent_description::parse_urdf(urdf).unwrap();
-    /// let scale = congruent_description::ToleranceScale::of_robot(&robot);
+    /// let scale = congruent_description::ToleranceScale::without_tool(&robot);
     /// assert_eq!(scale.reach_m(), Some(2.0));
     /// assert!(scale.examine(Unit::Length, "position_m", 2.1).is_some());
     /// assert!(scale.examine(Unit::Length, "position_m", 0.1).is_none());
@@ -82,35 +83,36 @@ impl ToleranceScale {
         let allowed = shown(value);
         Some(if value > largest {
             let message =
-                format!("`{key}` = {allowed} is above {of_what}, {whole}: it tells no pose from another");
+                format!("`{key}` = {allowed} exceeds {of_what}, {whole}, so every pose would agree");
             Diagnostic::error("tolerance::meaningless", message).with_help(format!(
-                "give less than {whole}, usually far less than {tenth}; is a minus missing?"
+                "give less than {whole}, usually far less than {tenth}; is the minus sign of an exponent missing?"
             ))
         } else {
             let message = format!("`{key}` = {allowed} is more than a tenth of {of_what}, {whole}");
             Diagnostic::warning("tolerance::wide", message)
-                .with_help(format!("give at most {tenth}, or leave it if so much is meant"))
+                .with_help(format!("give at most {tenth}, unless such a wide tolerance is intended"))
         })
     }
 
-    /// That of a robot without a tool.
-    pub fn of_robot(robot: &Robot) -> Self {
-        Self::of(robot, robot.root(), None)
+    /// The scale of a robot without a tool.
+    pub fn without_tool(robot: &Robot) -> Self {
+        Self::with_tool(robot, robot.root(), None)
     }
 }
 
 /// Where a distance begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Start {
-    /// At the first moving axis above a link.
+enum DistanceStart {
+    /// At the first moving axis above a link: the distance before it never changes.
     FirstAxis,
+    /// At the root link.
     Root,
 }
 
 /// How far each link can be at most from the start: along its joints, with the range of those that slide.
-fn distances(robot: &Robot, start: Start) -> Vec<f64> {
+fn distances(robot: &Robot, start: DistanceStart) -> Vec<f64> {
     let mut distances_m = vec![0.0; robot.links().len()];
-    let mut moves = vec![start == Start::Root; robot.links().len()];
+    let mut moves = vec![start == DistanceStart::Root; robot.links().len()];
     // Parents come before their children.
     for joint in robot.joints() {
         let (parent, child) = (joint.parent.get(), joint.child.get());
@@ -129,7 +131,8 @@ fn distances(robot: &Robot, start: Start) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{diagnostic::Severity, parse_urdf};
+    use crate::parse_urdf;
+    use congruent_input::Severity;
 
     fn robot(joints: &str) -> Robot {
         let links: String = ["a", "b", "c", "d"].map(|name| format!("<link name='{name}'/>")).concat();
@@ -152,15 +155,15 @@ mod tests {
             )
         };
         let turning = arm(&joint("continuous", ["c", "d"], "<origin xyz='0 3 4'/>"));
-        assert_eq!(ToleranceScale::of_robot(&turning).reach_m(), Some(5.0));
+        assert_eq!(ToleranceScale::without_tool(&turning).reach_m(), Some(5.0));
         let limits = "<origin xyz='0 3 4'/><limit lower='-2' upper='1' effort='1' velocity='1'/>";
         let sliding = arm(&joint("prismatic", ["c", "d"], limits));
-        assert_eq!(ToleranceScale::of_robot(&sliding).reach_m(), Some(7.0));
+        assert_eq!(ToleranceScale::without_tool(&sliding).reach_m(), Some(7.0));
         let tool = Isometry3::translation(0.0, 0.0, 2.0);
         let tip = turning.find_link("d").unwrap();
-        assert_eq!(ToleranceScale::of(&turning, tip, Some(&tool)).reach_m(), Some(7.0));
+        assert_eq!(ToleranceScale::with_tool(&turning, tip, Some(&tool)).reach_m(), Some(7.0));
         let wheel = arm(&joint("continuous", ["c", "d"], ""));
-        assert_eq!(ToleranceScale::of_robot(&wheel).reach_m(), Some(100.0), "all is in the axis");
+        assert_eq!(ToleranceScale::without_tool(&wheel).reach_m(), Some(100.0), "all is in the axis");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! From named parts to a sorted tree; whatever keeps links and joints from forming one is found here.
+//! Builds a sorted tree from named parts; detects everything that keeps links and joints from forming one tree.
 
 use std::collections::BTreeMap;
 
@@ -13,6 +13,8 @@ pub(super) fn sorted(
     links: Vec<Link>,
     joints: Vec<JointParts>,
 ) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
+    // In this order, since each step needs what the one before has excluded: names must be unique before they are resolved,
+    // and each link must have one parent before roots and loops can be distinguished.
     let by_name = index_links(&links)?;
     refuse_repeated_joints(&joints)?;
     let ends = resolve_ends(&joints, &links, &by_name)?;
@@ -35,12 +37,12 @@ struct Layout {
     ends: Vec<Ends>,
     order: Vec<usize>,
     root: usize,
-    mimics: Vec<Option<Follow>>,
+    mimics: Vec<Option<ResolvedMimic>>,
 }
 
 /// A mimic joint's master, by its index in file order: `q = multiplier * q_master + offset`.
 #[derive(Clone, Copy)]
-struct Follow {
+struct ResolvedMimic {
     master: usize,
     multiplier: f64,
     offset: f64,
@@ -57,8 +59,8 @@ fn index_links(links: &[Link]) -> Result<BTreeMap<&str, usize>, RobotError> {
 }
 
 fn refuse_repeated_joints(joints: &[JointParts]) -> Result<(), RobotError> {
-    let mut seen = std::collections::BTreeSet::new();
-    match joints.iter().find(|parts| !seen.insert(&parts.joint.name)) {
+    let mut names = std::collections::BTreeSet::new();
+    match joints.iter().find(|parts| !names.insert(&parts.joint.name)) {
         Some(parts) => Err(RobotError::DuplicateJoint { joint: parts.joint.name.clone() }),
         None => Ok(()),
     }
@@ -206,7 +208,7 @@ fn depth_first(root: usize, links: usize, ends: &[Ends]) -> Vec<usize> {
 }
 
 /// What each joint follows, in file order, chains of mimics composed.
-fn resolve_mimics(joints: &[JointParts]) -> Result<Vec<Option<Follow>>, RobotError> {
+fn resolve_mimics(joints: &[JointParts]) -> Result<Vec<Option<ResolvedMimic>>, RobotError> {
     let by_name: BTreeMap<&str, usize> = joints
         .iter()
         .enumerate()
@@ -223,7 +225,7 @@ fn resolve_mimics(joints: &[JointParts]) -> Result<Vec<Option<Follow>>, RobotErr
         direct.push(match &parts.mimic {
             Some((target, multiplier, offset)) => {
                 let master = *by_name.get(target.as_str()).ok_or_else(|| unknown(parts, target))?;
-                Some(Follow { master, multiplier: *multiplier, offset: *offset })
+                Some(ResolvedMimic { master, multiplier: *multiplier, offset: *offset })
             }
             None => None,
         });
@@ -233,8 +235,11 @@ fn resolve_mimics(joints: &[JointParts]) -> Result<Vec<Option<Follow>>, RobotErr
 
 /// Follows each chain of mimics to its end. A chain is walked once: its links are resolved from
 /// the end back, so that ten thousand of them take no quadratic time.
-fn compose(direct: &[Option<Follow>], joints: &[JointParts]) -> Result<Vec<Option<Follow>>, RobotError> {
-    let mut composed: Vec<Option<Follow>> = vec![None; direct.len()];
+fn compose(
+    direct: &[Option<ResolvedMimic>],
+    joints: &[JointParts],
+) -> Result<Vec<Option<ResolvedMimic>>, RobotError> {
+    let mut composed: Vec<Option<ResolvedMimic>> = vec![None; direct.len()];
     // On whose path a joint was met last: meeting it again there is a loop.
     let mut met_from = vec![None; direct.len()];
     for start in 0..direct.len() {
@@ -257,7 +262,7 @@ fn compose(direct: &[Option<Follow>], joints: &[JointParts]) -> Result<Vec<Optio
         }
         for &joint in path.iter().rev() {
             composed[joint] = direct[joint].map(|own| match composed[own.master] {
-                Some(further) => Follow {
+                Some(further) => ResolvedMimic {
                     master: further.master,
                     multiplier: own.multiplier * further.multiplier,
                     offset: own.multiplier * further.offset + own.offset,

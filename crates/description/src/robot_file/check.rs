@@ -1,39 +1,37 @@
-//! A robot file against its robot: names, chain, table, values.
+//! Checks a robot file against its robot: names, chain, table, values.
 
 use std::ops::Range;
 
+use congruent_input::{Diagnostic, Diagnostics, WrittenTransform, known_names, units::Unit};
 use nalgebra::Isometry3;
 use toml::Spanned;
 
 use super::{
-    inertials::{self, DeclaredDynamics, InertialContext},
+    inertials::{self, DynamicsTable, InertialContext},
     limits,
     rows::{self, ChainContext, first_line},
-    unit_slips,
+    unit_mistakes,
     written::{WrittenDh, WrittenRobot, WrittenTolerance},
 };
 use crate::{
     chain::{ChainEnd, ChainEnds, choose_tip},
-    diagnostic::{Diagnostic, Diagnostics, known_names},
     model::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance},
-    units::Unit,
-    written::transform::WrittenTransform,
 };
 
-/// What a robot file declares about a robot.
+/// The checked declarations of a robot file, with names resolved to indices.
 #[derive(Debug)]
 pub(crate) struct Declared {
     pub(crate) base: LinkIndex,
     pub(crate) tip: LinkIndex,
     pub(crate) chain_ends: ChainEnds,
     pub(crate) dh: Option<DhTable>,
-    pub(crate) dynamics: Option<DeclaredDynamics>,
+    pub(crate) dynamics: Option<DynamicsTable>,
     pub(crate) accelerations: Vec<Option<f64>>,
     pub(crate) tip_from_tcp: Option<Isometry3<f64>>,
     pub(crate) tolerance: Tolerance,
 }
 
-/// Checks what is written in `text` against `robot`.
+/// Checks a parsed robot file against `robot`. `text` is the text that it was parsed from; `None` if no chain or table results.
 pub(crate) fn check(
     written: &WrittenRobot,
     text: &str,
@@ -45,12 +43,12 @@ pub(crate) fn check(
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
     let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
     let (base, tip, chain) = chain(written, robot, diagnostics)?;
-    let size_m = unit_slips::size_m(robot);
+    let size_m = unit_mistakes::size_m(robot);
     if let (Some(tcp), Some(_)) = (&written.tcp, tip_from_tcp) {
         diagnostics.extend(tcp_is_a_link(tcp.span(), robot, tip));
-        diagnostics.extend(unit_slips::transform("the tool centre point", tcp.get_ref(), size_m));
+        diagnostics.extend(unit_mistakes::transform("the tool centre point", tcp.get_ref(), size_m));
     }
-    diagnostics.extend(written.dh.iter().flat_map(|dh| unit_slips::table(dh.get_ref(), size_m)));
+    diagnostics.extend(written.dh.iter().flat_map(|dh| unit_mistakes::table(dh.get_ref(), size_m)));
     let context = ChainContext { robot, chain: &chain, text };
     let dh = match &written.dh {
         Some(dh) => Some(table(dh, &context, diagnostics)?),
@@ -63,16 +61,16 @@ pub(crate) fn check(
     Some(Declared { base, tip, chain_ends, dh, dynamics, accelerations, tip_from_tcp, tolerance })
 }
 
-/// A link that is called as the declared tool centre point usually is.
+/// A warning if a link is called `tcp`, as the declared tool centre point usually is.
 fn tcp_is_a_link(at: Range<usize>, robot: &Robot, tip: LinkIndex) -> Option<Diagnostic> {
     let name = robot.tcp_name();
     let link = robot.find_link("tcp")?;
     let message = format!(
-        "\"{}\" is a link of the robot; the tool centre point that is declared here, on link \"{}\", is called \"{name}\"",
+        "the robot has a link \"{}\", so the tool centre point that is declared here (on link \"{}\") is called \"{name}\"",
         robot.link(link).name,
         robot.link(tip).name
     );
-    let help = format!("name the one that is meant: `--to tcp` is the link, `--to {name}` the declared one");
+    let help = format!("`--to tcp` means the link, `--to {name}` the declared tool centre point");
     Some(Diagnostic::warning("robot_file::tcp_name", message).at(at).with_help(help))
 }
 
@@ -99,7 +97,7 @@ fn chain(
     let tip = tip.unwrap_or_else(|| Some(choose_tip(robot, base).tip))?;
     let Some(joints) = robot.chain(base, tip) else {
         let (base, tip) = (&robot.link(base).name, &robot.link(tip).name);
-        let message = format!("tip \"{tip}\" does not hang below base \"{base}\"");
+        let message = format!("tip \"{tip}\" is not a descendant of base \"{base}\"");
         let at = written.tip.as_ref().or(written.base.as_ref()).map_or(0..0, Spanned::span);
         diagnostics.push(
             Diagnostic::error("robot_file::chain", message)
@@ -131,7 +129,7 @@ fn table(
             Diagnostic::error("robot_file::convention", "[dh] has no convention")
                 .at(first_line(written.span(), context.text))
                 .with_help(format!(
-                    "convention = \"standard\" is {}; \"modified\" (Craig) is {}: the same table means two robots",
+                    "convention = \"standard\" is {}; \"modified\" (Craig) is {}; the same values describe a different robot in the other convention",
                     DhConvention::Standard.equation(),
                     DhConvention::Modified.equation()
                 ))

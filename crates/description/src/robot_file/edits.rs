@@ -1,25 +1,22 @@
-//! Corrections of a robot file as changes of its text: a value is replaced, one that is left out is added
-//! beside its neighbour, and everything else in the line stays.
+//! Corrections of a robot file as changes of its text: a written value is replaced, a missing one is added beside its
+//! neighbour, and the rest of the line is kept.
 
 use std::ops::Range;
 
+use congruent_input::{ChangedLines, Slack, TextEdit, WrittenTransform, changed_lines, line_end};
 use nalgebra::Isometry3;
 use toml::Spanned;
 
 use super::places::{ConstantKey, RobotFilePlaces, RowKey};
-use crate::{
-    edits::{ChangedLines, TextEdit, changed_lines, line_end},
-    model::DhConvention,
-    written::{number::Slack, transform::WrittenTransform},
-};
+use crate::model::DhConvention;
 
 impl RobotFilePlaces {
-    /// Another convention.
+    /// The edit after which the table has another convention; `None` if the file has no convention.
     pub fn set_convention(&self, convention: DhConvention) -> Option<TextEdit> {
         Some(TextEdit { span: self.convention()?, text: format!("\"{}\"", convention.name()) })
     }
 
-    /// Another value of a row under the key that it has or would have: the literal as TOML writes it.
+    /// The edit after which a row has another value, given as a TOML literal in the unit of the key that the row uses.
     pub fn set_value(&self, row: usize, key: RowKey, literal: &str) -> Option<TextEdit> {
         let place = self.value(row, key)?;
         Some(if place.is_written {
@@ -29,7 +26,7 @@ impl RobotFilePlaces {
         })
     }
 
-    /// Another value of a declared transform, in the file's units, kind of rotation and form.
+    /// The edits after which a declared transform has another value, in the units and by the kind of rotation that the file uses.
     pub fn set_constant(&self, key: ConstantKey, pose: &Isometry3<f64>, slack: Slack) -> Vec<TextEdit> {
         let name = key.name();
         let keys = self.constant_keys(key, pose, slack);

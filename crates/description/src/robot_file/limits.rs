@@ -2,27 +2,28 @@
 
 use std::collections::BTreeMap;
 
+use congruent_input::{
+    Diagnostic, Diagnostics,
+    display::number,
+    known_names,
+    units::{Unit, UnitSystem, check_finite},
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::{
-    diagnostic::{Diagnostic, Diagnostics, known_names},
-    display::number,
-    model::{Joint, Robot},
-    units::{Unit, UnitSystem, check_finite},
-};
+use crate::model::{Joint, Robot};
 
-/// Values by joint; `*` stands for every joint of this kind (turning or sliding) that is not named.
+/// Values by joint name; `*` means every joint of this kind (revolute or prismatic) that is not named.
 type ByJoint = BTreeMap<Spanned<String>, Spanned<f64>>;
 
-/// The name that stands for every joint of a kind.
+/// The name that means every joint of a kind.
 const EVERY: &str = "*";
-/// Joints of arms accelerate with up to 100 rad/s^2, those of legs with up to some hundred.
+/// Larger accelerations, rad/s^2, are taken as degrees: joints of arms reach 100, those of legs some hundred.
 const FASTEST_RAD_S2: f64 = 500.0;
 
-/// The largest accelerations of joints: the certificates of `congruent check` cover them. Of a joint that is not named
-/// 10 rad/s^2 or m/s^2 is assumed.
+/// The largest accelerations of joints, up to which the certificates of `congruent check` hold. A joint that is not named is
+/// assumed to accelerate with at most 10 rad/s^2 or m/s^2.
 #[derive(Debug, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "RobotLimits")]
@@ -54,7 +55,7 @@ pub(super) fn accelerations(
 ) -> Vec<Option<f64>> {
     let mut accelerations = vec![None; robot.dof()];
     let Some(written) = written else { return accelerations };
-    // Named joints come after all others, so that they keep their own value.
+    // Entries for `*` come first, so that entries for a joint by name overwrite them.
     for is_every in [true, false] {
         let mut given_by: Vec<Option<&str>> = vec![None; robot.dof()];
         for (key, by_joint) in written.keys() {
@@ -74,16 +75,16 @@ pub(super) fn accelerations(
     accelerations
 }
 
-/// A key with the unit of its values.
-struct Key {
+/// A key of `[limits]` with the unit of its values.
+struct AccelerationKey {
     name: &'static str,
     unit: Unit,
     system: UnitSystem,
 }
 
 impl WrittenLimits {
-    fn keys(&self) -> [(Key, &ByJoint); 4] {
-        let key = |name, unit, system| Key { name, unit, system };
+    fn keys(&self) -> [(AccelerationKey, &ByJoint); 4] {
+        let key = |name, unit, system| AccelerationKey { name, unit, system };
         [
             (key("acceleration_rad_s2", Unit::Angle, UnitSystem::Si), &self.acceleration_rad_s2),
             (key("acceleration_deg_s2", Unit::Angle, UnitSystem::Engineering), &self.acceleration_deg_s2),
@@ -94,25 +95,30 @@ impl WrittenLimits {
 }
 
 fn twice(first: &str, name: &Spanned<String>) -> Diagnostic {
-    let message = format!("the acceleration of \"{}\" is given by {first} already", name.get_ref());
+    let message = format!("the acceleration of \"{}\" is already given by {first}", name.get_ref());
     Diagnostic::error("robot_file::limits", message).at(name.span()).with_help("keep exactly one of the two")
 }
 
-/// An acceleration in radians of a size that only degrees have.
-fn in_degrees(key: &Key, (name, value): (&Spanned<String>, &Spanned<f64>)) -> Option<Diagnostic> {
+/// A warning of an acceleration in radians that is plausible only in degrees.
+fn in_degrees(key: &AccelerationKey, (name, value): (&Spanned<String>, &Spanned<f64>)) -> Option<Diagnostic> {
     let is_in_rad = matches!((key.unit, key.system), (Unit::Angle, UnitSystem::Si));
     let is_fast = value.get_ref().is_finite() && *value.get_ref() > FASTEST_RAD_S2;
     (is_in_rad && is_fast).then(|| {
-        let message = format!("{} of \"{}\" is {}", key.name, name.get_ref(), number(*value.get_ref()));
+        let message = format!(
+            "{} of \"{}\" is {}, which is implausible in rad/s^2",
+            key.name,
+            name.get_ref(),
+            number(*value.get_ref())
+        );
         Diagnostic::warning("robot_file::fast", message)
             .at(value.span())
-            .with_help("degrees? then the key is acceleration_deg_s2")
+            .with_help("if the value is in degrees, the key is acceleration_deg_s2")
     })
 }
 
-/// The joints of an entry, by number, and its value in SI units.
+/// The joints of an entry, as indices in `Robot::movable_joints` order, and its value in SI units.
 fn read(
-    key: &Key,
+    key: &AccelerationKey,
     (name, value): (&Spanned<String>, &Spanned<f64>),
     robot: &Robot,
 ) -> Result<(Vec<usize>, f64), Diagnostic> {
@@ -131,7 +137,7 @@ fn positive(key: &str, name: &str, value: &Spanned<f64>) -> Result<f64, Diagnost
     Err(Diagnostic::error("robot_file::limits", message).at(value.span()))
 }
 
-/// The moving joints that a name means, by number.
+/// The moving joints that a name means, as indices in `Robot::movable_joints` order.
 fn named(key: &str, name: &Spanned<String>, unit: Unit, robot: &Robot) -> Result<Vec<usize>, Diagnostic> {
     let turns = matches!(unit, Unit::Angle);
     let of_kind = |joint: &Joint| joint.kind.is_angular() == turns;
@@ -148,16 +154,17 @@ fn named(key: &str, name: &Spanned<String>, unit: Unit, robot: &Robot) -> Result
         return Ok(vec![at]);
     }
     let (moves, right) = if turns { ("slides", "m_s2") } else { ("turns", "rad_s2") };
-    let message = format!("{key}: joint \"{}\" {moves}", joint.name);
+    let message = format!("{key} does not fit joint \"{}\", which {moves}", joint.name);
     let refused = Diagnostic::error("robot_file::limits", message).at(name.span());
-    Err(refused.with_help(format!("the key is acceleration_{right}")))
+    Err(refused.with_help(format!("the key for this joint is acceleration_{right}")))
 }
 
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
-    use crate::{diagnostic::Diagnostic, diagnostic::SourceFile, parse_robot};
+    use crate::parse_robot;
+    use congruent_input::{Findings, SourceFile};
 
     const URDF: &str = "<robot name='r'><link name='base'/>\
         <link name='one'/><joint name='turn' type='continuous'><parent link='base'/><child link='one'/></joint>\
@@ -165,7 +172,7 @@ mod tests {
         <link name='tip'/><joint name='slide' type='prismatic'><parent link='two'/><child link='tip'/>\
         <limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>";
 
-    fn accelerations(limits: &str) -> Result<Vec<Option<f64>>, Vec<Diagnostic>> {
+    fn accelerations(limits: &str) -> Result<Vec<Option<f64>>, Findings> {
         let source =
             |name: &str, text: &str| Arc::new(SourceFile { path: name.into(), text: text.to_owned() });
         let file = source("robot.toml", &format!("[limits]\n{limits}\n"));
@@ -185,14 +192,14 @@ mod tests {
     fn what_is_no_acceleration_of_a_joint_is_refused() {
         for (limits, message) in [
             ("acceleration_rad_s2 = { trun = 1 }", "no moving joint \"trun\""),
-            ("acceleration_rad_s2 = { slide = 1 }", "joint \"slide\" slides"),
-            ("acceleration_m_s2 = { turn = 1 }", "joint \"turn\" turns"),
+            ("acceleration_rad_s2 = { slide = 1 }", "joint \"slide\", which slides"),
+            ("acceleration_m_s2 = { turn = 1 }", "joint \"turn\", which turns"),
             ("acceleration_rad_s2 = { turn = 0 }", "must be greater than 0, it is 0"),
             ("acceleration_rad_s2 = { turn = -3 }", "must be greater than 0, it is -3"),
             ("acceleration_rad_s2 = { turn = inf }", "which is not a finite number"),
             (
                 "acceleration_rad_s2 = { turn = 1 }\nacceleration_deg_s2 = { turn = 1 }",
-                "the acceleration of \"turn\" is given by acceleration_rad_s2 already",
+                "the acceleration of \"turn\" is already given by acceleration_rad_s2",
             ),
             ("acceleration = { turn = 1 }", "acceleration"),
         ] {

@@ -6,18 +6,19 @@ mod inertials;
 mod limits;
 mod places;
 mod rows;
-mod unit_slips;
-mod write;
+mod unit_mistakes;
 mod written;
+mod written_lint;
 
 pub(crate) use check::{Declared, check};
-pub use inertials::{DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces, InertialPoint};
+pub use inertials::{
+    DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, UNUSABLE_INERTIAL,
+};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
-pub use write::{dh_section, relative_path, robot_file_text, robot_file_values, toml_key, toml_string};
-pub(crate) use written::WrittenRobot;
-pub use written::robot_file_schema;
+pub use written::{WrittenRobot, robot_file_schema};
+pub use written_lint::{WrittenIgnore, WrittenLint};
 
-/// The largest robot file that is read.
+/// Size limit of a robot file, bytes.
 pub(crate) const ROBOT_FILE_BYTES: u64 = 1 << 20;
 
 /// The name that a robot file has in a robot's folder.

@@ -1,35 +1,34 @@
-//! Where the values of a robot file stand, and under which keys: for messages about one of them.
+//! Byte ranges and keys of the values in a robot file, for messages and corrections that point at one of them.
 
 use std::{ops::Range, sync::Arc};
 
+use congruent_input::{
+    Slack, SourceFile, WrittenTransform, serde_name,
+    units::{Unit, UnitSystem},
+};
 use nalgebra::Isometry3;
 use serde::Serialize;
 use toml::Spanned;
 
 use super::written::{WrittenDh, WrittenRow};
-use crate::{
-    diagnostic::SourceFile,
-    units::{Unit, UnitSystem},
-    written::{name::serde_name, number::Slack, transform::WrittenTransform},
-};
 
 /// A key of a row of the table; those of lengths and angles without their unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RowKey {
-    /// The joint's name.
+    /// Name of the joint that drives the row.
     Joint,
-    /// The direction.
+    /// Sign, 1 or -1, of the joint position in the row.
     Sign,
-    /// Link length.
+    /// Link length a.
     A,
-    /// Link twist.
+    /// Link twist alpha.
     Alpha,
-    /// Link offset.
+    /// Link offset d.
     D,
-    /// Joint angle at position zero.
+    /// Joint angle theta at position zero.
     Theta,
-    /// What the joint drives.
+    /// Whether the joint position is added to theta (revolute) or to d (prismatic).
     Kind,
 }
 
@@ -53,18 +52,18 @@ impl RowKey {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ConstantKey {
-    /// `base_from_dh0`.
+    /// `base_from_dh0`: pose of frame 0 of the table in the base link.
     BaseFromDh0,
-    /// `dhn_from_tip`.
+    /// `dhn_from_tip`: pose of the tip link in the last frame of the table.
     DhnFromTip,
 }
 
 /// A part of a declared transform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ConstantPart {
-    /// `xyz_m` or `xyz_mm`.
+    /// The translation: `xyz_m` or `xyz_mm`.
     Translation,
-    /// `rpy_rad`, `rpy_deg` or `quaternion_wxyz`.
+    /// The rotation: `rpy_rad`, `rpy_deg` or `quaternion_wxyz`.
     Rotation,
 }
 
@@ -78,11 +77,11 @@ impl ConstantKey {
 /// A value of a row and its place in the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ValuePlace {
-    /// The key under which it stands, or would: `alpha_deg`.
+    /// The key of the value in the file, or the key that it would get: `alpha_deg`.
     pub key: String,
-    /// The units of that key.
+    /// The unit system of that key.
     pub units: UnitSystem,
-    /// Whether the file writes the value; one that it leaves out is zero.
+    /// Whether the file has the value; a missing one is zero.
     pub is_written: bool,
     /// Byte range of the value, or of the row's joint if the value is left out.
     pub span: Range<usize>,
@@ -101,17 +100,17 @@ impl RobotFilePlaces {
         Self { source, dh }
     }
 
-    /// The file.
+    /// The robot file that the places are in.
     pub fn source(&self) -> &Arc<SourceFile> {
         &self.source
     }
 
-    /// The value of `convention`.
+    /// Byte range of the value of `convention`; `None` if the key is missing.
     pub fn convention(&self) -> Option<Range<usize>> {
         self.dh.get_ref().convention.as_ref().map(Spanned::span)
     }
 
-    /// A value of a row, by the row's number from 0.
+    /// The place of a value of a row; `row` counts from 0.
     pub fn value(&self, row: usize, key: RowKey) -> Option<ValuePlace> {
         let row = self.dh.get_ref().row.get(row)?.get_ref();
         let place = |key: String, units, span: Option<Range<usize>>| ValuePlace {
@@ -130,7 +129,7 @@ impl RobotFilePlaces {
         };
         let [si, engineering] = row_values(row, key);
         let [si_key, engineering_key] = unit.keys(key.name());
-        let units = UnitSystem::of(si, engineering, self.units(unit));
+        let units = UnitSystem::from_given_key(si, engineering, self.units(unit));
         let span = si.or(engineering).map(Spanned::span);
         Some(place(if units == UnitSystem::Engineering { engineering_key } else { si_key }, units, span))
     }
@@ -158,8 +157,8 @@ impl RobotFilePlaces {
         self.written(key).map_or(&default, Spanned::get_ref).with_keys(pose, units, slack)
     }
 
-    /// Place of a declared transform: that of the part that is asked for, or else of what is written of
-    /// it; the table's first line if the transform is left out.
+    /// Place of a part of a declared transform; if the part is missing, of the rest of the transform; if the transform is
+    /// missing, the first line of the table.
     pub fn constant(&self, key: ConstantKey, part: ConstantPart) -> Range<usize> {
         let start = self.dh.span().start;
         let header = self.source.text[start..].find('\n').map_or(self.dh.span().end, |length| start + length);

@@ -1,18 +1,14 @@
-//! The rows of a Denavit-Hartenberg table against the chain that they stand for.
+//! Checks the rows of a Denavit-Hartenberg table against the chain that they describe.
 
 use std::{f64::consts::TAU, ops::Range};
 
+use congruent_input::{Diagnostic, Diagnostics, display::counted, known_names, line_column, units::Unit};
 use toml::Spanned;
 
 use super::written::{WrittenDh, WrittenRow};
-use crate::{
-    diagnostic::{Diagnostic, Diagnostics, known_names, line_column},
-    display::counted,
-    model::{DhRow, DhRowKind, JointIndex, Robot},
-    units::Unit,
-};
+use crate::model::{DhRow, DhRowKind, JointIndex, Robot};
 
-/// What the rows of a table are checked against.
+/// The chain and the text against which the rows of a table are checked.
 pub(super) struct ChainContext<'a> {
     pub(super) robot: &'a Robot,
     /// The moving joints from base to tip.
@@ -51,7 +47,8 @@ fn row(
     let mut needed = |quantity, unit: Unit, value: Option<Option<f64>>| {
         diagnostics.keep(value?.ok_or_else(|| {
             let [si, engineering] = unit.keys(quantity);
-            let message = format!("row of joint \"{}\" has no {si} or {engineering}", row.joint.get_ref());
+            let message =
+                format!("row of joint \"{}\" has neither {si} nor {engineering}", row.joint.get_ref());
             Diagnostic::error("robot_file::missing_figure", message).at(at())
         }))
     };
@@ -69,7 +66,7 @@ fn row(
             diagnostics.push(
                 Diagnostic::warning("robot_file::degrees", message)
                     .at(span)
-                    .with_help(format!("degrees? then the key is {quantity}_deg")),
+                    .with_help(format!("if the value is in degrees, the key is {quantity}_deg")),
             );
         }
     }
@@ -92,7 +89,7 @@ fn sign(row: &WrittenRow, diagnostics: &mut Diagnostics) -> Option<f64> {
     match *sign.get_ref() {
         value @ (1.0 | -1.0) => Some(value),
         value => {
-            let message = format!("sign = {value} must be 1 or -1");
+            let message = format!("sign must be 1 or -1, it is {value}");
             diagnostics.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
             None
         }
@@ -106,7 +103,7 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnos
     let found = robot.find_joint(name).filter(|joint| context.chain.contains(joint));
     let Some(joint) = found else {
         let what = match robot.find_joint(name) {
-            Some(joint) if !robot.joint(joint).kind.is_movable() => "is fixed, no row can drive it",
+            Some(joint) if !robot.joint(joint).kind.is_movable() => "is fixed, so it cannot have a row",
             Some(_) => "is not in the chain from base to tip",
             None => "is not in the robot",
         };
@@ -121,7 +118,7 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnos
     let is_angular = robot.joint(joint).kind.is_angular();
     if is_angular != (kind == DhRowKind::Revolute) {
         let unit = if is_angular { "radians" } else { "metres" };
-        let message = format!("the row is {}, joint \"{name}\" of the URDF moves in {unit}", kind.name());
+        let message = format!("the row is {}, but joint \"{name}\" of the URDF moves in {unit}", kind.name());
         diagnostics.push(Diagnostic::warning("robot_file::row_kind", message).at(row.kind.span()));
     }
     Some(joint)
@@ -156,7 +153,7 @@ fn every_joint_has_a_row(
         return;
     }
     let message = format!(
-        "table has {}, chain base -> tip has {}: no row for {}",
+        "the table has {}, but the chain from base to tip has {}: no row for {}",
         counted(rows.len(), "row"),
         counted(context.chain.len(), "moving joint"),
         if missing.is_empty() { "any".to_owned() } else { missing.join(", ") }
@@ -174,13 +171,15 @@ fn order(
     let place = |row: &DhRow| context.chain.iter().position(|&joint| joint == row.joint);
     if let Some(later) = rows.windows(2).position(|pair| place(&pair[0]) > place(&pair[1])) {
         let name = &written[later + 1].get_ref().joint;
-        let message =
-            format!("row of joint \"{}\" is in another order than the chain base -> tip", name.get_ref());
+        let message = format!(
+            "the row of joint \"{}\" is not in the order of the chain from base to tip",
+            name.get_ref()
+        );
         diagnostics.push(Diagnostic::warning("robot_file::row_order", message).at(name.span()));
     }
 }
 
-/// The first line of a table: its whole range may be a hundred lines.
+/// The first line of a table, for messages: its whole range may be a hundred lines.
 pub(super) fn first_line(span: Range<usize>, text: &str) -> Range<usize> {
     let end = text[span.clone()].find('\n').map_or(span.end, |newline| span.start + newline);
     span.start..end

@@ -1,8 +1,12 @@
-//! A robot file as it is written: keys and units, nothing checked. The comments are the descriptions of the
-//! robot file's JSON schema, so they speak to people who write robot files.
+//! A robot file as it is written: keys and units, unchecked. The doc comments become the descriptions of the robot file's
+//! JSON schema, so they address people who write robot files.
 
 use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
+use congruent_input::{
+    Diagnostic, SourceFile, WrittenTransform,
+    units::{Unit, UnitSystem},
+};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
@@ -12,12 +16,9 @@ use super::{
     limits::WrittenLimits,
 };
 use crate::{
-    diagnostic::{Diagnostic, SourceFile},
-    lint::WrittenLint,
+    WrittenLint,
     model::{DhConvention, DhRowKind, ToleranceScale},
-    units::{Unit, UnitSystem},
     urdf::Repairs,
-    written::transform::WrittenTransform,
 };
 
 /// The JSON schema of robot files.
@@ -29,7 +30,7 @@ pub fn robot_file_schema() -> Schema {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Robot file")]
-pub(crate) struct WrittenRobot {
+pub struct WrittenRobot {
     /// Name in reports; the URDF's name by default.
     #[serde(default)]
     #[schemars(with = "String")]
@@ -53,7 +54,7 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, String>")]
     pub(crate) packages: BTreeMap<String, Spanned<PathBuf>>,
-    /// What is done about a link's inertia that no body has: LINK = "repair".
+    /// Correction of a link's inertia that no rigid body can have: LINK = "repair".
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, WrittenInertia>")]
     pub(crate) inertia: BTreeMap<String, Spanned<WrittenInertia>>,
@@ -61,7 +62,7 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "WrittenDh")]
     pub(crate) dh: Option<Spanned<WrittenDh>>,
-    /// A second description of the dynamics, such as a vendor's: what holds for all bodies.
+    /// A second description of the dynamics, such as a vendor's: the values that hold for all bodies.
     #[serde(default)]
     #[schemars(with = "WrittenDynamics")]
     pub(crate) dynamics: Option<WrittenDynamics>,
@@ -81,7 +82,8 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "WrittenTolerance")]
     pub(crate) tolerance: Option<WrittenTolerance>,
-    /// What `lint` does not tell; [`Ignores`](crate::lint::Ignores) reads it.
+    // `Ignores` reads them on its own, also from a robot file with errors.
+    /// Warnings that `lint` does not report.
     #[serde(default, rename = "lint")]
     #[schemars(with = "WrittenLint")]
     pub(crate) _lint: Option<WrittenLint>,
@@ -97,16 +99,16 @@ impl WrittenRobot {
     }
 }
 
-/// What is done about an inertia that no body has.
+/// Correction of an inertia that no rigid body can have.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "InertiaChoice")]
 pub(crate) enum WrittenInertia {
-    /// The nearest inertia that a body can have is taken: same mass, same principal axes.
+    /// Replaced by the nearest inertia that a rigid body can have: same mass, same principal axes.
     Repair,
 }
 
-/// A Denavit-Hartenberg table.
+/// A Denavit-Hartenberg table of the chain from base to tip.
 #[derive(Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "DhTable")]
@@ -206,7 +208,7 @@ pub(crate) struct WrittenTolerance {
 }
 
 impl WrittenTolerance {
-    /// What is wrong with its values for a robot of this scale, each at its value.
+    /// The findings about tolerances that are too wide for a robot of this scale, each at its value.
     pub(crate) fn examine(&self, scale: ToleranceScale) -> Vec<Diagnostic> {
         let written = [
             (Unit::Length, "position_m", UnitSystem::Si, &self.position_m),

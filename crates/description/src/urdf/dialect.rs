@@ -1,9 +1,9 @@
 //! Files that are not URDF: SDF, other robot formats, xacro that has not been expanded.
 
+use congruent_input::{Diagnostic, xml};
 use roxmltree::{Document, Node};
 
 use super::node::{label, tag};
-use crate::{diagnostic::Diagnostic, xml};
 
 /// xacro runs code, so it is never run here.
 const RUN_XACRO: &str =
@@ -12,7 +12,7 @@ const RUN_XACRO: &str =
 /// Part of the namespace that every xacro file declares, whatever its prefix.
 const XACRO: &str = "xacro";
 
-/// What a fault of the XML means in a URDF.
+/// Names the cause of an XML fault that is typical for a URDF: an undeclared `xacro:` prefix is unexpanded xacro.
 pub(super) fn explain(fault: Diagnostic) -> Diagnostic {
     if fault.code == xml::UNKNOWN_PREFIX && fault.message.contains(XACRO) {
         let message = "unexpanded xacro".to_owned();
@@ -41,7 +41,7 @@ pub(super) fn check(root: Node<'_, '_>) -> Result<(), Diagnostic> {
 
 /// The first `${...}` or `$(...)`, else the first xacro element.
 ///
-/// Vendor blocks are passed over: Gazebo plugins hold `$(find ...)` in their own right.
+/// Vendor blocks are skipped: Gazebo plugins use `$(find ...)` legitimately.
 fn unexpanded(document: &Document<'_>) -> Option<Diagnostic> {
     let refused = |message: String| Diagnostic::error("urdf::xacro", message).with_help(RUN_XACRO);
     let robot = document.root_element();

@@ -1,5 +1,6 @@
-//! Corrections of a URDF's `<inertial>`, and of parts of its joints, as changes of its text: values that stay keep their form.
+//! Corrections of a URDF's `<inertial>`, and of parts of its joints, as changes of its text: unchanged values keep their form.
 
+use congruent_input::{TextEdit, number::significant, rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad, xml};
 use nalgebra::Isometry3;
 use roxmltree::Node;
 
@@ -7,17 +8,9 @@ use super::{
     UrdfPlaces,
     node::{element, last, tag},
 };
-use crate::{
-    edits::TextEdit,
-    model::Inertia,
-    written::{
-        number::significant,
-        rpy::{rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad},
-    },
-    xml,
-};
+use crate::model::Inertia;
 
-/// A rotation that is written stays if it is nearer than this. Unit: rad; kind: rounding of angles.
+/// A written rotation is kept if it differs by less than this. Unit: rad; kind: rounding of angles.
 const SAME_ROTATION_RAD: f64 = 1e-12;
 
 /// The entries of a tensor, by row and column.
@@ -106,7 +99,7 @@ const LIMITS: [&str; 4] = [RANGE[0], RANGE[1], "effort", "velocity"];
 
 type Attribute = (&'static str, String);
 
-/// The attributes of a child element that have another value; what is not written is zero.
+/// The attributes of a child element whose value changes; a missing attribute counts as zero.
 fn changed(parent: Node<'_, '_>, child: &str, values: &[(&'static str, f64)]) -> Vec<Attribute> {
     let written = element(parent, child);
     let value = |name: &str| written?.attribute(name)?.trim().parse::<f64>().ok();
@@ -190,7 +183,8 @@ mod tests {
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
-    use crate::{diagnostic::SourceFile, edits::changed_lines, urdf::parse_urdf};
+    use crate::urdf::parse_urdf;
+    use congruent_input::{SourceFile, changed_lines};
 
     const TEXT: &str = "<robot name='two'>\n<link name='a'/>\n<link name='b'>\n<inertial>\n<mass value='2'/>\n\
         <inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1.0'/>\n</inertial>\n</link>\n<link name='c'/>\n\
@@ -255,7 +249,7 @@ mod tests {
         for joint in ["j", "k"] {
             let values = [("xyz", "3 4 5".to_owned()), ("rpy", "0 0 1".to_owned())];
             let changed =
-                crate::edits::edited(&text, &places(&text).set_joint_part(joint, "origin", &values));
+                congruent_input::edited(&text, &places(&text).set_joint_part(joint, "origin", &values));
             let robot = parse_urdf(&changed).unwrap();
             let pose = robot.joint(robot.find_joint(joint).unwrap()).parent_from_joint;
             assert_eq!(pose.translation.vector, Vector3::new(3.0, 4.0, 5.0), "{changed}");

@@ -1,7 +1,8 @@
-//! `<joint>`: what the values of one joint mean.
+//! `<joint>`: reads and checks the values of one joint.
 
 use std::f64::consts::TAU;
 
+use congruent_input::{Capability, Diagnostic, Diagnostics};
 use nalgebra::{Unit, Vector3};
 use roxmltree::Node;
 use urdf_rs::JointType;
@@ -10,12 +11,9 @@ use super::{
     node::{element, label, place, tag},
     pose,
 };
-use crate::{
-    diagnostic::{Diagnostic, Diagnostics, Use},
-    model::{Joint, JointKind, JointLimit, JointParts, LinkIndex},
-};
+use crate::model::{Joint, JointKind, JointLimit, JointParts, LinkIndex};
 
-/// How far the length of an axis may be from 1 without a warning: six digits in the file.
+/// How far the length of an axis may be from 1 without a warning. Kind: six digits in the file.
 const AXIS_LENGTH: f64 = 1e-6;
 /// Limits beyond this many radians are taken for degrees: no cable survives four turns.
 const LARGEST_PLAUSIBLE_RAD: f64 = 4.0 * TAU;
@@ -32,7 +30,7 @@ struct JointReader<'a, 'f> {
 /// Reads a joint. Its links are found by name when the tree is built; a value that is wrong is replaced
 /// by a valid one, so that the rest can be checked.
 pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut Diagnostics) -> JointParts {
-    let place = pose::Place { parent: node, owner: node, needed_by: Some(Use::Kinematics) };
+    let place = pose::OriginPlace { parent: node, owner: node, needed_by: Some(Capability::Kinematics) };
     let parent_from_joint = pose::read(&joint.origin, place, diagnostics);
     let mut reader = JointReader { joint, node, diagnostics };
     let kind = reader.kind();
@@ -63,9 +61,9 @@ impl JointReader<'_, '_> {
         self.diagnostics.push(Diagnostic { message, ..diagnostic }.at(place(self.node, child)));
     }
 
-    /// A value that only forces need.
+    /// Reports a fault of a value that only the simulation needs.
     fn physics(&mut self, code: &'static str, what: String, child: &str) {
-        self.report(Diagnostic::error(code, what).needed_by(Some(Use::Physics)), child);
+        self.report(Diagnostic::error(code, what).needed_by(Some(Capability::Physics)), child);
     }
 
     fn error(&mut self, code: &'static str, what: impl Into<String>, child: &str) {
@@ -89,7 +87,7 @@ impl JointReader<'_, '_> {
                     format!("type \"{written}\" is not supported"),
                 )
                 .with_help(
-                    "use fixed, revolute, continuous or prismatic; several of them in a row make the others",
+                    "use fixed, revolute, continuous or prismatic; several of these in a row replace the others",
                 )
                 .at(tag(self.node));
                 self.report(fault, "");
@@ -100,7 +98,7 @@ impl JointReader<'_, '_> {
 
     fn axis(&mut self, kind: JointKind) -> Unit<Vector3<f64>> {
         let axis = Vector3::from(self.joint.axis.xyz.0);
-        // The squares of entries beyond 1e154 overflow, so the largest entry goes first.
+        // The squares of entries beyond 1e154 overflow, so the axis is divided by its largest entry first.
         let largest = axis.amax();
         let scaled = axis / largest;
         let length = largest * scaled.norm();
@@ -113,7 +111,7 @@ impl JointReader<'_, '_> {
             return Vector3::z_axis();
         }
         if !length.is_finite() {
-            self.error("urdf::axis", "the length of the axis is larger than any number", "axis");
+            self.error("urdf::axis", "the axis is so long that its length overflows", "axis");
             return Vector3::z_axis();
         }
         if (length - 1.0).abs() > AXIS_LENGTH {
@@ -163,8 +161,10 @@ impl JointReader<'_, '_> {
         if lower > upper {
             self.error("urdf::limit", format!("lower limit {lower} is above upper limit {upper}"), "limit");
         } else if !missing.is_empty() && lower.is_finite() && upper.is_finite() {
-            let what =
-                format!("limit without {} means 0: the range is [{lower}, {upper}]", missing.join(" and "));
+            let what = format!(
+                "limit without {} counts as 0 there: the range is [{lower}, {upper}]",
+                missing.join(" and ")
+            );
             self.warn("urdf::limit", what, "limit");
         } else if upper <= lower {
             self.warn("urdf::limit", format!("limits lock the joint at {lower}"), "limit");
@@ -172,7 +172,7 @@ impl JointReader<'_, '_> {
         let furthest = lower.abs().max(upper.abs());
         if furthest.is_finite() && furthest > LARGEST_LIMIT {
             let what = format!(
-                "limit {furthest:e} is beyond {LARGEST_LIMIT:e}, the most that poses are computed with"
+                "limit {furthest:e} is beyond {LARGEST_LIMIT:e}, the largest position that poses are computed for"
             );
             self.error("urdf::limit", what, "limit");
         } else if kind.is_angular() && furthest.is_finite() && furthest > LARGEST_PLAUSIBLE_RAD {

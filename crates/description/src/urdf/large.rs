@@ -1,38 +1,39 @@
-//! Links of large machines, such as cranes and masts: what would be a slip of a unit in an arm belongs to their size.
+//! Links of large machines, such as cranes and masts: values that would be a unit mistake in an arm are plausible for them.
+
+use congruent_input::{Diagnostic, Severity};
 
 use super::pose::{CENTER_OF_MASS, TOO_FAR};
-use crate::{
-    diagnostic::{Diagnostic, Severity},
-    model::{Extent, Link, LinkIndex, Robot},
-};
+use crate::model::{Extent, Link, LinkIndex, Robot};
 
-/// Diagonal of the shapes, m; smaller links are judged as those of arms.
+/// Diagonal of the shapes, m; smaller links are treated as those of arms.
 const LEAST_LARGE_M: f64 = 4.0;
 /// Mass over the volume of the box around the shapes, kg/m^3. A lattice mast has some 30, steel 7900; lengths that are in cm or
 /// mm make it a millionth or less.
 const DENSITY: [f64; 2] = [2.0, 2e4];
 /// Radius of gyration in diagonals: a rod has 0.29, two masses at its ends 0.5.
 const MOST_GYRATION: f64 = 0.7;
-/// From a link with shapes to what belongs to it, in diagonals.
+/// Largest distance of a centre of mass or a joint origin from the shapes of a large link, in diagonals.
 const FARTHEST: f64 = 0.3;
-/// The name of the finding on a tensor that is too large.
-pub(super) const INERTIA_SIZE: &str = "urdf::inertia_size";
+/// The code of the warning of a tensor that is too large for its mass.
+pub const INERTIA_SIZE: &str = "urdf::inertia_size";
 
-/// The links whose shapes, mass, centre of mass and inertia say the same of their size.
-pub(crate) struct LargeLinks(Vec<Option<Extent>>);
+/// The links whose shapes, mass, centre of mass and inertia are all consistent with a large size; for each the box around its
+/// shapes.
+pub struct LargeLinks(Vec<Option<Extent>>);
 
 impl LargeLinks {
-    pub(crate) fn of(robot: &Robot) -> Self {
+    /// Examines every link of a robot.
+    pub fn find(robot: &Robot) -> Self {
         Self(robot.links().iter().map(large).collect())
     }
 
     /// The box around the shapes of a link, if it is large.
-    pub(crate) fn get(&self, link: LinkIndex) -> Option<&Extent> {
+    pub fn get(&self, link: LinkIndex) -> Option<&Extent> {
         self.0[link.get()].as_ref()
     }
 
     /// The longest diagonal; 0 without large links.
-    pub(crate) fn longest_m(&self) -> f64 {
+    pub fn longest_m(&self) -> f64 {
         self.0.iter().flatten().map(Extent::diagonal_m).fold(0.0, f64::max)
     }
 }
@@ -49,7 +50,7 @@ fn large(link: &Link) -> Option<Extent> {
     is_whole.then_some(extent)
 }
 
-/// The findings of a reader without those on sizes that large links explain.
+/// The findings of the reader without the warnings of sizes that are plausible for large links.
 pub(crate) fn without_large_links(robot: &Robot, found: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let of_sizes = |found: &Diagnostic| {
         [TOO_FAR, CENTER_OF_MASS, INERTIA_SIZE].contains(&found.code) && found.severity == Severity::Warning
@@ -57,7 +58,7 @@ pub(crate) fn without_large_links(robot: &Robot, found: Vec<Diagnostic>) -> Vec<
     if !found.iter().any(of_sizes) {
         return found;
     }
-    let large = LargeLinks::of(robot);
+    let large = LargeLinks::find(robot);
     let links = robot.link_indices().filter(|&link| large.get(link).is_some());
     let links = links.flat_map(|link| {
         let name = &robot.link(link).name;
@@ -83,7 +84,8 @@ pub(crate) fn without_large_links(robot: &Robot, found: Vec<Diagnostic>) -> Vec<
 mod tests {
     use std::sync::Arc;
 
-    use crate::{diagnostic::SourceFile, load::parse_robot};
+    use crate::load::parse_robot;
+    use congruent_input::SourceFile;
 
     /// A lattice mast of 40 m with 8 t, and a jib on top.
     const CRANE: &str = "<robot name='crane'><link name='mast'>\
@@ -96,14 +98,14 @@ mod tests {
         <joint name='slew' type='continuous'><origin xyz='0 0 40'/><parent link='mast'/><child link='jib'/>\
         <limit velocity='0.1' effort='1e5'/></joint></robot>";
 
-    fn told(urdf: &str) -> Vec<String> {
+    fn findings(urdf: &str) -> Vec<String> {
         let source = Arc::new(SourceFile { path: "crane.urdf".into(), text: urdf.to_owned() });
         parse_robot(None, &source).unwrap().warnings.into_iter().map(|found| found.message).collect()
     }
 
     #[test]
-    fn a_large_machine_is_not_told_and_its_slips_are() {
-        assert_eq!(told(CRANE), [""; 0]);
+    fn a_large_machine_is_not_reported_and_its_mistakes_are() {
+        assert_eq!(findings(CRANE), [""; 0]);
         for (from, to, what) in [
             ("xyz='0 0 40'/><parent", "xyz='0 0 40000'/><parent", "joint \"slew\""),
             ("xyz='12 0 0'/><mass", "xyz='1200 0 0'/><mass", "link \"jib\""),
@@ -112,7 +114,7 @@ mod tests {
             ("mass value='8000'", "mass value='8'", "link \"mast\""),
         ] {
             assert!(CRANE.contains(from), "{from}");
-            let found = told(&CRANE.replace(from, to));
+            let found = findings(&CRANE.replace(from, to));
             assert!(found.iter().any(|message| message.contains(what)), "{to}: {found:?}");
         }
     }

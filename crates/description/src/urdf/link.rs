@@ -1,5 +1,6 @@
 //! `<link>`: mass, inertia and shapes of one link.
 
+use congruent_input::Capability;
 use nalgebra::Matrix3;
 use roxmltree::Node;
 
@@ -8,10 +9,7 @@ use super::{
     pose,
     shape::ShapeReader,
 };
-use crate::{
-    diagnostic::Use,
-    model::{Inertia, Link},
-};
+use crate::model::{Inertia, Link};
 
 pub(super) fn read(link: &urdf_rs::Link, node: Node<'_, '_>, shapes: &mut ShapeReader<'_, '_>) -> Link {
     let inertia = element(node, "inertial").map(|inertial| inertia(&link.inertial, inertial, shapes));
@@ -30,11 +28,11 @@ pub(super) fn read(link: &urdf_rs::Link, node: Node<'_, '_>, shapes: &mut ShapeR
     Link { name: link.name.clone(), inertia, visuals, collisions }
 }
 
-/// As it is written: whether a body can have it is judged when the links that are fixed to each other are known.
+/// The inertia as written. Whether a body can have it is checked later, when the links that are fixed to each other are known.
 fn inertia(inertial: &urdf_rs::Inertial, node: Node<'_, '_>, shapes: &mut ShapeReader<'_, '_>) -> Inertia {
     let owner = node.parent_element().unwrap_or(node);
     let m = &inertial.inertia;
-    let place = pose::Place { parent: node, owner, needed_by: Some(Use::Physics) };
+    let place = pose::OriginPlace { parent: node, owner, needed_by: Some(Capability::Physics) };
     Inertia {
         mass_kg: inertial.mass.value,
         link_from_inertial: pose::read(&inertial.origin, place, shapes.diagnostics),

@@ -4,8 +4,8 @@
 //! 1. `xml`: tokens, then the tree; refuses what would overflow a stack or the memory;
 //! 2. `grammar`: the XML with positions against the grammar of URDF, every number token by token; parts that
 //!    are wrong and that kinematics can do without are blanked;
-//! 3. `urdf-rs`: the structure. It accepts much that is wrong (it drops vector tokens that are no
-//!    numbers, it cannot tell a missing element from its default), which is why pass 2 exists;
+//! 3. `urdf-rs`: the structure. It accepts much that is wrong (it drops vector tokens that are not
+//!    numbers, it does not distinguish a missing element from its default), which is why pass 2 exists;
 //! 4. `joint`, `link`, `shape`: what the values mean, then the tree, then `inertial`: the bodies.
 //!
 //! Every value is taken from `urdf-rs`; pass 2 reads the same text but only judges it. The one
@@ -19,7 +19,7 @@ mod inertial;
 mod joint;
 mod large;
 mod link;
-pub(crate) mod node;
+pub mod node;
 mod places;
 mod pose;
 mod shape;
@@ -30,29 +30,25 @@ pub use write::urdf_text;
 
 use std::{fmt::Write, ops::Range};
 
+use congruent_input::{Diagnostic, Diagnostics, Findings, known_names, xml};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
-pub(crate) use grammar::{Misspelt, misspellings};
-pub(crate) use inertial::{LARGEST_GYRATION_M, Repairs};
-pub(crate) use large::{LargeLinks, without_large_links};
-pub(crate) use pose::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M, TOO_FAR};
-
 use self::node::{elements, last, place, tag};
-
 use crate::{
-    diagnostic::{Diagnostic, Diagnostics, known_names},
     mesh::{FindMesh, FoundMesh},
     model::{Link, Robot, RobotError},
-    xml,
 };
 
-/// The largest URDF that is read.
-pub(crate) const URDF_BYTES: u64 = 16 << 20;
+pub(crate) use inertial::Repairs;
+pub(crate) use large::without_large_links;
+
+/// Size limit of a URDF, bytes.
+pub const URDF_BYTES: u64 = 16 << 20;
 /// The largest number of links: far above any robot, far below what would take minutes.
 const MOST_LINKS: usize = 10_000;
 
-/// What a URDF is read with: its meshes, and what the robot file says about its links.
+/// The inputs beside the text of a URDF: a source of its meshes, and the repairs that the robot file declares.
 pub(crate) struct UrdfInputs<'a, 'm> {
     pub(crate) find_mesh: &'a mut FindMesh<'m>,
     pub(crate) repairs: &'a Repairs,
@@ -60,8 +56,8 @@ pub(crate) struct UrdfInputs<'a, 'm> {
 
 /// Reads a robot; `None` if `diagnostics` holds an error.
 ///
-/// A part that kinematics can do without is left out if it cannot be read, with a finding that says which use
-/// it stops.
+/// A part that kinematics does not need is left out if it cannot be read, with a finding that says which use of the robot
+/// this blocks.
 pub(crate) fn parse(
     text: &str,
     mut inputs: UrdfInputs<'_, '_>,
@@ -102,7 +98,7 @@ fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
 /// Reads what the grammar has accepted.
 fn read(root: Node<'_, '_>, inputs: &mut UrdfInputs<'_, '_>, diagnostics: &mut Diagnostics) -> Option<Robot> {
     let urdf = diagnostics.keep(urdf_rs::read_from_string(&for_urdf_rs(root)).map_err(|error| {
-        // Whatever the grammar lets through and urdf-rs does not.
+        // Faults that the grammar check does not find and urdf-rs does.
         Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
     let mut robot = build(&urdf, root, inputs.find_mesh, diagnostics)?;
@@ -115,18 +111,19 @@ fn read(root: Node<'_, '_>, inputs: &mut UrdfInputs<'_, '_>, diagnostics: &mut D
 
 /// Reads a robot from URDF text alone; meshes cannot be found, so it may name none.
 ///
-/// The robot is fit for every use. [`parse_robot`](crate::parse_robot) reads one that is fit for some.
+/// The robot is complete for every use. [`parse_robot`](crate::parse_robot) also accepts a robot with faults that block only
+/// some uses.
 ///
 /// # Errors
-/// Every diagnostic if at least one is an error or stops a use.
+/// Every diagnostic if at least one is an error or blocks a use.
 /// # Examples
 /// See [`urdf_text`].
-pub fn parse_urdf(text: &str) -> Result<Robot, Vec<Diagnostic>> {
+pub fn parse_urdf(text: &str) -> Result<Robot, Findings> {
     let mut diagnostics = Diagnostics::default();
     let inputs = UrdfInputs { find_mesh: &mut no_mesh, repairs: &Repairs::default() };
     let robot = parse(text, inputs, &mut diagnostics);
     let found = diagnostics.into_vec();
-    robot.filter(|_| found.iter().all(|found| found.stops.is_none())).ok_or(found)
+    robot.filter(|_| found.iter().all(|found| found.stops.is_none())).ok_or_else(|| found.into())
 }
 
 /// Refuses every mesh: for texts without a folder.
@@ -221,3 +218,7 @@ fn first_at(fault: Diagnostic, root: Node<'_, '_>, tag_name: &str, name: &str) -
 
 #[cfg(test)]
 mod tests;
+pub use grammar::{Misspelling, Misspelt, misspellings};
+pub use inertial::{LARGEST_GYRATION_M, MASSLESS};
+pub use large::{INERTIA_SIZE, LargeLinks};
+pub use pose::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M, TOO_FAR};

@@ -2,32 +2,31 @@
 
 use std::ops::Range;
 
+use congruent_input::visible;
 use roxmltree::Node;
 
-use crate::visible::visible;
-
 /// The last element with this name: of two that share one, the second is at fault.
-pub(crate) fn last<'a, 'i>(root: Node<'a, 'i>, tag_name: &str, name: &str) -> Option<Node<'a, 'i>> {
+pub fn last<'a, 'i>(root: Node<'a, 'i>, tag_name: &str, name: &str) -> Option<Node<'a, 'i>> {
     elements(root, tag_name).filter(|node| node.attribute("name") == Some(name)).last()
 }
 
 /// The child elements with this name, in file order.
-pub(crate) fn elements<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> impl Iterator<Item = Node<'a, 'i>> {
+pub fn elements<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> impl Iterator<Item = Node<'a, 'i>> {
     parent.children().filter(move |node| node.is_element() && node.tag_name().name() == name)
 }
 
 /// The child element with this name, if there is one.
-pub(crate) fn element<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+pub fn element<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
     elements(parent, name).next()
 }
 
 /// The place of a child element, or of the element itself if the child is missing.
-pub(crate) fn place(parent: Node<'_, '_>, child: &str) -> Range<usize> {
+pub fn place(parent: Node<'_, '_>, child: &str) -> Range<usize> {
     tag(element(parent, child).unwrap_or(parent))
 }
 
 /// The opening of a start tag, `<name`: an element's whole range may be a thousand lines.
-pub(crate) fn tag(node: Node<'_, '_>) -> Range<usize> {
+pub fn tag(node: Node<'_, '_>) -> Range<usize> {
     let range = node.range();
     let text = &node.document().input_text()[range.clone()];
     let end = text.find(|c: char| c.is_whitespace() || c == '/' || c == '>').unwrap_or(text.len());
@@ -35,7 +34,7 @@ pub(crate) fn tag(node: Node<'_, '_>) -> Range<usize> {
 }
 
 /// `link "forearm"`, its name cut if it is longer than a line.
-pub(crate) fn label(node: Node<'_, '_>) -> String {
+pub fn label(node: Node<'_, '_>) -> String {
     const SHOWN: usize = 60;
     let name = node.attribute("name").unwrap_or_default();
     let short: String = name.chars().take(SHOWN).collect();

@@ -1,12 +1,10 @@
-//! Where joints and links of a URDF stand: for messages about one of them.
+//! Byte ranges of joints and links in the text of a URDF, for messages about one of them.
 
 use std::{ops::Range, sync::Arc};
 
+use congruent_input::{SourceFile, line_column, xml};
+
 use super::node::{element, elements, last, place, tag};
-use crate::{
-    diagnostic::{SourceFile, line_column},
-    xml,
-};
 
 /// The text of a URDF, in which joints and links are found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,12 +13,12 @@ pub struct UrdfPlaces {
 }
 
 impl UrdfPlaces {
-    /// Of a text that has been read; it is parsed again when a place is asked for, which is seldom.
+    /// `source` must have been read before. It is parsed again for each place, since places are needed only for messages.
     pub(crate) fn new(source: Arc<SourceFile>) -> Self {
         Self { source }
     }
 
-    /// The file.
+    /// The URDF that the places are in.
     pub fn source(&self) -> &Arc<SourceFile> {
         &self.source
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use congruent_input::{Capability, Diagnostic, Diagnostics};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
@@ -10,7 +11,6 @@ use super::{
     pose::{self, LARGEST_PLAUSIBLE_M, TOO_FAR},
 };
 use crate::{
-    diagnostic::{Diagnostic, Diagnostics, Use},
     mesh::FindMesh,
     model::{Geometry, Mesh, Shape},
 };
@@ -48,18 +48,18 @@ impl ShapeReader<'_, '_> {
 
     /// A collision shape; `None` if something is wrong with it.
     pub(super) fn collision(&mut self, collision: &urdf_rs::Collision, node: Node<'_, '_>) -> Option<Shape> {
-        self.shape(&collision.origin, &collision.geometry, (node, Some(Use::Clearance)))
+        self.shape(&collision.origin, &collision.geometry, (node, Some(Capability::Clearance)))
     }
 
     fn shape(
         &mut self,
         origin: &urdf_rs::Pose,
         geometry: &urdf_rs::Geometry,
-        (node, needed_by): (Node<'_, '_>, Option<Use>),
+        (node, needed_by): (Node<'_, '_>, Option<Capability>),
     ) -> Option<Shape> {
         let owner = node.parent_element().unwrap_or(node);
         let link_from_shape =
-            pose::read(origin, pose::Place { parent: node, owner, needed_by }, self.diagnostics);
+            pose::read(origin, pose::OriginPlace { parent: node, owner, needed_by }, self.diagnostics);
         let place =
             element(node, "geometry").and_then(|geometry| geometry.first_element_child()).unwrap_or(node);
         let geometry = match self.geometry(geometry) {
@@ -109,7 +109,7 @@ impl ShapeReader<'_, '_> {
     fn mesh(&mut self, uri: &str, scale: Vector3<f64>) -> Result<(Geometry, Vec<Diagnostic>), Diagnostic> {
         if scale.iter().any(|factor| *factor == 0.0) {
             let [x, y, z] = scale.into();
-            let message = format!("mesh \"{uri}\": scale \"{x} {y} {z}\" flattens it to nothing");
+            let message = format!("mesh \"{uri}\": scale \"{x} {y} {z}\" flattens it to zero volume");
             return Err(Diagnostic::error("urdf::scale", message));
         }
         let found = (self.find_mesh)(uri, scale)?;
@@ -123,7 +123,7 @@ fn placed(diagnostic: Diagnostic, owner: Node<'_, '_>, place: Node<'_, '_>) -> D
     let message = format!("{}: {}", label(owner), diagnostic.message);
     let placed = Diagnostic { message, ..diagnostic }.at(tag(place));
     if placed.code == TOO_FAR {
-        placed.one_of("shapes are more than 10 m large, of", label(owner))
+        placed.one_of("shapes are more than 10 m large", label(owner))
     } else {
         placed
     }

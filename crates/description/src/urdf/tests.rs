@@ -4,13 +4,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use congruent_input::{Capability, Severity, line_column};
 use nalgebra::{Point3, Vector3};
 
 use super::*;
-use crate::{
-    diagnostic::{Severity, Use, line_column},
-    model::{Geometry, JointKind},
-};
+use crate::model::{Geometry, JointKind};
 
 /// Two links and a joint, each with a place for more.
 pub(super) fn arm(joint: &str, link: &str) -> String {
@@ -70,7 +68,12 @@ fn joint_warning(joint: &str, code: &str, message: &str) {
 
 /// The text has exactly this finding, which stops this use and no other.
 #[track_caller]
-pub(super) fn stops(text: &str, line: usize, stopped: Option<Use>, (code, message): (&str, &str)) -> Robot {
+pub(super) fn stops(
+    text: &str,
+    line: usize,
+    stopped: Option<Capability>,
+    (code, message): (&str, &str),
+) -> Robot {
     one(text, Severity::Warning, line, code, message);
     let (robot, found) = read(text);
     assert_eq!(found[0].stops, stopped, "{}", found[0].message);
@@ -79,12 +82,12 @@ pub(super) fn stops(text: &str, line: usize, stopped: Option<Use>, (code, messag
 
 /// Elements beside a good inertial.
 #[track_caller]
-fn link_stops(link: &str, stopped: Option<Use>, found: (&str, &str)) -> Robot {
+fn link_stops(link: &str, stopped: Option<Capability>, found: (&str, &str)) -> Robot {
     stops(&arm(LIMIT, &format!("{link}{INERTIAL}")), 8, stopped, found)
 }
 
 #[track_caller]
-fn joint_stops(joint: &str, stopped: Option<Use>, found: (&str, &str)) -> Robot {
+fn joint_stops(joint: &str, stopped: Option<Capability>, found: (&str, &str)) -> Robot {
     stops(&arm(joint, INERTIAL), 5, stopped, found)
 }
 
@@ -148,7 +151,7 @@ fn joints_are_checked() {
         "limit 1e308 is beyond 1e30",
     );
     joint_error(&format!("{LIMIT}<axis xyz='0 0 0'/>"), "urdf::axis", "zero vector");
-    joint_error(&format!("{LIMIT}<axis xyz='1.7e308 1.7e308 0'/>"), "urdf::axis", "larger than any number");
+    joint_error(&format!("{LIMIT}<axis xyz='1.7e308 1.7e308 0'/>"), "urdf::axis", "its length overflows");
     joint_error(
         &format!("{LIMIT}<axis xzy='0 0 1' xyz='0 0 1'/>"),
         "urdf::unknown_attribute",
@@ -186,7 +189,11 @@ fn joints_are_checked() {
 #[test]
 fn suspicious_joints_are_warned_of() {
     joint_warning(&format!("{LIMIT}<axis xyz='0 0 2'/>"), "urdf::axis", "normalised from length 2");
-    joint_warning("<limit upper='1' effort='1' velocity='1'/>", "urdf::limit", "limit without lower means 0");
+    joint_warning(
+        "<limit upper='1' effort='1' velocity='1'/>",
+        "urdf::limit",
+        "limit without lower counts as 0",
+    );
     joint_warning(
         "<limit lower='1' upper='1' effort='1' velocity='1'/>",
         "urdf::limit",
@@ -204,7 +211,7 @@ fn suspicious_joints_are_warned_of() {
     one(&text, Severity::Warning, 5, "urdf::limit", "ignores the limits");
 }
 
-/// Squares of entries this large or small are no numbers any more.
+/// Squares of entries this large or small are not numbers any more.
 #[test]
 fn an_axis_of_any_length_keeps_its_direction() {
     for axis in ["3e307 4e307 0", "3e160 4e160 0", "3e-170 4e-170 0", "3e-310 4e-310 0"] {
@@ -247,7 +254,7 @@ fn shapes_are_checked() {
         ("<colision/>".to_owned(), "urdf::unknown_element", "did you mean <collision>?"),
         ("<collision/>".to_owned(), "urdf::missing_element", "<collision> has no <geometry>"),
     ] {
-        let robot = link_stops(&shape, Some(Use::Clearance), (code, message));
+        let robot = link_stops(&shape, Some(Capability::Clearance), (code, message));
         assert_eq!(robot.links()[1].collisions, [], "{shape}");
         // What is only drawn stops nothing.
         let drawn = shape.replace("collision", "visual").replace("colision", "visaul");
@@ -278,7 +285,7 @@ fn what_is_drawn_keeps_what_can_be_read_of_it() {
 
 #[test]
 fn forces_need_what_kinematics_does_not() {
-    let physics = Some(Use::Physics);
+    let physics = Some(Capability::Physics);
     let limit = |rest: &str| format!("<limit lower='0' upper='1' {rest}/>");
     let of = |robot: Robot| robot.joints()[0].limit.unwrap();
     let read = of(joint_stops(
@@ -307,7 +314,7 @@ fn an_inertial_that_cannot_be_read_is_none() {
     ] {
         let (robot, found) = read(&arm(LIMIT, &inertial));
         let found = found.iter().find(|found| found.code == code).unwrap_or_else(|| panic!("{found:#?}"));
-        assert!(found.stops == Some(Use::Physics) && found.message.contains(message), "{found:#?}");
+        assert!(found.stops == Some(Capability::Physics) && found.message.contains(message), "{found:#?}");
         assert_eq!(robot.unwrap().links()[1].inertia, None);
     }
 }

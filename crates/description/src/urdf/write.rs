@@ -2,13 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::{
-    model::{Joint, Robot},
-    written::{
-        number::{number, numbers},
-        rpy::rpy_fixed_xyz_rad,
-    },
+use congruent_input::{
+    number::{number, numbers},
+    rpy_fixed_xyz_rad,
 };
+
+use crate::model::{Joint, Robot};
 
 /// Writes the joints of a robot as URDF; links have their names and nothing else.
 ///

@@ -1,26 +1,26 @@
-//! Mimic joints follow their masters rigidly: what the certificates bound are the torques of the joints that are driven,
-//! at positions that the robot can take.
+//! Mimic joints follow their masters rigidly: the certificates bound the torques of the driven joints at positions that the
+//! robot can reach.
 //!
-//! The torque of a driven joint is its own and, times their ratio, that of each follower (virtual work). The bound from
-//! above lets the positions of followers vary by themselves, which contains what they can be; what is attained does not.
+//! The torque of a driven joint is its own plus that of each follower times its ratio (virtual work). For the upper bound the
+//! positions of followers vary independently, which contains all positions that they can have; attained values follow.
 
 use congruent_description::RobotQ;
 
 use super::bracket::AttainedAt;
-use crate::side::Frames;
+use crate::model::Frames;
 
-/// Which joints move together.
+/// Which joints move together: driven joints, their followers, and the ranges of all.
 #[derive(Debug, Clone)]
 pub(super) struct Coupling {
     /// For each driven joint itself and its followers with their ratios; empty for a follower.
     groups: Vec<Vec<(usize, f64)>>,
     /// Master, ratio, offset of each follower.
-    followers: Vec<(usize, Follower)>,
+    followers: Vec<(usize, MimicFollower)>,
     ranges: Vec<(f64, f64)>,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Follower {
+struct MimicFollower {
     master: usize,
     ratio: f64,
     offset: f64,
@@ -32,9 +32,11 @@ impl Coupling {
         let mut followers = Vec::new();
         for (joint, place) in frames.joints.iter().enumerate() {
             if let Some((master, ratio, offset)) = place.follows {
+                // A follower has no torque of its own to bound: it is part of the torque of its master. The empty
+                // group marks it.
                 groups[joint].clear();
                 groups[master].push((joint, ratio));
-                followers.push((joint, Follower { master, ratio, offset }));
+                followers.push((joint, MimicFollower { master, ratio, offset }));
             }
         }
         let ranges = frames.joints.iter().map(|joint| joint.range).collect();
@@ -63,18 +65,19 @@ impl Coupling {
 
     /// The torque at a driven joint.
     pub(super) fn torque(&self, joint: usize, tau: &[f64]) -> f64 {
+        // Virtual work: tau_master * dq_master + tau_follower * dq_follower with dq_follower = ratio * dq_master.
         self.groups[joint].iter().map(|(joint, ratio)| ratio * tau[*joint]).sum()
     }
 
-    /// Puts followers where their masters have them.
+    /// Sets the positions of followers from their masters: `q = ratio * q_master + offset`.
     pub(super) fn place(&self, q: &mut RobotQ) {
         for (joint, of) in &self.followers {
             q[*joint] = of.ratio * q[of.master] + of.offset;
         }
     }
 
-    /// Puts the masters of some joints where these want them.
-    pub(super) fn lead(&self, q: &mut RobotQ, joints: &[usize]) {
+    /// Sets the masters of some followers so that these keep their positions, the inverse of [`Coupling::place`].
+    pub(super) fn place_masters(&self, q: &mut RobotQ, joints: &[usize]) {
         for (joint, of) in
             self.followers.iter().filter(|(joint, of)| joints.contains(joint) && of.ratio != 0.0)
         {
@@ -82,29 +85,34 @@ impl Coupling {
         }
     }
 
-    /// Gives followers the speeds or accelerations of their masters.
-    pub(super) fn spread(&self, values: &mut [f64]) {
+    /// Sets the speeds or accelerations of followers from their masters.
+    pub(super) fn set_follower_rates(&self, values: &mut [f64]) {
         for (joint, of) in &self.followers {
             values[*joint] = of.ratio * values[of.master];
         }
     }
 
-    /// A motion that the robot can make.
+    /// Changes a motion into one that the robot can make: followers move with their masters.
     pub(super) fn follow(&self, at: &mut AttainedAt) {
         self.place(&mut at.q);
-        self.spread(&mut at.qd);
-        self.spread(&mut at.qdd);
+        self.set_follower_rates(&mut at.qd);
+        self.set_follower_rates(&mut at.qdd);
     }
 
-    /// Climbs to a larger value, one driven joint of these at a time; followers go with them.
-    pub(super) fn climb<E>(
+    /// Coordinate search for a larger value over the driven joints of `joints`, one at a time; followers move with them.
+    pub(super) fn search<E>(
         &self,
         q: &mut RobotQ,
         joints: &[usize],
         mut value: impl FnMut(&RobotQ) -> Result<f64, E>,
     ) -> Result<f64, E> {
-        self.lead(q, joints);
+        // The start may come from a function in which followers are free: first the masters go where the
+        // followers were, then all followers go with their masters, so that every value below is attainable.
+        self.place_masters(q, joints);
+        // The value is read with the followers where the robot would have them.
         self.place(q);
+        // One variable for each driven joint: stepping a follower by itself would leave the configurations of the
+        // robot.
         let mut driven: Vec<usize> = joints.iter().map(|&joint| self.driver(joint)).collect();
         driven.sort_unstable();
         driven.dedup();
@@ -112,8 +120,10 @@ impl Coupling {
         for _ in 0..ROUNDS {
             let before = best;
             for &joint in &driven {
-                self.climb_one(joint, (q, &mut best), &mut value)?;
+                self.search_one(joint, (q, &mut best), &mut value)?;
             }
+            // A round that gains nothing cannot be followed by one that does: the next would try the same
+            // positions.
             if best <= before * (1.0 + LEAST_GAIN) {
                 break;
             }
@@ -121,7 +131,7 @@ impl Coupling {
         Ok(best)
     }
 
-    fn climb_one<E>(
+    fn search_one<E>(
         &self,
         joint: usize,
         (q, best): (&mut RobotQ, &mut f64),
@@ -129,11 +139,14 @@ impl Coupling {
     ) -> Result<(), E> {
         let (lower, upper) = self.ranges[joint];
         let mut step = (upper - lower) / f64::from(POSITIONS);
+        // A grid before the halving: along one joint the torque has several maxima, and halving alone would stay
+        // at the nearest.
         for index in 0..=POSITIONS {
             self.try_at((joint, lower + step * f64::from(index)), (q, best), value)?;
         }
         for _ in 0..HALVINGS {
             for by in [-step, step] {
+                // Clamped instead of skipped, because the largest torque is often at a limit.
                 let position = (q[joint] + by).clamp(lower, upper);
                 self.try_at((joint, position), (q, best), value)?;
             }
@@ -195,7 +208,7 @@ mod tests {
         let mut q = RobotQ::zeros(2);
         let value = |q: &RobotQ| Ok::<f64, ()>(5.0 - (q[0] - 0.3).powi(2) - (q[1] + 0.7).powi(2));
         // q1 = 0.5 - 2 q0: the least of (q0 - 0.3)^2 + (1.2 - 2 q0)^2 is at 0.54.
-        let best = coupling.climb(&mut q, &[1], value).unwrap();
+        let best = coupling.search(&mut q, &[1], value).unwrap();
         assert!((q[0] - 0.54).abs() < 1e-4 && (q[1] + 0.58).abs() < 2e-4, "{q:?} {best}");
     }
 }

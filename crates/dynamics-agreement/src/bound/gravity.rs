@@ -1,4 +1,4 @@
-//! The largest difference of gravity torque over all positions of the joints: attained, and certified from above.
+//! The largest difference of gravity torque over all joint positions: attained from below, certified from above.
 
 use congruent_description::RobotQ;
 use congruent_dynamics::{BodyTree, DynamicsError, SpatialInertia};
@@ -7,64 +7,66 @@ use nalgebra::Vector3;
 
 use super::{
     bracket::{AttainedAt, TorqueBracket, TorqueCertificate},
+    dependency::JointDependency,
     function::{
-        branch::{Stop, upper_bound},
-        climb,
+        branch::{SearchLimits, upper_bound},
+        local_search,
         measure::Measure,
         trigonometric::{Trigonometric, Variable},
     },
-    ways::Ways,
 };
 use crate::{
-    side::{Frames, Side},
+    model::{DynamicsModel, Frames},
     thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, NO_COEFFICIENT, SAME_VALUE},
     torque::states::position,
 };
 
-/// Random positions for a torque of too many joints. Kind: choice.
+/// Random positions for a torque of more than `MAX_VARIABLES` joints. Kind: choice.
 const SAMPLES: usize = 5_000;
 
 /// The difference of gravity torque between a candidate and a reference in the candidate's geometry.
 pub(super) struct GravityTorques<'a> {
     frames: &'a Frames,
-    candidate: &'a Side,
+    candidate: &'a DynamicsModel,
     trees: [BodyTree; 2],
-    /// The difference of the bodies' inertias alone, under unit gravity along each axis; empty if gravity differs.
+    /// Trees with the difference of the bodies' inertias under unit gravity along each axis; empty if gravity differs.
     along_axes: Vec<BodyTree>,
     gravity_m_s2: f64,
-    /// Of each body.
+    /// Difference of the inertias of each body, in the frame of its link.
     differences: Vec<SpatialInertia>,
-    ways: Ways<'a>,
+    dependency: JointDependency<'a>,
 }
 
 impl<'a> GravityTorques<'a> {
-    /// Brackets of all joints.
+    /// Brackets of all driven joints.
     pub(super) fn certify(&self, seed: u64) -> Result<TorqueCertificate, DynamicsError> {
-        let driven = (0..self.frames.dof()).filter(|&joint| self.ways.coupling.is_driven(joint));
+        let driven = (0..self.frames.dof()).filter(|&joint| self.dependency.coupling.is_driven(joint));
         let brackets = driven.map(|joint| self.bracket(joint, seed));
         let by_joint: Vec<TorqueBracket> =
             brackets.filter_map(Result::transpose).collect::<Result<_, _>>()?;
-        Ok(TorqueCertificate::of(by_joint))
+        Ok(TorqueCertificate::from_brackets(by_joint))
     }
 
-    /// The joints whose positions one joint's difference depends on; `None` if it has none.
+    /// The joints on whose positions the difference of one joint's torque depends; `None` if it has no difference.
     pub(super) fn joints(&self, joint: usize) -> Result<Option<Vec<usize>>, DynamicsError> {
-        let all = self.ways.through(joint);
-        if !self.ways.has_difference(joint) {
+        let all = self.dependency.through(joint);
+        if !self.dependency.has_difference(joint) {
             return Ok(None);
         }
+        // Too many to sample: all of them may matter, which is the safe answer.
         if all.len() > MAX_VARIABLES {
             return Ok(Some(all));
         }
-        let torque = self.torque(joint, self.ways.variables(&all))?;
+        let torque = self.torque(joint, self.dependency.variables(&all))?;
         Ok(Some(torque.variables.iter().map(|variable| variable.joint).collect()))
     }
 
-    pub(super) fn new(candidate: &'a Side, reference: &Side) -> Self {
+    pub(super) fn new(candidate: &'a DynamicsModel, reference: &DynamicsModel) -> Self {
         let same_gravity = candidate.gravity_m_s2 == reference.gravity_m_s2;
         let (found, expected) = (candidate.bodies(), reference.bodies());
         let differences: Vec<SpatialInertia> =
             found.iter().zip(&expected).map(|(a, b)| difference(a, b)).collect();
+        // 3e-14 of the value: the same parameters, added up in another order, differ by no more than rounding.
         let rounding = |a: f64, b: f64| SAME_VALUE * SAME_VALUE.sqrt() * a.abs().max(b.abs());
         let differs = differences.iter().zip(found.iter().zip(&expected)).map(|(difference, (a, b))| {
             let [h, k] = [a, b].map(|body| body.first_moment_kg_m.norm());
@@ -75,6 +77,7 @@ impl<'a> GravityTorques<'a> {
         let differs = differs.collect();
         let bare = |gravity| candidate.frames.tree.clone().with_gravity(gravity);
         let weightless: Vec<BodyTree> = (0..3)
+            // The lever bound factors |g| out, which is possible only if both descriptions have the same gravity.
             .filter(|_| same_gravity)
             .filter_map(|axis| bare(Vector3::ith(axis, 1.0)).with_inertias_in_links(&differences).ok())
             .collect();
@@ -85,24 +88,26 @@ impl<'a> GravityTorques<'a> {
             along_axes: weightless,
             gravity_m_s2: candidate.gravity_m_s2.norm(),
             differences,
-            ways: Ways::new(&candidate.frames, differs),
+            dependency: JointDependency::new(&candidate.frames, differs),
         }
     }
 
-    /// `None` if the joint has no difference.
+    /// The bracket of one joint; `None` if its gravity torques do not differ.
     fn bracket(&self, joint: usize, seed: u64) -> Result<Option<TorqueBracket>, DynamicsError> {
-        let below = self.ways.below(joint);
-        let variables = self.ways.variables(&self.ways.through(joint));
-        if !self.ways.has_difference(joint) {
+        let below = self.dependency.below(joint);
+        let variables = self.dependency.variables(&self.dependency.through(joint));
+        if !self.dependency.has_difference(joint) {
             return Ok(None);
         }
+        // The bounds come from the cheapest to the dearest, each only if the one before does not close the
+        // bracket: crude, lever, torque.
         let crude = self.crude_bound(joint);
         if variables.len() > MAX_VARIABLES {
             let (attained, q) = self.sampled(joint, seed)?;
             return Ok(Some(self.report(joint, [attained, crude], (q, 0))));
         }
         let torque = self.torque(joint, variables)?;
-        let (mut attained, positions) = climb::largest(&torque, seed);
+        let (mut attained, positions) = local_search::largest(&torque, seed);
         let mut q = RobotQ::zeros(self.frames.dof());
         for place in 0..q.len() {
             q[place] = q[place].clamp(self.frames.joints[place].range.0, self.frames.joints[place].range.1);
@@ -111,41 +116,49 @@ impl<'a> GravityTorques<'a> {
             q[variable.joint] = position;
         }
         let places: Vec<usize> = torque.variables.iter().map(|variable| variable.joint).collect();
-        if places.iter().any(|&place| self.ways.coupling.is_coupled(place)) {
+        // The function treated followers as free, so its maximum may be at a configuration that the robot cannot
+        // take.
+        if places.iter().any(|&place| self.dependency.coupling.is_coupled(place)) {
             let mut difference = self.difference_at(joint);
-            attained = self.ways.coupling.climb(&mut q, &places, |q| difference(q).map(f64::abs))?;
+            attained = self.dependency.coupling.search(&mut q, &places, |q| difference(q).map(f64::abs))?;
         }
-        self.ways.coupling.place(&mut q);
+        self.dependency.coupling.place(&mut q);
         if torque.coefficients.iter().all(|value| *value == 0.0) && torque.slack == 0.0 {
             return Ok(None);
         }
-        let stop =
-            Stop { below: attained * (1.0 + CLOSED), boxes: MAX_BOXES, control_values: MAX_CONTROL_VALUES };
+        let stop = SearchLimits {
+            below: attained * (1.0 + CLOSED),
+            boxes: MAX_BOXES,
+            control_values: MAX_CONTROL_VALUES,
+        };
         let (mut certified, mut boxes) = (crude, 0);
         if let Some(lever) = self.lever(joint, &below)? {
-            let stop = Stop { below: stop.below / self.gravity_m_s2, ..stop };
+            // The lever depends on the joints below this one alone: fewer variables than the torque, which
+            // depends on the joints above as well.
+            let stop = SearchLimits { below: stop.below / self.gravity_m_s2, ..stop };
             let bound = upper_bound(&lever, stop);
             certified = certified.min(bound.value * self.gravity_m_s2);
             boxes += bound.boxes;
         }
+        // Reached if the joints above cannot turn the lever across gravity, so that its norm is never attained.
         if certified > stop.below {
             let bound = upper_bound(&torque, stop);
             certified = certified.min(bound.value);
             boxes += bound.boxes;
         }
-        // What is left of a sum that cancels is rounding.
+        // Far below the sum of the levers: masses cancel, and the remainder is rounding.
         let is_rounding = certified <= NO_COEFFICIENT * crude && crude.is_finite();
         Ok((!is_rounding).then(|| self.report(joint, [attained, certified], (q, boxes))))
     }
 
-    /// The largest difference at random positions: for a torque of too many joints.
+    /// The largest difference at random positions, for a torque of more than `MAX_VARIABLES` joints.
     fn sampled(&self, joint: usize, seed: u64) -> Result<(f64, RobotQ), DynamicsError> {
         let mut random = Uniform::seeded(seed);
         let mut best = (0.0, RobotQ::zeros(self.frames.dof()));
         let mut difference_at = self.difference_at(joint);
         for _ in 0..SAMPLES {
             let mut q = position(&mut random, self.frames);
-            self.ways.coupling.place(&mut q);
+            self.dependency.coupling.place(&mut q);
             let difference = difference_at(&q)?;
             if difference.abs() > best.0 {
                 best = (difference.abs(), q);
@@ -162,7 +175,7 @@ impl<'a> GravityTorques<'a> {
             for ((tree, buffer), tau) in self.trees.iter().zip(&mut buffers).zip(&mut tau) {
                 tree.gravity_into(q, buffer, tau)?;
             }
-            let [found, expected] = [0, 1].map(|side| self.ways.coupling.torque(joint, &tau[side]));
+            let [found, expected] = [0, 1].map(|model| self.dependency.coupling.torque(joint, &tau[model]));
             Ok(found - expected)
         }
     }
@@ -171,7 +184,7 @@ impl<'a> GravityTorques<'a> {
         TorqueBracket::new(self.candidate, joint, bracket, (AttainedAt::rest(at.0), at.1))
     }
 
-    /// The difference of a joint's gravity torque.
+    /// The difference of a joint's gravity torque as a function of these variables.
     fn torque(&self, joint: usize, variables: Vec<Variable>) -> Result<Trigonometric, DynamicsError> {
         let mut error = Ok(());
         let mut difference_at = self.difference_at(joint);
@@ -179,6 +192,7 @@ impl<'a> GravityTorques<'a> {
         let mut q = RobotQ::zeros(self.frames.dof());
         let function = Trigonometric::sampled(variables, (1, Measure::Sum), |positions| {
             joints.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
+            // The sampler cannot fail, so the first error is kept and returned after it.
             vec![difference_at(&q).unwrap_or_else(|found| {
                 error = Err(found);
                 0.0
@@ -187,10 +201,11 @@ impl<'a> GravityTorques<'a> {
         error.map(|()| function)
     }
 
-    /// The lever of gravity at a joint: its torque is at most the norm times gravity, however the joints above turn.
+    /// The vector whose dot product with gravity is the torque difference: its norm times |g| bounds the torque for any
+    /// orientation of the joints above.
     fn lever(&self, joint: usize, below: &[usize]) -> Result<Option<Trigonometric>, DynamicsError> {
-        // The lever of followers that hang elsewhere has another direction.
-        if self.along_axes.is_empty() || self.ways.coupling.is_coupled(joint) {
+        // The vectors of followers are in other frames and cannot be added.
+        if self.along_axes.is_empty() || self.dependency.coupling.is_coupled(joint) {
             return Ok(None);
         }
         let mut error = Ok(());
@@ -198,7 +213,7 @@ impl<'a> GravityTorques<'a> {
         let mut tau = vec![0.0; self.frames.dof()];
         let mut q = RobotQ::zeros(self.frames.dof());
         let function =
-            Trigonometric::sampled(self.ways.variables(below), (3, Measure::Length), |positions| {
+            Trigonometric::sampled(self.dependency.variables(below), (3, Measure::Length), |positions| {
                 below.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
                 let mut along = Vec::with_capacity(3);
                 for tree in &self.along_axes {
@@ -212,19 +227,21 @@ impl<'a> GravityTorques<'a> {
         error.map(|()| Some(function))
     }
 
-    /// Every lever stretched out: a bound that needs no search.
+    /// A bound without a search: every body at the largest possible distance.
     fn crude_bound(&self, joint: usize) -> f64 {
         if self.along_axes.is_empty() {
             return f64::INFINITY;
         }
-        let group = self.ways.coupling.group(joint).iter();
+        let group = self.dependency.coupling.group(joint).iter();
         group.map(|(of, ratio)| ratio.abs() * self.stretched(*of)).sum()
     }
 
-    /// The same of one joint without its followers.
+    /// [`GravityTorques::crude_bound`] of one joint without its followers.
     fn stretched(&self, joint: usize) -> f64 {
-        let below = |body: &usize| self.ways.carries(joint, *body);
+        let below = |body: &usize| self.dependency.carries(joint, *body);
         let turns = self.frames.joints[joint].is_angular;
+        // A body carried by a turning joint is at most the reach away from its axis; a sliding joint carries its
+        // weight alone.
         let lever = |body: usize| {
             let difference = &self.differences[body];
             let mass_kg = difference.mass_kg.abs();
@@ -234,7 +251,7 @@ impl<'a> GravityTorques<'a> {
     }
 }
 
-/// One body less another; its mass may be zero or negative.
+/// The inertia of one body minus that of another; its mass may be zero or negative.
 pub(super) fn difference(a: &SpatialInertia, b: &SpatialInertia) -> SpatialInertia {
     SpatialInertia {
         mass_kg: a.mass_kg - b.mass_kg,

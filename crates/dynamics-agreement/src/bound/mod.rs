@@ -1,14 +1,14 @@
-//! How large the difference of torque can get over the whole range of the joints' motion: by gravity, by acceleration,
-//! by velocity products, and by all of them together.
+//! Certified bounds of the torque difference over the whole range of the joints' motion: of gravity, of accelerations, of
+//! velocity products, and of all together.
 
 mod bracket;
 mod coupling;
-mod dependence;
+mod dependency;
 mod function;
 mod gravity;
 mod motion;
 mod rows;
-mod ways;
+mod variable_group;
 
 pub use bracket::{CoveredMotion, TorqueBracket, TorqueCertificate};
 pub(crate) use motion::certify;

@@ -1,4 +1,4 @@
-//! The largest differences of torque by acceleration, by velocity products and by a whole motion: attained, and
+//! The largest torque differences by accelerations, by velocity products and by a whole motion: attained from below,
 //! certified from above.
 
 use congruent_description::RobotQ;
@@ -7,23 +7,23 @@ use congruent_kinematics::Uniform;
 
 use super::{
     bracket::{AttainedAt, CoveredMotion, TorqueBracket, TorqueCertificate},
-    dependence::{Dependence, Part},
     function::{
-        branch::{Stop, UpperBound, upper_bound},
-        climb::{self, Course},
+        branch::{SearchLimits, UpperBound, upper_bound},
+        local_search::{self, SectionedFunction},
         measure::{LargestMotion, Measure, Motion},
-        trigonometric::{Trigonometric, Variable, along},
+        trigonometric::{Trigonometric, along},
     },
     gravity::GravityTorques,
     rows::Rows,
+    variable_group::{TorquePart, VariableGroup},
 };
 use crate::{
-    side::Side,
+    model::DynamicsModel,
     thresholds::{CLOSED_SUM, MAX_BOXES, MAX_MOTION_VALUES, NO_COEFFICIENT},
     torque::states::position,
 };
 
-/// Brackets of all parts.
+/// The certificates of all parts of the torque, and the motion that they cover.
 pub(crate) struct Certified {
     pub(crate) gravity: TorqueCertificate,
     pub(crate) inertia: TorqueCertificate,
@@ -32,39 +32,52 @@ pub(crate) struct Certified {
     pub(crate) covered: Vec<CoveredMotion>,
 }
 
-/// Brackets the differences of torque between a candidate and a reference in the candidate's geometry.
-pub(crate) fn certify(candidate: &Side, reference: &Side, seed: u64) -> Result<Certified, DynamicsError> {
+/// Brackets the torque differences between a candidate and a reference in the candidate's geometry.
+pub(crate) fn certify(
+    candidate: &DynamicsModel,
+    reference: &DynamicsModel,
+    seed: u64,
+) -> Result<Certified, DynamicsError> {
     let gravity_torques = GravityTorques::new(candidate, reference);
+    // Gravity first: its certificate is a summand of the bound of the whole motion.
     let gravity = gravity_torques.certify(seed)?;
     let motions = Motions { rows: Rows::new(candidate, reference)?, seed };
     let mut by_joint: Vec<(usize, [Option<TorqueBracket>; 3])> = Vec::new();
-    for dependence in Dependence::all(&motions.rows, &gravity_torques)? {
-        let function = if dependence.is_tractable { Some(motions.function(&dependence)?) } else { None };
+    for variable_group in VariableGroup::all(&motions.rows, &gravity_torques)? {
+        let function =
+            if variable_group.is_tractable { Some(motions.function(&variable_group)?) } else { None };
         let of_joint = |at: usize| {
-            let joint = dependence.joints[at];
+            let joint = variable_group.joints[at];
             let name = candidate.frames.joint_name(joint);
             let of_gravity = gravity.by_joint.iter().find(|bracket| bracket.joint == name);
-            let one =
-                OneJoint { motions: &motions, dependence: &dependence, function: function.as_ref(), at };
+            let one = OneJoint {
+                motions: &motions,
+                variable_group: &variable_group,
+                function: function.as_ref(),
+                at,
+            };
             Ok((joint, one.brackets(of_gravity)?))
         };
-        by_joint.extend(side_by_side(dependence.joints.len(), of_joint)?);
+        by_joint.extend(side_by_side(variable_group.joints.len(), of_joint)?);
     }
+    // Joints were grouped by what they depend on; the report has them in the order of the chain.
     by_joint.sort_by_key(|(joint, _)| *joint);
     let [inertia, velocity, together] = [0, 1, 2].map(|part| {
-        TorqueCertificate::of(by_joint.iter().filter_map(|(_, parts)| parts[part].clone()).collect())
+        TorqueCertificate::from_brackets(
+            by_joint.iter().filter_map(|(_, parts)| parts[part].clone()).collect(),
+        )
     });
     Ok(Certified { gravity, inertia, velocity, together, covered: motions.rows.covered })
 }
 
-/// What each of some joints has, in their order, each in a thread of its own: seconds of a long arm.
+/// The results of several joints in their order, each computed in a thread of its own: a long arm takes seconds.
 fn side_by_side<T: Send, E: Send>(
     count: usize,
-    of_one: impl Fn(usize) -> Result<T, E> + Sync,
+    result_of: impl Fn(usize) -> Result<T, E> + Sync,
 ) -> Result<Vec<T>, E> {
     std::thread::scope(|scope| {
-        let of_one = &of_one;
-        let running: Vec<_> = (0..count).map(|at| scope.spawn(move || of_one(at))).collect();
+        let result_of = &result_of;
+        let running: Vec<_> = (0..count).map(|at| scope.spawn(move || result_of(at))).collect();
         running
             .into_iter()
             .map(|one| one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
@@ -78,20 +91,20 @@ struct Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// All values of all joints that depend on the same.
-    fn function(&self, dependence: &Dependence) -> Result<Trigonometric, DynamicsError> {
-        let places: Vec<usize> = dependence.positions.iter().map(|(joint, _)| *joint).collect();
-        let mut variables = self.rows.ways.variables(&places);
-        for (variable, (_, degree)) in variables.iter_mut().zip(&dependence.positions) {
+    /// The function with all values of the joints of one group.
+    fn function(&self, variable_group: &VariableGroup) -> Result<Trigonometric, DynamicsError> {
+        let places: Vec<usize> = variable_group.positions.iter().map(|(joint, _)| *joint).collect();
+        let mut variables = self.rows.dependency.variables(&places);
+        for (variable, (_, degree)) in variables.iter_mut().zip(&variable_group.positions) {
             variable.degree = *degree;
         }
         let mut memory = self.rows.memory();
         let mut error = Ok(());
         let mut q = RobotQ::zeros(self.rows.covered.len());
-        let count = dependence.joints.len() * dependence.values();
+        let count = variable_group.joints.len() * variable_group.values();
         let function = Trigonometric::sampled(variables, (count, Measure::Sum), |positions| {
             places.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
-            let moving = (&dependence.joints[..], &dependence.moving[..]);
+            let moving = (&variable_group.joints[..], &variable_group.moving[..]);
             self.rows.values(&q, moving, &mut memory).unwrap_or_else(|found| {
                 error = Err(found);
                 vec![0.0; count]
@@ -100,26 +113,30 @@ impl Motions<'_> {
         error.map(|()| function)
     }
 
-    /// The middle of all ranges, at rest.
+    /// Zero, or the nearest limit, of each joint; at rest.
     fn somewhere(&self) -> AttainedAt {
         let ranges = self.rows.covered.iter().map(|covered| (covered.lower, covered.upper));
+        // Joints that do not matter stay at zero, or at the limit nearest to it: any position would do, this one
+        // is readable.
         let mut at = AttainedAt::rest(ranges.map(|(lower, upper)| 0.0_f64.clamp(lower, upper)).collect());
-        self.rows.ways.coupling.follow(&mut at);
+        self.rows.dependency.coupling.follow(&mut at);
         at
     }
 
-    /// The motion with the largest torque, which is computed by the algorithm of inverse dynamics.
+    /// The motion with the largest torque difference, each recomputed by inverse dynamics: an attained value does not depend on
+    /// the coefficients.
     fn best(
         &self,
-        (part, joint): (Part, usize),
+        (part, joint): (TorquePart, usize),
         motions: Vec<AttainedAt>,
     ) -> Result<(f64, AttainedAt), DynamicsError> {
+        // Below every absolute value, so that a motion is reported even if all torques are zero.
         let mut best = (-1.0, self.somewhere());
         for mut at in motions {
-            self.rows.ways.coupling.follow(&mut at);
+            self.rows.dependency.coupling.follow(&mut at);
             let torque = match part {
-                Part::Together => self.rows.together(joint, &at)?,
-                Part::Inertia | Part::Velocity => self.rows.part(joint, &at)?,
+                TorquePart::Together => self.rows.together(joint, &at)?,
+                TorquePart::Inertia | TorquePart::Velocity => self.rows.part(joint, &at)?,
             };
             if torque.abs() > best.0 {
                 best = (torque.abs(), at);
@@ -128,65 +145,68 @@ impl Motions<'_> {
         Ok(best)
     }
 
-    /// A bound that needs no search: every lever stretched out.
-    fn crude(&self, part: Part, joint: usize) -> f64 {
-        let ways = &self.rows.ways;
-        // A body turns no faster than all joints together, and no velocity product is larger than twice its square.
-        let of_products = |of: usize| if ways.frames.joints[of].is_angular { 2.0 } else { 1.0 };
+    /// A bound without a search: every body at the largest possible distance.
+    fn crude(&self, part: TorquePart, joint: usize) -> f64 {
+        let dependency = &self.rows.dependency;
+        // A body turns at most as fast as the sum of all joint speeds; centrifugal and Coriolis terms together are at most
+        // twice the square of this sum.
+        let of_products = |of: usize| if dependency.frames.joints[of].is_angular { 2.0 } else { 1.0 };
         let entries = |of: usize| -> f64 {
-            let turns = ways.frames.joints[of].is_angular;
+            let turns = dependency.frames.joints[of].is_angular;
             let most = if turns { &self.rows.largest_entries } else { &self.rows.largest_forces };
-            let bodies = (0..ways.differs.len()).filter(|&body| ways.differs[body] && ways.carries(of, body));
+            let bodies = (0..dependency.differs.len())
+                .filter(|&body| dependency.differs[body] && dependency.carries(of, body));
             bodies.map(|body| most[body]).sum()
         };
-        let group = ways.coupling.group(joint).iter();
+        let group = dependency.coupling.group(joint).iter();
         let sum = |factor: &dyn Fn(usize) -> f64| -> f64 {
             group.clone().map(|(of, ratio)| ratio.abs() * factor(*of) * entries(*of)).sum()
         };
         let covered = &self.rows.covered;
         let armature = self.rows.resistances[joint].armature.abs() * covered[joint].acceleration;
-        // Other joints move no body that moves with this one.
-        let moving = ways.through(joint);
+        // Only these joints move bodies that this joint carries.
+        let moving = dependency.through(joint);
         let accelerations: f64 = moving.iter().map(|&joint| covered[joint].acceleration).sum();
         let speeds: f64 = moving.iter().map(|&joint| covered[joint].speed).sum();
         match part {
-            Part::Inertia => sum(&|_| 1.0) * accelerations + armature,
-            Part::Velocity => sum(&of_products) * speeds * speeds,
-            Part::Together => f64::INFINITY,
+            TorquePart::Inertia => sum(&|_| 1.0) * accelerations + armature,
+            TorquePart::Velocity => sum(&of_products) * speeds * speeds,
+            TorquePart::Together => f64::INFINITY,
         }
     }
 }
 
-/// One joint of those that depend on the same.
+/// One joint of a group with the same variables.
 struct OneJoint<'a> {
     motions: &'a Motions<'a>,
-    dependence: &'a Dependence,
-    /// `None` if it has too many coefficients.
+    variable_group: &'a VariableGroup,
+    /// The function of all its values; `None` if it has too many coefficients.
     function: Option<&'a Trigonometric>,
     at: usize,
 }
 
 impl OneJoint<'_> {
-    /// Inertia, velocity, together.
+    /// The brackets of inertia, velocity products and the whole torque.
     fn brackets(&self, gravity: Option<&TorqueBracket>) -> Result<[Option<TorqueBracket>; 3], DynamicsError> {
-        let inertia = self.bracket(Part::Inertia, f64::INFINITY)?;
-        let velocity = self.bracket(Part::Velocity, f64::INFINITY)?;
+        let inertia = self.bracket(TorquePart::Inertia, f64::INFINITY)?;
+        let velocity = self.bracket(TorquePart::Velocity, f64::INFINITY)?;
         let parts = [gravity, inertia.as_ref(), velocity.as_ref()].into_iter().flatten();
+        // The triangle inequality: the whole is at most the sum of its certified parts.
         let known = parts.map(|bracket| bracket.certified_n_m).sum::<f64>()
-            + self.motions.rows.resistance(self.dependence.joints[self.at]);
-        let together = self.bracket(Part::Together, known)?;
+            + self.motions.rows.resistance(self.variable_group.joints[self.at]);
+        let together = self.bracket(TorquePart::Together, known)?;
         Ok([inertia, velocity, together])
     }
 
-    /// `None` if the joint has no difference; `known` is a bound of it from elsewhere.
-    fn bracket(&self, part: Part, known: f64) -> Result<Option<TorqueBracket>, DynamicsError> {
-        let (joint, motions) = (self.dependence.joints[self.at], self.motions);
+    /// The bracket of one part; `None` if the joint has no difference. `known` is an upper bound that is known already.
+    fn bracket(&self, part: TorquePart, known: f64) -> Result<Option<TorqueBracket>, DynamicsError> {
+        let (joint, motions) = (self.variable_group.joints[self.at], self.motions);
         let crude = known.min(motions.crude(part, joint));
         if crude <= 0.0 {
             return Ok(None);
         }
         let report = |(attained, at): (f64, AttainedAt), certified: f64, boxes: usize| {
-            // What is left of a sum that cancels is rounding.
+            // Far below the crude bound: inertias cancel, and the remainder is rounding.
             let is_rounding = certified <= NO_COEFFICIENT * crude && crude.is_finite();
             let bracket = [attained, certified];
             Ok((!is_rounding)
@@ -195,28 +215,32 @@ impl OneJoint<'_> {
         let Some(function) = self.function else {
             return report(motions.best((part, joint), self.random_motions(part))?, crude, 0);
         };
-        let motion = self.dependence.motion(part, motions.rows.resistance(joint));
-        let values = self.dependence.values_of(part, self.at);
+        let motion = self.variable_group.motion(part, motions.rows.resistance(joint));
+        let values = self.variable_group.values_of(part, self.at);
         let function = function.selected(values, Measure::Motion(motion));
-        let positions = self.climbed(part, &function)?;
+        let positions = self.local_maximum(part, &function)?;
         let largest = motion.largest(&function.at(&positions));
         let candidates = self.candidates(&motion, (&function, &positions), &largest);
         let attained = motions.best((part, joint), candidates)?;
-        let stop = Stop {
+        let stop = SearchLimits {
             below: attained.0 * (1.0 + CLOSED_SUM),
             boxes: MAX_BOXES,
             control_values: MAX_MOTION_VALUES,
         };
+        // Amplitudes cost one pass; boxes are divided only if this is too wide.
         let crude = crude.min(function.sum_of_amplitudes() + motion.resistance);
         if crude <= stop.below {
             return report(attained, crude, 0);
         }
         let (mut certified, mut boxes) = (crude, 0);
+        // Fewer boxes than this cannot beat the amplitudes, so the effort would be wasted.
         if function.control_values() <= MAX_MOTION_VALUES / FEWEST_BOXES {
             let bound = upper_bound(&function, stop);
             (certified, boxes) = (bound.value.min(crude), bound.boxes);
         }
-        if certified > stop.below && part != Part::Together {
+        // One value at a time has far fewer variables. Not for the whole motion, whose bound by its parts
+        // contains this already.
+        if certified > stop.below && part != TorquePart::Together {
             let apart = one_by_one(&function);
             certified = certified.min(apart.value);
             boxes += apart.boxes;
@@ -224,14 +248,14 @@ impl OneJoint<'_> {
         report(attained, certified, boxes)
     }
 
-    /// Positions with a torque that is as large as climbing finds.
-    fn climbed(&self, part: Part, function: &Trigonometric) -> Result<Vec<f64>, DynamicsError> {
-        let (motions, dependence) = (self.motions, self.dependence);
+    /// Positions with the largest torque that a coordinate search finds.
+    fn local_maximum(&self, part: TorquePart, function: &Trigonometric) -> Result<Vec<f64>, DynamicsError> {
+        let (motions, variable_group) = (self.motions, self.variable_group);
         let mut memory = motions.rows.memory();
         let mut at_q = motions.somewhere().q;
         let mut error = Ok(());
-        let values = dependence.values_of(part, 0);
-        let of_one = |at: usize, q: &[f64]| {
+        let values = variable_group.values_of(part, 0);
+        let along_variable = |at: usize, q: &[f64]| {
             for (variable, position) in function.variables.iter().zip(q) {
                 at_q[variable.joint] = *position;
             }
@@ -239,7 +263,7 @@ impl OneJoint<'_> {
             let mut sampled = Vec::with_capacity(variable.size() * function.values);
             for position in variable.samples() {
                 at_q[variable.joint] = position;
-                let moving = (&dependence.joints[self.at..=self.at], &dependence.moving[..]);
+                let moving = (&variable_group.joints[self.at..=self.at], &variable_group.moving[..]);
                 match motions.rows.values(&at_q, moving, &mut memory) {
                     Ok(all) => sampled.extend_from_slice(&all[values.clone()]),
                     Err(found) => {
@@ -250,19 +274,20 @@ impl OneJoint<'_> {
             }
             along(&sampled, (&mut [variable.size()], function.values), 0, &variable.coefficient_rows())
         };
-        let course = Course { variables: &function.variables, measure: function.measure, of_one };
-        let (_, positions) = climb::largest_sampled(course, motions.seed);
+        let sectioned =
+            SectionedFunction { variables: &function.variables, measure: function.measure, along_variable };
+        let (_, positions) = local_search::largest_sampled(sectioned, motions.seed);
         error?;
         self.followed((part, function), positions)
     }
 
-    /// Positions that the robot can take, climbed to from those of a function whose joints do not follow each other.
+    /// Positions that the robot can reach, searched from positions at which followers were free.
     fn followed(
         &self,
-        (part, function): (Part, &Trigonometric),
+        (part, function): (TorquePart, &Trigonometric),
         positions: Vec<f64>,
     ) -> Result<Vec<f64>, DynamicsError> {
-        let (rows, coupling) = (&self.motions.rows, &self.motions.rows.ways.coupling);
+        let (rows, coupling) = (&self.motions.rows, &self.motions.rows.dependency.coupling);
         let places: Vec<usize> = function.variables.iter().map(|variable| variable.joint).collect();
         if !places.iter().any(|&place| coupling.is_coupled(place)) {
             return Ok(positions);
@@ -270,16 +295,17 @@ impl OneJoint<'_> {
         let mut q = self.motions.somewhere().q;
         places.iter().zip(&positions).for_each(|(&place, position)| q[place] = *position);
         let mut memory = rows.memory();
-        let values = self.dependence.values_of(part, 0);
-        let moving = (&self.dependence.joints[self.at..=self.at], &self.dependence.moving[..]);
-        coupling.climb(&mut q, &places, |q| {
+        let values = self.variable_group.values_of(part, 0);
+        let moving = (&self.variable_group.joints[self.at..=self.at], &self.variable_group.moving[..]);
+        coupling.search(&mut q, &places, |q| {
             let all = rows.values(q, moving, &mut memory)?;
-            Ok(function.measure.of(&all[values.clone()]))
+            Ok(function.measure.value(&all[values.clone()]))
         })?;
         Ok(places.iter().map(|&place| q[place]).collect())
     }
 
-    /// Motions that may attain the largest torque: speeds either way, and the joint's own as dry friction wants it.
+    /// Candidate motions of the largest torque: both directions of all speeds, and the joint's own speed small or large,
+    /// since dry friction depends on its sign alone.
     fn candidates(
         &self,
         motion: &Motion,
@@ -287,13 +313,13 @@ impl OneJoint<'_> {
         largest: &LargestMotion,
     ) -> Vec<AttainedAt> {
         let covered = &self.motions.rows.covered;
-        let (joint, moving) = (self.dependence.joints[self.at], &self.dependence.moving);
+        let (joint, moving) = (self.variable_group.joints[self.at], &self.variable_group.moving);
         let mut at = self.motions.somewhere();
         for (variable, position) in function.variables.iter().zip(positions) {
             at.q[variable.joint] = *position;
         }
         let places: Vec<usize> = function.variables.iter().map(|variable| variable.joint).collect();
-        self.motions.rows.ways.coupling.lead(&mut at.q, &places);
+        self.motions.rows.dependency.coupling.place_masters(&mut at.q, &places);
         for (&joint, share) in moving.iter().zip(&largest.accelerations) {
             at.qdd[joint] = share * covered[joint].acceleration;
         }
@@ -302,6 +328,8 @@ impl OneJoint<'_> {
         }
         let mut all = vec![at];
         if motion.resistance > 0.0 {
+            // Friction acts fully at any speed, damping at the largest: if they have opposite signs, a slow
+            // motion has the larger difference.
             for speed in [covered[joint].speed, covered[joint].speed * SLOW] {
                 let mut other = all[0].clone();
                 other.qd[joint] = speed.copysign(other.qd[joint]);
@@ -316,18 +344,18 @@ impl OneJoint<'_> {
         all
     }
 
-    /// Motions at the limits of speed and acceleration, for a torque of too many joints.
-    fn random_motions(&self, part: Part) -> Vec<AttainedAt> {
+    /// Random motions at the limits of speed and acceleration, for a torque of too many joints.
+    fn random_motions(&self, part: TorquePart) -> Vec<AttainedAt> {
         let rows = &self.motions.rows;
         let mut random = Uniform::seeded(self.motions.seed);
         let mut motion = || {
-            let mut at = AttainedAt::rest(position(&mut random, rows.ways.frames));
-            for &joint in &self.dependence.moving {
+            let mut at = AttainedAt::rest(position(&mut random, rows.dependency.frames));
+            for &joint in &self.variable_group.moving {
                 let covered = &rows.covered[joint];
-                if part != Part::Velocity {
+                if part != TorquePart::Velocity {
                     at.qdd[joint] = covered.acceleration * random.between((-1.0, 1.0)).signum();
                 }
-                if part != Part::Inertia {
+                if part != TorquePart::Inertia {
                     at.qd[joint] = covered.speed * random.between((-1.0, 1.0)).signum();
                 }
             }
@@ -337,8 +365,8 @@ impl OneJoint<'_> {
     }
 }
 
-/// A bound of the sum by the largest value of each acceleration and of each product of two speeds: these are not largest
-/// at the same positions, but each depends on fewer joints than all together and is one value instead of many.
+/// A bound by the sum of the largest values of each acceleration and of each product of two speeds: these maxima are at
+/// different positions, so the bound is wider, but each value depends on fewer joints.
 fn one_by_one(function: &Trigonometric) -> UpperBound {
     let mut sum = UpperBound { value: 0.0, boxes: 0 };
     for at in 0..function.values {
@@ -346,8 +374,11 @@ fn one_by_one(function: &Trigonometric) -> UpperBound {
         let mut bound = UpperBound { value: one.sum_of_amplitudes(), boxes: 0 };
         if one.control_values() <= VALUES_OF_ONE / FEWEST_BOXES {
             let control_values = VALUES_OF_ONE;
-            let stop =
-                Stop { below: largest_seen(&one) * (1.0 + CLOSED_SUM), boxes: MAX_BOXES, control_values };
+            let stop = SearchLimits {
+                below: local_search::largest_of_three(&one) * (1.0 + CLOSED_SUM),
+                boxes: MAX_BOXES,
+                control_values,
+            };
             let divided = upper_bound(&one, stop);
             bound = UpperBound { value: divided.value.min(bound.value), boxes: divided.boxes };
         }
@@ -357,21 +388,11 @@ fn one_by_one(function: &Trigonometric) -> UpperBound {
     sum
 }
 
-/// The largest of a value that climbing finds from the middle of all ranges and from both ends.
-fn largest_seen(one: &Trigonometric) -> f64 {
-    let starts = [0.5, 0.25, 0.75].map(|share| {
-        let at = |variable: &Variable| variable.lower + share * (variable.upper - variable.lower);
-        one.variables.iter().map(at).collect::<Vec<f64>>()
-    });
-    let climbed = starts.into_iter().map(|q| climb::largest_from(one, q));
-    climbed.fold(0.0, f64::max)
-}
-
 /// Control values of one acceleration or product of speeds. Kind: speed; some 5 ms.
 const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 12;
-/// Where fewer boxes can be divided the sum of amplitudes is the better bound. Kind: choice.
+/// If fewer boxes can be divided, the sum of amplitudes is the better bound. Kind: choice.
 const FEWEST_BOXES: usize = 10;
-/// Random motions for a torque of too many joints. Kind: choice.
+/// Random motions for a torque with too many coefficients. Kind: choice.
 const SAMPLES: usize = 2_000;
-/// A speed at which damping is nothing beside dry friction, as a part of the limit. No unit; kind: choice.
+/// A speed at which damping is negligible against dry friction, as a share of the limit. No unit; kind: choice.
 const SLOW: f64 = 1e-6;

@@ -1,37 +1,37 @@
-//! What a motion adds to the difference of one joint's torque, at some positions: gravity, each joint's largest
-//! acceleration, each product of two speeds.
+//! The coefficients of a joint's torque difference at given positions: gravity, each joint's largest acceleration, each
+//! product of two speeds.
 
 use congruent_description::RobotQ;
 use congruent_dynamics::{
-    BodyTree, DynamicsBuffer, DynamicsError, JointMotion, JointResistance, SpatialInertia,
+    BodyTree, DynamicsBuffer, DynamicsError, JointMotionState, JointResistance, SpatialInertia,
 };
 use nalgebra::{DMatrix, Vector3};
 
 use super::{
     bracket::{AttainedAt, CoveredMotion, covered_motions},
+    dependency::JointDependency,
     function::speeds::{entries, row},
-    ways::Ways,
 };
-use crate::{side::Side, thresholds::SAME_VALUE};
+use crate::{model::DynamicsModel, thresholds::SAME_VALUE};
 
 /// The difference between a candidate and a reference in the candidate's geometry.
 pub(super) struct Rows<'a> {
-    pub(super) candidate: &'a Side,
-    pub(super) ways: Ways<'a>,
+    pub(super) candidate: &'a DynamicsModel,
+    pub(super) dependency: JointDependency<'a>,
     pub(super) covered: Vec<CoveredMotion>,
-    /// Candidate and reference.
+    /// The whole dynamics of candidate and reference.
     whole: [BodyTree; 2],
     /// Bodies that are the difference of two, and the difference of armature, weightless: torques are linear in both.
     difference: BodyTree,
-    /// A bound of what each body adds to any entry of the mass matrix.
+    /// For each body an upper bound of its part of any entry of the mass matrix.
     pub(super) largest_entries: Vec<f64>,
-    /// The same to entries of a sliding joint; and to its force by speeds, for a unit of the square of their sum.
+    /// The same for entries of a sliding joint, and for its force by velocity products per unit of the squared sum of speeds.
     pub(super) largest_forces: Vec<f64>,
-    /// Damping, friction, armature at the driven joints: candidate's less the reference's.
+    /// Damping, friction and armature at the driven joints: candidate minus reference.
     pub(super) resistances: Vec<JointResistance>,
 }
 
-/// What the torques are computed with, made once.
+/// Buffers of the torque computations, allocated once.
 pub(super) struct Memory {
     buffer: DynamicsBuffer,
     matrix: DMatrix<f64>,
@@ -40,22 +40,27 @@ pub(super) struct Memory {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(candidate: &'a Side, reference: &Side) -> Result<Self, DynamicsError> {
+    pub(super) fn new(
+        candidate: &'a DynamicsModel,
+        reference: &DynamicsModel,
+    ) -> Result<Self, DynamicsError> {
         let reach_m = candidate.frames.reach_m.max(1.0);
         let size = |body: &SpatialInertia| {
             let moment = body.first_moment_kg_m.norm();
             body.tensor_kg_m2.norm() + 2.0 * moment * reach_m + body.mass_kg.abs() * reach_m * reach_m
         };
-        // A point turns on arms no longer than the reach, and the body about it by half the square of all speeds.
+        // The origin of a body turns at a distance of at most the reach; 1.5 covers the centripetal and the Coriolis part of
+        // its centre of mass.
         let force =
             |body: &SpatialInertia| body.mass_kg.abs() * reach_m + 1.5 * body.first_moment_kg_m.norm();
         let (found, expected) = (candidate.bodies(), reference.bodies());
         let differences: Vec<SpatialInertia> =
             found.iter().zip(&expected).map(|(a, b)| super::gravity::difference(a, b)).collect();
+        // 3e-14 of the size, as for gravity: the same parameters, added up in another order, differ by rounding.
         let rounding = SAME_VALUE * SAME_VALUE.sqrt();
         let sizes = found.iter().zip(&expected).map(|(a, b)| size(a).max(size(b)));
         let differs = differences.iter().zip(sizes).map(|(body, of_both)| size(body) > rounding * of_both);
-        let ways = Ways::new(&candidate.frames, differs.collect());
+        let dependency = JointDependency::new(&candidate.frames, differs.collect());
         let resistances: Vec<JointResistance> = candidate
             .resistances
             .iter()
@@ -66,6 +71,8 @@ impl<'a> Rows<'a> {
                 armature: a.armature - b.armature,
             })
             .collect();
+        // Armature is inertia and belongs to the mass matrix; damping and friction depend on the sign of the
+        // speed and are added at the end.
         let armatures = resistances.iter().map(|of| JointResistance { damping: 0.0, friction: 0.0, ..*of });
         let weightless = candidate.frames.tree.clone().with_gravity(Vector3::zeros());
         Ok(Self {
@@ -77,8 +84,8 @@ impl<'a> Rows<'a> {
                 .with_resistances(armatures.collect())?,
             largest_entries: differences.iter().map(size).collect(),
             largest_forces: differences.iter().map(force).collect(),
-            resistances: at_driven(&ways, &resistances),
-            ways,
+            resistances: at_driven(&dependency, &resistances),
+            dependency,
         })
     }
 
@@ -88,8 +95,8 @@ impl<'a> Rows<'a> {
         Memory { buffer, matrix, tau: [vec![0.0; n], vec![0.0; n]], qd: vec![0.0; n] }
     }
 
-    /// For each of some joints what [`Motion`](super::function::measure::Motion) is of, at some positions: gravity, and the
-    /// accelerations and products of speeds of the joints that move.
+    /// For each of some joints the values of [`Motion`](super::function::measure::Motion) at one position: gravity, and the
+    /// coefficients of accelerations and products of speeds of the joints that move.
     pub(super) fn values(
         &self,
         q: &RobotQ,
@@ -97,13 +104,15 @@ impl<'a> Rows<'a> {
         memory: &mut Memory,
     ) -> Result<Vec<f64>, DynamicsError> {
         let Memory { buffer, matrix, tau, qd } = memory;
-        let coupling = &self.ways.coupling;
+        let coupling = &self.dependency.coupling;
         let products = moving.len();
         let count = 1 + products + entries(products);
         let mut values = vec![0.0; joints.len() * count];
         for (tree, tau) in self.whole.iter().zip(tau.iter_mut()) {
             tree.gravity_into(q, buffer, tau)?;
         }
+        // Torques are linear in the inertial parameters, so one tree with the difference of the bodies gives the
+        // difference of the torques: M(q), C(q, qd) of negative masses are well defined here.
         self.difference.mass_matrix_into(q, buffer, matrix)?;
         for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
             values[0] = coupling.torque(joint, &tau[0]) - coupling.torque(joint, &tau[1]);
@@ -116,16 +125,18 @@ impl<'a> Rows<'a> {
                 *value = entry * self.covered[other].acceleration;
             }
         }
+        // Index of the product of two speeds: after gravity and accelerations, upper triangle by rows.
         let place = |first: usize, second: usize| 1 + products + row(products, first) + second;
+        // The square of a speed before its mixed products: these are found by subtracting the squares.
         let pairs = (0..products).flat_map(|first| (0..=first).rev().map(move |second| [second, first]));
         for pair in pairs {
             qd.fill(0.0);
             for at in pair {
                 qd[moving[at]] = self.covered[moving[at]].speed;
             }
-            coupling.spread(qd);
+            coupling.set_follower_rates(qd);
             self.difference.bias_into(q, qd, buffer, &mut tau[0])?;
-            // Both speeds together are the two squares, which are known before, and the product.
+            // The bias of both speeds together is a x^2 + b x y + c y^2: the squares are known, so b x y is the rest.
             let squares = if pair[0] == pair[1] { &[][..] } else { &pair[..] };
             for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
                 let known: f64 = squares.iter().map(|&at| values[place(at, at)]).sum();
@@ -135,37 +146,40 @@ impl<'a> Rows<'a> {
         Ok(values)
     }
 
-    /// The torque of a part of a motion: of a joint's accelerations, or of its velocity products.
+    /// The torque difference at a driven joint by accelerations and velocity products, without gravity, damping and friction.
     pub(super) fn part(&self, joint: usize, at: &AttainedAt) -> Result<f64, DynamicsError> {
         let mut tau = vec![0.0; at.qd.len()];
-        let motion = JointMotion { q: &at.q, qd: &at.qd, qdd: &at.qdd };
+        let motion = JointMotionState { q: &at.q, qd: &at.qd, qdd: &at.qdd };
         self.difference.inverse_into(&motion, &mut self.difference.buffer(), &mut tau)?;
-        Ok(self.ways.coupling.torque(joint, &tau))
+        Ok(self.dependency.coupling.torque(joint, &tau))
     }
 
-    /// The difference of the whole torque.
+    /// The difference of the whole torque at a driven joint.
     pub(super) fn together(&self, joint: usize, at: &AttainedAt) -> Result<f64, DynamicsError> {
         let mut tau = [vec![0.0; at.qd.len()], vec![0.0; at.qd.len()]];
-        let motion = JointMotion { q: &at.q, qd: &at.qd, qdd: &at.qdd };
+        let motion = JointMotionState { q: &at.q, qd: &at.qd, qdd: &at.qdd };
         for (tree, tau) in self.whole.iter().zip(&mut tau) {
             tree.inverse_into(&motion, &mut tree.buffer(), tau)?;
         }
-        let [found, expected] = tau.map(|tau| self.ways.coupling.torque(joint, &tau));
+        let [found, expected] = tau.map(|tau| self.dependency.coupling.torque(joint, &tau));
         Ok(found - expected)
     }
 
-    /// The largest torque of damping and dry friction, which acts at any speed but none.
+    /// The largest torque of damping and dry friction over all speeds of the joint.
     pub(super) fn resistance(&self, joint: usize) -> f64 {
         let of = &self.resistances[joint];
+        // Linear in the speed, so the largest absolute value is at one end: just above rest, or at the limit.
         of.friction.abs().max((of.friction + of.damping * self.covered[joint].speed).abs())
     }
 }
 
-/// What resists driven joints, by themselves and by their followers.
-fn at_driven(ways: &Ways<'_>, own: &[JointResistance]) -> Vec<JointResistance> {
+/// Damping, friction and armature at the driven joints, those of followers included.
+fn at_driven(dependency: &JointDependency<'_>, own: &[JointResistance]) -> Vec<JointResistance> {
     let sum = |joint: usize| {
         let mut sum = JointResistance::default();
-        for (of, ratio) in ways.coupling.group(joint) {
+        for (of, ratio) in dependency.coupling.group(joint) {
+            // Friction opposes the motion whatever its direction: |ratio|. Damping and armature are quadratic in
+            // the ratio: once for the speed of the follower, once for its torque at the master.
             sum.friction += ratio.abs() * own[*of].friction;
             sum.damping += ratio * ratio * own[*of].damping;
             sum.armature += ratio * ratio * own[*of].armature;

@@ -1,10 +1,14 @@
-//! Two descriptions against each other: invariants, parameters that no torque shows, limits.
+//! The comparison from end to end: torques, then a cause for their difference, then the report.
+//!
+//! Names, lines and edits are made in `report`, values that differ in `differences`; neither takes anything from here.
 
-pub(crate) mod hidden;
-pub(crate) mod invariants;
-pub(crate) mod limits;
-pub(crate) mod parameters;
+mod compare_descriptions;
+mod compare_long;
+mod compare_with_source;
+mod link_by_link;
+mod named_diagnosis;
+mod unmatched;
 
-pub use invariants::{Compared, Invariants};
-pub use limits::{LimitCause, LimitDifference};
-pub use parameters::ParameterDifference;
+pub use compare_descriptions::{CompareError, certify, compare};
+pub use compare_with_source::compare_with_source;
+pub use named_diagnosis::NamedModel;

@@ -1,11 +1,11 @@
-//! The names of causes, in the order of the catalogue: of two that cost the same the earlier one is named.
+//! The names of causes, in the order of the catalogue: of two causes with the same complexity the earlier one is named.
 
 use serde::Serialize;
 
 /// Declares [`DynamicsCause`] with the name and the sentence of each variant beside it.
 macro_rules! causes {
     ($($(#[$attribute:meta])* $variant:ident = $name:literal, $text:literal;)*) => {
-        /// The cause of a difference, in the order in which causes of equal price are named.
+        /// The cause of a difference, in the order in which causes of equal complexity are named.
         #[derive(
             Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, schemars::JsonSchema,
         )]
@@ -21,7 +21,7 @@ macro_rules! causes {
                 }
             }
 
-            /// What happened, as a person would say it.
+            /// The cause as a sentence about the link, joint or gravity.
             pub fn text(self) -> &'static str {
                 match self {
                     $(Self::$variant => $text,)*
@@ -55,7 +55,7 @@ causes! {
     ProductsSwapped = "products_swapped", "two products of inertia are exchanged";
     InertiaOrder = "inertia_order", "the six numbers of the inertia are in another order";
     InertiaAxes = "inertia_axes", "the inertia is given in the axes of another frame";
-    CountedTwice = "counted_twice", "the inertia of one link is contained in that of another as well";
+    CountedTwice = "counted_twice", "the inertia of one link is counted twice: that of the other link contains it";
     InertialsSwapped = "inertials_swapped", "the inertias of two links are exchanged";
     InertialLeftOut = "inertial_left_out", "the inertia of a link is left out";
     InertiaRotation = "inertia_rotation", "the inertia has the right principal moments and wrong axes";
@@ -68,10 +68,10 @@ causes! {
     LinkMissing = "link_missing", "only the other description has this link and its mass";
     LinkAdded = "link_added", "only this description has this link and its mass";
     Mass = "mass", "the mass is off";
-    MassScale = "mass_scale", "the masses are off by one factor";
-    Density = "density", "mass and inertia are off by one factor";
+    MassScale = "mass_scale", "the masses are wrong by the same factor";
+    Density = "density", "mass and inertia are wrong by the same factor";
     ComEntry = "com_entry", "one coordinate of the centre of mass is off";
-    InertiaScale = "inertia_scale", "the inertia is off by one factor";
+    InertiaScale = "inertia_scale", "all entries of the inertia are wrong by the same factor";
     InertiaEntry = "inertia_entry", "one entry of the inertia is off";
     Com = "com", "the centre of mass is off";
     Payload = "payload", "a payload at the tip is missing or too much";
@@ -81,14 +81,14 @@ causes! {
     DampingMissing = "damping_missing", "damping is left out";
     FrictionMissing = "friction_missing", "dry friction is left out";
     DampingFrictionSwapped = "damping_friction_swapped", "damping and dry friction are exchanged";
-    FrictionAsDamping = "friction_as_damping", "dry friction is taken for damping";
+    FrictionAsDamping = "friction_as_damping", "dry friction is given as damping";
     DampingDefault = "damping_default", "damping is a default value";
     DampingUnit = "damping_unit", "damping is given per degree instead of per radian, or the reverse";
     JointsSwapped = "joints_swapped", "damping, dry friction and armature of two joints are exchanged";
     Damping = "damping", "damping is off";
     Friction = "friction", "dry friction is off";
     Armature = "armature", "armature is off";
-    GravitySign = "gravity_sign", "gravity points the other way";
+    GravitySign = "gravity_sign", "gravity points in the opposite direction";
     GravityMissing = "gravity_missing", "gravity is left out";
     GravityDirection = "gravity_direction", "gravity has another direction";
     GravityMagnitude = "gravity_magnitude", "gravity has another magnitude";

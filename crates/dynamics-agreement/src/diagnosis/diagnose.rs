@@ -1,85 +1,86 @@
-//! The explanations of a difference, in order.
+//! Finds the explanations of a torque difference and orders them.
 
-use congruent_description::Elementary as _;
 use congruent_dynamics::DynamicsError;
 
 use super::{
     fit::Target,
     hypothesis::FaultySide,
-    rank::Exact,
+    rank::ExactExplanation,
     reason::EquivalenceReason,
-    search::{Catalogue, Part},
+    search::{Catalogue, RobotPart},
 };
 use crate::{
-    side::Side,
+    model::DynamicsModel,
     thresholds::{PAIRS_ABOVE, Precision},
-    torque::{compressed::Compressed, states::State},
+    torque::{reduced_difference::ReducedTorqueDifference, states::SampledState},
 };
 
-/// Whose parameters are taken to be wrong, and what is known.
+/// The input of a diagnosis: both models, which one is assumed to be wrong, and the precision.
 #[derive(Clone, Copy)]
-pub(crate) struct Setting<'a> {
-    pub(crate) candidate: &'a Side,
-    /// The other description, if there is one: explanations that change what is equal in both come last.
-    pub(crate) reference: Option<&'a Side>,
+pub(crate) struct DiagnosisInput<'a> {
+    pub(crate) candidate: &'a DynamicsModel,
+    /// The other description, if there is one: explanations that change a parameter which is equal in both come last.
+    pub(crate) reference: Option<&'a DynamicsModel>,
     pub(crate) faulty: FaultySide,
     pub(crate) precision: Precision,
-    /// Whether faults at two places at once are looked for.
+    /// Whether pairs of faults at two places are searched for.
     pub(crate) pairs: bool,
 }
 
-/// What explains a difference.
+/// The result of a diagnosis: explanations, the best first.
 #[derive(Debug, Clone)]
 pub(crate) struct Diagnosed {
-    /// Whether there is no difference to explain.
+    /// Whether the torques agree, so that there is nothing to explain.
     pub(crate) same: bool,
-    /// Links whose numbers alone can contain the difference.
+    /// Links of bodies that can account for the whole difference by their inertial parameters alone.
     pub(crate) links: Vec<usize>,
-    /// Explanations with different parameters, the first one named.
-    pub(crate) explanations: Vec<Grouped>,
+    /// Explanations with different corrected parameters, the best first.
+    pub(crate) explanations: Vec<ExplanationGroup>,
 }
 
-/// An explanation with all its names.
+/// An explanation with all causes that lead to the same corrected parameters.
 #[derive(Debug, Clone)]
-pub(crate) struct Grouped {
-    pub(crate) named: Exact,
-    /// Others that end at the same parameters.
-    pub(crate) also: Vec<Exact>,
-    /// Why it cannot be told from the first.
+pub(crate) struct ExplanationGroup {
+    pub(crate) named: ExactExplanation,
+    /// Other causes with the same corrected parameters.
+    pub(crate) also: Vec<ExactExplanation>,
+    /// Why joint torques cannot distinguish it from the first explanation; `None` for the first.
     pub(crate) reason: Option<EquivalenceReason>,
 }
 
-impl Exact {
-    /// As an explanation without others.
-    pub(crate) fn alone(self) -> Grouped {
-        Grouped { named: self, also: Vec::new(), reason: None }
+impl ExactExplanation {
+    /// As an explanation with this cause only.
+    pub(crate) fn alone(self) -> ExplanationGroup {
+        ExplanationGroup { named: self, also: Vec::new(), reason: None }
     }
 }
 
-/// Most explanations that are kept. Kind: choice; more of them say no more.
+/// Most explanations that are kept. Kind: choice.
 const MOST_EXPLANATIONS: usize = 40;
 
 /// Torques of a reference at some states.
 #[derive(Clone, Copy)]
-pub(crate) struct Expected<'a> {
-    pub(crate) states: &'a [State],
+pub(crate) struct ReferenceTorques<'a> {
+    pub(crate) states: &'a [SampledState],
     pub(crate) torques: &'a [Vec<f64>],
 }
 
-/// Finds what explains a difference of torque. Beside a parameter that is a thousand million times too large any other
-/// fault is rounding: what is left after the correction of the first is looked at again.
+/// Explains a torque difference in two stages: beside a parameter that is 1e9 times too large any other fault is below rounding,
+/// so the residual after the first correction is diagnosed again.
 pub(crate) fn diagnose_in_stages(
-    setting: &Setting<'_>,
-    torque: &Compressed,
-    expected: Expected<'_>,
+    setting: &DiagnosisInput<'_>,
+    torque: &ReducedTorqueDifference,
+    expected: ReferenceTorques<'_>,
 ) -> Result<Diagnosed, DynamicsError> {
     let mut first = diagnose(setting, torque);
     let Some(named) = first.explanations.first().map(|grouped| grouped.named.clone()) else {
         return Ok(first);
     };
-    let corrected = named.corrected.side(setting.candidate);
-    let rest = Compressed::new(&corrected, expected.states, expected.torques)?;
-    let second = diagnose(&Setting { candidate: &corrected, ..*setting }, &rest);
+    // Second stage: with the first correction applied, precision is relative to the remaining difference.
+    let corrected = named.corrected.model(setting.candidate);
+    let rest = ReducedTorqueDifference::new(&corrected, expected.states, expected.torques)?;
+    let second = diagnose(&DiagnosisInput { candidate: &corrected, ..*setting }, &rest);
+    // Nothing remains, or nothing that a cause explains: the explanation of the first stage is kept.
     if second.same || second.explanations.is_empty() {
         return Ok(first);
     }
@@ -90,35 +91,40 @@ pub(crate) fn diagnose_in_stages(
                 let place = &later.hypothesis.place;
                 match parts.iter_mut().find(|part| part.hypothesis.place == *place) {
                     Some(part) => part.refined_by(later, setting.candidate),
+                    // What a second stage finds below the digits of the file is rounding of the first correction,
+                    // no second fault.
                     None if later.is_more_than_rounding(setting.candidate) => parts.push(later),
                     None => {}
                 }
             }
-            Exact::new(parts, setting.candidate, setting.reference)
+            ExactExplanation::new(parts, setting.candidate, setting.reference)
         })
     });
-    let mut both: Vec<Exact> = both.collect();
+    let mut both: Vec<ExactExplanation> = both.collect();
     sort(&mut both);
     first.explanations = grouped(setting.candidate, torque, both);
     Ok(first)
 }
 
-/// The same in one stage.
-fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
-    let size = torque.difference.norm().hypotenuse_with(torque.outside);
+/// One stage of the diagnosis.
+fn diagnose(setting: &DiagnosisInput<'_>, torque: &ReducedTorqueDifference) -> Diagnosed {
+    let size = libm::hypot(torque.difference.norm(), torque.outside);
     let exact = setting.precision.exact(size, torque.torques);
-    let target = Target { side: setting.candidate, torque, exact };
+    let target = Target { model: setting.candidate, torque, exact };
     if size <= setting.precision.same * torque.torques {
         return Diagnosed { same: true, links: Vec::new(), explanations: Vec::new() };
     }
     let frames = &setting.candidate.frames;
-    let containing = (0..frames.dof()).filter(|&body| target.contains(Part::Body(body)));
+    // A body contains the difference if it lies in the span of its ten columns, whatever their values: it says
+    // where, even if no cause says why.
+    let containing = (0..frames.dof()).filter(|&body| target.contains(RobotPart::Body(body)));
     let links = containing.flat_map(|body| frames.links_of(body)).collect();
     let catalogue = Catalogue::new(setting.candidate, setting.reference, setting.faulty);
-    let exactly = |parts| Exact::new(parts, setting.candidate, setting.reference);
-    let is_possible = |exact: &Exact| !exact.is_impossible(setting.candidate, setting.reference);
+    let exactly = |parts| ExactExplanation::new(parts, setting.candidate, setting.reference);
+    let is_possible = |exact: &ExactExplanation| !exact.is_impossible(setting.candidate, setting.reference);
     let singles = catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit]));
-    let mut found: Vec<Exact> = singles.filter(is_possible).collect();
+    let mut found: Vec<ExactExplanation> = singles.filter(is_possible).collect();
+    // Pairs grow with the square of the parts; they are tried only if no single cause is convincing.
     if setting.pairs && found.iter().all(|exact| exact.free_numbers() > PAIRS_ABOVE) {
         let pairs = catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into()));
         found.extend(pairs.filter(is_possible));
@@ -127,24 +133,29 @@ fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
     Diagnosed { same: false, links, explanations: grouped(setting.candidate, torque, found) }
 }
 
-fn sort(found: &mut [Exact]) {
+fn sort(found: &mut [ExactExplanation]) {
     found.sort_by(|a, b| a.rank().cmp(&b.rank()));
 }
 
-/// Puts explanations with the same parameters together.
-fn grouped(side: &Side, torque: &Compressed, found: Vec<Exact>) -> Vec<Grouped> {
-    let mut groups: Vec<Grouped> = Vec::new();
+/// Groups explanations with the same corrected parameters; the first of each group is the simplest.
+fn grouped(
+    model: &DynamicsModel,
+    torque: &ReducedTorqueDifference,
+    found: Vec<ExactExplanation>,
+) -> Vec<ExplanationGroup> {
+    let mut groups: Vec<ExplanationGroup> = Vec::new();
     for exact in found {
-        if let Some(group) = groups.iter_mut().find(|group| group.named.has_parameters_of(&exact, side)) {
+        if let Some(group) = groups.iter_mut().find(|group| group.named.has_parameters_of(&exact, model)) {
             group.also.push(exact);
             continue;
         }
+        // After the search for a group, so that further names of an explanation that is kept are not lost.
         if groups.len() == MOST_EXPLANATIONS {
             continue;
         }
         let reason =
-            groups.first().map(|first| EquivalenceReason::between(side, torque, &first.named, &exact));
-        groups.push(Grouped { named: exact, also: Vec::new(), reason });
+            groups.first().map(|first| EquivalenceReason::between(model, torque, &first.named, &exact));
+        groups.push(ExplanationGroup { named: exact, also: Vec::new(), reason });
     }
     groups
 }

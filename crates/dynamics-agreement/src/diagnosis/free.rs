@@ -1,17 +1,17 @@
-//! Free numbers of one link: what may be off if no slip explains it.
+//! The free parameters of one link, which are fitted if no mistake without free parameters explains the difference.
 
 use congruent_dynamics::{PARAMETERS, SpatialInertia};
 use congruent_kinematics::rotation_exp;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
-    side::{Inertial, inertial::TenNumbers},
+    model::{Inertial, inertial::TenNumbers},
     thresholds::{QUADRATIC_STEP, ROTATION_STEP_RAD},
 };
 
-/// Which numbers of a link are free; all are added to what stands there.
+/// Which parameters of a link are free; their values are added to the written ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Free {
+pub(crate) enum FreeParameters {
     Mass,
     /// One factor of mass and tensor.
     Density,
@@ -22,19 +22,19 @@ pub(crate) enum Free {
     InertiaScale,
     Products,
     Inertia,
-    /// All ten.
+    /// All ten parameters, about the origin.
     Inertial,
-    /// A point mass and its place.
+    /// A point mass and its position in the link.
     Payload,
-    /// The axes of the tensor, starting from this turn.
+    /// The axes of the tensor, starting from this rotation.
     Rotation(Matrix3<f64>),
 }
 
-/// Entries of a symmetric tensor, in the order of the ten numbers.
+/// Entries of a symmetric tensor, in the order of the ten parameters.
 pub(super) const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 const PRODUCTS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
-impl Free {
+impl FreeParameters {
     pub(super) fn count(self) -> usize {
         match self {
             Self::Mass | Self::Density | Self::ComEntry(_) | Self::InertiaEntry(..) | Self::InertiaScale => 1,
@@ -45,7 +45,7 @@ impl Free {
         }
     }
 
-    /// The link's inertia about its origin with these numbers.
+    /// The link's inertia about its origin with these values of the free parameters.
     pub(super) fn about_origin(self, written: &Inertial, x: &[f64]) -> SpatialInertia {
         match self {
             Self::Payload => {
@@ -60,12 +60,13 @@ impl Free {
         }
     }
 
-    /// The link's parameters with these numbers.
+    /// The link's written form of the parameters with these values of the free ones.
     pub(super) fn parameters(self, written: &Inertial, x: &[f64]) -> Inertial {
         let mut parameters = *written;
         let add = |tensor: &mut Matrix3<f64>, entries: &[(usize, usize)]| {
             for (&(row, column), x) in entries.iter().zip(x) {
                 tensor[(row, column)] += x;
+                // The entry is one parameter of a symmetric tensor: both halves move together.
                 if row != column {
                     tensor[(column, row)] += x;
                 }
@@ -95,7 +96,7 @@ impl Free {
         parameters
     }
 
-    /// Derivatives of the ten numbers by the free ones: exact, except for a rotation.
+    /// Derivatives of the ten parameters by the free ones: exact, except for a rotation.
     pub(super) fn derivatives(self, written: &Inertial, x: &[f64]) -> Vec<TenNumbers> {
         let step = if matches!(self, Self::Rotation(_)) { ROTATION_STEP_RAD } else { QUADRATIC_STEP };
         let at = |entry: usize, by: f64| -> TenNumbers {
@@ -103,6 +104,8 @@ impl Free {
             moved[entry] += by;
             self.about_origin(written, &moved).parameters().into()
         };
+        // Central difference (f(x + h) - f(x - h)) / 2h: for a quadratic the error term, the third derivative, is
+        // zero.
         (0..self.count()).map(|entry| (at(entry, step) - at(entry, -step)) / (2.0 * step)).collect()
     }
 }

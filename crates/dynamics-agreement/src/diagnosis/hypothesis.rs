@@ -1,42 +1,42 @@
-//! A hypothesis about a fault: what of the candidate's parameters would have to be other, for the torques of the
-//! reference. The catalogue of hypotheses is `cause/`.
+//! A hypothesis about a fault: which parameters of the candidate have to change to give the torques of the reference. The
+//! catalogue of hypotheses is `cause/`.
 
 use congruent_dynamics::JointResistance;
 use nalgebra::Vector3;
 
-use super::{cause_names::DynamicsCause, free::Free};
-use crate::side::{Inertial, JointTerm};
+use super::{cause_names::DynamicsCause, free::FreeParameters};
+use crate::model::{Inertial, JointTerm};
 
-/// Which of the two sides is taken to be wrong.
+/// Which of the two models is assumed to be wrong.
 ///
-/// Only the candidate's parameters are known, so either way they are what is changed: if the candidate is taken to be wrong, a slip
-/// is undone on them; if the reference is, which was made from the candidate's file, the slip is done to them.
+/// Only the candidate's parameters are known, so hypotheses always change these. If the candidate is assumed to be wrong, a
+/// mistake is undone on them; if the reference is, which was built from the candidate's file, the mistake is made on them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FaultySide {
-    /// The candidate's file is wrong.
+    /// The file of the candidate is wrong.
     Candidate,
-    /// What was built from the candidate's file is wrong.
+    /// The reference, which was built from the candidate's file, is wrong.
     Reference,
 }
 
-/// The place of a fault.
+/// The links, joints or gravity that a fault is at.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Place {
-    /// Links, by number.
+pub(crate) enum FaultPlace {
+    /// Links by their index in the description.
     Links(Vec<usize>),
-    /// Moving joints, by number.
+    /// Moving joints by their index among the moving joints.
     Joints(Vec<usize>),
     /// All links with an inertial.
     AllLinks,
-    /// All moving joints.
+    /// Every moving joint of the robot.
     AllJoints,
-    /// Gravity.
+    /// The gravity vector of the whole robot.
     Gravity,
 }
 
-impl Place {
-    /// One link before two before all.
+impl FaultPlace {
+    /// Size of the place, for the order of explanations: one link before two before all.
     pub(super) fn extent(&self) -> usize {
         match self {
             Self::Links(links) => links.len(),
@@ -47,44 +47,44 @@ impl Place {
     }
 }
 
-/// One possible fault.
+/// One possible fault: cause, place, and the change that it makes.
 #[derive(Debug, Clone)]
-pub(crate) struct Hypothesis {
+pub(crate) struct DynamicsHypothesis {
     pub(crate) cause: DynamicsCause,
     pub(crate) detail: String,
-    pub(crate) place: Place,
+    pub(crate) place: FaultPlace,
     pub(super) change: Change,
-    /// Whether the parameter is lacking in the file itself: it has a price of its own.
+    /// Whether the file itself lacks the parameter, which has a complexity of its own.
     pub(super) is_missing: bool,
 }
 
-/// What becomes of the candidate's parameters.
+/// The change of the candidate's parameters by a hypothesis.
 #[derive(Debug, Clone)]
 pub(crate) enum Change {
-    /// These links have other parameters.
+    /// Links with given new parameters.
     Links(Vec<(usize, Inertial)>),
-    /// Numbers of one link are free.
-    FreeLink { link: usize, free: Free },
-    /// Numbers of one link are free, the others are these.
-    FreeLinkFrom { link: usize, from: Inertial, free: Free },
-    /// One factor of all links is free.
+    /// Some parameters of one link are free.
+    FreeLink { link: usize, free: FreeParameters },
+    /// Some parameters of one link are free, the others have the values of `from`.
+    FreeLinkFrom { link: usize, from: Inertial, free: FreeParameters },
+    /// One factor for all links is free.
     FreeScale(Scale),
-    /// All joints have these terms.
+    /// Given new terms of all joints.
     Joints(Vec<JointResistance>),
-    /// One term is free: each group of joints has one number, added to it.
+    /// One term is free: one value for each group of joints is added to it.
     FreeJoints { term: JointTerm, groups: Vec<Vec<usize>> },
-    /// Gravity is this.
+    /// A given new gravity vector, m/s^2.
     Gravity(Vector3<f64>),
     /// Gravity is free along these directions.
     FreeGravity(Vec<Vector3<f64>>),
 }
 
-/// What one factor of all links multiplies.
+/// The parameters that one factor for all links multiplies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scale {
     Masses,
     Tensors,
-    /// As another density does.
+    /// Masses and tensors, as another density does.
     Both,
 }
 
@@ -101,8 +101,13 @@ impl Scale {
     }
 }
 
-impl Hypothesis {
-    pub(super) fn new(cause: DynamicsCause, detail: impl Into<String>, place: Place, change: Change) -> Self {
+impl DynamicsHypothesis {
+    pub(super) fn new(
+        cause: DynamicsCause,
+        detail: impl Into<String>,
+        place: FaultPlace,
+        change: Change,
+    ) -> Self {
         Self { cause, detail: detail.into(), place, change, is_missing: false }
     }
 

@@ -1,8 +1,8 @@
-//! Why two sides have other torques.
+//! Why two models have different torques.
 //!
-//! [`diagnose_in_stages`] tries the hypotheses of `cause/` (one file a family) on the compressed difference of torque (`fit.rs`,
-//! `search.rs`), orders those that leave nothing by what they cost (`rank.rs`), and says of the others why torque cannot
-//! tell them from the first (`reason.rs`).
+//! [`diagnose_in_stages`] fits the hypotheses of `cause/` (one file for each family) to the reduced torque difference (`fit.rs`,
+//! `search.rs`), orders those with a residual within tolerance by complexity (`rank.rs`), and says why joint torques cannot
+//! distinguish the others from the first (`reason.rs`).
 
 mod cause;
 mod cause_names;
@@ -17,12 +17,12 @@ mod search;
 
 pub(crate) use cause::{rounded_damping_unit, rounded_unit};
 pub use cause_names::DynamicsCause;
-pub(crate) use diagnose::{Expected, Grouped, Setting, diagnose_in_stages};
+pub(crate) use diagnose::{DiagnosisInput, ExplanationGroup, ReferenceTorques, diagnose_in_stages};
 pub(crate) use fit::Corrected;
 pub use hypothesis::FaultySide;
-pub(crate) use hypothesis::{Hypothesis, Place};
+pub(crate) use hypothesis::{DynamicsHypothesis, FaultPlace};
 pub(crate) use part_by_part::part_by_part;
-pub(crate) use rank::Exact;
+pub(crate) use rank::ExactExplanation;
 pub use reason::EquivalenceReason;
 
 #[cfg(test)]

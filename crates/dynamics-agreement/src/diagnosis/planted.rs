@@ -2,123 +2,125 @@
 
 #![expect(clippy::print_stdout, reason = "measured values, for --nocapture")]
 
-#[path = "../../../../tests/corpus.rs"]
+#[path = "../../../../tests/support/corpus.rs"]
 mod corpus;
 
-use congruent_description::{Elementary as _, load_robot};
+use congruent_description::load_robot;
 use nalgebra::{DVector, Vector3};
 
 use super::{
     cause,
     cause_names::DynamicsCause,
-    diagnose::{Diagnosed, Expected, Grouped, Setting, diagnose_in_stages},
-    free::Free,
-    hypothesis::{Change, FaultySide, Hypothesis, Place},
+    diagnose::{Diagnosed, DiagnosisInput, ExplanationGroup, ReferenceTorques, diagnose_in_stages},
+    free::FreeParameters,
+    hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
 };
 use crate::{
-    side::{Inertial, JointTerm, Side},
+    model::{DynamicsModel, Inertial, JointTerm},
     thresholds::{Precision, STATES},
     torque::{
-        compressed::{Compressed, torques},
-        states::{State, random_states},
+        reduced_difference::{ReducedTorqueDifference, torques},
+        states::{SampledState, random_states},
     },
 };
 
-/// A fault: what the wrong side says.
+/// A planted fault: the wrong model, with the cause and place of the fault.
 struct Planted {
     cause: DynamicsCause,
     detail: String,
-    place: Place,
-    side: Side,
+    place: FaultPlace,
+    model: DynamicsModel,
 }
 
-fn planted(original: &Side) -> Vec<Planted> {
-    let slips = cause::slips(&original.frames, FaultySide::Reference);
-    let mut hypotheses = cause::of_all_links(original, &slips);
-    hypotheses.extend(cause::of_two_links(original, FaultySide::Reference));
-    hypotheses.extend(cause::of_joints_and_gravity(original, FaultySide::Reference));
+fn planted(original: &DynamicsModel) -> Vec<Planted> {
+    let mistakes = cause::mistakes(&original.frames, FaultySide::Reference);
+    let mut hypotheses = cause::all_links_hypotheses(original, &mistakes);
+    hypotheses.extend(cause::two_link_hypotheses(original, FaultySide::Reference));
+    hypotheses.extend(cause::joint_and_gravity_hypotheses(original, FaultySide::Reference));
     for link in 0..original.inertials.len() {
         if original.frames.links[link].body.is_some() {
-            hypotheses.extend(cause::of_link(original, None, FaultySide::Reference, &slips, link));
+            hypotheses.extend(cause::link_hypotheses(original, None, FaultySide::Reference, &mistakes, link));
         }
     }
     hypotheses.iter().filter_map(|hypothesis| plant(original, hypothesis)).collect()
 }
 
-/// What a hypothesis would make of a side; free numbers get values that no slip has.
-fn plant(original: &Side, hypothesis: &Hypothesis) -> Option<Planted> {
-    let mut side = original.clone();
+/// The model with the fault of a hypothesis; free parameters get values that no mistake without free parameters has.
+fn plant(original: &DynamicsModel, hypothesis: &DynamicsHypothesis) -> Option<Planted> {
+    let mut model = original.clone();
     match &hypothesis.change {
         Change::Links(links) => {
             for (link, parameters) in links {
-                side.inertials[*link] = Some(*parameters);
+                model.inertials[*link] = Some(*parameters);
             }
         }
         Change::FreeLink { link, free } | Change::FreeLinkFrom { link, free, .. } => {
-            let parameters = side.inertials[*link]?;
-            side.inertials[*link] = Some(shifted(&parameters, *free));
+            let parameters = model.inertials[*link]?;
+            model.inertials[*link] = Some(shifted(&parameters, *free));
         }
         Change::FreeScale(scale) => {
-            let links = side.inertials.iter_mut().flatten();
+            let links = model.inertials.iter_mut().flatten();
             links.for_each(|parameters| *parameters = scale.scaled(parameters, 1.137));
         }
-        Change::Joints(joints) => side.resistances.clone_from(joints),
+        Change::Joints(joints) => model.resistances.clone_from(joints),
         Change::FreeJoints { term, groups } => {
             for (at, group) in groups.iter().enumerate() {
                 for &joint in group {
                     let by = 0.037 * (1.0 + 0.3 * f64::from(u32::try_from(at).ok()?));
-                    let value = term.of(&side.resistances[joint]) + by;
-                    JointTerm::set(*term, &mut side.resistances[joint], value);
+                    let value = term.value_in(&model.resistances[joint]) + by;
+                    JointTerm::set(*term, &mut model.resistances[joint], value);
                 }
             }
         }
-        Change::Gravity(gravity) => side.gravity_m_s2 = *gravity,
-        Change::FreeGravity(along) if along.len() == 1 => side.gravity_m_s2 *= 1.013,
+        Change::Gravity(gravity) => model.gravity_m_s2 = *gravity,
+        Change::FreeGravity(along) if along.len() == 1 => model.gravity_m_s2 *= 1.013,
         Change::FreeGravity(_) => {
             let turn = congruent_kinematics::rotation_exp(&Vector3::new(0.05, 0.02, 0.0));
-            side.gravity_m_s2 = turn * side.gravity_m_s2;
+            model.gravity_m_s2 = turn * model.gravity_m_s2;
         }
     }
     let (cause, detail) = (hypothesis.cause, hypothesis.detail.clone());
-    Some(Planted { cause, detail, place: hypothesis.place.clone(), side })
+    Some(Planted { cause, detail, place: hypothesis.place.clone(), model })
 }
 
-fn shifted(parameters: &Inertial, free: Free) -> Inertial {
+fn shifted(parameters: &Inertial, free: FreeParameters) -> Inertial {
     let size = parameters.tensor_kg_m2.trace();
     let lengths = Vector3::new(0.013, -0.021, 0.008);
     let entries = [0.31, 0.02, -0.03, 0.23, 0.05, 0.17].map(|share| share * size);
     let x: Vec<f64> = match free {
-        Free::Mass => vec![-0.3 * parameters.mass_kg],
-        Free::Density => vec![0.2],
-        Free::InertiaScale => vec![0.5],
-        Free::ComEntry(axis) => vec![lengths[axis]],
-        Free::Com => lengths.as_slice().to_vec(),
-        Free::InertiaEntry(row, column) => vec![if row == column { 0.1 * size } else { 0.03 * size }],
-        Free::Products => entries[1..4].to_vec(),
-        Free::Inertia => entries.to_vec(),
-        Free::Inertial => {
+        FreeParameters::Mass => vec![-0.3 * parameters.mass_kg],
+        FreeParameters::Density => vec![0.2],
+        FreeParameters::InertiaScale => vec![0.5],
+        FreeParameters::ComEntry(axis) => vec![lengths[axis]],
+        FreeParameters::Com => lengths.as_slice().to_vec(),
+        FreeParameters::InertiaEntry(row, column) => {
+            vec![if row == column { 0.1 * size } else { 0.03 * size }]
+        }
+        FreeParameters::Products => entries[1..4].to_vec(),
+        FreeParameters::Inertia => entries.to_vec(),
+        FreeParameters::Inertial => {
             let mass = 0.4 * parameters.mass_kg;
             let moved = Inertial { mass_kg: mass, com_m: parameters.com_m + lengths, ..*parameters };
             let numbers: Vec<f64> = moved.ten_numbers().iter().copied().collect();
             numbers
         }
-        Free::Payload => vec![0.15, 0.02, -0.01, 0.06],
-        Free::Rotation(_) => vec![0.3, -0.2, 0.4],
+        FreeParameters::Payload => vec![0.15, 0.02, -0.01, 0.06],
+        FreeParameters::Rotation(_) => vec![0.3, -0.2, 0.4],
     };
     free.parameters(parameters, &x)
 }
 
 /// The original with both faults of two, the second one at a link.
-fn with_both(a: &Planted, b: &Planted) -> Side {
-    let mut side = a.side.clone();
-    if let Place::Links(links) = &b.place {
-        side.inertials[links[0]] = b.side.inertials[links[0]];
+fn with_both(a: &Planted, b: &Planted) -> DynamicsModel {
+    let mut model = a.model.clone();
+    if let FaultPlace::Links(links) = &b.place {
+        model.inertials[links[0]] = b.model.inertials[links[0]];
     }
-    side
+    model
 }
 
-/// What is missing at all links of a file at once has no answer: zeros tell nothing.
-fn can_be_told(planted: &Planted, faulty: FaultySide) -> bool {
+/// Whether a fault is distinguishable: if all links of a file lack a parameter, the zeros are no evidence.
+fn is_distinguishable(planted: &Planted, faulty: FaultySide) -> bool {
     let loses_numbers = matches!(
         planted.cause,
         DynamicsCause::ComMissing
@@ -128,10 +130,10 @@ fn can_be_told(planted: &Planted, faulty: FaultySide) -> bool {
             | DynamicsCause::InertiaPlaceholder
             | DynamicsCause::RpyMissing
     ) || planted.detail == "row_major_upper";
-    faulty == FaultySide::Reference || planted.place != Place::AllLinks || !loses_numbers
+    faulty == FaultySide::Reference || planted.place != FaultPlace::AllLinks || !loses_numbers
 }
 
-/// Faults whose file says the same under another name.
+/// Whether another cause is a name of the same change of the file.
 fn is_name_of(planted: &Planted, cause: DynamicsCause, faulty: FaultySide) -> bool {
     let file = faulty == FaultySide::Candidate;
     cause == planted.cause
@@ -154,7 +156,7 @@ fn is_name_of(planted: &Planted, cause: DynamicsCause, faulty: FaultySide) -> bo
         || matches!((planted.cause, cause), (DynamicsCause::DampingDefault, DynamicsCause::DampingMissing) if !file)
 }
 
-fn names(planted: &Planted, grouped: &Grouped, faulty: FaultySide) -> bool {
+fn names(planted: &Planted, grouped: &ExplanationGroup, faulty: FaultySide) -> bool {
     let also = grouped.also.iter();
     std::iter::once(&grouped.named).chain(also).any(|exact| {
         exact.parts.iter().any(|part| {
@@ -173,40 +175,45 @@ struct Counts {
     missed: usize,
 }
 
-fn diagnosed((candidate, faulty): (&Side, FaultySide), states: &[State], expected: &[Vec<f64>]) -> Diagnosed {
-    let torque = Compressed::new(candidate, states, expected).expect("the robot's own states");
-    let setting = Setting { candidate, reference: None, faulty, precision: Precision::EXACT, pairs: true };
-    let expected = Expected { states, torques: expected };
+fn diagnosed(
+    (candidate, faulty): (&DynamicsModel, FaultySide),
+    states: &[SampledState],
+    expected: &[Vec<f64>],
+) -> Diagnosed {
+    let torque = ReducedTorqueDifference::new(candidate, states, expected).expect("the robot's own states");
+    let setting =
+        DiagnosisInput { candidate, reference: None, faulty, precision: Precision::EXACT, pairs: true };
+    let expected = ReferenceTorques { states, torques: expected };
     diagnose_in_stages(&setting, &torque, expected).expect("the robot's own states")
 }
 
-/// The parts of what is named, its price and whether it is no body.
-type FirstNamed = (Vec<(DynamicsCause, Place)>, f64, bool);
+/// The parts of the first explanation, its complexity, and whether it is physically impossible.
+type FirstNamed = (Vec<(DynamicsCause, FaultPlace)>, f64, bool);
 
-fn first_named(explanations: &[Grouped]) -> Option<FirstNamed> {
+fn first_named(explanations: &[ExplanationGroup]) -> Option<FirstNamed> {
     let named = &explanations.first()?.named;
     let parts = named.parts.iter();
     let parts = parts.map(|part| (part.hypothesis.cause, part.hypothesis.place.clone())).collect();
-    Some((parts, named.price, named.law_broken.is_some()))
+    Some((parts, named.complexity, named.law_broken.is_some()))
 }
 
-/// Whether torque shows a fault.
-fn is_seen(original: &Side, planted: &Planted) -> bool {
+/// Whether a fault changes joint torques.
+fn changes_torques(original: &DynamicsModel, planted: &Planted) -> bool {
     let states = random_states(&original.frames, 1, STATES);
-    let torque = torques(&planted.side, &states).expect("the robot's own states");
-    let torque = Compressed::new(original, &states, &torque).expect("the robot's own states");
-    torque.difference.norm().hypotenuse_with(torque.outside) > Precision::EXACT.same * torque.torques
+    let torque = torques(&planted.model, &states).expect("the robot's own states");
+    let torque = ReducedTorqueDifference::new(original, &states, &torque).expect("the robot's own states");
+    libm::hypot(torque.difference.norm(), torque.outside) > Precision::EXACT.same * torque.torques
 }
 
-fn judged(original: &Side, planted: &Planted, faulty: FaultySide, counts: &mut Counts) {
+fn count_outcome(original: &DynamicsModel, planted: &Planted, faulty: FaultySide, counts: &mut Counts) {
     let (candidate, reference) = match faulty {
-        FaultySide::Candidate => (&planted.side, original),
-        FaultySide::Reference => (original, &planted.side),
+        FaultySide::Candidate => (&planted.model, original),
+        FaultySide::Reference => (original, &planted.model),
     };
     let states = random_states(&candidate.frames, 1, STATES);
     let torque = torques(reference, &states).expect("the robot's own states");
     let Diagnosed { same, explanations, .. } = diagnosed((candidate, faulty), &states, &torque);
-    let torque = Compressed::new(candidate, &states, &torque).expect("the robot's own states");
+    let torque = ReducedTorqueDifference::new(candidate, &states, &torque).expect("the robot's own states");
     counts.faults += 1;
     let first = explanations.first();
     if same {
@@ -238,12 +245,12 @@ fn bench(name: &str, sides: &[FaultySide]) -> Vec<Counts> {
     let Some(corpus) = corpus::corpus() else { return Vec::new() };
     let path = corpus.join("robots").join(name).join("robot.urdf");
     let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
-    let original = Side::new(&robot);
+    let original = DynamicsModel::new(&robot);
     let faults = planted(&original);
     let count = |&faulty: &FaultySide| {
         let mut counts = Counts::default();
-        for planted in faults.iter().filter(|planted| can_be_told(planted, faulty)) {
-            judged(&original, planted, faulty, &mut counts);
+        for planted in faults.iter().filter(|planted| is_distinguishable(planted, faulty)) {
+            count_outcome(&original, planted, faulty, &mut counts);
         }
         println!("{name} {faulty:?}: {counts:?}");
         counts
@@ -271,9 +278,9 @@ fn every_cause_is_found_on_many_robots() {
 }
 
 /// Two faults on links of different bodies, in the file.
-fn two_at_once(original: &Side, faults: &[Planted]) -> Vec<[usize; 2]> {
+fn two_at_once(original: &DynamicsModel, faults: &[Planted]) -> Vec<[usize; 2]> {
     let body = |at: usize| match &faults[at].place {
-        Place::Links(links) if links.len() == 1 => original.frames.links[links[0]].body,
+        FaultPlace::Links(links) if links.len() == 1 => original.frames.links[links[0]].body,
         _ => None,
     };
     let at_links: Vec<usize> = (0..faults.len()).filter(|at| body(*at).is_some()).collect();
@@ -295,20 +302,24 @@ fn two_faults_at_once_are_found() {
     for name in ["ur5e", "iiwa14", "panda", "so100", "rrr_arm"] {
         let path = corpus.join("robots").join(name).join("robot.urdf");
         let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
-        let original = Side::new(&robot);
+        let original = DynamicsModel::new(&robot);
         let mut faults = planted(&original);
-        // A fault that torque does not show leaves the other one.
-        faults.retain(|planted| can_be_told(planted, FaultySide::Candidate) && is_seen(&original, planted));
+        // A fault that torque does not show does not hide the other one.
+        faults.retain(|planted| {
+            is_distinguishable(planted, FaultySide::Candidate) && changes_torques(&original, planted)
+        });
         let mut counts = [0; 4];
         for pair in two_at_once(&original, &faults) {
             let [a, b] = pair.map(|at| &faults[at]);
-            let side = with_both(a, b);
-            let states = random_states(&side.frames, 1, STATES);
+            let model = with_both(a, b);
+            let states = random_states(&model.frames, 1, STATES);
             let torque = torques(&original, &states).expect("the robot's own states");
             let faulty = FaultySide::Candidate;
-            let explanations = diagnosed((&side, faulty), &states, &torque).explanations;
-            let names_one = |grouped: &Grouped| names(a, grouped, faulty) || names(b, grouped, faulty);
-            let names_both = |grouped: &Grouped| names(a, grouped, faulty) && names(b, grouped, faulty);
+            let explanations = diagnosed((&model, faulty), &states, &torque).explanations;
+            let names_one =
+                |grouped: &ExplanationGroup| names(a, grouped, faulty) || names(b, grouped, faulty);
+            let names_both =
+                |grouped: &ExplanationGroup| names(a, grouped, faulty) && names(b, grouped, faulty);
             let found = match explanations.first() {
                 Some(first) if names_both(first) => 0,
                 Some(_) if explanations.iter().any(names_both) => 1,

@@ -1,23 +1,23 @@
-//! Why torque cannot tell one explanation from another.
+//! Why joint torques cannot distinguish one explanation from another.
 
-use super::{hypothesis::Place, rank::Exact};
+use super::{hypothesis::FaultPlace, rank::ExactExplanation};
 use crate::{
-    side::Side,
-    thresholds::SEEN,
-    torque::{compressed::Compressed, least_squares::basis},
+    model::DynamicsModel,
+    thresholds::IDENTIFIABLE,
+    torque::{least_squares::basis, reduced_difference::ReducedTorqueDifference},
 };
 
-/// Why two explanations leave the same torques.
+/// Why two explanations give the same torques.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EquivalenceReason {
-    /// Fixed joints hold the links together: torque shows only their sum.
+    /// Fixed joints connect the links: only the sum of their inertias is identifiable.
     OneBody,
-    /// Torque shows few numbers of the body.
+    /// Few parameters of the body are identifiable from joint torques.
     FewNumbersSeen,
-    /// Mass on a joint's axis may belong to either side of the joint.
+    /// Mass on a joint's axis can belong to the link before or after the joint.
     AcrossJoint,
-    /// The numbers that differ have the same effect.
+    /// Both changes have the same effect on all joint torques.
     SameEffect,
 }
 
@@ -25,37 +25,43 @@ impl EquivalenceReason {
     /// As the end of a sentence about two explanations.
     pub fn text(self) -> &'static str {
         match self {
-            Self::OneBody => "fixed joints hold the links together, and torque shows only their sum",
-            Self::FewNumbersSeen => "joint torques show few numbers of this body",
-            Self::AcrossJoint => "what lies on a joint's axis may belong to either side of the joint",
+            Self::OneBody => "fixed joints connect the links: only the sum of their inertias is identifiable",
+            Self::FewNumbersSeen => "few parameters of this body are identifiable from joint torques",
+            Self::AcrossJoint => "mass on a joint's axis can belong to the link before or after the joint",
             Self::SameEffect => "both have the same effect on all joint torques",
         }
     }
 
-    pub(super) fn between(side: &Side, torque: &Compressed, a: &Exact, b: &Exact) -> Self {
-        let bodies = |exact: &Exact| {
+    pub(super) fn between(
+        model: &DynamicsModel,
+        torque: &ReducedTorqueDifference,
+        a: &ExactExplanation,
+        b: &ExactExplanation,
+    ) -> Self {
+        let bodies = |exact: &ExactExplanation| {
             let links = exact.parts.iter().flat_map(|part| match &part.hypothesis.place {
-                Place::Links(links) => links.clone(),
+                FaultPlace::Links(links) => links.clone(),
                 _ => Vec::new(),
             });
-            let mut bodies: Vec<usize> = links.filter_map(|link| side.frames.links[link].body).collect();
+            let mut bodies: Vec<usize> = links.filter_map(|link| model.frames.links[link].body).collect();
             bodies.sort_unstable();
             bodies.dedup();
             bodies
         };
-        let links = |exact: &Exact| -> Vec<usize> {
+        let links = |exact: &ExactExplanation| -> Vec<usize> {
             let mut links: Vec<usize> = exact.corrected.links.iter().map(|(link, _)| *link).collect();
             links.sort_unstable();
             links
         };
         let (first, second) = (bodies(a), bodies(b));
         let is_adjacent = |&a: &usize, &b: &usize| {
-            side.frames.joints[a].parent == Some(b) || side.frames.joints[b].parent == Some(a)
+            model.frames.joints[a].parent == Some(b) || model.frames.joints[b].parent == Some(a)
         };
         let shows_all = |&body: &usize| {
             let columns = torque.body(body);
-            basis(columns, SEEN * torque.scale).ncols() == columns.ncols()
+            basis(columns, IDENTIFIABLE * torque.scale).ncols() == columns.ncols()
         };
+        // From the most specific reason to the most general one; the last is true of all.
         if first == second && !first.is_empty() && links(a) != links(b) {
             Self::OneBody
         } else if first.iter().chain(&second).any(|body| !shows_all(body)) {

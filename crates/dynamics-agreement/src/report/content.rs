@@ -1,161 +1,162 @@
 //! The report of a comparison of dynamics, as JSON. Units are SI.
 
-use congruent_description::ChangedLines;
+use congruent_input::ChangedLines;
 
 use crate::{
     bound::{CoveredMotion, TorqueCertificate},
-    compare::{Invariants, LimitDifference, ParameterDifference},
     diagnosis::{DynamicsCause, EquivalenceReason, FaultySide},
-    torque::SeenNumbers,
+    differences::{Invariants, LimitDifference, ParameterDifference},
+    torque::IdentifiableParameters,
 };
 
 /// What a comparison of dynamics found.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct DynamicsReport {
-    /// Names of the two.
-    pub sides: Sides,
-    /// The result.
+    /// Names of the two models, and which one is assumed to be wrong.
+    pub sides: ComparedModels,
+    /// The result of the comparison of torques and parameters.
     pub verdict: DynamicsVerdict,
-    /// The difference of torque at the states, as a share of both torques; every joint counts alike.
+    /// The torque difference at the states relative to the sum of both torques (norms); each joint is weighted by its own
+    /// torques.
     pub difference_relative: f64,
-    /// How well the reference's torques are those of a rigid body chain at all.
+    /// How well any chain of rigid bodies reproduces the reference's torques.
     pub premise: DynamicsPremise,
-    /// How many inertial numbers torques tell; `null` of more than 60 joints, where it is not known.
-    pub seen: Option<SeenNumbers>,
-    /// Masses, gravity torques, mass matrix; `null` if the reference is no description.
+    /// Number of identifiable inertial parameters; `null` for more than 60 joints, where it is not computed.
+    pub seen: Option<IdentifiableParameters>,
+    /// Masses, gravity torques, mass matrix; `null` if the reference is a source of accelerations, not a description.
     pub invariants: Option<Invariants>,
-    /// Links whose numbers alone can contain the difference.
+    /// Links of bodies that can account for the whole difference by their inertial parameters alone.
     #[serde(rename = "where")]
     pub links: Vec<String>,
     /// Parameters of links that differ between two descriptions; tensors in the axes of the inertial frame if both have the
     /// same, else in those of the link.
     pub differences: Vec<ParameterDifference>,
-    /// Those of them that no joint torque shows.
+    /// The part of `differences` without an effect on joint torques.
     pub hidden_differences: Vec<ParameterDifference>,
-    /// What explains the difference best; empty if there is none, or if nothing explains it. More than one if the
-    /// difference is that of more than two links: then each explains its own link, joints or gravity.
+    /// The best explanation of the difference; empty if there is no difference, or no explanation. More than one if more than
+    /// two links differ: then each explains one link, the joint terms or gravity.
     pub explanations: Vec<DynamicsExplanation>,
-    /// What leaves the same torques with other parameters.
+    /// Other explanations with other parameters and the same torques.
     pub indistinguishable: Vec<DynamicsExplanation>,
-    /// Limits of joints that differ.
+    /// Joint limits that differ.
     pub limits: Vec<LimitDifference>,
-    /// How large the differences of torque can get; `null` if nobody has asked.
+    /// Certified bounds of the torque differences; `null` if they were not requested.
     pub certificates: Option<TorqueCertificates>,
 }
 
 impl DynamicsReport {
-    /// Whether all joint torques are the same.
+    /// Whether all joint torques agree within the precision of the comparison.
     pub fn has_same_torques(&self) -> bool {
         matches!(self.verdict, DynamicsVerdict::Same | DynamicsVerdict::SameTorques)
     }
 
-    /// Whether torques and limits are the same: a difference that no torque shows is none that decides, and neither is a
-    /// limit of speed or effort that one of the two does not state.
+    /// Whether torques and limits agree. Parameters without an effect on torques do not decide, and neither does a limit of
+    /// speed or effort that only one of the two states.
     pub fn agrees(&self) -> bool {
         self.has_same_torques() && !self.limits.iter().any(|limit| limit.decides)
     }
 }
 
-/// How large the differences of torque can get over the range of the joints' motion.
+/// Certified bounds of the torque differences over the joints' positions, speeds and accelerations.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
 pub struct TorqueCertificates {
-    /// Of gravity alone.
+    /// Bounds of the gravity torques alone.
     pub gravity: TorqueCertificate,
-    /// Of accelerations alone, armature included.
+    /// Bounds of the torques by accelerations alone, armature included.
     pub inertia: TorqueCertificate,
-    /// Of velocity products alone: centrifugal and Coriolis torques.
+    /// Bounds of the centrifugal and Coriolis torques alone.
     pub velocity: TorqueCertificate,
-    /// Of any motion, with gravity, damping and dry friction.
+    /// Bounds of the whole torque in any covered motion, with gravity, damping and dry friction.
     pub together: TorqueCertificate,
     /// Positions, speeds and accelerations that are covered, one for each moving joint.
     pub covered: Vec<CoveredMotion>,
 }
 
-/// Names of the two sides.
+/// Names of the two models that are compared.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
-pub struct Sides {
-    /// Whose parameters are known and corrected.
+pub struct ComparedModels {
+    /// Name of the candidate, whose parameters are known and corrected.
     pub candidate: String,
-    /// What it is held against.
+    /// Name of the reference model.
     pub reference: String,
-    /// Which of the two is taken to be wrong.
+    /// Which of the two is assumed to be wrong.
     pub faulty: FaultySide,
 }
 
-/// The result.
+/// The result of a comparison of dynamics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DynamicsVerdict {
     /// Torques and parameters are the same.
     Same,
-    /// Torques are the same, but parameters differ that no torque shows.
+    /// Torques are the same; parameters without an effect on torques differ.
     SameTorques,
-    /// Torques differ, and an explanation leaves nothing of the difference.
+    /// Torques differ, and an explanation has a residual within tolerance.
     Explained,
     /// Torques differ for no known reason.
     Unexplained,
 }
 
-/// How well the reference's torques are those of a rigid body chain.
+/// How well a chain of rigid bodies reproduces the reference's torques: the premise of every explanation.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct DynamicsPremise {
-    /// Part of the reference's torque that no numbers of such a chain explain, at the states that are fitted.
+    /// Relative residual of the best fit by any inertial parameters, at the fitted states.
     pub fit_relative: f64,
-    /// The same at the states that are held out; `null` if the torques are computed from a description.
+    /// Relative residual of the same fit at the held-out states; `null` if the torques are computed from a description.
     pub held_out_relative: Option<f64>,
-    /// How many states.
+    /// Number of states at which torques are compared.
     pub states: usize,
 }
 
-/// One explanation.
+/// One explanation of a torque difference: a cause with its place and the corrected parameters.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct DynamicsExplanation {
-    /// `several` if it has parts.
+    /// The cause; `several` if the explanation has parts.
     pub cause: DynamicsCause,
     /// Which unit, axis, entry, frame.
     pub detail: String,
-    /// Links or joints; `*` for all of them, `gravity`.
+    /// Names of links or joints; `*` for all of them; `gravity`.
     pub place: Vec<String>,
-    /// The parameters that it corrects, as they are written and as they should be.
+    /// The corrected parameters, with their written and their corrected values.
     #[serde(rename = "figures")]
     pub parameters: Vec<ParameterDifference>,
-    /// What it costs: free numbers that torque shows, 0.5 for a parameter that the file does not have, 1 for each further part.
+    /// Complexity: identifiable free parameters, 0.5 for a parameter that the file does not have, 1 for each further part.
     pub numbers: f64,
-    /// What is left of the difference.
+    /// Residual torque difference after the correction, relative to the difference before.
     pub left_relative: f64,
-    /// Whether the corrected parameters are those of a body.
+    /// Whether the corrected parameters are physically possible for a rigid body.
     pub is_a_body: bool,
-    /// The law that they break.
+    /// The law that the corrected parameters break, with the link; `null` if they break none.
     pub body_law: Option<String>,
-    /// Why no body has the values as they are written, each link with its law; empty if bodies have them.
+    /// Links whose written values are physically impossible, each with the law that they break.
     pub impossible_as_written: Vec<String>,
-    /// Whether it changes a parameter that is the same in both descriptions.
+    /// Whether it changes a parameter that is equal in both descriptions.
     pub contradicted: bool,
-    /// Other names of the same correction.
+    /// Other causes with the same corrected parameters.
     pub also_named: Vec<PlacedCause>,
-    /// Why torque cannot tell it from the first explanation.
+    /// Why joint torques cannot distinguish it from the first explanation; `null` for the first.
     pub reason: Option<EquivalenceReason>,
-    /// The parts of several faults at once.
+    /// The single causes, if there are several faults at once; otherwise empty.
     pub parts: Vec<PlacedCause>,
-    /// The file that is to be corrected.
+    /// Path of the file to correct; `null` if it is not known, or right.
     pub file: Option<String>,
-    /// The line of the first parameter.
+    /// Line of the first corrected parameter in this file.
     pub line: Option<usize>,
-    /// What to write instead.
+    /// The values to write, in one sentence; `null` if the file is right or too many values change.
     pub suggestion: Option<String>,
-    /// The lines of the file that change, with what they become; empty if the file is right or cannot say it.
+    /// The lines of the file to change, with their new text; empty if the file is right or its format cannot express them.
     pub changes: Vec<ChangedLines>,
-    /// What is wrong if it is the other of two files, with its line; `null` if that explains less.
+    /// The cause if the other of the two files is wrong, with its line; `null` if there is none.
     pub otherwise: Option<String>,
 }
 
-/// A cause with its place.
+/// A cause with the links or joints that it is about.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 pub struct PlacedCause {
-    /// The cause.
+    /// The cause of this part alone.
     pub cause: DynamicsCause,
     /// Which unit, axis, entry, frame.
     pub detail: String,
-    /// Links or joints; `*` for all of them, `gravity`.
+    /// Names of links or joints; `*` for all of them; `gravity`.
     pub place: Vec<String>,
 }

@@ -1,39 +1,43 @@
-//! Explanations in names, parameters and places of the file.
+//! Turns an exact hypothesis into an explanation with names, parameters and places in the file.
 
-use congruent_description::{ChangedLines, Elementary as _, TextEdit};
+use congruent_input::{ChangedLines, TextEdit};
 
 use super::{
     content::{DynamicsExplanation, PlacedCause},
-    places::{Files, without_rounding},
+    places::{ModelFiles, without_rounding},
 };
 use crate::{
-    compare::parameters,
     diagnosis::{
-        Corrected, DynamicsCause, Exact, FaultySide, Grouped, Hypothesis, Place, Setting,
-        rounded_damping_unit, rounded_unit,
+        Corrected, DiagnosisInput, DynamicsCause, DynamicsHypothesis, ExactExplanation, ExplanationGroup,
+        FaultPlace, FaultySide, rounded_damping_unit, rounded_unit,
     },
-    side::{BodyLaw, Inertial, JointTerm, Side},
-    torque::compressed::Compressed,
+    differences::parameters,
+    model::{BodyLaw, DynamicsModel, Inertial, JointTerm},
+    torque::reduced_difference::ReducedTorqueDifference,
 };
 
-/// What explanations are told with.
+/// Everything that an explanation needs beside the hypothesis: both models, their files and the torque difference.
 #[derive(Clone, Copy)]
-pub(super) struct Teller<'a> {
-    pub(super) candidate: &'a Side,
-    /// The other description, if there is one.
-    pub(super) reference: Option<&'a Side>,
-    pub(super) faulty: FaultySide,
-    pub(super) files: Files<'a>,
-    pub(super) torque: &'a Compressed,
-    /// Norm of the whole difference.
-    pub(super) difference: f64,
-    /// The largest norm that counts as nothing left.
-    pub(super) exact: f64,
+pub(crate) struct ExplanationContext<'a> {
+    pub(crate) candidate: &'a DynamicsModel,
+    /// The other description; `None` if the reference is a source of accelerations.
+    pub(crate) reference: Option<&'a DynamicsModel>,
+    pub(crate) faulty: FaultySide,
+    pub(crate) files: ModelFiles<'a>,
+    pub(crate) torque: &'a ReducedTorqueDifference,
+    /// Norm of the whole torque difference, weighted.
+    pub(crate) difference: f64,
+    /// The largest residual norm that counts as exact.
+    pub(crate) exact: f64,
 }
 
-impl<'a> Teller<'a> {
-    pub(super) fn new(setting: &Setting<'a>, files: Files<'a>, torque: &'a Compressed) -> Self {
-        let difference = torque.difference.norm().hypotenuse_with(torque.outside);
+impl<'a> ExplanationContext<'a> {
+    pub(crate) fn new(
+        setting: &DiagnosisInput<'a>,
+        files: ModelFiles<'a>,
+        torque: &'a ReducedTorqueDifference,
+    ) -> Self {
+        let difference = libm::hypot(torque.difference.norm(), torque.outside);
         Self {
             candidate: setting.candidate,
             reference: setting.reference,
@@ -46,10 +50,10 @@ impl<'a> Teller<'a> {
     }
 }
 
-impl Teller<'_> {
-    pub(super) fn explanation(&self, grouped: &Grouped) -> DynamicsExplanation {
+impl ExplanationContext<'_> {
+    pub(crate) fn explanation(&self, grouped: &ExplanationGroup) -> DynamicsExplanation {
         let exact = &grouped.named;
-        let corrected = self.worth_writing(exact);
+        let corrected = self.rounded_for_file(exact);
         let mut parameters = self.parameters(&corrected);
         self.files.place(&mut parameters);
         let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate);
@@ -59,14 +63,14 @@ impl Teller<'_> {
             cause: first.cause,
             detail: first.detail,
             place: first.place,
-            suggestion: super::words::suggestion(self.faulty, &parameters),
+            suggestion: super::sentences::suggestion(self.faulty, &parameters),
             file: file.map(|file| file.source().path.display().to_string()),
             line: file.and_then(|_| parameters.iter().find_map(|parameter| parameter.line)),
             changes: self.changes(&corrected),
             otherwise: None,
             parameters,
-            numbers: exact.price,
-            left_relative: exact.left() / self.difference,
+            numbers: exact.complexity,
+            left_relative: exact.residual_norm() / self.difference,
             is_a_body: law_broken.is_none(),
             body_law: law_broken
                 .map(|(link, law)| format!("{}: {}", self.candidate.frames.link_name(link), law.broken())),
@@ -78,7 +82,7 @@ impl Teller<'_> {
         }
     }
 
-    /// Links that are corrected and whose values as they are written no body has.
+    /// Corrected links whose written values are physically impossible.
     fn impossible_as_written(&self, corrected: &Corrected) -> Vec<String> {
         if self.faulty == FaultySide::Reference {
             return Vec::new();
@@ -91,8 +95,8 @@ impl Teller<'_> {
         links.collect()
     }
 
-    /// One fault by its own name, several by their names together.
-    fn name(&self, exact: &Exact, corrected: &Corrected) -> PlacedCause {
+    /// The cause of a single fault, or `several` with all causes in the detail.
+    fn name(&self, exact: &ExactExplanation, corrected: &Corrected) -> PlacedCause {
         let mut parts = self.parts(exact, corrected);
         if parts.len() == 1 {
             return parts.remove(0);
@@ -107,8 +111,8 @@ impl Teller<'_> {
         PlacedCause { cause: DynamicsCause::Several, detail: causes.join(" + "), place }
     }
 
-    fn parts(&self, exact: &Exact, corrected: &Corrected) -> Vec<PlacedCause> {
-        let part = |hypothesis: &Hypothesis| {
+    fn parts(&self, exact: &ExactExplanation, corrected: &Corrected) -> Vec<PlacedCause> {
+        let part = |hypothesis: &DynamicsHypothesis| {
             let (cause, detail) = self.rounded_unit(hypothesis, corrected).map_or_else(
                 || (hypothesis.cause, hypothesis.detail.clone()),
                 |(cause, unit)| (cause, unit.to_owned()),
@@ -118,45 +122,47 @@ impl Teller<'_> {
         exact.parts.iter().map(|fit| part(&fit.hypothesis)).collect()
     }
 
-    /// The unit that a file gives values in which no slip explains exactly, since they are rounded.
+    /// The unit of values that were rounded when they were converted, so that no unit explains them exactly.
     fn rounded_unit(
         &self,
-        hypothesis: &Hypothesis,
+        hypothesis: &DynamicsHypothesis,
         corrected: &Corrected,
     ) -> Option<(DynamicsCause, &'static str)> {
         if self.faulty == FaultySide::Reference || !hypothesis.cause.is_of_free_values() {
             return None;
         }
         match &hypothesis.place {
-            Place::Links(links) => {
+            FaultPlace::Links(links) => {
                 let [link] = links[..] else { return None };
                 let (_, right) = corrected.links.iter().find(|(other, _)| *other == link)?;
                 rounded_unit(self.candidate.inertials[link].as_ref()?, right)
             }
-            Place::Joints(_) | Place::AllJoints => {
+            FaultPlace::Joints(_) | FaultPlace::AllJoints => {
                 rounded_damping_unit(&self.candidate.resistances, corrected.joints.as_ref()?)
             }
-            Place::AllLinks | Place::Gravity => None,
+            FaultPlace::AllLinks | FaultPlace::Gravity => None,
         }
     }
 
-    fn place(&self, place: &Place) -> Vec<String> {
+    fn place(&self, place: &FaultPlace) -> Vec<String> {
         let frames = &self.candidate.frames;
         match place {
-            Place::Links(links) => links.iter().map(|&link| frames.link_name(link).to_owned()).collect(),
-            Place::Joints(joints) => {
+            FaultPlace::Links(links) => links.iter().map(|&link| frames.link_name(link).to_owned()).collect(),
+            FaultPlace::Joints(joints) => {
                 joints.iter().map(|&joint| frames.joint_name(joint).to_owned()).collect()
             }
-            Place::AllLinks | Place::AllJoints => vec!["*".to_owned()],
-            Place::Gravity => vec!["gravity".to_owned()],
+            FaultPlace::AllLinks | FaultPlace::AllJoints => vec!["*".to_owned()],
+            FaultPlace::Gravity => vec!["gravity".to_owned()],
         }
     }
 
-    /// The corrected parameters without the rounding of a fit; those of the other description if they leave nothing
-    /// either, since torque does not show every number that is free.
-    fn worth_writing(&self, exact: &Exact) -> Corrected {
+    /// The corrected parameters without the rounding of a fit; those of the other description if their residual is within
+    /// tolerance as well, since not every free parameter is identifiable.
+    fn rounded_for_file(&self, exact: &ExactExplanation) -> Corrected {
         let mut corrected = exact.corrected.clone();
-        let there = (exact.price > 0.0).then(|| self.by_reference(&corrected)).flatten();
+        // A hypothesis without free parameters gives exact values already; fitted ones may differ from the file of the
+        // reference in directions that are not identifiable.
+        let there = (exact.complexity > 0.0).then(|| self.by_reference(&corrected)).flatten();
         corrected.links = there.unwrap_or_else(|| {
             let links = corrected.links.iter();
             links
@@ -168,63 +174,65 @@ impl Teller<'_> {
         corrected
     }
 
-    /// The corrected links with the parameters of the other description; `None` if these leave something of the difference.
+    /// The corrected links with the parameters of the other description; `None` if their residual is above tolerance.
     fn by_reference(&self, corrected: &Corrected) -> Option<Vec<(usize, Inertial)>> {
         let reference = self.reference.filter(|_| corrected.gravity.is_none())?;
-        let mut left = self.torque.difference.clone();
+        let mut residual = self.torque.difference.clone();
         let mut links = Vec::with_capacity(corrected.links.len());
         for (link, _) in &corrected.links {
             let there = reference.frames.find_link(self.candidate.frames.link_name(*link))?;
             let there = reference.inertials[there]?;
             let written = self.candidate.inertials[*link].unwrap_or_else(Inertial::nothing);
-            left -= self.torque.link(*link)? * (there.ten_numbers() - written.ten_numbers());
+            residual -= self.torque.link(*link)? * (there.ten_numbers() - written.ten_numbers());
             links.push((*link, without_rounding(self.candidate.inertials[*link].as_ref(), &there)));
         }
         for (joint, new) in corrected.joints.iter().flatten().enumerate() {
             for term in JointTerm::ALL {
-                let change = term.of(new) - term.of(&self.candidate.resistances[joint]);
-                left.axpy(-change, &self.torque.term(term).column(joint), 1.0);
+                let change = term.value_in(new) - term.value_in(&self.candidate.resistances[joint]);
+                residual.axpy(-change, &self.torque.term(term).column(joint), 1.0);
             }
         }
-        (left.norm().hypotenuse_with(self.torque.outside) <= self.exact).then_some(links)
+        (libm::hypot(residual.norm(), self.torque.outside) <= self.exact).then_some(links)
     }
 
-    /// The parameters that a correction changes: found is what the faulty says.
+    /// The parameters that a correction changes; `found` is the value of the model that is assumed to be wrong.
     fn parameters(&self, corrected: &Corrected) -> Vec<parameters::ParameterDifference> {
-        let side = self.candidate;
+        let model = self.candidate;
         let mut differences = Vec::new();
         for (link, parameters) in &corrected.links {
-            let name = side.frames.link_name(*link);
-            let written: Option<&Inertial> = side.inertials[*link].as_ref();
-            differences.extend(parameters::of_link(name, written, Some(parameters)));
+            let name = model.frames.link_name(*link);
+            let written: Option<&Inertial> = model.inertials[*link].as_ref();
+            differences.extend(parameters::link_differences(name, written, Some(parameters)));
         }
         if let Some(joints) = &corrected.joints {
-            differences.extend(parameters::of_joints(&side.frames, &side.resistances, joints));
+            differences.extend(parameters::joint_term_differences(&model.frames, &model.resistances, joints));
         }
         if let Some(gravity) = &corrected.gravity {
-            differences.extend(parameters::of_gravity(&side.gravity_m_s2, gravity));
+            differences.extend(parameters::gravity_differences(&model.gravity_m_s2, gravity));
         }
         if self.faulty == FaultySide::Reference {
             for difference in &mut differences {
+                // Here the reference is wrong: its value is found, and the written value of the candidate is
+                // expected.
                 std::mem::swap(&mut difference.found, &mut difference.expected);
             }
         }
         differences
     }
 
-    /// The lines that say the corrected parameters; empty if the file is right, or cannot say them.
+    /// The lines with the corrected parameters; empty if the file is right, or if its format cannot express them.
     fn changes(&self, corrected: &Corrected) -> Vec<ChangedLines> {
         let Some(file) = self.files.found.filter(|_| self.faulty == FaultySide::Candidate) else {
             return Vec::new();
         };
-        let side = self.candidate;
+        let model = self.candidate;
         let mut edits: Vec<TextEdit> = Vec::new();
         for (link, parameters) in &corrected.links {
-            edits.extend(file.set_inertial(side.frames.link_name(*link), parameters));
+            edits.extend(file.set_inertial(model.frames.link_name(*link), parameters));
         }
         for (joint, terms) in corrected.joints.iter().flatten().enumerate() {
-            if *terms != side.resistances[joint] {
-                edits.extend(file.set_terms(side.frames.joint_name(joint), terms));
+            if *terms != model.resistances[joint] {
+                edits.extend(file.set_terms(model.frames.joint_name(joint), terms));
             }
         }
         edits.extend(corrected.gravity.iter().flat_map(|gravity| file.set_gravity(gravity)));

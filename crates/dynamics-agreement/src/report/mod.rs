@@ -1,21 +1,12 @@
-//! The comparison as data and in words.
+//! The report of a comparison: its values, their places in files, and its sentences.
 
-mod compare_descriptions;
-mod compare_long;
-mod compare_with_source;
-mod content;
-mod explained;
-mod link_by_link;
-mod places;
-mod told;
-mod unmatched;
-mod words;
+pub(crate) mod content;
+pub(crate) mod explained;
+pub(crate) mod places;
+mod sentences;
 
-pub use compare_descriptions::{CompareError, certify, compare};
-pub use compare_with_source::compare_with_source;
 pub use content::{
-    DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PlacedCause, Sides,
+    ComparedModels, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PlacedCause,
     TorqueCertificates,
 };
 pub use places::ParameterPlaces;
-pub use told::NamedSide;

@@ -1,47 +1,46 @@
-//! Where a file says a parameter, and how its text becomes another one.
+//! Places of parameters in a file, and the edits that change them.
 
 use std::{fmt::Debug, ops::Range};
 
-use congruent_description::{
-    ChangedLines, Inertia, SourceFile, TextEdit, UrdfPlaces, changed_lines, line_column,
-};
+use congruent_description::{Inertia, UrdfPlaces};
 use congruent_dynamics::JointResistance;
+use congruent_input::{ChangedLines, SourceFile, TextEdit, changed_lines, line_column};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::{
-    compare::{LimitDifference, ParameterDifference},
-    side::Inertial,
+    differences::{LimitDifference, ParameterDifference},
+    model::Inertial,
     thresholds::{SAME_VALUE, ZERO_VALUE},
 };
 
-/// A file that says parameters of links, joints or gravity.
+/// A file with parameters of links, joints or gravity that can be located and edited.
 pub trait ParameterPlaces: Debug {
-    /// The file.
+    /// The file with its text.
     fn source(&self) -> &SourceFile;
 
-    /// Place of a parameter, such as `mass` or `com_x`, of a link, of a joint, or of gravity, which has no name.
+    /// Place of a parameter, such as `mass` or `com_x`, in the text; `of` is the link or joint, empty for gravity.
     fn parameter(&self, of: &str, parameter: &str) -> Option<Range<usize>>;
 
-    /// The edits after which a link has these parameters; empty if the file cannot say them.
+    /// The edits that give a link these parameters; empty if the file format cannot express them.
     fn set_inertial(&self, link: &str, parameters: &Inertial) -> Vec<TextEdit>;
 
-    /// The edits after which a joint has these terms; empty if the file cannot say them.
+    /// The edits that give a joint these terms; empty if the file format cannot express them.
     fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit>;
 
-    /// The edits after which gravity is this; empty if the file cannot say it.
+    /// The edits that set gravity, in the root link; empty if the file format cannot express it.
     fn set_gravity(&self, gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit>;
 
-    /// The text of a link with the joint that carries it, for another file; `None` if the file does not have them.
+    /// The text of a link and of the joint that carries it, to be added to another file; `None` if the file has no such link.
     fn link_text(&self, _link: &str) -> Option<String> {
         None
     }
 
-    /// The edits after which the file has a link of another file; empty if it cannot have it.
+    /// The edits that add a link of another file; empty if the file format cannot express it.
     fn add_link(&self, _text: &str) -> Vec<TextEdit> {
         Vec::new()
     }
 
-    /// The edits after which a limit of a joint, such as `effort`, is this; empty if the file cannot say it.
+    /// The edits that set a limit of a joint, such as `effort`; empty if the file format cannot express it.
     fn set_limit(&self, _joint: &str, _parameter: &str, _value: f64) -> Vec<TextEdit> {
         Vec::new()
     }
@@ -53,27 +52,27 @@ impl dyn ParameterPlaces + '_ {
         Some(line_column(&self.source().text, at.start).0)
     }
 
-    pub(super) fn lines(&self, edits: &[TextEdit]) -> Vec<ChangedLines> {
+    pub(crate) fn lines(&self, edits: &[TextEdit]) -> Vec<ChangedLines> {
         changed_lines(&self.source().text, edits)
     }
 }
 
-/// The files of the two sides; `None` if the places are not known.
+/// The files of the two models; `None` if the places of their parameters are not known.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Files<'a> {
-    pub(super) found: Option<&'a dyn ParameterPlaces>,
-    pub(super) expected: Option<&'a dyn ParameterPlaces>,
+pub(crate) struct ModelFiles<'a> {
+    pub(crate) found: Option<&'a dyn ParameterPlaces>,
+    pub(crate) expected: Option<&'a dyn ParameterPlaces>,
 }
 
-impl Files<'_> {
-    pub(super) fn place(&self, differences: &mut [ParameterDifference]) {
+impl ModelFiles<'_> {
+    pub(crate) fn place(&self, differences: &mut [ParameterDifference]) {
         for difference in differences {
             let line = |file: Option<&dyn ParameterPlaces>| file?.line(&difference.of, &difference.parameter);
             (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
         }
     }
 
-    pub(super) fn place_limits(&self, differences: &mut [LimitDifference]) {
+    pub(crate) fn place_limits(&self, differences: &mut [LimitDifference]) {
         for difference in &mut *differences {
             let line =
                 |file: Option<&dyn ParameterPlaces>| file?.line(&difference.joint, &difference.parameter);
@@ -89,6 +88,8 @@ impl Files<'_> {
             difference.file = Some(file.source().path.display().to_string());
             if !own.is_empty() {
                 let of_joint = edits.iter().zip(&joints).filter(|(_, joint)| **joint == difference.joint);
+                // All limits of a joint are one element: edits of one limit alone would leave the others wrong in
+                // the suggested line.
                 let all: Vec<TextEdit> = of_joint.flat_map(|(edits, _)| edits.iter().cloned()).collect();
                 difference.changes = file.lines(&all);
             }
@@ -146,12 +147,13 @@ impl ParameterPlaces for UrdfPlaces {
     }
 }
 
-/// Corrected parameters as they are worth writing: what is the same but for rounding stays as it is written, and what is
-/// zero but for rounding is zero.
+/// Corrected parameters as they should be written: values that differ from the written ones by rounding alone keep the written
+/// digits, and values that differ from zero by rounding alone become zero.
 pub(super) fn without_rounding(written: Option<&Inertial>, corrected: &Inertial) -> Inertial {
     let nothing = Inertial::nothing();
     let written = written.unwrap_or(&nothing);
     let kept = |old: f64, new: f64, size: f64| match new {
+        // Before the comparison with zero, so that a written tiny value is kept rather than cleared.
         _ if (old - new).abs() <= SAME_VALUE * size => old,
         _ if new.abs() <= ZERO_VALUE * size => 0.0,
         _ => new,
@@ -169,7 +171,7 @@ pub(super) fn without_rounding(written: Option<&Inertial>, corrected: &Inertial)
     } else {
         corrected.tensor_kg_m2.map(|new| kept(0.0, new, size))
     };
-    // Both halves of the tensor are rounded alike.
+    // Rounded entry by entry, the two halves could differ; the upper one decides.
     parameters.tensor_kg_m2 = Matrix3::from_fn(|row, column| {
         let at = if row <= column { (row, column) } else { (column, row) };
         parameters.tensor_kg_m2[at]

@@ -1,25 +1,27 @@
-//! Linear least squares of few unknowns: a direction that nothing shows stays zero.
+//! Linear least squares with few unknowns; directions that are not identifiable stay zero.
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::thresholds::{FREE_AND_SEEN, ROUNDING, SEEN};
+use crate::thresholds::{FREE_AND_IDENTIFIABLE, IDENTIFIABLE, ROUNDING};
 
-/// The shortest solution of a least squares problem.
+/// The least-squares solution of smallest norm.
 pub(crate) struct Solution {
     pub(crate) unknowns: DVector<f64>,
-    /// How many combinations of the unknowns have an effect.
+    /// Number of identifiable combinations of the unknowns.
     pub(crate) rank: usize,
 }
 
-/// Solves `columns x = target`; `scale` is the largest effect of all columns there are, below whose rounding a column
-/// has none.
+/// Solves `columns x = target`; `scale` is the largest effect of any parameter, whose rounding is the smallest effect that
+/// counts.
 pub(crate) fn solve(columns: &DMatrix<f64>, target: &DVector<f64>, scale: f64) -> Solution {
     let decomposition = columns.clone().svd(true, true);
     let (Some(u), Some(v_t)) = (&decomposition.u, &decomposition.v_t) else {
         return Solution { unknowns: DVector::zeros(columns.ncols()), rank: 0 };
     };
     let values = &decomposition.singular_values;
-    let least = (FREE_AND_SEEN * values.max()).max(ROUNDING * scale);
+    // The first term compares with these columns, the second with all: a single column of pure rounding would be
+    // its own largest.
+    let least = (FREE_AND_IDENTIFIABLE * values.max()).max(ROUNDING * scale);
     let mut solution = Solution { unknowns: DVector::zeros(columns.ncols()), rank: 0 };
     for (at, &value) in values.iter().enumerate().filter(|(_, value)| **value > least) {
         let along = u.column(at).dot(target) / value;
@@ -29,21 +31,24 @@ pub(crate) fn solve(columns: &DMatrix<f64>, target: &DVector<f64>, scale: f64) -
     solution
 }
 
-/// An orthonormal basis of what columns span: the one that is least contained in the others next, as long as there is
-/// more than rounding of it. Singular vectors of columns of lower rank are not accurate enough.
+/// An orthonormal basis of the span of columns, by Gram-Schmidt with pivoting: the column with the largest remainder is next,
+/// until only rounding remains. Singular vectors of rank-deficient columns are not accurate enough.
 pub(crate) fn basis(columns: &DMatrix<f64>, scale: f64) -> DMatrix<f64> {
     let mut rest = columns.clone();
     let largest = |of: &DMatrix<f64>| {
         let norms = of.column_iter().map(|column| column.norm()).enumerate();
         norms.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
     };
-    let least = (SEEN * largest(&rest).1).max(ROUNDING * scale);
+    let least = (IDENTIFIABLE * largest(&rest).1).max(ROUNDING * scale);
     let mut found = DMatrix::zeros(columns.nrows(), 0);
     while found.ncols() < columns.ncols().min(columns.nrows()) {
+        // Pivoting: the largest remaining column first, so that the rank is cut at the smallest ones.
         let (at, norm) = largest(&rest);
         if norm <= least {
             break;
         }
+        // The chosen column has lost digits in earlier eliminations: it is made orthogonal to the basis again
+        // before it is used.
         let direction = outside(&found, &(rest.column(at) / norm)).normalize();
         rest -= &direction * direction.tr_mul(&rest);
         let last = found.ncols();
@@ -53,7 +58,7 @@ pub(crate) fn basis(columns: &DMatrix<f64>, scale: f64) -> DMatrix<f64> {
     found
 }
 
-/// What of a vector is outside of an orthonormal basis.
+/// The part of a vector orthogonal to an orthonormal basis.
 pub(crate) fn outside(basis: &DMatrix<f64>, vector: &DVector<f64>) -> DVector<f64> {
     let mut rest = vector.clone();
     // Twice is enough: Giraud, Langou, Rozloznik (2005).
@@ -78,7 +83,7 @@ mod tests {
         let basis = basis(&columns, columns.amax());
         for column in columns.column_iter() {
             let column = column.into_owned();
-            assert!(outside(&basis, &column).norm() <= 10.0 * SEEN * columns.amax());
+            assert!(outside(&basis, &column).norm() <= 10.0 * IDENTIFIABLE * columns.amax());
         }
         let square = basis.tr_mul(&basis);
         assert!((&square - DMatrix::identity(square.nrows(), square.ncols())).amax() < 1e-14);

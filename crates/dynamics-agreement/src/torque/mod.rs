@@ -1,10 +1,10 @@
-//! Joint torques of two sides, and what their difference can be explained by.
+//! Joint torques of two models at random states, and the effect of each parameter on their difference.
 
-pub(crate) mod compressed;
 pub(crate) mod held_out;
 pub(crate) mod least_squares;
+pub(crate) mod reduced_difference;
 pub(crate) mod source;
 pub(crate) mod states;
 
-pub use compressed::SeenNumbers;
-pub use source::{AccelerationSource, Probing};
+pub use reduced_difference::IdentifiableParameters;
+pub use source::{AccelerationSource, IdentificationOptions};

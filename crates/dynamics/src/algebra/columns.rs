@@ -6,11 +6,11 @@ use std::ops::{Add, AddAssign, Index, Mul, Neg, Sub};
 
 use nalgebra::{Matrix3, Vector3};
 
-/// A vector of three; its fourth number is of no meaning, and finite if the three are.
+/// A vector of three; the fourth entry is padding, finite if the three are.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Column([f64; 4]);
+pub(crate) struct PaddedVector([f64; 4]);
 
-impl Column {
+impl PaddedVector {
     pub(crate) const ZERO: Self = Self([0.0; 4]);
 
     #[inline(always)]
@@ -33,6 +33,8 @@ impl Column {
     #[inline(always)]
     pub(crate) fn cross(self, other: Self) -> Self {
         let next = |v: Self| Self([v.0[1], v.0[2], v.0[0], v.0[3]]);
+        // a x b = next(a next(b) - next(a) b): three shuffles instead of four, with all entries in one vector
+        // register.
         next(self.zip(next(other), |a, b| a * b) - next(self).zip(other, |a, b| a * b))
     }
 
@@ -50,7 +52,7 @@ impl Column {
     }
 }
 
-impl Index<usize> for Column {
+impl Index<usize> for PaddedVector {
     type Output = f64;
 
     #[inline(always)]
@@ -59,7 +61,7 @@ impl Index<usize> for Column {
     }
 }
 
-impl Add for Column {
+impl Add for PaddedVector {
     type Output = Self;
 
     #[inline(always)]
@@ -68,14 +70,14 @@ impl Add for Column {
     }
 }
 
-impl AddAssign for Column {
+impl AddAssign for PaddedVector {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl Sub for Column {
+impl Sub for PaddedVector {
     type Output = Self;
 
     #[inline(always)]
@@ -84,7 +86,7 @@ impl Sub for Column {
     }
 }
 
-impl Neg for Column {
+impl Neg for PaddedVector {
     type Output = Self;
 
     #[inline(always)]
@@ -93,7 +95,7 @@ impl Neg for Column {
     }
 }
 
-impl Mul<f64> for Column {
+impl Mul<f64> for PaddedVector {
     type Output = Self;
 
     #[inline(always)]
@@ -102,34 +104,38 @@ impl Mul<f64> for Column {
     }
 }
 
-impl From<Vector3<f64>> for Column {
+impl From<Vector3<f64>> for PaddedVector {
     fn from(v: Vector3<f64>) -> Self {
         Self::new(v.x, v.y, v.z)
     }
 }
 
-impl From<Column> for Vector3<f64> {
-    fn from(column: Column) -> Self {
+impl From<PaddedVector> for Vector3<f64> {
+    fn from(column: PaddedVector) -> Self {
         Self::new(column[0], column[1], column[2])
     }
 }
 
 /// A 3 x 3 matrix by its columns.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Block(pub(crate) [Column; 3]);
+pub(crate) struct Block(pub(crate) [PaddedVector; 3]);
 
 impl Block {
-    pub(crate) const ZERO: Self = Self([Column::ZERO; 3]);
+    pub(crate) const ZERO: Self = Self([PaddedVector::ZERO; 3]);
 
     #[inline(always)]
     pub(crate) fn diagonal(value: f64) -> Self {
-        Self([Column::new(value, 0.0, 0.0), Column::new(0.0, value, 0.0), Column::new(0.0, 0.0, value)])
+        Self([
+            PaddedVector::new(value, 0.0, 0.0),
+            PaddedVector::new(0.0, value, 0.0),
+            PaddedVector::new(0.0, 0.0, value),
+        ])
     }
 
     #[inline(always)]
-    fn row(&self, at: usize) -> Column {
+    fn row(&self, at: usize) -> PaddedVector {
         let [x, y, z] = &self.0;
-        Column::new(x[at], y[at], z[at])
+        PaddedVector::new(x[at], y[at], z[at])
     }
 
     #[inline(always)]
@@ -137,7 +143,7 @@ impl Block {
         Self([self.row(0), self.row(1), self.row(2)])
     }
 
-    /// `self * other`.
+    /// The matrix product `self * other`.
     #[inline(always)]
     pub(crate) fn times(&self, other: &Self) -> Self {
         let [x, y, z] = other.0;
@@ -152,37 +158,41 @@ impl Block {
 
     /// Times the matrix of the cross product: `M [p]`.
     #[inline(always)]
-    pub(crate) fn times_cross(&self, p: Column) -> Self {
+    pub(crate) fn times_cross(&self, p: PaddedVector) -> Self {
         let [x, y, z] = self.0;
         Self([y * p[2] - z * p[1], z * p[0] - x * p[2], x * p[1] - y * p[0]])
     }
 
     /// The matrix of the cross product by a vector, times this one: `[p] M`.
     #[inline(always)]
-    pub(crate) fn crossed_by(&self, p: Column) -> Self {
+    pub(crate) fn crossed_by(&self, p: PaddedVector) -> Self {
         let [x, y, z] = self.0;
         Self([p.cross(x), p.cross(y), p.cross(z)])
     }
 
     /// The matrix of the cross product by a vector: `[v] w = v x w`.
     #[inline(always)]
-    pub(crate) fn cross_matrix(v: Column) -> Self {
-        Self([Column::new(0.0, v[2], -v[1]), Column::new(-v[2], 0.0, v[0]), Column::new(v[1], -v[0], 0.0)])
+    pub(crate) fn cross_matrix(v: PaddedVector) -> Self {
+        Self([
+            PaddedVector::new(0.0, v[2], -v[1]),
+            PaddedVector::new(-v[2], 0.0, v[0]),
+            PaddedVector::new(v[1], -v[0], 0.0),
+        ])
     }
 
-    /// Less `a b'`.
+    /// The matrix minus the outer product `a b'`.
     #[inline(always)]
-    pub(crate) fn minus_outer(&self, a: Column, b: Column) -> Self {
+    pub(crate) fn minus_outer(&self, a: PaddedVector, b: PaddedVector) -> Self {
         let [x, y, z] = self.0;
         Self([x - a * b[0], y - a * b[1], z - a * b[2]])
     }
 }
 
-impl Mul<Column> for Block {
-    type Output = Column;
+impl Mul<PaddedVector> for Block {
+    type Output = PaddedVector;
 
     #[inline(always)]
-    fn mul(self, v: Column) -> Column {
+    fn mul(self, v: PaddedVector) -> PaddedVector {
         let [x, y, z] = self.0;
         x * v[0] + y * v[1] + z * v[2]
     }
@@ -217,6 +227,6 @@ impl Sub for Block {
 
 impl From<Matrix3<f64>> for Block {
     fn from(matrix: Matrix3<f64>) -> Self {
-        Self([0, 1, 2].map(|at| Column::from(matrix.column(at).into_owned())))
+        Self([0, 1, 2].map(|at| PaddedVector::from(matrix.column(at).into_owned())))
     }
 }

@@ -1,4 +1,4 @@
-//! Vectors of three of several samples side by side, entry by entry: what the batch computes with.
+//! Vectors of three for several samples side by side, entry by entry, for the batch of inverse dynamics.
 
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
 
@@ -30,7 +30,7 @@ impl LaneVector {
 
     /// The same for all samples.
     #[inline(always)]
-    pub(crate) fn of(v: &Vector3<f64>) -> Self {
+    pub(crate) fn splat(v: &Vector3<f64>) -> Self {
         Self([[v.x; LANES], [v.y; LANES], [v.z; LANES]])
     }
 

@@ -1,22 +1,22 @@
-//! Bodies in the axes of the root, each about its own origin: what one carries adds up without being turned, and only a
-//! shift along the arm is left between a body and its parent.
+//! Bodies in the axes of the root, each about its own origin: inertias and wrenches of a subtree add up without rotations, and
+//! only a shift along the arm is needed between a body and its parent.
 
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
 
 use congruent_kinematics::SinCos;
 
 use crate::algebra::{
-    columns::{Block, Column},
+    columns::{Block, PaddedVector},
     rigid::{BodyInertia, BodyTwist, BodyWrench, JointFrame, Placement},
 };
 
-/// Where a body is, in the axes of the root.
+/// Pose of a body: axes, and the offset from its parent, in the axes of the root.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RootedBody {
     /// Axes of the body.
     pub(crate) axes: Block,
     /// Origin of the body, from that of its parent.
-    pub(crate) offset: Column,
+    pub(crate) offset: PaddedVector,
 }
 
 /// Inertia of a body whose moving children are free to accelerate: wrench for an acceleration, as three blocks of a
@@ -34,11 +34,11 @@ pub(crate) struct ArticulatedInertia {
 }
 
 impl RootedBody {
-    pub(crate) const NONE: Self = Self { axes: Block::ZERO, offset: Column::ZERO };
+    pub(crate) const NONE: Self = Self { axes: Block::ZERO, offset: PaddedVector::ZERO };
 
     /// The axis of the body's joint.
     #[inline(always)]
-    pub(crate) fn axis(&self) -> Column {
+    pub(crate) fn axis(&self) -> PaddedVector {
         self.axes.0[2]
     }
 
@@ -48,7 +48,7 @@ impl RootedBody {
         BodyWrench { moment: wrench.moment + self.offset.cross(wrench.force), force: wrench.force }
     }
 
-    /// The acceleration of the body that its parent gives it.
+    /// The acceleration of the body's origin by the motion of its parent.
     #[inline(always)]
     pub(crate) fn carried(&self, parent: &BodyTwist) -> BodyTwist {
         BodyTwist { angular: parent.angular, linear: parent.linear + parent.angular.cross(self.offset) }
@@ -68,9 +68,9 @@ impl JointFrame {
         }
     }
 
-    /// The part of a wrench that the joint takes up, whose axis is given.
+    /// The component of a wrench along the joint's motion, for a given axis.
     #[inline(always)]
-    pub(crate) fn along(&self, axis: Column, wrench: &BodyWrench) -> f64 {
+    pub(crate) fn along(&self, axis: PaddedVector, wrench: &BodyWrench) -> f64 {
         axis.dot(if self.turns { wrench.moment } else { wrench.force })
     }
 
@@ -78,14 +78,19 @@ impl JointFrame {
     ///
     /// Source: Luh, Walker, Paul (1980), with the acceleration of the point at the frame's origin.
     #[inline(always)]
-    pub(crate) fn velocity_products(&self, body: &RootedBody, parent_turning: Column, qd: f64) -> BodyTwist {
+    pub(crate) fn velocity_products(
+        &self,
+        body: &RootedBody,
+        parent_turning: PaddedVector,
+        qd: f64,
+    ) -> BodyTwist {
         let turning = parent_turning;
         let centripetal = turning.cross(turning.cross(body.offset));
         let crossed = turning.cross(body.axis() * qd);
         if self.turns {
             BodyTwist { angular: crossed, linear: centripetal }
         } else {
-            BodyTwist { angular: Column::ZERO, linear: centripetal + crossed * 2.0 }
+            BodyTwist { angular: PaddedVector::ZERO, linear: centripetal + crossed * 2.0 }
         }
     }
 }
@@ -103,7 +108,7 @@ impl BodyInertia {
 
     /// The wrench of a unit acceleration of a joint along its axis.
     #[inline(always)]
-    pub(crate) fn accelerated_along(&self, axis: Column, joint: &JointFrame) -> BodyWrench {
+    pub(crate) fn accelerated_along(&self, axis: PaddedVector, joint: &JointFrame) -> BodyWrench {
         let h = self.first_moment;
         if joint.turns {
             BodyWrench { moment: self.tensor * axis, force: axis.cross(h) }
@@ -114,7 +119,7 @@ impl BodyInertia {
 
     /// The same body with a child whose origin is `offset` away.
     #[inline(always)]
-    pub(crate) fn with_child(&self, child: &Self, offset: Column) -> Self {
+    pub(crate) fn with_child(&self, child: &Self, offset: PaddedVector) -> Self {
         let by_mass = offset * child.mass_kg;
         // `-[p][b] - [b][p]` for `b = h + m p / 2`, as in `SpatialInertia::transformed_by`.
         let b = child.first_moment + by_mass * 0.5;
@@ -131,7 +136,7 @@ impl ArticulatedInertia {
     pub(crate) const ZERO: Self = Self { angular: Block::ZERO, coupling: Block::ZERO, linear: Block::ZERO };
 
     #[inline(always)]
-    pub(crate) fn of_rigid(inertia: &BodyInertia) -> Self {
+    pub(crate) fn from_rigid(inertia: &BodyInertia) -> Self {
         Self {
             angular: inertia.tensor,
             coupling: Block::cross_matrix(-inertia.first_moment),
@@ -151,7 +156,7 @@ impl ArticulatedInertia {
 
     /// The wrench of a unit acceleration of a joint along its axis.
     #[inline(always)]
-    pub(crate) fn accelerated_along(&self, axis: Column, joint: &JointFrame) -> BodyWrench {
+    pub(crate) fn accelerated_along(&self, axis: PaddedVector, joint: &JointFrame) -> BodyWrench {
         if joint.turns {
             BodyWrench { moment: self.angular * axis, force: self.coupling * axis }
         } else {
@@ -171,7 +176,7 @@ impl ArticulatedInertia {
 
     /// The same body with a child whose origin is `offset` away.
     #[inline(always)]
-    pub(crate) fn with_child(&self, child: &Self, offset: Column) -> Self {
+    pub(crate) fn with_child(&self, child: &Self, offset: PaddedVector) -> Self {
         // `K' = K - C [p]` and `A' = A + ([p] K)' + [p] K'`, as `[p]' = -[p]`.
         let coupling = child.coupling - child.linear.times_cross(offset);
         let shifted = child.coupling.crossed_by(offset).transposed() + coupling.crossed_by(offset);

@@ -1,14 +1,14 @@
-//! Base parameters: which combinations of inertial parameters joint torques can tell, and which they cannot.
+//! Base parameters: the combinations of inertial parameters that are identifiable from joint torques.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    body_tree::{BodyTree, JointMotion},
+    body_tree::{BodyTree, JointMotionState},
     error::DynamicsError,
     spatial_inertia::{PARAMETER_NAMES, PARAMETERS},
 };
 
-/// One inertial parameter of one body.
+/// One of the ten inertial parameters of one body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InertialParameter {
     /// The moving joint that carries the body.
@@ -24,36 +24,36 @@ impl InertialParameter {
     }
 }
 
-/// A sum of parameters that torques tell only together.
+/// A sum of parameters that are identifiable only together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BaseParameter {
     /// The parameter that the group is named by; its coefficient is 1.
     pub parameter: InertialParameter,
     /// The parameters of later bodies that are indistinguishable from it, with their coefficients.
     pub grouped: Vec<(InertialParameter, f64)>,
-    /// Value of the sum.
+    /// Value of the sum by the description; kg m^2, kg m or kg.
     pub value: f64,
 }
 
-/// All base parameters of a robot.
+/// All base parameters of a robot, and the parameters without an effect on torques.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BaseParameters {
-    /// Those that torques tell, from the base on.
+    /// The identifiable sums, from the base to the tip.
     pub groups: Vec<BaseParameter>,
-    /// Those that change no torque.
-    pub unseen: Vec<InertialParameter>,
+    /// Parameters without an effect on any torque.
+    pub without_effect: Vec<InertialParameter>,
 }
 
-/// A column whose part outside of the others is below this share of the longest column depends on them. Kind: rounding of some
-/// thousand products; worst seen 3e-14, smallest share of an independent column 1e-7 (axes that a rounded pi/2
-/// leaves almost parallel).
+/// A column depends on the others if its part outside of their span is below this share of the longest column. No unit; kind:
+/// rounding of some thousand products; worst seen 3e-14, smallest share of an independent column 1e-7 (axes that are almost
+/// parallel because pi/2 is rounded).
 const DEPENDENT: f64 = 1e-11;
-/// A coefficient below this is rounding.
+/// A coefficient below this is rounding. No unit; kind: rounding.
 const NO_COEFFICIENT: f64 = 1e-9;
 
 impl BodyTree {
-    /// Groups the inertial parameters by what torques tell at these motions, which have to excite every joint:
-    /// some 30 random ones do.
+    /// Groups the inertial parameters by identifiability at these motions, which have to excite every joint; some 30 random
+    /// ones do.
     ///
     /// Parameters are taken from the base on, moments before masses, so that those of a later body are grouped with
     /// those of an earlier one.
@@ -63,16 +63,17 @@ impl BodyTree {
     ///
     /// # Errors
     /// [`DynamicsError::Length`] if a vector is another robot's.
-    pub fn base_parameters(&self, motions: &[JointMotion<'_>]) -> Result<BaseParameters, DynamicsError> {
+    pub fn base_parameters(&self, motions: &[JointMotionState<'_>]) -> Result<BaseParameters, DynamicsError> {
         let stacked = self.stacked_regressor(motions)?;
         let values = self.all_parameters();
         let scale = stacked.column_iter().map(|column| column.norm()).fold(0.0, f64::max);
-        let mut found = BaseParameters { groups: Vec::new(), unseen: Vec::new() };
+        let mut found = BaseParameters { groups: Vec::new(), without_effect: Vec::new() };
         let mut basis = OrthonormalColumns { columns: Vec::new(), triangle: Vec::new() };
         for (index, column) in stacked.column_iter().enumerate() {
             let parameter = InertialParameter { joint: index / PARAMETERS, parameter: index % PARAMETERS };
+            // Before the insertion: a column of rounding would become a direction of the basis.
             if column.norm() <= DEPENDENT * scale {
-                found.unseen.push(parameter);
+                found.without_effect.push(parameter);
                 continue;
             }
             let Some(coefficients) = basis.insert(column.into_owned(), DEPENDENT * scale) else {
@@ -93,7 +94,7 @@ impl BodyTree {
     ///
     /// # Errors
     /// [`DynamicsError::Length`] if a vector is another robot's.
-    pub fn stacked_regressor(&self, motions: &[JointMotion<'_>]) -> Result<DMatrix<f64>, DynamicsError> {
+    pub fn stacked_regressor(&self, motions: &[JointMotionState<'_>]) -> Result<DMatrix<f64>, DynamicsError> {
         let n = self.dof();
         let mut buffer = self.buffer();
         let mut one = DMatrix::zeros(n, PARAMETERS * n);
@@ -112,7 +113,7 @@ impl BodyTree {
     }
 }
 
-/// A QR decomposition that grows by columns.
+/// A QR decomposition to which columns are added one by one.
 struct OrthonormalColumns {
     columns: Vec<DVector<f64>>,
     /// Column `j` of the triangle has `j + 1` entries.
@@ -143,7 +144,7 @@ impl OrthonormalColumns {
         None
     }
 
-    /// Backward substitution.
+    /// Solves `R x = entries` by backward substitution.
     fn solve(&self, mut entries: Vec<f64>) -> Vec<f64> {
         for at in (0..entries.len()).rev() {
             entries[at] /= self.triangle[at][at];

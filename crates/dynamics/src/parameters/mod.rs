@@ -1,4 +1,4 @@
-//! Inertial parameters: the regressor, in which torques are linear in them, and what torques tell of them.
+//! Inertial parameters: the regressor, by which torques are linear in them, and which of them are identifiable.
 
 mod base_parameters;
 mod regressor;

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::{
     algebra::rigid::{BodyInertia, BodyWrench},
-    body_tree::{BodyTree, JointMotion},
+    body_tree::{BodyTree, JointMotionState},
     buffer::DynamicsBuffer,
     error::DynamicsError,
     spatial_inertia::{PARAMETERS, SpatialInertia},
@@ -25,7 +25,7 @@ impl BodyTree {
     /// [`DynamicsError::Length`] if a vector, the matrix or the buffer is another robot's.
     pub fn regressor_into(
         &self,
-        motion: &JointMotion<'_>,
+        motion: &JointMotionState<'_>,
         buffer: &mut DynamicsBuffer,
         regressor: &mut DMatrix<f64>,
     ) -> Result<(), DynamicsError> {
@@ -50,7 +50,7 @@ impl BodyTree {
         Ok(())
     }
 
-    /// What each joint up to the root takes up of a wrench on a body.
+    /// The torque of each joint from a body up to the root that balances a wrench on the body.
     fn project(
         &self,
         body: usize,
@@ -68,7 +68,7 @@ impl BodyTree {
     }
 }
 
-/// One parameter is 1, the others 0.
+/// The inertia with one parameter 1 and the others 0.
 fn unit(parameter: usize) -> SpatialInertia {
     let mut parameters = [0.0; PARAMETERS];
     parameters[parameter] = 1.0;

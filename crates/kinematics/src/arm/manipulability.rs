@@ -1,4 +1,4 @@
-//! How well the tool moves in each direction at one configuration: the velocity ellipsoids.
+//! Velocity ellipsoids: how fast the tool can move in each direction at one configuration.
 
 use congruent_description::ArmQ;
 use nalgebra::{DMatrix, Matrix3};
@@ -8,22 +8,22 @@ use crate::{error::KinematicsError, spatial::twist::Twist};
 
 /// Singular values below this share of the largest are zero. Kind: rounding of a dozen products.
 const RANK_SHARE: f64 = 1e-9;
-/// Configurations that tell what an arm can span at all.
+/// Number of configurations by which the attainable rank of a Jacobian is found.
 const RANK_SAMPLES: u32 = 16;
 
-/// What the singular values of a Jacobian say; those that no configuration of the arm has are not
-/// counted, so a planar arm is not called singular for staying in its plane.
+/// Measures that follow from the singular values of a Jacobian. Singular values that are zero at every configuration are
+/// left out, so a planar arm is not called singular because it stays in its plane.
 ///
 /// Source: Yoshikawa, *Manipulability of Robotic Mechanisms* (1985), eq. 8 and section 3.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dexterity {
-    /// Largest first, as many as the arm can have.
+    /// Singular values, largest first; as many as the attainable rank.
     pub singular_values: Vec<f64>,
-    /// Their product, Yoshikawa's measure.
+    /// Product of the singular values, Yoshikawa's measure.
     pub yoshikawa: f64,
-    /// Largest over smallest; infinite if the arm is singular.
+    /// Largest over smallest singular value; infinite if the arm is singular.
     pub condition: f64,
-    /// The smallest: the distance to the nearest singular matrix.
+    /// Smallest singular value: the distance to the nearest singular matrix.
     pub distance_to_singularity: f64,
 }
 
@@ -32,23 +32,22 @@ pub struct Dexterity {
 pub struct VelocityEllipsoid {
     /// Columns are the directions of the semi-axes in the base, the longest first.
     pub axes_in_base: Matrix3<f64>,
-    /// Their lengths, in m or rad per rad; per m if no joint turns.
+    /// Lengths of the semi-axes, in m or rad per rad; per m if no joint turns.
     pub semi_axes: [f64; 3],
-    /// What its semi-axes say.
+    /// Measures that follow from the lengths of the semi-axes.
     pub dexterity: Dexterity,
 }
 
-/// Manipulability at one configuration. Metres and radians do not mix: linear and angular parts stand
-/// apart, and a length that counts as one radian measures the linear part in `whole`, and everywhere the
-/// velocities of joints that slide, if others turn. Without it a product of singular values would depend on the
-/// unit of length.
+/// Manipulability at one configuration. Metres and radians are not mixed: linear and angular parts are separate. In `whole`, and
+/// for prismatic joints beside revolute ones, a length that counts as one radian converts between the two; without it a product
+/// of singular values would depend on the unit of length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Manipulability {
-    /// Of the tool centre point's velocity.
+    /// Ellipsoid of the tool centre point's velocity.
     pub linear: VelocityEllipsoid,
-    /// Of the tool's angular velocity.
+    /// Ellipsoid of the tool's angular velocity.
     pub angular: VelocityEllipsoid,
-    /// Of both together.
+    /// Measures of the linear and angular velocity together.
     pub whole: Dexterity,
 }
 
@@ -81,6 +80,8 @@ impl Arm {
     /// Linear, angular and whole Jacobian, the last without units.
     fn jacobians(&mut self, q: &ArmQ, metres_per_rad: f64) -> Result<[DMatrix<f64>; 3], KinematicsError> {
         let rad_per_metre = 1.0 / metres_per_rad;
+        // One unit of a prismatic joint is made comparable with one radian only if both kinds occur; an arm of slides alone keeps
+        // metres per metre.
         let of_slide = if self.turns_and_slides() { metres_per_rad } else { 1.0 };
         let unit = |joint: &ArmJoint| if joint.turns { 1.0 } else { of_slide };
         let units: Vec<f64> = self.joints().iter().map(unit).collect();
@@ -95,7 +96,7 @@ impl Arm {
         Ok([linear, angular, whole])
     }
 
-    /// The most directions that each of the three spans at a few fixed configurations.
+    /// The largest rank of each of the three Jacobians over a few fixed configurations. A single one might be singular.
     pub(super) fn attainable_ranks(&mut self) -> [usize; 3] {
         let mut ranks = [0; 3];
         let metres_per_rad = self.metres_per_rad();
@@ -128,9 +129,9 @@ fn dexterity(values: &[f64], rank: usize) -> Dexterity {
     }
 }
 
-/// From `J J^T` for the axes, which three columns always have, and from `J` for the singular values, of which
-/// its square would lose the small ones.
+/// The axes follow from `J J^T`; the singular values from `J` itself, since small ones lose half their digits in the square.
 fn ellipsoid(jacobian: &DMatrix<f64>, rank: usize) -> VelocityEllipsoid {
+    // nalgebra's SVD of a 3 x n matrix with n < 3 has only n left vectors; J J^T always has three.
     let gram = Matrix3::from_fn(|row, column| jacobian.row(row).dot(&jacobian.row(column)));
     let eigen = gram.symmetric_eigen();
     let mut order = [0, 1, 2];

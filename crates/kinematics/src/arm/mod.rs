@@ -1,5 +1,4 @@
-//! What an arm can do: a chain with limits and tool, its inverse kinematics, workspace, manipulability and
-//! sensitivity.
+//! An arm: a chain with limits and tool, with its inverse kinematics, workspace, manipulability and sensitivity.
 
 pub(crate) mod ik;
 pub(crate) mod manipulability;

@@ -16,17 +16,17 @@ use crate::{
 /// One independent joint of an arm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmJoint {
-    /// The joint in the robot.
+    /// Index of the joint in the robot.
     pub joint: JointIndex,
-    /// Its entry in the robot's configuration vector.
+    /// Index of its entry in the robot's configuration vector.
     pub coordinate: usize,
     /// Whether it turns, in rad; otherwise it slides, in m.
     pub turns: bool,
-    /// Smallest position; minus infinity if there is none.
+    /// Lower limit, rad or m; minus infinity without a limit.
     pub lower: f64,
-    /// Largest position; infinity if there is none.
+    /// Upper limit, rad or m; infinity without a limit.
     pub upper: f64,
-    /// Whether a full turn of it changes no pose.
+    /// Whether a full turn of the joint changes no pose: false if a mimic joint follows with a fractional multiplier.
     wraps: bool,
 }
 
@@ -47,6 +47,7 @@ impl ArmJoint {
     #[inline]
     pub(crate) fn inside(&self, q: f64) -> f64 {
         if q > self.upper {
+            // The fewest whole turns that bring the position below the upper limit.
             let turned = q - TAU * ((q - self.upper) / TAU).ceil();
             if self.wraps && turned >= self.lower { turned } else { self.upper }
         } else if q < self.lower {
@@ -63,7 +64,7 @@ impl ArmJoint {
             return q;
         }
         let turns = ((target - q) / TAU).round();
-        // One turn less if the nearest is outside.
+        // If the nearest number of turns is outside the limits, one turn less is tried; otherwise `q`, which is inside, stays.
         [turns, turns - turns.signum()]
             .map(|turns| q + TAU * turns)
             .into_iter()
@@ -101,7 +102,7 @@ impl Arm {
     ///
     /// # Errors
     /// [`KinematicsError::NoJoint`] if nothing moves between base and tip.
-    pub fn of(description: &RobotDescription) -> Result<Self, KinematicsError> {
+    pub fn from_description(description: &RobotDescription) -> Result<Self, KinematicsError> {
         let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
         Self::new(&description.robot, (description.base, description.tip), tip_from_tcp)
     }
@@ -133,6 +134,7 @@ impl Arm {
             follows,
             metres_per_rad: 1.0,
         };
+        // Last, since it evaluates the Jacobian of the finished arm.
         arm.metres_per_rad = arm.typical_metres_per_rad();
         Ok(arm)
     }
@@ -142,14 +144,14 @@ impl Arm {
         &self.joints
     }
 
-    /// How far the tool typically moves when a joint turns: the length that makes metres and radians
-    /// comparable for this arm. If the tool is on the axes that turn, as on a spindle, how far slides move it; 1 if nothing
-    /// turns.
+    /// Typical distance, m, that the tool moves when a joint turns by one radian: the length that makes metres and radians
+    /// comparable for this arm. If the tool lies on all turning axes, as on a spindle, the distance that prismatic joints move
+    /// it; 1 if no joint turns.
     pub fn metres_per_rad(&self) -> f64 {
         self.metres_per_rad
     }
 
-    /// The middle of every range.
+    /// The configuration with every joint in the middle of its sampled range.
     pub fn middle(&self) -> ArmQ {
         let middle = |joint: &ArmJoint| f64::midpoint(joint.sampled_range().0, joint.sampled_range().1);
         self.joints.iter().map(middle).collect()
@@ -191,7 +193,10 @@ impl Arm {
         self.place(q)?;
         let kind = JacobianKind::Geometric;
         let base_from_tip = self.chain.pose_and_jacobian_into(&self.positions, kind, &mut self.of_chain)?;
+        // The chain gives columns for the tip; the velocity of the tool centre point is v + w x r with r from tip to tool.
         let tcp_from_tip_in_base = base_from_tip.rotation * self.tip_from_tcp.translation;
+        // Several joints of the chain may follow one independent joint: by the chain rule their columns add up, each times its
+        // multiplier.
         self.columns.fill(Twist::zero());
         for (of_chain, follows) in self.of_chain.iter().zip(&self.follows) {
             let Twist { angular, linear } = *of_chain;
@@ -215,7 +220,7 @@ impl Arm {
         spread(&ranges, count)
     }
 
-    /// Positions of the chain's joints, mimics included.
+    /// Writes the positions of all joints of the chain, mimic joints included, to `positions`.
     fn place(&mut self, q: &ArmQ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.joints.len(), q)?;
         for (position, follows) in self.positions.iter_mut().zip(&self.follows) {
@@ -226,18 +231,18 @@ impl Arm {
 
     /// Root mean square over turning joints and a few fixed configurations.
     fn typical_metres_per_rad(&mut self) -> f64 {
-        /// Enough for a length that is only a scale.
+        /// Number of configurations: enough for a length that is only a scale.
         const CONFIGURATIONS: u32 = 16;
-        /// A length below is zero. Kind: rounding of sums of some metres.
+        /// Shorter lengths count as zero, m. Kind: rounding of sums of some metres.
         const ZERO_M: f64 = 1e-12;
-        /// A tool this near to every axis that turns, as a part of its own way, moves by slides alone.
+        /// A tool nearer to every turning axis than this share of its own travel is moved by prismatic joints alone.
         const ON_AXIS: f64 = 1e-3;
         let (mut sum, mut turning) = (0.0, 0.0);
-        let (mut first, mut way_m) = (None, 0.0_f64);
+        let (mut first, mut travel_m) = (None, 0.0_f64);
         for q in self.spread(CONFIGURATIONS) {
             let (pose, columns) = self.pose_and_jacobian(&q).expect("q is a configuration of this arm");
             let position = pose.translation;
-            way_m = way_m.max((position - *first.get_or_insert(position)).norm());
+            travel_m = travel_m.max((position - *first.get_or_insert(position)).norm());
             for column in columns {
                 let rate = column.angular.norm();
                 if rate > 0.0 {
@@ -246,17 +251,17 @@ impl Arm {
                 }
             }
         }
-        // Without a joint that turns there is nothing to compare.
+        // Root mean square of |v| / |w|, the distance of the tool from each turning axis. Without a turning joint it is 0.
         let by_turning_m = if turning > 0.0 { f64::sqrt(sum / turning) } else { 0.0 };
-        match by_turning_m.max(ON_AXIS * way_m) {
+        match by_turning_m.max(ON_AXIS * travel_m) {
             length_m if turning == 0.0 || length_m < ZERO_M => 1.0,
-            _ if by_turning_m < ON_AXIS * way_m => way_m,
+            _ if by_turning_m < ON_AXIS * travel_m => travel_m,
             _ => by_turning_m,
         }
     }
 }
 
-/// Adds a joint of the chain, and the independent one that it follows if that is new.
+/// Adds a joint of the chain, and the independent joint that it follows unless that is known already.
 fn follow(robot: &Robot, index: JointIndex, joints: &mut Vec<ArmJoint>, follows: &mut Vec<Follows>) {
     let joint = robot.joint(index);
     let alone = Mimic { master: index, multiplier: 1.0, offset: 0.0 };
@@ -275,13 +280,16 @@ fn follow(robot: &Robot, index: JointIndex, joints: &mut Vec<ArmJoint>, follows:
         joints.len() - 1
     });
     follows.push(Follows { independent, multiplier, offset });
+    // A full turn of the master turns this joint by `multiplier` turns, which is the same pose only for a whole number.
     joints[independent].wraps &= multiplier.fract().abs() < f64::EPSILON;
     if let (Some((lower, upper)), true) = (joint.position_range(), joint.mimic.is_some() && multiplier != 0.0)
     {
+        // The limits of a mimic joint bind its master: q = multiplier q_master + offset solved for q_master; a negative
+        // multiplier exchanges the two ends.
         let ends = [(lower - offset) / multiplier, (upper - offset) / multiplier];
         let bound = &mut joints[independent];
         let (lower, upper) = (bound.lower.max(ends[0].min(ends[1])), bound.upper.min(ends[0].max(ends[1])));
-        // Ranges that exclude each other are a fault of the description; the master's stands.
+        // Ranges that exclude each other are a fault of the description; then the master's own range is kept.
         if lower <= upper {
             (bound.lower, bound.upper) = (lower, upper);
         }

@@ -6,9 +6,9 @@ use super::model::ArmJoint;
 
 /// First step of each joint as a share of its range.
 const FIRST_SHARE: f64 = 0.1;
-/// Last step as a share of the range: a value that is smooth in the joints is off by its square.
+/// Last step as a share of the range: near a maximum a smooth value is off by the square of the step.
 const LAST_SHARE: f64 = 1e-7;
-/// Steps in all, so that the search ends on any function.
+/// Most sweeps over the joints, so that the search ends for any function.
 const MOST_SWEEPS: usize = 400;
 
 /// Raises `value` by moving one joint at a time, with halved steps if none helps; `q` is then the best
@@ -19,6 +19,8 @@ pub(crate) fn maximize(joints: &[ArmJoint], q: &mut ArmQ, mut value: impl FnMut(
     let mut best = value(q);
     let mut share = FIRST_SHARE;
     for _ in 0..MOST_SWEEPS {
+        // Coordinate by coordinate, without derivatives: the functions (distances, coordinates of the tool) have kinks at limits
+        // and singular configurations, where gradients mislead.
         let mut rose = false;
         for (at, joint) in joints.iter().enumerate() {
             let (lower, upper) = joint.sampled_range();
@@ -27,6 +29,7 @@ pub(crate) fn maximize(joints: &[ArmJoint], q: &mut ArmQ, mut value: impl FnMut(
                 q[at] = (here + step * (upper - lower)).clamp(lower, upper);
                 let found = value(q);
                 if found > best {
+                    // The opposite direction cannot help as well, unless the function has a minimum here.
                     (best, rose) = (found, true);
                     break;
                 }

@@ -1,4 +1,4 @@
-//! What a small error of one parameter does to the tool over the whole joint range.
+//! The displacement of the tool by a small error of one parameter, over the whole joint range.
 
 use congruent_description::ArmQ;
 
@@ -8,9 +8,9 @@ use crate::{spatial::pose::Pose, uniform::Uniform};
 /// How the joint range is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sampling {
-    /// Random configurations within the limits.
+    /// Number of random configurations within the limits.
     pub samples: usize,
-    /// Their seed.
+    /// Seed of the random configurations.
     pub seed: u64,
 }
 
@@ -27,10 +27,10 @@ pub struct Displacement {
     pub worst_at: ArmQ,
 }
 
-/// Samples from which the worst case is searched for.
+/// Number of worst samples from which a local search starts.
 const SEARCHES: usize = 4;
 
-/// The displacement between an arm as it is meant and as it is.
+/// The displacement of the tool between a nominal arm and the arm as built.
 ///
 /// # Examples
 /// A turning arm of 0.5 m, off by one degree: 2 sin(0.5 deg) times its length, everywhere.
@@ -78,6 +78,7 @@ pub fn displacement(
         let distance_m = meant.distance_m(&built);
         sum_m += distance_m;
         worst_rad = worst_rad.max(meant.angle_rad(&built));
+        // A sorted list of the few worst samples: several starts, since the worst sample may lie on a side peak.
         if worst.len() < SEARCHES || worst.last().is_some_and(|last| distance_m > last.0) {
             let at = worst.partition_point(|known| known.0 >= distance_m);
             worst.insert(at, (distance_m, q.clone()));

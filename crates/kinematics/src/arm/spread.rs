@@ -21,6 +21,7 @@ pub(super) fn spread(ranges: &[(f64, f64)], count: u32) -> Vec<ArmQ> {
 
 fn primes(count: usize) -> Vec<u32> {
     let mut primes: Vec<u32> = Vec::with_capacity(count);
+    // Trial division: arms have few joints, and each prime is used once.
     let mut candidate = 2;
     while primes.len() < count {
         if primes.iter().all(|prime| candidate % prime != 0) {

@@ -13,10 +13,10 @@ use super::{
 };
 use crate::uniform::Uniform;
 
-/// Below this extent the tool does not leave a plane. Kind: rounding of a dozen products within 10 m.
+/// Smaller extents along an axis, m, count as no motion. Kind: rounding of a dozen products within 10 m.
 const FLAT_M: f64 = 1e-12;
-/// Parts of the samples, the best of each of which starts a search: an extreme has side peaks, and the
-/// best sample of all may lie on one.
+/// The samples are divided into this many parts, and the best sample of each part starts a search: an extreme has side peaks,
+/// and the best sample of all may lie on one.
 const STARTS: usize = 16;
 /// Samples that are kept as starts for the test of single points: dense enough for a few steps to a point.
 const KEPT: usize = 2048;
@@ -28,9 +28,9 @@ pub struct Workspace {
     pub reach_m: [f64; 2],
     /// Configurations at which these are attained.
     pub reach_at: [ArmQ; 2],
-    /// Smallest coordinates in the base, m.
+    /// Smallest x, y and z of the tool centre point in the base, m.
     pub lower_in_base: Vector3<f64>,
-    /// Largest coordinates in the base, m.
+    /// Largest x, y and z of the tool centre point in the base, m.
     pub upper_in_base: Vector3<f64>,
     /// Directions of the base in which the tool moves: 3 for a volume, 2 for an area.
     pub dimensions: usize,
@@ -50,7 +50,7 @@ impl Arm {
         let mut q = self.middle();
         let mut points_in_base = Vec::with_capacity(sampling.samples);
         let mut kept = Vec::with_capacity(sampling.samples.min(KEPT));
-        // Nearest, farthest, and both ends along each axis, each with the best configuration.
+        // Eight functions whose maxima are the extremes: nearest and farthest point, and both ends along each axis.
         let values: [fn(&Vector3<f64>) -> f64; 8] =
             [|p| -p.norm(), |p| p.norm(), |p| -p.x, |p| -p.y, |p| -p.z, |p| p.x, |p| p.y, |p| p.z];
         let none = || (f64::NEG_INFINITY, q.clone());
@@ -58,6 +58,7 @@ impl Arm {
         for sample in 0..sampling.samples {
             self.draw(&mut random, &mut q);
             let point = self.tcp_in_base(&q);
+            // Dealing samples out in turn makes the parts independent draws of equal size.
             for (starts, value) in starts.iter_mut().zip(values) {
                 let (value, best) = (value(&point), &mut starts[sample % STARTS]);
                 if value > best.0 {
@@ -65,6 +66,7 @@ impl Arm {
                     best.1.copy_from_slice(&q);
                 }
             }
+            // The first samples are as random as any others, and keeping only them bounds the memory.
             if kept.len() < KEPT {
                 kept.push((point, q.clone()));
             }
@@ -104,7 +106,7 @@ impl Arm {
         }
     }
 
-    /// At one of its own configurations.
+    /// Position of the tool centre point in the base at one of the arm's own configurations.
     fn tcp_in_base(&mut self, q: &ArmQ) -> Vector3<f64> {
         self.base_from_tcp(q).expect("q is a configuration of this arm").translation
     }

@@ -1,8 +1,8 @@
 //! The size of a workspace, volume or area: the share of random points of its bounding box that inverse
 //! kinematics reaches, with an interval. Counting the cells that random configurations hit converges from
-//! below, and how slowly cannot be seen from the count; whether one point can be reached can be decided.
+//! below at a rate that the count does not show; whether a single point can be reached can be decided.
 
-use congruent_description::{ArmQ, Elementary as _};
+use congruent_description::ArmQ;
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
@@ -19,7 +19,7 @@ const STANDARD_ERRORS: f64 = 3.0;
 const REACHED_SHARE: f64 = 1e-6;
 /// Steps of inverse kinematics for one point: some twenty attempts.
 const STEPS: usize = 200;
-/// Points that are tested with any number of configurations, if there are as many, ...
+/// Points that are tested, up to the number of samples, ...
 const POINTS: usize = 20_000;
 /// ... and one for so many configurations if these are more.
 const CONFIGURATIONS_PER_POINT: usize = 20;
@@ -40,13 +40,13 @@ pub struct WorkspaceSize {
 }
 
 impl WorkspaceSize {
-    /// Of what has none: a surface, if volumes are asked for.
+    /// The size of a workspace that has none: a surface has no volume, a curve no area.
     pub(super) fn none() -> Self {
         Self { estimate: 0.0, lower: 0.0, upper: 0.0, points: 0, cell_m: 0.0 }
     }
 }
 
-/// What is known of the workspace already.
+/// The results of sampling that the size is computed from.
 pub(super) struct KnownWorkspace<'a> {
     /// Corners of the bounding box.
     pub(super) corners_in_base: [Vector3<f64>; 2],
@@ -79,7 +79,7 @@ impl Cells {
         let mut left = count;
         for (at, &axis) in axes.iter().enumerate() {
             let size: f64 = axes[at..].iter().map(|&axis| extents[axis]).product();
-            let edge = (size / left as f64).to_power(1.0 / (axes.len() - at) as f64);
+            let edge = libm::pow(size / left as f64, 1.0 / (axes.len() - at) as f64);
             counts[axis] = ((extents[axis] / edge).round() as usize).clamp(1, left);
             left = (left / counts[axis]).max(1);
         }
@@ -103,9 +103,9 @@ impl Cells {
     }
 }
 
-/// Whether a point is reached.
+/// Whether inverse kinematics reaches a point.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Found {
+enum ReachTest {
     No,
     Yes,
     /// In the second half of the steps: about as many again would be found with twice the steps.
@@ -115,6 +115,8 @@ enum Found {
 /// Tests points of the bounding box; the more configurations were drawn, the more points.
 pub(super) fn size(arm: &Arm, known: &KnownWorkspace<'_>, sampling: Sampling) -> WorkspaceSize {
     let points = sampling.samples.min(POINTS.max(sampling.samples / CONFIGURATIONS_PER_POINT));
+    // Two points in each cell (stratified sampling): cells entirely inside or outside add no variance, so only the boundary of
+    // the workspace contributes to the error.
     let cells = Cells::filling(known, (points / 2).max(1));
     let tolerance_m = REACHED_SHARE * known.reach_m[1];
     let options =
@@ -123,9 +125,11 @@ pub(super) fn size(arm: &Arm, known: &KnownWorkspace<'_>, sampling: Sampling) ->
     let (mut reached, mut late, mut mixed, mut pairs) = (0_u32, 0_u32, 0_u32, 0_u32);
     for pair in cells.pairs_of_points(Uniform::seeded(sampling.seed)) {
         let found = pair.map(|point| test(&mut solver, known, &point, &options));
-        let is_reached = found.map(|found| found != Found::No);
+        let is_reached = found.map(|found| found != ReachTest::No);
         reached += is_reached.map(u32::from).iter().sum::<u32>();
-        late += found.map(|found| u32::from(found == Found::Late)).iter().sum::<u32>();
+        // Points found only in the second half of the steps suggest as many again that would be found with twice the steps: they
+        // widen the upper end of the interval.
+        late += found.map(|found| u32::from(found == ReachTest::Late)).iter().sum::<u32>();
         mixed += u32::from(is_reached[0] != is_reached[1]);
         pairs += 1;
     }
@@ -137,7 +141,7 @@ pub(super) fn size(arm: &Arm, known: &KnownWorkspace<'_>, sampling: Sampling) ->
     let half_width = of_cell * STANDARD_ERRORS / 2.0 * (f64::from(mixed) + STANDARD_ERRORS.powi(2)).sqrt();
     let estimate = of_cell * f64::from(reached) / 2.0;
     #[expect(clippy::cast_precision_loss, reason = "2 or 3 axes")]
-    let cell_m = of_cell.to_power(1.0 / moving().count() as f64);
+    let cell_m = libm::pow(of_cell, 1.0 / moving().count() as f64);
     WorkspaceSize {
         estimate,
         lower: (estimate - half_width).max(0.0),
@@ -152,22 +156,24 @@ fn test(
     known: &KnownWorkspace<'_>,
     point: &Vector3<f64>,
     options: &IkOptions,
-) -> Found {
+) -> ReachTest {
+    // Points outside the reach need no search, which would use all its steps on them.
     let [nearest_m, farthest_m] = known.reach_m;
     let distance_m = point.norm();
     if distance_m < nearest_m - options.tolerance_m || distance_m > farthest_m + options.tolerance_m {
-        return Found::No;
+        return ReachTest::No;
     }
+    // From the nearest sample: a few steps reach the point instead of a search over the whole range.
     let apart = |start: &&(Vector3<f64>, ArmQ)| (start.0 - point).norm_squared();
     let Some((_, start)) = known.starts.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else {
-        return Found::No;
+        return ReachTest::No;
     };
     let base_from_tcp = Pose::from_parts(Matrix3::identity(), *point);
     let target = IkTarget { base_from_tcp, part: TargetPart::Position };
     let result = solver.solve(&target, start, options, || true).expect("the start is of this arm");
     match (result.converged, result.iterations) {
-        (false, _) => Found::No,
-        (true, steps) if steps <= STEPS / 2 => Found::Yes,
-        (true, _) => Found::Late,
+        (false, _) => ReachTest::No,
+        (true, steps) if steps <= STEPS / 2 => ReachTest::Yes,
+        (true, _) => ReachTest::Late,
     }
 }

@@ -1,21 +1,21 @@
-//! A pose under way along a chain of rows.
+//! A pose as three axes and an origin, which the rows of a chain turn and shift step by step.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::sin_cos::SinCos;
 use crate::spatial::pose::Pose;
 
-/// A pose under way along a chain, as axes and origin: a row turns two axes and shifts the origin,
-/// which is a third of the work of a matrix product.
+/// A pose as three axes and an origin. A row of a chain turns two axes and shifts the origin, which is a third of the work of a
+/// matrix product.
 #[derive(Debug, Clone, Copy)]
 pub struct Axes {
-    /// Direction of x.
+    /// Unit vector of the x axis.
     pub x: Vector3<f64>,
-    /// Direction of y.
+    /// Unit vector of the y axis.
     pub y: Vector3<f64>,
-    /// Direction of z.
+    /// Unit vector of the z axis.
     pub z: Vector3<f64>,
-    /// Origin, m.
+    /// Position of the origin, m.
     pub origin: Vector3<f64>,
 }
 
@@ -23,7 +23,7 @@ impl Axes {
     /// The axes of a pose.
     #[inline]
     #[must_use]
-    pub fn of(pose: &Pose) -> Self {
+    pub fn from_pose(pose: &Pose) -> Self {
         let column = |at: usize| pose.rotation.column(at).into_owned();
         Self { x: column(0), y: column(1), z: column(2), origin: pose.translation }
     }
@@ -36,7 +36,7 @@ impl Axes {
         Pose { rotation, translation: *origin }
     }
 
-    /// Times `Rz(theta)`.
+    /// The pose multiplied from the right by `Rz(theta)`.
     #[inline]
     #[must_use]
     pub fn turned_about_z(&self, theta: SinCos) -> Self {
@@ -47,7 +47,7 @@ impl Axes {
         }
     }
 
-    /// Times `Rx(alpha)`.
+    /// The pose multiplied from the right by `Rx(alpha)`.
     #[inline]
     #[must_use]
     pub fn turned_about_x(&self, alpha: SinCos) -> Self {
@@ -58,21 +58,21 @@ impl Axes {
         }
     }
 
-    /// Times `Rz(theta) Tz(d)`.
+    /// The pose multiplied from the right by `Rz(theta) Tz(d)`.
     #[inline]
     #[must_use]
     pub fn about_z(&self, theta: SinCos, d_m: f64) -> Self {
         Self { origin: self.origin + self.z * d_m, ..self.turned_about_z(theta) }
     }
 
-    /// Times `Tx(a) Rx(alpha)`.
+    /// The pose multiplied from the right by `Tx(a) Rx(alpha)`.
     #[inline]
     #[must_use]
     pub fn about_x(&self, alpha: SinCos, a_m: f64) -> Self {
         Self { origin: self.origin + self.x * a_m, ..self.turned_about_x(alpha) }
     }
 
-    /// Times `T(shift)`.
+    /// The pose multiplied from the right by a translation by `shift`.
     #[inline]
     #[must_use]
     pub fn shifted(&self, shift: &Vector3<f64>) -> Self {
@@ -80,7 +80,7 @@ impl Axes {
         Self { origin, ..*self }
     }
 
-    /// Times any pose.
+    /// The pose multiplied from the right by any pose.
     #[inline]
     pub fn times(&self, here_from_there: &Pose) -> Pose {
         let Pose { rotation, translation: p } = here_from_there;

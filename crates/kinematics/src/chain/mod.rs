@@ -1,6 +1,6 @@
 //! Chains and trees of joints: tables, screws, URDF trees, the fast serial chain, and their Jacobians.
 //!
-//! | type | made from | positions | what it promises |
+//! | type | made from | positions | purpose |
 //! |---|---|---|---|
 //! | [`DhChain`] | a declared table and its robot | `RobotQ` | the frames of the table itself, its equation row by row; derivatives by every parameter |
 //! | [`SerialDh`] | a table, or the axes of a chain | `ChainQ` | a table as data, without a robot: converts between conventions and to screws; for writing, not for loops |

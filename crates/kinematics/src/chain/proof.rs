@@ -1,4 +1,4 @@
-//! Two forward kinematics of one serial chain compared: the proof that comes with a conversion.
+//! Compares two forward kinematics of one serial chain: the proof of a conversion.
 
 use congruent_description::ChainQ;
 
@@ -7,8 +7,8 @@ use crate::spatial::{pose::Pose, pose_error::larger};
 
 /// How far two models of a chain are apart, by screws and by poses.
 ///
-/// Screws and home pose decide: two maps are equal for every `q` if and only if those are equal. The
-/// poses at configurations are a second look by the models' own arithmetic.
+/// Two maps are equal for every `q` if and only if their screws and home poses are equal. The poses at configurations are a
+/// second test, by the models' own arithmetic.
 ///
 /// Source: Lynch & Park, *Modern Robotics* (2017), eq. 4.14; `(dT/dq_i) T^-1` at zero is the screw.
 ///
@@ -18,7 +18,7 @@ use crate::spatial::{pose::Pose, pose_error::larger};
 /// use congruent_kinematics::{Pose, Proof, Screw};
 /// use nalgebra::Vector3;
 /// let lift = |q: &ChainQ| Screw::prismatic(Vector3::z_axis()).exp(q[0]);
-/// let proof = Proof::of(1, &[[0.3].into()], &mut |q| lift(q), &mut |q| lift(q));
+/// let proof = Proof::compare(1, &[[0.3].into()], &mut |q| lift(q), &mut |q| lift(q));
 /// assert_eq!(proof.worst(), 0.0);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,15 +27,15 @@ pub struct Proof {
     pub screw_rad: f64,
     /// Largest difference of two screws in moment, m per unit of the joint.
     pub screw_m: f64,
-    /// Angle between the home orientations.
+    /// Angle between the home orientations, rad.
     pub home_rad: f64,
-    /// Distance of the home origins.
+    /// Distance of the home origins, m.
     pub home_m: f64,
-    /// Largest angle between orientations at a configuration.
+    /// Largest angle between orientations at a configuration, rad.
     pub orientation_rad: f64,
-    /// Largest distance of origins at a configuration.
+    /// Largest distance of origins at a configuration, m.
     pub position_m: f64,
-    /// Number of configurations looked at.
+    /// Number of compared configurations.
     pub configurations: usize,
 }
 
@@ -44,7 +44,7 @@ type BaseFromTip<'a> = dyn FnMut(&ChainQ) -> Pose + 'a;
 
 impl Proof {
     /// Identifies both models of `n` joints and compares them at the configurations too.
-    pub fn of(
+    pub fn compare(
         n: usize,
         configurations: &[ChainQ],
         found: &mut BaseFromTip<'_>,
@@ -68,7 +68,7 @@ impl Proof {
         proof
     }
 
-    /// The largest of all residuals, rad and m alike: what a limit is held against.
+    /// The largest of all residuals, rad and m alike: the value that is compared with a limit.
     pub fn worst(&self) -> f64 {
         let Self { screw_rad, screw_m, home_rad, home_m, orientation_rad, position_m, .. } = *self;
         [screw_rad, screw_m, home_rad, home_m, orientation_rad, position_m].into_iter().fold(0.0, larger)
@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn a_model_that_gives_no_numbers_proves_nothing() {
         let nowhere = Pose { translation: Vector3::repeat(f64::NAN), ..Pose::identity() };
-        let proof = Proof::of(1, &[[0.3].into()], &mut |_| nowhere, &mut |_| Pose::identity());
+        let proof = Proof::compare(1, &[[0.3].into()], &mut |_| nowhere, &mut |_| Pose::identity());
         assert!(proof.worst().is_nan());
     }
 }

@@ -1,23 +1,22 @@
 //! Sine and cosine together, in line and without a branch on the value.
 //!
 //! A call to a function of another crate costs more than the products of a row (`benches/forward.rs`)
-//! and keeps the compiler from overlapping joints. The screws (`screw_tree.rs`) keep to those of
-//! [`Elementary`](congruent_description::Elementary), and so does the physics: a fault here cannot
+//! and keeps the compiler from overlapping joints. The screws (`screws/tree.rs`) keep to those of
+//! `libm`, and so does the physics: a fault here cannot
 //! hide in all.
 
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
 
-use congruent_description::Elementary as _;
 use pulp::{Arch, Simd, WithSimd};
 
 /// Angles whose sines a chain computes together: joints of one arm.
 pub(crate) const BLOCK: usize = 8;
 
-/// Up to here the angle's multiple of pi/2 is found exactly: 2^20 pi/2. Beyond, `Elementary`
+/// Up to here the angle's multiple of pi/2 is found exactly: 2^20 pi/2. Beyond, `libm`
 /// answers.
 const LARGEST_RAD: f64 = 1.6e6;
 
-/// 1.5 * 2^52: adding it rounds to an integer, which then stands in the lowest bits.
+/// 1.5 * 2^52: adding it rounds to an integer, which is then in the lowest bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// The leading 33 bits of pi/2: products with integers up to 2^20 are exact.
@@ -52,25 +51,25 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of one angle.
 #[derive(Debug, Clone, Copy)]
 pub struct SinCos {
-    /// The sine.
+    /// Sine of the angle.
     pub sin: f64,
-    /// The cosine.
+    /// Cosine of the angle.
     pub cos: f64,
 }
 
 impl SinCos {
-    /// Of an angle in radians.
+    /// Sine and cosine of an angle in radians.
     #[inline(always)]
-    pub fn of(angle_rad: f64) -> Self {
+    pub fn from_angle(angle_rad: f64) -> Self {
         if angle_rad.abs() <= LARGEST_RAD {
-            Self::of_moderate(angle_rad)
+            Self::from_moderate_angle(angle_rad)
         } else {
-            let (sin, cos) = angle_rad.sine_cosine();
+            let (sin, cos) = libm::sincos(angle_rad);
             Self { sin, cos }
         }
     }
 
-    /// Of many angles in radians, in blocks as wide as the machine's vectors.
+    /// Sines and cosines of many angles in radians, in blocks as wide as the machine's vectors.
     ///
     /// # Panics
     /// If there is not one place for each angle.
@@ -78,17 +77,17 @@ impl SinCos {
     /// # Examples
     /// ```
     /// use congruent_kinematics::SinCos;
-    /// let mut pairs = [SinCos::of(0.0); 2];
-    /// SinCos::of_many_into(&[0.0, std::f64::consts::FRAC_PI_2], &mut pairs);
+    /// let mut pairs = [SinCos::from_angle(0.0); 2];
+    /// SinCos::from_angles_into(&[0.0, std::f64::consts::FRAC_PI_2], &mut pairs);
     /// assert_eq!((pairs[0].cos, pairs[1].sin), (1.0, 1.0));
     /// ```
     #[inline]
-    pub fn of_many_into(angles_rad: &[f64], pairs: &mut [Self]) {
+    pub fn from_angles_into(angles_rad: &[f64], pairs: &mut [Self]) {
         assert_eq!(angles_rad.len(), pairs.len(), "one pair for each angle");
         for (angles_rad, pairs) in angles_rad.chunks(BLOCK).zip(pairs.chunks_mut(BLOCK)) {
             let mut block = [0.0; BLOCK];
             block[..angles_rad.len()].copy_from_slice(angles_rad);
-            for (pair, found) in pairs.iter_mut().zip(SinesCosines::of_block(block).iter()) {
+            for (pair, found) in pairs.iter_mut().zip(SinesCosines::from_block(block).iter()) {
                 *pair = found;
             }
         }
@@ -97,14 +96,19 @@ impl SinCos {
     /// The angle less the nearest multiple of pi/2, in two parts; then a polynomial each, then
     /// exchanged and signed by the quadrant.
     #[inline(always)]
-    fn of_moderate(angle_rad: f64) -> Self {
+    fn from_moderate_angle(angle_rad: f64) -> Self {
+        // Adding and subtracting ROUNDER rounds without a branch; its low bits are the integer, of which the last two are the
+        // quadrant.
         let rounded = angle_rad * std::f64::consts::FRAC_2_PI + ROUNDER;
         let quarters = rounded - ROUNDER;
         let quadrant = rounded.to_bits();
         let (coarse, fine) = (angle_rad - quarters * HALF_PI_HEAD, quarters * HALF_PI_TAIL);
+        // Cody-Waite: the product in `coarse` is exact, `x` rounds once, and `lost` is the rounding error, which the polynomials use.
         let x = coarse - fine;
         let lost = (coarse - x) - fine;
         let (sin, cos) = (kernel_sin(x, lost), kernel_cos(x, lost));
+        // In odd quadrants sine and cosine are exchanged; the sign of the sine changes in quadrants 2 and 3, that of the cosine
+        // in 1 and 2. Masks instead of branches, so that the compiler can use vectors.
         let exchange = (quadrant & 1).wrapping_neg();
         let pick = |even: f64, odd: f64| (even.to_bits() & !exchange) | (odd.to_bits() & exchange);
         Self {
@@ -124,16 +128,16 @@ pub(crate) struct SinesCosines<const N: usize> {
 impl<const N: usize> SinesCosines<N> {
     /// Of angles in radians.
     #[inline(always)]
-    pub(crate) fn of(angles_rad: [f64; N]) -> Self {
+    pub(crate) fn from_angles(angles_rad: [f64; N]) -> Self {
         if angles_rad.iter().all(|angle_rad| angle_rad.abs() <= LARGEST_RAD) {
-            Self::of_each(angles_rad, SinCos::of_moderate)
+            Self::map_angles(angles_rad, SinCos::from_moderate_angle)
         } else {
-            Self::of_each(angles_rad, SinCos::of)
+            Self::map_angles(angles_rad, SinCos::from_angle)
         }
     }
 
     #[inline(always)]
-    fn of_each(angles_rad: [f64; N], each: impl Fn(f64) -> SinCos) -> Self {
+    fn map_angles(angles_rad: [f64; N], each: impl Fn(f64) -> SinCos) -> Self {
         let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
         for ((sin, cos), angle_rad) in sin.iter_mut().zip(&mut cos).zip(angles_rad) {
             let one = each(angle_rad);
@@ -152,7 +156,7 @@ impl<const N: usize> SinesCosines<N> {
 impl SinesCosines<BLOCK> {
     /// Of a block of angles in radians, in the widest vectors that the machine has.
     #[inline]
-    pub(crate) fn of_block(angles_rad: [f64; BLOCK]) -> Self {
+    pub(crate) fn from_block(angles_rad: [f64; BLOCK]) -> Self {
         Arch::new().dispatch(Block(angles_rad))
     }
 }
@@ -164,7 +168,7 @@ impl WithSimd for Block {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        SinesCosines::of(self.0)
+        SinesCosines::from_angles(self.0)
     }
 }
 
@@ -204,7 +208,7 @@ mod tests {
 
     #[track_caller]
     fn assert_right(angle_rad: f64) {
-        let SinCos { sin, cos } = SinCos::of(angle_rad);
+        let SinCos { sin, cos } = SinCos::from_angle(angle_rad);
         assert!(support::within((sin - angle_rad.sin()).abs(), ROUNDING), "sine of {angle_rad}");
         assert!(support::within((cos - angle_rad.cos()).abs(), ROUNDING), "cosine of {angle_rad}");
     }
@@ -230,7 +234,7 @@ mod tests {
     #[test]
     fn tiny_angles_and_zeros_are_exact() {
         for angle_rad in [0.0, -0.0, f64::MIN_POSITIVE, -1e-300, 1e-20] {
-            let SinCos { sin, cos } = SinCos::of(angle_rad);
+            let SinCos { sin, cos } = SinCos::from_angle(angle_rad);
             assert_eq!((sin.to_bits(), cos.to_bits()), (angle_rad.to_bits(), 1.0_f64.to_bits()));
         }
     }
@@ -238,7 +242,7 @@ mod tests {
     #[test]
     fn no_number_in_no_number_out() {
         for angle_rad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let SinCos { sin, cos } = SinCos::of(angle_rad);
+            let SinCos { sin, cos } = SinCos::from_angle(angle_rad);
             assert!(sin.is_nan() && cos.is_nan());
         }
     }
@@ -249,13 +253,13 @@ mod tests {
         #[test]
         fn they_are_those_of_the_standard_library(near in -2.0 * PI..2.0 * PI, far in -LARGEST_RAD..LARGEST_RAD) {
             for angle_rad in [near, far] {
-                let SinCos { sin, cos } = SinCos::of(angle_rad);
+                let SinCos { sin, cos } = SinCos::from_angle(angle_rad);
                 prop_assert!(support::within((sin - angle_rad.sin()).abs(), ROUNDING));
                 prop_assert!(support::within((cos - angle_rad.cos()).abs(), ROUNDING));
             }
             for angles_rad in [[near, far, -near], [near, far * 1e9, -near]] {
-                for (several, angle_rad) in SinesCosines::of(angles_rad).iter().zip(angles_rad) {
-                    let one = SinCos::of(angle_rad);
+                for (several, angle_rad) in SinesCosines::from_angles(angles_rad).iter().zip(angles_rad) {
+                    let one = SinCos::from_angle(angle_rad);
                     prop_assert_eq!((several.sin, several.cos), (one.sin, one.cos));
                 }
             }

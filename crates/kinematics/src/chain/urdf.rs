@@ -49,9 +49,9 @@ use crate::{
 /// ```
 #[derive(Debug, Clone)]
 pub struct UrdfTree {
-    /// In the order of the robot's joints, parents first.
+    /// Joints in the order of the robot, parents first.
     joints: Vec<TreeJoint>,
-    /// For each link the joint that carries it.
+    /// For each link the joint above it; `None` for the root.
     parent_joints: Vec<Option<usize>>,
     dof: usize,
 }
@@ -84,7 +84,7 @@ enum UrdfJointMotion {
 }
 
 impl UrdfTree {
-    /// Prepares a robot.
+    /// Precomputes the constants of all joints of a robot.
     pub fn new(robot: &Robot) -> Self {
         let mut parent_joints = vec![None; robot.links().len()];
         let mut joints = Vec::with_capacity(robot.joints().len());
@@ -118,8 +118,9 @@ impl UrdfTree {
         KinematicsError::check_joints(self.dof, q)?;
         KinematicsError::check_poses(self.parent_joints.len(), root_from_links)?;
         root_from_links[0] = Pose::identity();
+        // Sines of a block first: their computation overlaps and uses vectors, which it could not between two products of poses.
         for block in self.joints.chunks(BLOCK) {
-            let turns = SinesCosines::of_block(std::array::from_fn(|at| {
+            let turns = SinesCosines::from_block(std::array::from_fn(|at| {
                 block.get(at).map_or(0.0, |joint| joint.motion.angle_rad(q))
             }));
             for (joint, turn) in block.iter().zip(turns.iter()) {
@@ -174,14 +175,15 @@ impl UrdfTree {
         KinematicsError::check_joints(self.dof, q)?;
         KinematicsError::check_columns(self.dof, columns)?;
         columns.fill(Twist::zero());
-        // From the link up to the root, as body twists, which need no more than what lies below.
+        // From the link up to the root. A body twist depends only on the joints between its joint and the link, which the walk
+        // has passed already; the pose of the link, which the other kinds need, is known at its end.
         let root_from_link = self.visit_up(q, link, |joint, child_from_link| {
             if let Some((coordinate, twist_in_child)) = joint.motion.twist_in_child() {
                 columns[coordinate] = twist_in_child.transformed_by(&child_from_link.inverse());
             }
         });
         for column in columns {
-            *column = kind.of_body(column, &root_from_link);
+            *column = kind.column_from_body_twist(column, &root_from_link);
         }
         Ok(root_from_link)
     }
@@ -247,13 +249,13 @@ impl UrdfTree {
         let (root_from_frame, frame_from_link) =
             (root_from_link * *link_from_frame, link_from_frame.inverse());
         for column in &mut columns {
-            *column = kind.of_body(&column.transformed_by(&frame_from_link), &root_from_frame);
+            *column = kind.column_from_body_twist(&column.transformed_by(&frame_from_link), &root_from_frame);
         }
         Ok(Jacobian::from_columns(kind, columns))
     }
 
-    /// Goes from a link up to the root, the sines of a block first, so that they are computed
-    /// together; `each` sees a joint and the link's pose in its child. Gives the pose in the root.
+    /// Walks from a link up to the root. `each` is called with a joint and the pose of the link in the joint's child. Returns the
+    /// pose in the root. Joints are taken in blocks, so that the sines of a block are computed together.
     #[inline]
     fn visit_up(&self, q: &RobotQ, link: LinkIndex, mut each: impl FnMut(&TreeJoint, &Pose)) -> Pose {
         let mut above_from_link = Pose::identity();
@@ -267,7 +269,7 @@ impl UrdfTree {
                 next = self.parent_joints[joint.parent];
             }
             let angle_rad = |joint: Option<&TreeJoint>| joint.map_or(0.0, |joint| joint.motion.angle_rad(q));
-            let turns = SinesCosines::of_block(block.map(angle_rad));
+            let turns = SinesCosines::from_block(block.map(angle_rad));
             for (joint, turn) in block.into_iter().flatten().zip(turns.iter()) {
                 each(joint, &above_from_link);
                 above_from_link = joint.parent_from_child(q, turn) * above_from_link;

@@ -1,5 +1,5 @@
 //! Twists and wrenches as six numbers, and the 6 x 6 matrices between them. Angular first, moment
-//! first; this file is the only one that says where in a row of six a number stands.
+//! first; this file is the only one that defines the order of six numbers.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -66,7 +66,7 @@ impl Twist {
 }
 
 impl From<Twist> for Vector6<f64> {
-    /// `(angular, linear)`.
+    /// The twist as one vector `(angular, linear)`.
     #[inline]
     fn from(Twist { angular, linear }: Twist) -> Self {
         six(&angular, &linear)
@@ -74,7 +74,7 @@ impl From<Twist> for Vector6<f64> {
 }
 
 impl From<Vector6<f64>> for Twist {
-    /// From `(angular, linear)`.
+    /// The twist with the components `(angular, linear)`.
     #[inline]
     fn from(six: Vector6<f64>) -> Self {
         let [angular, linear] = halves(&six);
@@ -83,7 +83,7 @@ impl From<Vector6<f64>> for Twist {
 }
 
 impl From<Wrench> for Vector6<f64> {
-    /// `(moment, force)`.
+    /// The wrench as one vector `(moment, force)`.
     #[inline]
     fn from(Wrench { moment, force }: Wrench) -> Self {
         six(&moment, &force)
@@ -91,7 +91,7 @@ impl From<Wrench> for Vector6<f64> {
 }
 
 impl From<Vector6<f64>> for Wrench {
-    /// From `(moment, force)`.
+    /// The wrench with the components `(moment, force)`.
     #[inline]
     fn from(six: Vector6<f64>) -> Self {
         let [moment, force] = halves(&six);

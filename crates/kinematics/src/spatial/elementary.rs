@@ -1,6 +1,5 @@
 //! Elementary transforms: a turn about one axis, a shift along one axis, and what their order means.
 
-use congruent_description::Elementary as _;
 use nalgebra::{Matrix3, Vector3};
 
 use super::pose::Pose;
@@ -23,37 +22,37 @@ use super::pose::Pose;
 /// assert_eq!(along_fixed_x.translation.x, 3.0);
 /// ```
 impl Pose {
-    /// `Rx(angle)`.
+    /// `Rx(angle)`: a turn about the x axis, angle in rad.
     #[inline]
     pub fn turn_x(angle_rad: f64) -> Self {
         Self { rotation: turn(0, angle_rad), ..Self::identity() }
     }
 
-    /// `Ry(angle)`.
+    /// `Ry(angle)`: a turn about the y axis, angle in rad.
     #[inline]
     pub fn turn_y(angle_rad: f64) -> Self {
         Self { rotation: turn(1, angle_rad), ..Self::identity() }
     }
 
-    /// `Rz(angle)`.
+    /// `Rz(angle)`: a turn about the z axis, angle in rad.
     #[inline]
     pub fn turn_z(angle_rad: f64) -> Self {
         Self { rotation: turn(2, angle_rad), ..Self::identity() }
     }
 
-    /// `Tx(by)`.
+    /// `Tx(by)`: a shift along the x axis, in m.
     #[inline]
     pub fn shift_x(by_m: f64) -> Self {
         Self { translation: Vector3::new(by_m, 0.0, 0.0), ..Self::identity() }
     }
 
-    /// `Ty(by)`.
+    /// `Ty(by)`: a shift along the y axis, in m.
     #[inline]
     pub fn shift_y(by_m: f64) -> Self {
         Self { translation: Vector3::new(0.0, by_m, 0.0), ..Self::identity() }
     }
 
-    /// `Tz(by)`.
+    /// `Tz(by)`: a shift along the z axis, in m.
     #[inline]
     pub fn shift_z(by_m: f64) -> Self {
         Self { translation: Vector3::new(0.0, 0.0, by_m), ..Self::identity() }
@@ -63,7 +62,7 @@ impl Pose {
 /// The turn about axis 0, 1 or 2 (x, y, z) of the frame.
 #[inline]
 pub(crate) fn turn(axis: usize, angle_rad: f64) -> Matrix3<f64> {
-    let (sin, cos) = angle_rad.sine_cosine();
+    let (sin, cos) = libm::sincos(angle_rad);
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut turn = Matrix3::identity();
     (turn[(next, next)], turn[(last, last)]) = (cos, cos);

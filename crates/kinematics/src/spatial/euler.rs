@@ -2,20 +2,18 @@
 
 use std::{f64::consts::PI, fmt, str::FromStr};
 
-use congruent_description::Elementary as _;
 use nalgebra::Matrix3;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::elementary::turn;
 
 /// Nearer than this to a singular position (radians of the middle angle) the first and the last
-/// angle are no longer told apart. Kind: rounding of a product of some dozen rotations, 64 eps.
+/// angle can no longer be distinguished. Kind: rounding of a product of some dozen rotations, 64 eps.
 const SINGULAR_BELOW_RAD: f64 = 1.4e-14;
 
 /// The axes of three turns in a row, each about an axis of the frame that the one before has turned:
-/// `Xyz` stands for `R = Rx(first) Ry(middle) Rz(last)`.
+/// `Xyz` means `R = Rx(first) Ry(middle) Rz(last)`.
 ///
 /// Three different axes (Tait-Bryan) or the first again at the end (proper Euler angles). About
 /// *fixed* axes the same turns come in the reverse order: see [`EulerSet::reversed`].
@@ -24,47 +22,47 @@ const SINGULAR_BELOW_RAD: f64 = 1.4e-14;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EulerSet {
-    /// `Rx Ry Rz`.
+    /// `R = Rx(first) Ry(middle) Rz(last)`.
     Xyz,
-    /// `Rx Rz Ry`.
+    /// `R = Rx(first) Rz(middle) Ry(last)`.
     Xzy,
-    /// `Ry Rx Rz`.
+    /// `R = Ry(first) Rx(middle) Rz(last)`.
     Yxz,
-    /// `Ry Rz Rx`.
+    /// `R = Ry(first) Rz(middle) Rx(last)`.
     Yzx,
-    /// `Rz Rx Ry`.
+    /// `R = Rz(first) Rx(middle) Ry(last)`.
     Zxy,
-    /// `Rz Ry Rx`: yaw, pitch, roll.
+    /// `R = Rz(first) Ry(middle) Rx(last)`: yaw, pitch, roll.
     Zyx,
-    /// `Rx Ry Rx`.
+    /// `R = Rx(first) Ry(middle) Rx(last)`.
     Xyx,
-    /// `Rx Rz Rx`.
+    /// `R = Rx(first) Rz(middle) Rx(last)`.
     Xzx,
-    /// `Ry Rx Ry`.
+    /// `R = Ry(first) Rx(middle) Ry(last)`.
     Yxy,
-    /// `Ry Rz Ry`.
+    /// `R = Ry(first) Rz(middle) Ry(last)`.
     Yzy,
-    /// `Rz Rx Rz`.
+    /// `R = Rz(first) Rx(middle) Rz(last)`.
     Zxz,
-    /// `Rz Ry Rz`.
+    /// `R = Rz(first) Ry(middle) Rz(last)`.
     Zyz,
 }
 
 /// No set of Euler angles has this name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("no set of Euler angles \"{name}\": there are {}", known.map(EulerSet::name).join(", "))]
+#[error("unknown set of Euler angles \"{name}\", known are {}", known.map(EulerSet::name).join(", "))]
 pub struct UnknownEulerSet {
-    /// The name.
+    /// The name that is not a set of Euler angles.
     pub name: String,
     /// All sets, nearest first.
     pub known: [EulerSet; 12],
 }
 
-/// What a rotation says of the first and the last angle of a set.
+/// Which of the first and the last angle of a set a rotation determines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DeterminedAngles {
-    /// Each for itself.
+    /// Both angles are determined.
     Both,
     /// Only their sum: the position is singular, and the first is set to zero.
     Sum,
@@ -88,7 +86,7 @@ pub struct EulerAngles {
 }
 
 impl EulerSet {
-    /// All twelve.
+    /// All twelve sets: six of three different axes, six proper ones.
     pub const ALL: [Self; 12] = [
         Self::Xyz,
         Self::Xzy,
@@ -206,18 +204,18 @@ impl EulerSet {
         } else {
             (-handed * m(j, last), m(k, last))
         };
-        let from_singular_rad = across.hypotenuse_with(up).arctangent_over(m(i, last).abs());
+        let from_singular_rad = libm::atan2(libm::hypot(across, up), m(i, last).abs());
         let determined = match (from_singular_rad < singular_below_rad, m(i, last) > 0.0) {
             (false, _) => DeterminedAngles::Both,
             (true, true) => DeterminedAngles::Sum,
             (true, false) => DeterminedAngles::Difference,
         };
         let (first, sine) = match determined {
-            DeterminedAngles::Both => (angle(across, up), across.hypotenuse_with(up)),
+            DeterminedAngles::Both => (angle(across, up), libm::hypot(across, up)),
             DeterminedAngles::Sum | DeterminedAngles::Difference => (0.0, 0.0),
         };
         // Row j of what remains when the first turn is undone.
-        let (sin, cos) = first.sine_cosine();
+        let (sin, cos) = libm::sincos(first);
         let remains = |column| cos * m(j, column) + handed * sin * m(k, column);
         let (middle, last) = if self.is_proper() {
             (angle(sine, m(i, i)), angle(-handed * remains(k), remains(j)))
@@ -242,7 +240,7 @@ impl EulerSet {
 
 /// The angle of a sine and a cosine of any common length, in `-pi..=pi`; a negative zero counts as zero.
 fn angle(sine: f64, cosine: f64) -> f64 {
-    (sine + 0.0).arctangent_over(cosine)
+    libm::atan2(sine + 0.0, cosine)
 }
 
 /// Half a turn further, in `-pi..=pi`.

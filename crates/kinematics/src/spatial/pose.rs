@@ -2,7 +2,6 @@
 
 use std::{cmp::Ordering, ops::Mul};
 
-use congruent_description::Elementary as _;
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::rotation::{quaternion_of, vee};
@@ -31,7 +30,7 @@ use super::rotation::{quaternion_of, vee};
 pub struct Pose {
     /// Orientation: orthonormal, determinant 1.
     pub rotation: Matrix3<f64>,
-    /// Origin.
+    /// Position of the origin, m.
     pub translation: Vector3<f64>,
 }
 
@@ -129,7 +128,7 @@ impl Pose {
     pub fn angle_rad(&self, other: &Self) -> f64 {
         let between = self.rotation.transpose() * other.rotation;
         let sine = vee(&(between - between.transpose())).norm() / 2.0;
-        sine.arctangent_over((between.trace() - 1.0) / 2.0)
+        libm::atan2(sine, (between.trace() - 1.0) / 2.0)
     }
 
     /// How far the matrix is from orthonormal: the Frobenius norm of `R^T R - I`.

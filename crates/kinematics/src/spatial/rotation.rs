@@ -1,7 +1,6 @@
 //! Rotations alone: exponential, logarithm and quaternion of a 3 x 3 matrix, and the hat and vee
 //! between vectors and skew matrices. Rigid motions are `twist.rs`.
 
-use congruent_description::Elementary as _;
 use nalgebra::{Matrix3, Vector3};
 
 /// The skew matrix `[v]` of a vector: `[v] w = v x w`.
@@ -72,7 +71,7 @@ pub fn rotation_log(rotation: &Matrix3<f64>) -> Vector3<f64> {
     let v = Vector3::new(x, y, z);
     let sine = v.norm();
     // Below the smallest normal number the ratio is its limit, 2 / w with w = 1.
-    let ratio = if sine < f64::MIN_POSITIVE { 2.0 } else { 2.0 * sine.arctangent_over(w) / sine };
+    let ratio = if sine < f64::MIN_POSITIVE { 2.0 } else { 2.0 * libm::atan2(sine, w) / sine };
     v * ratio
 }
 
@@ -97,7 +96,7 @@ pub fn quaternion_of(rotation: &Matrix3<f64>) -> [f64; 4] {
 
 /// `sin(x) / x`, 1 at 0.
 pub(crate) fn sinc(x: f64) -> f64 {
-    if x == 0.0 { 1.0 } else { x.sine() / x }
+    if x == 0.0 { 1.0 } else { libm::sin(x) / x }
 }
 
 /// `(1 - cos x) / x^2`, 1/2 at 0; by the half angle, which cancels nothing.

@@ -1,6 +1,5 @@
 //! Poses of tools by the directions of a hand: normal, sliding, approach.
 
-use congruent_description::Elementary as _;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::pose::Pose;
@@ -11,7 +10,7 @@ const UNIT: f64 = 1e-6;
 /// How far two axes may be from perpendicular, in radians. Kind: written values, six digits each (twice
 /// 8.7e-7); smaller deviations are corrected.
 const PERPENDICULAR_RAD: f64 = 2e-6;
-/// At smaller angles than this, approach and sliding fix no third axis: six digits would not tell it.
+/// At smaller angles than this, approach and sliding do not determine the third axis: six digits are too few.
 const PARALLEL_RAD: f64 = 1e-6;
 
 /// The axes of a gripper: it comes along `approach`, its fingers slide along `sliding`, and `normal` is
@@ -33,7 +32,7 @@ const PARALLEL_RAD: f64 = 1e-6;
 /// assert_eq!(axes.normal, Vector3::new(-1., 0., 0.));
 /// let base_from_tool = axes.base_from_tool(&Point3::new(0.4, 0., 0.2))?;
 /// assert_eq!(base_from_tool * Point3::new(0., 0., 0.2), Point3::new(0.4, 0., 0.));
-/// assert_eq!(ToolAxes::of(&base_from_tool), axes);
+/// assert_eq!(ToolAxes::from_pose(&base_from_tool), axes);
 /// # Ok::<(), ToolAxesError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +45,7 @@ pub struct ToolAxes {
     pub approach: Vector3<f64>,
 }
 
-/// Why three directions are no frame.
+/// The reason why three directions do not form a frame.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ToolAxesError {
@@ -55,7 +54,7 @@ pub enum ToolAxesError {
     NotUnit {
         /// `normal`, `sliding` or `approach`.
         axis: &'static str,
-        /// Its length.
+        /// Length of the given vector.
         length: f64,
     },
     /// Two axes are not perpendicular.
@@ -63,9 +62,9 @@ pub enum ToolAxesError {
         "the {first} and {second} axes are {off_rad:e} rad from perpendicular, the limit is {PERPENDICULAR_RAD:e}"
     )]
     NotPerpendicular {
-        /// One of the two.
+        /// Name of the first axis.
         first: &'static str,
-        /// The other.
+        /// Name of the second axis.
         second: &'static str,
         /// A quarter turn less their angle, in radians.
         off_rad: f64,
@@ -77,11 +76,11 @@ pub enum ToolAxesError {
         triple_product: f64,
     },
     /// A direction of no length, or with entries that are not finite.
-    #[error("the {axis} direction has length {length}, which is no direction")]
+    #[error("the {axis} direction has length {length}, so it is not a direction")]
     NoDirection {
-        /// `sliding` or `approach`.
+        /// Name of the direction: `sliding` or `approach`.
         axis: &'static str,
-        /// Its length.
+        /// Length of the given vector.
         length: f64,
     },
     /// Approach and sliding are one direction.
@@ -94,7 +93,7 @@ pub enum ToolAxesError {
 
 impl ToolAxes {
     /// The axes of a tool at this pose.
-    pub fn of(base_from_tool: &Pose) -> Self {
+    pub fn from_pose(base_from_tool: &Pose) -> Self {
         let [normal, sliding, approach] = [0, 1, 2].map(|at| base_from_tool.rotation.column(at).into_owned());
         Self { normal, sliding, approach }
     }
@@ -109,7 +108,7 @@ impl ToolAxes {
     ) -> Result<Self, ToolAxesError> {
         let (approach, sliding) = (direction("approach", &approach)?, direction("sliding", &sliding)?);
         let across = sliding.cross(&approach);
-        let angle_rad = across.norm().arcsine();
+        let angle_rad = libm::asin(across.norm());
         if angle_rad < PARALLEL_RAD {
             return Err(ToolAxesError::Parallel { angle_rad });
         }
@@ -137,7 +136,7 @@ impl ToolAxes {
         }
         for (one, other) in [(0, 1), (1, 2), (2, 0)] {
             let ((first, a), (second, b)) = (named[one], named[other]);
-            let off_rad = a.dot(&b).arctangent_over(a.cross(&b).norm());
+            let off_rad = libm::atan2(a.dot(&b), a.cross(&b).norm());
             if off_rad.abs() > PERPENDICULAR_RAD {
                 return Err(ToolAxesError::NotPerpendicular { first, second, off_rad });
             }
@@ -206,10 +205,13 @@ mod tests {
         let by = |approach: [f64; 3], sliding: [f64; 3]| {
             ToolAxes::from_approach_and_sliding(approach.into(), sliding.into()).unwrap_err().to_string()
         };
-        assert_eq!(by([0.; 3], [1., 0., 0.]), "the approach direction has length 0, which is no direction");
+        assert_eq!(
+            by([0.; 3], [1., 0., 0.]),
+            "the approach direction has length 0, so it is not a direction"
+        );
         assert_eq!(
             by([1., 0., 0.], [f64::INFINITY, 0., 0.]),
-            "the sliding direction has length inf, which is no direction"
+            "the sliding direction has length inf, so it is not a direction"
         );
         let parallel = "approach and sliding are 0e0 rad from parallel, which does not determine the normal";
         assert_eq!(by([0., 0., 3.], [0., 0., -1.]), parallel);
@@ -221,7 +223,7 @@ mod tests {
         #[test]
         fn axes_of_a_pose_give_it_back(pose in support::isometry()) {
             let pose = Pose::from(pose);
-            let axes = ToolAxes::of(&pose);
+            let axes = ToolAxes::from_pose(&pose);
             let back = axes.base_from_tool(&Point3::from(pose.translation)).unwrap();
             prop_assert!(support::within(back.angle_rad(&pose), ROUNDING));
             prop_assert_eq!(back.translation, pose.translation);
@@ -231,7 +233,7 @@ mod tests {
         fn six_digits_are_enough_and_are_corrected(pose in support::isometry()) {
             let six_digits = |v: Vector3<f64>| v.map(|entry| (entry * 1e6).round() / 1e6);
             let pose = Pose::from(pose);
-            let ToolAxes { normal, sliding, approach } = ToolAxes::of(&pose);
+            let ToolAxes { normal, sliding, approach } = ToolAxes::from_pose(&pose);
             let axes = ToolAxes { normal: six_digits(normal), sliding: six_digits(sliding), approach: six_digits(approach) };
             let back = axes.base_from_tool(&Point3::origin()).unwrap();
             prop_assert!(support::within(back.orthonormality_error(), ROUNDING));
@@ -242,7 +244,7 @@ mod tests {
         fn lengths_and_tilts_of_directions_do_not_count(
             pose in support::isometry(), exponents in proptest::array::uniform2(-200.0..200.0), tilt in -3.0..3.0,
         ) {
-            let axes = ToolAxes::of(&Pose::from(pose));
+            let axes = ToolAxes::from_pose(&Pose::from(pose));
             let [long, short] = exponents.map(|exponent| 10_f64.powf(exponent));
             let sliding = (axes.sliding + axes.approach * tilt) * short;
             let found = ToolAxes::from_approach_and_sliding(axes.approach * long, sliding).unwrap();

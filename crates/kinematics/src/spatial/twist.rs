@@ -1,6 +1,5 @@
 //! Twists and screws: the generators of rigid motions, with exponential and logarithm of SE(3).
 
-use congruent_description::Elementary as _;
 use nalgebra::{Matrix3, Matrix4, Unit, Vector3};
 
 use super::{
@@ -30,7 +29,7 @@ pub struct Twist {
 }
 
 impl Twist {
-    /// No motion.
+    /// The zero twist: no motion.
     #[inline]
     pub fn zero() -> Self {
         Self { angular: Vector3::zeros(), linear: Vector3::zeros() }
@@ -209,7 +208,7 @@ impl Screw {
         if !self.is_revolute() {
             return Pose::from_parts(Matrix3::identity(), self.twist.linear * q);
         }
-        let (sin, cos) = q.sine_cosine();
+        let (sin, cos) = libm::sincos(q);
         let versine = 1.0 - cos;
         Pose {
             rotation: Matrix3::identity() + self.angular_hat * sin + self.angular_hat_squared * versine,
@@ -225,7 +224,7 @@ pub(crate) fn sine_lag_ratio(x: f64) -> f64 {
         let tail = 1.0 / 362_880.0 - xx / 39_916_800.0;
         1.0 / 6.0 - xx * (1.0 / 120.0 - xx * (1.0 / 5040.0 - xx * tail))
     } else {
-        (x - x.sine()) / (xx * x)
+        (x - libm::sin(x)) / (xx * x)
     }
 }
 
@@ -237,7 +236,7 @@ pub fn log_ratio(x: f64) -> f64 {
         1.0 / 12.0 + xx * (1.0 / 720.0 + xx * (1.0 / 30_240.0 + xx * tail))
     } else {
         let half = x / 2.0;
-        (1.0 - half * half.cosine() / half.sine()) / xx
+        (1.0 - half * libm::cos(half) / libm::sin(half)) / xx
     }
 }
 

@@ -3,7 +3,6 @@
 
 use std::ops::{Add, AddAssign, Mul};
 
-use congruent_description::Elementary as _;
 use nalgebra::Vector3;
 
 use super::{
@@ -107,7 +106,7 @@ fn half_versine_slope(x: f64) -> f64 {
         let tail = 1.0 / 453_600.0 - xx / 47_900_160.0;
         -1.0 / 12.0 + xx * (1.0 / 180.0 - xx * (1.0 / 6720.0 - xx * tail))
     } else {
-        (x.sine() / x - 2.0 * half_versine_ratio(x)) / xx
+        (libm::sin(x) / x - 2.0 * half_versine_ratio(x)) / xx
     }
 }
 

@@ -17,14 +17,14 @@ use super::{pose::Pose, twist::Twist};
 /// Source: Lynch & Park, *Modern Robotics* (2017), section 3.4: `F = (m, f)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrench {
-    /// Moment about the frame's origin.
+    /// Moment about the frame's origin, N m.
     pub moment: Vector3<f64>,
-    /// Force.
+    /// Force in the axes of the frame, N.
     pub force: Vector3<f64>,
 }
 
 impl Wrench {
-    /// Nothing acts.
+    /// The zero wrench: no force and no moment.
     #[inline]
     pub fn zero() -> Self {
         Self { moment: Vector3::zeros(), force: Vector3::zeros() }

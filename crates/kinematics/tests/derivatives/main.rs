@@ -4,7 +4,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
-#[path = "../../../../tests/corpus.rs"]
+#[path = "../../../../tests/support/corpus.rs"]
 mod corpus;
 mod duals;
 mod jacobians;

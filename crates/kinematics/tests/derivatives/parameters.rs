@@ -53,7 +53,7 @@ fn four(by: &DhRowTwists) -> [Twist; 4] {
 #[track_caller]
 fn hold_table(table: &DhTable, robot: &Robot, q: &RobotQ) {
     let chain = DhChain::new(table, robot);
-    let of_rows = q.of_chain(chain.coordinates());
+    let of_rows = q.chain_positions(chain.coordinates());
     let mut found = DhDerivatives::default();
     chain.derivatives_into(q, &mut found).unwrap();
     assert_eq!(found.base_from_tip, chain.base_from_tip(q).unwrap());

@@ -254,7 +254,7 @@ pub fn table_figures() -> impl Strategy<Value = TableFigures> {
     )
 }
 
-/// The joints of a random tree of up to eight links besides `base`, all kinds of joint.
+/// The joints of a random tree of up to eight links beside `base`, all kinds of joint.
 pub fn tree() -> impl Strategy<Value = Vec<Carried>> {
     let kind = prop_oneof![
         1 => Just(JointKind::Fixed),

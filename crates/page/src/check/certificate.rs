@@ -5,10 +5,8 @@ use congruent_agreement::{
     SourcePair,
     compare::{Brackets, CheckReport, Model, ReportedBracket, ReportedCertificate},
 };
-use congruent_description::{
-    JointValues, RobotDescription, RobotQ,
-    display::{angle, length},
-};
+use congruent_description::{JointValues, RobotDescription, RobotQ};
+use congruent_input::display::{angle, length};
 use congruent_kinematics::{Pose, UrdfTree, move_inside_limits};
 use maud::{Markup, html};
 use nalgebra::Isometry3;
@@ -16,10 +14,10 @@ use nalgebra::Isometry3;
 use super::checked_robot::CheckedRobot;
 use crate::{
     parts::{Pointer, value},
-    picture::{Arm, Body, Figure, Skeleton, TwoArms, shapes},
+    picture::{Arm, Figure, PictureBody, Skeleton, TwoArms, shapes},
 };
 
-/// The section.
+/// The section on certificates: attained difference and certified bound, with a picture of the arm there.
 pub(super) fn certificate(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     let report = robot.geometry;
     html! {
@@ -35,7 +33,7 @@ pub(super) fn certificate(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
 fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
     html! {
         table {
-            thead { tr { th { "compared" } th { "largest difference found" } th { "certified: nowhere more than" } } }
+            thead { tr { th { "compared" } th { "largest difference found" } th { "certified bound over all configurations" } } }
             tbody {
                 @for (index, certificate) in certificates.iter().enumerate() {
                     @let at = at.key(index);
@@ -46,7 +44,7 @@ fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
                                 td data-label="largest found" { (both(brackets, &at, (|of| of.attained, "attained"))) }
                                 td data-label="certified" { (both(brackets, &at, (|of| of.certified, "certified"))) }
                             }
-                            None => { td colspan="2" { "no bound: a joint has no limits, or is no pure screw motion" } }
+                            None => { td colspan="2" { "no bound: a joint has no limits, or its motion is not a pure screw motion" } }
                         }
                     }
                     @if let Some(premise) = &certificate.premise {
@@ -115,7 +113,7 @@ fn picture(robot: &CheckedRobot<'_>) -> Markup {
     let mut arms = vec![arm("twin", "URDF", description, &urdf)];
     match (pair, robot.other) {
         (SourcePair::UrdfOther, Some(other)) => {
-            let poses = poses_by_urdf(other, &of_other(description, other, q));
+            let poses = poses_by_urdf(other, &positions_by_name(description, other, q));
             arms.extend(poses.map(|poses| arm("model", "other URDF", other, &poses)));
         }
         _ if description.dh.is_some() => {
@@ -127,9 +125,9 @@ fn picture(robot: &CheckedRobot<'_>) -> Markup {
     let tips: Vec<_> = arms.iter().map(|arm| arm.skeleton.tip.translation.vector).collect();
     let tips_apart_m = tips.windows(2).map(|tips| (tips[0] - tips[1]).norm()).fold(0.0, f64::max);
     let bodies = shapes(&description.robot, &urdf).into_iter();
-    let bodies = bodies.map(|(_, points)| Body::shape(points)).collect();
+    let bodies = bodies.map(|(_, points)| PictureBody::shape(points)).collect();
     let two = TwoArms { figure: Figure { bodies, arms, path: Vec::new() }, tips_apart_m };
-    let at = JointValues::of_robot(&description.robot, q).for_people(&description.robot);
+    let at = JointValues::for_movable_joints(&description.robot, q).for_people(&description.robot);
     let caption = html! {
         (what) " (" (pair.title()) ")" @if !at.is_empty() { ": " (at) } ". The tips are " (length(tips_apart_m)) " apart."
     };
@@ -149,9 +147,9 @@ fn poses_by_model(description: &RobotDescription, q: &RobotQ) -> Option<Vec<Isom
 }
 
 /// The same positions by the names of the joints.
-fn of_other(description: &RobotDescription, other: &RobotDescription, q: &RobotQ) -> RobotQ {
+fn positions_by_name(description: &RobotDescription, other: &RobotDescription, q: &RobotQ) -> RobotQ {
     let mut there = RobotQ::zeros(other.robot.dof());
-    for (joint, value) in JointValues::of_robot(&description.robot, q).iter() {
+    for (joint, value) in JointValues::for_movable_joints(&description.robot, q).iter() {
         let coordinate = other.robot.find_joint(joint).and_then(|joint| other.robot.coordinate(joint));
         if let Some(coordinate) = coordinate {
             there[coordinate] = value;

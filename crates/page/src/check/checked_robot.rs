@@ -4,10 +4,10 @@ use congruent_agreement::compare::{CheckReport, DifferencesAt};
 use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::DynamicsReport;
 
-/// The report on one robot with what its page shows besides.
+/// The report on one robot, with the descriptions and dynamics that its page also shows.
 #[derive(Debug, Clone)]
 pub struct CheckedRobot<'a> {
-    /// The robot.
+    /// The robot as it was read, whose URDF the pictures draw.
     pub description: &'a RobotDescription,
     /// The report on its geometry.
     pub geometry: &'a CheckReport,

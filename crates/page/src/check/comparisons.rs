@@ -1,16 +1,14 @@
 //! The comparisons of poses: two sources each, with the largest difference beside the tolerance, then link by link.
 
 use congruent_agreement::compare::{Agreement, CheckReport, Comparison, PoseSource};
-use congruent_description::{
-    Tolerance,
-    display::{angle, length},
-};
+use congruent_description::Tolerance;
+use congruent_input::display::{angle, length};
 use congruent_kinematics::PoseError;
 use maud::{Markup, html};
 
 use crate::parts::{Outcome, Pointer, badge, value};
 
-/// The section.
+/// The section on poses; `at` is the place of the report in the document.
 pub(super) fn comparisons(report: &CheckReport, at: &Pointer) -> Markup {
     html! {
         section {
@@ -59,7 +57,7 @@ fn links(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup
                         td data-label="pose of the first" {
                             @match link.source {
                                 PoseSource::Dh => "table",
-                                PoseSource::DhFitted => "table, constant fitted at zero: does not decide",
+                                PoseSource::DhFitted => "table (frame not fixed by the table: informative)",
                                 PoseSource::Urdf => "URDF",
                             }
                         }

@@ -1,7 +1,7 @@
 //! The comparisons of dynamics: the result, its causes with their lines, and what else differs.
 
-use congruent_description::display::number;
 use congruent_dynamics_agreement::{DynamicsExplanation, DynamicsReport, ParameterDifference};
+use congruent_input::display::number;
 use maud::{Markup, html};
 
 use super::checked_robot::CheckedRobot;
@@ -59,12 +59,12 @@ fn explained(explanation: &DynamicsExplanation) -> Markup {
     }
 }
 
-/// What a person reads besides the causes.
+/// Sentences beside the causes: what is indistinguishable, not identifiable, or a limit that differs.
 fn others(report: &DynamicsReport) -> Vec<String> {
     let limits = report.limits.iter().map(congruent_dynamics_agreement::LimitDifference::sentence);
     let torques = report.invariants.iter().filter(|_| !report.has_same_torques());
     let torques = torques.flat_map(congruent_dynamics_agreement::Invariants::sentences);
     let worst =
-        report.worst_gravity().map(|worst| format!("worst gravity torque difference {}", worst.sentence()));
+        report.worst_gravity().map(|worst| format!("largest gravity torque difference {}", worst.sentence()));
     limits.chain(torques).chain(report.hidden_sentences().into_iter().take(SHOWN)).chain(worst).collect()
 }

@@ -4,7 +4,7 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport, DifferencesAt},
     report::foremost,
 };
-use congruent_description::display::{angle, length, length_and_angle};
+use congruent_input::display::{angle, length, length_and_angle};
 use maud::{Markup, html};
 
 use super::{
@@ -12,7 +12,7 @@ use super::{
 };
 use crate::parts::{Outcome, Pointer, badge, count, diagnosis, document, value, warnings};
 
-/// What became of one input of a check.
+/// One input of a check with its result.
 #[derive(Debug, Clone)]
 pub struct CheckEntry<'a> {
     /// The input as it was named.
@@ -34,7 +34,7 @@ pub fn check_page(entries: &[CheckEntry<'_>]) -> String {
     let title = format!("{} robots checked", entries.len());
     let body = html! {
         header {
-            p.kind { "Is the model the same robot?" }
+            p.kind { "Do the descriptions agree?" }
             h1 { (title) }
             p.verdict {
                 @if disagree == 0 { (badge(Outcome::Good, "ALL AGREE")) }
@@ -114,7 +114,7 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     let (outcome, word) = outcome(report);
     html! {
         header {
-            p.kind { "Is the model the same robot?" }
+            p.kind { "Do the descriptions agree?" }
             h1 { (report.robot) }
             p.verdict { (badge(outcome, word)) " " span.sentence { (sentence(robot)) } }
             dl.facts {
@@ -133,7 +133,7 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
             }
             @for sentence in &robot.not_compared { p.note { (sentence) } }
             @for not_asked in &report.not_asked {
-                @for finding in &not_asked.findings { p.note { "not asked: " (not_asked.source) ": " (finding.message) } }
+                @for finding in &not_asked.findings { p.note { "not compared: " (not_asked.source.name().replace('_', " ")) ": " (finding.message) } }
             }
         }
     }
@@ -187,7 +187,7 @@ fn requested(differences: Option<&DifferencesAt>, at: &Pointer) -> Markup {
                     }
                 }
                 @if differences.len() > MOST_SHOWN {
-                    p { "and " (differences.len() - MOST_SHOWN) " more, which the report as JSON has" }
+                    p { "and " (differences.len() - MOST_SHOWN) " more in the JSON report" }
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-/// How something went.
+/// Result of a check or a run, which chooses sign and colour of its badge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Outcome {
     Bad,

@@ -3,7 +3,7 @@
 use congruent_agreement::report::{
     Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedStage,
 };
-use congruent_description::{
+use congruent_input::{
     Diagnostic,
     display::{angle, length, length_and_angle},
 };
@@ -33,7 +33,7 @@ pub(crate) fn diagnosis(diagnosis: &ReportedDiagnosis, at: &Pointer) -> Markup {
         }
         @if !diagnosis.indistinguishable.is_empty() {
             details {
-                summary { "what cannot be distinguished from this cause (" (diagnosis.indistinguishable.len()) ")" }
+                summary { "causes that cannot be distinguished from this one (" (diagnosis.indistinguishable.len()) ")" }
                 ul { @for other in diagnosis.indistinguishable.iter().take(SHOWN) { (alternative(other)) } }
             }
         }
@@ -47,14 +47,14 @@ fn summary(first: &ReportedCause, count: usize, at: &Pointer) -> Markup {
         1 => "One cause explains".to_owned(),
         _ => format!("{count} causes together, the one with the largest effect first, explain"),
     };
-    let left = html! {
+    let residual = html! {
         (value(&at.key("residual_m"), first.residual_m, &length(first.residual_m)))
         " and " (value(&at.key("residual_rad"), first.residual_rad, &angle(first.residual_rad)))
     };
     html! {
         (causes)
-        @if first.within_tolerance { " the difference; " (left) " is left." }
-        @else { " all but " (left) ", which is above the tolerance." }
+        @if first.within_tolerance { " the difference; residual " (residual) "." }
+        @else { " the difference up to a residual of " (residual) ", which is above the tolerance." }
     }
 }
 
@@ -84,6 +84,6 @@ fn stages(stage: &ReportedStage, at: &Pointer) -> Markup {
 
 fn alternative(other: &ReportedAlternative) -> Markup {
     let cause = &other.cause;
-    let left = length_and_angle(cause.residual_m, cause.residual_rad);
-    html! { li { (cause.fault.message) " (" (other.reason) "; " (left) " is left)" } }
+    let residual = length_and_angle(cause.residual_m, cause.residual_rad);
+    html! { li { (cause.fault.message) " (" (other.reason) "; residual " (residual) ")" } }
 }

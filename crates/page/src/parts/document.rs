@@ -1,6 +1,6 @@
 //! The document around a page. It carries its style and its scripts, and forbids every request.
 
-use congruent_description::{visible, visible_lines};
+use congruent_input::{visible, visible_lines};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::{assets, series::Plots};

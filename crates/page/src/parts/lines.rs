@@ -1,6 +1,6 @@
 //! Lines of a file: the marked ones with their neighbours, and lines to write instead.
 
-use congruent_description::{ChangedLines, Diagnostic};
+use congruent_input::{ChangedLines, Diagnostic};
 use maud::{Markup, html};
 
 /// Lines before and after the marked ones.

@@ -9,7 +9,7 @@ use maud::{Markup, Render, html};
 pub(crate) struct Pointer(String);
 
 impl Pointer {
-    /// The whole document.
+    /// The pointer to the whole document, the empty string.
     pub(crate) fn root() -> Self {
         Self::default()
     }
@@ -32,12 +32,12 @@ impl Render for Pointer {
     }
 }
 
-/// The value that stands at a place of the report, shown in words for people.
+/// A value of the report at its place, with the text that people read.
 pub(crate) fn value(at: &Pointer, exact: f64, shown: &str) -> Markup {
     html! { data data-path=(at) value=(format!("{exact:?}")) { (shown) } }
 }
 
-/// A whole number that stands at a place of the report.
+/// A whole number of the report at its place.
 pub(crate) fn count(at: &Pointer, exact: impl fmt::Display) -> Markup {
     html! { data data-path=(at) value=(exact) { (exact) } }
 }

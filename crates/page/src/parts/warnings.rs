@@ -1,6 +1,6 @@
 //! What was suspicious in the input.
 
-use congruent_description::Finding;
+use congruent_input::Finding;
 use maud::{Markup, html};
 
 /// The findings; nothing if there are none.

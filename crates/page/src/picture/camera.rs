@@ -1,6 +1,5 @@
-//! From where a picture is seen: a parallel projection from above, from the side that shows most.
+//! The view of a picture: a parallel projection from above, from the side that shows most.
 
-use congruent_description::Elementary as _;
 use nalgebra::{Point2, Point3, Vector3};
 
 /// Angle of the view above the horizon.
@@ -8,7 +7,7 @@ const ELEVATION_RAD: f64 = 0.38;
 /// Directions that are tried.
 const DIRECTIONS: u32 = 24;
 
-/// A parallel projection.
+/// A parallel projection from the root link's frame (m) to the plane of the picture (m).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Camera {
     right: Vector3<f64>,
@@ -17,8 +16,8 @@ pub(crate) struct Camera {
 
 impl Camera {
     fn from_azimuth(azimuth_rad: f64) -> Self {
-        let (sin, cos) = azimuth_rad.sine_cosine();
-        let (sin_up, cos_up) = ELEVATION_RAD.sine_cosine();
+        let (sin, cos) = libm::sincos(azimuth_rad);
+        let (sin_up, cos_up) = libm::sincos(ELEVATION_RAD);
         Self { right: Vector3::new(-sin, cos, 0.0), up: Vector3::new(-cos * sin_up, -sin * sin_up, cos_up) }
     }
 
@@ -26,10 +25,13 @@ impl Camera {
     pub(crate) fn showing(lines: &[[Point3<f64>; 2]]) -> Self {
         let cameras = (0..DIRECTIONS)
             .map(|k| Self::from_azimuth(std::f64::consts::TAU * f64::from(k) / f64::from(DIRECTIONS)));
-        let seen = |camera: &Self| -> f64 {
+        let projected = |camera: &Self| -> f64 {
             lines.iter().map(|[from, to]| (camera.project(to) - camera.project(from)).norm()).sum()
         };
-        cameras.max_by(|a, b| seen(a).total_cmp(&seen(b))).unwrap_or_else(|| Self::from_azimuth(0.0))
+        // Seen along a planar arm its links would lie on each other; the longest projections show its plane.
+        cameras
+            .max_by(|a, b| projected(a).total_cmp(&projected(b)))
+            .unwrap_or_else(|| Self::from_azimuth(0.0))
     }
 
     /// Right and up, in metres.
@@ -43,11 +45,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_is_seen_from_its_side() {
+    fn a_line_is_drawn_in_side_view() {
         let line = [Point3::origin(), Point3::new(0.0, 2.0, 0.0)];
         let camera = Camera::showing(&[line]);
-        let seen = camera.project(&line[1]) - camera.project(&line[0]);
-        assert!((seen.norm() - 2.0).abs() < 1e-12, "{seen}");
+        let projected = camera.project(&line[1]) - camera.project(&line[0]);
+        assert!((projected.norm() - 2.0).abs() < 1e-12, "{projected}");
         let up = camera.project(&Point3::new(0.0, 0.0, 1.0));
         assert!(up.x.abs() < 1e-12 && up.y > 0.9, "{up}");
     }

@@ -1,6 +1,6 @@
 //! What a picture shows, and which part of it.
 
-use congruent_description::display::length;
+use congruent_input::display::length;
 use maud::{Markup, html};
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
@@ -21,7 +21,7 @@ pub(crate) struct Arm {
 
 /// A shape around the arm, by points of its surface.
 #[derive(Debug, Clone)]
-pub(crate) struct Body {
+pub(crate) struct PictureBody {
     /// Class in the style sheet: `shape`, `obstacle` or `zone`.
     pub(crate) class: &'static str,
     pub(crate) name: Option<String>,
@@ -30,7 +30,7 @@ pub(crate) struct Body {
     pub(crate) is_marked: bool,
 }
 
-impl Body {
+impl PictureBody {
     /// A shape of the arm.
     pub(crate) fn shape(points: Vec<Point3<f64>>) -> Self {
         Self { class: "shape", name: None, points, is_marked: false }
@@ -44,9 +44,9 @@ impl Body {
 /// Everything that a picture shows.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Figure {
-    pub(crate) bodies: Vec<Body>,
+    pub(crate) bodies: Vec<PictureBody>,
     pub(crate) arms: Vec<Arm>,
-    /// The way of the tool.
+    /// Path of the tool centre point, in the root link's frame. Unit: m.
     pub(crate) path: Vec<Point3<f64>>,
 }
 
@@ -68,10 +68,10 @@ impl Figure {
     /// The whole of it.
     pub(crate) fn whole(&self, title: &str) -> Markup {
         let camera = self.camera();
-        let seen: Vec<Point2<f64>> = self.arm_points().map(|point| camera.project(&point)).collect();
-        let Some(first) = seen.first() else { return html! {} };
+        let projected: Vec<Point2<f64>> = self.arm_points().map(|point| camera.project(&point)).collect();
+        let Some(first) = projected.first() else { return html! {} };
         let (low, high) =
-            seen.iter().fold((*first, *first), |(low, high), point| (low.inf(point), high.sup(point)));
+            projected.iter().fold((*first, *first), |(low, high), point| (low.inf(point), high.sup(point)));
         let canvas = Canvas::showing(low, high, MARGIN);
         self.drawn(&camera, &canvas, title)
     }
@@ -83,8 +83,10 @@ impl Figure {
         let [a, b] = [a, b].map(|arm| Point3::from(arm.skeleton.tip.translation.vector));
         let difference_m = (a - b).norm();
         let lines = self.arms[0].skeleton.links.iter();
+        // The size of the arm: the sum of its links, which no configuration changes.
         let size_m: f64 = lines.map(|[from, to]| (to - from).norm()).sum();
         let [least, most] = DISCERNIBLE;
+        // The whole picture shows a larger difference, and the digits of the SVG do not show a smaller one.
         if !(least..most).contains(&(difference_m / size_m)) {
             return None;
         }
@@ -99,15 +101,15 @@ impl Figure {
         // The difference of two tips counts as much as a link, unless it is rounding.
         let tips: Vec<Point3<f64>> =
             self.arms.iter().map(|arm| arm.skeleton.tip.translation.vector.into()).collect();
-        let way = self.path.windows(2).map(|points| [points[0], points[1]]);
+        let path_segments = self.path.windows(2).map(|points| [points[0], points[1]]);
         let apart = tips.windows(2).filter_map(|tips| {
             let direction = (tips[1] - tips[0]).try_normalize(DRAWN_M)?;
             Some([tips[0], tips[0] + direction * 0.3])
         });
-        Camera::showing(&lines.chain(way).chain(apart).collect::<Vec<_>>())
+        Camera::showing(&lines.chain(path_segments).chain(apart).collect::<Vec<_>>())
     }
 
-    /// Points that must be seen.
+    /// Points that the picture must contain, in the root link's frame. Unit: m.
     fn arm_points(&self) -> impl Iterator<Item = Point3<f64>> {
         let arms = self.arms.iter().flat_map(|arm| arm.skeleton.links.iter().flatten().copied());
         let shapes = self.bodies.iter().filter(|body| body.class == "shape");
@@ -126,7 +128,7 @@ impl Figure {
             @for body in &self.bodies {
                 @if let Some(name) = &body.name { (svg::label(&outline(&body.points), name)) }
             }
-            (svg::polyline(&self.path.iter().map(at).collect::<Vec<_>>(), "way"))
+            (svg::polyline(&self.path.iter().map(at).collect::<Vec<_>>(), "trail"))
             @for arm in &self.arms {
                 g.arm.(arm.class) {
                     @for [from, to] in &arm.skeleton.links { (svg::line([at(from), at(to)], Style::Link)) }
@@ -177,7 +179,7 @@ impl TwoArms {
                     (caption)
                     ul.legend {
                         @for arm in &self.figure.arms { li.(arm.class) { (arm.name) } }
-                        @if !self.figure.path.is_empty() { li.way { "path of the TCP" } }
+                        @if !self.figure.path.is_empty() { li.trail { "path of the TCP" } }
                     }
                 }
             }

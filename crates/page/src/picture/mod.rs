@@ -5,5 +5,5 @@ mod figure;
 mod skeleton;
 mod svg;
 
-pub(crate) use figure::{Arm, Body, Figure, TwoArms};
+pub(crate) use figure::{Arm, Figure, PictureBody, TwoArms};
 pub(crate) use skeleton::{Skeleton, corners, shapes};

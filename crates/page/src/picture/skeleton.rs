@@ -1,9 +1,9 @@
 //! An arm as lines, and shapes as points.
 
-use congruent_description::{Elementary as _, Geometry, Link, LinkIndex, Robot};
+use congruent_description::{Geometry, Link, LinkIndex, Robot};
 use nalgebra::{Isometry3, Point3, Vector3};
 
-/// Most vertices of a mesh that are looked at: an outline has few corners.
+/// Most vertices of a mesh that are used for its outline, which has few corners. Kind: choice.
 const MOST_VERTICES: usize = 300;
 /// Corners of a circle.
 const CORNERS: u32 = 16;
@@ -54,7 +54,7 @@ pub(crate) fn corners(geometry: &Geometry, root_from_shape: &Isometry3<f64>) -> 
     let signs = [-0.5, 0.5];
     let circle = |radius_m: f64, z: f64| {
         let angles = (0..CORNERS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(CORNERS));
-        angles.map(move |angle| Point3::new(radius_m * angle.cosine(), radius_m * angle.sine(), z))
+        angles.map(move |angle| Point3::new(radius_m * libm::cos(angle), radius_m * libm::sin(angle), z))
     };
     let points: Vec<Point3<f64>> = match geometry {
         Geometry::Box { size_m } => {
@@ -67,9 +67,10 @@ pub(crate) fn corners(geometry: &Geometry, root_from_shape: &Isometry3<f64>) -> 
         }
         Geometry::Sphere { radius_m } => (0..=CORNERS / 2)
             .map(|k| std::f64::consts::PI * f64::from(2 * k) / f64::from(CORNERS))
-            .flat_map(|polar| circle(radius_m * polar.sine(), radius_m * polar.cosine()))
+            .flat_map(|polar| circle(radius_m * libm::sin(polar), radius_m * libm::cos(polar)))
             .collect(),
         Geometry::Mesh(mesh) => {
+            // Evenly through the list of vertices: the first of them could be those of one part of the shape.
             let every = mesh.vertices_m.len().div_ceil(MOST_VERTICES).max(1);
             mesh.vertices_m.iter().step_by(every).copied().collect()
         }

@@ -1,6 +1,6 @@
 //! SVG of a part of a plane: metres to the right and up become points to the right and down.
 
-use congruent_description::{Elementary as _, display::length};
+use congruent_input::display::length;
 use maud::{Markup, html};
 use nalgebra::{Point2, Vector2};
 
@@ -13,7 +13,7 @@ const CORNERS: u32 = 32;
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Style {
-    /// A link.
+    /// Between the frames of a link and of its children.
     Link,
     /// The axis of a joint.
     Axis,
@@ -41,8 +41,10 @@ pub(crate) struct Canvas {
 impl Canvas {
     /// A rectangle with a margin around it, as a share of the picture.
     pub(crate) fn showing(low: Point2<f64>, high: Point2<f64>, margin: f64) -> Self {
+        // A picture of a single point has no size to divide by.
         let size = (high - low).sup(&Vector2::repeat(f64::MIN_POSITIVE));
         let free = 1.0 - 2.0 * margin;
+        // The smaller of both scales, so that the whole rectangle is in the picture and angles are kept.
         let points_per_m = (free * WIDTH / size.x).min(free * HEIGHT / size.y);
         Self { middle: nalgebra::center(&low, &high), points_per_m }
     }
@@ -63,7 +65,7 @@ impl Canvas {
         let points: Vec<Point2<f64>> = points.map(|point| self.at(&point)).collect();
         let directions = (0..CORNERS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(CORNERS));
         let farthest = |angle: f64| {
-            let along = Vector2::new(angle.cosine(), angle.sine());
+            let along = Vector2::new(libm::cos(angle), libm::sin(angle));
             points.iter().copied().max_by(|a, b| a.coords.dot(&along).total_cmp(&b.coords.dot(&along)))
         };
         let mut corners: Vec<Point2<f64>> = directions.filter_map(farthest).collect();
@@ -142,7 +144,7 @@ fn tenths(value: f64) -> f64 {
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above a length.
 fn round_length(at_most_m: f64) -> f64 {
-    let power = 10_f64.to_power(at_most_m.decimal_logarithm().floor());
+    let power = libm::pow(10_f64, libm::log10(at_most_m).floor());
     let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= at_most_m).unwrap_or(1.0);
     factor * power
 }

@@ -1,7 +1,8 @@
 //! The table of actuators: the largest effort of each joint beside its limit.
 
-use congruent_description::display::{number, quantity};
-use congruent_twin::{report::RunReport, source::ActuatorUse};
+use congruent_input::display::{number, quantity};
+use congruent_results::report::RunReport;
+use congruent_twin::source::ActuatorUse;
 use maud::{Markup, html};
 
 use crate::parts::{Pointer, value};
@@ -33,11 +34,11 @@ fn row(of: &ActuatorUse, at: &Pointer) -> Markup {
         tr {
             th scope="row" { (of.joint) }
             td data-label="largest effort" {
-                (value(&at.key("largest_effort"), of.largest_effort, &quantity(of.largest_effort, of.unit)))
+                (value(&at.key("largest_effort"), of.largest_effort, &quantity(of.largest_effort, of.unit.symbol())))
             }
             td data-label="limit" {
                 @match of.effort_limit {
-                    Some(limit) => (value(&at.key("effort_limit"), limit, &quantity(limit, of.unit))),
+                    Some(limit) => (value(&at.key("effort_limit"), limit, &quantity(limit, of.unit.symbol()))),
                     None => "none",
                 }
             }

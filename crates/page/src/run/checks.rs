@@ -1,10 +1,8 @@
 //! The table of checks: the worst value of each quantity beside its limit, and how much of the limit it uses.
 
-use congruent_description::display::quantity;
-use congruent_twin::{
-    report::{RunReport, limit_words, margin_words, quantity_words, worst_moment},
-    verdict::{Bound, CheckResult, Measure, Moment, Status},
-};
+use congruent_input::display::quantity;
+use congruent_monitors::verdict::{Bound, CheckResult, Measure, Moment, Status};
+use congruent_results::report::{RunReport, limit_words, margin_words, quantity_words, worst_moment};
 use maud::{Markup, html};
 
 use crate::parts::{Outcome, Pointer, badge, value};
@@ -91,7 +89,11 @@ fn cells(measure: &Measure, at: &Pointer) -> Markup {
 }
 
 fn shown(measure: &Measure, moment: &Moment) -> String {
-    if moment.value.is_infinite() { "never".to_owned() } else { quantity(moment.value, measure.unit) }
+    if moment.value.is_infinite() {
+        "never".to_owned()
+    } else {
+        quantity(moment.value, measure.unit.symbol())
+    }
 }
 
 fn limit(measure: &Measure, at: &Pointer) -> Markup {

@@ -1,12 +1,11 @@
 //! What the page of a run shows beside the report.
 
-use congruent_description::RobotDescription;
-use congruent_simulation::Obstacle;
-use congruent_twin::monitor::Names;
+use congruent_description::{Obstacle, RobotDescription};
+use congruent_monitors::Names;
 
 use crate::series::RunSeries;
 
-/// What a page tells beside the report.
+/// What a page shows beside the report: names, bodies, series and poses that the report does not hold.
 #[derive(Debug)]
 pub(super) struct RunContent {
     pub(super) names: Names,

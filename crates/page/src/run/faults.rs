@@ -1,11 +1,9 @@
 //! What went wrong, in sentences: the checks that failed, what the samples show, and why the models differ.
 
 use congruent_agreement::report::foremost;
-use congruent_twin::{
-    diagnosis::RunDiagnosis,
-    report::{RunReport, lines},
-    verdict::Status,
-};
+use congruent_fault_diagnosis::RunDiagnosis;
+use congruent_monitors::verdict::Status;
+use congruent_results::report::{RunReport, lines};
 use maud::{Markup, html};
 
 use crate::parts::{Pointer, diagnosis};

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use congruent_description::display::quantity;
-use congruent_twin::{report::RunReport, scenario::Expectation, verdict::Verdict};
+use congruent_input::display::quantity;
+use congruent_monitors::verdict::Verdict;
+use congruent_results::report::RunReport;
+use congruent_scenario::Expectation;
 use maud::{Markup, html};
 
 use crate::parts::{Outcome, Pointer, badge, count, value};
@@ -17,7 +19,7 @@ const FILES: [(&str, &str); 6] = [
     ("junit.xml", "the checks as test cases"),
     ("scenario.resolved.toml", "the scenario with every default written out"),
 ];
-/// Those that follow the page.
+/// Files of the results that are written after the page.
 const LATER: [&str; 2] = ["report.json", "junit.xml"];
 
 /// Whether a run went well, in a word.
@@ -74,7 +76,7 @@ pub(crate) fn capitalised(sentence: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// How to run the same again.
+/// The command that repeats the run, the versions, and the hash of the trajectory.
 pub(super) fn reproduction(report: &RunReport) -> Markup {
     html! {
         section {
@@ -82,7 +84,7 @@ pub(super) fn reproduction(report: &RunReport) -> Markup {
             pre.command { (report.command()) }
             p.small {
                 "congruent " (report.versions.congruent) ", physics " (report.versions.physics)
-                "; equal runs have the trajectory " code.hash { (report.trajectory_sha256) }
+                "; a repeated run gives the same trajectory, SHA-256 " code.hash { (report.trajectory_sha256) }
             }
         }
     }

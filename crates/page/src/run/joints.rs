@@ -1,18 +1,17 @@
-//! Motion of the joints: position, velocity and effort of each, with its limits. Joints that stand still come last, folded.
+//! Motion of the joints: position, velocity and effort of each, with its limits. Joints that do not move come last,
+//! folded.
 
-use congruent_description::{
-    Joint,
-    display::{position, quantity},
-};
+use congruent_description::Joint;
+use congruent_input::display::{position, quantity};
 use maud::{Markup, html};
 
 use super::content::RunContent;
 use crate::{
     parts::plot,
-    series::{Chart, JointQuantity, Limit, Line, Plots},
+    series::{Chart, JointQuantity, PlotLimit, PlotLine, Plots},
 };
 
-/// A joint that moves less than this stands still. Unit: rad or m.
+/// A joint whose range of positions in the run is smaller does not move. Unit: rad or m. Kind: choice.
 const STANDSTILL: f32 = 1e-4;
 /// Plotted quantities of a joint.
 const PLOTTED: [JointQuantity; 3] = [JointQuantity::Position, JointQuantity::Velocity, JointQuantity::Effort];
@@ -49,8 +48,8 @@ fn chart(plotted: JointQuantity, joint: usize, run: &RunContent) -> Chart {
         _ => slide,
     };
     let line = |name: &str, quantity: JointQuantity, dashed: bool| {
-        let values = run.series.of_joint(quantity, joint)?;
-        Some(Line { name: name.to_owned(), values, dashed, ..Line::default() })
+        let values = run.series.joint_values(quantity, joint)?;
+        Some(PlotLine { name: name.to_owned(), values, dashed, ..PlotLine::default() })
     };
     let mut lines = Vec::new();
     match plotted {
@@ -67,7 +66,7 @@ fn chart(plotted: JointQuantity, joint: usize, run: &RunContent) -> Chart {
             }
         }
     }
-    let limits = limits(plotted, of).into_iter().map(|value| Limit { name: "limit".to_owned(), value });
+    let limits = limits(plotted, of).into_iter().map(|value| PlotLimit { name: "limit".to_owned(), value });
     Chart { id: id(plotted, joint), unit, scale, log: false, lines, limits: limits.collect() }
 }
 
@@ -99,7 +98,7 @@ pub(super) fn joints(run: &RunContent, plots: &Plots) -> Markup {
             @for &joint in &moving { (one(joint, run, plots)) }
             @if !still.is_empty() {
                 details {
-                    summary { (still.len()) @if still.len() == 1 { " joint that stands" } @else { " joints that stand" } " still" }
+                    summary { (still.len()) @if still.len() == 1 { " joint that does not move" } @else { " joints that do not move" } }
                     @for &joint in &still { (one(joint, run, plots)) }
                 }
             }
@@ -132,10 +131,10 @@ fn range_words(joint: usize, of: &Joint, run: &RunContent) -> String {
     match of.position_range() {
         None => format!("{went}, without limits"),
         Some((lower, upper)) => {
-            let left = (low - lower).min(upper - high);
+            let margin = (low - lower).min(upper - high);
             let [lower, upper] = [lower, upper].map(|limit| position(limit, unit));
-            let side = if left < 0.0 { "beyond a limit" } else { "left" };
-            format!("{went}, limits {lower} and {upper}: {} {side}", quantity(left.abs(), unit))
+            let side = if margin < 0.0 { "beyond a limit by" } else { "margin" };
+            format!("{went}, limits {lower} and {upper}: {side} {}", quantity(margin.abs(), unit))
         }
     }
 }
@@ -144,7 +143,9 @@ fn caption(quantity_of: JointQuantity, joint: &Joint) -> String {
     let unit = if joint.kind.is_angular() { "rad" } else { "m" };
     let (name, unit) = match quantity_of {
         JointQuantity::Velocity => ("velocity", format!("{unit}/s")),
-        JointQuantity::Effort => ("effort", if unit == "rad" { "N m".to_owned() } else { "N".to_owned() }),
+        JointQuantity::Effort => {
+            ("effort", if joint.kind.is_angular() { "N m".to_owned() } else { "N".to_owned() })
+        }
         _ => return "position".to_owned(),
     };
     match limits(quantity_of, joint).last() {

@@ -1,17 +1,16 @@
 //! Errors of the links, distances and tracking over time.
 
 use congruent_agreement::compare::PoseSource;
-use congruent_twin::{
-    report::{RunReport, share_in_full},
-    scenario::CheckKind,
-    verdict::{CheckResult, Measure, Status},
-};
+use congruent_input::Quantity;
+use congruent_monitors::verdict::{CheckResult, Measure, Status};
+use congruent_results::report::{RunReport, share_in_full};
+use congruent_scenario::CheckKind;
 use maud::{Markup, html};
 
 use super::{content::RunContent, joints};
 use crate::{
     parts::plot,
-    series::{Chart, JointQuantity, Limit, Line, Mark, Plots},
+    series::{Chart, JointQuantity, PlotLimit, PlotLine, PlotMark, Plots},
 };
 
 /// Lines of a plot that are shown before others are chosen.
@@ -20,8 +19,8 @@ const SHOWN: usize = 8;
 /// All plots of a run.
 pub(super) fn charts(report: &RunReport, run: &RunContent) -> Plots {
     let mut charts = vec![
-        errors("position", report, run),
-        errors("orientation", report, run),
+        errors(Quantity::Position, report, run),
+        errors(Quantity::Orientation, report, run),
         distances(report, run),
         tracking("tracking_angle", ("deg", 1_f64.to_degrees()), report, run),
         tracking("tracking_shift", ("mm", 1e3), report, run),
@@ -53,31 +52,31 @@ pub(super) fn over_time(plots: &Plots) -> Markup {
 }
 
 /// Errors of all links; those of links that the table does not move follow from the URDF and are hidden.
-fn errors(quantity: &str, report: &RunReport, run: &RunContent) -> Chart {
-    let is_position = quantity == "position";
+fn errors(quantity: Quantity, report: &RunReport, run: &RunContent) -> Chart {
+    let is_position = quantity == Quantity::Position;
     let agreement = report.checks.iter().filter(|check| check.check == CheckKind::Agreement);
     let measures = agreement.flat_map(|check| &check.measures).filter(|of| of.quantity == quantity);
     let worst: Vec<&str> = measures.filter_map(|of| Some(of.worst.as_ref()?.subject.as_str())).collect();
     let is_worst = |name: &str| worst.contains(&name);
-    let mut lines: Vec<(f32, Line)> = Vec::new();
+    let mut lines: Vec<(f32, PlotLine)> = Vec::new();
     for (link, name) in run.names.links.iter().enumerate() {
         let error =
             if is_position { run.series.position_error(link) } else { run.series.orientation_error(link) };
         let Some((values, largest)) = error else { continue };
-        // Two computations of one chain: the table is not asked there.
+        // Model and twin both follow from the URDF there, so their error is rounding: hidden, not compared.
         let is_urdf = report.links.get(link).is_some_and(|of| of.source == PoseSource::Urdf);
         let has_table = report.links.iter().any(|of| of.source != PoseSource::Urdf);
         let hidden = largest == 0.0 || (is_urdf && has_table && !is_worst(name));
-        lines.push((largest, Line { name: name.clone(), values, hidden, ..Line::default() }));
+        lines.push((largest, PlotLine { name: name.clone(), values, hidden, ..PlotLine::default() }));
     }
     // The largest first; of equal ones in the order of the robot.
     lines.sort_by(|(a, x), (b, y)| x.hidden.cmp(&y.hidden).then(b.total_cmp(a)));
-    let mut lines: Vec<Line> = lines.into_iter().map(|(_, line)| line).collect();
+    let mut lines: Vec<PlotLine> = lines.into_iter().map(|(_, line)| line).collect();
     lines.iter_mut().skip(SHOWN).for_each(|line| line.hidden = true);
     let limits =
         limits(report, |check, measure| check == CheckKind::Agreement && measure.quantity == quantity);
     let unit = if is_position { "m" } else { "rad" };
-    Chart { id: quantity.to_owned(), unit, scale: 1.0, log: true, lines, limits }
+    Chart { id: quantity.name().to_owned(), unit, scale: 1.0, log: true, lines, limits }
 }
 
 fn distances(report: &RunReport, run: &RunContent) -> Chart {
@@ -99,31 +98,31 @@ fn tracking(id: &str, (unit, scale): (&'static str, f64), report: &RunReport, ru
     let kinds = robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind);
     let of_unit = kinds.enumerate().filter(|(_, kind)| kind.is_angular() == (unit == "deg"));
     let line = |joint: usize| {
-        let values = run.series.of_joint(JointQuantity::TrackingError, joint)?;
+        let values = run.series.joint_values(JointQuantity::TrackingError, joint)?;
         let (low, high) = run.series.range_of_joint(JointQuantity::TrackingError, joint)?;
         let name = run.names.joints[joint].clone();
-        Some((high.max(-low), Line { name, values, ..Line::default() }))
+        Some((high.max(-low), PlotLine { name, values, ..PlotLine::default() }))
     };
-    let mut lines: Vec<(f32, Line)> = of_unit.filter_map(|(joint, _)| line(joint)).collect();
+    let mut lines: Vec<(f32, PlotLine)> = of_unit.filter_map(|(joint, _)| line(joint)).collect();
     lines.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    let mut lines: Vec<Line> = lines.into_iter().map(|(_, line)| line).collect();
+    let mut lines: Vec<PlotLine> = lines.into_iter().map(|(_, line)| line).collect();
     lines.iter_mut().skip(SHOWN).for_each(|line| line.hidden = true);
-    let quantity = if unit == "deg" { "path_error_of_angle" } else { "path_error_of_shift" };
+    let quantity = if unit == "deg" { Quantity::PathErrorOfAngle } else { Quantity::PathErrorOfShift };
     let mut limits =
         limits(report, |check, measure| check == CheckKind::Tracking && measure.quantity == quantity);
     // The error has a sign, its limit has none.
-    limits.extend(limits.clone().into_iter().map(|limit| Limit { value: -limit.value, ..limit }));
+    limits.extend(limits.clone().into_iter().map(|limit| PlotLimit { value: -limit.value, ..limit }));
     Chart { id: id.to_owned(), unit, scale, log: false, lines, limits }
 }
 
 /// The limits of the measures that are chosen, each once.
-fn limits(report: &RunReport, is_chosen: impl Fn(CheckKind, &Measure) -> bool) -> Vec<Limit> {
-    let mut limits: Vec<Limit> = Vec::new();
+fn limits(report: &RunReport, is_chosen: impl Fn(CheckKind, &Measure) -> bool) -> Vec<PlotLimit> {
+    let mut limits: Vec<PlotLimit> = Vec::new();
     for check in &report.checks {
         for measure in check.measures.iter().filter(|measure| is_chosen(check.check, measure)) {
             let name = format!("{} {}", measure.bound.words(), share_in_full(measure.limit, measure.unit));
             if !limits.iter().any(|limit| limit.name == name) {
-                limits.push(Limit { name, value: measure.limit });
+                limits.push(PlotLimit { name, value: measure.limit });
             }
         }
     }
@@ -131,20 +130,23 @@ fn limits(report: &RunReport, is_chosen: impl Fn(CheckKind, &Measure) -> bool) -
 }
 
 /// First violations, the stop, and the starts of the motions.
-fn marks(report: &RunReport) -> Vec<Mark> {
-    let motion = |(number, motion): (usize, &congruent_twin::report::MotionTimes)| Mark {
+fn marks(report: &RunReport) -> Vec<PlotMark> {
+    let motion = |(number, motion): (usize, &congruent_results::report::MotionTimes)| PlotMark {
         time_s: motion.starts_s,
         text: number.to_string(),
         kind: "motion",
     };
     let failed = report.checks.iter().filter(|check| check.status == Status::Fail);
-    let stop =
-        report.stopped.iter().map(|stop| Mark { time_s: stop.time_s, text: "stop".to_owned(), kind: "stop" });
+    let stop = report.stopped.iter().map(|stop| PlotMark {
+        time_s: stop.time_s,
+        text: "stop".to_owned(),
+        kind: "stop",
+    });
     (1..).zip(&report.motions).map(motion).chain(failed.filter_map(violation)).chain(stop).collect()
 }
 
-fn violation(check: &CheckResult) -> Option<Mark> {
+fn violation(check: &CheckResult) -> Option<PlotMark> {
     let first = check.measures.iter().filter_map(|measure| measure.first_violation.as_ref());
     let time_s = first.map(|moment| moment.time_s).min_by(f64::total_cmp)?;
-    Some(Mark { time_s, text: check.check.word().to_owned(), kind: "violation" })
+    Some(PlotMark { time_s, text: check.check.word().to_owned(), kind: "violation" })
 }

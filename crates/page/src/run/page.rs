@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use congruent_twin::report::RunReport;
+use congruent_results::report::RunReport;
 use maud::html;
 
 use super::{

@@ -6,12 +6,10 @@ use std::{
 };
 
 use congruent_description::Tolerance;
-use congruent_twin::{
-    IfIncomplete, Recording, RecordingFormat, Run, RunSetup, Sample,
-    recorder::{Recorder, RecordingError},
-    report::RunReport,
-    scenario::Check,
-};
+use congruent_monitors::{Recorder, RecordingError, Sample};
+use congruent_results::{IfIncomplete, Recording, RecordingFormat, report::RunReport};
+use congruent_scenario::Check;
+use congruent_twin::{Run, RunSetup};
 
 use super::{content::RunContent, page};
 use crate::series::RunSeries;

@@ -1,28 +1,23 @@
 //! The picture of a run: model and twin where they differ most, or the twin at the worst of another check that failed; with
-//! what stands around and the path of the TCP.
+//! the obstacles and zones around it and the path of the TCP.
 
-use congruent_description::{
-    Robot, RobotQ,
-    display::{angle, length, quantity},
-};
+use congruent_description::{Obstacle, Robot, RobotQ};
+use congruent_input::display::{angle, length, quantity};
 use congruent_kinematics::{Pose, UrdfTree};
-use congruent_simulation::Obstacle;
-use congruent_twin::{
-    report::{RunReport, sentence_at, worst_moment},
-    scenario::CheckKind,
-    verdict::{CheckResult, Measure, Moment, Status},
-};
+use congruent_monitors::verdict::{CheckResult, Measure, Moment, Status};
+use congruent_results::report::{RunReport, sentence_at, worst_moment};
+use congruent_scenario::CheckKind;
 use maud::{Markup, html};
 use nalgebra::Isometry3;
 
 use super::content::RunContent;
-use crate::picture::{Arm, Body, Figure, Skeleton, TwoArms, corners, shapes};
+use crate::picture::{Arm, Figure, PictureBody, Skeleton, TwoArms, corners, shapes};
 
-/// The section.
+/// The section with the picture of the arm, its caption and its legend.
 pub(super) fn scene(report: &RunReport, run: &RunContent) -> Markup {
     let violated = violation(report).and_then(|found| Some((found, poses(run, found.2)?)));
     let picture = match violated {
-        Some(((check, measure, moment), poses)) => at_violation((check, measure, moment), &poses, run),
+        Some(((check, measure, moment), poses)) => at_violation(check, measure, moment, &poses, run),
         None => at_largest_difference(run),
     };
     html! { section { h2 { "The arm" } (picture) } }
@@ -54,7 +49,9 @@ fn poses(run: &RunContent, moment: &Moment) -> Option<Vec<Isometry3<f64>>> {
 }
 
 fn at_violation(
-    (check, measure, moment): (&CheckResult, &Measure, &Moment),
+    check: &CheckResult,
+    measure: &Measure,
+    moment: &Moment,
     poses: &[Isometry3<f64>],
     run: &RunContent,
 ) -> Markup {
@@ -70,8 +67,9 @@ fn at_violation(
 
 /// Links, obstacles and zones that a value is about: of a joint, the link that moves with it.
 fn subjects<'a>(subject: &'a str, robot: &'a Robot) -> Vec<&'a str> {
-    let of_joint = robot.find_joint(subject).map(|joint| robot.link(robot.joint(joint).child).name.as_str());
-    subject.split("--").chain(of_joint).collect()
+    let joint_values =
+        robot.find_joint(subject).map(|joint| robot.link(robot.joint(joint).child).name.as_str());
+    subject.split("--").chain(joint_values).collect()
 }
 
 fn at_largest_difference(run: &RunContent) -> Markup {
@@ -100,17 +98,19 @@ fn arm(class: &'static str, name: &str, poses: &[Isometry3<f64>], run: &RunConte
 }
 
 /// Obstacles, zones, and the shapes of the arm; those that a check found are marked.
-fn bodies(poses: &[Isometry3<f64>], run: &RunContent, marked: &[&str]) -> Vec<Body> {
+fn bodies(poses: &[Isometry3<f64>], run: &RunContent, marked: &[&str]) -> Vec<PictureBody> {
     let is_marked = |name: &str| marked.contains(&name);
-    let around = |class: &'static str, body: &Obstacle| Body {
+    let around = |class: &'static str, body: &Obstacle| PictureBody {
         class,
         name: Some(body.name.clone()),
         points: corners(&body.geometry, &body.world_from_obstacle),
         is_marked: is_marked(&body.name),
     };
-    let mut bodies: Vec<Body> = run.obstacles.iter().map(|body| around("obstacle", body)).collect();
+    let mut bodies: Vec<PictureBody> = run.obstacles.iter().map(|body| around("obstacle", body)).collect();
     bodies.extend(run.zones.iter().map(|zone| around("zone", zone)));
     let shapes = shapes(&run.description.robot, poses).into_iter();
-    bodies.extend(shapes.map(|(link, points)| Body { is_marked: is_marked(link), ..Body::shape(points) }));
+    bodies.extend(
+        shapes.map(|(link, points)| PictureBody { is_marked: is_marked(link), ..PictureBody::shape(points) }),
+    );
     bodies
 }

@@ -10,7 +10,7 @@ struct Extremes {
 }
 
 impl Extremes {
-    fn of(value: f32) -> Self {
+    fn from_value(value: f32) -> Self {
         Self { low: value, high: value, low_first: true }
     }
 
@@ -20,12 +20,14 @@ impl Extremes {
         } else if value > self.high {
             (self.high, self.low_first) = (value, true);
         } else if !self.low.is_finite() {
-            *self = Self::of(value);
+            // NaN compares with nothing, so the first number of a bucket arrives here.
+            *self = Self::from_value(value);
         }
     }
 
-    /// Those of two buckets, one after the other.
+    /// Extremes of two consecutive buckets.
     fn then(self, next: Self) -> Self {
+        // A bucket of NaN has no extremes: the other one is the result.
         if !self.low.is_finite() || !next.low.is_finite() {
             return if self.low.is_finite() { self } else { next };
         }
@@ -59,14 +61,15 @@ pub(crate) struct Buckets {
 }
 
 impl Buckets {
-    /// No samples yet of so many series; `most` is at least 2.
+    /// Buckets without samples for this number of series; `most`, at least 2, is the number of buckets of each.
     pub(crate) fn new(series: usize, most: usize) -> Self {
+        // Even, since buckets are joined in pairs and none may lack its partner.
         let most = most.max(2).next_multiple_of(2);
         Self {
             most,
             width: 1,
             filled: 0,
-            open: vec![Extremes::of(f32::NAN); series],
+            open: vec![Extremes::from_value(f32::NAN); series],
             starts_s: Vec::with_capacity(most),
             closed: (0..series).map(|_| Vec::with_capacity(most)).collect(),
             end_s: 0.0,
@@ -83,7 +86,7 @@ impl Buckets {
         let each = self.open.iter_mut().zip(values);
         if self.filled == 0 {
             self.starts_s.push(time_s);
-            each.for_each(|(open, value)| *open = Extremes::of(single(value)));
+            each.for_each(|(open, value)| *open = Extremes::from_value(single(value)));
         } else {
             each.for_each(|(open, value)| open.include(single(value)));
         }
@@ -102,6 +105,8 @@ impl Buckets {
         if self.starts_s.len() < self.most {
             return;
         }
+        // Full: neighbours become one bucket in place, and each later bucket holds twice as many samples. Joining
+        // costs a constant time for each sample on average, and memory does not grow.
         self.width *= 2;
         let half = self.most / 2;
         for at in 0..half {
@@ -129,6 +134,7 @@ impl Buckets {
         if !self.is_joined() {
             return self.starts_s.clone();
         }
+        // The start and the middle of a bucket: the order of its extremes is known, their times are not.
         let ends = self.starts_s.iter().skip(1).copied().chain(std::iter::once(self.end_s));
         self.starts_s.iter().zip(ends).flat_map(|(&start, end)| [start, f32::midpoint(start, end)]).collect()
     }
@@ -145,7 +151,7 @@ impl Buckets {
         closed.iter().flat_map(ordered).collect()
     }
 
-    /// Smallest and largest value of one series; `None` if it has no number.
+    /// Smallest and largest value of one series; `None` if all its values are NaN.
     pub(crate) fn range(&self, series: usize) -> Option<(f32, f32)> {
         let buckets = self.closed[series].iter().filter(|bucket| bucket.low.is_finite());
         buckets.map(|bucket| (bucket.low, bucket.high)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
@@ -199,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_takes_no_number_away() {
+    fn what_is_not_a_number_removes_no_number() {
         let mut buckets = Buckets::new(2, 2);
         for value in [f64::NAN, 2.0, f64::NAN, 1.0, f64::NAN] {
             buckets.push(0.0, [value, f64::NAN].into_iter());

@@ -1,17 +1,18 @@
 //! The smallest distances over time. They are measured now and then: an exact distance costs more than a physics step.
 
-use congruent_twin::proximity::{Clearance, Nearest};
+use congruent_proximity::{Clearance, Nearest};
 
 use super::{
     buckets::single,
-    plots::{Floats, Line},
+    plots::{Floats, PlotLine},
 };
 
-/// Time between two looks at least, a multiple of the period of recordings, which then have measured already.
+/// Least time between two measurements, a multiple of the period of recordings, which have then measured already.
+/// Unit: s.
 const PERIOD_S: f64 = 0.02;
-/// Most looks.
+/// Most instants at which distances are measured in a run. Kind: choice, a plot has no more points.
 const MOST: u64 = 400;
-/// Room for the way to rest after a stop, which follows the end, and for the last instant.
+/// Room for the braking after a stop, which follows the end of the run, and for the last instant.
 const ROOM: usize = 1000;
 
 /// The smallest distance at some instants, and between which two.
@@ -32,8 +33,9 @@ impl Distances {
     }
 
     /// The line of a plot, each value with the name of its pair; `None` if there is no pair.
-    pub(crate) fn line(&self, name: &str, names: &[String]) -> Option<Line> {
+    pub(crate) fn line(&self, name: &str, names: &[String]) -> Option<PlotLine> {
         let mut subjects: Vec<usize> = Vec::new();
+        // Each name once: the page carries an index for each value instead of a name.
         let of_pair = |pair: &usize| {
             subjects.iter().position(|known| known == pair).unwrap_or_else(|| {
                 subjects.push(*pair);
@@ -41,13 +43,13 @@ impl Distances {
             })
         };
         let of_values: Vec<usize> = self.pairs.iter().map(of_pair).collect();
-        (!self.pairs.is_empty()).then(|| Line {
+        (!self.pairs.is_empty()).then(|| PlotLine {
             name: name.to_owned(),
             values: Floats(self.values_m.clone()),
             times_s: Some(Floats(self.times_s.clone())),
             subjects: of_values,
             subject_names: subjects.iter().map(|&pair| names[pair].clone()).collect(),
-            ..Line::default()
+            ..PlotLine::default()
         })
     }
 
@@ -62,14 +64,14 @@ impl Distances {
 /// Distances between links and to obstacles, and from links to the zones that are forbidden to them.
 #[derive(Debug)]
 pub(crate) struct NearestOverTime {
-    /// Steps between two looks.
+    /// Steps between two measurements.
     stride: u64,
     pub(crate) clearance: Distances,
     pub(crate) zones: Distances,
 }
 
 impl NearestOverTime {
-    /// For a run of so many steps.
+    /// For a run of this number of steps.
     pub(crate) fn new(step_s: f64, steps: u64) -> Self {
         Self {
             stride: stride(step_s, steps),
@@ -78,7 +80,7 @@ impl NearestOverTime {
         }
     }
 
-    /// Looks at this instant, if it is time.
+    /// Measures at this instant, if the stride has come to it.
     pub(crate) fn observe(
         &mut self,
         (step, is_last, time_s): (u64, bool, f64),
@@ -99,6 +101,7 @@ impl NearestOverTime {
 )]
 fn stride(step_s: f64, steps: u64) -> u64 {
     let at_least = ((PERIOD_S / step_s).round() as u64).max(1);
+    // A multiple of the least stride: at these steps the recording has measured the distances already.
     at_least * steps.div_ceil(MOST.saturating_mul(at_least)).max(1)
 }
 

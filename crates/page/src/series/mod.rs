@@ -5,5 +5,5 @@ mod distances;
 mod plots;
 mod run_series;
 
-pub(crate) use plots::{Chart, Limit, Line, Mark, Plots};
+pub(crate) use plots::{Chart, PlotLimit, PlotLine, PlotMark, Plots};
 pub(crate) use run_series::{JointQuantity, RunSeries};

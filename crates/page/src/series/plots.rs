@@ -10,10 +10,10 @@ pub(crate) struct Plots {
     pub(crate) times_s: Floats,
     pub(crate) charts: Vec<Chart>,
     /// Instants that every plot marks.
-    pub(crate) marks: Vec<Mark>,
+    pub(crate) marks: Vec<PlotMark>,
 }
 
-/// One plot.
+/// One plot: lines over time in one unit, with limits drawn across.
 #[derive(Debug, Serialize)]
 pub(crate) struct Chart {
     /// Name of the figure in the page.
@@ -24,13 +24,13 @@ pub(crate) struct Chart {
     pub(crate) scale: f64,
     /// Whether the axis is logarithmic.
     pub(crate) log: bool,
-    pub(crate) lines: Vec<Line>,
-    pub(crate) limits: Vec<Limit>,
+    pub(crate) lines: Vec<PlotLine>,
+    pub(crate) limits: Vec<PlotLimit>,
 }
 
 /// A line of a plot.
 #[derive(Debug, Default, Serialize)]
-pub(crate) struct Line {
+pub(crate) struct PlotLine {
     pub(crate) name: String,
     pub(crate) values: Floats,
     /// Whether it is hidden until it is chosen in the legend.
@@ -50,22 +50,22 @@ pub(crate) struct Line {
 
 /// A limit, drawn across.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Limit {
+pub(crate) struct PlotLimit {
     pub(crate) name: String,
-    /// In SI units.
+    /// Value of the limit, in SI units.
     pub(crate) value: f64,
 }
 
 /// An instant to mark.
 #[derive(Debug, Serialize)]
-pub(crate) struct Mark {
+pub(crate) struct PlotMark {
     pub(crate) time_s: f64,
     pub(crate) text: String,
     /// `violation`, `stop` or `motion`.
     pub(crate) kind: &'static str,
 }
 
-/// Numbers.
+/// Numbers of a line, written as little-endian 32 bit floats in base64.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Floats(pub(crate) Vec<f32>);
 
@@ -77,7 +77,7 @@ impl Serialize for Floats {
 }
 
 impl Plots {
-    /// The JSON, in which no text of a file can end the element that it stands in.
+    /// The JSON, in which no text of a file can end the script element around it.
     pub(crate) fn json(&self) -> String {
         let json = serde_json::to_string(self).expect("names are text and numbers are numbers");
         json.replace('<', "\\u003c")

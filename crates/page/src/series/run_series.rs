@@ -3,7 +3,7 @@
 
 use congruent_description::{LinkIndex, RobotDescription, Tolerance};
 use congruent_kinematics::{Pose, PoseError};
-use congruent_twin::{Sample, source::JointSample};
+use congruent_monitors::{JointSample, Sample};
 use nalgebra::{Isometry3, Point3};
 
 use super::{buckets::Buckets, distances::NearestOverTime, plots::Floats};
@@ -15,7 +15,7 @@ const MOST_VALUES: usize = 450_000;
 /// Points of the TCP's path.
 const MOST_POINTS: usize = 400;
 
-/// What is kept of each joint.
+/// Quantities of a joint that are kept over time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum JointQuantity {
     Position,
@@ -23,7 +23,7 @@ pub(crate) enum JointQuantity {
     Measured,
     Velocity,
     Effort,
-    /// Setpoint minus position.
+    /// Setpoint minus true position. Unit: rad or m.
     TrackingError,
 }
 
@@ -80,7 +80,7 @@ pub(crate) struct RunSeries {
 }
 
 impl RunSeries {
-    /// Before the first sample of a run of so many steps.
+    /// Series before the first sample of a run of this number of steps.
     pub(crate) fn new(
         description: &RobotDescription,
         tolerance: Tolerance,
@@ -109,12 +109,14 @@ impl RunSeries {
         }
     }
 
-    /// Takes one instant.
+    /// Takes the sample of one instant into every series.
     pub(crate) fn push(&mut self, sample: &mut Sample<'_>) {
         let time_s = sample.time_s;
         let (errors, joints, dof) = (sample.errors, &sample.joints, self.joints);
         let of_links = errors.iter().map(|error| error.position_m);
         let of_links = of_links.chain(errors.iter().map(|error| error.orientation_rad));
+        // The order of the series: errors by link, then each quantity by joint. `error` and `series_of` compute
+        // their indices from it.
         let of_joints = JOINT_QUANTITIES
             .into_iter()
             .flat_map(|quantity| (0..dof).map(move |joint| quantity.of(joints, joint)));
@@ -127,6 +129,7 @@ impl RunSeries {
 
     fn keep_largest(&mut self, sample: &Sample<'_>) {
         let Tolerance { position_m, orientation_rad } = self.tolerance;
+        // Position errors within the tolerance rank alike (1.0): their rounding must not hide an orientation error.
         let rank = |error: &PoseError| {
             let [position, orientation] =
                 [error.position_m / position_m, error.orientation_rad / orientation_rad];
@@ -137,13 +140,14 @@ impl RunSeries {
                 let largest = &mut self.largest;
                 (largest.rank, largest.time_s) = (rank(error), sample.time_s);
                 (largest.link, largest.error) = (link, *error);
+                // Copied into memory that `new` has allocated, since this happens within the run.
                 largest.model.copy_from_slice(sample.model);
                 largest.twin.copy_from_slice(sample.twin);
             }
         }
     }
 
-    /// No sample follows.
+    /// Closes the open buckets: no sample follows.
     pub(crate) fn finish(&mut self) {
         self.buckets.finish();
     }
@@ -168,7 +172,7 @@ impl RunSeries {
     }
 
     /// Values of a joint; `None` if there are none.
-    pub(crate) fn of_joint(&self, quantity: JointQuantity, joint: usize) -> Option<Floats> {
+    pub(crate) fn joint_values(&self, quantity: JointQuantity, joint: usize) -> Option<Floats> {
         let series = self.series_of(quantity, joint);
         self.buckets.range(series).map(|_| Floats(self.buckets.values(series)))
     }
@@ -183,26 +187,28 @@ impl RunSeries {
     }
 }
 
-/// A path of which every so many points are kept.
+/// A path of which every `stride`-th point is kept.
 #[derive(Debug)]
 pub(crate) struct ThinnedPath {
     points: Vec<Point3<f64>>,
     stride: u64,
-    seen: u64,
+    pushed: u64,
     last: Point3<f64>,
 }
 
 impl Default for ThinnedPath {
     fn default() -> Self {
-        Self { points: Vec::with_capacity(MOST_POINTS), stride: 1, seen: 0, last: Point3::origin() }
+        Self { points: Vec::with_capacity(MOST_POINTS), stride: 1, pushed: 0, last: Point3::origin() }
     }
 }
 
 impl ThinnedPath {
     fn push(&mut self, point: Point3<f64>) {
         self.last = point;
-        if self.seen.is_multiple_of(self.stride) {
+        if self.pushed.is_multiple_of(self.stride) {
             if self.points.len() == MOST_POINTS {
+                // Full: every second point goes and every second sample is taken from now on, so that the spacing
+                // stays even. The first point stays.
                 let mut at = 0;
                 self.points.retain(|_| {
                     at += 1;
@@ -212,11 +218,11 @@ impl ThinnedPath {
             }
             self.points.push(point);
         }
-        self.seen += 1;
+        self.pushed += 1;
     }
 
     /// The points, the last one of the path included.
     pub(crate) fn points(&self) -> Vec<Point3<f64>> {
-        self.points.iter().copied().chain((self.seen > 0).then_some(self.last)).collect()
+        self.points.iter().copied().chain((self.pushed > 0).then_some(self.last)).collect()
     }
 }

@@ -1,8 +1,10 @@
 //! Plots of the joints: positions beside the commanded ones, what lies between both, speeds and efforts beside their
-//! limits. Many joints are shown in groups, without those that stand still.
+//! limits. Many joints are shown in groups, without those that do not move.
 
+use JointQuantity::{Deviation, Effort, Position, Velocity};
 use congruent_description::Robot;
-use congruent_twin::monitor::Names;
+use congruent_input::SiUnit;
+use congruent_monitors::Names;
 
 use super::{
     plots::PlotFrame,
@@ -14,12 +16,12 @@ use crate::{
     series::extents::{JointExtents, width},
 };
 
-/// From so many joints on, those that stand still are left out.
+/// From this number of joints on, those that do not move are left out.
 const MANY: usize = 12;
 /// The most joints of one plot.
 const MAX_GROUP: usize = 7;
-/// A joint that goes no further stands still, rad or m.
-const STANDS_STILL: f64 = 1e-3;
+/// A joint whose positions differ by no more does not move. Unit: rad or m. Kind: choice.
+const AT_REST: f64 = 1e-3;
 /// Differences below this are rounding, in SI units.
 const ROUNDING: f64 = 1e-9;
 /// The joints of a run with what they did.
@@ -39,18 +41,16 @@ enum JointQuantity {
     Position,
     /// True minus commanded positions.
     Deviation,
-    /// Beside their limits.
+    /// Velocities (rad/s or m/s) beside their limits.
     Velocity,
-    /// Likewise.
+    /// Efforts (N m or N) beside their limits.
     Effort,
 }
-
-use JointQuantity::{Deviation, Effort, Position, Velocity};
 
 impl JointPlots<'_> {
     /// All plots, positions first.
     pub(super) fn all(&self) -> Vec<LayoutNode> {
-        let groups = ["rad", "m"].map(|unit| self.groups(unit));
+        let groups = [SiUnit::Radian, SiUnit::Metre].map(|unit| self.groups(unit));
         let groups: Vec<&Vec<usize>> = groups.iter().flatten().collect();
         let mut plots = Vec::new();
         for quantity in [Position, Deviation, Velocity, Effort] {
@@ -63,28 +63,28 @@ impl JointPlots<'_> {
         plots
     }
 
-    fn unit(&self, joint: usize) -> &'static str {
-        self.robot.joint(self.robot.movable_joints()[joint]).kind.unit()
+    fn unit(&self, joint: usize) -> SiUnit {
+        self.robot.joint(self.robot.movable_joints()[joint]).kind.si_unit()
     }
 
     /// The joints of one unit, in the order of the tree: those that move, of an arm after those of another.
-    fn groups(&self, unit: &str) -> Vec<Vec<usize>> {
-        let is_shown = |joint: &usize| {
-            self.names.joints.len() < MANY || width(self.extents[*joint].position) > STANDS_STILL
-        };
+    fn groups(&self, unit: SiUnit) -> Vec<Vec<usize>> {
+        let is_shown =
+            |joint: &usize| self.names.joints.len() < MANY || width(self.extents[*joint].position) > AT_REST;
         let of_unit = (0..self.names.joints.len()).filter(|&joint| self.unit(joint) == unit);
         let shown: Vec<usize> = of_unit.filter(is_shown).collect();
+        // Groups of nearly equal size: 8 joints are 4 and 4, not 7 and 1.
         let count = shown.len().div_ceil(MAX_GROUP).max(1);
         shown.chunks(shown.len().div_ceil(count).max(1)).map(<[usize]>::to_vec).collect()
     }
 
     fn plot(&self, quantity: JointQuantity, group: &[usize], groups: usize) -> LayoutNode {
-        let unit = group.first().map_or("rad", |&joint| self.unit(joint));
+        let unit = group.first().map_or(SiUnit::Radian, |&joint| self.unit(joint));
         let title = match (quantity, unit) {
             (Position, _) => format!("Positions and commands (thin) [{unit}]"),
             (Deviation, _) => format!("Deviations from commands [{unit}]"),
             (Velocity, _) => format!("Velocities [{unit}/s]"),
-            (Effort, "m") => "Forces [N]".to_owned(),
+            (Effort, SiUnit::Metre) => "Forces [N]".to_owned(),
             (Effort, _) => "Torques [N m]".to_owned(),
         };
         let title = match (group, groups > 1) {

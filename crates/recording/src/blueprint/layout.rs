@@ -3,14 +3,14 @@
 
 use congruent_agreement::compare::PoseSource;
 use congruent_description::RobotDescription;
+use congruent_input::{Quantity, SiUnit};
 use congruent_kinematics::PoseError;
-use congruent_twin::{
-    monitor::Names,
-    recorder::RecordingError,
-    report::{RunReport, quantity_words},
-    scenario::CheckKind,
+use congruent_monitors::{
+    Names, RecordingError,
     verdict::{CheckResult, Measure, Status},
 };
+use congruent_results::report::{RunReport, quantity_words};
+use congruent_scenario::CheckKind;
 use re_sdk_types::{
     blueprint::{
         archetypes::{
@@ -34,7 +34,7 @@ use super::{
 use crate::{
     outcome::{
         joint_limits::NearLimit,
-        measures::{first_violation_s, of_kind},
+        measures::{first_violation_s, measures_of_kind},
     },
     rrd::{
         convert::vector,
@@ -70,10 +70,10 @@ const MAX_LINKS: usize = 10;
 /// Time that is played before and after a violation.
 const AROUND_VIOLATION_S: f64 = 0.5;
 
-/// What the viewer's layout depends on.
+/// Inputs of the viewer's layout.
 #[derive(Debug)]
 pub(crate) struct ViewerLayout<'a> {
-    /// The robot.
+    /// The robot of the run, whose table decides which links have curves.
     pub(crate) description: &'a RobotDescription,
     /// The names of its links, joints and pairs.
     pub(crate) names: &'a Names,
@@ -85,11 +85,11 @@ pub(crate) struct ViewerLayout<'a> {
     pub(crate) camera: Camera,
     /// The smallest and the largest minimum distance; `None` if there is no pair.
     pub(crate) clearance_m: Option<(f64, f64)>,
-    /// The same of the distances from the zones.
+    /// Smallest and largest distance from the zones; `None` without zones.
     pub(crate) zones_m: Option<(f64, f64)>,
     /// Names of the curves of distances.
     pub(crate) distance_curves: &'a [String],
-    /// What joints and links did.
+    /// Ranges of the values of all joints, and the largest errors of all links.
     pub(crate) extents: &'a Extents,
     /// Limits of joints that their values came near to.
     pub(crate) near_limits: &'a [NearLimit],
@@ -146,6 +146,7 @@ impl ViewerLayout<'_> {
             right.push((self.distances_pixels(), distances));
         }
         if let Some(joints) = self.joints() {
+            // The joints get the height that errors, distances and summary do not need.
             let others: f32 = right.iter().map(|(pixels, _)| pixels).sum();
             right.push((WINDOW_PIXELS - SUMMARY_PIXELS - others, joints));
         }
@@ -156,7 +157,8 @@ impl ViewerLayout<'_> {
 
     /// Height of the plot of errors: with a curve for each link if they are outside their tolerance.
     fn agreement_pixels(&self) -> f32 {
-        let is_violated = of_kind(self.report, "agreement").any(|measure| measure.first_violation.is_some());
+        let is_violated = measures_of_kind(self.report, CheckKind::Agreement)
+            .any(|measure| measure.first_violation.is_some());
         plot_pixels(if is_violated { self.shown_links().count() + 1 } else { 0 })
     }
 
@@ -201,18 +203,20 @@ impl ViewerLayout<'_> {
     /// Plots of errors in tabs: in front the plot with a violated limit, or the logarithms of the largest
     /// errors.
     fn agreement(&self) -> LayoutNode {
-        let of = |quantity: &'static str| {
-            of_kind(self.report, "agreement").find(move |measure| measure.quantity == quantity)
+        let of = |quantity: Quantity| {
+            measures_of_kind(self.report, CheckKind::Agreement)
+                .find(move |measure| measure.quantity == quantity)
         };
         let frame = self.frame();
-        let view = |quantity: &'static str, name: &str, fallback: f64| {
+        let view = |quantity: Quantity, name: &str, fallback: f64| {
             let limit = of(quantity).map_or(fallback, |measure| measure.limit);
             let worst =
                 of(quantity).and_then(|measure| measure.worst.as_ref()).map_or(0.0, |worst| worst.value);
-            let links =
-                self.shown_links().map(|link| paths::path(&["agreement", quantity, &self.names.links[link]]));
-            let tolerance = paths::path(&["agreement", quantity, "tolerance"]);
-            let view = View::new("TimeSeries", name, paths::path(&["agreement", quantity]));
+            let links = self
+                .shown_links()
+                .map(|link| paths::path(&["agreement", quantity.name(), &self.names.links[link]]));
+            let tolerance = paths::path(&["agreement", quantity.name(), "tolerance"]);
+            let view = View::new("TimeSeries", name, paths::path(&["agreement", quantity.name()]));
             frame.plot(view.only(links.chain([tolerance])), Some((0.0, limit.max(worst))))
         };
         let worst =
@@ -220,13 +224,14 @@ impl ViewerLayout<'_> {
         let tolerance = self.description.tolerance;
         let mut tabs = vec![
             frame.plot(worst, None),
-            view("position", "Position errors [m]", tolerance.position_m),
-            view("orientation", "Orientation errors [rad]", tolerance.orientation_rad),
+            view(Quantity::Position, "Position errors [m]", tolerance.position_m),
+            view(Quantity::Orientation, "Orientation errors [rad]", tolerance.orientation_rad),
         ];
-        let violated = ["position", "orientation"]
+        let violated = [Quantity::Position, Quantity::Orientation]
             .into_iter()
             .position(|quantity| of(quantity).is_some_and(|measure| measure.first_violation.is_some()));
         if let Some(violated) = violated {
+            // The violated plot to the front; the others keep their order behind it.
             tabs[..=violated + 1].rotate_right(1);
         }
         LayoutNode::Tabs(tabs)
@@ -244,6 +249,7 @@ impl ViewerLayout<'_> {
         if links.is_empty() {
             links = (0..errors.len()).collect();
         }
+        // The largest relative to their tolerance, then in the order of the robot again, which the colours follow.
         links.sort_by(|&a, &b| ratio(&errors[b]).total_cmp(&ratio(&errors[a])));
         links.truncate(MAX_LINKS);
         links.sort_unstable();
@@ -253,11 +259,16 @@ impl ViewerLayout<'_> {
     /// Plots of distances, a violated one in front; `None` if there is nothing to be near to.
     fn distances(&self) -> Option<LayoutNode> {
         let frame = self.frame();
-        let is_checked =
-            ["clearance", "contact"].iter().any(|kind| of_kind(self.report, kind).next().is_some());
+        let is_checked = [CheckKind::Clearance, CheckKind::Contact]
+            .into_iter()
+            .any(|kind| measures_of_kind(self.report, kind).next().is_some());
         let clearance = self.clearance_m.filter(|_| is_checked || self.has_obstacles).map(|(low, high)| {
-            let limit = of_kind(self.report, "clearance").map(|measure| measure.limit).fold(0.0, f64::max);
+            let limit = measures_of_kind(self.report, CheckKind::Clearance)
+                .map(|measure| measure.limit)
+                .fold(0.0, f64::max);
             let view = View::new("TimeSeries", "Clearance [m]", paths::path(&["clearance"]));
+            // From 0 or the deepest overlap to somewhat above what matters: distances of metres would flatten the
+            // curve at the limit.
             frame.plot(view, Some((low.min(0.0), CLEARANCE_RANGE * high.max(limit))))
         });
         let zones = self.zones_m.map(|(low, high)| {
@@ -265,9 +276,10 @@ impl ViewerLayout<'_> {
             frame.plot(view, Some((low.min(0.0), high)))
         });
         let mut tabs: Vec<LayoutNode> = clearance.into_iter().chain(zones).collect();
-        let is_violated =
-            |kind: &str| of_kind(self.report, kind).any(|measure| measure.first_violation.is_some());
-        if is_violated("zone") && !is_violated("clearance") {
+        let is_violated = |kind: CheckKind| {
+            measures_of_kind(self.report, kind).any(|measure| measure.first_violation.is_some())
+        };
+        if is_violated(CheckKind::Zone) && !is_violated(CheckKind::Clearance) {
             tabs.reverse();
         }
         if tabs.len() > 1 { Some(LayoutNode::Tabs(tabs)) } else { tabs.pop() }
@@ -298,15 +310,17 @@ impl ViewerLayout<'_> {
         });
         let mut violated: Vec<(f64, usize, CheckKind, &Measure)> = violated.collect();
         violated.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        // Pairs of a check share one plot; sorted by time, so that the first of each is kept.
         violated.dedup_by_key(|&mut (_, number, _, measure)| (number, measure.quantity));
         let frame = self.frame();
         let plot = |(_, number, kind, measure): (f64, usize, CheckKind, &Measure)| {
             let parts = path_parts(number, kind, (measure.quantity, measure.unit));
+            // A quantity that is known only at the end of the run has no series to plot.
             if !self.recorded.contains(&parts) {
                 return None;
             }
             let [check, quantity] = parts;
-            let unit = if measure.unit.is_empty() { "1" } else { measure.unit };
+            let unit = if measure.unit == SiUnit::Ratio { "1" } else { measure.unit.symbol() };
             let title = format!("{kind}: {} [{unit}]", quantity_words(measure.quantity));
             let entities = [paths::check(&check, &quantity), paths::check_limit(&check, &quantity)];
             Some(frame.plot(View::new("TimeSeries", title, paths::path(&[])).only(entities), None))
@@ -315,7 +329,7 @@ impl ViewerLayout<'_> {
     }
 }
 
-/// Height of a plot of so many curves: its legend is in the picture.
+/// Height of a plot with this number of curves, so that its whole legend is visible.
 fn plot_pixels(curves: usize) -> f32 {
     let (fewest, most) = CURVES;
     let curves = u8::try_from(curves.clamp(fewest, most)).unwrap_or(u8::MAX);

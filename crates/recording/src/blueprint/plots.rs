@@ -14,7 +14,7 @@ use crate::rrd::times::nanoseconds;
 
 /// Width of a plot in a window of 1600 pixels, in characters of a legend.
 const PLOT_CHARACTERS: f64 = 105.0;
-/// What a legend needs besides its longest name.
+/// Width that a legend needs beside its longest name, in characters.
 const LEGEND_CHARACTERS: f64 = 7.0;
 /// The most of a plot that its legend takes.
 const LARGEST_LEGEND: f64 = 0.45;
@@ -49,6 +49,7 @@ impl PlotFrame {
         }
         if self.duration_s > 0.0 {
             let boundary = |time_s: f64| TimeRangeBoundary::Absolute(TimeInt(nanoseconds(time_s)));
+            // The axis goes on beyond the run by the width of the legend, which then covers no curve.
             let end_s = self.duration_s / (1.0 - self.legend);
             let range = Range { start: boundary(-0.01 * end_s), end: boundary(end_s) };
             let axis = TimeAxis::new().with_link(LinkAxis::Independent).with_view_range(TimeRange(range));

@@ -1,6 +1,6 @@
 //! A tree of views in the form that rerun's viewer reads. `layout.rs` decides what the views show.
 
-use congruent_twin::recorder::RecordingError;
+use congruent_monitors::RecordingError;
 use re_log_types::{EntityPath, EntityPathPart, TimeInt, TimePoint, Timeline};
 use re_sdk_types::{
     AsComponents, SerializedComponentBatch,
@@ -24,7 +24,7 @@ use crate::rrd::{
 /// Name of the timeline on which viewers read a layout.
 const BLUEPRINT_TIMELINE: &str = "blueprint";
 
-/// One view.
+/// One view of the viewer: its kind, its title, and the entities that it shows.
 #[derive(Debug, Clone)]
 pub(crate) struct View {
     class: &'static str,
@@ -78,7 +78,7 @@ impl View {
 /// A view, or a container of nodes.
 #[derive(Debug, Clone)]
 pub(crate) enum LayoutNode {
-    /// One view.
+    /// A leaf of the tree, with contents of its own.
     View(Box<View>),
     /// Side by side, each with its share of the width.
     Columns(Vec<(f32, LayoutNode)>),

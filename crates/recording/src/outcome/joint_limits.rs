@@ -1,7 +1,8 @@
 //! Lines at the limits of the joints' velocities and efforts.
 
-use congruent_description::{Joint, Robot, display::quantity};
-use congruent_twin::{monitor::Names, recorder::RecordingError};
+use congruent_description::{Joint, Robot};
+use congruent_input::{SiUnit, display::quantity};
+use congruent_monitors::{Names, RecordingError};
 
 use super::limit_lines::LimitLines;
 use crate::{
@@ -18,9 +19,9 @@ const NEAR: f64 = 0.3;
 pub(crate) struct NearLimit {
     /// The number of the joint among those that move.
     pub(crate) joint: usize,
-    /// `velocity` or `effort`.
+    /// Quantity that is limited: `velocity` or `effort`.
     pub(crate) quantity: &'static str,
-    /// `upper` or `lower`.
+    /// Side of the limit: `upper` or `lower`.
     pub(crate) side: &'static str,
     /// The limit, in the unit of the quantity.
     pub(crate) value: f64,
@@ -32,6 +33,8 @@ pub(crate) fn near_limits(robot: &Robot, extents: &[JointExtents]) -> Vec<NearLi
     for (joint, (&index, extents)) in robot.movable_joints().iter().zip(extents).enumerate() {
         for (quantity, (low, high)) in [("velocity", extents.velocity), ("effort", extents.effort)] {
             let Some(limit) = limit_of(robot.joint(index), quantity) else { continue };
+            // `low` is negative if the joint goes in the other direction: its distance from 0 is compared with the same
+            // limit.
             for (side, value, reached) in [("upper", limit, high), ("lower", -limit, -low)] {
                 if reached >= NEAR * limit {
                     near.push(NearLimit { joint, quantity, side, value });
@@ -42,7 +45,7 @@ pub(crate) fn near_limits(robot: &Robot, extents: &[JointExtents]) -> Vec<NearLi
     near
 }
 
-/// The largest velocity or effort of a joint; `None` if the description gives none, or 0, which stands for none.
+/// The largest velocity or effort of a joint; `None` if the description gives none, or 0, which means none.
 fn limit_of(joint: &Joint, quantity: &str) -> Option<f64> {
     let limit = joint.limit?;
     let value = if quantity == "velocity" { limit.velocity? } else { limit.effort? };
@@ -57,15 +60,15 @@ pub(crate) fn write(
     limits: &[NearLimit],
 ) -> Result<(), RecordingError> {
     for limit in limits {
-        let is_length = robot.joint(robot.movable_joints()[limit.joint]).kind.unit() == "m";
+        let is_length = robot.joint(robot.movable_joints()[limit.joint]).kind.si_unit() == SiUnit::Metre;
         let unit = match (limit.quantity, is_length) {
-            ("velocity", true) => "m/s",
-            ("velocity", false) => "rad/s",
-            (_, true) => "N",
-            (_, false) => "N m",
+            ("velocity", true) => SiUnit::MetrePerSecond,
+            ("velocity", false) => SiUnit::RadianPerSecond,
+            (_, true) => SiUnit::Newton,
+            (_, false) => SiUnit::NewtonMetre,
         };
         let path = paths::joint_limit(limit.quantity, &names.joints[limit.joint], limit.side);
-        let label = format!("limit {}", quantity(limit.value, unit));
+        let label = format!("limit {}", quantity(limit.value, unit.symbol()));
         lines.write(writer, &path, (&label, palette::LIMIT, limit.value))?;
     }
     Ok(())

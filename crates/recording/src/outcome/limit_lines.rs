@@ -1,11 +1,12 @@
 //! Lines at the limits in the plots, from the start to the end of the run.
 
-use congruent_twin::{
-    recorder::RecordingError,
-    report::RunReport,
-    scenario::CheckKind,
+use congruent_input::Quantity;
+use congruent_monitors::{
+    RecordingError,
     verdict::{CheckResult, Measure},
 };
+use congruent_results::report::RunReport;
+use congruent_scenario::CheckKind;
 use re_log_types::EntityPath;
 use re_sdk_types::{archetypes::SeriesLines, components::Color};
 
@@ -78,8 +79,10 @@ impl LimitLines {
         let Measure { quantity, unit, limit, .. } = *measure;
         let [position, orientation] = palette::TOLERANCES;
         let (path, name, color) = match (check.check, quantity) {
-            (CheckKind::Agreement, "position") => (paths::position_error("tolerance"), "tolerance", position),
-            (CheckKind::Agreement, "orientation") => {
+            (CheckKind::Agreement, Quantity::Position) => {
+                (paths::position_error("tolerance"), "tolerance", position)
+            }
+            (CheckKind::Agreement, Quantity::Orientation) => {
                 (paths::orientation_error("tolerance"), "tolerance", orientation)
             }
             (CheckKind::Clearance, _) => (paths::clearance("limit"), "limit", palette::LIMIT),

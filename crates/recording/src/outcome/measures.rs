@@ -1,13 +1,12 @@
 //! Which values of a report the recording shows: the measures of one kind of check, and the first violations.
 
-use congruent_twin::{
-    report::RunReport,
-    verdict::{CheckResult, Measure, Moment},
-};
+use congruent_monitors::verdict::{CheckResult, Measure, Moment};
+use congruent_results::report::RunReport;
+use congruent_scenario::CheckKind;
 
 /// All measures of all checks of one kind.
-pub(crate) fn of_kind<'a>(report: &'a RunReport, kind: &'a str) -> impl Iterator<Item = &'a Measure> {
-    report.checks.iter().filter(move |check| check.check.word() == kind).flat_map(|check| &check.measures)
+pub(crate) fn measures_of_kind(report: &RunReport, kind: CheckKind) -> impl Iterator<Item = &Measure> {
+    report.checks.iter().filter(move |check| check.check == kind).flat_map(|check| &check.measures)
 }
 
 /// The first violation of a check.

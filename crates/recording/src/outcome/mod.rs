@@ -1,4 +1,4 @@
-//! What a finished run adds to its recording, from its report alone.
+//! Data that a finished run adds to its recording, all from its report.
 
 pub(crate) mod joint_limits;
 pub(crate) mod limit_lines;

@@ -2,12 +2,9 @@
 
 use std::{fmt::Write, sync::Arc};
 
-use congruent_description::visible;
-use congruent_twin::{
-    recorder::RecordingError,
-    report::{RunReport, lines},
-    verdict::CheckResult,
-};
+use congruent_input::visible;
+use congruent_monitors::{RecordingError, verdict::CheckResult};
+use congruent_results::report::{RunReport, lines};
 use re_chunk::external::arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array};
 use re_sdk_types::{
     AnyValues,

@@ -1,10 +1,10 @@
 //! What a finished run adds over time: the status of each check, and events.
 
-use congruent_twin::{
-    recorder::RecordingError,
-    report::{RunReport, sentence_at},
+use congruent_monitors::{
+    RecordingError,
     verdict::{CheckResult, Status},
 };
+use congruent_results::report::{RunReport, sentence_at};
 use re_log_types::EntityPath;
 use re_sdk_types::{
     archetypes::{StateChange, StateConfiguration, TextLog},

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use congruent_description::display::quantity;
+use congruent_input::display::quantity;
 use re_chunk::{
     Chunk,
     external::arrow::{
@@ -53,10 +53,12 @@ impl ScalarStatistics {
         if self.backwards.is_none() && self.last.is_some_and(|(known, _)| time < known) {
             self.backwards = Some(time);
         }
+        // Of equal times the later in the file.
         if self.last.is_none_or(|(known, _)| known <= time) {
             self.last = Some((time, value));
         }
         if value.is_nan() {
+            // NaN is counted and not compared: it would make both extremes NaN.
             self.nan += 1;
         } else {
             self.min = Some(self.min.map_or(value, |known| known.min(value)));
@@ -76,7 +78,7 @@ pub(super) struct RecordingContent {
     scalars: BTreeMap<String, ScalarStatistics>,
     properties: BTreeMap<String, Value>,
     problems: Vec<String>,
-    /// All values of each scalar with their times, if they are asked for.
+    /// All values of each scalar with their times, if the caller wants them.
     pub(super) series: Option<BTreeMap<String, Vec<(i64, f64)>>>,
 }
 
@@ -92,7 +94,7 @@ impl RecordingContent {
         }
     }
 
-    /// Adds a problem.
+    /// Adds a problem of the file to those of the summary.
     pub(super) fn add_problem(&mut self, problem: String) {
         self.problems.push(problem);
     }
@@ -118,6 +120,7 @@ impl RecordingContent {
         let scalars = Scalars::descriptor_scalars().component;
         for column in chunk.components().values() {
             entity.components.insert(column.descriptor.component.to_string());
+            // NaN among scalars are counted by `add_scalars`, with their statistics.
             if column.descriptor.component != scalars {
                 entity.nan += count_nan(column.list_array.values(), 0);
             }
@@ -143,12 +146,14 @@ impl RecordingContent {
             return;
         };
         let timelines = chunk.timelines().iter();
+        // A timeline of times before one of counts, then by name: the same choice for each chunk of an entity.
         let is_counted = |kind: TimeType| kind == TimeType::Sequence;
         let first_timeline =
             timelines.min_by_key(|(name, column)| (is_counted(column.timeline().typ()), name.as_str()));
         let times = first_timeline.map_or(&[][..], |(_, column)| column.times_raw());
         let scalar = self.scalars.entry(path.to_owned()).or_default();
         for row in (0..rows.len()).filter(|&row| rows.is_valid(row)) {
+            // Values without a time hold always: the earliest time sorts them before all others.
             let time = times.get(row).copied().unwrap_or(i64::MIN);
             if let Some(values) = rows.value(row).as_primitive_opt::<Float64Type>() {
                 values.iter().flatten().for_each(|value| scalar.add(time, value));
@@ -176,10 +181,11 @@ impl RecordingContent {
         let recording = self.recording.as_ref()?;
         let (application_id, recording_id) =
             (recording.application_id().as_str().to_owned(), recording.recording_id().to_string());
+        // Before scalars and entities are moved into the summary.
         self.find_problems();
         let report = self.properties.remove(REPORT);
         let report = report.and_then(|text| serde_json::from_str(text.as_str()?).ok());
-        let checks = report.as_ref().map(checks).unwrap_or_default();
+        let checks = report.as_ref().map(|report| checks(report, &mut self.problems)).unwrap_or_default();
         let verdict = self.properties.get(VERDICT).and_then(Value::as_str).map(str::to_owned);
         let entity = |(path, entity): (String, EntityContent)| EntitySummary {
             path,
@@ -250,8 +256,8 @@ impl RecordingContent {
     }
 }
 
-/// The checks in a report.
-fn checks(report: &Value) -> Vec<CheckSummary> {
+/// The checks in a report; words that are unknown are added to `problems`.
+fn checks(report: &Value, problems: &mut Vec<String>) -> Vec<CheckSummary> {
     let word = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let quantity = |Evidence { of, subject, worst, .. }: Evidence| QuantitySummary {
         quantity: of.name,
@@ -262,12 +268,18 @@ fn checks(report: &Value) -> Vec<CheckSummary> {
         worst_s: worst.time_s,
         subject,
     };
+    let mut measured = |measure: &Value| {
+        Evidence::from_report(measure).unwrap_or_else(|error| {
+            problems.push(format!("{REPORT}: {error}"));
+            None
+        })
+    };
     let check = |check: &Value| {
         let measures = check["measures"].as_array().into_iter().flatten();
         CheckSummary {
             check: word(&check["check"]),
             status: word(&check["status"]),
-            quantities: measures.filter_map(Evidence::of_report).map(quantity).collect(),
+            quantities: measures.filter_map(&mut measured).map(quantity).collect(),
         }
     };
     report["checks"].as_array().into_iter().flatten().map(check).collect()
@@ -275,6 +287,7 @@ fn checks(report: &Value) -> Vec<CheckSummary> {
 
 /// Number of NaN in nested lists.
 fn count_nan(array: &dyn Array, depth: usize) -> u64 {
+    // A file can nest lists as deep as it likes; the recursion must end before the stack does.
     if depth > MAX_DEPTH {
         return 0;
     }

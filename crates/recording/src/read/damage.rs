@@ -1,11 +1,11 @@
-//! Parts of a file that are not as they were written, and what they held as far as they tell.
+//! Parts of a file that are not as they were written, and what they held, as far as it can still be decoded.
 
 use std::{
     io::{self, Read, Seek, SeekFrom},
     ops::Range,
 };
 
-use congruent_description::{catch_panic, display::quantity};
+use congruent_input::{catch_panic, display::quantity};
 use re_chunk::Chunk;
 use re_log_encoding::{
     CachingApplicationIdInjector, CrateVersion, Decodable, DecoderTransport, Encodable, EncodingOptions,
@@ -39,20 +39,21 @@ pub struct Damage {
     pub from_byte: u64,
     /// The first byte after it.
     pub to_byte: u64,
-    /// The entity that it is about, if that can still be told.
+    /// The entity that it is about, if it can still be decoded.
     pub entity: Option<String>,
     /// Its first and last time, likewise.
     pub times_s: Option<[f64; 2]>,
 }
 
 impl Damage {
-    /// Looks into a part of a file.
-    pub(super) fn of<F: Read + Seek>(file: &mut F, range: Range<u64>) -> io::Result<Self> {
+    /// Examines a damaged part of a file: its entity and its times, if they can be decoded.
+    pub(super) fn examine<F: Read + Seek>(file: &mut F, range: Range<u64>) -> io::Result<Self> {
         let mut damage = Self { from_byte: range.start, to_byte: range.end, entity: None, times_s: None };
         let mut bytes = Vec::new();
         file.seek(SeekFrom::Start(range.start))?;
+        // Bounded: a damaged part may be as long as the file.
         file.take((range.end - range.start).min(MOST_BYTES)).read_to_end(&mut bytes)?;
-        // What cannot be decoded tells nothing.
+        // Bytes that cannot be decoded have no entity and no times; the part itself is still reported.
         if let Ok(chunk) = chunk(&bytes) {
             damage.entity = Some(chunk.entity_path().to_string());
             let columns = chunk.timelines().values();
@@ -73,7 +74,7 @@ impl Damage {
             self.times_s.map(|[from, to]| format!(", {} to {}", quantity(from, "s"), quantity(to, "s")));
         let held = self.entity.as_ref().map(|entity| format!(" ({entity}{})", times.unwrap_or_default()));
         format!(
-            "bytes {} to {}{} do not match their check sum: damaged or not where they were written, and left out",
+            "bytes {} to {}{} do not match their checksum: they are damaged or were moved within the file, and are skipped",
             self.from_byte,
             self.to_byte,
             held.unwrap_or_default()
@@ -105,6 +106,7 @@ fn chunk(message: &[u8]) -> Result<Chunk, String> {
     let mut bytes = Vec::new();
     header.to_rrd_bytes(&mut bytes).map_err(|error| error.to_string())?;
     bytes.extend(message);
+    // Damaged bytes reach code of rerun that expects its own output, and a panic there must not end the call.
     catch_panic(|| {
         let message = DecoderTransport::decode_lazy(&bytes[..]).next().ok_or("it holds no message")?;
         let message = message.map_err(|error| error.to_string())?;

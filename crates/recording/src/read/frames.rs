@@ -48,7 +48,7 @@ pub(super) struct Frames {
     pub(super) readable: Vec<Range<u64>>,
     /// Number of frames with a check sum that matches; `None` if no frame has a check sum.
     pub(super) intact: Option<u64>,
-    /// Parts that are not as they were written, or not where they were, each a frame if it still is one.
+    /// Byte ranges that are not as they were written, or not where they were, each a frame if it still is one.
     pub(super) damaged: Vec<Range<u64>>,
     /// End of the last frame.
     position: u64,
@@ -57,7 +57,7 @@ pub(super) struct Frames {
 
 impl Frames {
     /// The frames of a file of `length` bytes. The inner error says why the file is not a recording.
-    pub(super) fn of<F: Read + Seek>(file: &mut F, length: u64) -> io::Result<Result<Self, String>> {
+    pub(super) fn read<F: Read + Seek>(file: &mut F, length: u64) -> io::Result<Result<Self, String>> {
         if length < STREAM_HEADER as u64 {
             return Ok(Err(format!("{length} bytes are less than a file header")));
         }
@@ -140,15 +140,18 @@ impl<F: Read + Seek> FrameReader<'_, F> {
                 _ => readable.push(range),
             }
         }
+        // `search` finds damage while frames are read; that of wrong sums was added only now, behind it.
         damaged.sort_by_key(|range| range.start);
         Frames { readable, intact: has_sums.then_some(intact), damaged, position, end }
     }
 
     /// Takes one frame; returns what follows instead if there is none.
     fn next_frame(&mut self) -> io::Result<Option<FileEnd>> {
+        // Before anything is read: no bytes after a whole frame are the only regular end.
         if self.position == self.length {
             return Ok(Some(if self.has_footer { FileEnd::Footer } else { FileEnd::NoFooter }));
         }
+        // A file with check sums holds one recording. No sum would cover bytes that somebody has appended.
         if self.has_footer && self.has_sums {
             return Ok(Some(FileEnd::Continued));
         }
@@ -177,6 +180,7 @@ impl<F: Read + Seek> FrameReader<'_, F> {
         let message = self.read_all(self.position..end)?;
         let sum = if is_intact(&self.before, &message) { Sum::Matches } else { Sum::Differs };
         self.has_sums = true;
+        // The next sum counts this one, so that a message that is missing, moved or repeated breaks the chain.
         self.before = message[message.len() - SUM..].to_vec();
         self.take(end, sum);
         if header.kind == MessageKind::End { self.compare_footer(&message[HEADER..]) } else { Ok(None) }
@@ -189,6 +193,7 @@ impl<F: Read + Seek> FrameReader<'_, F> {
 
     /// The end of the frame at `start`, if it is in the file.
     fn end_of(&self, start: u64, header: MessageHeader) -> Option<u64> {
+        // The length is what the file says: it may overflow, or lead beyond the end.
         start.checked_add(HEADER as u64)?.checked_add(header.len).filter(|&end| end <= self.length)
     }
 
@@ -233,7 +238,7 @@ impl<F: Read + Seek> FrameReader<'_, F> {
             let window_end = self.length.min(window_start + WINDOW as u64);
             let window = self.read_all(window_start..window_end)?;
             for (start, header) in (window_start..).zip(window.windows(HEADER)) {
-                // Quickly past what is no header: its first half is a small number.
+                // Most bytes are not a header; a header begins with the kind, a small number in eight bytes.
                 if header[1..8] != [0; 7] {
                     continue;
                 }
@@ -241,12 +246,15 @@ impl<F: Read + Seek> FrameReader<'_, F> {
                 let Some(frame_end) = self.end_of(start, header) else { continue };
                 if self.is_summed(start, frame_end)? {
                     self.damaged.push(self.position..start);
+                    // The sum before this message is in the last bytes before it, whether or not the message there
+                    // is intact.
                     self.before = self.read_all(start.saturating_sub(SUM as u64)..start)?;
                     self.has_sums = true;
                     self.position = start;
                     return Ok(None);
                 }
             }
+            // Windows overlap by less than a header, so that a header across their border is found, and found once.
             window_start = window_end - (HEADER as u64 - 1);
             if window_end == self.length {
                 break;
@@ -255,7 +263,7 @@ impl<F: Read + Seek> FrameReader<'_, F> {
         Ok(Some(end))
     }
 
-    /// The bytes at a place, if there are so many.
+    /// `N` bytes from a place; `None` if the file ends before.
     fn read<const N: usize>(&mut self, at: u64) -> io::Result<Option<[u8; N]>> {
         if self.length - at < N as u64 {
             return Ok(None);
@@ -276,30 +284,30 @@ impl<F: Read + Seek> FrameReader<'_, F> {
     }
 }
 
-/// Parts of a file, as if there was nothing between them.
-pub(super) struct Parts<F> {
+/// Byte ranges of a file, read as if there was nothing between them.
+pub(super) struct FileParts<F> {
     file: F,
     ranges: std::vec::IntoIter<Range<u64>>,
-    /// Bytes that are left of the present one.
-    left: u64,
+    /// Bytes of the present range that are not read yet.
+    remaining: u64,
 }
 
-impl<F> Parts<F> {
+impl<F> FileParts<F> {
     pub(super) fn new(file: F, ranges: Vec<Range<u64>>) -> Self {
-        Self { file, ranges: ranges.into_iter(), left: 0 }
+        Self { file, ranges: ranges.into_iter(), remaining: 0 }
     }
 }
 
-impl<F: Read + Seek> Read for Parts<F> {
+impl<F: Read + Seek> Read for FileParts<F> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        while self.left == 0 {
+        while self.remaining == 0 {
             let Some(range) = self.ranges.next() else { return Ok(0) };
             self.file.seek(SeekFrom::Start(range.start))?;
-            self.left = bytes(&range);
+            self.remaining = bytes(&range);
         }
-        let most = usize::try_from(self.left).unwrap_or(usize::MAX).min(buffer.len());
+        let most = usize::try_from(self.remaining).unwrap_or(usize::MAX).min(buffer.len());
         let count = self.file.read(&mut buffer[..most])?;
-        self.left = if count == 0 { 0 } else { self.left - count as u64 };
+        self.remaining = if count == 0 { 0 } else { self.remaining - count as u64 };
         Ok(count)
     }
 }
@@ -311,7 +319,7 @@ mod tests {
     use super::*;
 
     fn frames(bytes: &[u8]) -> Result<Frames, String> {
-        Frames::of(&mut Cursor::new(bytes), bytes.len() as u64).unwrap()
+        Frames::read(&mut Cursor::new(bytes), bytes.len() as u64).unwrap()
     }
 
     #[test]

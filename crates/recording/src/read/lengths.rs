@@ -31,6 +31,7 @@ pub(super) fn check(message: &dyn Encodable) -> Result<(), String> {
     if !is_compressed {
         return check_arrow(payload).ok_or_else(|| WRONG_LENGTHS.to_owned());
     }
+    // Checked before decompression, which allocates the stated length at once.
     if uncompressed_length > payload.len().saturating_mul(MAX_COMPRESSION_RATIO) {
         return Err("its stated size is more than its compressed data can hold".to_owned());
     }
@@ -52,6 +53,7 @@ impl<'a> ArrowMessage<'a> {
         let mut fields = Self { is_compressed: false, uncompressed_length: 0, payload: &[] };
         while !bytes.is_empty() {
             let key = varint(&mut bytes)?;
+            // Protobuf: the low three bits are the type of encoding, the others the number of the field.
             let (field, wire_type) = (key >> 3, key & 7);
             match wire_type {
                 0 => {
@@ -81,6 +83,8 @@ impl<'a> ArrowMessage<'a> {
 /// Reads the lengths of the messages of an Arrow stream; `None` if one exceeds the remaining bytes.
 fn check_arrow(mut bytes: &[u8]) -> Option<()> {
     while let Some(mut length) = take(&mut bytes, 4) {
+        // Arrow IPC since 0.15: the marker, then the length of the metadata; older streams begin with the length.
+        // Length 0 ends the stream.
         if length == CONTINUATION {
             length = take(&mut bytes, 4)?;
         }
@@ -95,7 +99,7 @@ fn check_arrow(mut bytes: &[u8]) -> Option<()> {
     Some(())
 }
 
-/// The next bytes, if there are so many.
+/// The next `length` bytes; `None` if fewer remain.
 fn take<'a>(bytes: &mut &'a [u8], length: usize) -> Option<&'a [u8]> {
     let (taken, rest) = bytes.split_at_checked(length)?;
     *bytes = rest;
@@ -105,6 +109,7 @@ fn take<'a>(bytes: &mut &'a [u8], length: usize) -> Option<&'a [u8]> {
 /// A number of variable length, seven bits in a byte, the lowest first.
 fn varint(bytes: &mut &[u8]) -> Option<u64> {
     let mut value = 0;
+    // At most ten bytes: a number that does not end is refused instead of read on.
     for shift in (0..64).step_by(7) {
         let byte = take(bytes, 1)?[0];
         value |= u64::from(byte & 0x7f) << shift;

@@ -4,8 +4,8 @@
 mod content;
 mod damage;
 mod evidence;
+mod exit_code;
 mod frames;
-mod judgement;
 mod lengths;
 mod recheck;
 mod rechecked;
@@ -19,11 +19,18 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use congruent_input::catch_panic;
+use congruent_results::comparison::Scalars;
 use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication};
 use re_log_types::LogMsg;
 
-use congruent_description::catch_panic;
-use congruent_twin::comparison::Scalars;
+use self::{
+    content::RecordingContent,
+    damage::MAX_PROBLEMS,
+    frames::{FileParts, Frames},
+};
+use crate::rrd::times::seconds;
+
 pub use damage::{CheckSums, Damage};
 pub use recheck::{RecheckError, recheck};
 pub use rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity};
@@ -32,13 +39,6 @@ pub use summary::{
 };
 pub use table::scalars_csv;
 
-use self::{
-    content::RecordingContent,
-    damage::MAX_PROBLEMS,
-    frames::{Frames, Parts},
-};
-use crate::rrd::times::seconds;
-
 /// Why a file cannot be read as a recording.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -46,7 +46,7 @@ pub enum InspectError {
     /// The file cannot be opened or read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
-        /// The file.
+        /// The file as it was named.
         path: PathBuf,
         /// The error of the operating system.
         source: io::Error,
@@ -54,19 +54,19 @@ pub enum InspectError {
     /// The path names a folder, a device or a pipe.
     #[error("{} is not a file", .path.display())]
     NotAFile {
-        /// The path.
+        /// The path as it was named.
         path: PathBuf,
     },
     /// The file has no bytes.
     #[error("{} is empty", .path.display())]
     Empty {
-        /// The file.
+        /// The file as it was named.
         path: PathBuf,
     },
     /// The first bytes are not those of a recording, or those of a format that is too old.
     #[error("{} is not a rerun recording: {reason}", .path.display())]
     NotARecording {
-        /// The file.
+        /// The file as it was named.
         path: PathBuf,
         /// What is wrong with its first bytes.
         reason: String,
@@ -74,7 +74,7 @@ pub enum InspectError {
     /// The file starts like a recording but contains none.
     #[error("{} contains no recording", .path.display())]
     NoRecording {
-        /// The file.
+        /// The file as it was named.
         path: PathBuf,
     },
 }
@@ -101,6 +101,7 @@ pub fn scalars(path: &Path) -> Result<(RecordingSummary, Scalars), InspectError>
     content.series = Some(BTreeMap::new());
     let summary = read(path, &mut content)?;
     let sorted = |(path, mut series): (String, Vec<(i64, f64)>)| {
+        // Stable: of equal times the later in the file stays last. Chunks need not be in order of time.
         series.sort_by_key(|&(nanoseconds, _)| nanoseconds);
         (path, series.into_iter().map(in_seconds).collect())
     };
@@ -118,22 +119,24 @@ fn read(path: &Path, content: &mut RecordingContent) -> Result<RecordingSummary,
     }
     let mut file = BufReader::new(File::open(path).map_err(refused)?);
     let length = metadata.len();
-    let mut frames = Frames::of(&mut file, length)
+    let mut frames = Frames::read(&mut file, length)
         .map_err(refused)?
         .map_err(|reason| InspectError::NotARecording { path: path.to_owned(), reason })?;
-    let damaged = frames.damaged.iter().map(|range| Damage::of(&mut file, range.clone()));
+    // Before the content: the damaged ranges are examined for what they held, and then not read any more.
+    let damaged = frames.damaged.iter().map(|range| Damage::examine(&mut file, range.clone()));
     let damaged: Vec<Damage> = damaged.collect::<io::Result<_>>().map_err(refused)?;
     let problems = frames.problem(length).into_iter().chain(damage::problems(&damaged)).collect::<Vec<_>>();
     // Each message has a header, which bounds their number.
     let most = usize::try_from(length).unwrap_or(usize::MAX) / MessageHeader::ENCODED_SIZE_BYTES;
-    let parts = Parts::new(file.into_inner(), std::mem::take(&mut frames.readable));
+    let parts = FileParts::new(file.into_inner(), std::mem::take(&mut frames.readable));
     read_messages(BufReader::new(parts), most, content);
     let mut summary = content.summary().ok_or_else(|| InspectError::NoRecording { path: path.to_owned() })?;
     summary.bytes = length;
     summary.complete = frames.is_complete();
     summary.check_sums = frames.intact.map(|intact| CheckSums { intact, damaged });
+    // Problems of the file come before those of its values, and the first one is the reason of the exit code.
     summary.problems.splice(0..0, problems);
-    (summary.exit_code, summary.reason) = judgement::judge(&summary);
+    (summary.exit_code, summary.reason) = exit_code::judge(&summary);
     Ok(summary)
 }
 
@@ -142,6 +145,7 @@ fn read_messages(file: impl BufRead, most: usize, content: &mut RecordingContent
     let mut unreadable = 0_usize;
     for message in DecoderTransport::decode_lazy(file).take(most) {
         let taken = message.map_err(|error| error.to_string()).and_then(|message| {
+            // Before the Arrow reader sees the message: it allocates what the message states.
             lengths::check(&message)?;
             catch_panic(|| {
                 let message = message.to_application((&mut applications, None));

@@ -1,18 +1,17 @@
 //! The result of [`recheck`](super::recheck).
 
-use congruent_twin::{
-    scenario::{CheckKind, Expectation},
-    verdict::{Bound, Status, Verdict},
-};
+use congruent_input::{Quantity, SiUnit};
+use congruent_monitors::verdict::{Bound, Status, Verdict};
+use congruent_scenario::{CheckKind, Expectation};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::evidence::{At, Evidence};
+use super::evidence::{Evidence, TimedValue};
 
 /// The checks of a scenario, evaluated once more on a recording.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Recheck {
-    /// The scenario file.
+    /// The scenario file whose checks were evaluated, as it was named.
     pub scenario: Option<String>,
     /// Whether the scenario has the limits and the expectation of the run, so that the verdict must be the same.
     pub same_limits: bool,
@@ -61,7 +60,7 @@ impl Basis {
 /// A check, evaluated once more.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RecheckedCheck {
-    /// The kind.
+    /// Kind of the check, such as `clearance`.
     pub check: CheckKind,
     /// Its line in the scenario file, from 1.
     pub line: Option<usize>,
@@ -69,19 +68,21 @@ pub struct RecheckedCheck {
     pub status: Status,
     /// The result of the run.
     pub recorded_status: String,
-    /// From what it follows, by its weakest quantity.
+    /// Origin of its values: the weakest origin among its quantities.
     pub basis: Basis,
-    /// Its quantities.
+    /// The quantities that the check limits, each with its worst value.
     pub quantities: Vec<RecheckedQuantity>,
 }
 
 /// A quantity of a check.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RecheckedQuantity {
-    /// What it is, as in the report of the run.
-    pub quantity: String,
-    /// Its unit.
-    pub unit: String,
+    /// Name of the quantity, as in the report of the run.
+    #[schemars(with = "String")]
+    pub quantity: Quantity,
+    /// SI unit of limits and values; empty if they have none.
+    #[schemars(with = "String")]
+    pub unit: SiUnit,
     /// On which side of the limit it must be.
     pub bound: Bound,
     /// The limit of the scenario.
@@ -91,16 +92,16 @@ pub struct RecheckedQuantity {
     /// The worst value in the recording; `null` for infinity.
     #[schemars(with = "Option<f64>")]
     pub worst: f64,
-    /// Its time.
+    /// Simulated time of the worst value. Unit: s.
     pub worst_s: f64,
     /// The link, joint or pair with the worst value.
     pub subject: Option<String>,
     /// The worst value of the run; `null` for infinity.
     #[schemars(with = "Option<f64>")]
     pub recorded_worst: f64,
-    /// When the limit is first violated.
+    /// Simulated time of the first violation; `null` if there is none. Unit: s.
     pub violation_s: Option<f64>,
-    /// From what it follows.
+    /// Origin of the value.
     pub basis: Basis,
 }
 
@@ -112,10 +113,12 @@ pub struct Disagreement {
     /// Its line in the scenario file, from 1.
     pub line: Option<usize>,
     /// The quantity; `None` if it is the result of the whole check.
-    pub quantity: Option<String>,
+    #[schemars(with = "Option<String>")]
+    pub quantity: Option<Quantity>,
     /// The unit of the value.
-    pub unit: Option<String>,
-    /// When.
+    #[schemars(with = "Option<String>")]
+    pub unit: Option<SiUnit>,
+    /// Simulated time of the value, `null` for the result of a whole check. Unit: s.
     pub time_s: Option<f64>,
     /// The value of the series.
     pub value: Option<f64>,
@@ -124,14 +127,25 @@ pub struct Disagreement {
 }
 
 impl Disagreement {
-    /// About a value.
-    pub(super) fn new(check: CheckKind, line: Option<usize>, of: &Evidence, at: At, problem: String) -> Self {
-        let (quantity, unit) = (Some(of.of.name.clone()), Some(of.of.unit.clone()));
+    /// A contradiction about a value of a quantity.
+    pub(super) fn new(
+        check: CheckKind,
+        line: Option<usize>,
+        of: &Evidence,
+        at: TimedValue,
+        problem: String,
+    ) -> Self {
+        let (quantity, unit) = (Some(of.of.name), Some(of.of.unit));
         Self { check, line, quantity, unit, time_s: Some(at.time_s), value: Some(at.value), problem }
     }
 
     /// About the result of a check.
-    pub(super) fn of_status(check: CheckKind, line: Option<usize>, status: Status, recorded: &str) -> Self {
+    pub(super) fn contradicted_status(
+        check: CheckKind,
+        line: Option<usize>,
+        status: Status,
+        recorded: &str,
+    ) -> Self {
         let problem = format!("is `{}` on the recording and `{recorded}` in its report", status.word());
         Self { check, line, quantity: None, unit: None, time_s: None, value: None, problem }
     }
@@ -142,6 +156,7 @@ impl Recheck {
     /// of a run that broke or checked nothing.
     pub fn exit_code(&self) -> u8 {
         match self.verdict {
+            // A contradiction is never success, whatever the scenario expects.
             _ if !self.disagreements.is_empty()
                 || !self.samples.is_empty()
                 || self.same_limits && !self.same_verdict =>

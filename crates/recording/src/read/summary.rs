@@ -1,8 +1,9 @@
 //! The result of [`inspect`](super::inspect): ordered lists.
 
+use congruent_input::{Quantity, SiUnit};
 use std::collections::BTreeMap;
 
-use congruent_twin::verdict::Bound;
+use congruent_monitors::verdict::Bound;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -33,7 +34,7 @@ pub struct RecordingSummary {
     pub verdict: Option<String>,
     /// The exit code of `inspect`: that of the run, 2 if the file is cut off or has problems, 4 without a verdict.
     pub exit_code: u8,
-    /// Why it is that one.
+    /// Reason for the exit code.
     pub reason: String,
     /// From the first to the last time of the recording, on its first timeline of times; `None` without one.
     pub duration_s: Option<f64>,
@@ -42,14 +43,14 @@ pub struct RecordingSummary {
     /// What has changed since the run of the files that it was made from: the scenario, the robot's files, meshes. `null` if
     /// they are not there to be compared, or may not be opened.
     pub changed_inputs: Option<Vec<String>>,
-    /// The checks of a scenario, evaluated once more, if that was asked for.
+    /// The checks of a scenario, evaluated once more, if `--check` is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recheck: Option<Recheck>,
     /// Whether the file contains a layout for the viewer.
     pub has_layout: bool,
-    /// Timelines, by name.
+    /// Timelines of the recording with their ranges, sorted by name.
     pub timelines: Vec<TimelineSummary>,
-    /// Entities, by path.
+    /// Entities with their numbers of rows and chunks, sorted by path.
     pub entities: Vec<EntitySummary>,
     /// Scalars over time, by path.
     pub scalars: Vec<ScalarSummary>,
@@ -62,9 +63,9 @@ pub struct RecordingSummary {
 /// A check of the recorded run.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CheckSummary {
-    /// Its kind.
+    /// Kind of the check, such as `clearance`.
     pub check: String,
-    /// Its result.
+    /// Result of the check: `pass`, `fail`, `error` or `skipped`.
     pub status: String,
     /// Its quantities that have a value, each with the worst one.
     pub quantities: Vec<QuantitySummary>,
@@ -73,18 +74,20 @@ pub struct CheckSummary {
 /// The worst value of a quantity that a check has watched.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct QuantitySummary {
-    /// What it is.
-    pub quantity: String,
-    /// Its unit.
-    pub unit: String,
+    /// Name of the quantity, such as `position`.
+    #[schemars(with = "String")]
+    pub quantity: Quantity,
+    /// SI unit of limits and values; empty if they have none.
+    #[schemars(with = "String")]
+    pub unit: SiUnit,
     /// On which side of the limit it must be.
     pub bound: Bound,
-    /// The limit.
+    /// Limit of the quantity, in `unit`.
     pub limit: f64,
     /// The worst value; `null` for infinity.
     #[schemars(with = "Option<f64>")]
     pub worst: f64,
-    /// Its time.
+    /// Simulated time of the worst value. Unit: s.
     pub worst_s: f64,
     /// The link, joint or pair that it is about.
     pub subject: Option<String>,
@@ -93,7 +96,7 @@ pub struct QuantitySummary {
 /// A timeline and its range.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TimelineSummary {
-    /// Its name.
+    /// Name of the timeline, such as `sim_time`.
     pub name: String,
     /// `duration` or `timestamp`, both in nanoseconds, or `sequence`.
     pub kind: &'static str,
@@ -112,7 +115,7 @@ pub struct EntitySummary {
     pub components: Vec<String>,
     /// Number of rows in all chunks.
     pub rows: u64,
-    /// Number of chunks.
+    /// Number of chunks, in which the file stores its rows.
     pub chunks: u64,
 }
 
@@ -121,7 +124,7 @@ pub struct EntitySummary {
 pub struct ScalarSummary {
     /// Path of its entity.
     pub path: String,
-    /// Number of values.
+    /// Number of values, those that are NaN included.
     pub count: u64,
     /// Number of NaN among them.
     pub nan: u64,

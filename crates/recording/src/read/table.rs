@@ -1,6 +1,6 @@
 //! The series of a recording as one table.
 
-use congruent_twin::comparison::Scalars;
+use congruent_results::comparison::Scalars;
 
 use super::summary::RecordingSummary;
 
@@ -27,6 +27,7 @@ pub fn scalars_csv(summary: &RecordingSummary, scalars: &Scalars) -> Vec<u8> {
     let mut series: Vec<&[(f64, f64)]> = scalars.values().map(Vec::as_slice).collect();
     for time_s in times {
         let shown = if time_s < NO_TIME_S { String::new() } else { format!("{:?}", time_s * scale) };
+        // Times ascend and each series is sorted: every value is passed once, however many series there are.
         let cells = series.iter_mut().map(|rest| {
             let now = rest.partition_point(|&(at_s, _)| at_s <= time_s);
             let (here, later) = rest.split_at(now);

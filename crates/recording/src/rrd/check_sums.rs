@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 /// Length of a check sum: the first half of a SHA-256.
 pub(crate) const SUM: usize = 16;
-/// What stands before a check sum: field 13000000 of a message in protobuf's encoding, as bytes, and how many.
+/// Bytes before a check sum: the key of field 13000000 in protobuf's encoding, and the length of the check sum.
 const FIELD: [u8; 5] = [0x82, 0xd4, 0xcb, 0x31, 0x10];
 /// Length of the whole field.
 pub(crate) const FIELD_AND_SUM: usize = FIELD.len() + SUM;
@@ -28,6 +28,7 @@ impl CheckSums {
         message.extend(FIELD);
         self.0.update(&*message);
         let sum = self.0.finalize_reset();
+        // The sum is counted by the next one: this is the chain that a missing message breaks.
         message.extend(&sum[..SUM]);
         self.0.update(&sum[..SUM]);
     }

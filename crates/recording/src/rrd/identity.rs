@@ -38,6 +38,8 @@ fn fingerprint(setup: &RunSetup) -> String {
     let robot = &description.robot;
     let mut hash = Sha256::new();
     hash.update(setup.scenario.to_toml());
+    // Debug text is stable within one version of the program, and so is the file. Meshes are large and move
+    // nothing.
     hash.update(format!("{:?}", robot.joints()));
     for link in robot.links() {
         hash.update(format!("{:?} {:?}", link.name, link.inertia));

@@ -23,7 +23,7 @@ pub(crate) fn model(link: &str) -> EntityPath {
     path(&["world", "model", link])
 }
 
-/// An obstacle.
+/// An obstacle at its pose in the root link's frame.
 pub(crate) fn obstacle(name: &str) -> EntityPath {
     path(&["world", "obstacle", name])
 }
@@ -38,7 +38,7 @@ pub(crate) fn name_of(body: &EntityPath) -> EntityPath {
     body / EntityPathPart::new("name")
 }
 
-/// All frames.
+/// The parent of all frames, which the layout hides at first.
 pub(crate) fn frames() -> EntityPath {
     path(&["world", "frame"])
 }
@@ -123,7 +123,7 @@ pub(crate) fn check_limit(check: &str, quantity: &str) -> EntityPath {
     path(&["limit", check, quantity])
 }
 
-/// A quantity of a check, both with what tells them apart: the number of the check, the unit.
+/// A quantity of a check; the number of the check and the unit make both names unique.
 pub(crate) fn check(check: &str, quantity: &str) -> EntityPath {
     path(&["check", check, quantity])
 }

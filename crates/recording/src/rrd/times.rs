@@ -50,7 +50,7 @@ pub(crate) fn nanoseconds(time_s: f64) -> i64 {
     (time_s * 1e9).round() as i64
 }
 
-/// The reverse.
+/// Seconds from whole nanoseconds, the reverse of `nanoseconds`.
 #[expect(clippy::cast_precision_loss, reason = "2^53 nanoseconds are 104 days")]
 pub(crate) fn seconds(nanoseconds: i64) -> f64 {
     nanoseconds as f64 / 1e9
@@ -75,7 +75,7 @@ impl SampleTimes {
         self.steps.push(time.step);
     }
 
-    /// Number of rows.
+    /// Number of rows, one for each recorded time.
     pub(crate) fn len(&self) -> usize {
         self.steps.len()
     }

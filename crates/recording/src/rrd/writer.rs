@@ -12,7 +12,7 @@ use std::{
     path::Path,
 };
 
-use congruent_twin::recorder::RecordingError;
+use congruent_monitors::RecordingError;
 use re_chunk::{Chunk, ChunkId, RowId, Span, TimeColumn, external::arrow::datatypes::Schema};
 use re_log_encoding::{
     Compression, CrateVersion, Decodable, Encodable, EncodingOptions, MessageHeader, MessageKind, RRD_FOURCC,
@@ -148,8 +148,7 @@ impl RrdWriter {
         self.chunk(&chunk)
     }
 
-    /// Passes all data so far to the operating system: a run that is killed leaves at least these data in the
-    /// file.
+    /// Passes all data so far to the operating system: after a run is killed, at least these data are in the file.
     pub(crate) fn flush(&mut self) -> Result<(), RecordingError> {
         self.file.flush().map_err(failed)
     }
@@ -160,6 +159,7 @@ impl RrdWriter {
         for (store, manifest) in std::mem::take(&mut self.manifests) {
             let mut manifest = manifest.build(store.clone()).map_err(failed)?;
             let mut fields: Vec<_> = manifest.sorbet_schema.fields().iter().cloned().collect();
+            // rerun builds the columns from a map with a random order; sorted, equal runs have equal bytes.
             fields.sort_by(|a, b| a.name().cmp(b.name()));
             let metadata = manifest.sorbet_schema.metadata().clone();
             manifest.sorbet_schema = Schema::new_with_metadata(fields, metadata);
@@ -196,6 +196,8 @@ impl RrdWriter {
         let (header, payload) =
             self.frame.split_first_chunk_mut().ok_or_else(|| failed("a message has no header"))?;
         let kind = MessageHeader::from_rrd_bytes(header).map_err(failed)?.kind;
+        // The header counts the check sum that is added to the payload, or readers would take it for the next
+        // message.
         let len = (payload.len() + FIELD_AND_SUM) as u64;
         *header = header_bytes(MessageHeader { kind, len })?;
         self.sums.close(&mut self.frame);

@@ -1,7 +1,6 @@
 //! The camera of the three-dimensional view, so that this robot fills the picture.
 
-use congruent_description::{Elementary as _, Geometry};
-use congruent_simulation::Obstacle;
+use congruent_description::{Geometry, Obstacle};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Margin around the shapes of the links.
@@ -51,7 +50,7 @@ impl BoundingBox {
     }
 
     /// The box around a shape that is centred at its origin.
-    pub(crate) fn of(geometry: &Geometry) -> Self {
+    pub(crate) fn around(geometry: &Geometry) -> Self {
         let half = half_size(geometry);
         Self { low: (-half).into(), high: half.into() }
     }
@@ -64,7 +63,7 @@ impl BoundingBox {
         }
     }
 
-    /// Extends the box to the corners of another, which stands at a pose.
+    /// Extends the box to the corners of another box at a pose.
     pub(crate) fn include_box(&mut self, other: &Self, world_from_other: &Isometry3<f64>) {
         if other.low.x > other.high.x {
             return;
@@ -78,7 +77,8 @@ impl BoundingBox {
     /// The point on top of a shape, in the middle of the part of it that is inside this box.
     pub(crate) fn top_of(&self, shape: &Obstacle) -> Point3<f64> {
         let mut own = Self::empty();
-        own.include_box(&Self::of(&shape.geometry), &shape.world_from_obstacle);
+        own.include_box(&Self::around(&shape.geometry), &shape.world_from_obstacle);
+        // Clamped to both boxes: of a floor of ten metres only the part below the robot is in the picture.
         let inside = |bound: Point3<f64>| bound.sup(&self.low).inf(&self.high).sup(&own.low).inf(&own.high);
         let [low, high] = [inside(own.low), inside(own.high)];
         Point3::new(f64::midpoint(low.x, high.x), f64::midpoint(low.y, high.y), high.z)
@@ -94,6 +94,8 @@ impl BoundingBox {
             for signs in CORNERS {
                 let corner = Point3::from(half.component_mul(&Vector3::from(signs)));
                 let corner_in_world = obstacle.world_from_obstacle * corner;
+                // Corners far away are moved to the edge of the near region, so that a large obstacle extends the
+                // picture and does not fill it.
                 all.include(&corner_in_world.sup(&near.low).inf(&near.high));
             }
         }
@@ -138,10 +140,10 @@ impl Camera {
         let all = robot.with_obstacles(obstacles);
         let target_in_world = nalgebra::center(&all.low, &all.high);
         let sum = path_in_world.iter().fold(Vector3::zeros(), |sum: Vector3<f64>, point| sum + point.coords);
-        let path_rad = if sum.xy().norm() > 0.0 { sum.y.arctangent_over(sum.x) } else { 0.0 };
-        let (up, level) = ELEVATION_RAD.sine_cosine();
+        let path_rad = if sum.xy().norm() > 0.0 { libm::atan2(sum.y, sum.x) } else { 0.0 };
+        let (up, level) = libm::sincos(ELEVATION_RAD);
         let from = |azimuth_rad: f64| {
-            let (sin, cos) = (path_rad + azimuth_rad).sine_cosine();
+            let (sin, cos) = libm::sincos(path_rad + azimuth_rad);
             let to_eye = Vector3::new(cos * level, sin * level, up);
             target_in_world + to_eye * distance_m(&all, &to_eye)
         };
@@ -151,6 +153,7 @@ impl Camera {
             path_in_world.iter().filter(is_hidden).count()
         };
         let eyes = AZIMUTHS_RAD.map(from);
+        // `min_by_key` keeps the first of equals, and the azimuths are sorted from best to worst.
         let eye_in_world = eyes.into_iter().min_by_key(hidden).expect("there are candidate azimuths");
         Self { eye_in_world, target_in_world }
     }
@@ -163,6 +166,8 @@ fn distance_m(framed: &BoundingBox, to_eye: &Vector3<f64>) -> f64 {
     let half = (framed.high - framed.low) / 2.0;
     let from_corner = |signs: [f64; 3]| {
         let corner = half.component_mul(&Vector3::from(signs)) * BOX_FRACTION;
+        // A corner c is in the picture if its depth d - c.e is at least |c.right| / tan(half width) and |c.up| /
+        // tan(half height).
         let [across, along] = [corner.dot(&right), corner.dot(&up)].map(f64::abs);
         corner.dot(to_eye) + (across / HALF_VIEW[0]).max(along / HALF_VIEW[1])
     };
@@ -174,6 +179,8 @@ fn hides(obstacle: &Obstacle, eye_in_world: &Point3<f64>, point_in_world: &Point
     let half = half_size(&obstacle.geometry);
     let eye = obstacle.world_from_obstacle.inverse_transform_point(eye_in_world);
     let ray = obstacle.world_from_obstacle.inverse_transform_point(point_in_world) - eye;
+    // Slabs: the part of the ray from eye (0) to point (1) that is between all three pairs of faces. A ray parallel
+    // to a face divides by 0 to an infinity, which the comparisons take.
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for axis in 0..3 {
         let [a, b] = [-half[axis], half[axis]].map(|side| (side - eye[axis]) / ray[axis]);
@@ -188,18 +195,18 @@ fn hides(obstacle: &Obstacle, eye_in_world: &Point3<f64>, point_in_world: &Point
 #[derive(Debug)]
 pub(crate) struct ThinnedPath {
     points: Vec<Point3<f64>>,
-    /// One of so many points is kept.
+    /// Every `stride`-th point is kept.
     stride: usize,
     skipped: usize,
 }
 
 impl ThinnedPath {
-    /// No points.
+    /// A path without points, which keeps every point at first.
     pub(crate) fn new() -> Self {
         Self { points: Vec::with_capacity(MAX_POINTS), stride: 1, skipped: 0 }
     }
 
-    /// Adds a point.
+    /// Adds the next point of the path, in the root link's frame. Unit: m.
     pub(crate) fn push(&mut self, point: Point3<f64>) {
         self.skipped += 1;
         if self.skipped < self.stride {
@@ -217,7 +224,7 @@ impl ThinnedPath {
         self.points.push(point);
     }
 
-    /// The kept points.
+    /// The kept points in order, evenly spaced in samples.
     pub(crate) fn points(&self) -> &[Point3<f64>] {
         &self.points
     }

@@ -3,7 +3,7 @@
 
 use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, Pose, UrdfTree};
-use congruent_twin::recorder::RecordingError;
+use congruent_monitors::RecordingError;
 use nalgebra::{Isometry3, Vector3};
 use re_log_types::EntityPath;
 use re_sdk_types::archetypes::{Arrows3D, CoordinateFrame};
@@ -30,7 +30,7 @@ struct AttachedFrame<'a> {
     z_m: f64,
 }
 
-/// Writes all frames.
+/// Writes the frames of all links, of the table and of the tool.
 pub(crate) fn write(writer: &mut RrdWriter, description: &RobotDescription) -> Result<(), RecordingError> {
     for link in description.robot.links() {
         let to = paths::twin(&link.name);
@@ -54,7 +54,7 @@ pub(crate) fn write(writer: &mut RrdWriter, description: &RobotDescription) -> R
     Ok(())
 }
 
-/// For each frame of the table the link that it is fixed to in the model, and its pose there.
+/// Link of the model to which each frame of the table is fixed, with the pose of the frame in it.
 fn dh_frames(description: &RobotDescription) -> Result<Vec<(&str, Pose)>, RecordingError> {
     let (robot, Some(table)) = (&description.robot, &description.dh) else { return Ok(Vec::new()) };
     let at_zero = RobotQ::zeros(robot.dof());

@@ -20,7 +20,7 @@ const LINKS: [[u8; 3]; 12] = [
 
 /// Lines at limits and tolerances.
 pub(crate) const LIMIT: Color = rgb([0xff, 0x5c, 0x5c]);
-/// What violates a limit: red, which nothing else is.
+/// Bodies and values that violate a limit: red, which is used for nothing else.
 pub(crate) const OUTSIDE: Color = rgb([0xff, 0x2d, 0x2d]);
 /// An obstacle that a link is too close to: darker, since it is large and the link must stand out before it.
 pub(crate) const OUTSIDE_OBSTACLE: Color = rgba([0xa8, 0x24, 0x24], 0xd8);
@@ -61,7 +61,7 @@ pub(crate) fn link(index: usize) -> Color {
     rgb(LINKS[index % LINKS.len()])
 }
 
-/// The same colour, half way to white: a commanded value beside the true one.
+/// The same colour, mixed with as much white: a commanded value beside the true one.
 pub(crate) fn pale(index: usize) -> Color {
     rgb(LINKS[index % LINKS.len()].map(|channel| channel / 2 + 0x80))
 }

@@ -1,8 +1,8 @@
 //! The shapes of links, obstacles and zones with their names, and the style of the tool's trail.
 
-use congruent_description::{Geometry, Link, Robot, Shape};
-use congruent_simulation::Obstacle;
-use congruent_twin::{RunSetup, recorder::RecordingError};
+use congruent_description::{Geometry, Link, Obstacle, Robot, Shape};
+use congruent_monitors::RecordingError;
+use congruent_twin::RunSetup;
 use nalgebra::{Isometry3, Point3};
 use re_log_types::{EntityPath, TimePoint};
 use re_sdk_types::{
@@ -27,7 +27,7 @@ const MODEL_INSET_M: f64 = 5e-4;
 /// A link of the twin, an obstacle or a zone.
 #[derive(Debug)]
 pub(crate) struct SceneBody {
-    /// Its entity.
+    /// Entity of the body, which its pose and its colour over time are logged to.
     pub(crate) path: EntityPath,
     /// Its shapes in the colours of its description.
     pub(crate) visual: VisualBody,
@@ -65,7 +65,7 @@ fn link_visuals(robot: &Robot, inset_m: f64) -> impl Iterator<Item = VisualBody>
     })
 }
 
-/// An obstacle where it stands; at the origin if it moves, since its pose is recorded over time.
+/// An obstacle at its pose; at the origin if it moves, since its pose is recorded over time.
 fn placed(setup: &RunSetup, index: usize) -> Obstacle {
     let obstacle = setup.obstacles[index].clone();
     if setup.bodies.iter().any(|body| body.obstacle == index) {
@@ -150,7 +150,7 @@ pub(crate) fn link_box(link: &Link) -> BoundingBox {
             Geometry::Mesh(mesh) => {
                 mesh.vertices_m.iter().for_each(|vertex| all.include(&(shape.link_from_shape * vertex)));
             }
-            geometry => all.include_box(&BoundingBox::of(geometry), &shape.link_from_shape),
+            geometry => all.include_box(&BoundingBox::around(geometry), &shape.link_from_shape),
         }
     }
     all

@@ -2,7 +2,7 @@
 
 use congruent_agreement::compare::PoseSource;
 use congruent_description::Robot;
-use congruent_twin::{monitor::Names, recorder::RecordingError};
+use congruent_monitors::{Names, RecordingError};
 use re_sdk_types::{archetypes::SeriesLines, components::Color};
 
 use super::palette;

@@ -170,6 +170,7 @@ fn triangles(mesh: &Mesh, body_from_mesh: &Isometry3<f64>, inset_m: f64) -> Mesh
     let mut normals = vec![Vector3::zeros(); vertices.len()];
     for &corners in &mesh.triangles {
         let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+        // Not normalised: the length weights the normal by the area, so that slivers do not bend the shading.
         let twice_area = (b - a).cross(&(c - a));
         for corner in corners {
             normals[corner as usize] += twice_area;

@@ -1,12 +1,13 @@
 //! What the checks measure over time: for each quantity the worst value since the recorded time before, beside its limit.
 
 use congruent_description::Robot;
-use congruent_twin::{
-    recorder::RecordingError,
-    report::quantity_words,
-    scenario::CheckKind,
+use congruent_input::{Quantity, SiUnit};
+use congruent_monitors::{
+    RecordingError,
     verdict::{CheckValue, InstantValue},
 };
+use congruent_results::report::quantity_words;
+use congruent_scenario::CheckKind;
 use re_sdk_types::archetypes::SeriesLines;
 
 use super::scalars::write_scalars;
@@ -24,7 +25,7 @@ const WIDTH_UI_POINTS: f32 = 1.5;
 
 /// One quantity of one check.
 #[derive(Debug)]
-struct Line {
+struct QuantityLine {
     check: usize,
     of: InstantValue,
     /// Whether there was a value since the recorded time before; it is `of`.
@@ -34,14 +35,14 @@ struct Line {
     /// Kind of the check with its number, and the quantity with its unit.
     path: [String; 2],
     has_name: bool,
-    /// The last value.
+    /// The last value of the quantity, in its unit.
     last: f64,
 }
 
 /// All quantities of all checks.
 #[derive(Debug, Default)]
 pub(crate) struct CheckSeries {
-    lines: Vec<Line>,
+    lines: Vec<QuantityLine>,
 }
 
 /// The link that a value outside its limit is about: that of a joint, or a link itself.
@@ -52,7 +53,7 @@ pub(crate) fn violating_link(value: &CheckValue, robot: &Robot) -> Option<usize>
     }
     match value.kind {
         CheckKind::Twist => Some(subject),
-        CheckKind::Tracking if quantity.contains("tcp") => Some(subject),
+        CheckKind::Tracking if quantity.is_of_tcp() => Some(subject),
         CheckKind::Dynamics | CheckKind::Limits | CheckKind::Tracking => {
             // Beyond the last joint there is the sum of all.
             let &joint = robot.movable_joints().get(subject)?;
@@ -62,10 +63,11 @@ pub(crate) fn violating_link(value: &CheckValue, robot: &Robot) -> Option<usize>
     }
 }
 
-/// The two parts of a path that tell a quantity of a check, by its number from 0: kind with number, quantity with unit.
-pub(crate) fn path_parts(check: usize, kind: CheckKind, (quantity, unit): (&str, &str)) -> [String; 2] {
-    let unit = unit.replace([' ', '/'], "_");
-    let quantity = if unit.is_empty() { quantity.to_owned() } else { format!("{quantity}_{unit}") };
+/// The two parts of a path that identify a quantity of a check, by its number from 0: kind with number, quantity with
+/// unit.
+pub(crate) fn path_parts(check: usize, kind: CheckKind, (quantity, unit): (Quantity, SiUnit)) -> [String; 2] {
+    let unit = unit.symbol().replace([' ', '/'], "_");
+    let quantity = if unit.is_empty() { quantity.name().to_owned() } else { format!("{quantity}_{unit}") };
     [format!("{}_{}", check + 1, kind.word()), quantity]
 }
 
@@ -73,19 +75,20 @@ impl CheckSeries {
     /// Takes the values of a sample, recorded or not.
     pub(crate) fn observe(&mut self, values: &[CheckValue]) {
         for value in values {
-            let is_same = |line: &&mut Line| {
+            let is_same = |line: &&mut QuantityLine| {
                 let of = &line.of;
                 (line.check, of.quantity, of.unit) == (value.check, value.of.quantity, value.of.unit)
             };
             match self.lines.iter_mut().find(is_same) {
                 Some(line) => {
+                    // The first value since the recorded time replaces the old one, even if it is better.
                     if !line.is_new || line.of.bound.is_worse(value.of.value, line.of.value) {
                         line.of.value = value.of.value;
                     }
                     line.is_new = true;
                     line.last = value.of.value;
                 }
-                None => self.lines.push(Line::new(value)),
+                None => self.lines.push(QuantityLine::new(value)),
             }
         }
     }
@@ -115,7 +118,7 @@ impl CheckSeries {
     }
 }
 
-impl Line {
+impl QuantityLine {
     fn new(value: &CheckValue) -> Self {
         Self {
             check: value.check,

@@ -3,7 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use congruent_twin::{proximity::Clearance, recorder::RecordingError};
+use congruent_monitors::RecordingError;
+use congruent_proximity::Clearance;
 
 use super::{distance_line::DistanceLine, pairs::NEAR_M};
 use crate::{

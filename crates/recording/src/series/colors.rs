@@ -1,6 +1,6 @@
 //! Links, obstacles and zones that violate a limit are drawn in a colour that nothing else has, as long as they do.
 
-use congruent_twin::recorder::RecordingError;
+use congruent_monitors::RecordingError;
 use re_log_types::EntityPath;
 use re_sdk_types::{SerializedComponentBatch, SerializedComponentColumn};
 
@@ -29,7 +29,7 @@ pub(crate) struct ColorSeries {
 }
 
 impl ColorSeries {
-    /// No rows, for so many bodies.
+    /// Colours without rows, for this number of bodies.
     pub(crate) fn new(bodies: usize) -> Self {
         Self { shown: vec![None; bodies], changes: Vec::with_capacity(2 * bodies) }
     }
@@ -37,6 +37,8 @@ impl ColorSeries {
     /// Adds a row for each body that changes.
     pub(crate) fn push(&mut self, time: SampleTime, are_violating: &[bool]) {
         for (body, (shown, &is_violating)) in self.shown.iter_mut().zip(are_violating).enumerate() {
+            // Changes only: the viewer keeps the latest colour, and a row for each sample would be most of the
+            // file.
             if *shown != Some(is_violating) {
                 *shown = Some(is_violating);
                 self.changes.push(ColorChange { body, time, is_violating });

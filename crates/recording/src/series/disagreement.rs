@@ -1,15 +1,17 @@
 //! Model and twin where they disagree: arrows of true length point from the twin's links outside the limits to the
 //! model's, and a label shows the error of the worst link.
 
-use congruent_description::display::length_and_angle;
+use congruent_input::display::length_and_angle;
 use congruent_kinematics::PoseError;
-use congruent_twin::{Sample, recorder::RecordingError, scenario::Check};
+use congruent_monitors::{RecordingError, Sample};
+use congruent_scenario::Check;
 use re_sdk_types::{
     SerializedComponentColumn,
     archetypes::{Arrows3D, Ellipsoids3D, Points3D},
     components::{FillMode, Radius},
 };
 
+use super::samples::MAX_ROWS;
 use crate::{
     rrd::{
         convert::vector,
@@ -19,8 +21,6 @@ use crate::{
     },
     scene::palette,
 };
-
-use super::samples::MAX_ROWS;
 
 /// Thickness of an arrow on the screen.
 const ARROW_UI_POINTS: f32 = 2.5;
@@ -40,7 +40,7 @@ pub(crate) struct AgreementLimits {
 
 impl AgreementLimits {
     /// The tightest limits of all checks; `None` if no check limits these errors.
-    pub(crate) fn of(checks: &[Check]) -> Option<Self> {
+    pub(crate) fn tightest(checks: &[Check]) -> Option<Self> {
         let limits = checks.iter().filter_map(|check| {
             let Check::Agreement(limits) = check else { return None };
             let [position_m, orientation_rad] = limits.limits();
@@ -87,7 +87,7 @@ pub(crate) struct DisagreementSeries {
 }
 
 impl DisagreementSeries {
-    /// No rows, for a robot with so many links.
+    /// A series without rows, for a robot with this number of links.
     pub(crate) fn new(links: usize, limits: AgreementLimits) -> Self {
         Self {
             limits,
@@ -128,6 +128,7 @@ impl DisagreementSeries {
             }
         }
         let arrows = u32::try_from(self.origins.len() - first).unwrap_or(u32::MAX);
+        // One empty row after the last arrows: the viewer shows the latest row, and arrows would otherwise remain.
         if arrows > 0 || had_arrows {
             self.times.push(time);
             self.arrows.push(arrows);
@@ -188,7 +189,7 @@ impl DisagreementSeries {
 
 /// A link with its position error, and its orientation error if that can be seen.
 fn pose_error(link: &str, error: &PoseError) -> String {
-    /// Unit: rad.
+    /// Orientation error from which the label shows it. Unit: rad. Kind: choice, what the eye can see.
     const VISIBLE: f64 = 1e-3;
     let angle_rad = if error.orientation_rad >= VISIBLE { error.orientation_rad } else { 0.0 };
     format!("{link}: {}", length_and_angle(error.position_m, angle_rad))

@@ -1,6 +1,6 @@
 //! One distance over time.
 
-use congruent_twin::recorder::RecordingError;
+use congruent_monitors::RecordingError;
 use re_log_types::EntityPath;
 use re_sdk_types::{archetypes::SeriesLines, components::Color};
 
@@ -21,12 +21,12 @@ pub(super) struct DistanceLine {
 }
 
 impl DistanceLine {
-    /// No values.
+    /// A line without values, whose number among the lines gives its colour.
     pub(super) fn numbered(number: usize) -> Self {
         Self { number, ..Self::default() }
     }
 
-    /// Adds a value.
+    /// Adds the distance at a recorded time. Unit: m.
     pub(super) fn push(&mut self, time: SampleTime, value: f64) {
         self.times.push(time);
         self.values.push(value);

@@ -2,7 +2,7 @@
 //! that.
 
 use congruent_kinematics::PoseError;
-use congruent_twin::Sample;
+use congruent_monitors::Sample;
 
 /// The extents of one joint, rad or m.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +19,7 @@ pub(crate) struct JointExtents {
     pub(crate) is_misread: bool,
 }
 
-/// No value yet.
+/// Range without a value: any value replaces both ends.
 const NONE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 /// The extents of all joints and links.
@@ -32,7 +32,7 @@ pub(crate) struct Extents {
 }
 
 impl Extents {
-    /// No samples.
+    /// Extents before the first sample.
     pub(crate) fn new(joints: usize, links: usize) -> Self {
         let joint =
             JointExtents { position: NONE, velocity: NONE, effort: NONE, deviation: NONE, is_misread: false };
@@ -50,6 +50,7 @@ impl Extents {
             widen(&mut joint.velocity, truth.qd.get(index).copied());
             widen(&mut joint.effort, truth.effort.get(index).copied());
             widen(&mut joint.deviation, commanded.get(index).map(|commanded| q - commanded));
+            // Any difference: an encoder without a fault reports the true position bit for bit.
             joint.is_misread |= (measured[index] - q).abs() > 0.0;
         }
         for (largest, error) in self.links.iter_mut().zip(sample.errors) {

@@ -1,14 +1,14 @@
 //! Values of the joints and poses of the TCP over time, with all their digits.
 
 use congruent_kinematics::Pose;
-use congruent_twin::{Sample, recorder::RecordingError};
+use congruent_monitors::{RecordingError, Sample};
 use nalgebra::Isometry3;
 use re_chunk::TimeColumn;
 
 use super::scalars::write_scalars;
 use crate::rrd::{paths, writer::RrdWriter};
 
-/// What is recorded of each joint besides its position.
+/// Quantities that are recorded of each joint beside its position.
 pub(crate) const QUANTITIES: [&str; 6] =
     ["velocity", "effort", "reference_position", "reference_velocity", "measured_position", "deviation"];
 /// The coordinates of a recorded pose.
@@ -28,7 +28,7 @@ impl JointSeries {
         Self { values: std::array::from_fn(|_| Vec::with_capacity(values)) }
     }
 
-    /// Adds a row.
+    /// Adds a row with the joint values of a sample.
     pub(super) fn push(&mut self, sample: &Sample<'_>) {
         let joints = &sample.joints;
         let (reference_q, reference_qd) =
@@ -49,8 +49,8 @@ impl JointSeries {
         for (quantity, values) in QUANTITIES.into_iter().zip(&mut self.values) {
             if values.len() == rows * joints.len() {
                 for (index, joint) in joints.iter().enumerate() {
-                    let of_joint = values.iter().skip(index).step_by(joints.len()).copied();
-                    write_scalars(writer, &paths::joint_value(quantity, joint), times, of_joint)?;
+                    let joint_column = values.iter().skip(index).step_by(joints.len()).copied();
+                    write_scalars(writer, &paths::joint_value(quantity, joint), times, joint_column)?;
                 }
             }
             values.clear();
@@ -72,7 +72,7 @@ impl TcpSeries {
         Self { twin: Vec::with_capacity(rows), model: Vec::with_capacity(rows) }
     }
 
-    /// Adds a row.
+    /// Adds a row with the poses of the TCP by twin and by model, in the root link's frame.
     pub(super) fn push(&mut self, twin: &Isometry3<f64>, model: &Isometry3<f64>) {
         self.twin.push(coordinates(twin));
         self.model.push(coordinates(model));

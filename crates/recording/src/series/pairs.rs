@@ -1,14 +1,10 @@
 //! Pairs of bodies that are too close: both turn red, and a line between their nearest points has the distance for a
 //! label. A quiet line leads to a zone that is near without a violation.
 
-use congruent_description::display::length;
-use congruent_twin::{
-    Sample,
-    monitor::Names,
-    proximity::{Clearance, Pair, PairNames},
-    recorder::RecordingError,
-    scenario::Check,
-};
+use congruent_input::display::length;
+use congruent_monitors::{Names, RecordingError, Sample};
+use congruent_proximity::{Clearance, Pair, PairNames};
+use congruent_scenario::Check;
 use re_sdk_types::{
     SerializedComponentColumn,
     archetypes::{LineStrips3D, Points3D},
@@ -40,7 +36,7 @@ const LINE_UI_POINTS: f32 = 2.5;
 struct DistanceRule {
     names: PairNames,
     limit: DistanceLimit,
-    /// Whether the check looks at a pair; known from the first sample on.
+    /// Whether the check measures a pair; known from the first sample on.
     looks_at: Vec<bool>,
 }
 
@@ -95,7 +91,7 @@ pub(crate) struct PairSeries {
 }
 
 impl PairSeries {
-    /// No rows, for these checks.
+    /// A series without rows, for the distances that these checks limit.
     pub(crate) fn new(checks: &[Check]) -> Self {
         let rule = |check: &Check| {
             let (pairs, ignore, limit) = match check {
@@ -135,6 +131,7 @@ impl PairSeries {
                 are_violating[body] = true;
             }
         }
+        // Violations first, then the nearest: of more pairs than lines, those that matter are drawn.
         self.found.sort_unstable_by(|a, b| {
             let by_distance = || a.distance_m.total_cmp(&b.distance_m).then(a.pair.cmp(&b.pair));
             b.is_violating.cmp(&a.is_violating).then_with(by_distance)
@@ -149,6 +146,7 @@ impl PairSeries {
             }
         }
         let count = u32::try_from(self.pairs.len() - first).unwrap_or(u32::MAX);
+        // One empty row after the last line: the viewer shows the latest row, and lines would otherwise remain.
         if count > 0 || self.had_lines {
             self.times.push(time);
             self.counts.push(count);
@@ -162,7 +160,7 @@ impl PairSeries {
         for DistanceRule { names, limit, looks_at } in &mut self.rules {
             if looks_at.is_empty() {
                 let pairs = 0..sample.clearance.pairs().len();
-                looks_at.extend(pairs.map(|pair| names.look_at(sample.clearance.names(pair))));
+                looks_at.extend(pairs.map(|pair| names.is_evaluated(sample.clearance.names(pair))));
             }
             let kept_apart = match limit {
                 DistanceLimit::Depth(None) => sample.kept_apart(|pair| looks_at[pair]),
@@ -172,6 +170,7 @@ impl PairSeries {
                 // The physics stops them just before their hulls meet: the check takes that as touch.
                 add(found, FoundPair { kind: PairKind::Bodies, pair, distance_m: 0.0, is_violating: true });
             }
+            // Contact: a distance of exactly 0 is below the smallest positive number.
             let below_m = match limit {
                 DistanceLimit::Minimum(minimum_m) => *minimum_m,
                 DistanceLimit::Depth(_) => f64::MIN_POSITIVE,
@@ -182,6 +181,8 @@ impl PairSeries {
                 add(found, FoundPair { kind: PairKind::Bodies, pair, distance_m, is_violating: true });
             });
             found.iter_mut().skip(before).for_each(|found| sign(found, sample.clearance));
+            // Touching pairs were measured; an overlap up to the allowed depth is no violation. Only pairs of this
+            // rule are tested, from `before` on.
             if let DistanceLimit::Depth(Some(depth_m)) = limit {
                 let mut at = 0;
                 found.retain(|found| {
@@ -282,6 +283,7 @@ fn free_place(at: [f32; 3], others: &[DrawnPair]) -> [f32; 3] {
         others.iter().any(is_near)
     };
     let mut place = at;
+    // Each step up can pass one label, so that as many steps as labels are enough.
     for _ in others {
         if is_taken(place) {
             place[2] += LABEL_M;

@@ -1,7 +1,7 @@
 //! Poses, errors, joint positions and the tool's path, gathered in columns and written in batches.
 
 use congruent_kinematics::{Pose, PoseError};
-use congruent_twin::{Sample, monitor::Names, recorder::RecordingError};
+use congruent_monitors::{Names, RecordingError, Sample};
 use nalgebra::Isometry3;
 use re_chunk::TimeColumn;
 use re_sdk_types::{
@@ -145,6 +145,7 @@ impl SampleBatch {
 
     /// One line segment for each row, from the tool's position in the previous row.
     fn write_trail(&self, writer: &mut RrdWriter, times: &[TimeColumn]) -> Result<(), RecordingError> {
+        // The first segment of all has no previous point: it begins and ends at the first one.
         let from =
             self.previous_tool.iter().chain(self.tool.first().filter(|_| self.previous_tool.is_none()));
         let segments = from.chain(&self.tool).zip(&self.tool).map(|(&from, &to)| [from, to]);

@@ -1,7 +1,6 @@
 //! Scalars over time.
 
-use congruent_description::Elementary as _;
-use congruent_twin::recorder::RecordingError;
+use congruent_monitors::RecordingError;
 use re_chunk::TimeColumn;
 use re_log_types::EntityPath;
 use re_sdk_types::archetypes::Scalars;
@@ -11,7 +10,7 @@ use crate::rrd::writer::{RrdWriter, failed};
 /// Decimal logarithm of an error. An error below any rounding error counts as 1e-18, so that 0 has a value.
 pub(crate) fn log10(error: f64) -> f64 {
     const FLOOR: f64 = 1e-18;
-    error.max(FLOOR).decimal_logarithm()
+    libm::log10(error.max(FLOOR))
 }
 
 /// Writes one scalar for each time.

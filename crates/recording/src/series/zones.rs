@@ -1,6 +1,7 @@
 //! Distances of zones over time: of each the distance of the nearest link that is forbidden to enter it.
 
-use congruent_twin::{proximity::Clearance, recorder::RecordingError};
+use congruent_monitors::RecordingError;
+use congruent_proximity::Clearance;
 
 use super::distance_line::DistanceLine;
 use crate::{
@@ -21,12 +22,12 @@ pub(crate) struct ZoneSeries {
 }
 
 impl ZoneSeries {
-    /// No rows, for so many zones.
+    /// A series without rows, for this number of zones.
     pub(crate) fn new(zones: usize) -> Self {
         Self { lines: (0..zones).map(DistanceLine::numbered).collect(), range_m: None }
     }
 
-    /// Adds a row.
+    /// Adds a row with the distance of the nearest forbidden link for each zone.
     pub(crate) fn push(&mut self, time: SampleTime, zones: &mut Clearance, links: usize) {
         for (zone, line) in self.lines.iter_mut().enumerate() {
             let nearest = zones.nearest_of(f64::INFINITY, |_, pair| pair.a == links + zone);

@@ -1,6 +1,6 @@
-//! How drives are connected: whose command a drive gets, and which way it turns.
+//! How drives are connected: whose command a drive gets, and in which direction it turns.
 
-use super::{
+use crate::{
     commands::{Commands, Motor},
     joints_view::MeasuredState,
 };
@@ -10,7 +10,7 @@ use super::{
 pub struct DriveConnection {
     /// The coordinate whose commands it gets; its own in a robot without fault.
     pub commanded_as: usize,
-    /// Whether it turns the other way than it is commanded.
+    /// Whether it turns in the other direction than it is commanded.
     pub is_reversed: bool,
 }
 

@@ -1,6 +1,6 @@
 //! The trait of controllers.
 
-use super::{
+use crate::{
     commands::Commands,
     joints_view::{JointsView, Setpoint},
 };

@@ -1,8 +1,8 @@
 //! Playback: the robot is placed at the setpoint, without dynamics.
 
-use super::{
+use super::controller::Controller;
+use crate::{
     commands::Commands,
-    controller::Controller,
     joints_view::{JointsView, Setpoint},
 };
 

@@ -1,12 +1,12 @@
 //! No actuation: the robot swings.
 
-use super::{
+use super::controller::Controller;
+use crate::{
     commands::Commands,
-    controller::Controller,
     joints_view::{JointsView, Setpoint},
 };
 
-/// Exerts nothing.
+/// Controller that exerts no effort: the joints move freely.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Passive;
 

@@ -1,9 +1,9 @@
 //! A servo at every joint: stiffness on the position error, damping on the velocity error.
 //! Without gravity compensation, so it sags by gravity torque / stiffness.
 
-use super::{
+use super::controller::Controller;
+use crate::{
     commands::{Commands, Gains, Motor},
-    controller::Controller,
     joints_view::{JointsView, Setpoint},
 };
 

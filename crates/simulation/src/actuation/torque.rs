@@ -1,8 +1,8 @@
 //! Given torques.
 
-use super::{
+use super::controller::Controller;
+use crate::{
     commands::Commands,
-    controller::Controller,
     joints_view::{JointsView, Setpoint},
 };
 

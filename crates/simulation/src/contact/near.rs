@@ -5,14 +5,14 @@ use rapier3d_f64::prelude::{
     Aabb, ColliderHandle, ColliderSet, RigidBodyHandle, RigidBodySet, SharedShape, Vector,
 };
 
-/// A shape is its own if it may be nearer than this to an obstacle; rapier's contacts begin to act at 2 mm.
+/// A link gets its real shape if it may be nearer than this to an obstacle; rapier's contacts begin to act at 2 mm.
 const MARGIN_M: f64 = 0.02;
 
-/// Way of a shape after which its distances are measured again, at least: a shape that stays near costs one look in
-/// each 20 mm, however many obstacles there are.
+/// Shortest displacement of a shape after which its distances are measured again: a shape that stays near is measured once
+/// in each 20 mm, however many obstacles there are.
 const LOOK_M: f64 = 0.02;
 
-/// The shapes of the links, and where obstacles stand still.
+/// The shapes of the links, and the bounds of the obstacles at rest.
 #[derive(Clone, Default)]
 pub(crate) struct NearShapes {
     shapes: Vec<LinkShape>,
@@ -29,14 +29,14 @@ struct LinkShape {
     own: SharedShape,
     ball: SharedShape,
     is_far: bool,
-    /// Where the ball's centre was when distances were measured last.
+    /// Position of the ball's centre when distances were last measured.
     center_then: Vector,
-    /// How far from there nothing changes.
-    way_m: f64,
+    /// Displacement from there within which the choice of the shape cannot change.
+    path_m: f64,
 }
 
 impl NearShapes {
-    /// Of colliders that are complete, all with their own shapes.
+    /// The shapes of complete colliders, all real at first.
     pub(crate) fn new(
         colliders: &ColliderSet,
         links: &[ColliderHandle],
@@ -55,8 +55,8 @@ impl NearShapes {
                 ball: SharedShape::ball(radius_m),
                 is_far: false,
                 center_then: Vector::ZERO,
-                // Less than any way: distances have not been measured.
-                way_m: -1.0,
+                // Less than any displacement: distances have not been measured.
+                path_m: -1.0,
             })
         };
         let of_obstacle = |&collider: &ColliderHandle| Some(colliders.get(collider)?.compute_aabb());
@@ -66,7 +66,7 @@ impl NearShapes {
         }
     }
 
-    /// Gives the shapes that have come near an obstacle their own shapes, and those that have left theirs balls.
+    /// Gives links that came near an obstacle their real shapes, and links that moved away their balls.
     ///
     /// Disabled colliders would cost less still, but rapier sums masses over those that are enabled, and the last bits
     /// of a motion would depend on what is near.
@@ -74,8 +74,8 @@ impl NearShapes {
         for shape in &mut self.shapes {
             let body = bodies.get(shape.body).expect("the body exists");
             let center = body.position().transform_point(shape.center_in_body);
-            // False as well if a number is none: then rapier is to see the shape.
-            if center.distance(shape.center_then) <= shape.way_m {
+            // False for NaN, too: the shape then becomes real, so that rapier finds the state that is not finite.
+            if center.distance(shape.center_then) <= shape.path_m {
                 continue;
             }
             let distances = self.obstacles.iter().map(|bounds| {
@@ -84,7 +84,7 @@ impl NearShapes {
             });
             let free_m = distances.fold(f64::INFINITY, f64::min) - MARGIN_M;
             let is_far = center.is_finite() && free_m > LOOK_M;
-            (shape.center_then, shape.way_m) = (center, if is_far { free_m } else { LOOK_M });
+            (shape.center_then, shape.path_m) = (center, if is_far { free_m } else { LOOK_M });
             if shape.is_far != is_far {
                 shape.is_far = is_far;
                 let collider = colliders.get_mut(shape.collider).expect("the collider exists");

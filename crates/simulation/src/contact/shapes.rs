@@ -1,7 +1,7 @@
 //! Contacts: links against obstacles, never links against links. Shapes have no mass; mass comes from the
 //! description's inertias only.
 
-use congruent_description::{Geometry, HullPoints, Robot};
+use congruent_description::{Geometry, HullPoints, Obstacle, Robot};
 use rapier3d_f64::prelude::{
     Collider, ColliderBuilder, Group, InteractionGroups, InteractionTestMode, Pose, Rotation, SharedShape,
 };
@@ -10,7 +10,6 @@ use crate::{
     adapter,
     error::SimulationError,
     lumping::{Bodies, LinkOnBody},
-    settings::Obstacle,
 };
 
 /// Group of the robot's links.
@@ -19,11 +18,14 @@ const LINKS: Group = Group::GROUP_1;
 const OBSTACLES: Group = Group::GROUP_2;
 
 /// Colliders of all moving links, each with the number of its body.
-pub(crate) fn of_links(robot: &Robot, bodies: &Bodies) -> Result<Vec<(usize, Collider)>, SimulationError> {
+pub(crate) fn link_colliders(
+    robot: &Robot,
+    bodies: &Bodies,
+) -> Result<Vec<(usize, Collider)>, SimulationError> {
     let mut colliders = Vec::new();
     for (place, link) in bodies.links.iter().zip(robot.links()) {
         let LinkOnBody { body, body_from_link, .. } = place;
-        // The root body stands still, as obstacles do: the two never meet.
+        // The root body is at rest, as obstacles are: the two never meet.
         let shapes = if *body == 0 { &[][..] } else { &link.collisions };
         for shape in shapes {
             let owner = || format!("link \"{}\"", link.name);
@@ -37,7 +39,7 @@ pub(crate) fn of_links(robot: &Robot, bodies: &Bodies) -> Result<Vec<(usize, Col
 }
 
 /// The collider of an obstacle; `None` for a mesh without a vertex.
-pub(crate) fn of_obstacle(obstacle: &Obstacle) -> Result<Option<Collider>, SimulationError> {
+pub(crate) fn obstacle_collider(obstacle: &Obstacle) -> Result<Option<Collider>, SimulationError> {
     let owner = || format!("obstacle \"{}\"", obstacle.name);
     let pose = adapter::pose(&obstacle.world_from_obstacle);
     let builder = shaped(&obstacle.geometry, pose, owner)?;
@@ -67,7 +69,9 @@ fn shaped(
         }
         Geometry::Mesh(mesh) if mesh.vertices_m.is_empty() => return Ok(None),
         Geometry::Mesh(mesh) => {
-            let hull = SharedShape::convex_hull(&adapter::points(&HullPoints::of(&mesh.vertices_m).points_m));
+            let hull = SharedShape::convex_hull(&adapter::points(
+                &HullPoints::from_vertices(&mesh.vertices_m).points_m,
+            ));
             (hull.ok_or_else(|| SimulationError::Shape { owner: owner() })?, pose)
         }
     };

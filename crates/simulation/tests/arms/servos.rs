@@ -110,14 +110,14 @@ fn a11_a_joint_that_mimics_another() {
         for (kind, stiffness, damping) in [("passive", 0.0, 0.0), ("pd", 200.0, 20.0)] {
             let mut world = at(&robot, &WorldSettings::default(), &start);
             let mut controller = make(kind, stiffness, damping);
-            let (mut off, mut way) = (0.0_f64, 0.0_f64);
+            let (mut off, mut travelled) = (0.0_f64, 0.0_f64);
             for _ in 0..3000 {
                 run(&mut world, controller.as_mut(), &RobotQ::zeros(start.len()), 1);
                 off = off.max((world.q()[3] + 1.5 * world.q()[1]).abs());
-                way = way.max((world.q()[1] - start[1]).abs());
+                travelled = travelled.max((world.q()[1] - start[1]).abs());
             }
-            println!("a11 {name} {kind}: {off:e} rad over {way} rad");
-            assert!(off < COUPLING && way > 0.1, "{name} {kind}: {off:e} over {way}");
+            println!("a11 {name} {kind}: {off:e} rad over {travelled} rad");
+            assert!(off < COUPLING && travelled > 0.1, "{name} {kind}: {off:e} over {travelled}");
         }
     }
 }

@@ -83,7 +83,7 @@ pub fn arm_with(change: impl Fn(JointParts) -> JointParts) -> Robot {
 pub fn arm_carrying(load: &Inertia) -> Robot {
     let mut tool = link("tool", 0.2, [0.01, 0.0, 0.05], [0.0002, 0.0003, 0.0001]);
     let both = [tool.inertia.unwrap(), *load].into_iter().map(|part| (Isometry3::identity(), part));
-    tool.inertia = Some(Inertia::of_body(both));
+    tool.inertia = Some(Inertia::sum_of_parts(both));
     arm_of(tool, |parts| parts)
 }
 
@@ -208,7 +208,7 @@ pub fn steps(duration_s: f64, step_s: f64) -> usize {
     (duration_s / step_s).round() as usize
 }
 
-/// Steps towards a setpoint that stands still.
+/// Steps towards a setpoint at rest.
 pub fn run(world: &mut World, controller: &mut dyn Controller, q: &RobotQ, steps: usize) {
     let qd = vec![0.0; q.len()];
     for _ in 0..steps {

@@ -1,12 +1,10 @@
 //! The controller of a run: a law, continuous in time or with a clock of its own.
 
+use congruent_scenario::ControllerKind;
 use congruent_simulation::{Commands, Controller, JointsView, Kinematic, Setpoint};
 
 use super::{computed_torque::ComputedTorque, digital::Hold, servos::Servos};
-use crate::{
-    scenario::ControllerKind,
-    setup::{ControllerSetup, RunSetup},
-};
+use crate::setup::{ControllerSetup, RunSetup};
 
 /// The controller that a scenario asks for.
 #[derive(Debug, Clone)]
@@ -61,7 +59,7 @@ impl Controller for JointController<'_> {
 }
 
 impl Law<'_> {
-    /// Continuous in time.
+    /// The torques of a controller that is continuous in time.
     fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands) {
         match self {
             Law::Passive => {}

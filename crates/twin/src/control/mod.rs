@@ -1,7 +1,6 @@
 //! The controllers of a scenario: from measured states and setpoints to the commands of the actuators.
 //!
-//! A law knows the declared robot, not the physics: what a fault changes in the twin, it does not see. All of a
-//! controller is cloned with it, so that a run can be continued from the middle.
+//! A law knows the declared robot, not the physics: what a fault changes in the twin, it does not see.
 
 mod computed_torque;
 mod digital;

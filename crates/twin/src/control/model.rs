@@ -1,13 +1,14 @@
 //! The declared dynamics as a controller uses them: torques of the actuators, which mimic joints do not have.
 
 use congruent_description::{Robot, RobotQ};
-use congruent_dynamics::JointMotion;
+use congruent_dynamics::JointMotionState;
+use congruent_monitors::RunDynamics;
 
-use crate::setup::{DeclaredDynamics, RunSetup};
+use crate::setup::RunSetup;
 
 /// A mimic joint, in coordinates.
 #[derive(Debug, Clone, Copy)]
-struct Follower {
+struct MimicFollower {
     coordinate: usize,
     master: usize,
     ratio: f64,
@@ -16,8 +17,8 @@ struct Follower {
 /// The declared robot with memory for torques.
 #[derive(Debug, Clone)]
 pub(super) struct DeclaredModel<'a> {
-    dynamics: DeclaredDynamics<'a>,
-    followers: Vec<Follower>,
+    dynamics: RunDynamics<'a>,
+    followers: Vec<MimicFollower>,
     torque: Vec<f64>,
 }
 
@@ -49,7 +50,7 @@ impl<'a> DeclaredModel<'a> {
             qdd[follower.coordinate] = follower.ratio * qdd[follower.master];
         }
         let (tree, buffer) = self.dynamics.at(time_s);
-        let motion = JointMotion { q, qd, qdd };
+        let motion = JointMotionState { q, qd, qdd };
         tree.inverse_into(&motion, buffer, &mut self.torque).expect("a state of this robot");
         self.add_actuated(torque);
     }
@@ -66,11 +67,11 @@ impl<'a> DeclaredModel<'a> {
     }
 }
 
-fn followers(robot: &Robot) -> Vec<Follower> {
+fn followers(robot: &Robot) -> Vec<MimicFollower> {
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).enumerate();
     let follower = |(coordinate, joint): (usize, &congruent_description::Joint)| {
         let mimic = joint.mimic?;
-        Some(Follower { coordinate, master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
+        Some(MimicFollower { coordinate, master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
     };
     joints.filter_map(follower).collect()
 }

@@ -1,9 +1,10 @@
 //! Servos of the joints: stiffness, damping and integral, with the gravity torque of the declared robot or without.
 
+use congruent_monitors::ActuatorLimits;
 use congruent_simulation::{Commands, Gains, JointsView, Motor, Setpoint};
 
 use super::model::DeclaredModel;
-use crate::setup::{ActuatorLimits, RunSetup};
+use crate::setup::RunSetup;
 
 /// One servo for each joint; gains of zero exert nothing.
 #[derive(Debug, Clone)]
@@ -20,7 +21,7 @@ pub(super) struct Servos<'a> {
 struct Integrals {
     /// Torque per integral of the position error.
     gains: Vec<f64>,
-    /// Present torques.
+    /// Torques that the actuators exert now, N m or N.
     torques: Vec<f64>,
     /// Largest effort and speed of each actuator.
     limits: Vec<ActuatorLimits>,

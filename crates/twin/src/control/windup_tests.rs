@@ -3,13 +3,13 @@
 use std::{collections::BTreeMap, path::Path};
 
 use congruent_description::{RobotDescription, load_robot};
+use congruent_scenario::{
+    ControllerKind, ControllerSettings, JointSettings, Scenario, SimulationSettings, StartSettings,
+};
 use congruent_simulation::{Setpoint, World, WorldSettings};
 
 use super::JointController;
-use crate::{
-    RunSetup,
-    scenario::{ControllerSettings, JointSettings, Scenario, SimulationSettings, StartSettings},
-};
+use crate::RunSetup;
 
 /// In the middle of the range, at most 1 rad from zero.
 fn start(description: &RobotDescription) -> BTreeMap<String, f64> {
@@ -24,7 +24,7 @@ fn start(description: &RobotDescription) -> BTreeMap<String, f64> {
 /// knows the limits of the actuators, or believes that there are none.
 fn overshoot(description: &RobotDescription, (step_rad, knows_limits): (f64, bool)) -> f64 {
     let controller = ControllerSettings {
-        kind: "pid".to_owned(),
+        kind: ControllerKind::Pid,
         stiffness: 600.0.into(),
         damping: 160.0.into(),
         integral: 600.0.into(),

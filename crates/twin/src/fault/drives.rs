@@ -1,6 +1,7 @@
 //! Faults of drives and of what they move: changes of the physics.
 
-use congruent_simulation::{CarriedBody, SimulationError, World};
+use congruent_description::CarriedBody;
+use congruent_simulation::{SimulationError, World};
 
 use super::planned::FaultAction;
 

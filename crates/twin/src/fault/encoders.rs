@@ -36,8 +36,8 @@ pub(super) struct Wire {
 }
 
 impl Wire {
-    /// The wires that a fault connects when the robot stands at `q`: each with the joint that it belongs to.
-    pub(super) fn of(action: &FaultAction, q: &[f64]) -> Vec<(usize, Self)> {
+    /// The wires that a fault connects when the robot is at `q`: each with the joint that it belongs to.
+    pub(super) fn for_fault(action: &FaultAction, q: &[f64]) -> Vec<(usize, Self)> {
         let wire = |joint: usize, drive: usize, direction: f64| {
             (joint, Self { drive, direction, reading_at: q[joint], drive_at: q[drive] })
         };

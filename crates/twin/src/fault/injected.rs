@@ -132,7 +132,7 @@ impl<'a> InjectedFaults<'a> {
             } else {
                 drives::end(&fault.action, state.replaced, world)?;
             }
-            for (joint, wire) in Wire::of(&fault.action, world.q()) {
+            for (joint, wire) in Wire::for_fault(&fault.action, world.q()) {
                 self.wires[joint] = now.then_some(wire);
                 let own = DriveConnection { commanded_as: wire.drive, is_reversed: false };
                 let connected = DriveConnection { commanded_as: joint, is_reversed: wire.is_reversed() };
@@ -210,7 +210,7 @@ impl<'a> InjectedFaults<'a> {
         self.wires.iter().all(Option::is_none) && self.held.iter().all(Option::is_none)
     }
 
-    /// Moves the links of a tool that stands elsewhere.
+    /// Moves the links of a tool at another pose.
     pub(crate) fn move_tool(&self, root_from_links: &mut [Isometry3<f64>]) {
         for (fault, state) in self.faults.iter().zip(&self.states) {
             if state.is_active {
@@ -234,9 +234,9 @@ mod tests {
     use congruent_simulation::{Gains, Pd, WorldSettings};
 
     use super::*;
-    use crate::scenario::{
-        ControllerSettings, DroppedSamplesFault, EncoderDriftFault, FaultSettings, JointFault, LatencyFault,
-        Scenario,
+    use congruent_scenario::{
+        ControllerKind, ControllerSettings, DroppedSamplesFault, EncoderDriftFault, FaultSettings,
+        JointFault, LatencyFault, Scenario,
     };
 
     fn setup() -> RunSetup {
@@ -254,7 +254,7 @@ mod tests {
             name: "faults".to_owned(),
             seed: 3,
             controller: ControllerSettings {
-                kind: "pd".to_owned(),
+                kind: ControllerKind::Pd,
                 stiffness: 100.0.into(),
                 damping: 5.0.into(),
                 ..ControllerSettings::default()

@@ -4,15 +4,11 @@
 mod drives;
 mod encoders;
 mod injected;
-mod judgement;
 mod planned;
 mod resolve;
-mod run_fault;
 mod tool;
 mod transport;
 
 pub(crate) use injected::InjectedFaults;
-pub use judgement::{Judgement, judge};
 pub use planned::{FaultAction, PlannedFault};
 pub(crate) use resolve::resolve;
-pub use run_fault::{FaultQuantity, RunFault};

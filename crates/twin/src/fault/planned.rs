@@ -1,20 +1,18 @@
 //! A fault that was checked against its robot: names are coordinates, values are in SI units, times are steps.
 
-use congruent_description::Robot;
-use congruent_simulation::CarriedBody;
+use congruent_description::{CarriedBody, Robot};
+use congruent_monitors::RunClock;
+use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
 use nalgebra::Isometry3;
-
-use super::run_fault::{FaultQuantity, RunFault};
-use crate::{scenario::FaultKind, setup::RunClock};
 
 /// A fault of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedFault {
-    /// What it does.
+    /// Effect of the fault on the twin.
     pub action: FaultAction,
-    /// It is there from the sample with this number on.
+    /// Number of the first sample with the fault.
     pub from_step: u64,
-    /// And no longer at this one.
+    /// Number of the first sample after the fault.
     pub until_step: u64,
     /// Line of its section in the scenario file, from 1.
     pub line: Option<usize>,
@@ -27,57 +25,57 @@ pub struct PlannedFault {
 pub enum FaultAction {
     /// The encoder reads too much.
     EncoderOffset {
-        /// The joint.
+        /// Coordinate of the joint.
         joint: usize,
-        /// By how much.
+        /// Reading minus position, rad or m.
         offset: f64,
     },
     /// What the encoder reads too much grows.
     EncoderDrift {
-        /// The joint.
+        /// Coordinate of the joint.
         joint: usize,
-        /// In a second.
+        /// Change of the offset, rad/s or m/s.
         rate: f64,
     },
     /// Encoder and drive count the other way round.
     FlippedAxis {
-        /// The joint.
+        /// Coordinate of the joint.
         joint: usize,
     },
     /// Encoders and drives are exchanged.
     SwappedJoints {
-        /// The joints.
+        /// Coordinates of the two joints.
         joints: [usize; 2],
     },
     /// The joint does not move.
     StuckJoint {
-        /// The joint.
+        /// Coordinate of the joint.
         joint: usize,
     },
     /// The actuator exerts a share of what it is asked for, which may be 0.
     ScaledTorque {
-        /// The joint.
+        /// Coordinate of the joint.
         joint: usize,
-        /// The share.
+        /// Exerted effort divided by commanded effort.
         share: f64,
     },
-    /// More friction.
+    /// Friction in addition to that of the description.
     AddedFriction {
-        /// The joint.
+        /// Coordinate of the joint.
         joint: usize,
-        /// Dry friction.
+        /// Dry friction, N m or N.
         dry: f64,
-        /// Viscous friction.
+        /// Viscous friction, N m s/rad or N s/m.
         viscous: f64,
     },
-    /// An unknown load.
+    /// A load on the tool that is not declared.
     WrongPayload {
         /// The load on its link.
         load: CarriedBody,
     },
-    /// The tool stands elsewhere.
+    /// The tool is at another pose.
     ShiftedTool {
-        /// The link `tip`.
+        /// Index of the link `tip`.
         tip: usize,
         /// Its pose in the frame in which it would stand.
         tip_from_shifted: Isometry3<f64>,
@@ -91,7 +89,7 @@ pub enum FaultAction {
     },
     /// Measured states get lost.
     DroppedSamples {
-        /// The share.
+        /// Probability that a reading is lost.
         share: f64,
     },
 }
@@ -104,7 +102,7 @@ pub(super) enum Slot {
     Wires(usize),
     Torque(usize),
     Resistance(usize),
-    Payload,
+    RunPayload,
     Tool,
     Latency,
     Dropped,
@@ -119,7 +117,7 @@ impl FaultAction {
             Self::SwappedJoints { joints } => joints.map(Slot::Wires).to_vec(),
             Self::StuckJoint { joint } | Self::AddedFriction { joint, .. } => vec![Slot::Resistance(joint)],
             Self::ScaledTorque { joint, .. } => vec![Slot::Torque(joint)],
-            Self::WrongPayload { .. } => vec![Slot::Payload],
+            Self::WrongPayload { .. } => vec![Slot::RunPayload],
             Self::ShiftedTool { .. } => vec![Slot::Tool],
             Self::Latency { .. } => vec![Slot::Latency],
             Self::DroppedSamples { .. } => vec![Slot::Dropped],
@@ -152,7 +150,7 @@ pub(super) fn describe(
     (clock, steps): (&RunClock, (u64, u64)),
 ) -> RunFault {
     let joint = |coordinate: usize| robot.joint(robot.movable_joints()[coordinate]);
-    let unit = |coordinate: usize| joint(coordinate).kind.unit();
+    let unit = |coordinate: usize| joint(coordinate).kind.si_unit();
     let (mut joints, mut link) = (Vec::new(), None);
     let values = match action {
         FaultAction::EncoderOffset { joint, offset } => {

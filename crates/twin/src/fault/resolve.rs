@@ -1,34 +1,34 @@
 //! The faults of a scenario against its robot: names, units, ranges and times, each error at its place.
 
-use congruent_description::{
-    Diagnostic, Inertia, JointKind, LinkIndex, Robot, RobotDescription,
+use congruent_description::{CarriedBody, Inertia, JointKind, LinkIndex, Robot, RobotDescription};
+use congruent_input::{
+    Diagnostic, Findings,
     display::{number, quantity, quantity_in_full},
     units::Unit,
 };
-use congruent_simulation::CarriedBody;
+use congruent_monitors::RunClock;
+use congruent_motion::moving_joint;
+use congruent_scenario::{
+    AddedFrictionFault, ControllerKind, FaultKind, FaultSettings, FaultTime, FilePlace, PoseSettings,
+    ShiftedToolFault, WrongPayloadFault,
+};
 use nalgebra::{Isometry3, Matrix3, Translation3};
 
 use super::planned::{FaultAction, PlannedFault, describe};
-use crate::{
-    scenario::{
-        AddedFrictionFault, FaultKind, FaultSettings, FaultTime, FilePlace, PoseSettings, ShiftedToolFault,
-        WrongPayloadFault,
-    },
-    setup::{LARGEST_M, RunClock, moving_joint},
-};
+use crate::setup::LARGEST_M;
 
-/// What is less means nothing, in SI: checks of agreement allow 1 nm and 1 nrad.
+/// Smaller values have no effect, in SI units: checks of agreement allow 1 nm and 1 nrad.
 const LEAST: f64 = 1e-9;
-/// Most friction, N m, N, and of each rad/s or m/s. Kind: numerics; it holds any arm still.
+/// Largest friction, N m or N, and per rad/s or m/s. Kind: numerics; it holds any arm.
 const MOST_FRICTION: f64 = 1e9;
 /// Largest share of the effort that an actuator may exert.
 const LARGEST_SHARE: f64 = 10.0;
-/// Heaviest unknown payload, times the mass of the robot. Kind: physics; what is heavier is no mistake that a run can follow: the
-/// drives hold a small part of it, and the arm falls within some steps.
+/// Largest undeclared payload, times the mass of the robot. Kind: physics; with a heavier payload the drives hold a small part
+/// of it, and the arm falls within some steps.
 const HEAVIEST_PART: f64 = 100.0;
-/// How far a latency may be from whole steps, as a part of a step: digits of files.
+/// Largest deviation of a latency from a whole number of steps, in steps. Kind: digits of files.
 const WHOLE_STEPS: f64 = 1e-6;
-/// Longest latency, in steps: the readings of all of them are kept.
+/// Longest latency, in steps: the readings of all steps of a latency are in memory.
 const MOST_DELAYED: f64 = 1e5;
 
 /// All faults of a scenario, or every finding.
@@ -36,8 +36,8 @@ pub(crate) fn resolve(
     (settings, place): (&[FaultSettings], FilePlace<'_>),
     description: &RobotDescription,
     clock: &RunClock,
-    controller: &str,
-) -> Result<Vec<PlannedFault>, Vec<Diagnostic>> {
+    controller: ControllerKind,
+) -> Result<Vec<PlannedFault>, Findings> {
     let (mut planned, mut errors) = (Vec::<PlannedFault>::new(), Vec::new());
     for (index, fault) in settings.iter().enumerate() {
         let place = place.item(index);
@@ -50,7 +50,7 @@ pub(crate) fn resolve(
             Err(error) => errors.push(error),
         }
     }
-    if errors.is_empty() { Ok(planned) } else { Err(errors) }
+    if errors.is_empty() { Ok(planned) } else { Err(errors.into()) }
 }
 
 /// Two faults that set the same thing at the same time.
@@ -61,8 +61,8 @@ fn excluded(fault: &PlannedFault, before: &[PlannedFault]) -> Option<Diagnostic>
     })?;
     let line = other.line.map_or(String::new(), |line| format!(" of line {line}"));
     let (kind, known) = (fault.described.kind, other.described.kind);
-    let message = format!("{kind} excludes {known}{line} at the same time");
-    let help = "let one end (`until_s`) before the other begins (`at_s`), or leave one out";
+    let message = format!("{kind} and {known}{line} exclude each other at the same time");
+    let help = "let one end (`until_s`) before the other begins (`at_s`), or remove one of them";
     Some(Diagnostic::error("scenario::faults_exclude", message).with_help(help))
 }
 
@@ -73,7 +73,7 @@ struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    fn planned(&self, fault: &FaultSettings, controller: &str) -> Result<PlannedFault, Diagnostic> {
+    fn planned(&self, fault: &FaultSettings, controller: ControllerKind) -> Result<PlannedFault, Diagnostic> {
         let kind = fault.kind();
         let (from_step, until_step) = self.steps(fault.time())?;
         let action = self.action(fault)?;
@@ -88,7 +88,7 @@ impl Resolver<'_> {
         let FaultTime { at_s, until_s } = time;
         let duration_s = self.clock.duration_s();
         let refused = |key: &str, message: String| {
-            let help = format!("the run takes {duration_s} s; a fault begins before its end");
+            let help = format!("a fault must begin before the end of the run at {duration_s} s");
             Err(self.place.key(key).mark(Diagnostic::error("scenario::fault_time", message).with_help(help)))
         };
         if !(at_s.is_finite() && at_s >= 0.0 && at_s < duration_s) {
@@ -152,24 +152,24 @@ impl Resolver<'_> {
     fn whole_steps(&self, time_s: f64) -> Result<usize, Diagnostic> {
         let step_s = self.clock.step_s;
         let is_sound = |time_s: f64| time_s > 0.0 && time_s < self.clock.duration_s();
-        self.within("time_s", time_s, is_sound, "a time above 0 and below that of the run")?;
+        self.within("time_s", time_s, is_sound, "a time above 0 and below the duration of the run")?;
         let steps = time_s / step_s;
         let refused = |message: String, help: String| {
             let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
             Err(self.place.key("time_s").mark(error))
         };
         if (steps - steps.round()).abs() > WHOLE_STEPS || steps < 0.5 {
-            let message = format!("time_s = {time_s} is {} steps of {step_s} s", number(steps));
+            let message =
+                format!("time_s = {time_s} is {} steps of {step_s} s, not a whole number", number(steps));
             let near = [steps.floor(), steps.ceil()].into_iter().filter(|steps| *steps >= 1.0);
             let near: Vec<String> = near.map(|steps| quantity_in_full(steps * step_s, "s")).collect();
             let near = near.join(" or ");
-            let help =
-                format!("a latency is whole steps: give {near}, or another `step_s` under [simulation]");
+            let help = format!("give {near}, or another `step_s` under [simulation]");
             return refused(message, help);
         }
         if steps > MOST_DELAYED {
-            let message = format!("time_s = {time_s} is {} steps, more than {MOST_DELAYED}", number(steps));
-            return refused(message, "the readings of all of them are kept: give less".to_owned());
+            let message = format!("time_s = {time_s} is {} steps, limit <= {MOST_DELAYED}", number(steps));
+            return refused(message, "give a shorter latency, or a longer `step_s`".to_owned());
         }
         Ok(usize::try_from(nearest_step(time_s, step_s)).unwrap_or(usize::MAX))
     }
@@ -192,7 +192,7 @@ impl Resolver<'_> {
             given.filter_map(|(index, (key, value))| Some((index, (key, value?)))).collect();
         let fitting = if self.is_prismatic(joint) { [keys[2], keys[3]] } else { [keys[0], keys[1]] };
         let [(index, (key, value))] = given[..] else {
-            let message = format!("{} values are given, one is needed", given.len());
+            let message = format!("the fault has {} values, but needs exactly one", given.len());
             let help = format!("give `{}` or `{}`", fitting[0], fitting[1]);
             let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
             return Err(self.place.mark(error));
@@ -261,8 +261,9 @@ impl Resolver<'_> {
         let robot_kg: f64 = masses.map(|inertia| inertia.mass_kg).sum();
         if fault.mass_kg > HEAVIEST_PART * robot_kg {
             let (mass, limit) = (quantity(fault.mass_kg, "kg"), quantity(HEAVIEST_PART * robot_kg, "kg"));
-            let message =
-                format!("mass_kg = {mass}: more than {limit}, {HEAVIEST_PART} times the robot's own");
+            let message = format!(
+                "mass_kg = {mass}, limit <= {limit}, which is {HEAVIEST_PART} times the mass of the robot"
+            );
             let error = Diagnostic::error("scenario::fault_value", message);
             return Err(self
                 .place
@@ -275,8 +276,8 @@ impl Resolver<'_> {
             self.within("com_m", value, |value| value.abs() <= LARGEST_M, &range)?;
         }
         if robot.body(*tip) == robot.root() {
-            let error = Diagnostic::error("scenario::fault_no_effect", "the tool does not move");
-            return Err(self.place.mark(error.with_help("name another `tip` in the robot file")));
+            let error = Diagnostic::error("scenario::fault_no_effect", "no effect: no joint moves the tool");
+            return Err(self.place.mark(error.with_help("choose another `tip` in the robot file")));
         }
         let tip_from_tcp = tip_from_tcp.unwrap_or_else(Isometry3::identity);
         let com_in_tip = tip_from_tcp * nalgebra::Point3::from(com_in_tcp);
@@ -294,14 +295,16 @@ impl Resolver<'_> {
         let tip_from_shifted = pose.isometry(self.place)?;
         let shift_m = tip_from_shifted.translation.vector.norm();
         if shift_m + tip_from_shifted.rotation.angle() < LEAST {
-            let error = Diagnostic::error("scenario::fault_value", "the tool is not shifted");
-            let help =
-                "give `xyz_m` or `xyz_mm`, `rpy_deg` or `rpy_rad`, not all of them 0; a whole turn is none";
+            let error = Diagnostic::error(
+                "scenario::fault_value",
+                "fault `shifted_tool` has no effect: its shift is 0",
+            );
+            let help = "give `xyz_m` or `xyz_mm`, `rpy_deg` or `rpy_rad`, not all 0; a full turn does not change the pose";
             return Err(self.place.mark(error.with_help(help)));
         }
         if shift_m > LARGEST_M {
             let message =
-                format!("the tool is shifted by {}, more than {LARGEST_M} m", quantity(shift_m, "m"));
+                format!("the tool is shifted by {}, limit <= {LARGEST_M} m", quantity(shift_m, "m"));
             return Err(self.place.mark(Diagnostic::error("scenario::fault_value", message)));
         }
         let (robot, tip) = (&self.description.robot, self.description.tip);
@@ -324,15 +327,15 @@ impl Resolver<'_> {
         let message = if joints[0] == joints[1] {
             format!("joint \"{}\" is exchanged with itself", names[0])
         } else if self.is_prismatic(joints[0]) != self.is_prismatic(joints[1]) {
-            "a joint that turns cannot be exchanged with one that slides".to_owned()
+            "a turning joint cannot be exchanged with a sliding joint".to_owned()
         } else {
             return Ok(FaultAction::SwappedJoints { joints });
         };
-        Err(place.mark(Diagnostic::error("scenario::fault_value", message).with_help("name another joint")))
+        Err(place.mark(Diagnostic::error("scenario::fault_value", message).with_help("choose another joint")))
     }
 
-    /// A fault that can have no effect is an error: the run would say nothing about it.
-    fn has_effect(&self, kind: FaultKind, controller: &str) -> Result<(), Diagnostic> {
+    /// A fault that cannot have an effect is an error: the run would test nothing.
+    fn has_effect(&self, kind: FaultKind, controller: ControllerKind) -> Result<(), Diagnostic> {
         let needs_forces = matches!(
             kind,
             FaultKind::LostTorque
@@ -342,8 +345,10 @@ impl Resolver<'_> {
         );
         let needs_commands = matches!(kind, FaultKind::LostTorque | FaultKind::ScaledTorque);
         let why = match controller {
-            "kinematic" if needs_forces => "controller \"kinematic\" places the robot without forces",
-            "passive" if needs_commands => "controller \"passive\" asks the actuators for nothing",
+            ControllerKind::Kinematic if needs_forces => {
+                "controller \"kinematic\" places the robot without forces"
+            }
+            ControllerKind::Passive if needs_commands => "controller \"passive\" commands no efforts",
             _ => return Ok(()),
         };
         let message = format!("{kind} has no effect: {why}");

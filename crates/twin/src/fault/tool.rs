@@ -1,4 +1,4 @@
-//! A tool that stands elsewhere on the flange.
+//! A tool at another pose on the flange.
 
 use nalgebra::Isometry3;
 

@@ -21,7 +21,7 @@ impl Delay {
         Self { last: vec![Reading::new(dof); steps + 1], next: 0, is_empty: true }
     }
 
-    /// Takes a reading. This goes on without a fault too: what arrives late has been on its way before.
+    /// Takes a reading. This goes on without a fault too: what arrives late has been sent before.
     pub(super) fn take(&mut self, reading: &Reading) {
         if std::mem::take(&mut self.is_empty) {
             // Before the first reading the robot stood where that shows it.
@@ -45,7 +45,7 @@ pub(super) struct Loss {
 }
 
 impl Loss {
-    /// `stream` tells the faults of one scenario apart.
+    /// `stream` distinguishes the faults of one scenario.
     pub(super) fn new(share: f64, seed: u64, stream: u64) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         generator.set_stream(stream);

@@ -1,13 +1,12 @@
-//! What a run costs, if that is more than its author may expect: said before it starts.
+//! A warning before a run that takes longer than its author may expect.
 
-use congruent_description::{Diagnostic, display::number};
-
-use super::clock::RunClock;
+use congruent_input::{Diagnostic, display::number};
+use congruent_monitors::RunClock;
 
 /// Time of a physics step for each joint's square and cube, s: the engine factors the mass matrix in every step. Kind:
 /// fitted to chains within a third; 100 joints 14 ms, 200 joints 70 ms, 300 joints 240 ms, 500 joints 580 ms.
 const STEP_S: [f64; 2] = [5e-7, 5e-9];
-/// A run that takes longer is said to. Unit: s of computing; kind: choice.
+/// Computing time above which a warning is given. Unit: s; kind: choice.
 const LONG_S: f64 = 60.0;
 
 /// A warning if the physics takes long.
@@ -17,13 +16,14 @@ pub(super) fn long_run(joints: usize, clock: &RunClock) -> Option<Diagnostic> {
     let run_s = step_s * clock.duration_s() / clock.step_s;
     (run_s > LONG_S).then(|| {
         let message = format!(
-            "a physics step of {joints} joints takes about {} ms, and its {} steps about {} minutes: the time of a step grows with the cube of the joints",
+            "the run takes about {2} minutes: {1} steps of about {0} ms with {joints} joints (the time of a step grows with the \
+             cube of their number)",
             number(step_s * 1e3),
             clock.steps,
             number((run_s / 60.0).ceil())
         );
         Diagnostic::warning("scenario::long_run", message)
-            .with_help("a longer step_s, a shorter duration_s, or a robot with fewer moving joints takes less")
+            .with_help("give a longer step_s or a shorter duration_s, or use a robot with fewer moving joints")
     })
 }
 
@@ -42,7 +42,7 @@ mod tests {
         assert_eq!(long_run(7, &clock(1_000_000)), None);
         assert_eq!(long_run(500, &clock(50)), None);
         let message = long_run(500, &clock(10_000)).unwrap().message;
-        let expected = "a physics step of 500 joints takes about 750 ms, and its 10000 steps about 125 minutes: the time of a step grows with the cube of the joints";
+        let expected = "the run takes about 125 minutes: 10000 steps of about 750 ms with 500 joints (the time of a step grows with the cube of their number)";
         assert_eq!(message, expected);
     }
 }

@@ -1,10 +1,9 @@
 //! `[output]` against the clock.
 
-use congruent_description::Diagnostic;
+use congruent_input::Diagnostic;
+use congruent_scenario::{FilePlace, OutputSettings};
 
-use crate::scenario::{FilePlace, OutputSettings};
-
-/// By how much of a step a period may be beside a multiple of it: the rounding of decimal fractions. Dimensionless.
+/// Largest deviation of a period from a multiple of the step, in steps: the rounding of decimal fractions.
 const BESIDE_A_MULTIPLE: f64 = 1e-6;
 
 /// Whether the settings fit each other and the step.
@@ -15,17 +14,16 @@ pub(super) fn check(settings: &OutputSettings, place: FilePlace<'_>, step_s: f64
         let message = "trajectory_period_s is given, but no trajectory is written";
         return Err(mark(
             Diagnostic::error("scenario::output", message)
-                .with_help("add trajectory = \"csv\" or \"parquet\", or leave the period out"),
+                .with_help("add trajectory = \"csv\" or \"parquet\", or remove the period"),
         ));
     }
     let steps = period_s / step_s;
     if (steps - steps.round()).abs() > BESIDE_A_MULTIPLE || steps.round() < 1.0 {
-        let message =
-            format!("trajectory_period_s = {period_s:?} is no multiple of the step, step_s = {step_s:?}");
+        let message = format!("trajectory_period_s = {period_s:?} is not a multiple of step_s = {step_s:?}");
         let near_s = steps.round().max(1.0) * step_s;
         return Err(mark(
             Diagnostic::error("scenario::output", message)
-                .with_help(format!("rows are samples of the run; {near_s:?} is the nearest multiple")),
+                .with_help(format!("the nearest multiple is {near_s:?}")),
         ));
     }
     Ok(())

@@ -2,32 +2,31 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{
-    Diagnostic, Diagnostics, FileAccess, InputFile, Robot, RobotDescription, RobotQ, Use, load_robot_with,
-};
+use congruent_description::{Obstacle, Robot, RobotDescription, RobotQ, load_robot_with};
 use congruent_dynamics::JointResistance;
+use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile};
 use congruent_kinematics::move_inside_limits;
-use congruent_simulation::Obstacle;
+use congruent_monitors::{
+    ActuatorLimits, CheckContext, RunClock, RunDynamics, RunPayload, RunningCheck, taken_too_late,
+};
+use congruent_motion::{JointTargets, MotionInput, Trajectory, motion_limits};
+use congruent_proximity::{MovingBody, ObstacleMobility, Zone, simplified_hulls};
+use congruent_scenario::{
+    ControllerKind, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile, ScenarioFolder,
+    StartSettings, numbers,
+};
 
 use super::{
-    actuation::{Actuation, ActuatorLimits, ControllerSetup, SensorSetup},
+    actuation::{Actuation, ControllerSetup, SensorSetup},
     checks::{default_checks, examine_checks, needs_shapes},
-    clock::RunClock,
     cost::long_run,
-    declared_dynamics::DeclaredDynamics,
-    joint_targets::JointTargets,
-    motion_limits, numbers, output,
-    payload::{Payload, taken_too_late},
-    surroundings::{FirstStep, Surroundings, Zone, mobility, overlaps, zones},
-    written_out::write_out,
+    default_values::write_out,
+    output,
+    surroundings::{FirstStep, Surroundings, mobility},
 };
 use crate::{
-    bodies::MovingBody,
     fault::{PlannedFault, resolve},
-    monitor::{CheckContext, RunningCheck},
-    motion::{MotionInput, Trajectory},
-    proximity::{ObstacleMobility, cut_hulls},
-    scenario::{FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile, ScenarioFolder, StartSettings},
+    setup::surroundings::{overlaps, zones},
 };
 
 /// A scenario checked against its robot. It is plain data: each run builds its own physics, controller and
@@ -45,31 +44,31 @@ pub struct RunSetup {
     pub inputs: Vec<InputFile>,
     /// The robot with its model.
     pub description: RobotDescription,
-    /// Clock and gravity.
+    /// Length of a step, number of steps, and gravity.
     pub clock: RunClock,
     /// Configuration at the start.
     pub start: RobotQ,
-    /// The motions.
+    /// The motions, planned from the start on.
     pub trajectory: Trajectory,
-    /// The controller.
+    /// The controller with one gain for each joint.
     pub controller: ControllerSetup,
-    /// Bodies that stand around the robot, in the root link's frame.
+    /// Obstacles with their poses at the start, in the root link's frame.
     pub obstacles: Vec<Obstacle>,
-    /// Space that named links may not enter, in the root link's frame.
+    /// Zones that named links may not enter, in the root link's frame.
     pub zones: Vec<Zone>,
-    /// Obstacles that move.
+    /// Obstacles that move along a path or are carried.
     pub bodies: Vec<MovingBody>,
-    /// What links carry for a time, in addition to their own masses: known to controllers and checks.
-    pub payloads: Vec<Payload>,
-    /// What resists each moving joint: known to controllers and checks.
+    /// Bodies that links carry for a time, in addition to their own masses: known to controllers and checks.
+    pub payloads: Vec<RunPayload>,
+    /// Damping, dry friction and armature of each moving joint: known to controllers and checks.
     pub resistances: Vec<JointResistance>,
-    /// Faults of the twin, which nobody knows of.
+    /// Faults of the twin, unknown to controllers and checks.
     pub faults: Vec<PlannedFault>,
     /// Resolution and noise of the encoders.
     pub sensors: SensorSetup,
-    /// What is suspicious in the scenario; the robot's own warnings are in its description.
+    /// Warnings about the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
-    /// Obstacles that the physics would throw away from the robot.
+    /// Errors for obstacles that overlap the robot at the start; they matter for a simulation only.
     overlaps: Vec<Diagnostic>,
     /// Lines of the scenario's own checks; the default ones follow them.
     check_lines: Vec<Option<usize>>,
@@ -80,7 +79,7 @@ impl RunSetup {
     ///
     /// # Errors
     /// Every finding, if at least one is an error.
-    pub fn load(path: &Path, overrides: &[Override]) -> Result<Self, Vec<Diagnostic>> {
+    pub fn load(path: &Path, overrides: &[Override]) -> Result<Self, Findings> {
         Self::load_with(path, overrides, &FileAccess::default())
     }
 
@@ -88,47 +87,42 @@ impl RunSetup {
     ///
     /// # Errors
     /// As [`RunSetup::load`].
-    pub fn load_with(
-        path: &Path,
-        overrides: &[Override],
-        access: &FileAccess,
-    ) -> Result<Self, Vec<Diagnostic>> {
+    pub fn load_with(path: &Path, overrides: &[Override], access: &FileAccess) -> Result<Self, Findings> {
         let own = access.fresh();
         let loaded = Self::load_noting(path, overrides, &own);
-        // What was read before it was refused is an input, too.
+        // Also after an error: files that were read before it are inputs, too.
         access.add(&own.files());
         loaded
     }
 
     /// The same; `access` notes what is read.
-    fn load_noting(
-        path: &Path,
-        overrides: &[Override],
-        access: &FileAccess,
-    ) -> Result<Self, Vec<Diagnostic>> {
+    fn load_noting(path: &Path, overrides: &[Override], access: &FileAccess) -> Result<Self, Findings> {
         let file = ScenarioFile::read_with(path, overrides, access)?;
-        let access = access.of_file(path)?;
+        let access = access.inside_project_of(path)?;
         let in_file = |findings: Vec<Diagnostic>| findings.into_iter().map(|finding| file.mark(finding));
         let robot = file.robot_path();
-        let description =
-            match access.check(&robot).map_err(Vec::from).and_then(|()| load_robot_with(&robot, &access)) {
-                Ok(description) => description,
-                Err(mut findings) => {
-                    findings.extend(in_file(vec![robot_refused(&file)]));
-                    findings.extend(file.findings().iter().cloned());
-                    return Err(findings);
-                }
-            };
+        let description = match access
+            .check(&robot)
+            .map_err(Findings::from)
+            .and_then(|()| load_robot_with(&robot, &access))
+        {
+            Ok(description) => description,
+            Err(mut findings) => {
+                findings.extend([file.mark(robot_refused(&file))]);
+                findings.extend(file.findings().iter().cloned());
+                return Err(findings);
+            }
+        };
         let folder = file.folder();
         let folder = ScenarioFolder { path: &folder, access: &access };
         let built = Self::build(file.scenario.clone(), description, (file.place(), folder));
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
-            Ok(_) => return Err(file.findings().to_vec()),
+            Ok(_) => return Err(file.findings().to_vec().into()),
             Err(findings) => {
                 let mut all = Diagnostics::default();
-                all.extend(file.findings().iter().cloned().chain(in_file(findings)));
-                return Err(all.into_vec());
+                all.extend(file.findings().iter().cloned().chain(in_file(findings.into_vec())));
+                return Err(all.into());
             }
         };
         let mut warnings = Diagnostics::default();
@@ -145,10 +139,10 @@ impl RunSetup {
     ///
     /// # Errors
     /// Every finding, if at least one is an error.
-    pub fn new(scenario: Scenario, description: RobotDescription) -> Result<Self, Vec<Diagnostic>> {
+    pub fn new(scenario: Scenario, description: RobotDescription) -> Result<Self, Findings> {
         let wrong = numbers::check(&scenario);
         if !wrong.is_empty() {
-            return Err(wrong);
+            return Err(wrong.into());
         }
         let folder = PathBuf::from(scenario.folder.clone().unwrap_or_default());
         let folder = ScenarioFolder { path: &folder, access: &FileAccess::default() };
@@ -159,40 +153,40 @@ impl RunSetup {
         mut scenario: Scenario,
         description: RobotDescription,
         (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
-    ) -> Result<Self, Vec<Diagnostic>> {
+    ) -> Result<Self, Findings> {
         let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
         let own_checks = scenario.check.len();
         scenario.check.extend(default_checks(&scenario, &description.robot));
         let robot = &description.robot;
         found.keep(check_head(&scenario, place));
-        let written = keep_all(&mut found, start(&scenario.start, place.key("start"), robot));
+        let written = found.keep(start(&scenario.start, place.key("start"), robot));
         let start = inside_limits(written, robot, &mut warnings);
         let trajectory = trajectory(&scenario, (place, folder), (&description, &start), &mut warnings);
-        let trajectory = keep_all(&mut found, trajectory);
-        // Motions that cannot be planned are no fault of the clock.
+        let trajectory = found.keep(trajectory);
+        // Without a plan the duration as written stands in, so that the clock is checked in the same call.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
         let clock = place.key("simulation");
         let clock = found.keep(RunClock::new(&scenario.simulation, clock, motions_s, &mut warnings));
         warnings.extend(clock.iter().flat_map(|clock| taken_too_late(&scenario, place, clock.duration_s())));
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
-        let actuation = keep_all(&mut found, Actuation::new(&scenario, (place, folder), &description));
+        let actuation = found.keep(Actuation::new(&scenario, (place, folder), &description));
         let planned = (&description, trajectory.as_ref());
         let Surroundings { obstacles, moving, payloads: held } =
             Surroundings::new(&scenario, (place, folder), planned, &mut found);
         let mobility = mobility(&moving, scenario.obstacle.len());
-        let zones = keep_all(&mut found, zones(&scenario.zone, place.key("zone"), robot));
+        let zones = found.keep(zones(&scenario.zone, place.key("zone"), robot));
         warnings.extend(examine_checks(&scenario, place, (&description, &mobility), &mut found));
         let faults = clock.as_ref().and_then(|clock| {
             let written = (scenario.fault.as_slice(), place.key("fault"));
-            keep_all(&mut found, resolve(written, &description, clock, &scenario.controller.kind))
+            found.keep(resolve(written, &description, clock, scenario.controller.kind))
         });
         let (Some(trajectory), Some(clock), Some(actuation), Some(obstacles), Some(zones), Some(faults)) =
             (trajectory, clock, actuation, obstacles, zones, faults)
         else {
-            return Err(found.into_vec());
+            return Err(found.into());
         };
         if found.has_error() {
-            return Err(found.into_vec());
+            return Err(found.into());
         }
         write_out(&mut scenario, &description, (&clock, &start, folder));
         let check_lines = (0..own_checks).map(|at| place.key("check").item(at).line()).collect();
@@ -223,20 +217,20 @@ impl RunSetup {
         .with_costs())
     }
 
-    /// Warns of what takes long, or is left out since it would.
+    /// Adds warnings about long computing times and simplified hulls.
     fn with_costs(mut self) -> Self {
-        if self.scenario.controller.kind != "kinematic" {
+        if self.scenario.controller.kind != ControllerKind::Kinematic {
             self.warnings.extend(long_run(self.description.robot.dof(), &self.clock));
         }
         if needs_shapes(&self.scenario) {
-            self.warnings.extend(cut_hulls(&self.description, &self.obstacles));
+            self.warnings.extend(simplified_hulls(&self.description, &self.obstacles));
         }
         self
     }
 
-    /// Finds the obstacles that overlap the robot at the start; playback knows no forces.
+    /// Finds the obstacles that overlap the robot at the start; the controller `kinematic` moves it without forces.
     fn with_overlaps(mut self, places: FilePlace<'_>) -> Self {
-        if self.scenario.controller.kind != "kinematic" {
+        if self.scenario.controller.kind != ControllerKind::Kinematic {
             let Self { start, obstacles, bodies, clock, .. } = &self;
             let first = FirstStep { q: start, obstacles, moving: bodies, step_s: clock.step_s };
             self.overlaps = overlaps(first, &self.description.robot, places);
@@ -247,17 +241,17 @@ impl RunSetup {
     /// The same if it can be simulated: another source of joint states needs no inertias, and pushes no obstacle away.
     ///
     /// # Errors
-    /// What is missing, or overlaps.
-    pub fn for_simulation(self) -> Result<Self, Vec<Diagnostic>> {
+    /// Every error that a simulation has: a missing inertia, or an obstacle that overlaps a link at the start.
+    pub fn for_simulation(self) -> Result<Self, Findings> {
         self.examine_for_simulation()?;
         Ok(self)
     }
 
-    /// What [`RunSetup::for_simulation`] refuses.
-    pub(crate) fn examine_for_simulation(&self) -> Result<(), Vec<Diagnostic>> {
+    /// The errors of [`RunSetup::for_simulation`], without consuming the setup.
+    pub(crate) fn examine_for_simulation(&self) -> Result<(), Findings> {
         let mut found = self.overlaps.clone();
-        found.extend(self.description.for_use(Use::Physics).err().into_iter().flatten());
-        if found.is_empty() { Ok(()) } else { Err(found) }
+        found.extend(self.description.check_capability(Capability::Physics).err().into_iter().flatten());
+        if found.is_empty() { Ok(()) } else { Err(found.into()) }
     }
 
     /// The checks, each before its first sample.
@@ -282,14 +276,14 @@ impl RunSetup {
 
     /// The declared dynamics: resistances, gravity and payloads are those of the scenario, whatever a fault changes in
     /// the physics.
-    pub fn declared_dynamics(&self) -> DeclaredDynamics<'_> {
+    pub fn declared_dynamics(&self) -> RunDynamics<'_> {
         let gravity = self.clock.gravity_in_world;
-        DeclaredDynamics::new(&self.description.robot, &self.payloads, &self.resistances, gravity)
+        RunDynamics::new(&self.description.robot, &self.payloads, &self.resistances, gravity)
     }
 
-    /// What each joint's actuator can do.
-    pub(crate) fn actuator_limits(&self) -> Vec<ActuatorLimits> {
-        ActuatorLimits::of(&self.description.robot, &self.scenario.joints)
+    /// Largest effort and speed of each joint's actuator.
+    pub fn actuator_limits(&self) -> Vec<ActuatorLimits> {
+        ActuatorLimits::for_joints(&self.description.robot, &self.scenario.joints)
     }
 }
 
@@ -299,21 +293,16 @@ fn trajectory(
     (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
     (description, start): (&RobotDescription, &RobotQ),
     warnings: &mut Vec<Diagnostic>,
-) -> Result<Trajectory, Vec<Diagnostic>> {
+) -> Result<Trajectory, Findings> {
     let limits = motion_limits::build(&scenario.limits, place.key("limits"), description)?;
     let places = place.key("motion");
     let input = MotionInput { motions: &scenario.motion, places, limits: &limits, folder };
     Trajectory::new(input, description, start, warnings)
 }
 
-/// The time of the motions as far as the scenario says it; a second for each that does not.
+/// The duration of the motions as the scenario gives it; 1 s for each motion without one.
 fn written_s(scenario: &Scenario) -> f64 {
     scenario.motion.iter().map(|motion| motion.duration_s().unwrap_or(1.0)).sum()
-}
-
-/// The value of `result`; its faults are kept in `findings`.
-fn keep_all<T>(findings: &mut Diagnostics, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
-    result.map_err(|errors| findings.extend(errors)).ok()
 }
 
 fn robot_refused(file: &ScenarioFile) -> Diagnostic {
@@ -324,11 +313,11 @@ fn robot_refused(file: &ScenarioFile) -> Diagnostic {
     file.place().key("robot").mark(refused)
 }
 
-/// What a file's reader has checked already, for a scenario that was made in code.
+/// The checks that the reader of a file does, for a scenario that was made in code.
 fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnostic> {
     let Scenario { schema_version, name, seed, .. } = scenario;
     let error = if *schema_version != SCHEMA_VERSION {
-        Diagnostic::error("scenario::version", format!("schema_version = {schema_version} is not known"))
+        Diagnostic::error("scenario::version", format!("schema_version = {schema_version} is not supported"))
     } else if name.trim().is_empty() {
         Diagnostic::error("scenario::name", "the name is empty")
     } else if i64::try_from(*seed).is_err() {
@@ -340,18 +329,18 @@ fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnosti
     Err(error)
 }
 
-fn start(settings: &StartSettings, place: FilePlace<'_>, robot: &Robot) -> Result<RobotQ, Vec<Diagnostic>> {
+fn start(settings: &StartSettings, place: FilePlace<'_>, robot: &Robot) -> Result<RobotQ, Findings> {
     let targets = JointTargets::from(settings).resolve(robot, place)?;
     let mut q = RobotQ::zeros(robot.dof());
     let mut errors = Vec::new();
     for target in targets {
         if let Some(message) = target.beyond_limits(robot, "start") {
             let error = Diagnostic::error("scenario::start_limit", message);
-            errors.push(crate::scenario::mark(error, target.span.clone()));
+            errors.push(congruent_scenario::mark(error, target.span.clone()));
         }
         target.put(robot, &mut q);
     }
-    if errors.is_empty() { Ok(q) } else { Err(errors) }
+    if errors.is_empty() { Ok(q) } else { Err(errors.into()) }
 }
 
 /// The start that is written, or zero, inside the limits of the joints.
@@ -369,17 +358,17 @@ fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item
         let (lower, upper) = joint.position_range().filter(|_| joint.mimic.is_none())?;
         (!(lower..=upper).contains(&q)).then(|| {
             let message = format!(
-                "joint \"{}\" has no start and 0 is outside [{lower}, {upper}]: it starts at {} {}",
+                "joint \"{}\" has no start position, and 0 is outside its range [{lower}, {upper}]: it starts at {} {}",
                 joint.name,
                 q.clamp(lower, upper),
                 joint.kind.unit()
             );
             Diagnostic::warning("scenario::start_default", message)
                 .one_of(
-                    "joints have no start, and 0 is outside of their limits: they start at the limit",
+                    "joints have no start position, and 0 is outside their ranges: they start at a limit",
                     &joint.name,
                 )
-                .with_help("name it under [start]")
+                .with_help("give its position under [start]")
         })
     })
 }

@@ -1,44 +1,41 @@
-//! How far the actuators of a run were used, and how long their limits held them back.
+//! Use of the actuators in a run: largest efforts, and times at their limits.
 
-use congruent_description::{Robot, display::quantity};
+use congruent_description::Robot;
+use congruent_input::{SiUnit, display::quantity};
+use congruent_monitors::ActuatorLimits;
 use congruent_simulation::World;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    setup::ActuatorLimits,
-    words::{Word, known_word},
-};
-
 /// The use of one joint's actuator in a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ActuatorUse {
-    /// The joint.
+    /// Name of the joint.
     pub joint: String,
-    /// Largest effort, as a magnitude.
+    /// Largest magnitude of the effort.
     pub largest_effort: f64,
-    /// The largest that it is allowed; `None` if it has no limit.
+    /// Limit of the effort; `None` if there is no limit.
     pub effort_limit: Option<f64>,
-    /// `N m` or `N`.
-    #[serde(deserialize_with = "known_word")]
-    pub unit: Word,
-    /// Share of the steps in which it asked for more than its largest effort.
+    /// Unit of the efforts: `N m` or `N`.
+    #[schemars(with = "String")]
+    pub unit: SiUnit,
+    /// Share of the steps in which the controller commanded more than the limit of the effort.
     pub at_effort_limit: f64,
-    /// Share of the steps in which it would have driven the joint faster than its largest velocity.
+    /// Share of the steps in which the actuator would have driven the joint faster than its velocity limit.
     pub at_velocity_limit: f64,
 }
 
 impl ActuatorUse {
-    /// What a limit held back, in words; `None` if none did. `duration_s` is that of the run.
+    /// The times at effort and velocity limits, in words; `None` if there were none. `duration_s` is that of the run.
     pub fn held_back(&self, duration_s: f64) -> Option<String> {
         let time = |share: f64| quantity(share * duration_s, "s");
         let limit = self.effort_limit.filter(|_| self.at_effort_limit > 0.0);
         let effort = limit.map(|limit| {
             format!(
                 "at its effort limit of {} for {}, largest {}",
-                quantity(limit, self.unit),
+                quantity(limit, self.unit.symbol()),
                 time(self.at_effort_limit),
-                quantity(self.largest_effort, self.unit)
+                quantity(self.largest_effort, self.unit.symbol())
             )
         });
         let speed = (self.at_velocity_limit > 0.0)
@@ -89,7 +86,7 @@ impl ActuatorCounts {
             joint: joint.name.clone(),
             largest_effort: count.largest_effort,
             effort_limit: (limits.effort < f64::MAX).then_some(limits.effort),
-            unit: if joint.kind.is_angular() { "N m" } else { "N" },
+            unit: if joint.kind.is_angular() { SiUnit::NewtonMetre } else { SiUnit::Newton },
             at_effort_limit: share(count.at_effort_limit),
             at_velocity_limit: share(count.at_velocity_limit),
         })

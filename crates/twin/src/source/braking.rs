@@ -1,19 +1,18 @@
-//! Brings the setpoint to rest: it goes straight on in joint space from the present commanded velocity, all joints
-//! slowing down alike, so that none exceeds its acceleration limit; then it stays.
+//! Brings the setpoint to rest: it continues on a straight line in joint space from the present commanded velocity, all joints
+//! slowing down in proportion, so that none exceeds its acceleration limit; then it stays.
 
 use congruent_description::{Joint, Robot, RobotQ};
+use congruent_monitors::verdict::StopLimit;
 
-use crate::verdict::StopLimit;
-
-/// A stop from the full speed of a joint takes this long. Kind: engineering; a URDF states velocities, and no
-/// accelerations.
+/// Duration of a stop from the velocity limit of a joint. Kind: engineering; a URDF has velocity limits, but no acceleration
+/// limits.
 const FROM_VELOCITY_S: f64 = 0.25;
-/// Of a joint without a velocity limit, rad/s^2 or m/s^2. Kind: engineering; the lowest limit of a joint of a Panda is 7.5
-/// rad/s^2 (Franka Robotics).
+/// Acceleration limit of a joint without a velocity limit, rad/s^2 or m/s^2. Kind: engineering; the lowest limit of a joint of a
+/// Panda is 7.5 rad/s^2 (Franka Robotics).
 const ACCELERATION: f64 = 7.5;
 
-/// Accelerations with which a stop slows each movable joint down, and where each is from; `declared` has infinity for
-/// joints without a declared one.
+/// Acceleration limit of each movable joint in a stop, with its origin; `declared` is infinite for joints without a declared
+/// limit.
 pub(crate) fn stop_accelerations(robot: &Robot, declared: &[f64]) -> Vec<(f64, StopLimit)> {
     let velocity = |joint: &Joint| joint.limit.and_then(|limit| limit.velocity).filter(|&limit| limit > 0.0);
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
@@ -29,7 +28,7 @@ pub(crate) fn stop_accelerations(robot: &Robot, declared: &[f64]) -> Vec<(f64, S
 #[derive(Debug, Clone)]
 pub(super) struct Braking {
     began_s: f64,
-    /// Time from the full speed to rest.
+    /// Time from the beginning to rest, the same for all joints.
     lasts_s: f64,
     from: RobotQ,
     speed: Vec<f64>,
@@ -52,10 +51,12 @@ impl Braking {
         accelerations: &[(f64, StopLimit)],
     ) -> Self {
         let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        // The joint that needs the longest time sets it for all: the path stays straight, and no limit is exceeded.
         let slowing = qd.iter().zip(accelerations).map(|(qd, (acceleration, _))| qd.abs() / acceleration);
         let unlimited = (f64::NEG_INFINITY, f64::INFINITY);
         let range = |(joint, &q): (&Joint, &f64)| {
             let (lower, upper) = joint.position_range().unwrap_or(unlimited);
+            // A setpoint that is already outside stays where it is: clamping it to the range would make it jump.
             (lower.min(q), upper.max(q))
         };
         Self {
@@ -74,24 +75,26 @@ impl Braking {
     /// Moves the setpoint to its place at `time_s`.
     pub(super) fn advance(&mut self, time_s: f64) {
         let elapsed_s = (time_s - self.began_s).min(self.lasts_s);
-        let left = if self.lasts_s > 0.0 { 1.0 - elapsed_s / self.lasts_s } else { 0.0 };
-        // The mean speed so far is between the full and the present one.
-        let way_s = elapsed_s * 0.5 * (1.0 + left);
+        let remaining = if self.lasts_s > 0.0 { 1.0 - elapsed_s / self.lasts_s } else { 0.0 };
+        // At constant deceleration the mean speed is the mean of the first and the present one: with s = 1 - t / T the
+        // displacement is v t (1 + s) / 2.
+        let mean_s = elapsed_s * 0.5 * (1.0 + remaining);
         for (joint, (from, speed)) in self.from.iter().zip(&self.speed).enumerate() {
             let (lower, upper) = self.ranges[joint];
-            let q = from + speed * way_s;
+            let q = from + speed * mean_s;
             self.q[joint] = q.clamp(lower, upper);
             let is_free = (lower..=upper).contains(&q);
             if !is_free {
-                // Between this step and the one before the speed changes by less than anyone reads.
-                self.at_end_of_range[joint].get_or_insert((speed * left).abs());
+                // The first time only; within the step before it the speed changes by less than the printed digits.
+                self.at_end_of_range[joint].get_or_insert((speed * remaining).abs());
             }
-            self.qd[joint] = if is_free { speed * left } else { 0.0 };
-            self.qdd[joint] = if is_free && left > 0.0 { -speed / self.lasts_s } else { 0.0 };
+            self.qd[joint] = if is_free { speed * remaining } else { 0.0 };
+            self.qdd[joint] = if is_free && remaining > 0.0 { -speed / self.lasts_s } else { 0.0 };
         }
     }
 
-    /// For each joint the speed, rad/s or m/s, that it lost at once at the end of its range; `None` if it slowed down as told.
+    /// For each joint the speed, rad/s or m/s, that its setpoint lost at once at the end of its range; `None` if it slowed down
+    /// within its limit.
     pub(super) fn at_end_of_range(&self) -> &[Option<f64>] {
         &self.at_end_of_range
     }

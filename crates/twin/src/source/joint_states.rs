@@ -1,63 +1,10 @@
 //! Sources of joint states: a simulation, later a log or a live robot.
 
-use congruent_description::RobotQ;
+use congruent_monitors::{JointSample, StepForces};
+use congruent_motion::{ServoResult, SlowedMotion};
 use nalgebra::Isometry3;
 
 use super::actuators::ActuatorUse;
-use crate::motion::{ServoResult, SlowedMotion};
-
-/// Positions, velocities and efforts of all movable joints of a robot at one instant.
-#[derive(Debug, Clone, Copy)]
-pub struct JointStateView<'a> {
-    /// Positions.
-    pub q: &'a RobotQ,
-    /// Velocities, rad/s or m/s; empty if the source has none.
-    pub qd: &'a [f64],
-    /// Efforts, N m or N; empty if the source has none.
-    pub effort: &'a [f64],
-}
-
-/// The commanded state of the joints.
-#[derive(Debug, Clone, Copy)]
-pub struct SetpointView<'a> {
-    /// Positions.
-    pub q: &'a RobotQ,
-    /// Velocities, rad/s or m/s.
-    pub qd: &'a [f64],
-    /// Accelerations, rad/s^2 or m/s^2; 0 during a servo, which commands none.
-    pub qdd: &'a [f64],
-}
-
-/// The joints of a robot at one instant.
-#[derive(Debug, Clone, Copy)]
-pub struct JointSample<'a> {
-    /// The true state. A source that does not know it gives the measured one.
-    pub truth: JointStateView<'a>,
-    /// The state that the robot's sensors give; it differs from the true one by the faults of encoders.
-    pub measured: JointStateView<'a>,
-    /// The commanded state; `None` if the source does not know it.
-    pub setpoint: Option<SetpointView<'a>>,
-}
-
-/// What acted on the joints in the step that led to the present instant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StepForces {
-    /// The source does not know: it has no dynamics, or was placed where it stands.
-    Unknown,
-    /// The efforts of the sample, gravity, and what resists the joints: nothing else.
-    Declared,
-    /// Perhaps the stop of a joint besides, or contact with an obstacle that is near.
-    Constrained,
-    /// Contact with an obstacle besides.
-    Contact,
-}
-
-impl StepForces {
-    /// Whether forces acted that hold the robot back where it is, and that no effort tells.
-    pub(crate) fn are_constrained(self) -> bool {
-        matches!(self, Self::Constrained | Self::Contact)
-    }
-}
 
 /// A source of joint states: sample after sample, each later than the one before.
 pub trait JointStateSource {
@@ -83,7 +30,7 @@ pub trait JointStateSource {
         Vec::new()
     }
 
-    /// What acted in the step that led to the present instant; a source knows it if it is a simulation.
+    /// The forces in the step that led to the present instant; only a simulation knows them.
     fn step_forces(&self) -> StepForces {
         StepForces::Unknown
     }

@@ -11,9 +11,7 @@ mod simulation;
 
 pub use actuators::ActuatorUse;
 pub(crate) use braking::stop_accelerations;
-pub use joint_states::{
-    JointSample, JointStateSource, JointStateView, SetpointView, SourceError, StepForces,
-};
+pub use joint_states::{JointStateSource, SourceError};
 pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;
-pub use simulation::{SimulationSnapshot, SimulationSource};
+pub use simulation::SimulationSource;

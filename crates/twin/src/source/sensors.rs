@@ -1,8 +1,8 @@
-//! The sensors of the joints: from what their encoders give to a reading, stage after stage.
+//! The sensors of the joints: from the positions of the encoders to the readings, stage after stage.
 
 use std::f64::consts::TAU;
 
-use congruent_description::{Elementary as _, RobotQ};
+use congruent_description::RobotQ;
 use congruent_simulation::MeasuredState;
 use rand_chacha::{
     ChaCha8Rng,
@@ -11,7 +11,8 @@ use rand_chacha::{
 
 use crate::setup::{RunSetup, SensorSetup};
 
-/// The stream of random numbers that is the sensors': others of the same seed are independent of it.
+/// Stream of random numbers of the sensors: independent of the other streams of the same seed, so that adding noise does not
+/// change which readings are lost.
 const STREAM: u64 = 1;
 
 /// The sensors of all joints with their last reading.
@@ -43,7 +44,8 @@ impl JointSensors {
         }
     }
 
-    /// Reads what the encoders give: noise, then the resolution of the encoder, then velocities.
+    /// Reads the encoders: noise first, since an encoder quantises the noisy position, and velocities last, since a controller
+    /// differentiates the quantised reading.
     pub(super) fn read(&mut self, q: &RobotQ, qd: &[f64]) {
         self.before_q.copy_from_slice(&self.q);
         self.q.copy_from_slice(q);
@@ -54,7 +56,7 @@ impl JointSensors {
         self.is_first = false;
     }
 
-    /// The last reading.
+    /// The last reading of all joints.
     pub(super) fn measured(&self) -> MeasuredState<'_> {
         MeasuredState { q: &self.q, qd: &self.qd }
     }
@@ -93,8 +95,9 @@ impl JointSensors {
 fn normal(random: &mut ChaCha8Rng) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "the upper 53 bits fit")]
     let mut uniform = || ((random.next_u64() >> 11) as f64 + 0.5) / 2.0_f64.powi(53);
-    let (radius, turn) = ((-2.0 * uniform().logarithm()).sqrt(), TAU * uniform());
-    radius * turn.cosine()
+    // Half a unit of 2^-53 above zero, so that the logarithm is finite.
+    let (radius, turn) = ((-2.0 * libm::log(uniform())).sqrt(), TAU * uniform());
+    radius * libm::cos(turn)
 }
 
 #[cfg(test)]

@@ -14,13 +14,14 @@ pub struct SimulatedDynamics {
     independent: Stepped,
 }
 
-/// Longest step: extrapolation leaves some 1e-11 of the acceleration, and so does the rounding of the shortest.
+/// Longest step. Kind: balance of truncation after extrapolation, about 1e-11 of the acceleration, with rounding in the shortest
+/// step, about as much.
 const LONGEST_STEP_S: f64 = 1e-4;
-/// The engine damps implicitly; this part `x` of the speed may be lost in the longest step. Extrapolation leaves a product of
-/// all shares of it, `x^5 / 1024`, of the torque of the damping, and rounding grows as the steps become shorter.
+/// Part `x` of the speed that damping may take in the longest step, since the engine damps implicitly. The error after
+/// extrapolation is the product of all shares, `x^5 / 1024`, of the damping torque; rounding grows as steps become shorter.
 const DAMPED_SHARE: f64 = 0.02;
-/// Dry friction may take this much of a speed in the longest step, rad/s and m/s: a joint that it stops within the step shows
-/// less than all of it. States that are probed have 0.2 at least.
+/// Speed that dry friction may take in the longest step, rad/s and m/s: a joint that it stops within the step shows less than the
+/// full friction. The sampled states have a speed of at least 0.2.
 const BRAKED_SPEED: f64 = 0.02;
 
 impl std::fmt::Debug for SimulatedDynamics {
@@ -43,6 +44,7 @@ impl SimulatedDynamics {
     /// # Errors
     /// As [`SimulatedDynamics::new`].
     pub fn with_part_of_step(robot: &Robot, part: f64) -> Result<Self, SimulationError> {
+        // Without limits: stops and clipped efforts would be part of the measured acceleration.
         let unlimited = robot.with_joints(|joint| joint.limit = None);
         let independent = unlimited.with_joints(|joint| joint.mimic = None);
         Ok(Self { coupled: Stepped::new(&unlimited, part)?, independent: Stepped::new(&independent, part)? })
@@ -105,6 +107,7 @@ impl Stepped {
         let (mut torques, still) = (Torque(state.tau.to_vec()), vec![0.0; state.qd.len()]);
         let mut found = [const { Vec::new() }; SHARES.len()];
         for ((world, found), share) in self.worlds.iter_mut().zip(&mut found).zip(SHARES) {
+            // Each world from the same state: the answer must not depend on the states before.
             world.set_state(state.q, state.qd)?;
             world.step(&mut torques, &Setpoint { q: state.q, qd: state.qd, qdd: &still })?;
             let step_s = self.step_s * share;
@@ -135,6 +138,7 @@ fn undamped_step_s(robot: &Robot) -> Result<f64, SimulationError> {
         return Ok(LONGEST_STEP_S);
     };
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+    // A torque t changes the speed of its joint by (M^-1)_ii t h in a step h, so damping takes the share d (M^-1)_ii h of it.
     let steps_s = joints.enumerate().map(|(row, joint)| {
         let lightness = inverse[(row, row)].abs();
         (DAMPED_SHARE / (joint.damping * lightness)).min(BRAKED_SPEED / (joint.friction * lightness))

@@ -1,24 +1,22 @@
-//! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
+//! The physics as a source of joint states: world, controller, and the setpoints of the motions.
 
-use congruent_description::Diagnostic;
 use congruent_dynamics::JointResistance;
-use congruent_simulation::{Setpoint, SimulationError, Touches, World, WorldSettings, WorldSnapshot};
+use congruent_input::Findings;
+use congruent_monitors::{JointSample, JointStateView, SetpointView, StepForces};
+use congruent_motion::{ReferenceGenerator, ServoResult, SlowedMotion};
+use congruent_proximity::MovingBodies;
+use congruent_scenario::ControllerKind;
+use congruent_simulation::{Setpoint, SimulationError, Touches, World, WorldSettings};
 use nalgebra::Isometry3;
 
 use super::{
     actuators::{ActuatorCounts, ActuatorUse},
     braking::{Braking, stop_accelerations},
     carried::CarriedPayloads,
-    joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError, StepForces},
+    joint_states::{JointStateSource, SourceError},
     sensors::JointSensors,
 };
-use crate::{
-    bodies::MovingBodies,
-    control::JointController,
-    fault::InjectedFaults,
-    motion::{ReferenceGenerator, ServoResult, SlowedMotion},
-    setup::RunSetup,
-};
+use crate::{control::JointController, fault::InjectedFaults, setup::RunSetup};
 
 /// A robot in a simulated world, driven by its controller along the motions of a scenario.
 pub struct SimulationSource<'a> {
@@ -37,25 +35,6 @@ pub struct SimulationSource<'a> {
     setup: &'a RunSetup,
 }
 
-/// The whole state of a [`SimulationSource`] at one moment.
-pub struct SimulationSnapshot<'a> {
-    world: WorldSnapshot,
-    controller: JointController<'a>,
-    reference: ReferenceGenerator<'a>,
-    faults: InjectedFaults<'a>,
-    sensors: JointSensors,
-    payloads: CarriedPayloads<'a>,
-    actuators: ActuatorCounts,
-    bodies: MovingBodies<'a>,
-    braking: Option<Braking>,
-}
-
-impl std::fmt::Debug for SimulationSnapshot<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("SimulationSnapshot").finish_non_exhaustive()
-    }
-}
-
 impl std::fmt::Debug for SimulationSource<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("SimulationSource").field("steps", &self.world.step_count()).finish_non_exhaustive()
@@ -69,7 +48,7 @@ impl<'a> SimulationSource<'a> {
     /// [`SourceError`] if the robot cannot be simulated as the scenario asks.
     pub fn new(setup: &'a RunSetup) -> Result<Self, SourceError> {
         let description = &setup.description;
-        let refused = |mut found: Vec<Diagnostic>| SourceError::new(found.swap_remove(0));
+        let refused = |found: Findings| SourceError::new(found.into_first());
         setup.examine_for_simulation().map_err(refused)?;
         let robot = &description.robot;
         let settings = WorldSettings {
@@ -81,12 +60,13 @@ impl<'a> SimulationSource<'a> {
             actuator_limits: setup.scenario.joints.enforce_limits,
         };
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
-        let kind = &setup.scenario.controller.kind;
-        if let Some(link) = world.massless_link().filter(|_| kind != "kinematic") {
+        let is_placed = setup.scenario.controller.kind == ControllerKind::Kinematic;
+        if let Some(link) = world.massless_link().filter(|_| !is_placed) {
             return Err(SourceError::new(SimulationError::Massless { link: link.to_owned() }));
         }
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
         resist(&mut world, &setup.resistances).map_err(SourceError::new)?;
+        // After state and resistances, which faults may change; before the first reading, which they falsify.
         let mut faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
         let mut sensors = JointSensors::new(setup);
         measure(&mut faults, &mut sensors);
@@ -96,7 +76,7 @@ impl<'a> SimulationSource<'a> {
             bodies: MovingBodies::new(&setup.bodies, &setup.obstacles),
             sensors,
             faults,
-            is_placed: kind == "kinematic",
+            is_placed,
             payloads,
             actuators: ActuatorCounts::new(robot.dof()),
             braking: None,
@@ -106,41 +86,9 @@ impl<'a> SimulationSource<'a> {
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
     }
-
-    /// The whole state: after [`SimulationSource::restore`], in this source or in another of the same setup, steps
-    /// repeat bit by bit.
-    pub fn snapshot(&self) -> SimulationSnapshot<'a> {
-        SimulationSnapshot {
-            world: self.world.snapshot(),
-            controller: self.controller.clone(),
-            reference: self.reference.clone(),
-            faults: self.faults.clone(),
-            sensors: self.sensors.clone(),
-            payloads: self.payloads.clone(),
-            actuators: self.actuators.clone(),
-            bodies: self.bodies.clone(),
-            braking: self.braking.clone(),
-        }
-    }
-
-    /// Returns to a snapshot of the same setup.
-    ///
-    /// # Panics
-    /// When the snapshot is of a robot with another number of joints.
-    pub fn restore(&mut self, snapshot: &SimulationSnapshot<'a>) {
-        self.world.restore(&snapshot.world);
-        self.controller.clone_from(&snapshot.controller);
-        self.reference.clone_from(&snapshot.reference);
-        self.faults.clone_from(&snapshot.faults);
-        self.sensors.clone_from(&snapshot.sensors);
-        self.payloads.clone_from(&snapshot.payloads);
-        self.actuators.clone_from(&snapshot.actuators);
-        self.bodies.clone_from(&snapshot.bodies);
-        self.braking.clone_from(&snapshot.braking);
-    }
 }
 
-/// Puts what resists the joints into the physics.
+/// Sets damping, dry friction and armature of the joints in the physics.
 fn resist(world: &mut World, resistances: &[JointResistance]) -> Result<(), SimulationError> {
     for (coordinate, resistance) in resistances.iter().enumerate() {
         world.set_damping(coordinate, resistance.damping)?;
@@ -151,8 +99,8 @@ fn resist(world: &mut World, resistances: &[JointResistance]) -> Result<(), Simu
 }
 
 impl SimulationSource<'_> {
-    /// Moves obstacles to where they are at the end of the step. What a link carries touches nothing; it is left where the
-    /// link is at the beginning of the step.
+    /// Moves obstacles to their poses at the end of the step. A carried body touches nothing; it is released at the pose of the
+    /// link at the beginning of the step, since the link's pose at its end is not known yet.
     fn move_bodies(&mut self, time_s: f64) {
         let world = &mut self.world;
         self.bodies.advance(time_s, |link| world.root_from_link(link));
@@ -169,7 +117,7 @@ fn measure(faults: &mut InjectedFaults<'_>, sensors: &mut JointSensors) {
     faults.send(&sensors.measured());
 }
 
-/// What the joints are commanded to do: by the motions, or on the way to rest.
+/// What the joints are commanded to do: by the motions, or on the path to rest.
 fn commanded<'s>(reference: &'s ReferenceGenerator<'_>, braking: Option<&'s Braking>) -> Setpoint<'s> {
     match braking {
         Some(braking) => Setpoint { q: braking.q(), qd: braking.qd(), qdd: braking.qdd() },
@@ -226,12 +174,13 @@ impl JointStateSource for SimulationSource<'_> {
             self.faults.place(&setpoint);
             setpoint = self.faults.placed(setpoint);
         }
-        // A payload that comes at the start of the step acts in the whole of it.
+        // By the time at the start of the step: a payload that is taken then acts in the whole step.
         self.payloads.update(self.world.time_s(), &mut self.world);
         let measured = self.faults.measured();
         let stepped = self.world.step_measured(&mut self.controller, &setpoint, &measured);
         stepped.map_err(SourceError::new)?;
         self.actuators.observe(&self.world);
+        // Faults by the new step, then the reading: a fault acts from the first sample at its time on.
         self.faults.advance(self.world.step_count(), &mut self.world).map_err(SourceError::new)?;
         measure(&mut self.faults, &mut self.sensors);
         Ok(())

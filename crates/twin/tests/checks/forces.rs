@@ -1,13 +1,9 @@
 //! `dynamics` and `power`.
 
-use congruent_description::Inertia;
-use congruent_simulation::CarriedBody;
-use congruent_twin::{
-    RunSetup,
-    scenario::{Check, DynamicsCheck, ObstacleSettings, PowerCheck},
-    setup::Payload,
-    verdict::Status,
-};
+use congruent_description::{CarriedBody, Inertia};
+use congruent_monitors::{RunPayload, verdict::Status};
+use congruent_scenario::{Check, DynamicsCheck, ObstacleSettings, PowerCheck};
+use congruent_twin::RunSetup;
 use nalgebra::{Isometry3, Matrix3};
 
 use crate::support::{
@@ -30,7 +26,7 @@ fn loaded(check: Check) -> RunSetup {
     let link_from_inertial = Isometry3::translation(0.05, 0.0, 0.0);
     let inertia = Inertia { mass_kg: 3.0, link_from_inertial, tensor_kg_m2: Matrix3::identity() * 0.002 };
     let carried = CarriedBody { link, inertia };
-    setup.payloads = vec![Payload { name: "part".to_owned(), carried, from_s: 0.3, until_s: 0.6 }];
+    setup.payloads = vec![RunPayload { name: "part".to_owned(), carried, from_s: 0.3, until_s: 0.6 }];
     setup
 }
 
@@ -104,7 +100,7 @@ fn what_is_played_back_has_no_forces_and_is_skipped() {
     for check in [dynamics(), power()] {
         let result = result(&setup(scenario(controlled("kinematic", 0.0, 0.0), check), &arm(&[])));
         assert_eq!((result.status, result.samples), (Status::Skipped, 0), "{result:#?}");
-        notes(&result, "1200 of 1200 samples are left out: the source does not know the forces");
+        notes(&result, "1200 of 1200 samples not evaluated: no forces known");
     }
 }
 
@@ -121,7 +117,7 @@ fn samples_with_contact_are_left_out_and_counted() {
         }];
         let result = result(&setup(scenario, &arm(&[])));
         passes(&result);
-        notes(&result, "samples are left out: contact or the stop of a joint acts");
+        notes(&result, "samples not evaluated: contact, or a joint at its stop");
         assert!((100..1200).contains(&result.samples), "{result:#?}");
     }
 }

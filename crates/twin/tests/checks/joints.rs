@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use congruent_twin::{
-    RunSetup,
-    scenario::{Check, CycleTimeCheck, LimitsCheck, MotionSettings, OnViolation, Scenario, TrackingCheck},
-    verdict::{CheckResult, Status},
+use congruent_monitors::verdict::{CheckResult, Status};
+use congruent_scenario::{
+    Check, CycleTimeCheck, LimitsCheck, MotionSettings, OnViolation, Scenario, TrackingCheck,
 };
+use congruent_twin::RunSetup;
 
 use crate::support::{
     arm, controlled, fails, measure, notes, passes, refused, result, result_distorted, scenario, servo,
@@ -19,7 +19,7 @@ fn limits() -> Check {
 
 /// The elbow, whose range ends at 2 rad, is led to `target_rad` from 1.7 rad.
 #[track_caller]
-fn led_to(target_rad: f64, controller: congruent_twin::scenario::ControllerSettings) -> CheckResult {
+fn led_to(target_rad: f64, controller: congruent_scenario::ControllerSettings) -> CheckResult {
     let mut scenario = scenario(controller, limits());
     scenario.start.joints_rad =
         [("shoulder", -1.5), ("elbow", 1.7)].map(|(name, q)| (name.to_owned(), q)).into();
@@ -41,13 +41,13 @@ fn a_joint_that_sags_onto_its_stop_is_no_violation() {
     let result = led_to(1.95, controlled("pd", 60.0, 20.0));
     passes(&result);
     notes(&result, "elbow rests on its stop from ");
-    notes(&result, "it sags onto it, its setpoint is ");
+    notes(&result, "it sags, its setpoint is ");
     let depth_rad = worst(&result, "angle_into_stop");
     assert!(depth_rad > 1e-6 && depth_rad < 1e-3, "{depth_rad}");
 }
 
 #[test]
-fn a_joint_that_is_driven_beyond_its_limit_is_told_apart() {
+fn a_joint_that_is_driven_beyond_its_limit_is_distinguished() {
     let by_physics = led_to(2.1, servo());
     fails(&by_physics, "angle_beyond_limit", "elbow");
     notes(&by_physics, "elbow is driven beyond its limit from ");
@@ -68,7 +68,7 @@ fn a_stop_that_does_not_hold_is_a_violation() {
         }
     });
     fails(&result, "angle_beyond_limit", "elbow");
-    notes(&result, "its setpoint is inside, but it goes on outwards");
+    notes(&result, "its setpoint is inside the range, but it moves outwards");
 }
 
 #[test]
@@ -100,18 +100,15 @@ fn velocity_and_effort_are_shares_of_their_limits() {
 fn an_actuator_at_its_limit_and_limits_that_are_not_stated_are_said() {
     let weak = arm(&[("effort=\"300\" velocity=\"3\"", "effort=\"20\" velocity=\"0\"")]);
     let result = result(&setup(scenario(servo(), limits()), &weak));
-    notes(&result, "the actuator of shoulder gives all it can in ");
-    notes(&result, "the description states no velocity limit of shoulder");
+    notes(&result, "the actuator of shoulder is at its effort limit in ");
+    notes(&result, "not checked (no velocity limit in the description): shoulder");
     assert_eq!(worst(&result, "share_of_effort_limit"), 1.0);
 }
 
 #[test]
 fn a_share_is_at_most_the_whole() {
     let check = LimitsCheck { velocity_share: Some(1.5), ..LimitsCheck::default() };
-    assert_eq!(
-        refused(Check::Limits(check)),
-        "scenario::share: `velocity_share` = 1.5 allows more than the limit"
-    );
+    assert_eq!(refused(Check::Limits(check)), "scenario::share: `velocity_share` = 1.5, limit <= 1.001");
     let check = LimitsCheck { margin_m: Some(f64::NAN), ..LimitsCheck::default() };
     assert!(refused(Check::Limits(check)).starts_with("scenario::number: check.margin_m: expected a finite"));
 }
@@ -136,7 +133,7 @@ fn a_move_of_least_time_keeps_the_limits_that_it_is_planned_with() {
     assert_eq!((written.velocity_share, written.effort_share), (Some(1.001), Some(1.0)));
 }
 
-fn tracked(tracking: &TrackingCheck, controller: congruent_twin::scenario::ControllerSettings) -> RunSetup {
+fn tracked(tracking: &TrackingCheck, controller: congruent_scenario::ControllerSettings) -> RunSetup {
     setup(scenario(controller, Check::Tracking(*tracking)), &arm(&[]))
 }
 
@@ -177,15 +174,15 @@ fn playback_follows_exactly() {
 
 /// A servo with little damping swings beyond the end of the motion.
 #[test]
-fn an_overshoot_is_measured_beyond_the_setpoint_that_stands() {
+fn an_overshoot_is_measured_beyond_the_setpoint_at_rest() {
     let tracking = TrackingCheck { overshoot_deg: Some(0.05), ..TrackingCheck::default() };
     let result = result(&tracked(&tracking, controlled("gravity_compensation", 1000.0, 5.0)));
     assert_eq!(result.status, Status::Fail, "{result:#?}");
     let violation = measure(&result, "overshoot_of_angle").first_violation.as_ref().unwrap();
-    assert!(violation.time_s >= 0.8, "the setpoint stands from 0.8 s on: {violation:?}");
+    assert!(violation.time_s >= 0.8, "the setpoint is at rest from 0.8 s on: {violation:?}");
 }
 
-/// The soft arm sags by degrees, and nothing settles before the setpoint stands, 0.8 s after the start.
+/// The soft arm sags by degrees, and nothing settles before the setpoint is at rest, 0.8 s after the start.
 #[test]
 fn settling_is_judged_by_what_was_measured() {
     let tracking = TrackingCheck { goal_deg: Some(0.1), settling_s: Some(0.2), ..TrackingCheck::default() };
@@ -196,7 +193,7 @@ fn settling_is_judged_by_what_was_measured() {
     };
     let early = ended(0.8);
     assert_eq!((early.status, worst(&early, "settling_time")), (Status::Fail, f64::INFINITY), "{early:#?}");
-    notes(&early, "the setpoint never stood");
+    notes(&early, "the setpoint was never at rest");
     let unsettled = ended(0.85);
     let settling = measure(&unsettled, "settling_time").first_violation.as_ref().unwrap();
     assert!(settling.value.is_infinite(), "0.05 s are within the limit, but it is not there: {settling:?}");
@@ -207,7 +204,7 @@ fn tracking_needs_limits_that_mean_something() {
     let refused = |tracking| refused(Check::Tracking(tracking));
     assert_eq!(refused(TrackingCheck::default()), "scenario::tracking: the check `tracking` has no limit");
     let settling = TrackingCheck { path_deg: Some(1.0), settling_s: Some(0.1), ..TrackingCheck::default() };
-    assert!(refused(settling).contains("`settling_s` is the time until the joints stay within `goal_*`"));
+    assert!(refused(settling).contains("`settling_s` needs a limit `goal_*` for joints"));
     let twice = TrackingCheck { path_deg: Some(1.0), path_rad: Some(0.1), ..TrackingCheck::default() };
     assert!(refused(twice).contains("given twice"));
 }
@@ -219,7 +216,7 @@ fn cycle(limit_s: f64, edit: impl FnOnce(&mut Scenario)) -> CheckResult {
         tolerance_deg: None,
         tolerance_m: None,
         tolerance_mm: None,
-        on_violation: congruent_twin::scenario::OnViolation::Continue,
+        on_violation: congruent_scenario::OnViolation::Continue,
     };
     let mut scenario = scenario(servo(), Check::CycleTime(check));
     edit(&mut scenario);
@@ -238,7 +235,7 @@ fn the_motions_end_in_time() {
     assert_eq!(measure(&late, "cycle_time").first_violation.as_ref().unwrap().time_s, 0.801);
 }
 
-/// The way to rest is no end of the motions.
+/// The path to rest is no end of the motions.
 #[test]
 fn a_run_without_motions_has_no_cycle_time() {
     let still = cycle(1.0, |scenario| {
@@ -246,7 +243,7 @@ fn a_run_without_motions_has_no_cycle_time() {
         scenario.simulation.duration_s = Some(0.1);
     });
     assert_eq!(still.status, Status::Skipped, "{still:#?}");
-    notes(&still, "there are no motions");
+    notes(&still, "the scenario has no motions");
 }
 
 #[test]
@@ -259,7 +256,7 @@ fn a_run_that_is_stopped_before_its_end_has_no_cycle_time() {
     assert_eq!(stopped.status, Status::Fail, "{stopped:#?}");
     assert_eq!(worst(&stopped, "cycle_time"), f64::INFINITY);
     assert_eq!(measure(&stopped, "cycle_time").first_violation.as_ref().unwrap().time_s, 0.501);
-    notes(&stopped, "the run was stopped before the end of its motions: there is no cycle time");
+    notes(&stopped, "no cycle time: the run was stopped before the end of its motions");
     // Another check stops the run before the limit: nothing is known.
     let fast =
         LimitsCheck { velocity_share: Some(0.1), on_violation: OnViolation::Stop, ..LimitsCheck::default() };

@@ -1,11 +1,9 @@
 //! `twist` and `invariants`.
 
-use congruent_twin::{
-    scenario::{
-        AgreementCheck, Check, ClearanceCheck, GoalCheck, InvariantsCheck, OnViolation, PoseSettings,
-        Profile, TwistCheck,
-    },
-    verdict::Status,
+use congruent_monitors::verdict::Status;
+use congruent_scenario::{
+    AgreementCheck, Check, ClearanceCheck, GoalCheck, InvariantsCheck, OnViolation, PoseSettings, Profile,
+    TwistCheck,
 };
 use nalgebra::{Quaternion, UnitQuaternion};
 
@@ -32,11 +30,11 @@ fn the_tool_moves_as_the_jacobian_says_by_physics_and_in_playback() {
 #[test]
 fn a_jump_of_velocity_in_playback_is_no_error() {
     let mut scenario = scenario(controlled("kinematic", 0.0, 0.0), twist());
-    if let congruent_twin::scenario::MotionSettings::Joints(motion) = &mut scenario.motion[0] {
+    if let congruent_scenario::MotionSettings::Joints(motion) = &mut scenario.motion[0] {
         motion.profile = Profile::Linear;
     }
     let mut check = TwistCheck { linear_m_s: Some(1e-3), angular_rad_s: Some(1e-6), ..TwistCheck::default() };
-    check.on_violation = congruent_twin::scenario::OnViolation::Continue;
+    check.on_violation = congruent_scenario::OnViolation::Continue;
     scenario.check = vec![Check::Twist(check)];
     passes(&result(&setup(scenario, &arm(&[]))));
 }

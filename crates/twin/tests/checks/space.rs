@@ -2,11 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use congruent_twin::{
-    RunSetup,
-    scenario::{Check, ContactCheck, MotionSettings, ObstacleSettings, ZoneCheck, ZoneSettings},
-    verdict::Status,
-};
+use congruent_monitors::verdict::Status;
+use congruent_scenario::{Check, ContactCheck, MotionSettings, ObstacleSettings, ZoneCheck, ZoneSettings};
+use congruent_twin::RunSetup;
 
 use crate::support::{arm, controlled, measure, passes, result, scenario, setup};
 
@@ -18,7 +16,7 @@ fn slid(check: ContactCheck) -> RunSetup {
     if let MotionSettings::Joints(motion) = &mut scenario.motion[0] {
         motion.move_joints_rad.clear();
         motion.move_joints_m = BTreeMap::from([("grip".to_owned(), 0.09)]);
-        motion.profile = congruent_twin::scenario::Profile::Linear;
+        motion.profile = congruent_scenario::Profile::Linear;
     }
     // The ball's middle is 1.05 m out, at y = 0.05 m + q.
     scenario.obstacle = vec![ObstacleSettings {
@@ -37,7 +35,7 @@ fn a_contact_has_its_pair_its_time_and_its_depth() {
     let [contact] = &result.contacts[..] else { panic!("{result:#?}") };
     assert_eq!(contact.pair, ["finger", "block"].map(str::to_owned));
     // The ball reaches y = 0.1 m + q and the block begins at 0.13 m: they touch from q = 0.03 m on, after a seventh of the
-    // way, and stay 60 mm in.
+    // path, and stay 60 mm in.
     let began_s = 0.8 / 7.0;
     assert!((contact.from_s - began_s).abs() < 1.5e-3, "{contact:?}");
     assert_eq!(contact.until_s, 1.2);
@@ -54,7 +52,7 @@ fn a_depth_that_is_allowed_is_no_violation() {
     assert_eq!(allowed.contacts.len(), 1);
     let too_deep = result(&slid(deep(30.0)));
     assert_eq!(too_deep.status, Status::Fail);
-    // 30 mm deep at q = 0.06 m, after four sevenths of the way.
+    // 30 mm deep at q = 0.06 m, after four sevenths of the path.
     let violation = measure(&too_deep, "distance").first_violation.clone().unwrap();
     assert!((violation.time_s - 0.8 * 4.0 / 7.0).abs() < 1.5e-3, "{violation:?}");
 }
@@ -103,7 +101,7 @@ fn every_link_that_enters_a_zone_is_reported_with_its_time() {
     let names: Vec<&str> = entered.iter().map(|moment| moment.subject.as_str()).collect();
     assert_eq!(names, ["finger--first", "finger--second"]);
     // 20 mm and 50 mm of 70 mm in 0.8 s.
-    for (moment, way) in entered.iter().zip([2.0, 5.0]) {
-        assert!((moment.time_s - 0.8 * way / 7.0).abs() < 1.5e-3, "{moment:?}");
+    for (moment, share) in entered.iter().zip([2.0, 5.0]) {
+        assert!((moment.time_s - 0.8 * share / 7.0).abs() < 1.5e-3, "{moment:?}");
     }
 }

@@ -1,17 +1,20 @@
 //! `on_violation = "stop"`: the arm is brought to rest, and the report says how.
 
+use congruent_monitors::{
+    JointSample,
+    verdict::{Status, StopLimit},
+};
+use congruent_scenario::{Between, Check, LimitsCheck, MotionSettings, OnViolation, PlaybackMotion};
 use congruent_twin::{
     Outcome, RunSetup,
-    scenario::{Between, Check, LimitsCheck, MotionSettings, OnViolation, PlaybackMotion},
-    source::{JointSample, JointStateSource, SimulationSource, SourceError},
-    verdict::{Status, StopLimit},
+    source::{JointStateSource, SimulationSource, SourceError},
 };
 use nalgebra::Isometry3;
 
 use crate::support::{arm, controlled, outcome, scenario, servo, setup};
 
 /// The elbow goes faster than a third of its velocity limit, 1 rad/s, in the first half of its move.
-fn stopped(controller: congruent_twin::scenario::ControllerSettings) -> RunSetup {
+fn stopped(controller: congruent_scenario::ControllerSettings) -> RunSetup {
     let check = LimitsCheck {
         velocity_share: Some(1.0 / 3.0),
         on_violation: OnViolation::Stop,
@@ -45,7 +48,7 @@ fn in_playback_the_arm_slows_down_straight_on_within_its_accelerations() {
 fn a_stop_keeps_the_declared_accelerations() {
     let playback = stopped(controlled("kinematic", 0.0, 0.0));
     let mut declared = playback.scenario.clone();
-    // The motion itself is as fast as it was: 5.77 of its way by the square of 0.8 s is 7.2 rad/s^2.
+    // The motion itself is as fast as it was: 5.77 of its path by the square of 0.8 s is 7.2 rad/s^2.
     declared.limits.acceleration_rad_s2 = [("elbow".to_owned(), 7.5)].into();
     let setup = setup(declared, &arm(&[]));
     let outcome = outcome(&setup, None);
@@ -62,7 +65,7 @@ fn a_stop_keeps_the_declared_accelerations() {
     assert!(note.ends_with("(accelerations: as declared for 1 of 4 joints)"), "{note}");
 }
 
-/// The elbow's range ends on its way: there it cannot slow down as slowly as is declared, and the report says so.
+/// The elbow's range ends on its path: there it cannot slow down as slowly as is declared, and the report says so.
 #[test]
 fn a_stop_at_the_end_of_a_range_is_said() {
     let end = ("lower=\"-2\" upper=\"2\" effort=\"200\"", "lower=\"-2\" upper=\"0.8\" effort=\"200\"");
@@ -89,7 +92,7 @@ fn a_stop_at_the_end_of_a_range_is_said() {
     assert!([0, 2, 3].iter().all(|&joint| lost[joint].is_none()), "{lost:?}");
     let note = outcome.checks[0].notes.last().unwrap();
     let said = "but elbow reached the end of its range at 94";
-    assert!(note.contains(said) && note.contains("stopped there at once"), "{note}");
+    assert!(note.contains(said) && note.contains("its setpoint stopped at once"), "{note}");
 }
 
 #[test]
@@ -109,7 +112,7 @@ fn servos_bring_the_arm_to_rest_and_hold_it() {
 
 /// Nothing holds the arm: the run does not wait for ever.
 #[test]
-fn an_arm_that_does_not_come_to_rest_is_told_so() {
+fn an_arm_that_does_not_come_to_rest_is_reported() {
     let Outcome { stopped, .. } = outcome(&stopped(controlled("passive", 0.0, 0.0)), None);
     let rest = stopped.unwrap().rest.unwrap();
     assert!(!rest.is_at_rest && (rest.duration_s - 5.0).abs() < 2e-3, "{rest:#?}");

@@ -4,15 +4,19 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{RobotDescription, RobotQ, SourceFile, parse_robot};
+use congruent_description::{RobotDescription, RobotQ, parse_robot};
+use congruent_input::SourceFile;
+use congruent_monitors::{
+    JointSample, JointStateView, NoRecorder, StepForces,
+    verdict::{CheckResult, Measure, Status},
+};
+use congruent_scenario::{
+    Check, ControllerKind, ControllerSettings, JointMotion, MotionSettings, Scenario, SimulationSettings,
+    StartSettings,
+};
 use congruent_twin::{
     Outcome, Run, RunSetup,
-    recorder::NoRecorder,
-    scenario::{
-        Check, ControllerSettings, JointMotion, MotionSettings, Scenario, SimulationSettings, StartSettings,
-    },
-    source::{JointSample, JointStateSource, JointStateView, SimulationSource, SourceError, StepForces},
-    verdict::{CheckResult, Measure, Status},
+    source::{JointStateSource, SimulationSource, SourceError},
 };
 use nalgebra::Isometry3;
 
@@ -55,7 +59,7 @@ pub(crate) fn arm(edits: &[(&str, &str)]) -> RobotDescription {
 
 pub(crate) fn controlled(kind: &str, stiffness: f64, damping: f64) -> ControllerSettings {
     ControllerSettings {
-        kind: kind.to_owned(),
+        kind: ControllerKind::find(kind).expect("a kind"),
         stiffness: stiffness.into(),
         damping: damping.into(),
         ..ControllerSettings::default()
@@ -139,7 +143,7 @@ pub(crate) fn result_distorted(setup: &RunSetup, distort: fn(&mut Said)) -> Chec
 
 #[track_caller]
 pub(crate) fn measure<'a>(result: &'a CheckResult, quantity: &str) -> &'a Measure {
-    let found = result.measures.iter().find(|measure| measure.quantity == quantity);
+    let found = result.measures.iter().find(|measure| measure.quantity.name() == quantity);
     found.unwrap_or_else(|| panic!("no {quantity}: {result:#?}"))
 }
 
@@ -160,7 +164,7 @@ pub(crate) fn fails(result: &CheckResult, quantity: &str, subject: &str) {
     assert_eq!(result.status, Status::Fail, "{result:#?}");
     for measure in &result.measures {
         let violation = measure.first_violation.as_ref();
-        assert_eq!(violation.is_some(), measure.quantity == quantity, "{result:#?}");
+        assert_eq!(violation.is_some(), measure.quantity.name() == quantity, "{result:#?}");
         assert!(violation.is_none_or(|moment| moment.subject == subject), "{result:#?}");
     }
 }

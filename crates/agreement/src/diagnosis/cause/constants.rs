@@ -5,17 +5,17 @@ use std::ops::Range;
 
 use crate::diagnosis::{
     candidate::ModelParameter,
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
 };
 
-pub(super) fn hypotheses(_: &ModelPair) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(_: &ModelPair) -> Vec<PoseHypothesis> {
     let single = (0..6).map(|component| component..component + 1);
     let parts: Vec<Range<usize>> = single.chain([0..3, 3..6, 0..6]).collect();
     let tool = |part: &Range<usize>| {
-        Hypothesis::fit(Cause::Tool, Place::Tool, part.clone().map(ModelParameter::Tool).collect())
+        PoseHypothesis::fit(Cause::Tool, FaultPlace::Tool, part.clone().map(ModelParameter::Tool).collect())
     };
     let base = |part: &Range<usize>| {
-        Hypothesis::fit(Cause::Base, Place::Base, part.clone().map(ModelParameter::Base).collect())
+        PoseHypothesis::fit(Cause::Base, FaultPlace::Base, part.clone().map(ModelParameter::Base).collect())
     };
     parts.iter().map(tool).chain(parts.iter().map(base)).collect()
 }

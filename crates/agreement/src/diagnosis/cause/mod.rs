@@ -1,5 +1,5 @@
-//! The catalogue of hypotheses: one file for each family of causes, those of joints in `joint/`. A new family is a file here and a line in
-//! [`FAMILIES`].
+//! The catalogue of hypotheses: one file for each family of causes, those of joints in `joint/`. A new family is a
+//! file here and a line in [`FAMILIES`].
 
 mod constants;
 mod convention;
@@ -10,12 +10,14 @@ mod rounding;
 mod rpy;
 mod units;
 
-use super::hypothesis::{Hypothesis, ModelPair};
+use super::hypothesis::{ModelPair, PoseHypothesis};
 
 /// The hypotheses of one family about a pair of models.
-type Family = fn(&ModelPair) -> Vec<Hypothesis>;
+type Family = fn(&ModelPair) -> Vec<PoseHypothesis>;
 
-/// All families.
+/// All families of hypotheses.
+// Edits before fits: the order decides last, between explanations of equal rank, and an edit that is undone exactly
+// is the likelier one.
 const FAMILIES: [Family; 13] = [
     joint::axis::hypotheses,
     convention::hypotheses,
@@ -33,6 +35,6 @@ const FAMILIES: [Family; 13] = [
 ];
 
 /// All hypotheses about a pair of models.
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     FAMILIES.iter().flat_map(|family| family(models)).collect()
 }

@@ -3,18 +3,24 @@
 
 use crate::diagnosis::{
     candidate::{DhEntry, ModelParameter},
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
 };
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let candidate = &models.candidate;
     let mut list = Vec::new();
     for row in 0..candidate.rows.len() {
         for entry in [DhEntry::A, DhEntry::Alpha, DhEntry::D, DhEntry::Theta] {
+            // A prismatic joint's `d` stays in this list as well: a wrong length and a shifted zero look the same
+            // in it.
             let is_zero = entry == candidate.zero_entry(row) && entry == DhEntry::Theta;
             if !is_zero && candidate.entry(row, entry).is_some() {
-                let place = Place::Entries(entry, vec![row]);
-                list.push(Hypothesis::fit(Cause::Parameter, place, vec![ModelParameter::Row(row, entry)]));
+                let place = FaultPlace::Entries(entry, vec![row]);
+                list.push(PoseHypothesis::fit(
+                    Cause::Parameter,
+                    place,
+                    vec![ModelParameter::Row(row, entry)],
+                ));
             }
         }
     }

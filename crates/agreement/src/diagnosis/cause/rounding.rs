@@ -5,24 +5,25 @@ use std::f64::consts::FRAC_PI_2;
 use congruent_kinematics::EulerSet;
 use nalgebra::Matrix3;
 
-use super::rpy::rpy_of;
+use super::rpy::rpy_from_rotation;
 
 use crate::diagnosis::{
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
     reference_model::ReferenceModel,
     thresholds::{NO_TURN, ROUNDED_QUARTER_RAD},
 };
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let rounded = rounded(&models.reference);
+    // All together first: a file that rounds one quarter turn mostly rounds every one.
     let all = (rounded.len() > 1).then(|| hypothesis(rounded.clone()));
     all.into_iter().chain(rounded.iter().map(|&joint| hypothesis(vec![joint]))).collect()
 }
 
-fn hypothesis(joints: Vec<usize>) -> Hypothesis {
-    Hypothesis::edit(
+fn hypothesis(joints: Vec<usize>) -> PoseHypothesis {
+    PoseHypothesis::edit(
         Cause::Parameter,
-        Place::ReferenceJoints(joints.clone()),
+        FaultPlace::ReferenceJoints(joints.clone()),
         move |models: &mut ModelPair| {
             for &joint in &joints {
                 let rotation = &mut models.reference.joints[joint].parent_from_joint.rotation;
@@ -47,7 +48,7 @@ fn rounded(reference: &ReferenceModel) -> Vec<usize> {
 /// The rotation that is meant: by quarter turns, or with quarter turns among its roll, pitch and yaw.
 fn exact(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     quarter_turns(rotation).or_else(|| {
-        let rpy = rpy_of(rotation);
+        let rpy = rpy_from_rotation(rotation);
         let meant = rpy.map(|angle| {
             let quarters = (angle / FRAC_PI_2).round() * FRAC_PI_2;
             if (quarters - angle).abs() < ROUNDED_QUARTER_RAD { quarters } else { angle }
@@ -63,6 +64,7 @@ fn exact(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
 
 fn quarter_turns(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let exact = rotation.map(f64::round);
+    // Rounded entries can also form a reflection or a singular matrix; only determinant 1 is a rotation.
     ((exact - rotation).amax() < ROUNDED_QUARTER_RAD && (exact.determinant() - 1.0).abs() < 0.5)
         .then_some(exact)
 }

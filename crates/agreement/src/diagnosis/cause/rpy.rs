@@ -5,7 +5,7 @@ use congruent_kinematics::EulerSet;
 use nalgebra::Matrix3;
 
 use crate::diagnosis::{
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
     thresholds::{NO_TURN, SINGULAR_BELOW_RAD},
 };
 
@@ -23,26 +23,26 @@ const READINGS: [RpyReading; 4] = [
     },
     |_, rotation| {
         // Rx(r) Ry(p) Rz(y) is the transpose of Rz(-y) Ry(-p) Rx(-r).
-        let [roll, pitch, yaw] = rpy_of(&rotation.transpose()).map(|angle| -angle);
+        let [roll, pitch, yaw] = rpy_from_rotation(&rotation.transpose()).map(|angle| -angle);
         EulerSet::Zyx.rotation([yaw, pitch, roll])
     },
     |rpy, _| EulerSet::Zyx.rotation(rpy),
 ];
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let mut list = Vec::new();
     for reading in READINGS {
-        list.push(Hypothesis::edit(Cause::RpyOrder, Place::Base, move |models: &mut ModelPair| {
+        list.push(PoseHypothesis::edit(Cause::RpyOrder, FaultPlace::Base, move |models: &mut ModelPair| {
             let constant = &mut models.candidate.base;
             reread(&mut constant.pose.rotation, constant.written_rpy_rad, reading);
         }));
-        list.push(Hypothesis::edit(Cause::RpyOrder, Place::Tool, move |models: &mut ModelPair| {
+        list.push(PoseHypothesis::edit(Cause::RpyOrder, FaultPlace::Tool, move |models: &mut ModelPair| {
             let constant = &mut models.candidate.tool;
             reread(&mut constant.pose.rotation, constant.written_rpy_rad, reading);
         }));
         for joint in (0..models.reference.joints.len()).filter(|&at| models.reference.joints[at].is_written) {
-            let place = Place::ReferenceJoints(vec![joint]);
-            list.push(Hypothesis::edit(Cause::RpyOrder, place, move |models: &mut ModelPair| {
+            let place = FaultPlace::ReferenceJoints(vec![joint]);
+            list.push(PoseHypothesis::edit(Cause::RpyOrder, place, move |models: &mut ModelPair| {
                 reread(&mut models.reference.joints[joint].parent_from_joint.rotation, None, reading);
             }));
         }
@@ -51,7 +51,7 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
 }
 
 fn reread(rotation: &mut Matrix3<f64>, written_rpy_rad: Option<[f64; 3]>, reading: RpyReading) {
-    let rpy = written_rpy_rad.unwrap_or_else(|| rpy_of(rotation));
+    let rpy = written_rpy_rad.unwrap_or_else(|| rpy_from_rotation(rotation));
     // A single rotation has no order, but roll and yaw can still be exchanged.
     if rpy.iter().any(|angle| angle.abs() > NO_TURN) {
         *rotation = reading(rpy, rotation);
@@ -59,7 +59,7 @@ fn reread(rotation: &mut Matrix3<f64>, written_rpy_rad: Option<[f64; 3]>, readin
 }
 
 /// Roll, pitch and yaw about the fixed axes x, y, z.
-pub(super) fn rpy_of(rotation: &Matrix3<f64>) -> [f64; 3] {
+pub(super) fn rpy_from_rotation(rotation: &Matrix3<f64>) -> [f64; 3] {
     let [yaw, pitch, roll] = EulerSet::Zyx.angles_singular_below(rotation, SINGULAR_BELOW_RAD).angles_rad;
     [roll, pitch, yaw]
 }

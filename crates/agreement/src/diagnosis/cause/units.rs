@@ -5,8 +5,8 @@ use congruent_kinematics::rotation_exp;
 use nalgebra::Vector3;
 
 use crate::diagnosis::{
-    candidate::{Candidate, DeclaredTransform, DhEntry},
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    candidate::{CandidateModel, DeclaredTransform, DhEntry},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
 };
 
 const ANGLES: [DhEntry; 2] = [DhEntry::Alpha, DhEntry::Theta];
@@ -27,11 +27,11 @@ const WRONG_UNITS: [WrongUnit; 4] = [
     WrongUnit { cause: Cause::MillimetresAsMetres, factor: 1e3, entries: &LENGTHS },
 ];
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let mut list = Vec::new();
     for wrong_unit in WRONG_UNITS {
         table(&models.candidate, wrong_unit, &mut list);
-        for place in [Place::Base, Place::Tool] {
+        for place in [FaultPlace::Base, FaultPlace::Tool] {
             list.push(constant(place, wrong_unit));
         }
         if wrong_unit.entries == &LENGTHS {
@@ -44,13 +44,14 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
 }
 
 /// Entries, columns, and both columns of a table.
-fn table(candidate: &Candidate, wrong_unit: WrongUnit, list: &mut Vec<Hypothesis>) {
+fn table(candidate: &CandidateModel, wrong_unit: WrongUnit, list: &mut Vec<PoseHypothesis>) {
     let WrongUnit { cause, factor, entries } = wrong_unit;
     for row in 0..candidate.rows.len() {
         for &entry in entries {
+            // A zero has no unit: its hypothesis would have no effect.
             if candidate.entry(row, entry).is_some_and(|value| value != 0.0) {
-                let place = Place::Entries(entry, vec![row]);
-                list.push(Hypothesis::edit(cause, place, move |models| {
+                let place = FaultPlace::Entries(entry, vec![row]);
+                list.push(PoseHypothesis::edit(cause, place, move |models| {
                     scale(&mut models.candidate, row, entry, factor);
                 }));
             }
@@ -58,21 +59,21 @@ fn table(candidate: &Candidate, wrong_unit: WrongUnit, list: &mut Vec<Hypothesis
     }
     for column in [&entries[..1], &entries[1..], &entries[..]] {
         let edit = move |models: &mut ModelPair| scale_columns(&mut models.candidate, column, factor);
-        list.push(Hypothesis::edit(cause, Place::Column(column.to_vec()), edit));
+        list.push(PoseHypothesis::edit(cause, FaultPlace::Column(column.to_vec()), edit));
     }
 }
 
-fn constant(place: Place, wrong_unit: WrongUnit) -> Hypothesis {
-    let at_base = place == Place::Base;
-    Hypothesis::edit(wrong_unit.cause, place, move |models: &mut ModelPair| {
+fn constant(place: FaultPlace, wrong_unit: WrongUnit) -> PoseHypothesis {
+    let at_base = place == FaultPlace::Base;
+    PoseHypothesis::edit(wrong_unit.cause, place, move |models: &mut ModelPair| {
         let candidate = &mut models.candidate;
         rescale(if at_base { &mut candidate.base } else { &mut candidate.tool }, wrong_unit);
     })
 }
 
 /// All lengths of the model, including the declared transforms.
-fn whole(wrong_unit: WrongUnit) -> Hypothesis {
-    Hypothesis::edit(wrong_unit.cause, Place::Model, move |models: &mut ModelPair| {
+fn whole(wrong_unit: WrongUnit) -> PoseHypothesis {
+    PoseHypothesis::edit(wrong_unit.cause, FaultPlace::Model, move |models: &mut ModelPair| {
         let candidate = &mut models.candidate;
         scale_columns(candidate, wrong_unit.entries, wrong_unit.factor);
         for row in &mut candidate.rows {
@@ -84,21 +85,26 @@ fn whole(wrong_unit: WrongUnit) -> Hypothesis {
 }
 
 /// The position of one joint, or of all joints: the joint moves 57.3 times as far.
-fn positions(rows: usize, wrong_unit: WrongUnit, list: &mut Vec<Hypothesis>) {
+fn positions(rows: usize, wrong_unit: WrongUnit, list: &mut Vec<PoseHypothesis>) {
     let WrongUnit { cause, factor, .. } = wrong_unit;
     for row in 0..rows {
-        list.push(Hypothesis::edit(cause, Place::Rows(vec![row]), move |models: &mut ModelPair| {
+        list.push(PoseHypothesis::edit(cause, FaultPlace::Rows(vec![row]), move |models: &mut ModelPair| {
             models.candidate.rows[row].rate *= factor;
         }));
     }
-    list.push(Hypothesis::edit(cause, Place::Rows((0..rows).collect()), move |models: &mut ModelPair| {
-        for row in &mut models.candidate.rows {
-            row.rate *= factor;
-        }
-    }));
+    list.push(PoseHypothesis::edit(
+        cause,
+        FaultPlace::Rows((0..rows).collect()),
+        move |models: &mut ModelPair| {
+            for row in &mut models.candidate.rows {
+                // A position in the wrong unit is a motion that is 57.3 times too large or too small: a factor on the rate.
+                row.rate *= factor;
+            }
+        },
+    ));
 }
 
-fn scale_columns(candidate: &mut Candidate, column: &[DhEntry], factor: f64) {
+fn scale_columns(candidate: &mut CandidateModel, column: &[DhEntry], factor: f64) {
     for row in 0..candidate.rows.len() {
         for &entry in column {
             scale(candidate, row, entry, factor);
@@ -106,7 +112,7 @@ fn scale_columns(candidate: &mut Candidate, column: &[DhEntry], factor: f64) {
     }
 }
 
-fn scale(candidate: &mut Candidate, row: usize, entry: DhEntry, factor: f64) {
+fn scale(candidate: &mut CandidateModel, row: usize, entry: DhEntry, factor: f64) {
     if let Some(value) = candidate.entry_mut(row, entry) {
         *value *= factor;
     }

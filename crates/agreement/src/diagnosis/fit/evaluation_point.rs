@@ -6,7 +6,7 @@ use congruent_kinematics::{Pose, Twist};
 use nalgebra::Vector3;
 
 use crate::diagnosis::{
-    candidate::{Candidate, CandidateEffect, ChainWalk},
+    candidate::{CandidateEffect, CandidateModel, ChainWalk},
     reference_model::{ChainState, ReferenceModel},
 };
 
@@ -20,23 +20,28 @@ pub(in crate::diagnosis) struct EvaluationPoint {
 impl EvaluationPoint {
     /// A generic configuration of `reference`: at zero, a table with its rows in another order could have the
     /// same screws and still be another robot.
-    pub(in crate::diagnosis) fn of(reference: &ReferenceModel) -> Self {
+    pub(in crate::diagnosis) fn for_reference(reference: &ReferenceModel) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
+        // Unequal positions, and no special angles: at zero, quarter turns or equal positions different tables can
+        // have the same screws by chance.
         let q: ChainQ = (0..reference.joint_count()).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
         let state = reference.state(&q);
+        // The linear part of the screw of a turn is the moment of its axis about the base: its length is the distance
+        // of the axis.
         let reach = state.twists.iter().map(|twist| twist.linear.norm());
         let length_m = reach.fold(state.base_from_tip.translation.norm(), f64::max);
         Self { q, length_m: if length_m > 0.0 { length_m } else { 1.0 } }
     }
 
-    /// Candidate minus target, without unit: six values for each joint, then the tip.
+    /// The candidate minus the target, without unit: six values for each joint, then the tip.
     pub(in crate::diagnosis) fn difference(
         &self,
-        candidate: &Candidate,
+        candidate: &CandidateModel,
         walk: &ChainWalk,
         target: &ChainState,
     ) -> Vec<f64> {
         let mut numbers = Vec::with_capacity(6 * target.twists.len() + 12);
+        // Ordered by joint, not by row: a table with its rows in another order differs here, as it should.
         let mut twists = vec![Twist::zero(); target.twists.len()];
         for (row, twist) in candidate.rows.iter().zip(&walk.row_twists) {
             twists[row.joint] = *twist;
@@ -57,7 +62,7 @@ impl EvaluationPoint {
     /// the generator itself (Lynch & Park, *Modern Robotics* (2017), section 8.3.1).
     pub(in crate::diagnosis) fn derivative(
         &self,
-        candidate: &Candidate,
+        candidate: &CandidateModel,
         walk: &ChainWalk,
         effect: &CandidateEffect,
     ) -> Vec<f64> {

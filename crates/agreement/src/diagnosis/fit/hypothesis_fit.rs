@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use crate::diagnosis::{
-    candidate::{Candidate, ModelParameter},
+    candidate::{CandidateModel, ModelParameter},
     fit::evaluation_point::EvaluationPoint,
     fit::least_squares::{FitTarget, FittedCandidate},
-    hypothesis::{Hypothesis, ModelPair},
+    hypothesis::{ModelPair, PoseHypothesis},
     reference_model::ChainState,
     thresholds::{ANGLE_STARTS_RAD, GOOD_FIT},
 };
@@ -28,14 +28,14 @@ pub(in crate::diagnosis) struct HypothesisFit {
 /// The models, the hypotheses and the target of all fits.
 pub(in crate::diagnosis) struct FitContext<'a> {
     pub(in crate::diagnosis) models: &'a ModelPair,
-    pub(in crate::diagnosis) hypotheses: &'a [Hypothesis],
+    pub(in crate::diagnosis) hypotheses: &'a [PoseHypothesis],
     pub(in crate::diagnosis) evaluation_point: EvaluationPoint,
     pub(in crate::diagnosis) state: ChainState,
 }
 
 impl<'a> FitContext<'a> {
-    pub(in crate::diagnosis) fn new(models: &'a ModelPair, hypotheses: &'a [Hypothesis]) -> Self {
-        let evaluation_point = EvaluationPoint::of(&models.reference);
+    pub(in crate::diagnosis) fn new(models: &'a ModelPair, hypotheses: &'a [PoseHypothesis]) -> Self {
+        let evaluation_point = EvaluationPoint::for_reference(&models.reference);
         let state = models.reference.state(&evaluation_point.q);
         Self { models, hypotheses, evaluation_point, state }
     }
@@ -93,6 +93,7 @@ impl<'a> FitContext<'a> {
         let free: Vec<ModelParameter> =
             hypotheses.iter().flat_map(|&at| self.hypotheses[at].free.iter().copied()).collect();
         let of_edited;
+        // Most hypotheses change the candidate alone; the state of the reference is then the one that is known.
         let state = if models.reference == self.models.reference {
             &self.state
         } else {
@@ -100,8 +101,10 @@ impl<'a> FitContext<'a> {
             &of_edited
         };
         let target = FitTarget { evaluation_point: &self.evaluation_point, state };
+        // From the present values first: most faults are small, and then no other start is needed.
         let mut best = target.refit(&models.candidate, &free);
-        let mut consider = |start: Candidate| {
+        let mut consider = |start: CandidateModel| {
+            // A further start can only find the same minimum again once the difference is rounding.
             if best.norm > GOOD_FIT {
                 let fit = target.refit(&start, &free);
                 if fit.norm < best.norm {
@@ -114,6 +117,8 @@ impl<'a> FitContext<'a> {
             free.iter().zip(start).for_each(|(&parameter, &by)| candidate.shift(parameter, by));
             consider(candidate);
         }
+        // With all rotations free at once a fit can end in a local minimum; the closed form starts next to the right
+        // one.
         for start in self.aligned(&models.candidate, state, &free).into_iter().flatten() {
             consider(start);
         }
@@ -131,26 +136,30 @@ impl<'a> FitContext<'a> {
     /// makes the tips coincide.
     fn aligned(
         &self,
-        candidate: &Candidate,
+        candidate: &CandidateModel,
         state: &ChainState,
         free: &[ModelParameter],
-    ) -> [Option<Candidate>; 2] {
+    ) -> [Option<CandidateModel>; 2] {
         let is_free = |parameter: fn(usize) -> ModelParameter| (0..6).all(|at| free.contains(&parameter(at)));
         let base_from_tip = candidate.base_from_tip(&self.evaluation_point.q);
         let with_tool = is_free(ModelParameter::Tool).then(|| {
             let tip_from_corrected = base_from_tip.inverse() * state.base_from_tip;
-            Candidate { tool: (candidate.tool.pose * tip_from_corrected).into(), ..candidate.clone() }
+            CandidateModel { tool: (candidate.tool.pose * tip_from_corrected).into(), ..candidate.clone() }
         });
         let with_base = is_free(ModelParameter::Base).then(|| {
             let corrected_from_base = state.base_from_tip * base_from_tip.inverse();
-            Candidate { base: (corrected_from_base * candidate.base.pose).into(), ..candidate.clone() }
+            CandidateModel { base: (corrected_from_base * candidate.base.pose).into(), ..candidate.clone() }
         });
         [with_tool, with_base]
     }
 }
 
 /// The change of a parameter; of a declared transform as if its components commuted.
-pub(in crate::diagnosis) fn moved(from: &Candidate, to: &Candidate, parameter: ModelParameter) -> f64 {
+pub(in crate::diagnosis) fn moved(
+    from: &CandidateModel,
+    to: &CandidateModel,
+    parameter: ModelParameter,
+) -> f64 {
     let of_pose = |from: &congruent_kinematics::Pose, to: &congruent_kinematics::Pose, component: usize| {
         if component < 3 {
             (to.translation - from.translation)[component]

@@ -4,7 +4,7 @@ use congruent_kinematics::least_squares::{Damping, NormalEquations};
 use nalgebra::DVector;
 
 use crate::diagnosis::{
-    candidate::{Candidate, ChainWalk, ModelParameter},
+    candidate::{CandidateModel, ChainWalk, ModelParameter},
     fit::evaluation_point::EvaluationPoint,
     reference_model::ChainState,
     thresholds::{DAMPING, MAX_STEPS, MIN_GAIN, NO_EFFECT, PERFECT_FIT},
@@ -13,7 +13,7 @@ use crate::diagnosis::{
 /// A candidate with its free parameters fitted.
 #[derive(Debug, Clone)]
 pub(in crate::diagnosis) struct FittedCandidate {
-    pub(in crate::diagnosis) candidate: Candidate,
+    pub(in crate::diagnosis) candidate: CandidateModel,
     /// Norm of the remaining difference, without unit.
     pub(in crate::diagnosis) norm: f64,
 }
@@ -27,11 +27,11 @@ pub(in crate::diagnosis) struct FitTarget<'a> {
 
 impl FitTarget<'_> {
     /// Norm of the difference of a candidate from the target.
-    pub(in crate::diagnosis) fn norm(&self, candidate: &Candidate) -> f64 {
+    pub(in crate::diagnosis) fn norm(&self, candidate: &CandidateModel) -> f64 {
         norm(&self.difference(candidate, &candidate.walk(&self.evaluation_point.q)))
     }
 
-    fn difference(&self, candidate: &Candidate, walk: &ChainWalk) -> Vec<f64> {
+    fn difference(&self, candidate: &CandidateModel, walk: &ChainWalk) -> Vec<f64> {
         self.evaluation_point.difference(candidate, walk, self.state)
     }
 
@@ -40,7 +40,7 @@ impl FitTarget<'_> {
     /// Source: Marquardt (1963), the damping scaled by the diagonal, which mixes rad and m safely.
     pub(in crate::diagnosis) fn refit(
         &self,
-        candidate: &Candidate,
+        candidate: &CandidateModel,
         free: &[ModelParameter],
     ) -> FittedCandidate {
         let mut walk = candidate.walk(&self.evaluation_point.q);
@@ -64,10 +64,13 @@ impl FitTarget<'_> {
                 best = FittedCandidate { candidate: moved, norm: moved_norm };
                 (walk, difference) = (moved_walk, moved_difference);
                 damping = (damping * DAMPING.after_success).max(DAMPING.least);
+                // Near a minimum other than zero each step gains less than the last. Such a hypothesis is wrong,
+                // and hundreds of them are fitted, so the digits of its norm are not worth further steps.
                 if gain < MIN_GAIN {
                     break;
                 }
             } else {
+                // Faster up than down: a rejected step costs an evaluation and gives nothing.
                 damping *= DAMPING.after_failure;
                 if damping > DAMPING.most {
                     break;
@@ -79,18 +82,18 @@ impl FitTarget<'_> {
 
     fn step(
         &self,
-        candidate: &Candidate,
+        candidate: &CandidateModel,
         (walk, difference): (&ChainWalk, &[f64]),
         free: &[ModelParameter],
         damping: f64,
     ) -> Option<DVector<f64>> {
         let column = |&parameter: &ModelParameter| {
-            let effect = candidate.effect_of(parameter, &self.evaluation_point.q, walk)?;
+            let effect = candidate.parameter_effect(parameter, &self.evaluation_point.q, walk)?;
             Some(self.evaluation_point.derivative(candidate, walk, &effect))
         };
         let columns: Vec<Vec<f64>> = free.iter().map(column).collect::<Option<_>>()?;
         // The absolute part keeps a parameter without effect at its value.
-        NormalEquations::of_columns(&columns, difference)
+        NormalEquations::from_columns(&columns, difference)
             .damped_step(Damping { relative: damping, absolute: NO_EFFECT })
     }
 }

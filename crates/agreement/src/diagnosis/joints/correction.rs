@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Unit, Vector3};
 use super::matched::MatchedRobots;
 use crate::diagnosis::thresholds::NO_TURN;
 
-/// What a URDF says of a joint's place.
+/// A part of a joint that places it: origin or axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum JointPart {
     /// Its `<origin>`: pose in the parent link.
@@ -33,8 +33,8 @@ pub(super) fn corrections(robots: &MatchedRobots<'_>) -> Vec<JointCorrection> {
     robots.robot.joints().iter().flat_map(of_joint).collect()
 }
 
-/// The origin of a joint in the other description; of fixed joints before it whose links that description lacks, one may
-/// be meant instead.
+/// The origin of a joint in the other description. If that description lacks links of fixed joints before it, the
+/// fault may be at one of those instead.
 fn origin(robots: &MatchedRobots<'_>, joint: &Joint, reach_m: f64) -> Option<JointCorrection> {
     if !robots.is_matched(joint.child) {
         return None;
@@ -46,12 +46,16 @@ fn origin(robots: &MatchedRobots<'_>, joint: &Joint, reach_m: f64) -> Option<Joi
     let size_m = distance_m(&joint.parent_from_joint, &expected, reach_m);
     let index = robots.robot.parent_joint(joint.child)?;
     let correction = JointCorrection { joint: index, expected: JointPart::Origin(expected), size_m };
-    (size_m > NO_TURN).then(|| meant(robots, joint, correction))
+    (size_m > NO_TURN).then(|| at_differing_fixed_joint(robots, joint, correction))
 }
 
-/// The correction at the joint that has another origin in both files under one name, among those that stand between the
-/// same two links of the other description.
-fn meant(robots: &MatchedRobots<'_>, joint: &Joint, correction: JointCorrection) -> JointCorrection {
+/// Moves the correction to the fixed joint whose origin differs from that of its namesake, among the joints between
+/// the same two links of the other description.
+fn at_differing_fixed_joint(
+    robots: &MatchedRobots<'_>,
+    joint: &Joint,
+    correction: JointCorrection,
+) -> JointCorrection {
     let differs = |of: &Joint| {
         let there = robots.namesake(of)?;
         (distance_m(&of.parent_from_joint, &there.parent_from_joint, 1.0) > NO_TURN).then_some(())
@@ -74,6 +78,8 @@ pub(super) fn moved_to(
     let JointPart::Origin(expected) = correction.expected else { return correction };
     let before_fixed = robots.own(fixed.parent);
     let parent = before_fixed.inverse() * robots.own(joint.parent);
+    // The correction acts behind the joint. Moved before it, it is the same displacement expressed in the frame of
+    // the fixed joint's parent.
     let corrected =
         parent * Pose::from(expected) * Pose::from(joint.parent_from_joint).inverse() * parent.inverse();
     let origin = (corrected * Pose::from(fixed.parent_from_joint)).to_isometry();
@@ -97,6 +103,7 @@ pub(super) fn between<'a>(
 fn axis(robots: &MatchedRobots<'_>, joint: &Joint, reach_m: f64) -> Option<JointCorrection> {
     let there = robots.namesake(joint).filter(|_| joint.kind.is_movable())?;
     let [found, expected] = [joint.axis_in_joint, there.axis_in_joint];
+    // Sine alone would be zero for the opposite axis, `1 - cosine` alone loses small angles in rounding.
     let turn = found.cross(&expected).norm() + (1.0 - found.dot(&expected));
     let expected = JointPart::Axis(expected);
     let index = robots.robot.parent_joint(joint.child)?;

@@ -1,8 +1,9 @@
-//! One displacement of all that a joint carries, told by the screws and the tip alone: for descriptions whose link frames
-//! lie elsewhere in their links, which no motion shows.
+//! One displacement of all that a joint carries, found from the screws and the tip alone: for descriptions whose
+//! link frames lie elsewhere in their links, which no motion shows.
 //!
-//! A displacement `D` (in the root's frame, at zero) of all behind a joint changes the screws there to `Ad(D) S` and the
-//! tip to `D M`, and nothing before it. So the tip gives `D`, and the screws say which joints it may stand in.
+//! A displacement `D` (in the root's frame, at zero) of all behind a joint changes the screws there to `Ad(D) S`
+//! and the tip to `D M`, and nothing before it. So the tip gives `D`, and the screws show at which joints it may
+//! be.
 //!
 //! Source: Lynch & Park, *Modern Robotics* (2017), eq. 3.83 and 4.14.
 
@@ -34,12 +35,14 @@ pub(super) fn displaced(robots: &MatchedRobots<'_>, at: &ComparedAt<'_>) -> Vec<
     if !robots.is_matched(at.tip) || !base.is_within(at.tolerance) {
         return Vec::new();
     }
+    // `D = M M'^-1`: the tip of both at zero, in the root's frame.
     let displacement = off(at.tip);
     let mut places: Vec<(bool, JointCorrection)> = Vec::new();
     for index in path(robots.robot, at) {
         let joint = robots.robot.joint(index);
         if explains(robots, &displacement, Some(joint), at.tolerance) {
             let parent = robots.own(joint.parent);
+            // `D^-1` in the frame of the parent link, in which an origin is written.
             let undone = parent.inverse() * displacement.inverse() * parent;
             let expected = undone * Pose::from(joint.parent_from_joint);
             let is_there = robots.namesake(joint).is_some_and(|there| {
@@ -50,6 +53,7 @@ pub(super) fn displaced(robots: &MatchedRobots<'_>, at: &ComparedAt<'_>) -> Vec<
             places.push((is_there, JointCorrection { joint: index, expected: part, size_m }));
         }
     }
+    // Stable: among those that are not in the other file the order from base to tip remains.
     places.sort_by_key(|(is_there, _)| !is_there);
     places.into_iter().map(|(_, correction)| correction).collect()
 }

@@ -45,26 +45,30 @@ pub(crate) fn explained_by_joints(
     at: &ComparedAt<'_>,
 ) -> Result<Option<ExplainedByJoints>, LinkPosesError> {
     let mut all = corrections(robots);
+    // Largest first, so that the fewest are needed: after them the rest is rounding.
     all.sort_by(|one, other| other.size_m.total_cmp(&one.size_m));
     all.truncate(MAX_PARAMETERS);
     let every_link = |link| robots.is_matched(link);
-    let mut difference = Difference::new(robots, poses, &every_link);
+    let mut difference = CorrectedDifference::new(robots, poses, &every_link);
     if !difference.is_within(&corrected(robots.robot, &all), at)? {
         return single_displacement(robots, poses, (displaced(robots, at), at));
     }
     let mut worst = vec![difference.worst(robots.robot, at)?];
     for count in 1..=all.len() {
+        // One more correction each time, until all links agree: the others only round.
         worst.push(difference.worst(&corrected(robots.robot, &all[..count]), at)?);
         if worst[count].is_within(at.tolerance) {
             all.truncate(count);
             break;
         }
     }
+    // A link frame that lies elsewhere gives two differing origins, before it and behind it, which cancel each
+    // other.
     if all.len() > 1 {
         if moves_alike(robots, at) {
             return Ok(None);
         }
-        // What differs besides are then only frames of links.
+        // Then all further differences are only frames of links.
         let suffices = |only: &&JointCorrection| {
             let corrected = corrected(robots.robot, std::slice::from_ref(*only));
             moves_alike(&robots.with(&corrected), at)
@@ -88,11 +92,12 @@ fn single_displacement(
     }
     let only = places.remove(0);
     let at_tip = |link| link == at.tip;
-    let mut difference = Difference::new(robots, poses, &at_tip);
+    let mut difference = CorrectedDifference::new(robots, poses, &at_tip);
     let worst = [
         difference.worst(robots.robot, at)?,
         difference.worst(&corrected(robots.robot, std::slice::from_ref(&only)), at)?,
     ];
+    // The frames differ at every link, so only the tip can say whether one correction suffices.
     let explains = !worst[0].is_within(at.tolerance) && worst[1].is_within(at.tolerance);
     let explained =
         ExplainedByJoints { corrections: vec![only], worst: worst.to_vec(), alternatives: places };
@@ -109,13 +114,13 @@ fn elsewhere(robots: &MatchedRobots<'_>, only: JointCorrection) -> Vec<JointCorr
 }
 
 /// The difference of a corrected robot from the other description.
-struct Difference<'a> {
+struct CorrectedDifference<'a> {
     poses: &'a mut dyn LinkPoses,
     is_compared: &'a dyn Fn(LinkIndex) -> bool,
     links: [Vec<Pose>; 2],
 }
 
-impl<'a> Difference<'a> {
+impl<'a> CorrectedDifference<'a> {
     fn new(
         robots: &MatchedRobots<'_>,
         poses: &'a mut dyn LinkPoses,
@@ -249,9 +254,9 @@ mod tests {
     }
 
     /// All frames but the first and the last lie elsewhere in their links, which is more than eight origins and axes:
-    /// the tip and the screws alone tell the place.
+    /// the tip and the screws alone determine the place.
     #[test]
-    fn a_displacement_is_told_from_frames_that_all_lie_elsewhere() {
+    fn a_displacement_is_distinguished_from_frames_that_all_lie_elsewhere() {
         let mut at: usize = 0;
         let found = robot(ORIGINS, AXES).with_joints(|joint| {
             let before = at.checked_sub(1).map(moved_frame).unwrap_or_default();

@@ -20,7 +20,7 @@ pub(crate) struct ComparedAt<'a> {
 pub(crate) struct MatchedRobots<'a> {
     pub(crate) robot: &'a Robot,
     pub(crate) other: &'a Robot,
-    /// For each link of the robot that of the other.
+    /// For each link of the robot the same link of the other, if it has one.
     links: Vec<Option<LinkIndex>>,
     /// For each link of the robot the joint of the other with the name of the joint that carries it.
     namesakes: Vec<Option<JointIndex>>,
@@ -41,6 +41,8 @@ impl<'a> MatchedRobots<'a> {
         let namesakes: Vec<Option<JointIndex>> = robot.link_indices().map(namesake).collect();
         let link = |link: LinkIndex| {
             let carrying = robot.parent_joint(link).map(|joint| robot.joint(joint));
+            // Links behind moving joints are matched by the joint's name: exporters rename links more often than
+            // joints.
             match carrying.filter(|joint| joint.kind.is_movable()) {
                 Some(_) => Some(other.joint(namesakes[link.get()]?).child),
                 None => other.find_link(&robot.link(link).name),
@@ -54,7 +56,7 @@ impl<'a> MatchedRobots<'a> {
         Ok(Self { robot, other, links, namesakes, at_zero })
     }
 
-    /// The same with another robot that differs in values of its joints alone.
+    /// The match with another robot that differs only in values of its joints.
     pub(super) fn with<'b>(&self, robot: &'b Robot) -> MatchedRobots<'b>
     where
         'a: 'b,

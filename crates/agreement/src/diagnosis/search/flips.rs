@@ -1,5 +1,5 @@
-//! Three or more joints that move in the opposite direction: tables of some makers leave all their signs out, and one
-//! or two corrected signs alone leave as much as before.
+//! Three or more joints that move in the opposite direction: tables of some makers have no signs at all, and one or
+//! two corrected signs alone do not reduce the difference.
 
 use super::ExplanationSearch;
 use crate::diagnosis::{
@@ -13,12 +13,14 @@ impl ExplanationSearch<'_> {
     pub(super) fn flips(&self) -> Vec<HypothesisFit> {
         let is_flip = |at: &usize| self.context.hypotheses[*at].cause == Cause::AxisFlipped;
         let flips: Vec<usize> = (0..self.context.hypotheses.len()).filter(is_flip).collect();
+        // The number of sets doubles with each joint.
         if flips.len() > MAX_FLIPPED_JOINTS {
             return Vec::new();
         }
         let chosen = |set: u32| -> Vec<usize> {
             flips.iter().enumerate().filter(|(bit, _)| set >> bit & 1 == 1).map(|(_, &at)| at).collect()
         };
+        // Bit `n` of `set` says whether joint `n` is turned around; one and two joints are tried elsewhere.
         let sets = (0..1_u32 << flips.len()).map(chosen).filter(|set| set.len() > PAIR);
         sets.map(|set| self.context.fit(set, &[])).collect()
     }

@@ -1,5 +1,5 @@
-//! The search for the simplest explanation: one hypothesis, then two (`pairs.rs`) or any joints that are turned
-//! around (`flips.rs`), then the one with the largest effect and the parameters that are wrong besides (`stages.rs`).
+//! The search for the simplest explanation: one hypothesis, then two (`pairs.rs`) or any set of flipped joints
+//! (`flips.rs`), then a gross cause together with wrong single values (`stages.rs`).
 
 mod flips;
 mod pairs;
@@ -12,9 +12,9 @@ use super::{
     equivalence::{self, Equivalence},
     explanation::{Criterion, ExplainedFault, Explanation},
     fit::hypothesis_fit::{FitContext, HypothesisFit},
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
     invariants::{self, JointDifference},
-    score::{Rank, is_refuted, rank},
+    score::{ExplanationRank, is_refuted, rank},
     thresholds::{EVALUATED_BELOW, MAX_NEXT_BEST, SAME_EFFECT},
 };
 
@@ -50,7 +50,7 @@ pub struct Diagnosis {
 /// A turntable whose model turns in the opposite direction:
 /// ```
 /// use congruent_agreement::diagnosis::{
-///     Candidate, Cause, Criterion, ModelPair, ReferenceModel, diagnose,
+///     CandidateModel, Cause, Criterion, ModelPair, ReferenceModel, diagnose,
 /// };
 /// use congruent_description::Tolerance;
 /// use congruent_kinematics::{Pose, ScrewChain, Twist};
@@ -59,7 +59,7 @@ pub struct Diagnosis {
 ///     twists_in_base: vec![Twist { angular: Vector3::z(), linear: Vector3::zeros() }],
 ///     base_from_tip_at_zero: Pose::from_parts(Matrix3::identity(), Vector3::new(0.5, 0.1, 0.)),
 /// };
-/// let mut candidate = Candidate::from_screws(&chain);
+/// let mut candidate = CandidateModel::from_screws(&chain);
 /// candidate.rows[0].rate = -1.0;
 /// let models = ModelPair { candidate, reference: ReferenceModel::from_screws(&chain) };
 /// let criterion = Criterion { tolerance: Tolerance::default(), configurations: vec![[1.0].into()] };
@@ -69,6 +69,7 @@ pub struct Diagnosis {
 /// ```
 pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
     let differences = invariants::compare(models);
+    // Agreement first: without a difference every hypothesis without effect would be an explanation.
     if models.is_accepted(criterion) {
         return Diagnosis { explanations: Vec::new(), indistinguishable: Vec::new(), differences };
     }
@@ -105,6 +106,8 @@ impl ExplanationSearch<'_> {
     /// Fits that reach the tolerance, the best first, and the best of those that do not.
     fn run(&self) -> (Vec<HypothesisFit>, Vec<HypothesisFit>) {
         let singles = self.singles();
+        // From simple to complex, and only as far as needed: single faults are some two hundred fits, pairs tens of
+        // thousands, and with more faults the answer becomes less certain.
         let explained = self.explaining(&singles);
         if !explained.is_empty() {
             return (explained, self.next_best(&singles));
@@ -117,6 +120,8 @@ impl ExplanationSearch<'_> {
         }
         let gross = self.gross(&[&singles[..], &flips].concat());
         let explained = self.staged(&gross);
+        // One fault takes most of the difference away, but nothing explains the rest: the first step is still worth
+        // naming.
         if explained.is_empty() && !gross.is_empty() {
             return (gross, Vec::new());
         }
@@ -142,13 +147,14 @@ impl ExplanationSearch<'_> {
 
     fn explaining(&self, fits: &[HypothesisFit]) -> Vec<HypothesisFit> {
         let accepted: Vec<&HypothesisFit> = fits.iter().filter(|fit| self.accepts(fit)).collect();
+        // The best residual of all shows how precise the files are; only then is a larger one known to be wrong.
         let residuals = accepted.iter().map(|fit| self.context.corrected(fit).residual(self.criterion));
         let in_tolerances = |a: &PoseError, b: &PoseError| {
             self.criterion.in_tolerances(a).total_cmp(&self.criterion.in_tolerances(b))
         };
         let Some(best) = residuals.min_by(in_tolerances) else { return Vec::new() };
         let refuted = |fit: &HypothesisFit| is_refuted(self.context, fit, self.criterion, &best);
-        let mut explaining: Vec<(bool, Rank, &HypothesisFit)> =
+        let mut explaining: Vec<(bool, ExplanationRank, &HypothesisFit)> =
             accepted.iter().map(|fit| (refuted(fit), self.rank(fit), *fit)).collect();
         explaining.sort_by(|(a, rank_a, _), (b, rank_b, _)| (a, rank_a).cmp(&(b, rank_b)));
         // Of one fault with different free parameters only the first is kept.
@@ -156,7 +162,7 @@ impl ExplanationSearch<'_> {
     }
 
     /// The faults of a fit, in the order of the hypotheses.
-    fn named_faults(&self, fit: &HypothesisFit) -> Vec<(Cause, &Place)> {
+    fn named_faults(&self, fit: &HypothesisFit) -> Vec<(Cause, &FaultPlace)> {
         let mut hypotheses = fit.hypotheses.clone();
         hypotheses.sort_unstable();
         let fault = |at: usize| (self.context.hypotheses[at].cause, &self.context.hypotheses[at].place);
@@ -173,7 +179,7 @@ impl ExplanationSearch<'_> {
 
     /// A filter that passes fits whose faults were not passed before.
     fn distinct_faults(&self) -> impl FnMut(&&HypothesisFit) -> bool {
-        let mut named: Vec<Vec<(Cause, &Place)>> = Vec::new();
+        let mut named: Vec<Vec<(Cause, &FaultPlace)>> = Vec::new();
         move |fit| {
             let fault = self.named_faults(fit);
             let is_new = !named.contains(&fault);
@@ -189,10 +195,11 @@ impl ExplanationSearch<'_> {
             .tolerance
             .orientation_rad
             .max(criterion.tolerance.position_m / context.evaluation_point.length_m);
+        // The norm is known, while poses at all configurations cost more than the fit itself.
         fit.norm <= EVALUATED_BELOW * tolerance && context.corrected(fit).is_accepted(criterion)
     }
 
-    fn rank(&self, fit: &HypothesisFit) -> Rank {
+    fn rank(&self, fit: &HypothesisFit) -> ExplanationRank {
         rank(self.context, fit, self.criterion)
     }
 
@@ -202,7 +209,7 @@ impl ExplanationSearch<'_> {
         let mut stages = vec![self.context.models.residual(self.criterion)];
         let (order, residuals) = self.in_turn(fit);
         for (at, residual) in order.into_iter().zip(residuals) {
-            let Hypothesis { cause, place, free, .. } = &self.context.hypotheses[at];
+            let PoseHypothesis { cause, place, free, .. } = &self.context.hypotheses[at];
             match faults.iter().position(|fault| fault.cause == *cause && fault.place == *place) {
                 Some(known) if !free.is_empty() => faults[known].free.extend(free),
                 _ => {

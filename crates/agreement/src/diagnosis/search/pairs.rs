@@ -30,6 +30,7 @@ impl ExplanationSearch<'_> {
                 }
             }
         }
+        // Back in the order of the catalogue: it decides between pairs of equal rank.
         best.sort_by_key(|fit| fit.hypotheses[0]);
         best
     }
@@ -39,7 +40,7 @@ impl ExplanationSearch<'_> {
         let best = self.pair_candidates(singles);
         let (mut accepted, mut others) = (Vec::new(), Vec::new());
         for (at, second) in best.iter().enumerate() {
-            let pairs = best[..at].iter().flat_map(|first| self.pairs_of(first, second));
+            let pairs = best[..at].iter().flat_map(|first| self.pair_in_both_orders(first, second));
             let (reaching, beyond): (Vec<_>, Vec<_>) = pairs.partition(|pair| self.accepts(pair));
             accepted.extend(reaching);
             others.extend(beyond);
@@ -50,8 +51,9 @@ impl ExplanationSearch<'_> {
         [accepted, equivalent, others].concat()
     }
 
-    /// The fit of two hypotheses together, in both orders if that makes a difference; none if they fit the same parameter.
-    fn pairs_of(&self, first: &HypothesisFit, second: &HypothesisFit) -> Vec<HypothesisFit> {
+    /// The fit of two hypotheses together, in both orders if that makes a difference; none if they fit the same
+    /// parameter.
+    fn pair_in_both_orders(&self, first: &HypothesisFit, second: &HypothesisFit) -> Vec<HypothesisFit> {
         let [a, b] = [first, second].map(|fit| &self.context.hypotheses[fit.hypotheses[0]]);
         if a.free.iter().any(|parameter| b.free.contains(parameter)) {
             return Vec::new();
@@ -68,6 +70,8 @@ impl ExplanationSearch<'_> {
     fn pair(&self, first: &HypothesisFit, second: &HypothesisFit) -> HypothesisFit {
         let [a, b] = [first, second].map(|fit| self.context.starts(fit));
         let unchanged = |fit: &HypothesisFit| vec![0.0; fit.changes.len()];
+        // Each fit alone is a start for the pair, since one of the two faults often has nearly the right value by
+        // itself. Starts of both together would multiply.
         let with_a = a.into_iter().map(|start| [start, unchanged(second)].concat());
         let with_b = b.into_iter().map(|start| [unchanged(first), start].concat());
         let starts: Vec<Vec<f64>> = with_a.chain(with_b).collect();
@@ -79,6 +83,8 @@ impl ExplanationSearch<'_> {
         if accepted.is_empty() {
             return Vec::new();
         }
+        // `pair_candidates` has kept one edit of each effect; the others come back here, for the list of
+        // explanations that cannot be distinguished.
         let effects: Vec<Vec<f64>> =
             singles.iter().map(|fit| self.difference(&self.context.corrected(fit))).collect();
         let same = |hypothesis: usize| -> Vec<&HypothesisFit> {

@@ -1,5 +1,5 @@
-//! A cause with a large effect and the parameters that are wrong besides: the first is found under a tolerance
-//! as loose as what the others leave, these are added one by one.
+//! A gross cause together with wrong single values: the gross cause is found under a tolerance as loose as the
+//! residual that the other faults cause, then the values are added one by one.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,7 @@ use crate::diagnosis::{
     candidate::ModelParameter,
     explanation::Criterion,
     fit::hypothesis_fit::{HypothesisFit, moved},
-    hypothesis::{Cause, Hypothesis, Place},
+    hypothesis::{Cause, FaultPlace, PoseHypothesis},
     nearest_table::nearby_table,
     thresholds::{
         GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_GROSS_ONE_BY_ONE, MAX_PARAMETERS, PARAMETER_GAIN,
@@ -29,6 +29,8 @@ impl ExplanationSearch<'_> {
         let residual = |fit: &HypothesisFit| {
             self.criterion.in_tolerances(&self.context.corrected(fit).residual(self.criterion))
         };
+        // What the best gross cause fails to explain is due to the other faults. It takes the place of the
+        // tolerance, with which the ordinary ranking then names the gross cause.
         let Some(best) = gross.iter().map(residual).min_by(f64::total_cmp) else { return Vec::new() };
         let Tolerance { position_m, orientation_rad } = self.criterion.tolerance;
         let loose = Criterion {
@@ -41,8 +43,8 @@ impl ExplanationSearch<'_> {
         ExplanationSearch { context: self.context, criterion: &loose }.explaining(&gross)
     }
 
-    /// Each gross cause, and none, with the parameters that are wrong besides; those that reach the
-    /// tolerance with the fewest faults.
+    /// Each gross cause, and none, together with further wrong values; of those that reach the tolerance the ones
+    /// with the fewest faults.
     pub(super) fn staged(&self, gross: &[HypothesisFit]) -> Vec<HypothesisFit> {
         // Rounding has a small effect, but one that many values would have to make up for.
         let rounding = (0..self.context.hypotheses.len()).find(|&at| self.is_rounding(at));
@@ -56,6 +58,8 @@ impl ExplanationSearch<'_> {
             let starts = gross.iter().take(MAX_GROSS_ONE_BY_ONE).map(Some).chain([None]);
             grown = starts.filter_map(|start| self.with_parameters(start.cloned())).collect();
         }
+        // Fewer wrong values are likelier than many; the residual does not decide, since each value added makes it
+        // smaller.
         let Some(fewest) = grown.iter().map(|fit| fit.hypotheses.len()).min() else { return Vec::new() };
         let simplest: Vec<HypothesisFit> =
             grown.into_iter().filter(|fit| fit.hypotheses.len() == fewest).collect();
@@ -66,7 +70,7 @@ impl ExplanationSearch<'_> {
     /// the one with the smallest norm each time, and in the end removes those that are not needed.
     fn with_parameters(&self, gross: Option<HypothesisFit>) -> Option<HypothesisFit> {
         let is_parameter = |hypothesis: &usize| {
-            let Hypothesis { cause, free, .. } = &self.context.hypotheses[*hypothesis];
+            let PoseHypothesis { cause, free, .. } = &self.context.hypotheses[*hypothesis];
             (free.len() == 1 && *cause != Cause::Ratio) || self.is_rounding(*hypothesis)
         };
         let kept = usize::from(gross.is_some());
@@ -78,12 +82,14 @@ impl ExplanationSearch<'_> {
                 None => (Vec::new(), Vec::new(), self.context.norm(self.context.models)),
             };
             let with = |&parameter: &usize| {
+                // From the fit so far: the values that are known only have to give way to the next one.
                 let start = [changes.clone(), vec![0.0]].concat();
                 self.context.fit([before.clone(), vec![parameter]].concat(), &[start])
             };
             let further =
                 parameters.iter().filter(|parameter| !self.overlaps(&before, **parameter)).map(with);
             let best = further.min_by(|a, b| self.compare_parameters(a, b))?;
+            // A value that gains so little is not the fault, and the next ones would gain less.
             if best.norm > PARAMETER_GAIN * norm {
                 return None;
             }
@@ -107,7 +113,8 @@ impl ExplanationSearch<'_> {
         let nearest = nearby_table(&models, &fitted)?;
         let length_m = self.context.evaluation_point.length_m;
         let mut changed: Vec<(f64, usize, f64)> = Vec::new();
-        for (at, Hypothesis { cause, free, .. }) in self.context.hypotheses.iter().enumerate() {
+        for (at, PoseHypothesis { cause, free, .. }) in self.context.hypotheses.iter().enumerate() {
+            // Only hypotheses with one parameter name a single value; edits and whole transforms are gross causes.
             let [parameter] = free[..] else { continue };
             let by = moved(&models.candidate, &nearest, parameter);
             // The offset of a prismatic joint has two hypotheses.
@@ -119,6 +126,7 @@ impl ExplanationSearch<'_> {
         if changed.len() > MAX_PARAMETERS {
             return None;
         }
+        // The largest effect first: the last ones are the first that are tried without.
         changed.sort_by(|(one, ..), (other, ..)| other.total_cmp(one));
         hypotheses.extend(changed.iter().map(|(_, at, _)| *at));
         changes.extend(changed.iter().map(|(.., by)| *by));
@@ -128,8 +136,8 @@ impl ExplanationSearch<'_> {
 
     /// Whether a hypothesis is about rounded angles in the reference model's file.
     fn is_rounding(&self, hypothesis: usize) -> bool {
-        let Hypothesis { cause, place, .. } = &self.context.hypotheses[hypothesis];
-        *cause == Cause::Parameter && matches!(place, Place::ReferenceJoints(_))
+        let PoseHypothesis { cause, place, .. } = &self.context.hypotheses[hypothesis];
+        *cause == Cause::Parameter && matches!(place, FaultPlace::ReferenceJoints(_))
     }
 
     /// The number of free parameters of a hypothesis.
@@ -143,7 +151,7 @@ impl ExplanationSearch<'_> {
         chosen.iter().any(|&at| free(parameter).iter().any(|each| free(at).contains(each)))
     }
 
-    /// Without the parameters that are not needed; the first `kept` hypotheses stay.
+    /// The fit without the parameters that are not needed; the first `kept` hypotheses stay.
     fn pruned(&self, mut fit: HypothesisFit, kept: usize) -> HypothesisFit {
         // The last ones have the smallest effects.
         for at in (kept..fit.hypotheses.len()).rev() {
@@ -183,6 +191,8 @@ impl ExplanationSearch<'_> {
         }
         let mut residuals: Vec<PoseError> = Vec::new();
         let mut changes: Vec<f64> = Vec::new();
+        // Corrected one after the other, each fit starting from the values before it, as a person would change the
+        // file.
         for count in 1..order.len() {
             let start = [changes, vec![0.0; self.free(order[count - 1])]].concat();
             let partial = if count == 1 {

@@ -28,7 +28,7 @@ use super::correction_parameter::CorrectionParameter;
 #[derive(Debug, Clone, PartialEq)]
 pub struct CorrectedChain {
     chain: ScrewChain,
-    /// By slot.
+    /// Sorted by slot, as they are applied along the chain.
     parameters: Vec<CorrectionParameter>,
 }
 
@@ -43,6 +43,7 @@ impl CorrectedChain {
             parameters.iter().all(|parameter| parameter.slot <= slots),
             "slots end behind the last joint"
         );
+        // `walk` visits slots in order and takes parameters as they come, without searching.
         parameters.sort_by_key(|parameter| parameter.slot);
         Self { chain, parameters }
     }
@@ -100,6 +101,8 @@ impl CorrectedChain {
             if slot > 0 {
                 pose = pose * self.chain.twists_in_base[slot - 1].exp(q[slot - 1]);
             }
+            // Before its own exponential is multiplied: the generator commutes with it, and `pose` is then
+            // everything before the correction.
             while at < p.len() && self.parameters[at].slot == slot {
                 each(at, &pose);
                 pose = pose * self.parameters[at].generator_in_base.exp(p[at]);

@@ -19,9 +19,9 @@ pub enum CorrectionEntry {
     JointEntry,
     /// The other entry about the z axis: `d` of a revolute row, `theta` of a prismatic one.
     ConstantEntry,
-    /// A table's `a`.
+    /// The link length `a` of a table's row.
     A,
-    /// A table's `alpha`.
+    /// The link twist `alpha` of a table's row.
     Alpha,
     /// A rotation about y beside `alpha`, for axes so nearly parallel that `theta`, `d` and `a` cannot
     /// express it. Source: Hayati, *Robot arm geometric link parameter estimation* (1983).
@@ -36,8 +36,8 @@ pub enum CorrectionEntry {
     Base,
 }
 
-/// A twist with less rotation per unit is a pure translation but for rounding. Kind: rounding; an
-/// identified sliding joint rotates by less than 1e-15.
+/// A twist with less rotation per unit counts as a pure translation. Unit: rad per unit; kind: rounding; an identified sliding
+/// joint rotates by less than 1e-15.
 const ROTATES_ABOVE: f64 = 1e-9;
 
 /// Whether a twist rotates; otherwise it is a pure translation.
@@ -48,10 +48,10 @@ pub(super) fn rotates(twist: &Twist) -> bool {
 /// The unit of a correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 pub enum ParameterUnit {
-    /// Radians.
+    /// An angle, in radians.
     #[serde(rename = "rad")]
     Angle,
-    /// Metres.
+    /// A length, in metres.
     #[serde(rename = "m")]
     Length,
 }
@@ -90,7 +90,7 @@ impl fmt::Display for ParameterUnit {
 pub struct CorrectionParameter {
     /// Unique, `<joint>.<entry>` or `base.<axis>` or `tool.<axis>`.
     pub name: String,
-    /// What it changes.
+    /// The quantity of the model that it changes.
     pub entry: CorrectionEntry,
     /// Index in the chain of the joint whose zero, table row or axis it changes; `None` for base and tool.
     pub joint: Option<usize>,

@@ -1,6 +1,6 @@
 //! The sets of corrections that can be free: zeros, table entries, axes, base, tool.
 
-use congruent_description::{DhConvention, DhRowKind, DhTable, Elementary as _, RobotQ};
+use congruent_description::{DhConvention, DhRowKind, DhTable, RobotQ};
 use congruent_kinematics::{Axes, DhChain, DhRowTwists, KinematicsError, Pose, ScrewChain, Twist};
 use nalgebra::Vector3;
 
@@ -49,6 +49,8 @@ pub fn joint_axes(chain: &ScrewChain, joints: &[&str]) -> Vec<CorrectionParamete
         let is_revolute = rotates(twist);
         let axis = if is_revolute { twist.angular } else { twist.linear }.normalize();
         // Of a prismatic joint only the direction counts; it is tilted about the base's origin.
+        // A screw with linear = -axis x point * rate: the point of the axis nearest to the origin is axis x
+        // linear / rate.
         let point =
             if is_revolute { axis.cross(&twist.linear) / twist.angular.norm() } else { Vector3::zeros() };
         for (letter, across) in across(&axis) {
@@ -91,16 +93,20 @@ pub fn dh_entries(
     chain.dh_frames_into(&RobotQ::zeros(dof), &mut base_from_dh)?;
     let mut parameters = Vec::with_capacity(5 * rows);
     for (at, (row, joint)) in table.rows.iter().zip(joints).enumerate() {
+        // In the standard convention a and alpha act behind the joint of their row, in the modified one before
+        // it.
         let (x_slot, has_neighbour) = match table.convention {
             DhConvention::Standard => (at + 1, at + 1 < rows),
             DhConvention::Modified => (at, at > 0),
         };
-        let (before, behind) = (Axes::of(&base_from_dh[at]), Axes::of(&base_from_dh[at + 1]));
+        let (before, behind) = (Axes::from_pose(&base_from_dh[at]), Axes::from_pose(&base_from_dh[at + 1]));
         let by = DhRowTwists::between(table.convention, &before, &behind);
         let mut push = |entry, word: &str, slot, generator_in_base| {
             let name = format!("{joint}.{word}");
             parameters.push(CorrectionParameter { name, entry, joint: Some(at), slot, generator_in_base });
         };
+        // The entry that the coordinate is added to is preferred over the constant one: it is the zero of the
+        // joint.
         let (theta, d) = match row.kind {
             DhRowKind::Revolute => (CorrectionEntry::JointEntry, CorrectionEntry::ConstantEntry),
             DhRowKind::Prismatic => (CorrectionEntry::ConstantEntry, CorrectionEntry::JointEntry),
@@ -109,7 +115,7 @@ pub fn dh_entries(
         push(d, "d", at + 1, by.d);
         push(CorrectionEntry::A, "a", x_slot, by.a);
         push(CorrectionEntry::Alpha, "alpha", x_slot, by.alpha);
-        if has_neighbour && row.alpha_rad.sine().abs() < NEARLY_PARALLEL_SINE {
+        if has_neighbour && libm::sin(row.alpha_rad).abs() < NEARLY_PARALLEL_SINE {
             let frame = &base_from_dh[x_slot];
             let y = frame.rotation.column(1).into_owned();
             push(CorrectionEntry::Beta, "beta", x_slot, Twist::turn(y, &frame.translation));
@@ -141,8 +147,12 @@ fn across(axis: &Vector3<f64>) -> [(char, Vector3<f64>); 2] {
     let second = 3 - along - first;
     let mut unit = Vector3::zeros();
     unit[first] = 1.0;
+    // Gram-Schmidt of a unit vector of the base; it cannot vanish, since `along` (the largest component) is
+    // another one.
     let u = (unit - axis * axis[first]).normalize();
     let v = axis.cross(&u);
+    // Both directions point along the positive axes of the base, so that a sign in a report can be read off the
+    // letter.
     let v = if v[second] < 0.0 { -v } else { v };
     [(LETTERS[first], u), (LETTERS[second], v)]
 }

@@ -24,6 +24,8 @@ pub fn configurations(measurements: &[Measurement]) -> Vec<usize> {
     let mut leader_of = vec![0; measurements.len()];
     for row in order {
         let q = &measurements[row].q;
+        // If every joint differs by at most ALIKE, the sums differ by at most n times as much: rows further apart
+        // need no comparison.
         let reach = ALIKE * f64::from(u32::try_from(q.len()).unwrap_or(u32::MAX));
         let near = leaders.iter().rev().take_while(|&&leader| sum(row) - sum(leader) <= reach);
         let is_alike =
@@ -36,6 +38,7 @@ pub fn configurations(measurements: &[Measurement]) -> Vec<usize> {
     }
     let mut number_of = vec![None; measurements.len()];
     let mut count = 0;
+    // Numbers are given in the order of the file, not in that of the sums.
     let number = |leader: usize| {
         *number_of[leader].get_or_insert_with(|| {
             count += 1;

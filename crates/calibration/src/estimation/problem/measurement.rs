@@ -39,12 +39,13 @@ impl Measurement {
         self.position_count() + self.orientation_count()
     }
 
-    /// Measured minus modelled.
+    /// Residual of this measurement at a modelled pose: measured minus modelled.
     pub fn residual(&self, base_from_tip: &Pose) -> PoseResidual {
         let along = |at: usize| {
             self.tip_in_base_m[at].map_or(0.0, |measured| measured - base_from_tip.translation[at])
         };
         let orientation_rad = self.base_from_tip.map_or(Vector3::zeros(), |measured| {
+            // measured = exp([e]) modelled, so e is a rotation vector in the base, like the position residual.
             rotation_log(&(measured * base_from_tip.rotation.transpose()))
         });
         PoseResidual { position_m: Vector3::new(along(0), along(1), along(2)), orientation_rad }

@@ -19,7 +19,7 @@ const HAS_EFFECT: f64 = 1e-9;
 pub struct Problem<'a> {
     /// The chain with its free corrections.
     pub chain: &'a CorrectedChain,
-    /// The measurements.
+    /// The measured poses or points, one for each row of the file.
     pub measurements: &'a [Measurement],
 }
 
@@ -62,20 +62,25 @@ impl Problem<'_> {
         let none = vec![0.0; self.chain.parameters().len()];
         let mut twists = vec![Twist::zero(); none.len()];
         let configuration_of = configurations(self.measurements);
-        let mut seen = vec![[false; 6]; configuration_of.iter().max().map_or(0, |last| last + 1)];
+        let mut has_effect = vec![[false; 6]; configuration_of.iter().max().map_or(0, |last| last + 1)];
         for (measurement, &configuration) in self.measurements.iter().zip(&configuration_of) {
             let pose = self.chain.linearise(&measurement.q, &none, &mut twists);
             for twist in kept.iter().map(|&at| twists[at]) {
+                // Velocity of the tip under a unit rate of the correction: v + w x p, for a twist at the origin
+                // of the base.
                 let velocity = twist.linear + twist.angular.cross(&pose.translation);
                 for at in 0..3 {
                     let is_measured = measurement.tip_in_base_m[at].is_some();
-                    seen[configuration][at] |= is_measured && velocity[at].abs() > HAS_EFFECT;
+                    has_effect[configuration][at] |= is_measured && velocity[at].abs() > HAS_EFFECT;
                     let is_measured = measurement.base_from_tip.is_some();
-                    seen[configuration][3 + at] |= is_measured && twist.angular[at].abs() > HAS_EFFECT;
+                    // Components 0 to 2 are the position, 3 to 5 the orientation. A component counts once for
+                    // each configuration, however often it was repeated.
+                    has_effect[configuration][3 + at] |= is_measured && twist.angular[at].abs() > HAS_EFFECT;
                 }
             }
         }
-        seen.as_flattened().iter().filter(|&&seen| seen).count().saturating_sub(kept.len())
+        // Fewer components than corrections is no redundancy rather than a negative one.
+        has_effect.as_flattened().iter().filter(|&&has_effect| has_effect).count().saturating_sub(kept.len())
     }
 
     /// Largest distance of the nominal tip from the base over the measurements: the length of an angle of
@@ -84,6 +89,7 @@ impl Problem<'_> {
         let none = vec![0.0; self.chain.parameters().len()];
         let distance = |each: &Measurement| self.chain.base_from_tip(&each.q, &none).translation.norm();
         let reach = self.measurements.iter().map(distance).fold(0.0, f64::max);
+        // All tips at the base, or no measurement: any positive length avoids dividing by zero.
         if reach > 0.0 { reach } else { 1.0 }
     }
 
@@ -91,7 +97,7 @@ impl Problem<'_> {
     pub(in crate::estimation) fn cost(&self, p: &[f64], weighting: &Weighting) -> f64 {
         let term = |(at, each): (usize, &Measurement)| {
             let residual = each.residual(&self.chain.base_from_tip(&each.q, p));
-            weighting.of_row(at) * residual.whitened_squared(&weighting.noise)
+            weighting.row_weight(at) * residual.whitened_squared(&weighting.noise)
         };
         self.measurements.iter().enumerate().map(term).sum()
     }
@@ -105,7 +111,7 @@ impl Problem<'_> {
         let mut sum = CalibrationEquations::zeros(p.len());
         let mut at_p = Linearisation::new(self.chain, p);
         for (at, measurement) in self.measurements.iter().enumerate() {
-            sum.add(&mut at_p, measurement, (weighting.of_row(at), &weighting.noise));
+            sum.add(&mut at_p, measurement, (weighting.row_weight(at), &weighting.noise));
         }
         sum
     }
@@ -120,7 +126,7 @@ pub(in crate::estimation) struct Weighting<'a> {
 }
 
 impl Weighting<'_> {
-    fn of_row(&self, at: usize) -> f64 {
+    fn row_weight(&self, at: usize) -> f64 {
         self.rows.get(at).copied().unwrap_or(1.0)
     }
 }
@@ -171,12 +177,15 @@ impl CalibrationEquations {
         let pose = chain.linearise(&measurement.q, p, twists);
         let residual = measurement.residual(&pose);
         self.cost += weight * residual.whitened_squared(noise);
+        // A coordinate that was not measured gives no row; a row with residual 0 would claim that it fits.
         for at in (0..3).filter(|&at| measurement.tip_in_base_m[at].is_some()) {
             for (entry, twist) in row.iter_mut().zip(twists.iter()) {
                 let velocity = twist.linear + twist.angular.cross(&pose.translation);
                 *entry = velocity[at];
             }
             let factor = weight / noise.position_m.powi(2);
+            // Kept apart, since the noise of positions and that of orientations are estimated from their own
+            // redundancies.
             self.by_position.ger(factor, row, row, 1.0);
             self.gradient.axpy(factor * residual.position_m[at], row, 1.0);
             self.information.ger(factor, row, row, 1.0);

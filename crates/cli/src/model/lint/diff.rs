@@ -2,7 +2,7 @@
 
 use std::{fmt::Write, ops::Range};
 
-use congruent::description::ChangedLines;
+use congruent::input::ChangedLines;
 
 /// Lines around a change that are shown.
 const CONTEXT: usize = 2;

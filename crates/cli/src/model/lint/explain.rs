@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use congruent::description::{Code, Diagnostic};
+use congruent::input::{Code, Diagnostic};
 use serde::Serialize;
 
 use crate::{
     failure::Failure,
-    terminal::{print::Printer, table::paragraph},
+    terminal::{layout::paragraph, print::Printer},
 };
 
 /// An explanation as programs read it.

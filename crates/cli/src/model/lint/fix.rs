@@ -4,8 +4,8 @@ use std::{fs, sync::Arc};
 
 use congruent::{
     LintFix,
-    description::{SourceFile, TextEdit, changed_lines, edited, is_standard_input},
-    twin::results::write_whole,
+    input::{SourceFile, TextEdit, changed_lines, edited, is_standard_input},
+    results::files::write_whole,
 };
 
 use super::diff::unified;
@@ -39,11 +39,11 @@ pub(super) fn difference(fixes: &[LintFix]) -> String {
 pub(super) fn write(fixes: &[LintFix]) -> Result<bool, Failure> {
     let files = files(fixes);
     for (source, edits) in &files {
-        // It is not in the text that was read, and is no part of what is corrected.
+        // The mark is not part of the text that was read and corrected; it is written back.
         let mark = fs::read(&source.path).is_ok_and(|old| old.starts_with(MARK.as_bytes()));
         let text = [if mark { MARK } else { "" }, &edited(&source.text, edits)].concat();
         write_whole(&source.path, text.as_bytes())
-            .map_err(|error| unwritable(&error, "--dry-run shows the difference alone"))?;
+            .map_err(|error| unwritable(&error, "--dry-run only shows the difference"))?;
     }
     Ok(!files.is_empty())
 }

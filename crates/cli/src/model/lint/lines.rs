@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use congruent::description::SourceFile;
+use congruent::input::SourceFile;
 
 /// The beginnings of the lines of files, by path.
 #[derive(Debug, Default)]
@@ -37,7 +37,7 @@ impl Lines {
 
 #[cfg(test)]
 mod tests {
-    use congruent::description::line_column;
+    use congruent::input::line_column;
 
     use super::*;
 

@@ -5,13 +5,13 @@ mod explain;
 mod fix;
 mod lines;
 mod sarif;
-mod text;
 
 use std::path::{Path, PathBuf};
 
 use congruent::{
     LintReport, LintVerdict, lint_among,
-    twin::report::{CasePlace, Reason, TestResult, TestSuite},
+    results::report::{CasePlace, Reason, TestResult, TestSuite},
+    text::lint_text,
 };
 use serde::Serialize;
 
@@ -20,16 +20,17 @@ use crate::{
     ci::CiArguments,
     failure::{BAD_INPUT, FAILED, Failure},
     input::AccessArguments,
-    terminal::print::{Format, Printer},
+    terminal::print::{Format, Printer, text_options},
 };
 
-/// What is wrong or suspicious in URDFs, SRDFs, robot files and scenarios, with the files that they name, and in tables.
+/// Reports errors and suspicious values in URDFs, SRDFs, robot files, scenarios, the files that these name, and
+/// tables.
 ///
 /// An SRDF is compared with the robot in the same call or folder, and so are tables of configurations, targets and
 /// measurements.
-/// Each finding has its place, a code that never changes, what to do, and what it stops: kinematics, clearance or physics.
-/// Warnings that are meant are ignored by `[[lint.ignore]]` in robot.toml, with a reason. Exit codes: 0 no error, 1 errors
-/// (with --strict also warnings), 2 a file cannot be read.
+/// Each finding has its place, a code that never changes, what to do, and what it blocks: kinematics, clearance or
+/// physics. `[[lint.ignore]]` in robot.toml, with a reason, ignores warnings about what is intended. Exit codes: 0 no
+/// error, 1 errors (with --strict also warnings), 2 a file cannot be read.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Arguments {
@@ -39,11 +40,11 @@ pub(crate) struct Arguments {
     /// Explain a finding, by its number (CGR-URDF-005) or its name (`urdf::tree`).
     #[arg(long, value_name = "CODE", conflicts_with = "files")]
     explain: Option<String>,
-    /// Write the corrections that are safe, and show the difference: the file means the same after them, or what was
-    /// refused has the one meaning that was left. The findings are those that stay.
+    /// Write the safe corrections and show the difference. A correction is safe if the file keeps its meaning, or if
+    /// refused text has only one possible meaning. The findings printed are those that remain.
     #[arg(long)]
     fix: bool,
-    /// Show the difference alone, and write nothing.
+    /// Only show the difference; write nothing.
     #[arg(long, requires = "fix")]
     dry_run: bool,
     /// Warnings fail as errors do.
@@ -84,7 +85,7 @@ impl BatchReport for Linted {
     }
 
     fn text(&self) -> String {
-        text::text(&self.report, &self.difference)
+        lint_text(&self.report, &self.difference, &text_options())
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -99,8 +100,8 @@ impl BatchReport for Linted {
             FAILED => TestResult::Failed(reason),
             _ => TestResult::Error(reason),
         };
-        let mut suite = TestSuite::of_case(input, "lint", result);
-        let place = first.and_then(|found| CasePlace::of(found.file.as_deref(), found.line));
+        let mut suite = TestSuite::with_case(input, "lint", result);
+        let place = first.and_then(|found| CasePlace::if_known(found.file.as_deref(), found.line));
         suite.cases.iter_mut().for_each(|case| case.place.clone_from(&place));
         suite
     }

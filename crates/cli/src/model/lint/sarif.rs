@@ -1,5 +1,5 @@
 //! Findings as SARIF 2.1.0, which code hosts show beside the lines. Source: OASIS, *Static Analysis Results Interchange
-//! Format (SARIF) Version 2.1.0* (2020). A finding that stands for several places is a result for each of them.
+//! Format (SARIF) Version 2.1.0* (2020). A finding about several places is a result for each of them.
 
 use std::{
     collections::BTreeMap,
@@ -10,7 +10,7 @@ use std::{
 
 use congruent::{
     LintFix, LintReport,
-    description::{Code, Diagnostic, Occurrence, Severity, SourceFile, TextEdit},
+    input::{Code, Diagnostic, Occurrence, Severity, SourceFile, TextEdit},
 };
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -33,8 +33,8 @@ struct Results<'a> {
     top: Option<PathBuf>,
     /// The rules, by the names of their codes.
     codes: BTreeMap<&'a str, Option<Code>>,
-    /// How often a result was written that differs from others by its line alone.
-    seen: BTreeMap<String, usize>,
+    /// Number of results with the same rule, file and subject, which differ only in their lines.
+    fingerprints: BTreeMap<String, usize>,
     lines: Lines,
 }
 
@@ -42,14 +42,14 @@ struct Results<'a> {
 type FixesByLine<'a> = BTreeMap<(&'a str, &'a Path, usize), Vec<&'a LintFix>>;
 
 /// One place of a finding.
-struct Place<'a> {
+struct ResultPlace<'a> {
     message: &'a str,
     /// What it is about.
     name: Option<&'a str>,
     span: Option<&'a Range<usize>>,
 }
 
-impl<'a> From<&'a Occurrence> for Place<'a> {
+impl<'a> From<&'a Occurrence> for ResultPlace<'a> {
     fn from(found: &'a Occurrence) -> Self {
         Self { message: &found.message, name: found.name.as_deref(), span: found.span.as_ref() }
     }
@@ -61,7 +61,7 @@ pub(super) fn document(reports: &[(&Path, &LintReport)]) -> Sarif {
         found.map(|found| (found.code, Code::find(found.code))).collect();
     let rules: Vec<Value> = codes.iter().map(|(name, code)| rule(name, *code)).collect();
     let mut results =
-        Results { top: top_of_repository(), codes, seen: BTreeMap::new(), lines: Lines::default() };
+        Results { top: top_of_repository(), codes, fingerprints: BTreeMap::new(), lines: Lines::default() };
     let of_report = |(path, report): &(&Path, &LintReport)| {
         let fixes = results.fixes(&report.fixes);
         let found = report.diagnostics.iter();
@@ -110,9 +110,9 @@ impl Results<'_> {
 
     /// A finding of the file that was linted: a result for each of its places.
     fn of(&mut self, found: &Diagnostic, linted: &Path, fixes: &FixesByLine<'_>) -> Vec<Value> {
-        let name = found.kind.words.as_ref().map(|(_, name)| name.as_str());
-        let whole = Place { message: &found.message, name, span: found.span.as_ref() };
-        let mut one = |place: Place<'_>| {
+        let name = found.kind.plural_and_name.as_ref().map(|(_, name)| name.as_str());
+        let whole = ResultPlace { message: &found.message, name, span: found.span.as_ref() };
+        let mut one = |place: ResultPlace<'_>| {
             let mut result = self.result(found, linted, &place);
             if let (Some(source), Some(span)) = (&found.source, place.span) {
                 let line = self.lines.line(source, span.start);
@@ -128,7 +128,7 @@ impl Results<'_> {
         }
     }
 
-    fn result(&mut self, found: &Diagnostic, linted: &Path, place: &Place<'_>) -> Value {
+    fn result(&mut self, found: &Diagnostic, linted: &Path, place: &ResultPlace<'_>) -> Value {
         let id = id(found.code, self.codes.get(found.code).copied().flatten());
         let level = match found.severity {
             Severity::Error => "error",
@@ -156,11 +156,12 @@ impl Results<'_> {
         result
     }
 
-    /// What a result is known by when lines before it come and go: its rule, its file and what it is about.
-    fn fingerprint(&mut self, id: &str, artifact: &Value, place: &Place<'_>) -> String {
+    /// Identity of a result that does not change with lines added before it: its rule, its file and its subject.
+    fn fingerprint(&mut self, id: &str, artifact: &Value, place: &ResultPlace<'_>) -> String {
         let about = place.name.unwrap_or(place.message);
         let key = format!("{id} {} {about}", artifact["uri"]);
-        let before = self.seen.entry(key.clone()).or_default();
+        // Results that differ only in their line are numbered, since a fingerprint must be unique in its file.
+        let before = self.fingerprints.entry(key.clone()).or_default();
         *before += 1;
         format!("{:016x}:{before}", hash(&key))
     }
@@ -237,6 +238,7 @@ fn uri(path: &Path) -> String {
     };
     let parts: Vec<String> =
         path.components().filter(|part| *part != Component::CurDir).filter_map(part).collect();
+    // `join` gives the root no slash of its own.
     let starts_at_root = path.components().next() == Some(Component::RootDir);
     format!("{}{}", if starts_at_root { "/" } else { "" }, parts.join("/"))
 }
@@ -257,13 +259,14 @@ fn escaped(bytes: &[u8]) -> String {
 mod tests {
     use std::sync::Arc;
 
-    use congruent::description::Diagnostics;
+    use congruent::input::Diagnostics;
 
     use super::*;
 
     fn results(found: &[Diagnostic]) -> Vec<Value> {
         let codes = found.iter().map(|found| (found.code, Code::find(found.code))).collect();
-        let mut results = Results { top: None, codes, seen: BTreeMap::new(), lines: Lines::default() };
+        let mut results =
+            Results { top: None, codes, fingerprints: BTreeMap::new(), lines: Lines::default() };
         let none = FixesByLine::new();
         found.iter().flat_map(|found| results.of(found, Path::new("a.urdf"), &none)).collect()
     }

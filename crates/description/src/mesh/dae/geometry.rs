@@ -10,12 +10,12 @@ use crate::mesh::mesh_file::{MeshError, fan};
 
 /// One geometry in its own frame.
 #[derive(Debug, Default)]
-pub(super) struct Part {
+pub(super) struct GeometryPart {
     pub(super) vertices: Vec<Point3<f64>>,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-impl Part {
+impl GeometryPart {
     /// Only the vertices that a triangle uses: the others would still count in a convex hull.
     fn without_unused(self) -> Self {
         let mut new_index = vec![None; self.vertices.len()];
@@ -23,7 +23,7 @@ impl Part {
         let mut renumber = |corner: u32| {
             *new_index[corner as usize].get_or_insert_with(|| {
                 vertices.push(self.vertices[corner as usize]);
-                // No more than there were.
+                // The new index is at most the old one, which is a u32.
                 u32::try_from(vertices.len() - 1).unwrap_or(u32::MAX)
             })
         };
@@ -40,8 +40,11 @@ struct Positions {
 }
 
 /// Reads a geometry, whose sources `ids` finds.
-pub(super) fn read_geometry<'a, 'i>(geometry: Node<'a, 'i>, ids: &Ids<'a, 'i>) -> Result<Part, MeshError> {
-    let mut part = Part::default();
+pub(super) fn read_geometry<'a, 'i>(
+    geometry: Node<'a, 'i>,
+    ids: &Ids<'a, 'i>,
+) -> Result<GeometryPart, MeshError> {
+    let mut part = GeometryPart::default();
     // Splines and convex hulls of other geometries hold no triangles of their own.
     let Some(mesh) = child(geometry, "mesh") else { return Ok(part) };
     let mut known: BTreeMap<&str, Positions> = BTreeMap::new();
@@ -77,7 +80,7 @@ fn positions<'a, 'i>(vertices: Node<'a, 'i>, ids: &Ids<'a, 'i>) -> Result<Vec<Po
         number(accessor, "offset", Some(0))?,
     ];
     if stride < 3 {
-        return Err(fault(accessor, format!("positions of {stride} numbers, 3 are needed")));
+        return Err(fault(accessor, format!("positions have {stride} numbers each, 3 are needed")));
     }
     let values: Vec<f64> = numbers(array)?;
     let needed = count.checked_mul(stride).and_then(|needed| needed.checked_add(offset));
@@ -128,7 +131,7 @@ impl Corners {
         let indices: Vec<usize> = numbers(p)?;
         if !indices.len().is_multiple_of(self.stride) {
             let what =
-                format!("<p> holds {} indices, which is no multiple of {}", indices.len(), self.stride);
+                format!("<p> holds {} indices, which is not a multiple of {}", indices.len(), self.stride);
             return Err(fault(p, what));
         }
         let Positions { first, count } = self.positions;
@@ -143,7 +146,11 @@ impl Corners {
     }
 }
 
-fn add_triangles(part: &mut Part, primitive: Node<'_, '_>, corners: &Corners) -> Result<(), MeshError> {
+fn add_triangles(
+    part: &mut GeometryPart,
+    primitive: Node<'_, '_>,
+    corners: &Corners,
+) -> Result<(), MeshError> {
     let name = primitive.tag_name().name();
     let mut sizes = match child(primitive, "vcount") {
         Some(vcount) if name == "polylist" => numbers::<usize>(vcount)?.into_iter(),
@@ -156,7 +163,7 @@ fn add_triangles(part: &mut Part, primitive: Node<'_, '_>, corners: &Corners) ->
                 if !list.len().is_multiple_of(3) {
                     return Err(fault(
                         p,
-                        format!("{} corners make no whole number of triangles", list.len()),
+                        format!("{} corners are not a whole number of triangles", list.len()),
                     ));
                 }
                 part.triangles.extend(list.chunks_exact(3).map(|c| [c[0], c[1], c[2]]));
@@ -166,10 +173,7 @@ fn add_triangles(part: &mut Part, primitive: Node<'_, '_>, corners: &Corners) ->
                 for size in sizes.by_ref() {
                     let polygon = rest.split_at_checked(size);
                     let (polygon, after) = polygon.ok_or_else(|| {
-                        fault(
-                            p,
-                            format!("<vcount> asks for more corners than the {} that <p> holds", list.len()),
-                        )
+                        fault(p, format!("<vcount> counts more corners than the {} in <p>", list.len()))
                     })?;
                     part.triangles.extend(fan(polygon));
                     rest = after;
@@ -181,7 +185,7 @@ fn add_triangles(part: &mut Part, primitive: Node<'_, '_>, corners: &Corners) ->
                 };
                 part.triangles.extend(list.windows(3).enumerate().map(turned));
             }
-            // Fans, and polygons, which are taken for convex.
+            // Fans, and polygons, which are assumed to be convex.
             _ => part.triangles.extend(fan(&list)),
         }
     }

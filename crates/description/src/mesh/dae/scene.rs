@@ -2,21 +2,19 @@
 
 use std::collections::BTreeMap;
 
+use congruent_input::{units, xml};
 use nalgebra::{Matrix4, Point3, Rotation3, Unit, Vector3};
 use roxmltree::Node;
 
 use super::{
-    geometry::{Part, read_geometry},
+    geometry::{GeometryPart, read_geometry},
     node::{Ids, child, children, fault, format_fault, numbers_of},
 };
-use crate::{
-    mesh::mesh_file::{MeshError, MeshFile},
-    units, xml,
-};
+use crate::mesh::mesh_file::{MeshError, MeshFile};
 
-/// Nodes may instance nodes: without a bound a small file could ask for 2^60 of them.
+/// Most nodes of a scene. Nodes may instance nodes, so a small file could otherwise expand to 2^60 of them.
 const MOST_NODES: usize = 100_000;
-/// The same for their triangles.
+/// Most triangles of a scene, for the same reason.
 const MOST_TRIANGLES: usize = 20_000_000;
 
 pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
@@ -46,7 +44,7 @@ fn unit_m(root: Node<'_, '_>) -> Result<f64, MeshError> {
 struct SceneReader<'a, 'i> {
     ids: Ids<'a, 'i>,
     /// Geometries that have been read, by id.
-    parts: BTreeMap<&'a str, Part>,
+    parts: BTreeMap<&'a str, GeometryPart>,
     mesh: MeshFile,
 }
 
@@ -63,7 +61,7 @@ impl<'a, 'i> SceneReader<'a, 'i> {
         while let Some((node, scene_from_parent)) = open.pop() {
             nodes += 1;
             if nodes > MOST_NODES {
-                return Err(fault(node, format!("more than {MOST_NODES} nodes")));
+                return Err(fault(node, format!("the scene has more than {MOST_NODES} nodes")));
             }
             let scene_from_node = scene_from_parent * transform(node)?;
             for instance in children(node, "instance_geometry") {
@@ -89,7 +87,7 @@ impl<'a, 'i> SceneReader<'a, 'i> {
         }
         let part = &self.parts[id];
         if self.mesh.triangles.len() + part.triangles.len() > MOST_TRIANGLES {
-            return Err(fault(instance, format!("more than {MOST_TRIANGLES} triangles")));
+            return Err(fault(instance, format!("the scene has more than {MOST_TRIANGLES} triangles")));
         }
         // Fewer triangles than that have fewer vertices than an index can count, or are unused.
         let first = u32::try_from(self.mesh.vertices_m.len()).unwrap_or(u32::MAX);

@@ -101,7 +101,7 @@ fn faults_are_named() {
     refused("<a/>", "line 1: the root element is <a>, not <COLLADA>");
     refused(&good.replace("source=\"#s\"", "source=\"#nowhere\""), "line 5: <source> \"#nowhere\" not found");
     refused(&good.replace("0 1 2<", "0 1 4<"), "vertex index 4 is out of range: there are 4 vertices");
-    refused(&good.replace("0 1 2<", "0 1<"), "2 corners make no whole number");
+    refused(&good.replace("0 1 2<", "0 1<"), "2 corners are not a whole number");
     refused(
         &good.replace("count=\"4\"", "count=\"5\""),
         "5 positions of 3 numbers are promised, the array holds 12",
@@ -110,7 +110,7 @@ fn faults_are_named() {
     refused(&good.replace("0 0 1<", "0 0 x<"), "\"x\" is not a number");
     refused(&document("<unit meter=\"0\"/>", "", PLAIN), "not a positive number");
     let too_many = format!("<polylist>{INPUT}<vcount>9</vcount><p>0 1 2</p></polylist>");
-    refused(&document("", &too_many, PLAIN), "<vcount> asks for more corners");
+    refused(&document("", &too_many, PLAIN), "<vcount> counts more corners");
 }
 
 #[test]

@@ -1,6 +1,6 @@
-//! The points of a mesh that its convex hull needs: distances and contacts are of hulls, and what measures them takes a
-//! time that grows with the square of the points. Exact for meshes whose hull has few; for others as many points as are
-//! worth their cost, with a bound of what they leave out.
+//! Reduces a mesh to the points that its convex hull needs. Distances and contacts are computed for hulls, and their cost
+//! grows with the square of the number of points. The result is exact if the hull has few points; otherwise it has as many
+//! points as their accuracy justifies, with a bound of the error.
 
 mod polytope;
 mod triangle;
@@ -9,10 +9,10 @@ use nalgebra::Point3;
 
 use self::polytope::Polytope;
 
-/// Most points of a hull, and of a mesh that is not looked at. Kind: speed; a distance costs 10 ns for each point, and a
+/// Most points of a hull; a mesh with fewer vertices is used as it is. Kind: speed; a distance costs 10 ns for each point, and a
 /// ball with so many is 0.05 % of its diameter too small.
 const MOST_POINTS: usize = 4000;
-/// A hull that leaves out no more is exact enough, as a share of the size. No unit; kind: choice, below the digits of a mesh
+/// Points are added until no vertex is farther than this outside the hull, as a share of the size. No unit; kind: choice, below the digits of a mesh
 /// file and below what a distance of shapes of 10 m is off, 1e-7 m.
 const NEGLIGIBLE: f64 = 1e-8;
 /// Rounding of a distance from a triangle, as a share of the size. No unit; kind: rounding of some dozen operations.
@@ -40,31 +40,35 @@ impl HullPoints {
     /// use nalgebra::Point3;
     /// let grid = |n: u32| Point3::from([n % 20, n / 20 % 20, n / 400].map(f64::from));
     /// let vertices: Vec<_> = (0..8000).map(grid).collect();
-    /// let hull = HullPoints::of(&vertices);
+    /// let hull = HullPoints::from_vertices(&vertices);
     /// assert_eq!((hull.points_m.len(), hull.error_m), (8, 0.0));
     /// ```
-    pub fn of(vertices_m: &[Point3<f64>]) -> Self {
+    pub fn from_vertices(vertices_m: &[Point3<f64>]) -> Self {
         if vertices_m.len() <= MOST_POINTS {
             return Self { points_m: vertices_m.to_vec(), error_m: 0.0 };
         }
         Self::at_most(vertices_m, MOST_POINTS)
     }
 
-    /// The same with at most so many points, but for the four that it starts with.
+    /// The same with at most `most` points; the four points of the first tetrahedron are always included.
     fn at_most(vertices_m: &[Point3<f64>], most: usize) -> Self {
         let size_m = size(vertices_m);
         let Some(mut polytope) = Polytope::new(vertices_m, size_m) else {
-            // All on one line: there is no hull, which whoever asks for it says.
+            // All on one line: there is no hull, and the caller that builds one refuses these points with its own message.
             return Self { points_m: vertices_m[..vertices_m.len().min(most)].to_vec(), error_m: 0.0 };
         };
-        let mut left_m = polytope.farthest_m();
-        while left_m > NEGLIGIBLE * size_m && polytope.corner_count() < most {
+        // Farthest point first: each added point removes the largest error, so the loop may end at any time with the smallest
+        // error for this number of points.
+        let mut outside_m = polytope.farthest_m();
+        while outside_m > NEGLIGIBLE * size_m && polytope.corner_count() < most {
             polytope.add_farthest();
-            left_m = polytope.farthest_m();
+            outside_m = polytope.farthest_m();
         }
         let points_m = polytope.corners().into_iter().map(|corner| vertices_m[corner]).collect();
-        let left_m = left_m.max(polytope.left_out_m());
-        let error_m = if left_m > 0.0 { left_m + ROUNDING * size_m } else { 0.0 };
+        // Points that could not be added count, too. The rounding of the distances is added to the bound, except for an exact
+        // hull, whose error of 0 follows from the exact orientation test alone.
+        let outside_m = outside_m.max(polytope.skipped_distance_m());
+        let error_m = if outside_m > 0.0 { outside_m + ROUNDING * size_m } else { 0.0 };
         Self { points_m, error_m }
     }
 }
@@ -101,7 +105,7 @@ mod tests {
         directions(2000).map(|along| support(vertices, &along) - support(hull, &along)).fold(0.0, f64::max)
     }
 
-    /// The hull leaves out no more than it says, and that is no more than `share` of the size.
+    /// The hull omits no more than it says, and that is no more than `share` of the size.
     #[track_caller]
     fn check(vertices: &[Point3<f64>], most: usize, share: f64) -> HullPoints {
         let hull = HullPoints::at_most(vertices, most);
@@ -162,6 +166,6 @@ mod tests {
     #[test]
     fn few_points_stay_as_they_are() {
         let vertices = ball(100, 0.1);
-        assert_eq!(HullPoints::of(&vertices), HullPoints { points_m: vertices, error_m: 0.0 });
+        assert_eq!(HullPoints::from_vertices(&vertices), HullPoints { points_m: vertices, error_m: 0.0 });
     }
 }

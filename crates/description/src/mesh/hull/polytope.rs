@@ -1,7 +1,7 @@
-//! A convex polytope that grows point by point, and the points that are still outside of it.
+//! A convex polytope that grows point by point, and the points that are still outside it (quickhull).
 //!
-//! Whether a point is above a facet is decided exactly, so the facets are a closed surface whatever the points are; how far
-//! it is from a facet is rounded, and only decides which point is next.
+//! Whether a point is above a facet is decided exactly, so the facets are a closed surface for any points; the distance from
+//! a facet is rounded, and only decides which point is added next.
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
@@ -10,66 +10,68 @@ use robust::{Coord3D, orient3d};
 
 use super::triangle::distance_from_triangle;
 
-/// A triangle of the surface, counterclockwise as seen from outside.
+/// A triangle of the surface, counterclockwise in a view from outside.
 struct Facet {
     corners: [usize; 3],
     /// The facet behind the edge from each corner to the next.
     neighbors: [usize; 3],
-    /// Points above it that are above no facet that took them before.
+    /// Points above this facet; a point that is above several facets belongs to one of them only.
     outside: Vec<usize>,
-    /// Where that one stands in `outside` which is farthest from the triangle, and how far.
+    /// Index in `outside` of the point that is farthest from the triangle, and its distance, m.
     farthest: (usize, f64),
     is_removed: bool,
 }
 
-/// An edge of the hole that a new point makes.
+/// An edge around the hole that is left when the facets below a new point are removed.
 #[derive(Clone, Copy)]
-struct Rim {
+struct HorizonEdge {
     from: usize,
     to: usize,
-    /// The facet that stays there.
+    /// The facet on the other side of the edge, which is kept.
     beyond: usize,
 }
 
-/// A facet by the point that is farthest from it.
+/// A facet in the queue, ordered by the distance of its farthest point.
 #[derive(PartialEq)]
-struct Next {
+struct QueuedFacet {
     distance_m: f64,
     facet: usize,
 }
 
-impl Eq for Next {}
+impl Eq for QueuedFacet {}
 
-/// Farthest first; of equal ones the oldest facet, so that the order is fixed.
-impl Ord for Next {
+/// Farthest first; of equal distances the oldest facet, so that the result does not depend on the heap.
+impl Ord for QueuedFacet {
     fn cmp(&self, other: &Self) -> Ordering {
         self.distance_m.total_cmp(&other.distance_m).then(other.facet.cmp(&self.facet))
     }
 }
 
-impl PartialOrd for Next {
+impl PartialOrd for QueuedFacet {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-/// The polytope.
+/// The polytope: its facets, and the queue of facets with points outside.
 pub(super) struct Polytope {
-    /// Those that it is of, and for points in a plane one more beside it.
+    /// The given points; if these lie in one plane, one more point beside the plane.
     points: Vec<Point3<f64>>,
-    /// How many points were given.
+    /// Number of given points, without the extra one.
     given: usize,
     facets: Vec<Facet>,
-    next: BinaryHeap<Next>,
+    next: BinaryHeap<QueuedFacet>,
     added: usize,
     /// The largest distance of a point that could not be added.
-    left_out_m: f64,
+    skipped_distance_m: f64,
 }
 
 impl Polytope {
-    /// A tetrahedron of four points; `None` if all are on one line. Points in a plane get a fifth beside it, which is no
-    /// corner.
+    /// Starts with a tetrahedron of four points; `None` if all points are on one line. Points in one plane get an extra point
+    /// beside the plane, which does not count as a corner.
     pub(super) fn new(points: &[Point3<f64>], size_m: f64) -> Option<Self> {
+        // Each further point is the farthest from the span of those before: a large first tetrahedron contains most points, so
+        // few remain outside, and its volume is far from rounding.
         let [a, b] = farthest_pair(points)?;
         let along = points[b] - points[a];
         let beside = |point: &Point3<f64>| along.cross(&(point - points[a])).norm();
@@ -81,12 +83,21 @@ impl Polytope {
         let mut points = points.to_vec();
         let given = points.len();
         let height = |point: &Point3<f64>| orientation([&points[a], &points[b], &points[c]], point).abs();
+        // All heights are exactly 0 only for points in one plane. A flat mesh still needs a volume, or no facet would have an
+        // inside; the extra point lies one mesh size beside the plane, far from rounding.
         let d = largest(&points, height).unwrap_or_else(|| {
             points.push(points[a] + normal.normalize() * size_m);
             given
         });
-        let mut polytope =
-            Self { points, given, facets: Vec::new(), next: BinaryHeap::new(), added: 4, left_out_m: 0.0 };
+        let mut polytope = Self {
+            points,
+            given,
+            facets: Vec::new(),
+            next: BinaryHeap::new(),
+            added: 4,
+            skipped_distance_m: 0.0,
+        };
+        // Counterclockwise in a view from outside: the fourth point must be below the first facet.
         let [b, c] = if polytope.is_above([a, b, c], d) { [c, b] } else { [b, c] };
         // Each corner's opposite facet is the one with the other three.
         for (corners, neighbors) in
@@ -99,9 +110,10 @@ impl Polytope {
         Some(polytope)
     }
 
-    /// The largest distance of a point outside from a facet, which bounds that from the polytope: each triangle is a part
-    /// of it.
+    /// The largest distance of an outside point from its facet, m. It bounds the distance from the polytope, since each triangle
+    /// is a part of the polytope.
     pub(super) fn farthest_m(&mut self) -> f64 {
+        // Removed facets stay in the queue until they reach its top: a heap cannot delete inside.
         while let Some(next) = self.next.peek() {
             if !self.facets[next.facet].is_removed {
                 return next.distance_m;
@@ -111,29 +123,34 @@ impl Polytope {
         0.0
     }
 
-    /// Adds the point that is farthest outside.
+    /// Adds the point that is farthest outside: removes all facets that the point is above, and connects the point with the
+    /// rim of the hole.
     pub(super) fn add_farthest(&mut self) {
-        let Some(Next { facet, distance_m }) = self.next.pop() else { return };
+        let Some(QueuedFacet { facet, distance_m }) = self.next.pop() else { return };
         let at = self.facets[facet].farthest.0;
         let point = self.facets[facet].outside[at];
-        let (seen, rim) = self.hole(facet, point);
-        let rim = in_order(rim);
+        let (visible, horizon) = self.hole(facet, point);
+        let horizon = in_order(horizon);
         let mut outside = Vec::new();
-        for &facet in &seen {
+        for &facet in &visible {
             outside.append(&mut self.facets[facet].outside);
         }
         outside.retain(|&other| other != point);
-        let Some(rim) = rim else {
-            // Volumes that are too small for a number have no sign.
-            self.left_out_m = self.left_out_m.max(distance_m);
+        let Some(horizon) = horizon else {
+            // The rim is not one closed loop: volumes that underflow have no sign, so the visible facets are not consistent.
+            // The polytope stays as it is, the point is given up, and its distance goes into the bound of the error.
+            self.skipped_distance_m = self.skipped_distance_m.max(distance_m);
             return self.share(outside, 0);
         };
         let first = self.facets.len();
-        for facet in seen {
+        for facet in visible {
             self.facets[facet].is_removed = true;
         }
-        for (number, edge) in rim.iter().enumerate() {
-            let (after, before) = ((number + 1) % rim.len(), (number + rim.len() - 1) % rim.len());
+        // The rim is in order, so the facet of edge i meets those of edges i - 1 and i + 1; the facet beyond the edge gets the
+        // new one as its neighbor in place of the removed one.
+        for (number, edge) in horizon.iter().enumerate() {
+            let (after, before) =
+                ((number + 1) % horizon.len(), (number + horizon.len() - 1) % horizon.len());
             self.add_facet([edge.from, edge.to, point], [edge.beyond, first + after, first + before]);
             let beyond = &mut self.facets[edge.beyond];
             for side in 0..3 {
@@ -143,20 +160,22 @@ impl Polytope {
             }
         }
         self.added += 1;
+        // Only the new facets are searched, as in quickhull: a point of a removed facet that is still outside is above at least
+        // one of them.
         self.share(outside, first);
     }
 
     /// The largest distance of a point that could not be added.
-    pub(super) fn left_out_m(&self) -> f64 {
-        self.left_out_m
+    pub(super) fn skipped_distance_m(&self) -> f64 {
+        self.skipped_distance_m
     }
 
-    /// How many points were added; corners that later ones have covered count, too.
+    /// Number of points that were added; corners that later points have covered are included.
     pub(super) fn corner_count(&self) -> usize {
         self.added
     }
 
-    /// The corners, in their order.
+    /// Indices of the given points that are corners, in ascending order.
     pub(super) fn corners(&self) -> Vec<usize> {
         let facets = self.facets.iter().filter(|facet| !facet.is_removed);
         let mut corners: Vec<usize> = facets.flat_map(|facet| facet.corners).collect();
@@ -166,25 +185,27 @@ impl Polytope {
         corners
     }
 
-    /// The facets that a point above one of them is above, and the edges around them.
-    fn hole(&self, first: usize, point: usize) -> (Vec<usize>, Vec<Rim>) {
-        let (mut seen, mut rim, mut open) = (vec![first], Vec::new(), vec![first]);
+    /// All facets that `point` is above, starting from one of them (`first`), and the edges around them.
+    fn hole(&self, first: usize, point: usize) -> (Vec<usize>, Vec<HorizonEdge>) {
+        // The facets visible from a point of a convex body are connected, so a search over neighbors finds them all. `visible`
+        // is a list: it is short, and its order fixes that of the new facets.
+        let (mut visible, mut horizon, mut open) = (vec![first], Vec::new(), vec![first]);
         while let Some(facet) = open.pop() {
             let Facet { corners, neighbors, .. } = &self.facets[facet];
             for side in 0..3 {
                 let beyond = neighbors[side];
-                if seen.contains(&beyond) {
+                if visible.contains(&beyond) {
                     continue;
                 }
                 if self.is_above(self.facets[beyond].corners, point) {
-                    seen.push(beyond);
+                    visible.push(beyond);
                     open.push(beyond);
                 } else {
-                    rim.push(Rim { from: corners[side], to: corners[(side + 1) % 3], beyond });
+                    horizon.push(HorizonEdge { from: corners[side], to: corners[(side + 1) % 3], beyond });
                 }
             }
         }
-        (seen, rim)
+        (visible, horizon)
     }
 
     fn add_facet(&mut self, corners: [usize; 3], neighbors: [usize; 3]) {
@@ -192,18 +213,20 @@ impl Polytope {
         self.facets.push(Facet { corners, neighbors, outside, farthest, is_removed: false });
     }
 
-    /// Gives each point to the facet, from `first` on, that it is highest above; those above none are inside.
+    /// Assigns each point to the facet, from index `first` on, that it is highest above. Points above no facet are inside and
+    /// are dropped.
     fn share(&mut self, points: Vec<usize>, first: usize) {
         let areas: Vec<f64> = self.facets[first..].iter().map(|facet| self.area(facet.corners)).collect();
         for point in points {
             let height = |(number, facet): (usize, &Facet)| {
-                let above = -orientation(self.of(facet.corners), &self.points[point]);
+                let above = -orientation(self.corner_points(facet.corners), &self.points[point]);
                 (above > 0.0).then_some((above / areas[number], first + number))
             };
             let heights =
                 self.facets[first..].iter().enumerate().filter(|(_, of)| !of.is_removed).filter_map(height);
             let Some((_, facet)) = heights.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
-            let distance_m = distance_from_triangle(&self.points[point], self.of(self.facets[facet].corners));
+            let distance_m =
+                distance_from_triangle(&self.points[point], self.corner_points(self.facets[facet].corners));
             let facet = &mut self.facets[facet];
             if distance_m > facet.farthest.1 || facet.outside.is_empty() {
                 facet.farthest = (facet.outside.len(), distance_m);
@@ -212,34 +235,36 @@ impl Polytope {
         }
         let outside = |(_, of): &(usize, &Facet)| !of.is_removed && !of.outside.is_empty();
         for (facet, of) in self.facets.iter().enumerate().skip(first).filter(outside) {
-            self.next.push(Next { distance_m: of.farthest.1, facet });
+            self.next.push(QueuedFacet { distance_m: of.farthest.1, facet });
         }
     }
 
-    fn of(&self, corners: [usize; 3]) -> [&Point3<f64>; 3] {
+    fn corner_points(&self, corners: [usize; 3]) -> [&Point3<f64>; 3] {
         corners.map(|corner| &self.points[corner])
     }
 
     fn is_above(&self, corners: [usize; 3], point: usize) -> bool {
-        orientation(self.of(corners), &self.points[point]) < 0.0
+        orientation(self.corner_points(corners), &self.points[point]) < 0.0
     }
 
-    /// Twice the area, by which a volume is a height.
+    /// Twice the area of a facet. `orientation` is six times the volume of a tetrahedron, which is this value times the height, so
+    /// the quotient is the height.
     fn area(&self, corners: [usize; 3]) -> f64 {
-        let [a, b, c] = self.of(corners);
+        let [a, b, c] = self.corner_points(corners);
         (b - a).cross(&(c - a)).norm().max(f64::MIN_POSITIVE)
     }
 }
 
-/// Edges as one loop; `None` if they are none.
-fn in_order(mut rim: Vec<Rim>) -> Option<Vec<Rim>> {
-    for at in 1..rim.len() {
-        let end = rim[at - 1].to;
-        let next = (at..rim.len()).find(|&other| rim[other].from == end)?;
-        rim.swap(at, next);
+/// Sorts edges into one closed loop; `None` if they do not form one.
+fn in_order(mut horizon: Vec<HorizonEdge>) -> Option<Vec<HorizonEdge>> {
+    for at in 1..horizon.len() {
+        let end = horizon[at - 1].to;
+        let next = (at..horizon.len()).find(|&other| horizon[other].from == end)?;
+        horizon.swap(at, next);
     }
-    let is_closed = rim.len() > 2 && rim.last().map(|edge| edge.to) == rim.first().map(|edge| edge.from);
-    is_closed.then_some(rim)
+    let is_closed =
+        horizon.len() > 2 && horizon.last().map(|edge| edge.to) == horizon.first().map(|edge| edge.from);
+    is_closed.then_some(horizon)
 }
 
 /// Negative if the point is above the triangle, on the side from which it is counterclockwise; exactly 0 in its plane.
@@ -249,13 +274,13 @@ fn orientation(triangle: [&Point3<f64>; 3], point: &Point3<f64>) -> f64 {
     orient3d(a, b, c, coordinate(point))
 }
 
-/// The index with the largest value above 0.
+/// The index of the point with the largest value; `None` if no value is above 0.
 fn largest(points: &[Point3<f64>], value: impl Fn(&Point3<f64>) -> f64) -> Option<usize> {
     let values = points.iter().map(value).enumerate().filter(|(_, value)| *value > 0.0);
     values.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
 }
 
-/// Of the points that are farthest along the axes the two that are farthest apart.
+/// The pair with the largest distance among the three pairs of extreme points along the axes: a good start at linear cost.
 fn farthest_pair(points: &[Point3<f64>]) -> Option<[usize; 2]> {
     let by = |axis: usize| move |a: &usize, b: &usize| points[*a][axis].total_cmp(&points[*b][axis]);
     let pairs = (0..3)

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-/// The distance of a point from a triangle.
+/// The distance of a point from the triangle `[a, b, c]`, m.
 ///
 /// Source: Ericson, *Real-Time Collision Detection* (2005), sec. 5.1.5.
 pub(super) fn distance_from_triangle(point: &Point3<f64>, [a, b, c]: [&Point3<f64>; 3]) -> f64 {
@@ -14,12 +14,15 @@ pub(super) fn distance_from_triangle(point: &Point3<f64>, [a, b, c]: [&Point3<f6
     let (a_b, a_c) = along(a);
     let (b_b, b_c) = along(b);
     let (c_b, c_c) = along(c);
+    // Barycentric coordinates of the foot of the perpendicular, times four times the squared area (Ericson, sec. 5.1.5), from
+    // the six dot products alone.
     let (of_a, of_b, of_c) = (b_b * c_c - c_b * b_c, c_b * a_c - a_b * c_c, a_b * b_c - b_b * a_c);
-    // Inside of the three edges it is the height, unless rounding leaves no triangle.
+    // If the foot lies inside, the distance is the height. A degenerate triangle has a sum of 0 and is left to its edges.
     let all = of_a + of_b + of_c;
     let inside = of_a > 0.0 && of_b > 0.0 && of_c > 0.0 && all > 0.0;
     let on_edges = [(a, b), (b, c), (c, a)].map(|(from, to)| distance_from_segment(point, from, to));
     let nearest_edge = on_edges.into_iter().fold(f64::INFINITY, f64::min);
+    // The minimum with the edges bounds the error if rounding puts a foot near an edge on the wrong side.
     if inside {
         let foot: Vector3<f64> = to_b * (of_b / all) + to_c * (of_c / all);
         nearest_edge.min((point - (a + foot)).norm())

@@ -2,12 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use congruent_input::{Severity, line_column, toml_text::parse_toml};
+
 use super::*;
-use crate::{
-    diagnostic::{Severity, line_column},
-    model::{DhRowKind, JointKind},
-    written::toml_text::parse_toml,
-};
+use crate::model::{DhRowKind, JointKind};
 
 /// base -(fixed)- root -a- one -b- two -(fixed)- tip, and a joint c that follows b beside it.
 fn robot() -> Robot {
@@ -116,7 +114,7 @@ fn base_and_tip_have_defaults() {
 #[test]
 fn names_are_checked() {
     error("tip = 'tip'", "tip = 'top'", 4, "tip = \"top\": the robot has no such link");
-    error("base = 'base'", "base = 'side'", 4, "tip \"tip\" does not hang below base \"side\"");
+    error("base = 'base'", "base = 'side'", 4, "tip \"tip\" is not a descendant of base \"side\"");
     error("joint = 'a'", "joint = 'z'", 9, "joint \"z\" is not in the robot");
     error("joint = 'a'", "joint = 'c'", 9, "joint \"c\" is not in the chain");
     error("joint = 'a'", "joint = 'mount'", 9, "joint \"mount\" is fixed");
@@ -126,31 +124,36 @@ fn names_are_checked() {
 #[test]
 fn the_table_must_fit_the_chain() {
     let second = &GOOD[GOOD.rfind("[[dh.row]]").unwrap()..];
-    error(second, "", 5, "table has 1 row, chain base -> tip has 2 moving joints: no row for b");
+    error(
+        second,
+        "",
+        5,
+        "the table has 1 row, but the chain from base to tip has 2 moving joints: no row for b",
+    );
     let twice = GOOD.replacen("joint = 'b'", "joint = 'a'", 1);
     let messages: Vec<String> = read(&twice).1.into_iter().map(|found| found.message).collect();
     assert_eq!(
         messages,
         [
-            "table has 2 rows, chain base -> tip has 2 moving joints: no row for b",
+            "the table has 2 rows, but the chain from base to tip has 2 moving joints: no row for b",
             "joint \"a\" has a row already, at line 8",
-            "the row is prismatic, joint \"a\" of the URDF moves in radians",
+            "the row is prismatic, but joint \"a\" of the URDF moves in radians",
         ]
     );
     let swapped = GOOD.replace("'a'", "'x'").replace("'b'", "'a'").replace("'x'", "'b'");
     let codes: Vec<&str> = read(&swapped).1.into_iter().map(|found| found.code).collect();
     // Both rows are of the wrong kind, which is one warning.
     assert_eq!(codes, ["robot_file::row_kind", "robot_file::row_order"]);
-    warning("kind = 'revolute'", "kind = 'prismatic'", 10, "the row is prismatic, joint \"a\"");
+    warning("kind = 'revolute'", "kind = 'prismatic'", 10, "the row is prismatic, but joint \"a\"");
 }
 
 #[test]
 fn values_are_checked() {
     error("convention = 'modified'\n", "", 5, "[dh] has no convention");
     error("d_m = 0.2", "d_m = nan", 13, "d_m is NaN");
-    error("d_m = 0.2\n", "", 8, "row of joint \"a\" has no d_m or d_mm");
+    error("d_m = 0.2\n", "", 8, "row of joint \"a\" has neither d_m nor d_mm");
     error("d_m = 0.2", "d_m = 0.2\nd_mm = 200", 14, "d_m and d_mm are both given");
-    error("sign = -1", "sign = -2", 15, "sign = -2 must be 1 or -1");
+    error("sign = -1", "sign = -2", 15, "sign must be 1 or -1, it is -2");
     warning("alpha_rad = 0.0", "alpha_rad = 90", 20, "alpha_rad = 90 is more than a full turn");
     error(
         "tip = 'tip'",

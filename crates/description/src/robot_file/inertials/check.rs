@@ -1,33 +1,38 @@
-//! `[dynamics]` and `[[inertial]]` against the robot: names, frames, units.
+//! Checks `[dynamics]` and `[[inertial]]` against the robot: names, frames, units.
 
+use congruent_input::{
+    Diagnostic, Diagnostics, known_names, line_column,
+    units::{Unit, check_finite},
+};
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::{
-    declared::{DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPoint},
+    declared::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPoint},
     written::{WrittenDynamics, WrittenInertial, WrittenTensor, WrittenTerm},
 };
 use crate::{
-    diagnostic::{Diagnostic, Diagnostics, known_names, line_column},
     model::{DhTable, Joint, JointIndex, Robot},
     robot_file::rows::first_line,
-    units::{Unit, check_finite},
 };
 
-/// What entries are checked against.
+/// The code of findings on `[[inertial]]` entries that cannot be used; a warning if the entry may become usable.
+pub const UNUSABLE_INERTIAL: &str = "robot_file::inertial";
+
+/// The robot, its table and the text against which entries are checked.
 pub(in crate::robot_file) struct InertialContext<'a> {
     pub(in crate::robot_file) robot: &'a Robot,
     pub(in crate::robot_file) dh: Option<&'a DhTable>,
     pub(in crate::robot_file) text: &'a str,
 }
 
-/// The declared dynamics; `None` if there is none.
+/// The declared dynamics; `None` if nothing is declared or an entry has a fault.
 pub(in crate::robot_file) fn check(
     dynamics: Option<&WrittenDynamics>,
     written: &[Spanned<WrittenInertial>],
     context: &InertialContext<'_>,
     diagnostics: &mut Diagnostics,
-) -> Option<DeclaredDynamics> {
+) -> Option<DynamicsTable> {
     let gravity = dynamics.and_then(|dynamics| dynamics.gravity_m_s2.as_ref());
     for value in gravity.iter().flat_map(|gravity| gravity.get_ref().map(|value| (value, gravity.span()))) {
         diagnostics.keep(check_finite("gravity_m_s2", value.0, value.1));
@@ -41,7 +46,8 @@ pub(in crate::robot_file) fn check(
         if let Some(first) = inertials.iter().position(|known| known.joint == inertial.joint) {
             let name = &entry.get_ref().joint;
             let line = line_column(context.text, written[first].span().start).0;
-            let message = format!("joint \"{}\" has an [[inertial]] already, at line {line}", name.get_ref());
+            let message =
+                format!("joint \"{}\" already has an [[inertial]] entry, at line {line}", name.get_ref());
             diagnostics.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
         }
         inertials.push(inertial);
@@ -49,7 +55,7 @@ pub(in crate::robot_file) fn check(
     if !is_whole || (dynamics.is_none() && written.is_empty()) {
         return None;
     }
-    Some(DeclaredDynamics {
+    Some(DynamicsTable {
         source: dynamics.and_then(|dynamics| dynamics.source.clone()),
         gravity_in_base_m_s2: gravity.map(|gravity| Vector3::from(*gravity.get_ref())),
         inertials,
@@ -66,7 +72,8 @@ fn inertial(
     let joint = diagnostics.keep(joint(entry, context.robot));
     let about = diagnostics.keep(entry.about.as_ref().map(|about| *about.get_ref()).ok_or_else(|| {
         missing("about", entry).at(at()).with_help(
-            "about = \"com\" is the centre of mass, \"frame\" the origin of the frame; neither is a default",
+            "about = \"com\" means an inertia about the centre of mass, about = \"frame\" about the frame's origin; there is no \
+             default",
         )
     }));
     let mass_kg = diagnostics.keep(positive("mass_kg", &entry.mass_kg));
@@ -74,8 +81,8 @@ fn inertial(
     let com = diagnostics.keep(com.and_then(|com| match (com, entry.about.as_ref(), &entry.inertia_kg_m2) {
         (None, Some(about), Some(_)) if *about.get_ref() == InertialPoint::Frame => {
             Err(missing("com_m or com_mm", entry).at(about.span()).with_help(
-                "an inertia about the frame's origin says nothing without the centre of mass; what is left out with \
-                 about = \"com\" is not compared",
+                "an inertia about the frame's origin needs the centre of mass; with about = \"com\" the centre of mass may be \
+                 left out and is then not compared",
             ))
         }
         (com, ..) => Ok(com.map(Vector3::from)),
@@ -84,7 +91,7 @@ fn inertial(
     let frame = diagnostics.keep(entry.frame.as_ref().ok_or_else(|| {
         missing("frame", entry).at(at()).with_help(
             "frame = \"link\" is the frame of the joint's link in the URDF, \"dhN\" that of its row in the table; \
-             neither is a default",
+             there is no default",
         )
     }));
     let frame =
@@ -113,7 +120,7 @@ fn inertial(
 
 fn missing(key: &str, entry: &WrittenInertial) -> Diagnostic {
     let message = format!("[[inertial]] of joint \"{}\" has no {key}", entry.joint.get_ref());
-    Diagnostic::error("robot_file::inertial", message)
+    Diagnostic::error(UNUSABLE_INERTIAL, message)
 }
 
 fn joint(entry: &WrittenInertial, robot: &Robot) -> Result<JointIndex, Diagnostic> {
@@ -134,10 +141,10 @@ fn positive(key: &str, value: &Spanned<f64>) -> Result<f64, Diagnostic> {
         return Ok(*value.get_ref());
     }
     let message = format!("{key} must be greater than 0, it is {}", value.get_ref());
-    Err(Diagnostic::error("robot_file::inertial", message).at(value.span()))
+    Err(Diagnostic::error(UNUSABLE_INERTIAL, message).at(value.span()))
 }
 
-/// The frame by its name; a frame of the table must be the one that moves with the joint.
+/// The frame of an entry by its name; a frame of the table must be the one that moves with the joint.
 fn frame(
     written: &Spanned<String>,
     joint: JointIndex,
@@ -145,7 +152,7 @@ fn frame(
 ) -> Result<InertialFrame, Diagnostic> {
     let name = written.get_ref().as_str();
     let refused = |message: String, help: String| {
-        Err(Diagnostic::error("robot_file::inertial", message).at(written.span()).with_help(help))
+        Err(Diagnostic::error(UNUSABLE_INERTIAL, message).at(written.span()).with_help(help))
     };
     let joint_name = &context.robot.joint(joint).name;
     let row = context.dh.and_then(|dh| dh.rows.iter().position(|row| row.joint == joint));
@@ -155,13 +162,14 @@ fn frame(
         (name, Some(row)) if own.as_deref() == Some(name) => Ok(InertialFrame::Dh(row + 1)),
         (name, _) if name.strip_prefix("dh").is_some_and(|number| number.parse::<usize>().is_ok()) => {
             match &own {
-                // The table may be wrong, which is what a check of the geometry finds: it goes on.
+                // A warning instead of an error: the table itself may be wrong, and the check of the geometry, which can
+                // find that out, must still run.
                 Some(own) => {
                     let message = format!("frame \"{name}\" does not move with joint \"{joint_name}\"");
                     let help = format!(
-                        "its frame in the table is \"{own}\"; as long as the two differ, no [[inertial]] is compared"
+                        "the table's frame of this joint is \"{own}\"; until this is corrected, no [[inertial]] entry is compared"
                     );
-                    let warning = Diagnostic::warning("robot_file::inertial", message).with_help(help);
+                    let warning = Diagnostic::warning(UNUSABLE_INERTIAL, message).with_help(help);
                     Err(warning.at(written.span()))
                 }
                 None => refused(
@@ -187,22 +195,22 @@ fn tensor(written: &WrittenTensor) -> Result<Matrix3<f64>, Diagnostic> {
     Ok(tensor)
 }
 
-/// A term of a joint, under the key of its kind.
+/// A term of a joint (armature, damping or friction) from the key that fits the kind of the joint.
 fn term(entry: &WrittenInertial, term: WrittenTerm, joint: &Joint) -> Result<Option<f64>, Diagnostic> {
     let [turning, sliding] = entry.term(term);
     let [own, other] = if joint.kind.is_angular() { [turning, sliding] } else { [sliding, turning] };
     if let (key, Some(value)) = other {
         let moves = if joint.kind.is_angular() { "turns" } else { "slides" };
-        let message = format!("{key}: joint \"{}\" {moves}", joint.name);
-        return Err(Diagnostic::error("robot_file::inertial", message)
+        let message = format!("{key} does not fit joint \"{}\", which {moves}", joint.name);
+        return Err(Diagnostic::error(UNUSABLE_INERTIAL, message)
             .at(value.span())
-            .with_help(format!("the key is {}", own.0)));
+            .with_help(format!("the key for this joint is {}", own.0)));
     }
     let (key, Some(value)) = own else { return Ok(None) };
     check_finite(key, *value.get_ref(), value.span())?;
     if *value.get_ref() < 0.0 {
         let message = format!("{key} must not be negative, it is {}", value.get_ref());
-        return Err(Diagnostic::error("robot_file::inertial", message).at(value.span()));
+        return Err(Diagnostic::error(UNUSABLE_INERTIAL, message).at(value.span()));
     }
     Ok(Some(*value.get_ref()))
 }

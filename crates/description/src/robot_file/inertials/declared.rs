@@ -19,26 +19,26 @@ pub enum InertialFrame {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum InertialPoint {
-    /// The centre of mass.
+    /// The tensor is about the centre of mass.
     Com,
-    /// The origin of the frame of the parameters.
+    /// The tensor is about the origin of the frame of the parameters.
     Frame,
 }
 
-/// What is declared of the body that a joint carries: its link and all links that fixed joints hold to it.
+/// The declared parameters of the body that a joint carries: its link and all links that are fixed to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeclaredInertial {
-    /// The joint.
+    /// The joint that carries the body.
     pub joint: JointIndex,
     /// The frame of centre of mass and tensor.
     pub frame: InertialFrame,
-    /// The point of the tensor; its axes are those of the frame.
+    /// The reference point of the tensor; its axes are those of `frame`.
     pub about: InertialPoint,
-    /// Mass.
+    /// Mass of the body, kg; positive.
     pub mass_kg: f64,
-    /// Centre of mass; `None` if it is not declared.
+    /// Centre of mass in `frame`, m; `None` if it is not declared.
     pub com_m: Option<Vector3<f64>>,
-    /// Rotational inertia; `None` if it is not declared.
+    /// Rotational inertia about `about`, in the axes of `frame`, kg m^2; `None` if it is not declared.
     pub tensor_kg_m2: Option<Matrix3<f64>>,
     /// Inertia of the motor behind its gear, kg m^2 or kg; `None` if it is not declared.
     pub armature: Option<f64>,
@@ -50,10 +50,10 @@ pub struct DeclaredInertial {
 
 /// The dynamics that a robot file declares.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DeclaredDynamics {
-    /// Where the values come from.
+pub struct DynamicsTable {
+    /// The publication that the values are from.
     pub source: Option<String>,
-    /// Gravity in link `base`; `None` if it is not declared.
+    /// Gravity in the frame of link `base`, m/s^2; `None` if it is not declared.
     pub gravity_in_base_m_s2: Option<Vector3<f64>>,
     /// The bodies, in the order of the file.
     pub inertials: Vec<DeclaredInertial>,

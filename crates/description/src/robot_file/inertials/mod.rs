@@ -5,8 +5,9 @@ mod declared;
 mod places;
 mod written;
 
+pub use check::UNUSABLE_INERTIAL;
 pub(super) use check::{InertialContext, check};
-pub use declared::{DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPoint};
+pub use declared::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPoint};
 pub use places::InertialPlaces;
 pub(crate) use written::{WrittenDynamics, WrittenInertial};
 

@@ -1,12 +1,12 @@
-//! Where the parameters of `[[inertial]]` entries stand, and how they become others.
+//! Byte ranges of the parameters of `[[inertial]]` entries, and the edits that change them.
 
 use std::{ops::Range, sync::Arc};
 
+use congruent_input::{SourceFile, TextEdit, number::significant};
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::written::{WrittenDynamics, WrittenInertial, WrittenTerm};
-use crate::{diagnostic::SourceFile, edits::TextEdit, written::number::significant};
 
 /// The `[[inertial]]` entries of a robot file as they are written, with the text that they were parsed from.
 #[derive(Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct InertialPlaces {
 }
 
 impl InertialPlaces {
-    /// Both have been parsed from the text of `source`.
+    /// `dynamics` and `entries` must have been parsed from the text of `source`.
     pub(crate) fn new(
         source: Arc<SourceFile>,
         dynamics: Option<WrittenDynamics>,
@@ -26,7 +26,7 @@ impl InertialPlaces {
         Self { source, dynamics, entries }
     }
 
-    /// The file.
+    /// The robot file that the places are in.
     pub fn source(&self) -> &Arc<SourceFile> {
         &self.source
     }
@@ -79,7 +79,7 @@ impl InertialPlaces {
         entries.filter_map(|(_, at, value)| changed(value, tensor_kg_m2[at])).collect()
     }
 
-    /// The edits after which an entry has these terms of its joint; what it does not declare stays out.
+    /// The edits after which an entry has these terms of its joint; terms that it does not declare are not added.
     pub fn set_terms(&self, entry: usize, [armature, damping, friction]: [f64; 3]) -> Vec<TextEdit> {
         let Some(entry) = self.entries.get(entry).map(Spanned::get_ref) else { return Vec::new() };
         let terms = [
@@ -90,7 +90,7 @@ impl InertialPlaces {
         terms.into_iter().filter_map(|(term, value)| changed(written_term(entry, term)?, value)).collect()
     }
 
-    /// The edits after which gravity is this.
+    /// The edits after which gravity has this value, m/s^2 in link `base`; none if the file does not declare it.
     pub fn set_gravity(&self, gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit> {
         let written = self.dynamics.as_ref().and_then(|dynamics| dynamics.gravity_m_s2.as_ref());
         written.and_then(|written| array(written, gravity_m_s2)).into_iter().collect()
@@ -112,7 +112,7 @@ fn array(written: &Spanned<[f64; 3]>, values: &Vector3<f64>) -> Option<TextEdit>
     differs.then(|| TextEdit { span: written.span(), text: text() })
 }
 
-/// Exactly, but for the sign of zero.
+/// Whether two values differ in any bit; zero and minus zero count as equal.
 fn is_other(old: f64, new: f64) -> bool {
     (old + 0.0).total_cmp(&(new + 0.0)).is_ne()
 }

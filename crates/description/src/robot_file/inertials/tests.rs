@@ -2,15 +2,11 @@
 
 use std::sync::Arc;
 
+use congruent_input::{Findings, SourceFile, changed_lines, line_column};
 use nalgebra::{Matrix3, Vector3};
 
 use super::*;
-use crate::{
-    RobotDescription,
-    diagnostic::{Diagnostic, SourceFile, line_column},
-    edits::changed_lines,
-    parse_robot,
-};
+use crate::{RobotDescription, parse_robot};
 
 const URDF: &str = "<robot name='r'><link name='base'/>\
     <link name='one'/><joint name='turn' type='continuous'><parent link='base'/><child link='one'/></joint>\
@@ -49,7 +45,7 @@ fn source(name: &str, text: &str) -> Arc<SourceFile> {
     Arc::new(SourceFile { path: name.into(), text: text.to_owned() })
 }
 
-fn parsed(text: &str) -> Result<RobotDescription, Vec<Diagnostic>> {
+fn parsed(text: &str) -> Result<RobotDescription, Findings> {
     parse_robot(Some(&source("robot.toml", text)), &source("r.urdf", URDF))
 }
 
@@ -84,8 +80,8 @@ fn refused(old: &str, new: &str, message: &str, help: &str, at: &str) {
 
 #[test]
 fn frame_and_point_are_never_defaulted() {
-    refused("frame = 'dh1'\n", "", "joint \"turn\" has no frame", "neither is a default", "[[inertial]]");
-    refused("about = 'com'\n", "", "joint \"turn\" has no about", "neither is a default", "[[inertial]]");
+    refused("frame = 'dh1'\n", "", "joint \"turn\" has no frame", "there is no default", "[[inertial]]");
+    refused("about = 'com'\n", "", "joint \"turn\" has no about", "there is no default", "[[inertial]]");
 }
 
 #[test]
@@ -125,7 +121,7 @@ fn a_mass_may_stand_alone() {
 }
 
 #[test]
-fn a_frame_of_another_joint_leaves_the_geometry_to_be_checked() {
+fn the_geometry_is_checked_with_a_frame_of_another_joint() {
     let description = parsed(&GOOD.replacen("'dh1'", "'dh2'", 1)).unwrap();
     assert!(description.dynamics.is_none());
     let warning = description.warnings.iter().find(|warning| warning.code == "robot_file::inertial").unwrap();
@@ -137,7 +133,7 @@ fn a_frame_of_another_joint_leaves_the_geometry_to_be_checked() {
 fn wrong_values_are_refused() {
     refused("mass_kg = 3.5", "mass_kg = 0", "mass_kg must be greater than 0", "", "mass_kg");
     refused("mass_kg = 3.5", "mass_kg = nan", "mass_kg is NaN", "", "mass_kg");
-    refused("com_m = [0, 0, 0.5]\n", "", "has no com_m or com_mm", "without the centre of mass", "'frame'");
+    refused("com_m = [0, 0, 0.5]\n", "", "has no com_m or com_mm", "needs the centre of mass", "'frame'");
     refused(
         "com_mm = [1,",
         "com_m = [0, 0, 0]\ncom_mm = [1,",
@@ -149,14 +145,14 @@ fn wrong_values_are_refused() {
     refused(
         "friction_n = ",
         "friction_n_m = ",
-        "joint \"slide\" slides",
-        "the key is friction_n",
+        "joint \"slide\", which slides",
+        "the key for this joint is friction_n",
         "friction_n_m",
     );
     refused(
         "joint = 'slide'\nframe",
         "joint = 'turn'\nframe",
-        "has an [[inertial]] already, at line 11",
+        "already has an [[inertial]] entry, at line 11",
         "",
         "turn",
     );

@@ -1,14 +1,14 @@
-//! `[dynamics]` and `[[inertial]]` of a robot file as they are written. The comments are the descriptions of the JSON
+//! `[dynamics]` and `[[inertial]]` of a robot file as they are written. The doc comments become the descriptions of the JSON
 //! schema.
 
+use congruent_input::fixed_array;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::declared::InertialPoint;
-use crate::written::array::fixed_array;
 
-/// What holds for all bodies.
+/// The values that hold for all bodies.
 #[derive(Debug, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Dynamics")]
@@ -23,8 +23,8 @@ pub(crate) struct WrittenDynamics {
     pub(crate) gravity_m_s2: Option<Spanned<[f64; 3]>>,
 }
 
-/// Mass, centre of mass and inertia of the body that a joint carries: its link and all links that fixed joints hold to
-/// it. What is left out is not compared.
+/// Mass, centre of mass and inertia of the body that a joint carries: its link and all links that are fixed to it. Parameters
+/// that are left out are not compared.
 #[derive(Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Inertial")]
@@ -39,10 +39,10 @@ pub(crate) struct WrittenInertial {
     /// The point that the inertia is about: the centre of mass, or the origin of the frame.
     #[schemars(with = "InertialPoint")]
     pub(crate) about: Option<Spanned<InertialPoint>>,
-    /// Mass in kg.
+    /// Mass of the body in kg.
     #[schemars(with = "f64")]
     pub(crate) mass_kg: Spanned<f64>,
-    /// Centre of mass in metres; if it is left out, as its other key is, it is not compared.
+    /// Centre of mass in metres; it is not compared if this key and `com_mm` are left out.
     #[serde(default, deserialize_with = "fixed_array")]
     #[schemars(with = "[f64; 3]")]
     pub(crate) com_m: Option<Spanned<[f64; 3]>>,
@@ -58,7 +58,7 @@ pub(crate) struct WrittenInertial {
     #[serde(default)]
     #[schemars(with = "f64")]
     pub(crate) armature_kg_m2: Option<Spanned<f64>>,
-    /// The same in kg, of a joint that slides.
+    /// Inertia of the motor behind its gear in kg, of a joint that slides.
     #[serde(default)]
     #[schemars(with = "f64")]
     pub(crate) armature_kg: Option<Spanned<f64>>,
@@ -85,13 +85,13 @@ pub(crate) struct WrittenInertial {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Tensor")]
 pub(crate) struct WrittenTensor {
-    /// Moment about x.
+    /// Moment of inertia about x, kg m^2.
     #[schemars(with = "f64")]
     pub(crate) xx: Spanned<f64>,
-    /// Moment about y.
+    /// Moment of inertia about y, kg m^2.
     #[schemars(with = "f64")]
     pub(crate) yy: Spanned<f64>,
-    /// Moment about z.
+    /// Moment of inertia about z, kg m^2.
     #[schemars(with = "f64")]
     pub(crate) zz: Spanned<f64>,
     /// Entry of the tensor, minus the integral of x y.
@@ -119,7 +119,7 @@ impl WrittenTensor {
     }
 }
 
-/// A term of a joint beside the inertia of its body.
+/// A term of the joint dynamics in addition to the inertia of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum WrittenTerm {
     Armature,

@@ -1,10 +1,11 @@
-//! The XML against the grammar: missing, repeated and misspelt parts, and every number.
+//! Checks the XML against the grammar: missing, repeated and misspelt parts, and every number.
 //!
 //! Elements and attributes that the grammar does not know are vendors' own and are ignored, unless the
 //! name is a letter or two away from one that the grammar knows.
 
 use std::ops::Range;
 
+use congruent_input::{Capability, Diagnostic, Diagnostics, hidden_character, known_names};
 use roxmltree::{Attribute as XmlAttribute, Node};
 
 use super::{
@@ -12,16 +13,12 @@ use super::{
     number,
     rules::{Attribute, AttributeValue, Child, Element, Needed, Occurs, ROBOT},
 };
-use crate::{
-    diagnostic::{Diagnostic, Diagnostics, Use, known_names},
-    urdf::node::{elements, label, tag},
-    visible::hidden_character,
-};
+use crate::urdf::node::{elements, label, tag};
 
 /// The longest name without a warning: what a file system allows.
 const LONGEST_NAME: usize = 255;
 
-/// Checks a whole document. Returns what must not be read: parts with a fault that kinematics can do without.
+/// Checks a whole document. Returns the byte ranges of faulty parts that kinematics does not need, which must not be read.
 pub(crate) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) -> Vec<Range<usize>> {
     if root.attribute("name").is_none_or(str::is_empty) {
         diagnostics.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
@@ -29,7 +26,7 @@ pub(crate) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) -> Vec<Ra
     let mut check = GrammarCheck {
         version: version(root),
         owner: "robot".to_owned(),
-        part: Part { needed_by: Some(Use::Kinematics), ranges: Vec::new() },
+        part: DocumentPart { needed_by: Some(Capability::Kinematics), ranges: Vec::new() },
         unread: Vec::new(),
         diagnostics,
     };
@@ -56,14 +53,14 @@ fn version(root: Node<'_, '_>) -> (u32, u32) {
 
 /// A part of the document that is read or left out as a whole.
 #[derive(Clone)]
-struct Part {
-    /// The use that cannot go on without it.
-    needed_by: Option<Use>,
+struct DocumentPart {
+    /// The use of the robot that a fault in this part blocks.
+    needed_by: Option<Capability>,
     ranges: Vec<Range<usize>>,
 }
 
-impl Part {
-    /// The part that these ranges are in: themselves, unless they are needed as what they are in.
+impl DocumentPart {
+    /// The part that a fault at `ranges` blanks: these ranges, unless they are as necessary as the element around them.
     fn inner(&self, needed: Needed, ranges: Vec<Range<usize>>) -> Self {
         match needed {
             Needed::AsItsParent => self.clone(),
@@ -76,7 +73,7 @@ struct GrammarCheck<'f> {
     version: (u32, u32),
     /// The link, joint or material that is read: every diagnostic begins with it.
     owner: String,
-    part: Part,
+    part: DocumentPart,
     unread: Vec<Range<usize>>,
     diagnostics: &'f mut Diagnostics,
 }
@@ -88,12 +85,12 @@ impl GrammarCheck<'_> {
         self.report_in(&part, Diagnostic::error(code, what), at);
     }
 
-    fn report_in(&mut self, part: &Part, fault: Diagnostic, at: Range<usize>) {
+    fn report_in(&mut self, part: &DocumentPart, fault: Diagnostic, at: Range<usize>) {
         let message = format!("{}: {}", self.owner, fault.message);
         let kind = format!("times {}", fault.message);
         let fault = Diagnostic { message, ..fault }.one_of(kind, &self.owner);
         self.diagnostics.push(fault.needed_by(part.needed_by).at(at));
-        if part.needed_by != Some(Use::Kinematics) {
+        if part.needed_by != Some(Capability::Kinematics) {
             self.unread.extend(part.ranges.iter().cloned());
         }
     }
@@ -121,8 +118,7 @@ impl GrammarCheck<'_> {
         self.part = outer;
     }
 
-    /// Before version 1.2 both must be given. Nothing is taken in their place: a limit that is missing limits
-    /// nothing.
+    /// Before version 1.2 both must be given. A missing one is read as unlimited and reported as a warning.
     fn limit(&mut self, node: Node<'_, '_>) {
         let is_fixed = node.parent().is_some_and(|joint| joint.attribute("type") == Some("fixed"));
         for key in ["effort", "velocity"].into_iter().filter(|key| !is_fixed && !node.has_attribute(*key)) {
@@ -130,7 +126,7 @@ impl GrammarCheck<'_> {
                 "urdf::missing_attribute",
                 format!("<limit> has no {key}: it is taken as unlimited"),
             );
-            self.report_in(&Part { needed_by: None, ranges: Vec::new() }, fault, tag(node));
+            self.report_in(&DocumentPart { needed_by: None, ranges: Vec::new() }, fault, tag(node));
         }
     }
 
@@ -173,10 +169,9 @@ impl GrammarCheck<'_> {
             AttributeValue::Name if value.trim().is_empty() => {
                 Some(("urdf::empty_name", "it is empty".to_owned()))
             }
-            // These go into every output.
-            AttributeValue::Text | AttributeValue::Name => hidden_character(value).map(|hidden| {
-                ("urdf::hidden_character", format!("it has a character that is not shown: {hidden}"))
-            }),
+            // Texts and names are copied into every output.
+            AttributeValue::Text | AttributeValue::Name => hidden_character(value)
+                .map(|hidden| ("urdf::hidden_character", format!("it has an invisible character: {hidden}"))),
             AttributeValue::Numbers(count) => {
                 number::fault(value, count).map(|fault| ("urdf::number", fault))
             }
@@ -232,9 +227,9 @@ impl GrammarCheck<'_> {
         let name = node.attribute("name").unwrap_or_default();
         let length = name.chars().count();
         let what = if length > LONGEST_NAME {
-            format!("its name is {length} characters long")
+            format!("its name is {length} characters long (limit {LONGEST_NAME})")
         } else if name.contains("../") {
-            "its name holds \"../\"; it is escaped wherever it is written".to_owned()
+            "its name contains \"../\", which is escaped in every output".to_owned()
         } else {
             return;
         };

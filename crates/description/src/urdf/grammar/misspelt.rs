@@ -7,29 +7,32 @@ use roxmltree::Node;
 use super::rules::{Element, Occurs, ROBOT};
 use crate::urdf::node::{elements, label};
 
-/// A name that is misspelt, while the one that is meant is not there.
+/// A misspelt name of an element or attribute whose correct name does not occur beside it.
 #[derive(Debug, Clone)]
-pub(crate) struct Misspelling<'a> {
-    /// The code of the finding.
-    pub(crate) code: &'static str,
+pub struct Misspelling<'a> {
+    /// The code of the finding that reports the name.
+    pub code: &'static str,
     /// The link or joint that it is in.
-    pub(crate) owner: String,
-    pub(crate) written: String,
-    pub(crate) meant: &'static str,
-    pub(crate) place: Misspelt<'a>,
+    pub owner: String,
+    /// The name in the file.
+    pub written: String,
+    /// The name of the grammar that is meant.
+    pub meant: &'static str,
+    /// Where the name is.
+    pub place: Misspelt<'a>,
 }
 
-/// What is misspelt.
+/// The element or attribute whose name is misspelt.
 #[derive(Debug, Clone)]
-pub(crate) enum Misspelt<'a> {
+pub enum Misspelt<'a> {
     /// An attribute, by its range.
     Attribute(Range<usize>),
     /// An element.
     Element(Node<'a, 'a>),
 }
 
-/// All of a document, each of which is refused.
-pub(crate) fn misspellings<'a>(root: Node<'a, 'a>) -> Vec<Misspelling<'a>> {
+/// All misspelt names of a document that the grammar check reports.
+pub fn misspellings<'a>(root: Node<'a, 'a>) -> Vec<Misspelling<'a>> {
     let mut found = Vec::new();
     inside(root, &ROBOT, "robot", &mut found);
     for child in ROBOT.children {
@@ -40,7 +43,7 @@ pub(crate) fn misspellings<'a>(root: Node<'a, 'a>) -> Vec<Misspelling<'a>> {
     found
 }
 
-/// Recursion ends with the grammar.
+/// Recursion ends with the grammar, whose deepest path has six elements.
 fn below<'a>(node: Node<'a, 'a>, rules: &Element, owner: &str, found: &mut Vec<Misspelling<'a>>) {
     inside(node, rules, owner, found);
     for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
@@ -128,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn misspellings_are_told_from_vendor_names() {
+    fn misspellings_are_distinguished_from_vendor_names() {
         check("limits", Some("limit"));
         check("Limit", Some("limit"));
         check("orgin", Some("origin"));

@@ -6,4 +6,4 @@ mod number;
 mod rules;
 
 pub(super) use check::check;
-pub(crate) use misspelt::{Misspelt, misspellings};
+pub use misspelt::{Misspelling, Misspelt, misspellings};

@@ -1,4 +1,4 @@
-//! Numbers in attributes, token by token: `urdf-rs` drops a vector's tokens that are no numbers.
+//! Numbers in attributes, token by token: `urdf-rs` drops a vector's tokens that are not numbers.
 
 /// What is wrong with `text` as `count` numbers separated by white space; `None` if nothing is.
 ///

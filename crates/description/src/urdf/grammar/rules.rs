@@ -4,20 +4,20 @@
 //! Source: the XML reference of URDF (wiki.ros.org/urdf/XML) and the schema of urdfdom, up to
 //! version 1.2. Required is what `urdf-rs` cannot do without.
 
-use crate::diagnostic::Use;
+use AttributeValue::{Name, Numbers, Text, Word};
+use Needed::{AsItsParent, For};
+use congruent_input::Capability;
 
-/// What an element or an attribute is needed for: a fault in it stops that use and no other.
+/// The use of the robot that needs an element or an attribute: a fault in it blocks that use and no other.
 #[derive(Clone, Copy)]
 pub(super) enum Needed {
-    /// For the same as what it is in.
+    /// Needed for the same use as the element around it.
     AsItsParent,
-    /// For this use; `None` if the robot can do without it.
-    For(Option<Use>),
+    /// Needed for this use; `None` if no use needs it.
+    For(Option<Capability>),
 }
 
-use Needed::{AsItsParent, For};
-
-/// An element: what may be in it.
+/// An element with the attributes and children that it may have.
 pub(super) struct Element {
     pub(super) name: &'static str,
     pub(super) needed: Needed,
@@ -35,7 +35,7 @@ pub(super) struct Attribute {
     pub(super) needed: Needed,
 }
 
-/// What an attribute holds.
+/// The kind of value that an attribute must have.
 pub(super) enum AttributeValue {
     /// Any text, or none.
     Text,
@@ -70,13 +70,13 @@ const fn element(
 }
 
 impl Element {
-    const fn needed_for(self, needed: Option<Use>) -> Self {
+    const fn needed_for(self, needed: Option<Capability>) -> Self {
         Self { needed: For(needed), ..self }
     }
 }
 
 impl Attribute {
-    const fn needed_for(self, needed: Option<Use>) -> Self {
+    const fn needed_for(self, needed: Option<Capability>) -> Self {
         Self { needed: For(needed), ..self }
     }
 }
@@ -101,8 +101,6 @@ const fn any_number(element: &'static Element) -> Child {
     Child { element, occurs: Occurs::AnyNumber }
 }
 
-use AttributeValue::{Name, Numbers, Text, Word};
-
 const NUMBER: AttributeValue = Numbers(1);
 
 /// The types that a joint may have; which of them can be simulated is decided in `joint.rs`.
@@ -123,7 +121,7 @@ static LINK: Element = element(
 );
 
 static INERTIAL: Element = element("inertial", &[], &[at_most_once(&ORIGIN), once(&MASS), once(&INERTIA)])
-    .needed_for(Some(Use::Physics));
+    .needed_for(Some(Capability::Physics));
 
 static MASS: Element = element("mass", &[required("value", NUMBER)], &[]);
 
@@ -156,10 +154,10 @@ static VISUAL: Element = element(
 static COLLISION: Element = element(
     "collision",
     &[optional("name", Text)],
-    // urdf-rs does not read a collision's material, so nothing in it is judged.
+    // urdf-rs does not read a collision's material, so nothing in it is checked.
     &[at_most_once(&ORIGIN), once(&GEOMETRY), any_number(&UNREAD_MATERIAL)],
 )
-.needed_for(Some(Use::Clearance));
+.needed_for(Some(Capability::Clearance));
 
 static GEOMETRY: Element = Element {
     name: "geometry",
@@ -223,8 +221,8 @@ static LIMIT: Element = element(
     &[
         optional("lower", NUMBER),
         optional("upper", NUMBER),
-        optional("effort", NUMBER).needed_for(Some(Use::Physics)),
-        optional("velocity", NUMBER).needed_for(Some(Use::Physics)),
+        optional("effort", NUMBER).needed_for(Some(Capability::Physics)),
+        optional("velocity", NUMBER).needed_for(Some(Capability::Physics)),
         optional("acceleration", NUMBER).needed_for(None),
         optional("deceleration", NUMBER).needed_for(None),
         optional("jerk", NUMBER).needed_for(None),
@@ -234,7 +232,7 @@ static LIMIT: Element = element(
 
 static DYNAMICS: Element =
     element("dynamics", &[optional("damping", NUMBER), optional("friction", NUMBER)], &[])
-        .needed_for(Some(Use::Physics));
+        .needed_for(Some(Capability::Physics));
 
 static MIMIC: Element = element(
     "mimic",

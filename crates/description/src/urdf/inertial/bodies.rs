@@ -1,8 +1,9 @@
-//! Inertia of what moves. Links that fixed joints hold together are one body and are judged as one: frames
-//! without mass, such as `tool0`, are normal on a body that has some, and the body that stands still needs none.
+//! Checks the inertias of moving bodies. Links that are fixed to each other are one body and are checked as one: frames
+//! without mass, such as `tool0`, are normal on a body that has mass, and a body that cannot move needs none.
 
 use std::{collections::BTreeMap, fmt::Write};
 
+use congruent_input::{Capability, Diagnostic, Diagnostics, display::quantity, known_names};
 use nalgebra::Isometry3;
 use roxmltree::Node;
 
@@ -11,17 +12,18 @@ use super::{
     repair::{Repairs, nearest_possible},
 };
 use crate::{
-    diagnostic::{Diagnostic, Diagnostics, Use, known_names},
-    display::quantity,
     model::{Inertia, LinkIndex, Robot, principal_moments},
-    robot_file::toml_key,
+    toml_literal::toml_key,
     urdf::{
         large::INERTIA_SIZE,
         node::{element, elements, place, tag},
     },
 };
 
-/// Repairs what the robot file asks for, then reports impossible inertias and moving bodies without mass.
+/// The code of the warning that a moving body has no mass.
+pub const MASSLESS: &str = "urdf::massless";
+
+/// Repairs the inertias that the robot file names, then reports impossible inertias and moving bodies without mass.
 pub(in crate::urdf) fn judge(
     robot: &mut Robot,
     root: Node<'_, '_>,
@@ -29,15 +31,15 @@ pub(in crate::urdf) fn judge(
     diagnostics: &mut Diagnostics,
 ) {
     for (name, at) in &repairs.links {
-        let told = repair(robot, name).unwrap_or_else(|fault| fault).at(at.clone());
+        let repair_finding = repair(robot, name).unwrap_or_else(|fault| fault).at(at.clone());
         diagnostics.push(match &repairs.source {
-            Some(source) => told.in_file(source),
-            None => told,
+            Some(source) => repair_finding.in_file(source),
+            None => repair_finding,
         });
     }
     let nodes: BTreeMap<&str, Node<'_, '_>> =
         elements(root, "link").filter_map(|node| Some((node.attribute("name")?, node))).collect();
-    let judge = Judge { robot, nodes, bodies: Bodies::of(robot), diagnostics };
+    let judge = InertiaCheck { robot, nodes, bodies: LinkBodies::from_robot(robot), diagnostics };
     judge.all();
 }
 
@@ -59,33 +61,36 @@ fn repair(robot: &mut Robot, name: &str) -> Result<Diagnostic, Diagnostic> {
     };
     if inertia.mass_kg <= 0.0 {
         let what = format!(
-            "its mass of {} is not positive, and no mass is nearest to it",
+            "its mass of {} is not positive, and a repair changes only the inertia",
             quantity(inertia.mass_kg, "kg")
         );
         return Err(refused(what).with_help("correct <mass> in the URDF"));
     }
-    if Impossible::of(&inertia).is_none() {
-        let message = format!("[inertia] {name}: the inertia in the URDF is possible, nothing is repaired");
+    if Impossible::find(&inertia).is_none() {
+        let message = format!(
+            "[inertia] {name}: a rigid body can have the inertia in the URDF, so nothing is repaired"
+        );
         return Ok(Diagnostic::warning(CODE, message).with_help("remove the line"));
     }
     let tensor_kg_m2 = nearest_possible(&inertia.tensor_kg_m2);
     let listed = |tensor| principal_moments(tensor).map(|moment| quantity(moment, UNIT)).join(", ");
     let message = format!(
-        "link \"{name}\": inertia repaired: principal moments {} in the URDF, {} here, {} away in the Frobenius norm",
+        "link \"{name}\": inertia repaired: principal moments {} in the URDF, {} after the repair ({} apart in the Frobenius \
+         norm)",
         listed(&inertia.tensor_kg_m2),
         listed(&tensor_kg_m2),
         quantity((tensor_kg_m2 - inertia.tensor_kg_m2).norm(), UNIT)
     );
     robot.set_inertia(link, Inertia { tensor_kg_m2, ..inertia });
-    // Each has its own values, so that each is told by itself.
+    // The name in the words keeps repairs of different links apart: each has its own values to report.
     Ok(Diagnostic::warning(CODE, message).one_of(format!("times {name} is repaired"), name))
 }
 
 /// The body of each link and its pose in it, in the order of the links; a body has the index of its first link.
-struct Bodies(Vec<(usize, Isometry3<f64>)>);
+struct LinkBodies(Vec<(usize, Isometry3<f64>)>);
 
-impl Bodies {
-    fn of(robot: &Robot) -> Self {
+impl LinkBodies {
+    fn from_robot(robot: &Robot) -> Self {
         let mut bodies: Vec<(usize, Isometry3<f64>)> = Vec::with_capacity(robot.links().len());
         // Parents come first, so a link's body is known when the link is reached.
         for link in robot.link_indices() {
@@ -103,44 +108,47 @@ impl Bodies {
 
     fn inertia(&self, robot: &Robot, body: usize) -> Inertia {
         let on_body = self.0.iter().zip(robot.links()).filter(move |((of, _), _)| *of == body);
-        Inertia::of_body(
+        Inertia::sum_of_parts(
             on_body.filter_map(|((_, body_from_link), link)| Some((*body_from_link, link.inertia?))),
         )
     }
 }
 
-struct Judge<'a, 'd> {
+struct InertiaCheck<'a, 'd> {
     robot: &'a Robot,
     nodes: BTreeMap<&'a str, Node<'a, 'a>>,
-    bodies: Bodies,
+    bodies: LinkBodies,
     diagnostics: &'d mut Diagnostics,
 }
 
-impl Judge<'_, '_> {
+impl InertiaCheck<'_, '_> {
     fn all(mut self) {
         let robot = self.robot;
         let impossible: Vec<(LinkIndex, Impossible)> = robot
             .link_indices()
-            .filter_map(|link| Some((link, Impossible::of(robot.link(link).inertia.as_ref()?)?)))
+            .filter_map(|link| Some((link, Impossible::find(robot.link(link).inertia.as_ref()?)?)))
             .collect();
+        // Only the sum of a body counts in the simulation: an impossible tensor of one link does no harm if the body that the
+        // link is part of has a possible one.
         let mut sums = BTreeMap::new();
         for (link, _) in &impossible {
             let (body, _) = self.bodies.0[link.get()];
-            sums.entry(body).or_insert_with(|| Impossible::of(&self.bodies.inertia(robot, body)).is_none());
+            sums.entry(body).or_insert_with(|| Impossible::find(&self.bodies.inertia(robot, body)).is_none());
         }
         let stops = |link: LinkIndex| {
             let (body, _) = self.bodies.0[link.get()];
+            // Body 0 holds the root link and cannot move.
             body != 0 && !sums[&body]
         };
         let (stopping, harmless): (Vec<_>, Vec<_>) = impossible.iter().partition(|(link, _)| stops(*link));
-        let help = how_to_mend(
+        let help = repair_help(
             stopping
                 .iter()
                 .map(|(link, _)| robot.link(*link))
                 .map(|link| (link.name.as_str(), link.inertia.is_some_and(|inertia| inertia.mass_kg > 0.0))),
         );
         for (link, fault) in stopping {
-            self.impossible(link, fault, Some((Use::Physics, &help)));
+            self.impossible(link, fault, Some((Capability::Physics, &help)));
         }
         for (link, fault) in harmless {
             self.impossible(link, fault, None);
@@ -149,16 +157,16 @@ impl Judge<'_, '_> {
         self.massless(&sums);
     }
 
-    fn impossible(&mut self, link: LinkIndex, fault: Impossible, stops: Option<(Use, &str)>) {
+    fn impossible(&mut self, link: LinkIndex, fault: Impossible, stops: Option<(Capability, &str)>) {
         let name = self.robot.link(link).name.as_str();
         let (but, kind_but) = match stops {
             Some(_) => ("", ""),
             None if self.bodies.0[link.get()].0 == 0 => {
-                ("; it cannot move, so it does not matter", ", which cannot move")
+                ("; the link cannot move, so its inertia is not used", ", and cannot move")
             }
             None => (
-                "; with the links that it is fixed to it is possible",
-                " and are possible with those that they are fixed to",
+                "; together with the links fixed to it the inertia is possible",
+                ", but a possible one together with the links fixed to them",
             ),
         };
         let message = format!("link \"{name}\": {}{but}", fault.message());
@@ -186,9 +194,9 @@ impl Judge<'_, '_> {
                 link.inertia.as_ref().and_then(|inertia| Some((inertia, suspicious_size(inertia)?)))
             {
                 let help = if inertia.is_example() {
-                    "1 kg m^2 about every axis is the value of examples: give that of a box of the link's size"
+                    "1 kg m^2 about every axis is a placeholder: give the inertia of a box of the link's size"
                 } else {
-                    "kg mm^2 instead of kg m^2?"
+                    "is the value in kg mm^2 instead of kg m^2?"
                 };
                 let found = Diagnostic::warning(INERTIA_SIZE, format!("link \"{}\": {what}", link.name))
                     .one_of("links have an inertia that is far too large for their mass", &link.name)
@@ -198,7 +206,7 @@ impl Judge<'_, '_> {
         }
     }
 
-    /// Warns of moving bodies without mass, if they are not at fault already.
+    /// Warns of moving bodies without mass, unless an impossible inertia of theirs was reported already.
     fn massless(&mut self, judged: &BTreeMap<usize, bool>) {
         let mut mass_kg = vec![0.0; self.robot.links().len()];
         for ((body, _), link) in self.bodies.0.iter().zip(self.robot.links()) {
@@ -208,9 +216,9 @@ impl Judge<'_, '_> {
             if self.bodies.0[index].0 != index || mass_kg[index] > 0.0 || judged.get(&index) == Some(&false) {
                 continue;
             }
-            // An <inertial> that cannot be read is told already.
+            // An <inertial> that cannot be read was reported by the grammar already; a second warning would only hide it.
             let node = self.nodes.get(link.name.as_str());
-            if node.is_some_and(|node| self.diagnostics.stops_physics_within(&node.range())) {
+            if node.is_some_and(|node| self.diagnostics.blocks_physics_within(&node.range())) {
                 continue;
             }
             let what = if link.inertia.is_some() { "its mass is zero" } else { "has no <inertial>" };
@@ -218,7 +226,7 @@ impl Judge<'_, '_> {
                 format!("link \"{}\" moves but {what}: it cannot be simulated with forces", link.name);
             let at = node.map_or(0..0, |node| tag(*node));
             self.diagnostics.push(
-                Diagnostic::warning("urdf::massless", message)
+                Diagnostic::warning(MASSLESS, message)
                     .one_of(
                         "links move but have no mass, so they cannot be simulated with forces",
                         &link.name,
@@ -230,14 +238,15 @@ impl Judge<'_, '_> {
     }
 }
 
-/// The lines of a robot file that mend these links, of which a repair needs a positive mass.
-fn how_to_mend<'a>(links: impl Iterator<Item = (&'a str, bool)>) -> String {
+/// Help for impossible inertias: the lines of a robot file that repair these links. Each link comes with whether its mass is
+/// positive, which a repair needs.
+fn repair_help<'a>(links: impl Iterator<Item = (&'a str, bool)>) -> String {
     const MOST_LINES: usize = 40;
     let mut help = String::from("correct it in the URDF");
     let repairable: Vec<&str> =
         links.filter_map(|(name, has_mass)| has_mass.then_some(name)).take(MOST_LINES).collect();
     if !repairable.is_empty() {
-        help.push_str(", or take the nearest possible inertia by these lines of robot.toml:\n[inertia]");
+        help.push_str(", or use the nearest possible inertia with these lines in robot.toml:\n[inertia]");
     }
     for name in repairable {
         let _ = write!(help, "\n{} = \"repair\"", toml_key(name));

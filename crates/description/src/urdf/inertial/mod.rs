@@ -5,8 +5,9 @@ mod possible;
 mod repair;
 
 pub(super) use bodies::judge;
-pub(crate) use possible::LARGEST_GYRATION_M;
 pub(crate) use repair::Repairs;
 
 #[cfg(test)]
 mod tests;
+pub use bodies::MASSLESS;
+pub use possible::LARGEST_GYRATION_M;

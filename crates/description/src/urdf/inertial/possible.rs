@@ -1,17 +1,16 @@
-//! Which mass and which tensor a rigid body can have.
+//! Decides whether a rigid body can have a given mass and inertia tensor.
 
-use crate::{
-    display::{length, quantity},
-    model::{Inertia, principal_moments},
-};
+use congruent_input::display::{length, quantity};
+
+use crate::model::{Inertia, principal_moments};
 
 /// Rounding in files: principal moments may miss a bound by so much of the largest one. Real
 /// robots miss by up to 1e-4 if inertias are written with four digits.
 const MOMENT: f64 = 1e-3;
-/// No link of a robot has a larger radius of gyration: the tensor is taken for kg mm^2.
-pub(crate) const LARGEST_GYRATION_M: f64 = 3.0;
+/// Largest plausible radius of gyration of a link, m; a larger one suggests a tensor in kg mm^2.
+pub const LARGEST_GYRATION_M: f64 = 3.0;
 
-/// The unit of a tensor.
+/// The unit of a tensor, as messages print it.
 pub(super) const UNIT: &str = "kg m2";
 
 /// Why no rigid body has an inertia.
@@ -27,11 +26,13 @@ pub(super) enum Impossible {
 
 impl Impossible {
     /// What is impossible about an inertia; `None` if a rigid body can have it.
-    pub(super) fn of(inertia: &Inertia) -> Option<Self> {
+    pub(super) fn find(inertia: &Inertia) -> Option<Self> {
         if inertia.mass_kg < 0.0 {
             return Some(Self::Mass(inertia.mass_kg));
         }
         let [least, middle, most] = principal_moments(&inertia.tensor_kg_m2);
+        // Necessary and sufficient for a rigid body: principal moments that are not negative and obey the triangle inequality
+        // (each is at most the sum of the other two). Sorted, only the least and the largest need a test.
         let slack = MOMENT * most.abs();
         if least < -slack || most < 0.0 {
             return Some(Self::NotDefinite(least));
@@ -55,7 +56,7 @@ impl Impossible {
         }
     }
 
-    /// What several links have, in words.
+    /// The words of a joined message, after the number of links.
     pub(super) fn kind(self) -> &'static str {
         match self {
             Self::Mass(_) => "links have a negative mass",
@@ -82,12 +83,17 @@ impl Impossible {
     }
 }
 
-/// What is said of a tensor that is too large for its mass by orders of magnitude.
+/// The message about a tensor that is too large for its mass; `None` if the radius of gyration is plausible.
 pub(super) fn suspicious_size(inertia: &Inertia) -> Option<String> {
     let [.., most] = principal_moments(&inertia.tensor_kg_m2);
     let gyration_m = (most / inertia.mass_kg).sqrt();
-    (inertia.mass_kg > 0.0 && gyration_m > LARGEST_GYRATION_M)
-        .then(|| format!("inertia is that of a body with a radius of gyration of {}", length(gyration_m)))
+    (inertia.mass_kg > 0.0 && gyration_m > LARGEST_GYRATION_M).then(|| {
+        format!(
+            "inertia implies a radius of gyration of {} (limit {})",
+            length(gyration_m),
+            length(LARGEST_GYRATION_M)
+        )
+    })
 }
 
 #[cfg(test)]
@@ -103,7 +109,7 @@ mod tests {
         let tensor_kg_m2 = turn * Matrix3::from_diagonal(&Vector3::from(moments)) * turn.inverse();
         let inertia = Inertia { mass_kg, link_from_inertial: Isometry3::identity(), tensor_kg_m2 };
         let size = suspicious_size(&inertia).map(|_| "size");
-        assert_eq!(Impossible::of(&inertia).map(Impossible::element).or(size), expected);
+        assert_eq!(Impossible::find(&inertia).map(Impossible::element).or(size), expected);
     }
 
     #[test]

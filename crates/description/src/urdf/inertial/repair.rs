@@ -8,9 +8,8 @@
 
 use std::{collections::BTreeMap, ops::Range, sync::Arc};
 
+use congruent_input::SourceFile;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
-
-use crate::diagnostic::SourceFile;
 
 /// Smallest second moment of a repaired inertia, as a part of the largest principal moment in the file: a body
 /// with no extent in a direction is possible, but physics divides by its moments.
@@ -26,20 +25,24 @@ pub(crate) struct Repairs {
 
 /// The nearest tensor in the Frobenius norm that a rigid body can have.
 pub(super) fn nearest_possible(tensor_kg_m2: &Matrix3<f64>) -> Matrix3<f64> {
+    // Scaled to entries of at most 1: the eigenvalue solver overflows on entries near the largest double.
     let largest = tensor_kg_m2.amax();
     if largest == 0.0 {
         return *tensor_kg_m2;
     }
     let SymmetricEigen { eigenvectors, eigenvalues } =
         SymmetricEigen::new(tensor_kg_m2.map(|entry| entry / largest));
+    // Moments s2 + s3 and so on with every s >= s_min are the cone shifted by 2 s_min along (1, 1, 1), so the projection runs
+    // on shifted moments: the repaired body keeps a small extent in each direction, by which physics can divide.
     let floor = Vector3::repeat(2.0 * LEAST_SECOND_MOMENT * eigenvalues.amax());
     let moments = nearest_moments(eigenvalues - floor) + floor;
     let tensor = eigenvectors * Matrix3::from_diagonal(&moments) * eigenvectors.transpose();
+    // Rounding makes the product slightly asymmetric, and solvers read only one triangle.
     (tensor + tensor.transpose()) * (0.5 * largest)
 }
 
-/// The nearest point of the cone of principal moments: the least squares of each set of its three edges is
-/// tried, which is the whole of this problem.
+/// The nearest point of the cone of principal moments. The nearest point lies on a face that some set of the three edges
+/// spans, so the least-squares solution of each set is tried, and the nearest one with coefficients >= 0 is the projection.
 fn nearest_moments(moments: Vector3<f64>) -> Vector3<f64> {
     const EDGES: [[f64; 3]; 3] = [[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]];
     let mut best = Vector3::zeros();
@@ -85,7 +88,7 @@ mod tests {
             link_from_inertial: nalgebra::Isometry3::identity(),
             tensor_kg_m2: repaired,
         };
-        assert_eq!(Impossible::of(&inertia), None);
+        assert_eq!(Impossible::find(&inertia), None);
         assert!(repaired.symmetric_eigenvalues().min() > 0.0, "{repaired}");
     }
 

@@ -2,10 +2,9 @@
 
 #![expect(clippy::float_cmp, reason = "values must arrive as they are written")]
 
-use crate::{
-    diagnostic::Use,
-    urdf::tests::{INERTIAL, LIMIT, arm, good, read, stops},
-};
+use congruent_input::Capability;
+
+use crate::urdf::tests::{INERTIAL, LIMIT, arm, good, read, stops};
 
 /// `arm` with a third link, welded to the second.
 fn welded(tip: &str, tool: &str) -> String {
@@ -38,33 +37,33 @@ fn an_impossible_inertia_stops_physics_and_stays_as_it_is_written() {
         ("2", [3.0, 1.0, 1.0], "urdf::inertia", "its largest principal moment, 3 kg m2, exceeds the sum of"),
     ] {
         let text = arm(LIMIT, &inertial(mass, moments));
-        let robot = stops(&text, 8, Some(Use::Physics), (code, message));
+        let robot = stops(&text, 8, Some(Capability::Physics), (code, message));
         assert_eq!(robot.links()[1].inertia.unwrap().tensor_kg_m2[(0, 0)], moments[0]);
-        // The root's body stands still.
+        // The root's body cannot move.
         let root = arm(LIMIT, INERTIAL).replace(
             "<link name=\"base\"/>",
             &format!("<link name=\"base\">{}</link>", inertial(mass, moments)),
         );
-        stops(&root, 2, None, (code, "it cannot move, so it does not matter"));
+        stops(&root, 2, None, (code, "the link cannot move, so its inertia is not used"));
     }
 }
 
 #[test]
 fn welded_links_are_judged_as_one_body() {
     let impossible = inertial("0.1", [0.3, 0.1, 0.1]);
-    let possible = ("urdf::inertia", "with the links that it is fixed to it is possible");
+    let possible = ("urdf::inertia", "together with the links fixed to it the inertia is possible");
     stops(&welded(INERTIAL, &impossible), 10, None, possible);
     // Neither of two links without mass is a fault beside one that has some.
     good(&welded(INERTIAL, ""));
     good(&welded("", INERTIAL));
     // A body that is impossible as a whole.
     let (_, found) = read(&welded(&inertial("0.001", [0.001; 3]), &impossible));
-    assert_eq!(found[0].stops, Some(Use::Physics), "{found:#?}");
+    assert_eq!(found[0].stops, Some(Capability::Physics), "{found:#?}");
 }
 
-/// Several findings of a kind, and the lines that mend them, which can be pasted.
+/// Several findings of a kind, and the lines that correct them, which can be pasted.
 #[test]
-fn impossible_inertias_are_one_finding_with_the_lines_that_mend_them() {
+fn impossible_inertias_are_one_finding_with_the_lines_that_correct_them() {
     let impossible = inertial("1", [3.0, 1.0, 1.0]);
     let text = welded(&impossible, &impossible)
         .replace("type=\"fixed\"", "type=\"continuous\"")
@@ -75,7 +74,7 @@ fn impossible_inertias_are_one_finding_with_the_lines_that_mend_them() {
     assert_eq!(
         found.help.as_deref(),
         Some(
-            "correct it in the URDF, or take the nearest possible inertia by these lines of robot.toml:\n\
+            "correct it in the URDF, or use the nearest possible inertia with these lines in robot.toml:\n\
              [inertia]\ntip = \"repair\"\n\"tool 1\" = \"repair\""
         )
     );

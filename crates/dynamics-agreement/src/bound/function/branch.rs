@@ -1,4 +1,4 @@
-//! The largest norm of a function of joint positions over a box, from above.
+//! An upper bound of a function of joint positions over a box, by branch and bound.
 //!
 //! On an arc of half width below a quarter turn, `(1, cos, sin)` is a rational quadratic Bezier curve with positive
 //! weights. A function that is affine in them is an average of its control values, so a convex function of it is largest
@@ -9,30 +9,28 @@
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
-use congruent_description::Elementary as _;
-
 use super::{
-    speeds::Interval,
+    speeds::SpeedInterval,
     trigonometric::{Trigonometric, Variable, along_into},
 };
 
-/// Widest arc with one control point between its ends, in rad. Kind: choice; at 1.6 rad the point is 1.44 times out.
+/// Widest arc with one control point between its ends, in rad. Kind: choice; at 1.6 rad the point lies at 1.44 times the radius.
 const WIDEST_ARC_RAD: f64 = 1.6;
-/// Rounding of the control values, relative to the largest. Some thousand products.
+/// Rounding of the control values, relative to the largest. No unit; kind: rounding of some thousand products.
 const ROUNDING: f64 = 1e-13;
 
-/// When a search ends.
+/// The conditions that end a search, whichever is met first.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::bound) struct Stop {
+pub(in crate::bound) struct SearchLimits {
     /// The bound need not be lower than this.
     pub(in crate::bound) below: f64,
-    /// Boxes that may be divided.
+    /// Most boxes that are divided.
     pub(in crate::bound) boxes: usize,
-    /// Control values that may be computed.
+    /// Most control values that are computed.
     pub(in crate::bound) control_values: usize,
 }
 
-/// An upper bound and what it cost.
+/// An upper bound, and the number of boxes that were divided for it.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::bound) struct UpperBound {
     pub(in crate::bound) value: f64,
@@ -41,13 +39,13 @@ pub(in crate::bound) struct UpperBound {
 
 struct Region {
     ranges: Vec<(f64, f64)>,
-    /// Parts of their limits.
-    speeds: Vec<Interval>,
+    /// Intervals of the speeds, as shares of their limits.
+    speeds: Vec<SpeedInterval>,
     upper: f64,
     halved: Halved,
 }
 
-/// What is to be halved.
+/// The dimension along which a box is halved next.
 #[derive(Debug, Clone, Copy)]
 enum Halved {
     /// The range of a variable.
@@ -76,16 +74,20 @@ impl Ord for Region {
     }
 }
 
-/// The largest norm over the whole range, from above.
-pub(in crate::bound) fn upper_bound(function: &Trigonometric, stop: Stop) -> UpperBound {
+/// An upper bound of the measure of a function over the whole range of its variables.
+pub(in crate::bound) fn upper_bound(function: &Trigonometric, stop: SearchLimits) -> UpperBound {
     let ranges: Vec<(f64, f64)> =
         function.variables.iter().map(|variable| (variable.lower, variable.upper)).collect();
     let speeds = vec![(-1.0, 1.0); function.measure.speeds()];
     let mut work = Work::default();
+    // Best first: the largest bound of all open boxes is the bound of the whole range, so only halving that box
+    // can lower the result.
     let mut open = BinaryHeap::from([region(function, (ranges, speeds), &mut work)]);
     let mut boxes = 0;
+    // A constant cannot be divided; its only box is its value.
     let divides = !function.variables.is_empty() || function.measure.speeds() > 0;
     while let Some(worst) = open.peek() {
+        // Stopping early is safe: the bound that is returned holds for whatever boxes are open, it is only wider.
         let done = worst.upper <= stop.below || boxes >= stop.boxes || work.computed >= stop.control_values;
         if done || !divides {
             break;
@@ -93,29 +95,33 @@ pub(in crate::bound) fn upper_bound(function: &Trigonometric, stop: Stop) -> Upp
         let Some(worst) = open.pop() else { break };
         boxes += 1;
         let Some(halves) = worst.halves() else {
+            // The box is at the resolution of floating point: it goes back, so that its bound still counts.
             open.push(worst);
             break;
         };
         for half in halves {
             let mut part = region(function, half, &mut work);
-            // A part is never worse than the whole.
+            // A half lies in the whole, so its bound is at most that of the whole, even if its own control values round higher.
             part.upper = part.upper.min(worst.upper);
             open.push(part);
         }
     }
+    // The slack of left-out coefficients is added once: it holds at every position.
     let value = open.peek().map_or(0.0, |worst| worst.upper);
     UpperBound { value: value + function.slack, boxes }
 }
 
 /// Ranges of the variables, intervals of the speeds.
-type Ranges = (Vec<(f64, f64)>, Vec<Interval>);
+type Ranges = (Vec<(f64, f64)>, Vec<SpeedInterval>);
 
 impl Region {
-    /// `None` if the numbers between its ends are used up.
+    /// Both halves; `None` if no floating-point number lies between the ends.
     fn halves(&self) -> Option<Vec<Ranges>> {
         let halved = |ranges: &[(f64, f64)], at: usize| {
             let (lower, upper) = *ranges.get(at)?;
             let middle = f64::midpoint(lower, upper);
+            // Without this a box between two neighbouring floating-point numbers would be halved into itself for
+            // ever.
             (middle > lower && middle < upper).then(|| {
                 [(lower, middle), (middle, upper)].map(|half| {
                     let mut ranges = ranges.to_vec();
@@ -131,7 +137,7 @@ impl Region {
             }
             Halved::Speed(at) => {
                 let [first, second] = halved(&self.speeds, at)?;
-                // All speeds reversed give the same products: of the first division one half is enough.
+                // Reversing all speeds gives the same products, so of a symmetric box one half is enough.
                 let is_even = self.speeds.iter().all(|(lower, upper)| (lower + upper).abs() <= 0.0);
                 let halves = if is_even { vec![second] } else { vec![first, second] };
                 Some(halves.into_iter().map(|speeds| (self.ranges.clone(), speeds)).collect())
@@ -151,20 +157,24 @@ struct Work {
 fn region(function: &Trigonometric, (ranges, speeds): Ranges, work: &mut Work) -> Region {
     let mut sizes = function.sizes();
     let Work { array, next, computed } = work;
+    // Coefficients become control values one variable after the other, as a tensor product of curves does.
     array.clone_from(&function.coefficients);
     for (at, (variable, range)) in function.variables.iter().zip(&ranges).enumerate() {
         let points = control_points(variable, *range);
         along_into(array, (&mut sizes, function.values), (at, &points), next);
         std::mem::swap(array, next);
     }
+    // The effort is counted by control values, not by boxes: their number grows exponentially with the variables.
     *computed += array.len();
     let (mut largest, mut loose, mut place) = (0.0, None, 0);
-    // The one that may be the largest first: most of the others need no closer look then.
+    // The control value with the largest rough bound is evaluated first: it rejects most of the others.
     let rough = |values: &[f64]| function.measure.roughly_above(values, &speeds);
     let all = || array.chunks_exact(function.values);
     let first = all().map(rough).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
     let first = first.and_then(|(at, _)| Some((at, all().nth(at)?)));
     for (at, values) in first.into_iter().chain(all().enumerate()) {
+        // The exact bound visits up to 2^speeds corners of the box of speeds; the rough one is a sum, and rejects
+        // most control values.
         if rough(values) <= largest {
             continue;
         }
@@ -173,17 +183,22 @@ fn region(function: &Trigonometric, (ranges, speeds): Ranges, work: &mut Work) -
             (largest, loose, place) = (above.value, above.loose, at);
         }
     }
+    // A variable along which the control values are straight is exact already: halving it would gain nothing.
     let bend = |at: usize| largest_bend(array, (&sizes, function.values), (place, at));
     let width = |at: usize| ranges[at].1 - ranges[at].0;
     let bends = (0..sizes.len())
         .map(|at| (at, bend(at)))
+        // Of equal bends the wider range, so that boxes stay compact.
         .max_by(|a, b| a.1.total_cmp(&b.1).then(width(a.0).total_cmp(&width(b.0))));
     let halved = match (bends, loose) {
         (None, Some((speed, _))) => Halved::Speed(speed),
+        // Both are in units of torque: what the bound is loose by if the position, or if the speed, is not
+        // divided.
         (Some((_, bend)), Some((speed, by))) if by > bend => Halved::Speed(speed),
         (Some((at, _)), _) => Halved::Position(at),
         (None, None) => Halved::Position(0),
     };
+    // Outward, so that rounding of the control values never lowers a bound.
     Region { ranges, speeds, upper: largest * (1.0 + ROUNDING), halved }
 }
 
@@ -194,10 +209,13 @@ fn control_points(variable: &Variable, (lower, upper): (f64, f64)) -> Vec<Vec<f6
         if variable.degree == 1 {
             return vec![first, last];
         }
+        // The blossom of x^2 at the two ends, which is the middle Bezier point of a parabola.
         let between = vec![1.0, f64::midpoint(first[1], last[1]), first[1] * last[1]];
         return vec![first, between, last];
     }
     let width = upper - lower;
+    // The middle control point lies at 1 / cos(half) of the circle: beyond two arcs a figure around the whole
+    // circle is tighter, and always valid.
     if width > 2.0 * WIDEST_ARC_RAD {
         return around_the_circle(variable.degree);
     }
@@ -206,13 +224,17 @@ fn control_points(variable: &Variable, (lower, upper): (f64, f64)) -> Vec<Vec<f6
     let mut points = vec![variable.features(lower)];
     for arc in 0..arcs {
         let middle = lower + half * f64::from(2 * arc + 1);
-        let [first, last] = [middle - half, middle + half].map(|q| [1.0, q.cosine(), q.sine()]);
-        let between = [half.cosine(), middle.cosine(), middle.sine()];
+        let [first, last] = [middle - half, middle + half].map(|q| [1.0, libm::cos(q), libm::sin(q)]);
+        // Middle control point of the arc with its weight cos(half) first (Farin 2002): the intersection of the
+        // end tangents, in homogeneous form.
+        let between = [libm::cos(half), libm::cos(middle), libm::sin(middle)];
         if variable.degree == 1 {
             // Where two arcs meet, the point lies between the control points beside it: it is not needed.
-            points.push(between.map(|value| value / half.cosine()).to_vec());
+            points.push(between.map(|value| value / libm::cos(half)).to_vec());
             continue;
         }
+        // The square of a quadratic curve with points P has degree four and the points P0 P0, P0 P1, (P0 P2 + 2
+        // P1 P1) / 3, P1 P2, P2 P2; weights multiply along, since they are the first component.
         let [ends, twice] = [product(&first, &last), product(&between, &between)];
         let mixed = std::array::from_fn(|at| ends[at] / 3.0 + twice[at] * 2.0 / 3.0);
         points.extend([product(&first, &between), mixed, product(&between, &last)].map(normalised));
@@ -224,7 +246,8 @@ fn control_points(variable: &Variable, (lower, upper): (f64, f64)) -> Vec<Vec<f6
     points
 }
 
-/// The features of second degree of a product of two curves `(weight, cos, sin)`, with their weight first.
+/// The features of second degree `(weight, cos, sin, cos 2q, sin 2q)` of the product of two curves `(weight, cos, sin)`, by
+/// the addition theorems.
 fn product(u: &[f64; 3], v: &[f64; 3]) -> [f64; 5] {
     [
         u[0] * v[0],
@@ -257,6 +280,8 @@ fn around_the_circle(degree: usize) -> Vec<Vec<f64>> {
 
 /// The largest second difference of the control values along a dimension, on the line through the largest one.
 fn largest_bend(array: &[f64], (sizes, values): (&[usize], usize), (place, at): (usize, usize)) -> f64 {
+    // Index of the first control value on the line through `place` along dimension `at`: the array is row-major,
+    // so the entry of this dimension is place / after % size.
     let after: usize = sizes[at + 1..].iter().product();
     let start = place - place / after % sizes[at] * after;
     let point = |entry: usize| array[(start + entry * after) * values..][..values].iter();
@@ -281,8 +306,8 @@ mod tests {
         let found = Trigonometric::sampled(variables, (2, Measure::Sum), function);
         let grid = (0..400).flat_map(|a| (0..100).map(move |b| [f64::from(a), f64::from(b)]));
         let values = grid.map(|[a, b]| function(&[-3.0 + 6.0 * a / 399.0, -0.4 + 1.1 * b / 99.0]));
-        let largest = values.map(|values| Measure::Sum.of(&values)).fold(0.0, f64::max);
-        let stop = Stop { below: largest * 1.005, boxes: 1000, control_values: 1_000_000 };
+        let largest = values.map(|values| Measure::Sum.value(&values)).fold(0.0, f64::max);
+        let stop = SearchLimits { below: largest * 1.005, boxes: 1000, control_values: 1_000_000 };
         let bound = upper_bound(&found, stop);
         assert!(bound.value >= largest && bound.value < largest * 1.01, "{bound:?} for {largest}");
         assert!(bound.boxes < 200, "{bound:?}");
@@ -297,7 +322,7 @@ mod tests {
             .flat_map(|a| (0..200).map(move |b| [f64::from(a), f64::from(b)]))
             .map(|[a, b]| function(&[-0.5 + 2.5 * a / 199.0, -3.0 + 3.4 * b / 199.0])[0].abs())
             .fold(0.0, f64::max);
-        let stop = Stop { below: largest * 1.005, boxes: 1000, control_values: 1_000_000 };
+        let stop = SearchLimits { below: largest * 1.005, boxes: 1000, control_values: 1_000_000 };
         let bound = upper_bound(&found, stop);
         assert!(bound.value >= largest && bound.value < largest * 1.01, "{bound:?} for {largest}");
         assert!(bound.boxes < 200, "{bound:?}");

@@ -1,26 +1,26 @@
-//! What is bounded of a function with several values.
+//! The measure of a function with several values that is bounded: a length, a sum, or the largest torque of a motion.
 
-use super::speeds::{Form, FormRange, Interval, gap};
+use super::speeds::{Form, FormRange, SpeedInterval, gap};
 
-/// A convex function of several values.
+/// A convex function of several values, so that its maximum over a hull is at a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::bound) enum Measure {
-    /// The length of the vector.
+    /// The Euclidean norm of the values.
     Length,
-    /// The sum of absolute values.
+    /// The sum of the absolute values.
     Sum,
-    /// The largest torque of a motion.
+    /// The largest torque of any motion with these coefficients.
     Motion(Motion),
 }
 
-/// The values are the torque of gravity, those of each joint's largest acceleration, and the coefficients of the
-/// products of speeds, which are parts of their limits.
+/// The values are the gravity torque, the torque of each joint's largest acceleration, and the coefficients of the products
+/// of speeds, which are shares of their limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::bound) struct Motion {
     pub(in crate::bound) gravity: bool,
     pub(in crate::bound) accelerations: usize,
     pub(in crate::bound) speeds: usize,
-    /// The largest torque of damping and dry friction.
+    /// The largest torque of damping and dry friction, N m or N.
     pub(in crate::bound) resistance: f64,
 }
 
@@ -28,22 +28,22 @@ pub(in crate::bound) struct Motion {
 #[derive(Debug, Clone, Copy)]
 pub(in crate::bound) struct Upper {
     pub(in crate::bound) value: f64,
-    /// The speed whose square the bound is loose by, and how much.
+    /// The speed whose square makes the bound loose, and by how much; `None` if the bound is exact.
     pub(in crate::bound) loose: Option<(usize, f64)>,
 }
 
 /// The motion of the largest torque at some positions.
 #[derive(Debug, Clone)]
 pub(in crate::bound) struct LargestMotion {
-    /// Parts of their limits.
+    /// Speeds as shares of their limits.
     pub(in crate::bound) speeds: Vec<f64>,
-    /// -1 or 1 each.
+    /// Accelerations as shares of their limits, -1 or 1 each.
     pub(in crate::bound) accelerations: Vec<f64>,
 }
 
 impl Measure {
-    /// Of one vector of values.
-    pub(in crate::bound) fn of(self, values: &[f64]) -> f64 {
+    /// The measure of one vector of values.
+    pub(in crate::bound) fn value(self, values: &[f64]) -> f64 {
         match self {
             Self::Length => values.iter().map(|value| value * value).sum::<f64>().sqrt(),
             Self::Sum => values.iter().map(|value| value.abs()).sum(),
@@ -51,30 +51,30 @@ impl Measure {
         }
     }
 
-    /// From above, over a box of speeds.
-    pub(in crate::bound) fn above(self, values: &[f64], speeds: &[Interval]) -> Upper {
+    /// An upper bound of the measure over a box of speeds.
+    pub(in crate::bound) fn above(self, values: &[f64], speeds: &[SpeedInterval]) -> Upper {
         match self {
             Self::Motion(motion) => motion.above(values, speeds),
-            _ => Upper { value: self.of(values), loose: None },
+            _ => Upper { value: self.value(values), loose: None },
         }
     }
 
-    /// The same or more, with little work.
-    pub(in crate::bound) fn roughly_above(self, values: &[f64], speeds: &[Interval]) -> f64 {
+    /// A larger upper bound that is cheap to compute.
+    pub(in crate::bound) fn roughly_above(self, values: &[f64], speeds: &[SpeedInterval]) -> f64 {
         match self {
             Self::Motion(motion) => motion.roughly_above(values, speeds),
-            _ => self.of(values),
+            _ => self.value(values),
         }
     }
 
-    /// How many speeds may be divided.
+    /// Number of speeds whose intervals may be halved.
     pub(in crate::bound) fn speeds(self) -> usize {
         if let Self::Motion(motion) = self { motion.speeds } else { 0 }
     }
 }
 
 impl Motion {
-    /// Gravity, accelerations, products of speeds.
+    /// Splits the values into gravity, accelerations and products of speeds.
     fn parts<'a>(&self, values: &'a [f64]) -> (f64, &'a [f64], Form<'a>) {
         let (gravity, rest) = values.split_at(usize::from(self.gravity));
         let (accelerations, coefficients) = rest.split_at(self.accelerations);
@@ -82,11 +82,14 @@ impl Motion {
         (gravity, accelerations, Form { coefficients, speeds: self.speeds })
     }
 
-    /// The largest torque.
+    /// The largest absolute torque over all speeds and accelerations within their limits.
     fn largest_torque(&self, values: &[f64]) -> f64 {
         let (gravity, accelerations, form) = self.parts(values);
+        // Each acceleration takes the sign of its coefficient: absolute values add up.
         let pushed: f64 = accelerations.iter().map(|value| value.abs()).sum();
         let [up, down] = form.largest();
+        // The absolute value of gravity + products is largest at the top or at the bottom; accelerations and
+        // resistance push whichever way that is.
         (gravity + up.0).max(down.0 - gravity) + pushed + self.resistance
     }
 
@@ -97,16 +100,20 @@ impl Motion {
         let (sign, speeds) = if gravity + up.0 >= down.0 - gravity { (1.0, up.1) } else { (-1.0, down.1) };
         LargestMotion {
             speeds: speeds[..self.speeds].to_vec(),
+            // Accelerations must push the same way as gravity and products, otherwise the motion would not attain
+            // the sum.
             accelerations: accelerations.iter().map(|value| sign * value.signum()).collect(),
         }
     }
 
-    fn above(&self, values: &[f64], intervals: &[Interval]) -> Upper {
+    fn above(&self, values: &[f64], intervals: &[SpeedInterval]) -> Upper {
         let (gravity, accelerations, form) = self.parts(values);
         let pushed = accelerations.iter().map(|value| value.abs()).sum::<f64>() + self.resistance;
         let FormRange { least, most, below, above } = form.range(intervals);
         let (up, down) = (gravity + most + above, below - gravity - least);
         let sign = if up >= down { 1.0 } else { -1.0 };
+        // A square that is convex towards the bound is largest at a corner; only a concave one can exceed the
+        // corners, by its gap. Halving that speed tightens the bound most.
         let looseness = |j: usize| (-sign * form.square(j)).max(0.0) * gap(&intervals[j]);
         let loose = (0..self.speeds)
             .map(|j| (j, looseness(j)))
@@ -115,7 +122,7 @@ impl Motion {
         Upper { value: up.max(down) + pushed, loose }
     }
 
-    fn roughly_above(&self, values: &[f64], intervals: &[Interval]) -> f64 {
+    fn roughly_above(&self, values: &[f64], intervals: &[SpeedInterval]) -> f64 {
         let (gravity, accelerations, form) = self.parts(values);
         let pushed = accelerations.iter().map(|value| value.abs()).sum::<f64>() + self.resistance;
         let [up, down] = form.rough_range(intervals);

@@ -1,17 +1,17 @@
-//! The largest value of a quadratic form of the joints' speeds over a box: exactly at one, and from above.
+//! Bounds of a quadratic form of the joints' speeds over a box.
 //!
 //! A speed whose square has a positive coefficient is best at an end of its interval; of a negative square the chord
 //! over the interval is larger by at most the coefficient times the square of half its width.
 
-/// An interval of speeds, each as a part of its limit.
-pub(in crate::bound) type Interval = (f64, f64);
+/// An interval of one speed, as shares of its limit: `(-1.0, 1.0)` is the whole range.
+pub(in crate::bound) type SpeedInterval = (f64, f64);
 
-/// The number of entries of a symmetric matrix.
+/// The number of independent entries of a symmetric matrix, and so of products of two speeds.
 pub(in crate::bound) fn entries(speeds: usize) -> usize {
     speeds * (speeds + 1) / 2
 }
 
-/// Where the row of a speed would begin if it had all entries: that of column `k >= j` is so many further.
+/// Index of row `j` of the upper triangle by rows, such that entry `(j, k)` with `k >= j` is at `row + k`.
 pub(in crate::bound) fn row(speeds: usize, j: usize) -> usize {
     j * speeds - j * (j + 1) / 2
 }
@@ -33,25 +33,25 @@ pub(in crate::bound) struct FormRange {
     pub(in crate::bound) above: f64,
 }
 
-/// Speeds that one form fits; more are not divided.
+/// Most speeds of a form. Kind: speed; its corners double with each.
 pub(in crate::bound) const MAX_SPEEDS: usize = 10;
 
-/// As many as there are, then zeros.
+/// The speeds of a form, followed by zeros.
 pub(in crate::bound) type Speeds = [f64; MAX_SPEEDS];
 
 impl Form<'_> {
-    /// Of `x_j x_k`; twice that of `x_k x_j` in the matrix, but for squares.
+    /// Coefficient of `x_j x_k`: twice the entry of the symmetric matrix, or the entry itself for a square.
     fn coefficient(&self, j: usize, k: usize) -> f64 {
         let (j, k) = (j.min(k), j.max(k));
         self.coefficients[row(self.speeds, j) + k]
     }
 
-    /// Coefficient of a square.
+    /// Coefficient of the square of speed `j`.
     pub(in crate::bound) fn square(&self, j: usize) -> f64 {
         self.coefficient(j, j)
     }
 
-    /// The value at these speeds.
+    /// The value of the form at these speeds.
     pub(in crate::bound) fn at(&self, x: &[f64]) -> f64 {
         let row = |j: usize| (j..self.speeds).map(|k| self.coefficient(j, k) * x[k]).sum::<f64>() * x[j];
         (0..self.speeds).map(row).sum()
@@ -62,12 +62,12 @@ impl Form<'_> {
         (0..self.speeds).filter(|k| *k != j).map(|k| self.coefficient(j, k) * x[k]).sum()
     }
 
-    /// Visits the corners of a box with the form's value there, in Gray's order: one speed changes at a time. The form is
-    /// even, so of a symmetric box half of them.
-    fn each_corner(&self, intervals: &[Interval], mut visit: impl FnMut(f64, &[f64])) {
+    /// Visits the corners of a box with the value of the form, in Gray's order: one speed changes at a time. The form is even,
+    /// so half of the corners suffice for a symmetric box.
+    fn each_corner(&self, intervals: &[SpeedInterval], mut visit: impl FnMut(f64, &[f64])) {
         let mut x = [0.0; MAX_SPEEDS];
         let mut slopes = [0.0; MAX_SPEEDS];
-        // Without squares, in full rows: of a fixed length the sums below are taken side by side.
+        // Full rows of fixed length, without squares: the compiler turns the sums below into vector instructions.
         let mut rows = [[0.0; MAX_SPEEDS]; MAX_SPEEDS];
         for (j, row) in rows.iter_mut().enumerate().take(self.speeds) {
             for (k, entry) in row.iter_mut().enumerate().take(self.speeds).filter(|(k, _)| *k != j) {
@@ -80,12 +80,16 @@ impl Form<'_> {
         }
         let mut value = self.at(&x);
         visit(value, &x[..self.speeds]);
+        // x and -x give the same value, so with a symmetric box the last speed can stay at its lower end.
         let free = self.speeds - usize::from(self.speeds > 0 && intervals.iter().all(is_symmetric));
         for step in 1..1_usize << free {
+            // In Gray's order step k changes the bit of its lowest one: each corner costs one row instead of all.
             let j = step.trailing_zeros() as usize;
             let (lower, upper) = intervals[j];
             let (before, after) = if x[j] > lower { (upper, lower) } else { (lower, upper) };
             let by = after - before;
+            // f(x + by e_j) - f(x): the mixed products change by the slope, the own square by the difference of
+            // the squares.
             value += by * slopes[j] + self.square(j) * (after * after - before * before);
             x[j] = after;
             slopes.iter_mut().zip(&rows[j]).for_each(|(slope, row)| *slope += row * by);
@@ -93,14 +97,16 @@ impl Form<'_> {
         }
     }
 
-    /// The form over a box: its corners, and what squares may add.
-    pub(in crate::bound) fn range(&self, intervals: &[Interval]) -> FormRange {
+    /// Bounds of the form over a box: its corners, and how far concave squares may exceed them.
+    pub(in crate::bound) fn range(&self, intervals: &[SpeedInterval]) -> FormRange {
         let mut range = FormRange { least: f64::INFINITY, most: f64::NEG_INFINITY, below: 0.0, above: 0.0 };
         self.each_corner(intervals, |value, _| {
             range.least = range.least.min(value);
             range.most = range.most.max(value);
         });
         for (j, interval) in intervals.iter().enumerate() {
+            // A positive square is convex, so its largest value is at a corner already; a negative one may exceed
+            // the corners by the gap of its chord.
             let gap = gap(interval) * self.square(j);
             range.above += (-gap).max(0.0);
             range.below += gap.max(0.0);
@@ -108,13 +114,15 @@ impl Form<'_> {
         range
     }
 
-    /// The most and minus the least of the form over a box of parts of the limits, or more: every product for itself.
-    pub(in crate::bound) fn rough_range(&self, intervals: &[Interval]) -> [f64; 2] {
+    /// Upper bounds of the form and of its negative over a box, each product bounded by itself: wider, but cheap.
+    pub(in crate::bound) fn rough_range(&self, intervals: &[SpeedInterval]) -> [f64; 2] {
         let mut products = 0.0;
         let (mut up, mut down) = (0.0, 0.0);
         for (j, interval) in intervals.iter().enumerate() {
             let row = &self.coefficients[row(self.speeds, j)..][j..self.speeds];
             products += row[1..].iter().map(|value| value.abs()).sum::<f64>();
+            // A positive coefficient adds at most itself, since a square is at most 1; a negative one adds its
+            // value at the smaller end, and what its square may exceed the chord by.
             let rest = (gap(interval) - interval.0.abs().min(interval.1.abs()).powi(2)).max(0.0);
             up += row[0].max(-row[0] * rest);
             down += (-row[0]).max(row[0] * rest);
@@ -122,8 +130,8 @@ impl Form<'_> {
         [up + products, down + products]
     }
 
-    /// The largest and the least value that climbing from the best corners finds, each with its speeds; the least one
-    /// with the other sign.
+    /// The largest value of the form and of its negative that a coordinate search from the best corners finds, each with its
+    /// speeds.
     pub(in crate::bound) fn largest(&self) -> [(f64, Speeds); 2] {
         let mut best = [(0.0, [0.0; MAX_SPEEDS]); 2];
         self.each_corner(&[(-1.0, 1.0); MAX_SPEEDS][..self.speeds], |value, corner| {
@@ -137,20 +145,26 @@ impl Form<'_> {
             }
         });
         let [up, down] = best;
-        [self.climbed(1.0, up), self.climbed(-1.0, down)]
+        // A corner is the maximum if all squares are positive; otherwise a speed inside its interval may be
+        // better.
+        [self.local_maximum(1.0, up), self.local_maximum(-1.0, down)]
     }
 
-    /// Climbs with `sign` times the form, one speed at a time, each exactly.
-    fn climbed(&self, sign: f64, (mut best, mut x): (f64, Speeds)) -> (f64, Speeds) {
+    /// Coordinate search for a larger value of `sign` times the form: each speed in turn is set to its exact optimum.
+    fn local_maximum(&self, sign: f64, (mut best, mut x): (f64, Speeds)) -> (f64, Speeds) {
         for _ in 0..ROUNDS {
             let before = best;
             for j in 0..self.speeds {
                 let (slope, square) = (sign * self.slope(j, &x), sign * self.square(j));
+                // Along one speed the form is a parabola: its vertex is at -slope / (2 square), a maximum only if
+                // it opens downwards.
                 let top = if square < 0.0 { (-slope / (2.0 * square)).clamp(-1.0, 1.0) } else { 1.0 };
                 let gain = |to: f64| (to - x[j]) * slope + square * (to * to - x[j] * x[j]);
                 let to = [-1.0, 1.0, top].into_iter().max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
                 if let Some(to) = to.filter(|to| gain(*to) > 0.0) {
                     x[j] = to;
+                    // Evaluated anew instead of adding the gain: gains of twenty rounds would add up their
+                    // rounding.
                     best = sign * self.at(&x);
                 }
             }
@@ -165,12 +179,12 @@ impl Form<'_> {
 /// Most rounds over all speeds. Kind: loop bound; two or three suffice.
 const ROUNDS: usize = 20;
 
-fn is_symmetric((lower, upper): &Interval) -> bool {
+fn is_symmetric((lower, upper): &SpeedInterval) -> bool {
     (lower + upper).abs() <= 0.0
 }
 
-/// What the chord of a square over an interval is larger by, at most.
-pub(in crate::bound) fn gap((lower, upper): &Interval) -> f64 {
+/// The largest distance between `x^2` and its chord over an interval: the square of half its width.
+pub(in crate::bound) fn gap((lower, upper): &SpeedInterval) -> f64 {
     let half = (upper - lower) / 2.0;
     half * half
 }

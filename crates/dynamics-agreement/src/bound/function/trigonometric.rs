@@ -3,8 +3,6 @@
 
 use std::f64::consts::TAU;
 
-use congruent_description::Elementary as _;
-
 use super::measure::Measure;
 use crate::thresholds::NO_COEFFICIENT;
 
@@ -20,7 +18,7 @@ pub(in crate::bound) struct Variable {
 }
 
 impl Variable {
-    /// Of a turning joint; a range beyond one turn is one turn.
+    /// The variable of a turning joint; a range beyond one turn is cut to one turn.
     pub(in crate::bound) fn turning(joint: usize, (lower, upper): (f64, f64)) -> Self {
         Self { joint, degree: 1, turns: true, lower, upper: upper.min(lower + TAU) }
     }
@@ -29,7 +27,7 @@ impl Variable {
         Self { joint, degree: 1, turns: false, lower, upper }
     }
 
-    /// How many coefficients it multiplies the others by.
+    /// Number of coefficients of this variable; those of all variables multiply.
     pub(in crate::bound) fn size(&self) -> usize {
         if self.turns { 1 + 2 * self.degree } else { 1 + self.degree }
     }
@@ -37,6 +35,8 @@ impl Variable {
     /// Positions that determine the coefficients.
     pub(in crate::bound) fn samples(&self) -> Vec<f64> {
         let size = small(self.size());
+        // Turning: equidistant positions around the circle, where the waves are orthogonal, so that the inverse
+        // is a transpose. Sliding: both ends, and the middle for a square.
         let share = |at: u32| f64::from(at) / if self.turns { size } else { size - 1.0 };
         let shares = (0..).map(share).take(self.size());
         if self.turns {
@@ -46,13 +46,14 @@ impl Variable {
         }
     }
 
-    /// What its coefficients multiply at a position; of a sliding joint scaled to its range.
+    /// The functions that its coefficients multiply, at a position: 1, cos q, sin q, ... of a turning joint; powers of the
+    /// position scaled to [-1, 1] of a sliding one.
     pub(in crate::bound) fn features(&self, q: f64) -> Vec<f64> {
         if !self.turns {
             let x = self.scaled(q);
             return (0..self.size()).map(|power| x.powi(i32::try_from(power).unwrap_or(0))).collect();
         }
-        let waves = [1.0, q.cosine(), q.sine(), (2.0 * q).cosine(), (2.0 * q).sine()];
+        let waves = [1.0, libm::cos(q), libm::sin(q), libm::cos(2.0 * q), libm::sin(2.0 * q)];
         waves[..self.size()].to_vec()
     }
 
@@ -61,15 +62,17 @@ impl Variable {
         if half > 0.0 { (q - self.lower) / half - 1.0 } else { 0.0 }
     }
 
-    /// Rows that give the coefficients by the values at the samples.
+    /// Matrix, by rows, from the values at the samples to the coefficients.
     pub(in crate::bound) fn coefficient_rows(&self) -> Vec<Vec<f64>> {
         if self.turns {
+            // Discrete Fourier sums: mean for the constant, twice the mean for each wave.
             let scale = |row: usize| if row == 0 { 1.0 } else { 2.0 } / small(self.size());
             let features: Vec<Vec<f64>> = self.samples().iter().map(|q| self.features(*q)).collect();
             let row = |row: usize| features.iter().map(|at| at[row] * scale(row)).collect();
             return (0..self.size()).map(row).collect();
         }
         match (self.upper > self.lower, self.degree) {
+            // Inverse of the interpolation at x = -1, 1 and, for squares, 0: the variable is scaled to [-1, 1].
             (true, 1) => vec![vec![0.5, 0.5], vec![-0.5, 0.5]],
             (true, _) => vec![vec![0.0, 1.0, 0.0], vec![-0.5, 0.0, 0.5], vec![0.5, -1.0, 0.5]],
             (false, degree) => {
@@ -89,17 +92,17 @@ fn small(number: usize) -> f64 {
 #[derive(Debug, Clone)]
 pub(in crate::bound) struct Trigonometric {
     pub(in crate::bound) variables: Vec<Variable>,
-    /// How many values it has.
+    /// Number of values at one position.
     pub(in crate::bound) values: usize,
     pub(in crate::bound) measure: Measure,
-    /// By the coefficient of the first variable, then the second, ..., then the value.
+    /// Coefficients as a row-major array: the first variable is the slowest index, the value the fastest.
     pub(in crate::bound) coefficients: Vec<f64>,
-    /// The most that left out coefficients can add to the norm.
+    /// Upper bound of what left-out coefficients can add to the measure.
     pub(in crate::bound) slack: f64,
 }
 
 impl Trigonometric {
-    /// Finds the coefficients from values at positions of all variables; joints without effect are left out.
+    /// Computes the coefficients from values at the sample positions of all variables; variables without effect are removed.
     pub(in crate::bound) fn sampled(
         variables: Vec<Variable>,
         (values, measure): (usize, Measure),
@@ -110,6 +113,8 @@ impl Trigonometric {
         let mut coefficients = Vec::with_capacity(count * values);
         let mut q = vec![0.0; variables.len()];
         for index in 0..count {
+            // Mixed-radix digits of the index, the last variable fastest: the order in which `along` reads the
+            // array.
             let mut rest = index;
             for (at, samples) in samples.iter().enumerate().rev() {
                 q[at] = samples[rest % samples.len()];
@@ -119,6 +124,8 @@ impl Trigonometric {
         }
         let mut sizes: Vec<usize> = variables.iter().map(Variable::size).collect();
         for (at, variable) in variables.iter().enumerate() {
+            // The samples are a tensor product, so each variable is transformed by itself: a sum instead of a
+            // system of all coefficients.
             coefficients = along(&coefficients, (&mut sizes, values), at, &variable.coefficient_rows());
         }
         let mut function = Self { variables, values, measure, coefficients, slack: 0.0 };
@@ -126,7 +133,7 @@ impl Trigonometric {
         function
     }
 
-    /// The function of some of the values alone, which stand side by side.
+    /// The function of a range of the values alone.
     pub(in crate::bound) fn selected(&self, values: std::ops::Range<usize>, measure: Measure) -> Self {
         let of_all = self.coefficients.chunks_exact(self.values);
         let coefficients = of_all.flat_map(|all| all[values.clone()].iter().copied()).collect();
@@ -140,12 +147,15 @@ impl Trigonometric {
         self.variables.iter().map(Variable::size).collect()
     }
 
-    /// Leaves out what has no effect but rounding.
+    /// Removes variables whose effect is below rounding, and counts it as slack.
     fn reduce(&mut self) {
         let largest = self.coefficients.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        // From the last, so that removing one does not move those that are still to be examined.
         for at in (0..self.variables.len()).rev() {
             let mut sizes = self.sizes();
             let mut constant = vec![vec![0.0; sizes[at]]];
+            // Keeps the constant of this variable and drops its waves; what is dropped bounds the error, because
+            // every wave is at most 1.
             constant[0][0] = 1.0;
             let total: f64 = self.coefficients.iter().map(|value| value.abs()).sum();
             let reduced = along(&self.coefficients, (&mut sizes, self.values), at, &constant);
@@ -158,19 +168,21 @@ impl Trigonometric {
         }
     }
 
-    /// How many control values a whole range has, at most.
+    /// Most control values of the whole range: nine points for a full turn.
     pub(in crate::bound) fn control_values(&self) -> usize {
         let points = |variable: &Variable| if variable.turns { 9 } else { variable.size() };
         self.variables.iter().map(points).fold(self.values, usize::saturating_mul)
     }
 
-    /// The sum of the amplitudes of all waves, each value for itself: no search, but far above for many joints.
+    /// An upper bound without a search: the sum of the amplitudes of all harmonics. It is loose for many joints.
     pub(in crate::bound) fn sum_of_amplitudes(&self) -> f64 {
         let harmonic =
             |variable: &Variable, entry: usize| if variable.turns { entry.div_ceil(2) } else { entry };
         let count = |variable: &Variable| harmonic(variable, variable.size() - 1) + 1;
         let mut squares = vec![0.0; self.variables.iter().map(count).product::<usize>() * self.values];
         for (index, values) in self.coefficients.chunks_exact(self.values).enumerate() {
+            // A cosine and a sine of the same harmonic have one amplitude, the root of the sum of their squares:
+            // entries 1, 2 are the first harmonic, 3, 4 the second.
             let (mut rest, mut wave, mut stride) = (index, 0, 1);
             for variable in self.variables.iter().rev() {
                 wave += harmonic(variable, rest % variable.size()) * stride;
@@ -183,8 +195,8 @@ impl Trigonometric {
         squares.into_iter().map(f64::sqrt).sum::<f64>() + self.slack
     }
 
-    /// The function of one variable with the others at these positions: its coefficients, one row a value.
-    pub(in crate::bound) fn of_one(&self, at: usize, q: &[f64]) -> Vec<f64> {
+    /// The coefficients along one variable with the others at these positions.
+    pub(in crate::bound) fn along_variable(&self, at: usize, q: &[f64]) -> Vec<f64> {
         let mut sizes = self.sizes();
         let mut coefficients = self.coefficients.clone();
         for (other, variable) in self.variables.iter().enumerate() {
@@ -196,7 +208,7 @@ impl Trigonometric {
         coefficients
     }
 
-    /// The values at these positions.
+    /// The values of the function at these positions.
     pub(in crate::bound) fn at(&self, q: &[f64]) -> Vec<f64> {
         let mut sizes = self.sizes();
         let mut coefficients = self.coefficients.clone();
@@ -207,7 +219,8 @@ impl Trigonometric {
     }
 }
 
-/// Multiplies an array along one of its dimensions by a matrix, given by its rows; the dimension gets their number.
+/// Multiplies an array along one of its dimensions by a matrix, given by its rows; the size of the dimension becomes their
+/// number.
 pub(in crate::bound) fn along(
     array: &[f64],
     (sizes, values): (&mut [usize], usize),
@@ -219,13 +232,15 @@ pub(in crate::bound) fn along(
     result
 }
 
-/// The same into memory that is used again.
+/// The same as [`along`], into a vector that the caller reuses.
 pub(in crate::bound) fn along_into(
     array: &[f64],
     (sizes, values): (&mut [usize], usize),
     (at, rows): (usize, &[Vec<f64>]),
     result: &mut Vec<f64>,
 ) {
+    // The array is row-major: `before` outer blocks, then the dimension, then `after` contiguous values, which
+    // the inner loop runs through without a stride.
     let before: usize = sizes[..at].iter().product();
     let after: usize = sizes[at + 1..].iter().product::<usize>() * values;
     let size = sizes[at];
@@ -283,7 +298,7 @@ mod tests {
         assert_eq!(found.variables.len(), 2, "the second has no effect");
         let q = [0.4, 0.6];
         assert!((found.at(&q)[0] - function(&[0.4, 0.0, 0.6])[0]).abs() < 1e-15);
-        let one = found.of_one(0, &q);
+        let one = found.along_variable(0, &q);
         let again = one[0] + one[1] * 0.4_f64.cos() + one[2] * 0.4_f64.sin();
         assert!((again - found.at(&q)[0]).abs() < 1e-15);
     }

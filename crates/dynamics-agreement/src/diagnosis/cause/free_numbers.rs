@@ -1,4 +1,4 @@
-//! Parameters that are simply off: numbers to fit.
+//! Hypotheses with free parameters: values that are wrong for no specific reason.
 
 use nalgebra::Matrix3;
 
@@ -6,42 +6,48 @@ use super::tensor::{could_be_by_rows, put_back_from_rows};
 use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
-        free::{ENTRIES, Free},
-        hypothesis::{Change, FaultySide, Hypothesis, Place},
+        free::{ENTRIES, FreeParameters},
+        hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
     },
-    side::{Inertial, Side},
+    model::{DynamicsModel, Inertial},
     thresholds::ZERO_VALUE,
 };
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 const ENTRY_NAMES: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 
-pub(super) fn of_link(side: &Side, faulty: FaultySide, link: usize) -> Vec<Hypothesis> {
-    let Some(parameters) = &side.inertials[link] else { return Vec::new() };
+pub(super) fn link_hypotheses(
+    model: &DynamicsModel,
+    faulty: FaultySide,
+    link: usize,
+) -> Vec<DynamicsHypothesis> {
+    let Some(parameters) = &model.inertials[link] else { return Vec::new() };
     let free = |cause, detail: &str, free| {
-        Hypothesis::new(cause, detail, Place::Links(vec![link]), Change::FreeLink { link, free })
+        DynamicsHypothesis::new(cause, detail, FaultPlace::Links(vec![link]), Change::FreeLink { link, free })
     };
     let mut hypotheses = vec![
-        free(DynamicsCause::Mass, "", Free::Mass),
-        free(DynamicsCause::Density, "", Free::Density),
-        free(DynamicsCause::InertiaScale, "", Free::InertiaScale),
-        free(DynamicsCause::Com, "", Free::Com),
-        free(DynamicsCause::Inertia, "", Free::Inertia),
-        free(DynamicsCause::Inertial, "", Free::Inertial),
+        free(DynamicsCause::Mass, "", FreeParameters::Mass),
+        free(DynamicsCause::Density, "", FreeParameters::Density),
+        free(DynamicsCause::InertiaScale, "", FreeParameters::InertiaScale),
+        free(DynamicsCause::Com, "", FreeParameters::Com),
+        free(DynamicsCause::Inertia, "", FreeParameters::Inertia),
+        free(DynamicsCause::Inertial, "", FreeParameters::Inertial),
     ];
     for (axis, name) in AXES.into_iter().enumerate() {
-        hypotheses.push(free(DynamicsCause::ComEntry, name, Free::ComEntry(axis)));
+        hypotheses.push(free(DynamicsCause::ComEntry, name, FreeParameters::ComEntry(axis)));
     }
     for ((row, column), name) in ENTRIES.into_iter().zip(ENTRY_NAMES) {
-        hypotheses.push(free(DynamicsCause::InertiaEntry, name, Free::InertiaEntry(row, column)));
+        hypotheses.push(free(DynamicsCause::InertiaEntry, name, FreeParameters::InertiaEntry(row, column)));
     }
-    let body = side.frames.links[link].body;
-    let is_tip = body.is_some_and(|body| side.frames.joints.iter().all(|joint| joint.parent != Some(body)));
-    if is_tip && body.is_some_and(|body| side.frames.joints[body].link == link) {
-        hypotheses.push(free(DynamicsCause::Payload, "", Free::Payload));
+    let body = model.frames.links[link].body;
+    // A payload hangs at the end of the chain; a point mass elsewhere is a fault of that link.
+    let is_tip = body.is_some_and(|body| model.frames.joints.iter().all(|joint| joint.parent != Some(body)));
+    if is_tip && body.is_some_and(|body| model.frames.joints[body].link == link) {
+        hypotheses.push(free(DynamicsCause::Payload, "", FreeParameters::Payload));
     }
-    let rotation = Free::Rotation(Matrix3::identity());
+    let rotation = FreeParameters::Rotation(Matrix3::identity());
     hypotheses.push(free(DynamicsCause::InertiaRotation, "", rotation));
+    // Only a file can lack the axes: what was built from it would have to be known to be principal in other axes.
     if faulty == FaultySide::Candidate && is_principal(parameters) {
         hypotheses.push(free(DynamicsCause::PrincipalAxesMissing, "", rotation));
     }
@@ -51,16 +57,24 @@ pub(super) fn of_link(side: &Side, faulty: FaultySide, link: usize) -> Vec<Hypot
     hypotheses
 }
 
-/// Whether different moments are given in the link's own axes, without products.
+/// Whether the tensor in the link's axes is diagonal: the moments may be principal ones whose axes were not written.
 fn is_principal(parameters: &Inertial) -> bool {
     let tensor = parameters.tensor_in_link();
     let off_diagonal = tensor - Matrix3::from_diagonal(&tensor.diagonal());
     off_diagonal.amax() <= ZERO_VALUE * tensor.amax()
 }
 
-/// Nine numbers by rows, cut to six: five are put back, the last moment is free.
-fn by_rows(link: usize, parameters: &Inertial) -> Hypothesis {
-    let change =
-        Change::FreeLinkFrom { link, from: put_back_from_rows(parameters), free: Free::InertiaEntry(2, 2) };
-    Hypothesis::new(DynamicsCause::InertiaOrder, "row_major_upper", Place::Links(vec![link]), change)
+/// Nine entries by rows that were cut to six: five are restored, the last moment is free.
+fn by_rows(link: usize, parameters: &Inertial) -> DynamicsHypothesis {
+    let change = Change::FreeLinkFrom {
+        link,
+        from: put_back_from_rows(parameters),
+        free: FreeParameters::InertiaEntry(2, 2),
+    };
+    DynamicsHypothesis::new(
+        DynamicsCause::InertiaOrder,
+        "row_major_upper",
+        FaultPlace::Links(vec![link]),
+        change,
+    )
 }

@@ -1,49 +1,53 @@
-//! Direction and magnitude of gravity.
+//! Hypotheses about the direction and magnitude of gravity.
 
 use nalgebra::Vector3;
 
 use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
-        hypothesis::{Change, FaultySide, Hypothesis, Place},
+        hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
     },
-    side::Side,
+    model::DynamicsModel,
 };
 
 /// Magnitudes that are in use, in m/s^2.
 const MAGNITUDES: [(&str, f64); 3] = [("9.80665", 9.80665), ("9.81", 9.81), ("9.8", 9.8)];
 const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
 
-pub(super) fn hypotheses(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
-    let gravity = side.gravity_m_s2;
+pub(super) fn hypotheses(model: &DynamicsModel, faulty: FaultySide) -> Vec<DynamicsHypothesis> {
+    let gravity = model.gravity_m_s2;
     let size = gravity.norm();
-    let slip = |cause, detail: &str, gravity| {
-        Hypothesis::new(cause, detail, Place::Gravity, Change::Gravity(gravity))
+    let mistake = |cause, detail: &str, gravity| {
+        DynamicsHypothesis::new(cause, detail, FaultPlace::Gravity, Change::Gravity(gravity))
     };
     let free = |cause, detail: &str, along| {
-        Hypothesis::new(cause, detail, Place::Gravity, Change::FreeGravity(along))
+        DynamicsHypothesis::new(cause, detail, FaultPlace::Gravity, Change::FreeGravity(along))
     };
-    let every_way = (0..3).map(|axis| Vector3::ith(axis, 1.0)).collect();
+    let every_axis = (0..3).map(|axis| Vector3::ith(axis, 1.0)).collect();
+    // Without a magnitude there is neither a sign nor a direction that could be wrong.
     if size == 0.0 {
-        return vec![free(DynamicsCause::GravityMissing, "", every_way).missing()];
+        return vec![free(DynamicsCause::GravityMissing, "", every_axis).missing()];
     }
-    let mut all = vec![slip(DynamicsCause::GravitySign, "", -gravity)];
+    let mut all = vec![mistake(DynamicsCause::GravitySign, "", -gravity)];
     if faulty == FaultySide::Reference {
-        all.push(slip(DynamicsCause::GravityMissing, "", Vector3::zeros()));
+        all.push(mistake(DynamicsCause::GravityMissing, "", Vector3::zeros()));
     }
     for (index, name) in AXES.into_iter().enumerate() {
         let sign = if index < 3 { size } else { -size };
         let along = Vector3::ith(index % 3, sign);
+        // The direction as it is explains nothing, and its opposite is the sign, which is named already.
         if (along - gravity).norm() > size * 1e-9 && (along + gravity).norm() > size * 1e-9 {
-            all.push(slip(DynamicsCause::GravityDirection, name, along));
+            all.push(mistake(DynamicsCause::GravityDirection, name, along));
         }
     }
     for (name, magnitude) in MAGNITUDES {
+        // 9.81 and 9.8 differ by 1e-2: whatever is nearer than 1e-9 is the same magnitude.
         if (magnitude - size).abs() > 1e-9 {
-            all.push(slip(DynamicsCause::GravityMagnitude, name, gravity * (magnitude / size)));
+            all.push(mistake(DynamicsCause::GravityMagnitude, name, gravity * (magnitude / size)));
         }
     }
+    // The free magnitude (one parameter) before the free vector (three): the fit with fewer parameters is named.
     all.push(free(DynamicsCause::GravityMagnitude, "", vec![gravity / size]));
-    all.push(free(DynamicsCause::GravityDirection, "", every_way));
+    all.push(free(DynamicsCause::GravityDirection, "", every_axis));
     all
 }

@@ -1,92 +1,102 @@
-//! Parameters that a file does not have: zeros and placeholders stand there. The zeros are the evidence; what should
-//! stand there is free. If the reference is taken to be wrong, it is the importer that put them there.
+//! Parameters that a file does not have, so that zeros or placeholders take their place. These are the evidence; the right
+//! values are free. If the reference is assumed to be wrong, its importer has dropped the parameters.
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::slip::Slip;
+use super::common_mistake::CommonMistake;
 use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
-        free::Free,
-        hypothesis::{Change, Hypothesis, Place},
+        free::FreeParameters,
+        hypothesis::{Change, DynamicsHypothesis, FaultPlace},
     },
-    side::{Inertial, Side},
+    model::{DynamicsModel, Inertial},
     thresholds::{PLACEHOLDER, ZERO_VALUE},
 };
 
 const PLACEHOLDERS: [(&str, f64); 3] = [("identity", 1.0), ("tenth", 0.1), ("milli", 0.001)];
 
-/// What an importer leaves out.
-pub(super) fn slips_of_importers<'a>() -> Vec<Slip<'a>> {
-    let mut slips = vec![
-        Slip::new(DynamicsCause::ComMissing, "", |parameters| Inertial {
+/// Mistakes of an importer that drops parameters of a link.
+pub(super) fn importer_mistakes<'a>() -> Vec<CommonMistake<'a>> {
+    let mut mistakes = vec![
+        CommonMistake::new(DynamicsCause::ComMissing, "", |parameters| Inertial {
             com_m: Vector3::zeros(),
             ..*parameters
         }),
-        Slip::new(DynamicsCause::ProductsMissing, "", |parameters| Inertial {
+        CommonMistake::new(DynamicsCause::ProductsMissing, "", |parameters| Inertial {
             tensor_kg_m2: Matrix3::from_diagonal(&parameters.tensor_kg_m2.diagonal()),
             ..*parameters
         }),
-        Slip::new(DynamicsCause::InertiaMissing, "", |parameters| Inertial {
+        CommonMistake::new(DynamicsCause::InertiaMissing, "", |parameters| Inertial {
             tensor_kg_m2: Matrix3::zeros(),
             ..*parameters
         }),
-        Slip::new(DynamicsCause::InertialLeftOut, "", |_| Inertial::nothing()),
+        CommonMistake::new(DynamicsCause::InertialLeftOut, "", |_| Inertial::nothing()),
     ];
     for (name, moment) in PLACEHOLDERS {
-        slips.push(Slip::new(DynamicsCause::InertiaPlaceholder, name, move |parameters| Inertial {
-            tensor_kg_m2: Matrix3::from_diagonal_element(moment),
-            link_from_axes: Matrix3::identity(),
-            ..*parameters
+        mistakes.push(CommonMistake::new(DynamicsCause::InertiaPlaceholder, name, move |parameters| {
+            Inertial {
+                tensor_kg_m2: Matrix3::from_diagonal_element(moment),
+                link_from_axes: Matrix3::identity(),
+                ..*parameters
+            }
         }));
     }
-    slips
+    mistakes
 }
 
-/// What a link's file lacks.
-pub(super) fn of_link(side: &Side, reference: Option<&Side>, link: usize) -> Vec<Hypothesis> {
+/// Hypotheses about parameters of a link that the file does not have.
+pub(super) fn link_hypotheses(
+    model: &DynamicsModel,
+    reference: Option<&DynamicsModel>,
+    link: usize,
+) -> Vec<DynamicsHypothesis> {
     let free = |cause, detail: &str, free| {
-        Hypothesis::new(cause, detail, Place::Links(vec![link]), Change::FreeLink { link, free })
+        DynamicsHypothesis::new(cause, detail, FaultPlace::Links(vec![link]), Change::FreeLink { link, free })
     };
-    let Some(parameters) = &side.inertials[link] else {
-        let missing = free(DynamicsCause::InertialMissing, "", Free::Inertial).missing();
-        return if could_have_inertial(side, reference, link) { vec![missing] } else { Vec::new() };
+    let Some(parameters) = &model.inertials[link] else {
+        let missing = free(DynamicsCause::InertialMissing, "", FreeParameters::Inertial).missing();
+        return if could_have_inertial(model, reference, link) { vec![missing] } else { Vec::new() };
     };
     let mut hypotheses = Vec::new();
     let tensor = &parameters.tensor_kg_m2;
     let off_diagonal = tensor - Matrix3::from_diagonal(&tensor.diagonal());
     let largest = tensor.amax();
+    // An origin at zero is evidence that the element was left out, not proof: the values stay free and count as
+    // such.
     if parameters.com_m.amax() <= ZERO_VALUE {
-        hypotheses.push(free(DynamicsCause::ComMissing, "", Free::Com));
+        hypotheses.push(free(DynamicsCause::ComMissing, "", FreeParameters::Com));
     }
     if largest == 0.0 {
-        hypotheses.push(free(DynamicsCause::InertiaMissing, "", Free::Inertia).missing());
+        hypotheses.push(free(DynamicsCause::InertiaMissing, "", FreeParameters::Inertia).missing());
+    // A tensor of zeros has no products either; the inertia as a whole is missing then.
     } else if off_diagonal.amax() <= ZERO_VALUE * largest {
-        hypotheses.push(free(DynamicsCause::ProductsMissing, "", Free::Products));
+        hypotheses.push(free(DynamicsCause::ProductsMissing, "", FreeParameters::Products));
         if is_placeholder(tensor) {
             let name = PLACEHOLDERS.iter().find(|(_, moment)| is_near(largest, *moment));
             let detail = name.map_or("", |(name, _)| name);
-            hypotheses.push(free(DynamicsCause::InertiaPlaceholder, detail, Free::Inertia).missing());
+            hypotheses
+                .push(free(DynamicsCause::InertiaPlaceholder, detail, FreeParameters::Inertia).missing());
         }
     }
     hypotheses
 }
 
-/// Frames without mass are normal on a body that has some, unless something is drawn there, or the other description
-/// has an inertial there.
-fn could_have_inertial(side: &Side, reference: Option<&Side>, link: usize) -> bool {
-    let place = &side.frames.links[link];
+/// Whether a link without an inertial could lack one: links without mass are normal on a body that has some, unless they have a
+/// shape, or the other description has an inertial for them.
+fn could_have_inertial(model: &DynamicsModel, reference: Option<&DynamicsModel>, link: usize) -> bool {
+    let place = &model.frames.links[link];
     let Some(body) = place.body else { return false };
     let there = reference.and_then(|other| other.inertials[other.frames.find_link(&place.name)?]);
     if there.is_some() {
         return true;
     }
-    let mut others = side.frames.links_of(body);
+    let mut others = model.frames.links_of(body);
     place.has_shape
-        || (side.frames.joints[body].link == link && others.all(|other| side.inertials[other].is_none()))
+        || (model.frames.joints[body].link == link && others.all(|other| model.inertials[other].is_none()))
 }
 
-/// A power of ten times identity.
+/// Whether a tensor is a power of ten times the identity, as placeholders are.
 fn is_placeholder(tensor: &Matrix3<f64>) -> bool {
     let moment = tensor[(0, 0)];
     let is_even = (tensor - Matrix3::from_diagonal_element(moment)).amax() <= PLACEHOLDER * moment;

@@ -1,90 +1,102 @@
-//! The catalogue of causes, one family a file.
+//! The catalogue of causes, one file for each family.
 
 mod com;
+pub(super) mod common_mistake;
 mod free_numbers;
 mod gravity;
 mod joint_terms;
 mod missing;
 mod other_frames;
-pub(super) mod slip;
 mod tensor;
 mod two_links;
 mod units;
 
+use self::common_mistake::CommonMistake;
 pub(super) use self::joint_terms::all_left_out;
-use self::slip::Slip;
 pub(crate) use self::units::{rounded_damping_unit, rounded_unit};
 use super::{
     cause_names::DynamicsCause,
-    hypothesis::{Change, FaultySide, Hypothesis, Place, Scale},
+    hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide, Scale},
 };
-use crate::side::{Frames, Side};
+use crate::model::{DynamicsModel, Frames};
 
-/// Slips with one link's parameters.
-pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
-    let mut slips = units::slips(faulty);
-    slips.extend(com::slips(faulty));
-    slips.extend(other_frames::slips(frames, faulty));
-    slips.extend(tensor::slips(faulty));
+/// Mistakes with one link's parameters that have no free parameter.
+pub(super) fn mistakes(frames: &Frames, faulty: FaultySide) -> Vec<CommonMistake<'_>> {
+    let mut mistakes = units::mistakes(faulty);
+    mistakes.extend(com::mistakes(faulty));
+    mistakes.extend(other_frames::mistakes(frames, faulty));
+    mistakes.extend(tensor::mistakes(faulty));
     if faulty == FaultySide::Reference {
-        slips.extend(missing::slips_of_importers());
+        mistakes.extend(missing::importer_mistakes());
     }
-    slips
+    mistakes
 }
 
-/// What can be wrong at one link; a parameter that the other description has, if there is one, can be missing.
-pub(super) fn of_link(
-    side: &Side,
-    reference: Option<&Side>,
+/// Hypotheses about one link; a parameter can be missing only if the other description, if there is one, has it.
+pub(super) fn link_hypotheses(
+    model: &DynamicsModel,
+    reference: Option<&DynamicsModel>,
     faulty: FaultySide,
-    slips: &[Slip<'_>],
+    mistakes: &[CommonMistake<'_>],
     link: usize,
-) -> Vec<Hypothesis> {
-    let mut hypotheses: Vec<Hypothesis> = Vec::new();
-    if let Some(parameters) = &side.inertials[link] {
-        for slip in slips {
-            if let Some(changed) = (slip.change)(link, parameters).filter(|changed| changed != parameters) {
-                let (place, change) = (Place::Links(vec![link]), Change::Links(vec![(link, changed)]));
-                hypotheses.push(Hypothesis::new(slip.cause, slip.detail_at(link), place, change));
+) -> Vec<DynamicsHypothesis> {
+    let mut hypotheses: Vec<DynamicsHypothesis> = Vec::new();
+    if let Some(parameters) = &model.inertials[link] {
+        for mistake in mistakes {
+            // A mistake that has no effect on these values, as a swap of equal moments, is no hypothesis.
+            if let Some(changed) = (mistake.change)(link, parameters).filter(|changed| changed != parameters)
+            {
+                let (place, change) = (FaultPlace::Links(vec![link]), Change::Links(vec![(link, changed)]));
+                hypotheses.push(DynamicsHypothesis::new(
+                    mistake.cause,
+                    mistake.detail_at(link),
+                    place,
+                    change,
+                ));
             }
         }
     }
     if faulty == FaultySide::Candidate {
-        hypotheses.extend(missing::of_link(side, reference, link));
+        hypotheses.extend(missing::link_hypotheses(model, reference, link));
         hypotheses.extend(
-            reference.and_then(|reference| other_frames::rotation_of_reference(side, reference, link)),
+            reference.and_then(|reference| other_frames::rotation_of_reference(model, reference, link)),
         );
     }
-    hypotheses.extend(free_numbers::of_link(side, faulty, link));
+    hypotheses.extend(free_numbers::link_hypotheses(model, faulty, link));
     hypotheses
 }
 
-/// What can be wrong between two links.
-pub(super) fn of_two_links(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
-    two_links::pairs(side, faulty)
+/// Hypotheses about two links.
+pub(super) fn two_link_hypotheses(model: &DynamicsModel, faulty: FaultySide) -> Vec<DynamicsHypothesis> {
+    two_links::pairs(model, faulty)
 }
 
-/// What can be wrong at all links.
-pub(super) fn of_all_links(side: &Side, slips: &[Slip<'_>]) -> Vec<Hypothesis> {
-    let slips = slips.iter().filter_map(|slip| two_links::everywhere(side, slip));
-    slips
-        .chain(
-            SCALES
-                .map(|(cause, scale)| Hypothesis::new(cause, "", Place::AllLinks, Change::FreeScale(scale))),
-        )
+/// Hypotheses about all links at once.
+pub(super) fn all_links_hypotheses(
+    model: &DynamicsModel,
+    mistakes: &[CommonMistake<'_>],
+) -> Vec<DynamicsHypothesis> {
+    let mistakes = mistakes.iter().filter_map(|mistake| two_links::everywhere(model, mistake));
+    mistakes
+        .chain(SCALES.map(|(cause, scale)| {
+            DynamicsHypothesis::new(cause, "", FaultPlace::AllLinks, Change::FreeScale(scale))
+        }))
         .collect()
 }
 
-/// One factor of all links.
+/// Hypotheses with one free factor for all links.
 const SCALES: [(DynamicsCause, Scale); 3] = [
     (DynamicsCause::MassScale, Scale::Masses),
     (DynamicsCause::InertiaScale, Scale::Tensors),
     (DynamicsCause::Density, Scale::Both),
 ];
 
-/// What can be wrong with joints and gravity.
-pub(super) fn of_joints_and_gravity(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
-    let mut hypotheses = joint_terms::hypotheses(side, faulty);
-    hypotheses.extend(gravity::hypotheses(side, faulty));
+/// Hypotheses about joint terms and gravity.
+pub(super) fn joint_and_gravity_hypotheses(
+    model: &DynamicsModel,
+    faulty: FaultySide,
+) -> Vec<DynamicsHypothesis> {
+    let mut hypotheses = joint_terms::hypotheses(model, faulty);
+    hypotheses.extend(gravity::hypotheses(model, faulty));
     hypotheses
 }

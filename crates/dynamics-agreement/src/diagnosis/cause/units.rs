@@ -1,11 +1,11 @@
-//! Wrong units.
+//! Mistakes with units of mass, length and inertia.
 
-use super::slip::Slip;
+use super::common_mistake::CommonMistake;
 use congruent_dynamics::JointResistance;
 
 use crate::{
     diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
-    side::Inertial,
+    model::Inertial,
     thresholds::SAME_VALUE,
 };
 
@@ -15,11 +15,11 @@ const FOOT_M: f64 = 0.3048;
 /// A pound accelerated by standard gravity, over a foot per second squared.
 const SLUG_KG: f64 = POUND_KG * 9.80665 / FOOT_M;
 
-/// How many make a kilogram.
+/// Units of mass, each with its number in a kilogram.
 const MASSES: [(&str, f64); 2] = [("g", 1e3), ("lb", 1.0 / POUND_KG)];
-/// How many make a metre.
+/// Units of length, each with its number in a metre.
 const LENGTHS: [(&str, f64); 3] = [("mm", 1e3), ("cm", 1e2), ("in", 1.0 / INCH_M)];
-/// How many make a kg m^2.
+/// Units of inertia, each with its number in 1 kg m^2.
 const INERTIAS: [(&str, f64); 8] = [
     ("kg_mm2", 1e6),
     ("g_mm2", 1e9),
@@ -30,55 +30,56 @@ const INERTIAS: [(&str, f64); 8] = [
     ("lb_ft2", 1.0 / (POUND_KG * FOOT_M * FOOT_M)),
     ("slug_ft2", 1.0 / (SLUG_KG * FOOT_M * FOOT_M)),
 ];
-/// Units of mass and length that CAD programs write all parameters in.
+/// Units of mass and length in which CAD programs export all parameters, each with its numbers in a kilogram and a metre.
 const CAD: [(&str, f64, f64); 3] =
     [("g_mm", 1e3, 1e3), ("kg_mm", 1.0, 1e3), ("lb_in", 1.0 / POUND_KG, 1.0 / INCH_M)];
-/// A converted value with three digits is off by so much of itself. No unit; kind: digits of a file.
+/// Relative error of a converted value with three digits. No unit; kind: digits of a file.
 const ROUNDED: f64 = 5e-3;
 
-pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
-    let mut slips = Vec::new();
+pub(super) fn mistakes<'a>(faulty: FaultySide) -> Vec<CommonMistake<'a>> {
+    let mut mistakes = Vec::new();
     for (unit, count) in MASSES {
         let factor = faulty.factor(count);
-        slips.push(Slip::new(DynamicsCause::MassUnit, unit, move |parameters| Inertial {
+        mistakes.push(CommonMistake::new(DynamicsCause::MassUnit, unit, move |parameters| Inertial {
             mass_kg: parameters.mass_kg * factor,
             ..*parameters
         }));
     }
     for (unit, count) in LENGTHS {
         let factor = faulty.factor(count);
-        slips.push(Slip::new(DynamicsCause::ComUnit, unit, move |parameters| Inertial {
+        mistakes.push(CommonMistake::new(DynamicsCause::ComUnit, unit, move |parameters| Inertial {
             com_m: parameters.com_m * factor,
             ..*parameters
         }));
     }
     // Metres under a key of millimetres are divided once too often.
     let factor = faulty.factor(1e-3);
-    slips.push(Slip::new(DynamicsCause::ComUnit, "m", move |parameters| Inertial {
+    mistakes.push(CommonMistake::new(DynamicsCause::ComUnit, "m", move |parameters| Inertial {
         com_m: parameters.com_m * factor,
         ..*parameters
     }));
     for (unit, count) in INERTIAS {
         let factor = faulty.factor(count);
-        slips.push(Slip::new(DynamicsCause::InertiaUnit, unit, move |parameters| Inertial {
+        mistakes.push(CommonMistake::new(DynamicsCause::InertiaUnit, unit, move |parameters| Inertial {
             tensor_kg_m2: parameters.tensor_kg_m2 * factor,
             ..*parameters
         }));
     }
     for (unit, masses, lengths) in CAD {
         let (mass, length) = (faulty.factor(masses), faulty.factor(lengths));
-        slips.push(Slip::new(DynamicsCause::CadUnits, unit, move |parameters| Inertial {
+        mistakes.push(CommonMistake::new(DynamicsCause::CadUnits, unit, move |parameters| Inertial {
             mass_kg: parameters.mass_kg * mass,
             com_m: parameters.com_m * length,
+            // A tensor is a mass times a square of a length, so one unit of each decides it.
             tensor_kg_m2: parameters.tensor_kg_m2 * (mass * length * length),
             ..*parameters
         }));
     }
-    slips
+    mistakes
 }
 
-/// The unit of parameters that were rounded to three digits when they were converted, so that no slip is exact: what
-/// stands there, and what should. `None` if it is no unit.
+/// The unit of parameters that were rounded to three digits when they were converted, so that no unit explains them exactly,
+/// from the written and the right values. `None` if no unit fits.
 pub(crate) fn rounded_unit(written: &Inertial, right: &Inertial) -> Option<(DynamicsCause, &'static str)> {
     let tensors = [written, right].map(Inertial::tensor_in_link);
     let mass = |count: f64| is_in_unit(count, &[written.mass_kg], &[right.mass_kg]);
@@ -102,6 +103,7 @@ pub(crate) fn rounded_unit(written: &Inertial, right: &Inertial) -> Option<(Dyna
         [true, false, true] => named(DynamicsCause::ComUnit, find(&LENGTHS, &com)),
         [true, true, false] => named(DynamicsCause::InertiaUnit, find(&INERTIAS, &tensor)),
         _ => {
+            // Several values off at once: only units of a CAD program, which change all three together.
             let all = |(_, masses, lengths): &&(&str, f64, f64)| {
                 mass(*masses) && com(*lengths) && tensor(masses * lengths * lengths)
             };
@@ -110,7 +112,7 @@ pub(crate) fn rounded_unit(written: &Inertial, right: &Inertial) -> Option<(Dyna
     }
 }
 
-/// The same of damping, which may be given per degree instead of per radian, or the reverse.
+/// [`rounded_unit`] for damping, which may be given per degree instead of per radian, or the reverse.
 pub(crate) fn rounded_damping_unit(
     written: &[JointResistance],
     right: &[JointResistance],
@@ -132,7 +134,7 @@ pub(crate) fn rounded_damping_unit(
     unit.map(|(unit, _)| (DynamicsCause::DampingUnit, unit))
 }
 
-/// Whether values are those that are expected in a unit of which so many make the right one, but for the digits.
+/// Whether the values are the expected ones in a unit of which `count` make the right one, within rounded digits.
 fn is_in_unit(count: f64, found: &[f64], expected: &[f64]) -> bool {
     let size = largest(expected);
     size > 0.0

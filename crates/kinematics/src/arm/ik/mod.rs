@@ -1,6 +1,5 @@
-//! Inverse kinematics by iteration: which configuration brings the tool to a pose? "Did not
-//! converge" is a result, with its residual. How one step is computed is `step.rs`; what is measured
-//! is `residual.rs`.
+//! Iterative inverse kinematics: finds a configuration that brings the tool to a pose. "Did not converge" is a result, with its
+//! residual. `step.rs` computes one step, `residual.rs` the error.
 
 mod nearest;
 mod options;

@@ -1,4 +1,4 @@
-//! Of several solutions the one nearest to the arm's configuration.
+//! Finds, among several solutions, the one nearest to the arm's configuration.
 
 use congruent_description::ArmQ;
 
@@ -22,11 +22,13 @@ impl IkSolver {
         options: &IkOptions,
         attempts: usize,
     ) -> Result<IkResult<'_>, KinematicsError> {
+        // The first attempt starts from `start` itself, so that no random attempt is needed to find a solution near it.
         let mut random = Uniform::seeded(options.seed);
         let mut from = start.clone();
         let mut nearest = (f64::INFINITY, start.clone());
         for _ in 0..=attempts {
             let converged = self.solve(target, &from, options, || true)?.converged;
+            // Whole turns are taken out before distances are compared: they change no pose.
             if converged {
                 let distance = self.turn_towards(start);
                 if distance < nearest.0 {
@@ -37,11 +39,11 @@ impl IkSolver {
         }
         self.pull_towards(start, (target, options), &mut nearest)?;
         let from = if nearest.0.is_finite() { &nearest.1 } else { start };
-        // Already there, or else the best that can be said about the target.
+        // From a solution this converges at once and only fills the result; without one it gives the best residual.
         self.solve(target, from, options, || true)
     }
 
-    /// Moves a solution part of the way to `start` and solves from there, as long as that gives a nearer one: steps of the
+    /// Moves a solution part of the path to `start` and solves from there, as long as that gives a nearer one: steps of the
     /// least change lead back across the solutions, not along them.
     fn pull_towards(
         &mut self,
@@ -49,10 +51,10 @@ impl IkSolver {
         (target, options): (&IkTarget, &IkOptions),
         nearest: &mut (f64, ArmQ),
     ) -> Result<(), KinematicsError> {
-        /// Of the way at first, and halved where that leads to no nearer solution.
+        /// First share of the path to `start`; halved whenever it leads to no nearer solution.
         const PART: f64 = 0.5;
         const LEAST_PART: f64 = 1e-3;
-        /// Part of the distance that counts as nearer.
+        /// Least relative decrease of the distance that counts as nearer.
         const NEARER: f64 = 1e-6;
         const MOST_ROUNDS: usize = 64;
         let (mut part, mut from) = (PART, start.clone());
@@ -60,6 +62,8 @@ impl IkSolver {
             if part < LEAST_PART || !nearest.0.is_finite() {
                 break;
             }
+            // A redundant arm has a manifold of solutions. Moving towards `start` departs from it, and solving returns to it at a nearby
+            // point: a projected descent of the distance.
             for ((from, start), found) in from.iter_mut().zip(start).zip(&nearest.1) {
                 *from = found + part * (start - found);
             }

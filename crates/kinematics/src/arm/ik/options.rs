@@ -1,9 +1,9 @@
-//! How inverse kinematics searches, and when it stops.
+//! Options of inverse kinematics: the method, and when the search stops.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the next configuration is found.
+/// The method by which the next configuration is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum IkMethod {
@@ -37,28 +37,28 @@ pub enum IkMethod {
 pub enum DifferentialMethod {
     /// Position error and turn error through the pseudo-inverse of the geometric Jacobian, damped in
     /// directions in which the arm is nearly singular: if the singular value is less than a
-    /// twentieth of the largest, the joints are asked for less than the whole error, and for nothing
+    /// twentieth of the largest, the joints correct less than the whole error, and nothing
     /// if it is zero.
     ///
     /// Source: Siciliano et al., *Robotics* (2009), eq. 3.74; damping by Maciejewski & Klein (1988).
     #[default]
     PseudoInverse,
-    /// As [`IkMethod::Transpose`].
+    /// The transpose of the Jacobian with the best gain, as [`IkMethod::Transpose`].
     Transpose,
 }
 
-/// When a solution counts, and how much is tried.
+/// Method, tolerances and effort of inverse kinematics.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkOptions {
-    /// How steps are found.
+    /// Method of a step.
     pub method: IkMethod,
-    /// Largest distance that counts as reached, m.
+    /// Largest distance to the target at which it counts as reached, m.
     pub tolerance_m: f64,
-    /// Largest angle that counts as reached, rad.
+    /// Largest angle to the target at which it counts as reached, rad.
     pub tolerance_rad: f64,
-    /// Steps of all attempts together.
+    /// Most steps of all attempts together.
     pub max_iterations: usize,
-    /// Seed of the restarts.
+    /// Seed of the random restarts.
     pub seed: u64,
 }
 

@@ -1,4 +1,4 @@
-//! What is asked for, and how far a pose is from it.
+//! The target of inverse kinematics, and the error of a pose.
 
 use nalgebra::Vector6;
 use schemars::JsonSchema;
@@ -7,27 +7,26 @@ use serde::Serialize;
 use super::options::{IkMethod, IkOptions};
 use crate::spatial::{pose::Pose, rotation::rotation_log, twist::Twist};
 
-/// How much of a pose is asked for.
+/// The part of a pose that the target prescribes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TargetPart {
     /// The origin alone, in any orientation.
     Position,
-    /// Origin and orientation.
+    /// Origin and orientation of the tool.
     Pose,
 }
 
-/// A pose of the tool centre point that is asked for.
+/// A target pose of the tool centre point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkTarget {
-    /// Where the tool is to be.
+    /// Target pose of the tool centre point in the base.
     pub base_from_tcp: Pose,
-    /// Which part of it counts.
+    /// The part of the pose that is prescribed.
     pub part: TargetPart,
 }
 
-/// What separates a pose from a target: as lengths and angles, and as a task vector in the units
-/// and axes that the method works in.
+/// The error of a pose: as distance and angle, and as a task vector in the units and axes of the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct IkResidual {
     pub(super) position_m: f64,
@@ -37,14 +36,16 @@ pub(super) struct IkResidual {
 }
 
 impl IkResidual {
-    pub(super) fn of(target: &IkTarget, base_from_tcp: &Pose, frame: &TaskFrame) -> Self {
+    pub(super) fn between(target: &IkTarget, base_from_tcp: &Pose, frame: &TaskFrame) -> Self {
         let shift = target.base_from_tcp.translation - base_from_tcp.translation;
         let rotation = match target.part {
             TargetPart::Pose => target.base_from_tcp.rotation * base_from_tcp.rotation.transpose(),
             TargetPart::Position => nalgebra::Matrix3::identity(),
         };
+        // R_d R^T is the turn from the pose to the target in the axes of the base; its logarithm is axis times angle.
         let turn = rotation_log(&rotation);
         let error = match (frame.in_body, target.part) {
+            // Lynch & Park sec. 6.2.2: the body twist that would bring the pose to the target in unit time.
             (true, TargetPart::Pose) => Twist::log(&(base_from_tcp.inverse() * target.base_from_tcp)),
             _ => Twist { angular: turn, linear: shift },
         };
@@ -71,12 +72,12 @@ pub(super) struct TaskFrame {
     /// Axes of the body and the logarithm of the whole motion; otherwise axes of the base, turn and
     /// shift apart.
     in_body: bool,
-    /// What a metre is worth.
+    /// Factor that converts metres into the unit of the task vector.
     rad_per_metre: f64,
 }
 
 impl TaskFrame {
-    pub(super) fn of(method: IkMethod, part: TargetPart, metres_per_rad: f64) -> Self {
+    pub(super) fn for_method(method: IkMethod, part: TargetPart, metres_per_rad: f64) -> Self {
         match method {
             IkMethod::LevenbergMarquardt => Self { in_body: false, rad_per_metre: 1.0 / metres_per_rad },
             IkMethod::Newton => Self { in_body: part == TargetPart::Pose, rad_per_metre: 1.0 },
@@ -96,7 +97,7 @@ impl TaskFrame {
         self.scaled(column, part)
     }
 
-    /// As one vector; what does not count is zero.
+    /// The twist as a task vector; components that the target does not prescribe are zero.
     #[inline]
     fn scaled(&self, twist: &Twist, part: TargetPart) -> Vector6<f64> {
         let linear = twist.linear * self.rad_per_metre;

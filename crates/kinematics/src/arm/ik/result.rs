@@ -1,21 +1,21 @@
-//! What inverse kinematics answers.
+//! The results of inverse kinematics.
 
 use congruent_description::ArmQ;
 
-/// What would close the error if the arm were linear.
+/// The change of the joints that would remove the error if the arm were linear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkChange<'a> {
-    /// Change of each joint of the arm, rad or m; 0 for a joint that a limit holds.
+    /// Change of each joint of the arm, rad or m; 0 for a joint that is kept at its limit.
     pub change: &'a [f64],
     /// Distance to the target, m.
     pub residual_position_m: f64,
-    /// Angle to the target, rad; 0 if no orientation is asked for.
+    /// Angle to the target, rad; 0 if the target prescribes no orientation.
     pub residual_orientation_rad: f64,
-    /// Indices of the arm's joints that stand at a limit which the error pushes them against.
+    /// Indices of the arm's joints that are at a limit and that the error would push beyond it.
     pub limits_held: &'a [usize],
 }
 
-/// What came of a solution: the best configuration that was seen, always within the limits.
+/// The result of a search: the best configuration that was found, always within the limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkResult<'a> {
     /// The configuration, one entry for each joint of the arm.
@@ -24,10 +24,10 @@ pub struct IkResult<'a> {
     pub converged: bool,
     /// Distance to the target, m.
     pub residual_position_m: f64,
-    /// Angle to the target, rad; 0 if no orientation was asked for.
+    /// Angle to the target, rad; 0 if the target prescribes no orientation.
     pub residual_orientation_rad: f64,
-    /// Steps of all attempts.
+    /// Number of steps of all attempts.
     pub iterations: usize,
-    /// Indices of the arm's joints that stand at a limit.
+    /// Indices of the arm's joints that are at a limit.
     pub limits_held: &'a [usize],
 }

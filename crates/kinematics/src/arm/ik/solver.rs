@@ -1,4 +1,4 @@
-//! The loop around the steps: attempts, limits, restarts, and what is reported at the end.
+//! The iteration of inverse kinematics: attempts, limits, restarts, and the result.
 
 use congruent_description::ArmQ;
 use nalgebra::Vector6;
@@ -20,7 +20,7 @@ const PROGRESS: f64 = 0.5;
 /// Steps without progress after which an attempt is given up.
 const PATIENCE: usize = 7;
 /// A method without restarts stops if no joint moves further than this. Kind: rounding.
-const STANDSTILL: f64 = 1e-15;
+const SMALLEST_CHANGE: f64 = 1e-15;
 
 /// Solves one target after another for an arm, without allocation.
 ///
@@ -33,12 +33,12 @@ pub struct IkSolver {
     best: ArmQ,
     change: Vec<f64>,
     columns: Vec<Vector6<f64>>,
-    held: Vec<bool>,
+    kept_at_limit: Vec<bool>,
     limits_held: Vec<usize>,
 }
 
 impl IkSolver {
-    /// Makes room for an arm.
+    /// A solver for an arm, with all buffers allocated.
     pub fn new(arm: Arm) -> Self {
         let n = arm.joints().len();
         Self {
@@ -46,13 +46,13 @@ impl IkSolver {
             best: ArmQ::zeros(n),
             change: vec![0.0; n],
             columns: vec![Vector6::zeros(); n],
-            held: vec![false; n],
+            kept_at_limit: vec![false; n],
             limits_held: Vec::with_capacity(n),
             arm,
         }
     }
 
-    /// The arm.
+    /// The arm that is solved for.
     pub fn arm(&self) -> &Arm {
         &self.arm
     }
@@ -64,8 +64,8 @@ impl IkSolver {
     /// | `target` | SE(3) | m | `base_from_tcp` |
     /// | `start` | number of joints | rad, m | base to tip |
     ///
-    /// The number of steps is bounded by the options; `keep_going` is asked before each and may end
-    /// the search earlier: a caller with a clock looks at it there.
+    /// The number of steps is bounded by the options; `keep_going` is called before each and may end
+    /// the search earlier, for example when a time limit of the caller is over.
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `start` is no configuration of the arm.
@@ -112,15 +112,17 @@ impl IkSolver {
         keep_going: impl FnMut() -> bool,
     ) -> Result<IkResult<'_>, KinematicsError> {
         KinematicsError::check_joints(self.q.len(), start)?;
+        // The search stays within the limits from its first step on, so any of its configurations may be returned.
         for ((q, joint), &start) in self.q.iter_mut().zip(self.arm.joints()).zip(start) {
             *q = joint.inside(start);
         }
         let (best, iterations) = self.search(target, options, keep_going)?;
+        // The steps may have gone round by whole turns; the caller gets the equal configuration nearest to its own.
         self.turn_towards(start);
         self.limits_held.clear();
         let at_limit = |(joint, &q): (&ArmJoint, &f64)| q <= joint.lower || q >= joint.upper;
-        let held = self.arm.joints().iter().zip(&self.best).enumerate();
-        self.limits_held.extend(held.filter(|(_, each)| at_limit(*each)).map(|(index, _)| index));
+        let kept_at_limit = self.arm.joints().iter().zip(&self.best).enumerate();
+        self.limits_held.extend(kept_at_limit.filter(|(_, each)| at_limit(*each)).map(|(index, _)| index));
         Ok(IkResult {
             q: &self.best,
             converged: best.within(options),
@@ -141,14 +143,14 @@ impl IkSolver {
     /// | `commanded` | number of joints | rad, m | base to tip |
     /// | change | number of joints | rad, m | base to tip |
     ///
-    /// Error and Jacobian are those at `q`, where the arm is; the error is `p_d - p` and, as axis and
-    /// angle, `R_d R^T`. `commanded` is what the arm was told last: a joint that is told to stand at its
-    /// limit is held there. Times a gain, the change is a joint velocity. No limit is applied to it.
+    /// Error and Jacobian are evaluated at `q`, the measured configuration; the error is `p_d - p` and, as axis and
+    /// angle, `R_d R^T`. `commanded` is the last setpoint: a joint whose setpoint is at its limit is kept there. Times a gain,
+    /// the change is a joint velocity. The result is not limited.
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `q` or `commanded` is no configuration of the arm.
     /// # Examples
-    /// A slide that stands 0.3 m before its target has 0.3 m to go, as long as it is told to:
+    /// A slide 0.3 m before its target has 0.3 m to go, until its setpoint is at the limit:
     /// ```
     /// # use congruent_description::{Joint, JointKind, JointLimit, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Matrix3, Vector3};
@@ -192,14 +194,16 @@ impl IkSolver {
             DifferentialMethod::PseudoInverse => (IkMethod::PseudoInverse, step::damped_pseudo_inverse),
             DifferentialMethod::Transpose => (IkMethod::Transpose, step::transposed),
         };
-        let frame = TaskFrame::of(frame, target.part, self.arm.metres_per_rad());
-        let residual = self.look(target, &frame)?;
+        let frame = TaskFrame::for_method(frame, target.part, self.arm.metres_per_rad());
+        let residual = self.evaluate(target, &frame)?;
+        // Limits are those of the setpoint, not of the measured position, which may be short of the limit by a tracking error.
         self.q.copy_from_slice(commanded);
-        self.hold(&residual);
-        self.follow(rule, &residual);
+        self.mark_joints_at_limits(&residual);
+        self.apply_method(rule, &residual);
         self.limits_held.clear();
-        let held = self.held.iter().enumerate().filter(|(_, held)| **held);
-        self.limits_held.extend(held.map(|(index, _)| index));
+        let kept_at_limit =
+            self.kept_at_limit.iter().enumerate().filter(|(_, kept_at_limit)| **kept_at_limit);
+        self.limits_held.extend(kept_at_limit.map(|(index, _)| index));
         Ok(IkChange {
             change: &self.change,
             residual_position_m: residual.position_m,
@@ -208,13 +212,13 @@ impl IkSolver {
         })
     }
 
-    /// The configuration that was found last.
+    /// The solution of the last search.
     pub(super) fn solution(&self) -> &ArmQ {
         &self.best
     }
 
-    /// Takes whole turns out of the solution, as near to `start` as the limits allow; gives the sum of
-    /// squares of the difference of the two, in radians.
+    /// Moves the solution by whole turns as near to `start` as the limits allow. Returns the sum of squares of the
+    /// difference of the two, in rad^2.
     pub(super) fn turn_towards(&mut self, start: &ArmQ) -> f64 {
         let rad_per_metre = 1.0 / self.arm.metres_per_rad();
         let mut sum = 0.0;
@@ -226,15 +230,15 @@ impl IkSolver {
         sum
     }
 
-    /// Writes the best configuration to `best`; gives its residual and the number of steps.
+    /// Writes the best configuration to `best`. Returns its residual and the number of steps.
     fn search(
         &mut self,
         target: &IkTarget,
         options: &IkOptions,
         mut keep_going: impl FnMut() -> bool,
     ) -> Result<(IkResidual, usize), KinematicsError> {
-        let frame = TaskFrame::of(options.method, target.part, self.arm.metres_per_rad());
-        let mut residual = self.look(target, &frame)?;
+        let frame = TaskFrame::for_method(options.method, target.part, self.arm.metres_per_rad());
+        let mut residual = self.evaluate(target, &frame)?;
         let mut best = residual;
         self.best.copy_from_slice(&self.q);
         let mut attempt = Attempt::starting_at(residual.cost());
@@ -243,19 +247,23 @@ impl IkSolver {
             if best.within(options) || !keep_going() {
                 return Ok((best, iteration));
             }
+            // A restart costs one evaluation like a step does, so it counts as a step and the bound holds. The generator is made
+            // only here: most targets need no restart.
             if options.method == IkMethod::LevenbergMarquardt && attempt.is_stuck() {
                 let random = random.get_or_insert_with(|| Uniform::seeded(options.seed));
                 self.arm.draw(random, &mut self.q);
-                residual = self.look(target, &frame)?;
+                residual = self.evaluate(target, &frame)?;
                 attempt = Attempt::starting_at(residual.cost());
             } else {
                 let moved = self.step(options.method, &residual);
-                if options.method != IkMethod::LevenbergMarquardt && moved <= STANDSTILL {
+                // The textbook methods have no restarts: a step of zero, at a limit or a singular configuration, repeats for ever.
+                if options.method != IkMethod::LevenbergMarquardt && moved <= SMALLEST_CHANGE {
                     return Ok((best, iteration));
                 }
-                residual = self.look(target, &frame)?;
+                residual = self.evaluate(target, &frame)?;
                 attempt.observe(residual.cost());
             }
+            // A pose within tolerance counts even if its cost is higher: cost mixes metres and radians, the tolerances do not.
             if residual.cost() < best.cost() || residual.within(options) {
                 best = residual;
                 self.best.copy_from_slice(&self.q);
@@ -264,24 +272,24 @@ impl IkSolver {
         Ok((best, options.max_iterations))
     }
 
-    /// Residual and columns at `q`.
-    fn look(&mut self, target: &IkTarget, frame: &TaskFrame) -> Result<IkResidual, KinematicsError> {
+    /// Computes the residual, and writes the columns of the task at `q`.
+    fn evaluate(&mut self, target: &IkTarget, frame: &TaskFrame) -> Result<IkResidual, KinematicsError> {
         let (base_from_tcp, columns) = self.arm.pose_and_jacobian(&self.q)?;
         for (task, column) in self.columns.iter_mut().zip(columns) {
             *task = frame.column(column, &base_from_tcp, target.part);
         }
-        Ok(IkResidual::of(target, &base_from_tcp, frame))
+        Ok(IkResidual::between(target, &base_from_tcp, frame))
     }
 
-    /// Moves `q` by one step, within the limits; gives the longest change.
+    /// Moves `q` by one step, within the limits. Returns the largest change of a joint, rad or m.
     fn step(&mut self, method: IkMethod, residual: &IkResidual) -> f64 {
-        self.hold(residual);
+        self.mark_joints_at_limits(residual);
         let rule = match method {
             IkMethod::LevenbergMarquardt => step::damped,
             IkMethod::Newton | IkMethod::PseudoInverse => step::pseudo_inverse,
             IkMethod::Transpose => step::transposed,
         };
-        self.follow(rule, residual);
+        self.apply_method(rule, residual);
         let mut longest: f64 = 0.0;
         for ((q, joint), change) in self.q.iter_mut().zip(self.arm.joints()).zip(&self.change) {
             let before = std::mem::replace(q, joint.inside(*q + change));
@@ -290,20 +298,22 @@ impl IkSolver {
         longest
     }
 
-    /// Marks the joints that stand at a limit in `q` and that the residual pushes against it.
-    fn hold(&mut self, residual: &IkResidual) {
+    /// Marks the joints that are at a limit in `q` and that the residual pushes beyond it.
+    fn mark_joints_at_limits(&mut self, residual: &IkResidual) {
         for (at, joint) in self.arm.joints().iter().enumerate() {
+            // The gradient of the cost by this joint is -J_i . e: its sign says to which side the joint would move. A joint that
+            // is kept at its limit must leave the equations, or the step would count on a motion that is cut off.
             let pull = self.columns[at].dot(&residual.task);
             let q = self.q[at];
-            self.held[at] = (q <= joint.lower && pull < 0.0) || (q >= joint.upper && pull > 0.0);
+            self.kept_at_limit[at] = (q <= joint.lower && pull < 0.0) || (q >= joint.upper && pull > 0.0);
         }
     }
 
     /// Writes the change of the joints that a rule finds to `change`.
-    fn follow(&mut self, rule: fn(&IkTask<'_>, &mut [f64]), residual: &IkResidual) {
+    fn apply_method(&mut self, rule: fn(&IkTask<'_>, &mut [f64]), residual: &IkResidual) {
         let task = IkTask {
             columns: &self.columns,
-            held: &self.held,
+            kept_at_limit: &self.kept_at_limit,
             residual: &residual.task,
             cost: residual.cost(),
         };
@@ -323,6 +333,8 @@ impl Attempt {
     }
 
     fn observe(&mut self, cost: f64) {
+        // Compared with the cost at the last progress instead of the last step: a slow descent counts as long as it halves the
+        // cost within the patience, and oscillation does not.
         if cost < self.cost_to_beat {
             *self = Self::starting_at(cost);
         } else {

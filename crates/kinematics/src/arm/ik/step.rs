@@ -1,4 +1,4 @@
-//! One step of each method: from the task's columns and residual to changes of the joints.
+//! One step of each method: computes the changes of the joints from the columns and the residual of the task.
 //!
 //! The damped step is that of `least_squares.rs` in its other form, `J^T (J J^T + lambda I)^-1 e`: six equations
 //! however many joints there are, in a matrix of fixed size, since a step allocates nothing. The task has one unit
@@ -16,24 +16,28 @@ const LEAST_DAMPING: f64 = 1e-12;
 /// pseudo-inverse. Kind: rounding; singular values are found by their squares, to `sqrt(eps)`.
 const SMALLEST_SINGULAR_SHARE: f64 = 1e-6;
 /// Directions whose singular value is below this share of the largest are weak: the damped
-/// pseudo-inverse asks less of them than the error. At the reference case's arm, the weakest direction
+/// pseudo-inverse corrects less than the whole error along them. At the reference case's arm, the weakest direction
 /// of a position has 0.36 of the strongest, of a pose 0.20, so nothing is damped there.
 const WEAK_SINGULAR_SHARE: f64 = 0.05;
-/// Longest change of one joint in one step, rad or m: beyond it the linear model says nothing.
+/// Largest change of one joint in one step, rad or m: beyond it the linear model does not hold.
 const LONGEST_STEP: f64 = 1.0;
 
-/// The arm at one configuration, as the rules see it.
+/// The linearised task at one configuration: the input of every method.
 pub(super) struct IkTask<'a> {
     pub(super) columns: &'a [Vector6<f64>],
-    /// Joints that stand at a limit which the residual pushes them against.
-    pub(super) held: &'a [bool],
+    /// Joints that are kept at a limit which the residual pushes them beyond.
+    pub(super) kept_at_limit: &'a [bool],
     pub(super) residual: &'a Vector6<f64>,
     pub(super) cost: f64,
 }
 
 impl IkTask<'_> {
     fn free_columns(&self) -> impl Iterator<Item = &Vector6<f64>> {
-        self.columns.iter().zip(self.held).filter(|(_, held)| !**held).map(|(column, _)| column)
+        self.columns
+            .iter()
+            .zip(self.kept_at_limit)
+            .filter(|(_, kept_at_limit)| !**kept_at_limit)
+            .map(|(column, _)| column)
     }
 
     /// `J J^T` over the joints that are free.
@@ -45,10 +49,11 @@ impl IkTask<'_> {
         gram
     }
 
-    /// `change = J^T task`, free joints alone.
+    /// Writes `change = J^T task` for free joints, and 0 for the others.
     fn spread(&self, task: &Vector6<f64>, change: &mut [f64]) {
-        for ((change, column), &held) in change.iter_mut().zip(self.columns).zip(self.held) {
-            *change = if held { 0.0 } else { column.dot(task) };
+        for ((change, column), &kept_at_limit) in change.iter_mut().zip(self.columns).zip(self.kept_at_limit)
+        {
+            *change = if kept_at_limit { 0.0 } else { column.dot(task) };
         }
     }
 }
@@ -56,14 +61,17 @@ impl IkTask<'_> {
 /// `J^T (J J^T + lambda I)^-1 e`, which is the step of least squares `(J^T J + lambda I)^-1 J^T e`.
 pub(super) fn damped(task: &IkTask<'_>, change: &mut [f64]) {
     let mut gram = task.gram();
+    // The identity J^T (J J^T + l I)^-1 = (J^T J + l I)^-1 J^T lets a 6 x 6 system replace one of the size of the arm.
     let damping = DAMPING_PER_COST * task.cost + LEAST_DAMPING;
     for at in 0..6 {
         gram[(at, at)] += damping;
     }
+    // Only rounding can make the matrix indefinite; the gradient still descends then.
     match Cholesky::new(gram) {
         Some(factors) => task.spread(&factors.solve(task.residual), change),
         None => transposed(task, change),
     }
+    // Shortened as a whole: cutting single joints would change the direction of the step.
     let longest = change.iter().fold(0.0, |longest: f64, change| longest.max(change.abs()));
     if longest > LONGEST_STEP {
         for change in change {
@@ -93,6 +101,8 @@ pub(super) fn damped_pseudo_inverse(task: &IkTask<'_>, change: &mut [f64]) {
 /// `J^T sum_i u_i <u_i, e> / (s_i^2 + damping)` over the directions `u_i` of the task, in which the arm
 /// has the singular values `s_i`; `damping` is given from and as a share of the largest square.
 fn through_directions(task: &IkTask<'_>, damping: impl Fn(f64) -> f64, change: &mut [f64]) {
+    // J J^T = U S^2 U^T is 6 x 6 for any number of joints: its eigenvectors are the left singular vectors of J and its
+    // eigenvalues the squares of the singular values, so no decomposition of J itself is needed.
     let eigen = task.gram().symmetric_eigen();
     let largest = eigen.eigenvalues.max();
     let smallest = largest * SMALLEST_SINGULAR_SHARE * SMALLEST_SINGULAR_SHARE;
@@ -106,6 +116,7 @@ fn through_directions(task: &IkTask<'_>, damping: impl Fn(f64) -> f64, change: &
 
 /// `alpha J^T e`, `alpha = <e, J J^T e> / |J J^T e|^2`.
 pub(super) fn transposed(task: &IkTask<'_>, change: &mut [f64]) {
+    // The gain minimises |e - alpha J J^T e|, the error that a linear arm would have after the step.
     let moved = task.gram() * task.residual;
     let square = moved.norm_squared();
     let gain = if square > 0.0 { task.residual.dot(&moved) / square } else { 0.0 };
@@ -123,7 +134,7 @@ mod tests {
     fn changed(step: fn(&IkTask<'_>, &mut [f64]), weak: f64) -> f64 {
         let columns = [Vector6::x(), Vector6::y() * weak];
         let residual = Vector6::x() + Vector6::y();
-        let task = IkTask { columns: &columns, held: &[false; 2], residual: &residual, cost: 1.0 };
+        let task = IkTask { columns: &columns, kept_at_limit: &[false; 2], residual: &residual, cost: 1.0 };
         let mut change = [f64::NAN; 2];
         step(&task, &mut change);
         assert!((change[0] - 1.0).abs() < ROUNDING, "the strong direction is as it is: {change:?}");
@@ -141,7 +152,7 @@ mod tests {
         for step in 1..=1000 {
             let weak = WEAK_SINGULAR_SHARE * (1.0 - f64::from(step) / 1000.0);
             let change = changed(damped_pseudo_inverse, weak);
-            assert!(change > 0.0 || weak == 0.0, "it goes the right way at {weak}: {change}");
+            assert!(change > 0.0 || weak == 0.0, "it goes in the right direction at {weak}: {change}");
             assert!(change <= most && (change - last).abs() < 0.1, "no jump at {weak}: {last} to {change}");
             last = change;
         }

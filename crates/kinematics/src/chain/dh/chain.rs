@@ -13,7 +13,7 @@ use crate::{
     spatial::{pose::Pose, twist::Twist},
 };
 
-/// A table made ready for forward kinematics: constants computed once, joints found once.
+/// A table prepared for forward kinematics: constants and joint indices are computed once.
 ///
 /// Frames are numbered as in the literature: `dh0` is the table's own base, `dhn` the frame of its
 /// last row. All poses are in link `base` of the robot description.
@@ -98,7 +98,7 @@ impl DhChain {
         }
     }
 
-    /// Which of the two equations the rows stand for.
+    /// The equation of the rows.
     pub fn convention(&self) -> DhConvention {
         self.convention
     }
@@ -130,7 +130,9 @@ impl DhChain {
         KinematicsError::check_joints(self.dof, q)?;
         KinematicsError::check_poses(self.rows.len() + 1, base_from_dh)?;
         base_from_dh[0] = self.base_from_dh0;
-        self.visit(Axes::of(&self.base_from_dh0), &self.rows, q, |at, axes| base_from_dh[at] = axes.pose());
+        self.visit(Axes::from_pose(&self.base_from_dh0), &self.rows, q, |at, axes| {
+            base_from_dh[at] = axes.pose();
+        });
         Ok(())
     }
 
@@ -147,7 +149,7 @@ impl DhChain {
     /// See [`DhChain`].
     pub fn base_from_tip(&self, q: &RobotQ) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
-        let base_from_dhn = self.visit(Axes::of(&self.base_from_dh0), &self.rows, q, |_, _| {});
+        let base_from_dhn = self.visit(Axes::from_pose(&self.base_from_dh0), &self.rows, q, |_, _| {});
         Ok(base_from_dhn.times(&self.dhn_from_tip))
     }
 
@@ -183,7 +185,7 @@ impl DhChain {
             return Err(KinematicsError::FrameIndex { index: last, last: self.rows.len() });
         }
         let first_from_last =
-            self.visit(Axes::of(&Pose::identity()), &self.rows[first..last], q, |_, _| {}).pose();
+            self.visit(Axes::from_pose(&Pose::identity()), &self.rows[first..last], q, |_, _| {}).pose();
         Ok(if frames.transformed_by <= frames.of { first_from_last } else { first_from_last.inverse() })
     }
 
@@ -208,7 +210,7 @@ impl DhChain {
         KinematicsError::check_joints(self.dof, q)?;
         let DhDerivatives { base_from_tip, by_base_from_dh0, by_rows, by_dhn_from_tip } = derivatives;
         by_rows.clear();
-        let mut before = Axes::of(&self.base_from_dh0);
+        let mut before = Axes::from_pose(&self.base_from_dh0);
         let base_from_dhn = self.visit(before, &self.rows, q, |_, behind| {
             by_rows.push(DhRowTwists::between(self.convention, &before, behind));
             before = *behind;
@@ -230,12 +232,13 @@ impl DhChain {
     ) -> Axes {
         let mut axes = from;
         let mut at = 0;
+        // All angles of a block first, then all sines, then the products: the sines are independent of each other and overlap.
         for block in rows.chunks(BLOCK) {
             let mut theta_rad = [0.0; BLOCK];
             for (theta_rad, row) in theta_rad.iter_mut().zip(block) {
                 *theta_rad = row.theta_rad + row.theta_per_q * q[row.coordinate];
             }
-            let theta = SinesCosines::of_block(theta_rad);
+            let theta = SinesCosines::from_block(theta_rad);
             for (row, theta) in block.iter().zip(theta.iter()) {
                 let d_m = row.d_m + row.d_per_q * q[row.coordinate];
                 axes = match self.convention {
@@ -250,14 +253,14 @@ impl DhChain {
     }
 }
 
-/// Which frame of a chain is looked at, and from which one.
+/// A pair of frames of a chain: the frame whose pose is computed, and the frame it is expressed in.
 ///
 /// A struct and not two numbers, since swapping those would compile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DhFrames {
     /// Number of the frame that the result is expressed in.
     pub transformed_by: usize,
-    /// Number of the frame whose pose is asked for.
+    /// Number of the frame whose pose is computed.
     pub of: usize,
 }
 
@@ -270,7 +273,7 @@ impl PreparedRow {
         Self {
             coordinate: robot.coordinate(row.joint).expect("a row of a table drives a moving joint"),
             a_m: row.a_m,
-            alpha: SinCos::of(row.alpha_rad),
+            alpha: SinCos::from_angle(row.alpha_rad),
             theta_rad: row.theta_rad,
             theta_per_q,
             d_m: row.d_m,

@@ -1,9 +1,9 @@
-//! When a transform is one row of a table: the two conditions of the existence theorem, and the
-//! refusal that says which of them fails and by how much.
+//! The two conditions under which a transform is one row of a table, and the error that says which of them fails and by how
+//! much.
 
 use std::fmt;
 
-use congruent_description::{DhConvention, Elementary as _};
+use congruent_description::DhConvention;
 use nalgebra::Vector3;
 
 /// How far from a right angle the two axes may be. Kind: digits of the file; ten of them, as in
@@ -12,7 +12,7 @@ const PERPENDICULAR_RAD: f64 = 1e-9;
 /// How far the two axes may pass each other. Kind: digits of the file, as above within 2 m.
 const MEETING_M: f64 = 1e-9;
 
-/// Why a transform is no row of a table: four parameters cannot hold the six of a rigid motion, so the
+/// The reason why a transform is not a row of a table: four parameters cannot hold the six of a rigid motion, so the
 /// x axis of one frame must be perpendicular to the z axis of the other (DH1) and meet it (DH2).
 ///
 /// Source: Spong, Hutchinson & Vidyasagar, *Robot Modeling and Control* (1st edition, 2006),
@@ -20,16 +20,16 @@ const MEETING_M: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub struct NotADhTransform {
-    /// The convention that was asked for.
+    /// Convention of the row that was looked for.
     pub convention: DhConvention,
-    /// Angle by which the x axis misses the right angle to the z axis.
+    /// Deviation of the angle between x axis and z axis from a right angle, rad.
     pub off_perpendicular_rad: f64,
-    /// Distance at which the lines of the x axis and of the z axis pass each other.
+    /// Distance between the lines of the x axis and of the z axis, m.
     pub off_meeting_m: f64,
 }
 
 impl NotADhTransform {
-    /// Judges the axes of two frames; the z axis goes through the origin of its frame.
+    /// Checks the two conditions for the axes of two frames; the z axis goes through the origin of its frame.
     ///
     /// | value | shape | unit | frame |
     /// |---|---|---|---|
@@ -40,8 +40,10 @@ impl NotADhTransform {
         x: &Vector3<f64>,
         origin: &Vector3<f64>,
     ) -> Result<(), Self> {
+        // DH1: x must be perpendicular to z. DH2: the line of x must meet the line of z, which it passes at the distance of
+        // the two lines, measured along their common perpendicular.
         let across = Vector3::z().cross(x);
-        let off_perpendicular_rad = x.z.abs().arctangent_over(across.norm());
+        let off_perpendicular_rad = libm::atan2(x.z.abs(), across.norm());
         // Parallel lines have no common perpendicular direction: their distance is the one to z.
         let off_meeting_m = across
             .try_normalize(f64::EPSILON)
@@ -70,7 +72,7 @@ impl fmt::Display for NotADhTransform {
             DhConvention::Standard => ("x1", "z0"),
             DhConvention::Modified => ("x0", "z1"),
         };
-        write!(f, "no {convention} DH transform: ")?;
+        write!(f, "not a {convention} DH transform: ")?;
         if self.is_oblique() {
             let degrees = self.off_perpendicular_rad.to_degrees();
             write!(f, "{x} is {degrees:.9} deg off the perpendicular to {z}")?;
@@ -79,7 +81,7 @@ impl fmt::Display for NotADhTransform {
             f.write_str(", and ")?;
         }
         if self.is_apart() {
-            write!(f, "{x} passes {z} at {:.9} m instead of meeting it", self.off_meeting_m)?;
+            write!(f, "{x} passes {z} at a distance of {:.9} m instead of meeting it", self.off_meeting_m)?;
         }
         Ok(())
     }

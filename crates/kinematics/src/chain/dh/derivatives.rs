@@ -1,4 +1,4 @@
-//! What every parameter of a table does to the tip: derivatives of the pose as twists.
+//! Derivatives of the pose of the tip by every parameter of a table, as twists.
 
 use congruent_description::DhConvention;
 
@@ -7,26 +7,26 @@ use crate::{
     spatial::{pose::Pose, twist::Twist},
 };
 
-/// What the parameters of one row do to everything behind it: for each parameter the twist `(dT/dp) T^-1`
-/// of one unit of it, in the frame that the chain is seen from.
+/// Derivatives by the parameters of one row: for each parameter the twist `(dT/dp) T^-1` per unit, in the frame in which the
+/// chain is expressed. It applies to every frame behind the row.
 ///
 /// `theta` turns about the row's z axis and `d` shifts along it, `alpha` turns about its x axis and
 /// `a` shifts along that: z of the frame before and x of the row's own frame for a standard row, x
 /// of the frame before and z of the own for a modified one. None depends on the joint's kind.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DhRowTwists {
-    /// By the link length, per m.
+    /// Derivative by the link length, per m.
     pub a: Twist,
-    /// By the link twist, per rad.
+    /// Derivative by the link twist, per rad.
     pub alpha: Twist,
-    /// By the link offset, per m.
+    /// Derivative by the link offset, per m.
     pub d: Twist,
-    /// By the joint angle, per rad.
+    /// Derivative by the joint angle, per rad.
     pub theta: Twist,
 }
 
 impl DhRowTwists {
-    /// From the frames on both sides of the row.
+    /// The derivatives that follow from the frames before and behind the row.
     #[inline]
     pub fn between(convention: DhConvention, before: &Axes, behind: &Axes) -> Self {
         let (about_x, about_z) = match convention {
@@ -98,12 +98,12 @@ impl DhRowTwists {
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DhDerivatives {
-    /// Pose of the tip.
+    /// Pose of the tip in the base.
     pub base_from_tip: Pose,
-    /// By a twist of `base_from_dh0`: itself.
+    /// Derivatives by a twist of `base_from_dh0`: the unit twists themselves.
     pub by_base_from_dh0: [Twist; 6],
-    /// By the parameters of each row.
+    /// Derivatives by the parameters of each row.
     pub by_rows: Vec<DhRowTwists>,
-    /// By a twist of `dhn_from_tip`.
+    /// Derivatives by a twist of `dhn_from_tip`.
     pub by_dhn_from_tip: [Twist; 6],
 }

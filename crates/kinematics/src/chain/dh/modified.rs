@@ -1,6 +1,6 @@
 //! One row of a table in the modified convention.
 
-use congruent_description::{DhConvention, Elementary as _};
+use congruent_description::DhConvention;
 use nalgebra::{Matrix3, Vector3};
 
 use super::conditions::NotADhTransform;
@@ -19,13 +19,13 @@ use crate::spatial::pose::Pose;
 /// | `theta_rad` | rad | from `x0` to `x1` about `z1` |
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModifiedDh {
-    /// Length of the preceding link.
+    /// Length a of the preceding link, m.
     pub a_m: f64,
-    /// Twist of the preceding link.
+    /// Twist alpha of the preceding link, rad.
     pub alpha_rad: f64,
-    /// Link offset.
+    /// Link offset d, m.
     pub d_m: f64,
-    /// Joint angle.
+    /// Joint angle theta, rad.
     pub theta_rad: f64,
 }
 
@@ -43,8 +43,8 @@ impl ModifiedDh {
     /// assert!((row.transform().translation - Vector3::new(0.25, -0.1, 0.)).norm() < f64::EPSILON);
     /// ```
     pub fn transform(&self) -> Pose {
-        let (st, ct) = self.theta_rad.sine_cosine();
-        let (sa, ca) = self.alpha_rad.sine_cosine();
+        let (st, ct) = libm::sincos(self.theta_rad);
+        let (sa, ca) = libm::sincos(self.alpha_rad);
         let rotation = Matrix3::new(
             ct,
             -st,
@@ -59,7 +59,7 @@ impl ModifiedDh {
         Pose { rotation, translation: Vector3::new(self.a_m, -sa * self.d_m, ca * self.d_m) }
     }
 
-    /// The one row whose transform this is; `alpha` and `theta` in `-pi..=pi`.
+    /// The row with this transform, which is unique; `alpha` and `theta` in `-pi..=pi`.
     ///
     /// Source: as [`NotADhTransform`]: existence and uniqueness, of the inverse.
     ///
@@ -79,9 +79,9 @@ impl ModifiedDh {
         NotADhTransform::check(DhConvention::Modified, &x, &translation)?;
         Ok(Self {
             a_m: dh0_from_dh1.translation.x,
-            alpha_rad: (-rotation[(2, 1)]).arctangent_over(rotation[(2, 2)]),
+            alpha_rad: libm::atan2(-rotation[(2, 1)], rotation[(2, 2)]),
             d_m: -translation.z,
-            theta_rad: (-x.y).arctangent_over(x.x),
+            theta_rad: libm::atan2(-x.y, x.x),
         })
     }
 }
@@ -109,9 +109,9 @@ mod tests {
             let product = Pose::from(product);
             prop_assert!(support::within((printed.rotation - product.rotation).norm(), ROUNDING));
             prop_assert!(support::within(printed.distance_m(&product), ROUNDING));
-            let stepped = Axes::of(&Pose::identity())
-                .about_x(SinCos::of(alpha_rad), a_m)
-                .about_z(SinCos::of(theta_rad), d_m)
+            let stepped = Axes::from_pose(&Pose::identity())
+                .about_x(SinCos::from_angle(alpha_rad), a_m)
+                .about_z(SinCos::from_angle(theta_rad), d_m)
                 .pose();
             prop_assert!(support::within((printed.rotation - stepped.rotation).norm(), ROUNDING));
             prop_assert!(support::within(printed.distance_m(&stepped), ROUNDING));

@@ -38,11 +38,11 @@ use crate::{
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct SerialDh {
-    /// Which equation the rows stand for.
+    /// The equation of the rows.
     pub convention: DhConvention,
     /// Pose of frame 0 in the base.
     pub base_from_dh0: Pose,
-    /// Base to tip; no robot names their joints.
+    /// The rows, base to tip, without joints of a robot.
     pub rows: Vec<DhRow<()>>,
     /// Pose of the tip in the last frame.
     pub dhn_from_tip: Pose,
@@ -105,6 +105,8 @@ impl SerialDh {
     pub fn to_convention(&self, convention: DhConvention) -> Self {
         let mut other = Self { convention, ..self.clone() };
         let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else { return other };
+        // Standard is Rz Tz (Tx Rx), modified is (Tx Rx) Rz Tz, so a and alpha move to the neighbouring row; at one end the half
+        // row goes into a constant, at the other a zero half row is left. No value is computed, so none is rounded.
         match (self.convention, convention) {
             (DhConvention::Standard, DhConvention::Modified) => {
                 other.dhn_from_tip = link(last) * self.dhn_from_tip;
@@ -134,6 +136,7 @@ impl SerialDh {
         let mut base_from_here = self.base_from_dh0;
         let mut twists_in_base = Vec::with_capacity(self.rows.len());
         for row in &self.rows {
+            // The joint's axis is z of the frame before the motion: in the modified convention behind Tx(a) Rx(alpha).
             let before_motion = match self.convention {
                 DhConvention::Standard => base_from_here,
                 DhConvention::Modified => base_from_here * link(row),

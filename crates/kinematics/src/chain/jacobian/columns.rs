@@ -1,5 +1,5 @@
-//! A Jacobian by its columns, as twists. Robots fill them in `urdf.rs` and `serial/chain.rs`; how six numbers
-//! stand in a row is said by `adjoint.rs`.
+//! A Jacobian by its columns, as twists. Robots fill them in `urdf.rs` and `serial/chain.rs`; `adjoint.rs`
+//! defines the order of six numbers.
 
 use nalgebra::{Matrix3xX, Matrix6xX, Vector3, Vector6};
 
@@ -30,12 +30,12 @@ pub struct Jacobian {
 }
 
 impl Jacobian {
-    /// From its columns, one for each coordinate.
+    /// A Jacobian of a kind from its columns, one for each coordinate.
     pub fn from_columns(kind: JacobianKind, columns: Vec<Twist>) -> Self {
         Self { kind, columns }
     }
 
-    /// Which of the three it is.
+    /// The kind of the Jacobian: its axes and its reference point.
     pub fn kind(&self) -> JacobianKind {
         self.kind
     }

@@ -1,6 +1,6 @@
-//! How a Jacobian changes: by one coordinate, and in time. Everything follows from its columns.
+//! Derivatives of a Jacobian by one coordinate and by time. Both follow from its columns alone.
 //!
-//! A joint carries along what lies behind it, so with `k` before `i` on the way to the link:
+//! A joint moves all joints behind it, so with `k` before `i` on the path to the link:
 //!
 //! | kind | `dJ_i/dq_k` | `dJ_k/dq_i` |
 //! |---|---|---|
@@ -27,7 +27,7 @@ impl JacobianKind {
     /// | `coordinate` | 1 | | k, below n |
     /// | `derivative` | n | the same per unit of `q_k` | as the kind says |
     ///
-    /// The columns stand in the order of their joints on the way to the link, zeros for joints that
+    /// The columns are in the order of their joints on the path to the link, zeros for joints that
     /// do not move it anywhere between: what [`UrdfTree::jacobian_into`](crate::UrdfTree::jacobian_into)
     /// and [`SerialChain::pose_and_jacobian_into`](crate::SerialChain::pose_and_jacobian_into) give.
     /// Each is that of its own coordinate; a sum over joints that follow one another is none.
@@ -108,7 +108,8 @@ impl JacobianKind {
     /// The rate of each column, in order.
     #[inline]
     fn rates(self, columns: &[Twist], qd: &[f64]) -> impl Iterator<Item = Twist> {
-        // Shares of `J qd`: of the joints before this one, and of this one and those behind it.
+        // Parts of `J qd`: `before` of the joints before this one, `behind` of this joint and those behind it. Running sums make
+        // the work proportional to n; summing dJ/dq_k qd_k for each column would be n^2.
         let (mut before, mut behind) = (Twist::zero(), twist_of(columns, qd));
         columns.iter().zip(qd).map(move |(column, &speed)| {
             let Twist { angular, linear } = column;

@@ -1,11 +1,11 @@
-//! Which of the three Jacobians is meant.
+//! The three kinds of Jacobians.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::spatial::{pose::Pose, twist::Twist};
 
-/// Which of the three Jacobians of a link is meant. They differ in the axes of a column and in the
+/// The kind of a Jacobian of a link. The three kinds differ in the axes of a column and in the
 /// point whose velocity its linear part is.
 ///
 /// | kind | axes | linear part is the velocity of |
@@ -30,7 +30,8 @@ pub enum JacobianKind {
 impl JacobianKind {
     /// A body twist of the link, as a column of this kind.
     #[inline]
-    pub(crate) fn of_body(self, body: &Twist, root_from_link: &Pose) -> Twist {
+    pub(crate) fn column_from_body_twist(self, body: &Twist, root_from_link: &Pose) -> Twist {
+        // Geometric turns the axes and keeps the reference point; Space also moves the reference point (adjoint).
         let turn = &root_from_link.rotation;
         match self {
             Self::Body => *body,

@@ -35,7 +35,7 @@ pub struct ScrewChain {
 impl ScrewChain {
     /// Recovers a chain of `n` joints from any forward kinematics, by `2 n + 1` evaluations.
     ///
-    /// `base_from_tip` is asked at `q` of length `n`. Around a generic `q0` (different values for
+    /// `base_from_tip` is evaluated at `q` of length `n`. Around a generic `q0` (different values for
     /// each joint, so that swapped joints show) the motion of one joint alone is
     /// `exp(h T_i)`, where `T_i` is its twist at `q0`; moving that back by the joints before it gives
     /// the twist at zero. For joints that follow screws this is exact, not a difference quotient.
@@ -48,7 +48,8 @@ impl ScrewChain {
         n: usize,
         mut base_from_tip: impl FnMut(&ChainQ) -> Result<Pose, E>,
     ) -> Result<Self, E> {
-        // Not simple multiples of one another, none near a quarter turn.
+        // Different for each joint and not simple multiples of each other, so that exchanged joints show; none near a quarter
+        // turn, where errors of sign or axis can cancel.
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
         let q0: ChainQ = (0..n).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
         let at_q0 = base_from_tip(&q0)?;
@@ -63,13 +64,15 @@ impl ScrewChain {
                 let Twist { angular, linear } = Twist::log(&(moved * at_q0.inverse()));
                 Ok(Twist { angular: angular / step, linear: linear / step })
             };
-            // Half a unit of a joint that moves 57.3 times as far as it says would wrap.
+            // The logarithm is unique only below half a turn. A joint in degrees turns 57.3 times as far as its variable says,
+            // and half a unit of it would wrap: a short step measures the rate first.
             let rate = twist_by(SHORT_STEP)?.angular.norm();
             let at_q0 = twist_by(if rate * IDENTIFICATION_STEP < 1.0 {
                 IDENTIFICATION_STEP
             } else {
                 IDENTIFICATION_STEP / rate
             })?;
+            // Ad of the inverse motion of the joints before moves the twist at q0 back to position zero.
             let at_zero = at_q0.transformed_by(&before.inverse());
             before = before * at_zero.exp(q0[joint]);
             twists_in_base.push(at_zero);
@@ -77,7 +80,7 @@ impl ScrewChain {
         Ok(Self { twists_in_base, base_from_tip_at_zero: before.inverse() * at_q0 })
     }
 
-    /// The chain that a table stands for, from link `base` to link `tip`; joints are its rows.
+    /// The chain that a table describes, from link `base` to link `tip`; joints are its rows.
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `dof` is not that of the table's robot.
@@ -108,7 +111,7 @@ impl ScrewChain {
         })
     }
 
-    /// The body screws: the same twists at zero as seen from the tip, `B_i = Ad(M^-1) S_i`.
+    /// The body screws: the same twists at zero, expressed in the tip frame, `B_i = Ad(M^-1) S_i`.
     ///
     /// Source: Lynch & Park, *Modern Robotics* (2017), section 4.1.2.
     ///
@@ -167,7 +170,7 @@ mod tests {
     const ROUNDING: f64 = 1e-14;
 
     #[test]
-    fn probing_a_chain_gives_it_back() {
+    fn a_chain_is_identified_from_its_poses() {
         let twist = |angular: [f64; 3], linear: [f64; 3]| Twist {
             angular: Vector3::from(angular),
             linear: Vector3::from(linear),

@@ -1,4 +1,4 @@
-//! What every number of a product of exponentials does to the tip: derivatives of the pose as twists.
+//! Derivatives of the pose of the tip by every number of a product of exponentials, as twists.
 
 use congruent_description::ChainQ;
 
@@ -24,7 +24,7 @@ use crate::{
 ///
 /// # Examples
 /// An arm of 1 m along x that turns about z. At zero its screw moves nothing, whatever it is; at a
-/// quarter turn, a shift along x in the screw has been turned on the way: `(sin q, 1 - cos q)`.
+/// quarter turn, a shift along x in the screw has been turned before: `(sin q, 1 - cos q)`.
 /// ```
 /// use congruent_description::ChainQ;
 /// use congruent_kinematics::{Pose, Screw, ScrewChain, ScrewDerivatives, Twist};
@@ -43,11 +43,11 @@ use crate::{
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ScrewDerivatives {
-    /// Pose of the tip.
+    /// Pose of the tip in the base.
     pub base_from_tip: Pose,
-    /// By the six components of each screw.
+    /// Derivatives by the six components of each screw.
     pub by_screws: Vec<[Twist; 6]>,
-    /// By a twist of the home pose.
+    /// Derivatives by a twist of the home pose.
     pub by_home: [Twist; 6],
 }
 

@@ -1,7 +1,7 @@
 //! Forward kinematics by products of exponentials (POE): screws and home poses in the root frame.
 //!
-//! It takes axes and origins from the description and shares no step with `urdf_tree.rs`, so that
-//! the two can be held against each other.
+//! It takes axes and origins from the description and shares no step with `chain/urdf.rs`, so that
+//! the two can be compared.
 
 use congruent_description::{JointIndex, JointKind, LinkIndex, Robot, RobotQ};
 use nalgebra::{Isometry3, Point3};
@@ -50,9 +50,9 @@ use crate::{
 /// ```
 #[derive(Debug, Clone)]
 pub struct ScrewTree {
-    /// In the order of the robot's joints, parents first.
+    /// Joints in the order of the robot, parents first.
     joints: Vec<ScrewJoint>,
-    /// For each link the joint that carries it.
+    /// For each link the joint above it; `None` for the root.
     parent_joints: Vec<Option<usize>>,
     /// For each link `root_from_link` at position zero.
     homes: Vec<Pose>,
@@ -68,7 +68,7 @@ struct ScrewJoint {
 }
 
 impl ScrewTree {
-    /// Prepares a robot.
+    /// Computes the screws and home poses of a robot.
     pub fn new(robot: &Robot) -> Self {
         let mut homes = vec![Isometry3::identity(); robot.links().len()];
         let mut parent_joints = vec![None; robot.links().len()];
@@ -130,7 +130,8 @@ impl ScrewTree {
     ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
         KinematicsError::check_poses(self.homes.len(), root_from_links)?;
-        // First the products of exponentials alone, which children build on; then the home poses.
+        // First the products of exponentials alone: a child continues the product of its parent, which a home pose in between
+        // would spoil. Then every product is multiplied by its home pose.
         root_from_links[0] = Pose::identity();
         for joint in &self.joints {
             let above = root_from_links[joint.parent];

@@ -56,6 +56,7 @@ impl SerialChain {
     ) -> Result<(), KinematicsError> {
         let n = self.joint_count();
         KinematicsError::check_joints(n * base_from_tips.len(), configurations)?;
+        // Full groups of lanes in vectors; the rest one by one, with the same sums in the same order.
         let (groups, rest) = base_from_tips.as_chunks_mut::<LANES>();
         let (together, alone) = configurations.split_at(n * LANES * groups.len());
         Arch::new().dispatch(Groups { chain: self, configurations: together, base_from_tips: groups });
@@ -82,7 +83,7 @@ impl WithSimd for Groups<'_> {
         let n = chain.joint_count();
         for (at, base_from_tips) in base_from_tips.iter_mut().enumerate() {
             let configurations = &configurations[n * LANES * at..][..n * LANES];
-            let mut axes = LaneAxes::of(&chain.base_from_first);
+            let mut axes = LaneAxes::repeat(&chain.base_from_first);
             for (joint, row) in chain.rows.iter().enumerate() {
                 axes.step(row, &std::array::from_fn(|lane| configurations[lane * n + joint]));
             }
@@ -103,7 +104,7 @@ struct LaneAxes {
 
 impl LaneAxes {
     #[inline(always)]
-    fn of(axes: &Axes) -> Self {
+    fn repeat(axes: &Axes) -> Self {
         let in_all = |v: &Vector3<f64>| [[v.x; LANES], [v.y; LANES], [v.z; LANES]];
         Self { x: in_all(&axes.x), y: in_all(&axes.y), z: in_all(&axes.z), origin: in_all(&axes.origin) }
     }
@@ -117,7 +118,8 @@ impl LaneAxes {
     /// Times `Rz(theta) T(shift) Rx(alpha)` of the row at the joint's positions.
     #[inline(always)]
     fn step(&mut self, row: &SerialRow, q: &Lanes) {
-        let SinesCosines { sin, cos } = SinesCosines::of(q.map(|q| row.theta_rad + row.theta_per_q * q));
+        let SinesCosines { sin, cos } =
+            SinesCosines::from_angles(q.map(|q| row.theta_rad + row.theta_per_q * q));
         let d_m = q.map(|q| row.shift.z + row.d_per_q * q);
         let SinCos { sin: sin_alpha, cos: cos_alpha } = row.alpha;
         for entry in 0..3 {

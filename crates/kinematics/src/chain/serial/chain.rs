@@ -2,7 +2,7 @@
 //! chain was written as. For use in loops; the forms that are compared are
 //! `dh/chain.rs`, `urdf.rs` and `screws/tree.rs`.
 
-use congruent_description::{ChainQ, DhTable, Elementary as _, LinkIndex, Robot};
+use congruent_description::{ChainQ, DhTable, LinkIndex, Robot};
 use nalgebra::Vector3;
 
 use super::steps::{ChainPath, PathStep};
@@ -57,7 +57,7 @@ pub struct SerialChain {
     pub(crate) rows: Vec<SerialRow>,
     coordinates: Vec<usize>,
     pub(crate) base_from_first: Axes,
-    /// The turn about the last row's axis that remains.
+    /// The remaining turn about the axis of the last row.
     pub(crate) last: SinCos,
 }
 
@@ -67,19 +67,19 @@ pub(crate) struct SerialRow {
     pub(crate) theta_rad: f64,
     pub(crate) theta_per_q: f64,
     pub(crate) d_per_q: f64,
-    /// `x`, `y`, `d`.
+    /// Translation x, y, d between the two turns, m.
     pub(crate) shift: Vector3<f64>,
     pub(crate) alpha: SinCos,
 }
 
 impl SerialChain {
     /// The chain from link `base` to link `tip`, which need not hang below `base`: joints on the
-    /// way up to their common ancestor are passed backwards.
+    /// path up to their common ancestor are passed backwards.
     ///
     /// # Panics
     /// When a link is none of the robot's.
     pub fn from_urdf(robot: &Robot, (base, tip): (LinkIndex, LinkIndex)) -> Self {
-        Self::from_path(&ChainPath::of_urdf(robot, base, tip))
+        Self::from_path(&ChainPath::from_urdf(robot, base, tip))
     }
 
     /// The chain of a table of `robot`, from link `base` to link `tip`; joints are its rows.
@@ -87,13 +87,13 @@ impl SerialChain {
     /// # Panics
     /// When a row names a joint that does not move, which no loaded description holds.
     pub fn from_dh(table: &DhTable, robot: &Robot) -> Self {
-        Self::from_path(&ChainPath::of_table(table, robot))
+        Self::from_path(&ChainPath::from_table(table, robot))
     }
 
     /// The chain of screws, each its own coordinate. A screw that turns and shifts at once keeps its
     /// turn alone: no joint of a description is one.
     pub fn from_screws(chain: &ScrewChain) -> Self {
-        Self::from_path(&ChainPath::of_screws(chain))
+        Self::from_path(&ChainPath::from_screws(chain))
     }
 
     fn from_path(path: &ChainPath) -> Self {
@@ -109,8 +109,8 @@ impl SerialChain {
         Self {
             rows,
             coordinates: path.steps.iter().map(|step| step.coordinate).collect(),
-            base_from_first: Axes::of(after(0)),
-            last: SinCos::of(remaining_rad),
+            base_from_first: Axes::from_pose(after(0)),
+            last: SinCos::from_angle(remaining_rad),
         }
     }
 
@@ -140,7 +140,7 @@ impl SerialChain {
         Ok(self.base_from_tip_at(q))
     }
 
-    /// The same for positions that were counted before.
+    /// The same for positions whose number was checked before.
     pub(super) fn base_from_tip_at(&self, q: &[f64]) -> Pose {
         self.visit(q, |_, _| {}).pose()
     }
@@ -167,7 +167,8 @@ impl SerialChain {
     ) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.rows.len(), q)?;
         KinematicsError::check_columns(self.rows.len(), columns)?;
-        // On the way: the joint's direction and a point of its axis, in the base frame.
+        // In the first pass `columns` holds the direction and a point of each axis, in the base frame; the velocity needs the
+        // position of the tip, which is known only at its end.
         let tip = self.visit(q, |at, axes| columns[at] = Twist { angular: axes.z, linear: axes.origin });
         let point_of_twist = if kind == JacobianKind::Space { Vector3::zeros() } else { tip.origin };
         for (column, row) in columns.iter_mut().zip(&self.rows) {
@@ -196,7 +197,7 @@ impl SerialChain {
             for ((theta_rad, row), q) in theta_rad.iter_mut().zip(block).zip(q) {
                 *theta_rad = row.theta_rad + row.theta_per_q * q;
             }
-            let theta = SinesCosines::of_block(theta_rad);
+            let theta = SinesCosines::from_block(theta_rad);
             for ((row, theta), q) in block.iter().zip(theta.iter()).zip(q) {
                 each(at, &axes);
                 let shift = row.shift + Vector3::new(0.0, 0.0, row.d_per_q * q);
@@ -216,23 +217,25 @@ impl SerialRow {
     fn new(step: &PathStep, from_rad: f64, axis_from_next: &Pose) -> (Self, f64) {
         let Pose { rotation, translation } = axis_from_next;
         let (x, y) = (rotation[(0, 2)], rotation[(1, 2)]);
-        let sine = x.hypotenuse_with(y);
+        let sine = libm::hypot(x, y);
         // Of parallel axes the split is free. Where `x` and `y` are little more than rounding any
         // direction serves as well: what `first` misses, the other two angles take up.
         let (sin, cos) = if sine < PARALLEL_RAD { (0.0, 1.0) } else { (x / sine, -y / sine) };
         let back = |v: Vector3<f64>| Vector3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z);
         let column = |at: usize| back(rotation.column(at).into_owned());
         let (next_x, next_y, next_z) = (column(0), column(1), column(2));
-        let length = next_z.y.hypotenuse_with(next_z.z);
+        // After `back`, next_z has no x component except rounding; dividing by the length keeps sine and cosine of alpha
+        // normalised, so that rounding does not grow along the chain.
+        let length = libm::hypot(next_z.y, next_z.z);
         let (theta_per_q, d_per_q) = if step.turns { (step.per_q, 0.0) } else { (0.0, step.per_q) };
         let row = Self {
-            theta_rad: from_rad + sin.arctangent_over(cos),
+            theta_rad: from_rad + libm::atan2(sin, cos),
             theta_per_q,
             d_per_q,
             shift: back(*translation),
             alpha: SinCos { sin: -next_z.y / length, cos: next_z.z / length },
         };
-        (row, (-next_y.x).arctangent_over(next_x.x))
+        (row, libm::atan2(-next_y.x, next_x.x))
     }
 }
 

@@ -50,12 +50,15 @@ impl ChainPath {
     fn joint(&mut self, coordinate: usize, AxisMotion { axis, turns, per_q }: AxisMotion) {
         let here_from_axis = Pose::from_parts(frame_about(&axis), Vector3::zeros());
         let before_from_axis = self.last_from_here * here_from_axis;
+        // The axis frame is turned back after the joint, so that the rest of the path is written in the frames of its source.
         self.steps.push(PathStep { before_from_axis, turns, per_q, coordinate });
         self.last_from_here = here_from_axis.inverse();
     }
 
     /// Up from `base` to the nearest common ancestor, then down to `tip`.
-    pub(crate) fn of_urdf(robot: &Robot, base: LinkIndex, tip: LinkIndex) -> Self {
+    pub(crate) fn from_urdf(robot: &Robot, base: LinkIndex, tip: LinkIndex) -> Self {
+        // Both lists end at the root; what they share at that end is above the common ancestor and does not move one link
+        // relative to the other.
         let (mut up, mut down) = (to_root(robot, base), to_root(robot, tip));
         while up.last().is_some() && up.last() == down.last() {
             up.pop();
@@ -64,6 +67,7 @@ impl ChainPath {
         let mut path = Self::new();
         for joint in up {
             let parent_from_joint = Pose::from(robot.joint(joint).parent_from_joint);
+            // Upwards the inverse of parent_from_joint * motion(q): the motion comes first and with the opposite sign.
             path.urdf_joint(robot, joint, -1.0);
             path.constant(parent_from_joint.inverse());
         }
@@ -83,7 +87,7 @@ impl ChainPath {
     }
 
     /// From link `base` to link `tip` along the rows of a table.
-    pub(crate) fn of_table(table: &DhTable, robot: &Robot) -> Self {
+    pub(crate) fn from_table(table: &DhTable, robot: &Robot) -> Self {
         let mut path = Self::new();
         path.constant(table.base_from_dh0.into());
         for row in &table.rows {
@@ -109,18 +113,20 @@ impl ChainPath {
 
     /// From base to tip along screws, whose joints are their own coordinates. Screws of a pitch that
     /// is neither zero nor infinite keep their turn alone.
-    pub(crate) fn of_screws(chain: &ScrewChain) -> Self {
+    pub(crate) fn from_screws(chain: &ScrewChain) -> Self {
         let mut path = Self::new();
         let mut here_in_base = Vector3::zeros();
         for (coordinate, twist) in chain.twists_in_base.iter().enumerate() {
             let rate = twist.angular.norm();
             let motion = if rate > 0.0 {
+                // The point of the axis nearest to the origin, w x v / w^2 (Lynch & Park, sec. 3.3.2).
                 let point_in_base = twist.angular.cross(&twist.linear) / (rate * rate);
                 path.constant(Pose::from_parts(Matrix3::identity(), point_in_base - here_in_base));
                 here_in_base = point_in_base;
                 AxisMotion { axis: twist.angular / rate, turns: true, per_q: rate }
             } else {
                 let rate = twist.linear.norm();
+                // A joint without motion gets any axis; its rate of 0 keeps it still.
                 let axis = if rate > 0.0 { twist.linear / rate } else { Vector3::z() };
                 AxisMotion { axis, turns: false, per_q: rate }
             };

@@ -1,7 +1,8 @@
 //! Whether a recording has the samples that its run has recorded: one in a fixed number of steps, and the last.
 
-use congruent_description::display::quantity;
-use congruent_twin::{RunSetup, comparison::Scalars};
+use congruent_input::display::quantity;
+use congruent_results::comparison::Scalars;
+use congruent_twin::RunSetup;
 use serde_json::Value;
 
 use super::{is_early, states::steps};
@@ -62,12 +63,16 @@ impl Expected {
             if last == Some(step) {
                 return Some(format!("there are two values at {}", at(found_s)));
             }
+            // A due step that the values have passed: the file lacks it. Values between due steps are allowed,
+            // since violations are recorded at once.
             if let Some(missing) = due.next_if(|&due| due < step) {
                 return Some(format!("there is no value at {}", at(time_s(missing))));
             }
             due.next_if_eq(&step);
             last = Some(step);
         }
+        // After the last value nothing may be due, and the last step is recorded even if the stride does not meet
+        // it.
         let end = due.next().or((self.is_whole && last < Some(self.last)).then_some(self.last));
         end.map(|missing| format!("there is no value at {}", at(time_s(missing))))
     }
@@ -83,7 +88,7 @@ mod tests {
         let problem =
             |times: &[f64]| expected.problem(&times.iter().map(|&time_s| (time_s, 1.0)).collect::<Vec<_>>());
         assert_eq!(problem(&[0.0, 0.008, 0.016, 0.02]), None);
-        // Violations are recorded besides.
+        // Violations are recorded between due steps as well.
         assert_eq!(problem(&[0.0, 0.004, 0.008, 0.016, 0.02]), None);
         let says = |times: &[f64], words: &str| {
             let found = problem(times).unwrap_or_default();

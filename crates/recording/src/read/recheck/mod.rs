@@ -1,9 +1,10 @@
 //! The checks of a scenario once more, on a recording alone: does it show what its report says?
 //!
-//! A recording keeps one sample in 10 ms. Three origins tell about a check, and each has its limits: the worst values
-//! that the check itself measured between two recorded samples (every step, but measured by the run); the joint states
-//! at the recorded samples, which the checks of the scenario see again (nothing of the run is believed, but steps
-//! between are missing); and the report in the recording, which decides alone only where the others are silent.
+//! A recording keeps one sample in 10 ms. There are three origins of evidence on a check, and each has its limits:
+//! the worst values that the check itself measured between two recorded samples (every step, but measured by the
+//! run); the joint states at the recorded samples, which the checks of the scenario see again (nothing of the run is
+//! believed, but steps between are missing); and the report in the recording, which decides alone only where the
+//! others are silent.
 
 mod instants;
 mod replay;
@@ -11,23 +12,23 @@ mod states;
 
 use std::collections::BTreeSet;
 
-use congruent_twin::{
-    RunError, RunSetup,
-    comparison::Scalars,
-    scenario::CheckKind,
-    verdict::{CheckResult, Status, Verdict, judge},
-};
+use congruent_input::SiUnit;
+use congruent_monitors::verdict::{CheckResult, Status, Verdict, judge};
+use congruent_results::comparison::Scalars;
+use congruent_scenario::CheckKind;
+use congruent_twin::{RunError, RunSetup};
+use serde::Deserialize;
 use serde_json::Value;
 
 use self::replay::Replay;
 use super::{
-    evidence::{At, Evidence, Quantity, merged},
+    evidence::{Evidence, LimitedQuantity, TimedValue, merged},
     rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity},
     summary::RecordingSummary,
 };
 use crate::{rrd::paths, series::checks::path_parts};
 
-/// Why a recording cannot be held against a scenario.
+/// Why a recording cannot be compared with a scenario.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecheckError {
@@ -39,7 +40,7 @@ pub enum RecheckError {
     OtherScenario {
         /// The kinds of checks in the recording.
         recorded: String,
-        /// Those of the scenario.
+        /// The kinds of checks in the scenario.
         given: String,
     },
     /// The scenario has another robot than the run.
@@ -49,7 +50,7 @@ pub enum RecheckError {
     OtherRobot {
         /// The robot of the run.
         recorded: String,
-        /// That of the scenario.
+        /// The robot of the scenario.
         given: String,
     },
     /// The checks cannot start.
@@ -75,6 +76,7 @@ pub fn recheck(
 ) -> Result<Recheck, RecheckError> {
     let report = summary.report.as_ref().ok_or(RecheckError::NoReport)?;
     let recorded: Vec<&Value> = report["checks"].as_array().into_iter().flatten().collect();
+    // Checks are matched by their position below: another list would compare the values of different checks.
     is_of_scenario(&recorded, &setup)?;
     is_of_robot((report, scalars), &setup)?;
     let is_broken = report["error"].is_string();
@@ -83,11 +85,12 @@ pub fn recheck(
         setup.clock.steps = if is_early(report) { setup.clock.steps.max(steps + 1) } else { steps };
     }
     let left_out = left_out(report);
-    let replay = Replay::of(scalars, &setup, &left_out)?;
+    let replay = Replay::evaluate(scalars, &setup, &left_out)?;
     let checks = setup.checks();
     let lines = checks.iter().map(|check| check.line).collect();
     let are_default = checks.iter().map(|check| check.is_default).collect();
     let mut context = Context { scalars, setup: &setup, lines, are_default, replay, is_broken, gap_s: 0.0 };
+    // After the context is made, since the gap follows from the steps that its replay has found.
     context.gap_s = context.longest_gap_s();
     let mut disagreements = Vec::new();
     let checks: Vec<RecheckedCheck> = recorded
@@ -99,7 +102,7 @@ pub fn recheck(
     let same_limits = expected == report["expected"] && checks.iter().all(RecheckedCheck::has_same_limits);
     let verdict = if is_broken { Verdict::Broken } else { context.verdict(&checks) };
     let recorded_verdict = summary.verdict.clone().unwrap_or_default();
-    let same_verdict = congruent_description::serde_name(&verdict) == recorded_verdict;
+    let same_verdict = congruent_input::serde_name(&verdict) == recorded_verdict;
     Ok(Recheck {
         scenario: setup.path.as_ref().map(|path| path.display().to_string()),
         same_limits,
@@ -162,12 +165,12 @@ fn left_out(report: &Value) -> Vec<CheckKind> {
     }
 }
 
-/// Whether a difference is above a limit; one that is no number is.
+/// Whether a difference is above a limit; NaN is.
 fn exceeds(difference: f64, limit: f64) -> bool {
     difference > limit || difference.is_nan()
 }
 
-/// What all checks are evaluated with.
+/// Data that the evaluation of every check needs.
 struct Context<'a> {
     scalars: &'a Scalars,
     setup: &'a RunSetup,
@@ -187,11 +190,12 @@ impl Context<'_> {
         self.setup.clock.time_s(gaps.max().unwrap_or(0))
     }
 
-    /// How much worse than in the run a value at recorded instants may be. A time is late by the samples between.
-    fn slack(&self, kind: CheckKind, unit: &str) -> f64 {
+    /// How much worse than in the run a value at recorded instants may be: rounding, and for a time the gap between
+    /// samples.
+    fn slack(&self, kind: CheckKind, unit: SiUnit) -> f64 {
         match unit {
             _ if kind == CheckKind::Agreement => 0.0, // recorded, not computed again
-            "s" => self.gap_s,
+            SiUnit::Second => self.gap_s,
             _ => COMPUTED_AGAIN,
         }
     }
@@ -200,18 +204,21 @@ impl Context<'_> {
         let kind = self.setup.scenario.check[at].kind();
         let line = self.lines[at];
         let measures = recorded["measures"].as_array().into_iter().flatten();
-        let reported = merged(measures.filter_map(Evidence::of_report));
+        // Measures with unknown words are among the problems of the summary.
+        let reported = merged(measures.filter_map(|measure| Evidence::from_report(measure).ok()?));
         let mut quantities = Vec::new();
         let mut found_here = Vec::new();
+        // Each quantity of the report has a limit and a worst value, which series and samples are compared with.
         for reported in &reported {
             let quantity = self.quantity(at, kind, reported, &mut found_here);
             quantities.push(quantity);
         }
-        let unreported = self.replay.found[at].iter().filter(|evidence| {
-            !reported.iter().any(|known| known.of.is(&evidence.of.name, &evidence.of.unit))
-        });
+        // A violation at a sample that the report lacks: a report from which a quantity was removed must not pass.
+        let unreported = self.replay.found[at]
+            .iter()
+            .filter(|evidence| !reported.iter().any(|known| known.of.is(evidence.of.name, evidence.of.unit)));
         for evidence in unreported.filter(|evidence| {
-            exceeds(evidence.beyond(evidence.of.limit), self.slack(kind, &evidence.of.unit))
+            exceeds(evidence.beyond(evidence.of.limit), self.slack(kind, evidence.of.unit))
         }) {
             let at = evidence.first_violation.unwrap_or(evidence.worst);
             let problem =
@@ -220,16 +227,19 @@ impl Context<'_> {
         }
         let basis = Basis::worst(quantities.iter().map(|quantity| quantity.basis));
         let recorded_status = recorded["status"].as_str().unwrap_or_default().to_owned();
+        let recorded_outcome = Status::deserialize(&recorded["status"]).ok();
         let is_violated = quantities.iter().any(|quantity| quantity.violation_s.is_some());
         let is_same = quantities.iter().all(RecheckedQuantity::has_same_limit);
-        let status = match &recorded_status[..] {
-            "skipped" if quantities.is_empty() => Status::Skipped,
+        // Without a quantity in the report, a contradiction found above is the only violation there can be.
+        let status = match recorded_outcome {
+            Some(Status::Skipped) if quantities.is_empty() => Status::Skipped,
             _ if is_violated || !found_here.is_empty() && quantities.is_empty() => Status::Fail,
-            "error" => Status::Error,
+            Some(Status::Error) => Status::Error,
             _ => Status::Pass,
         };
-        if is_same && found_here.is_empty() && status.word() != recorded_status {
-            found_here.push(Disagreement::of_status(kind, line, status, &recorded_status));
+        // With limits other than those of the run, another status is the answer and no contradiction.
+        if is_same && found_here.is_empty() && Some(status) != recorded_outcome {
+            found_here.push(Disagreement::contradicted_status(kind, line, status, &recorded_status));
         }
         disagreements.append(&mut found_here);
         RecheckedCheck { check: kind, line, status, recorded_status, basis, quantities }
@@ -243,35 +253,41 @@ impl Context<'_> {
         reported: &Evidence,
         disagreements: &mut Vec<Disagreement>,
     ) -> RecheckedQuantity {
-        let Quantity { name, unit, .. } = &reported.of;
+        let LimitedQuantity { name, unit, .. } = reported.of;
         let limit = self.replay.limit(at, name, unit).unwrap_or(reported.of.limit);
-        let of = Quantity { limit, ..reported.of.clone() };
+        let of = LimitedQuantity { limit, ..reported.of };
         let [kind_part, quantity_part] = path_parts(at, kind, (name, unit));
         let series = self.scalars.get(&paths::check(&kind_part, &quantity_part).to_string());
-        let every_step = series.and_then(|values| Evidence::of_values(&of, values));
+        // A row of the series is the worst value since the row before, so that no step is missing; but the run
+        // measured it.
+        let every_step = series.and_then(|values| Evidence::from_values(of, values));
         let sampled = self.replay.found[at].iter().find(|evidence| evidence.of.is(name, unit));
         let line = self.lines[at];
         if let Some((at, evidence, problem)) = self.problem(kind, reported, (every_step.as_ref(), sampled)) {
             disagreements.push(Disagreement::new(kind, line, evidence, at, problem));
         }
         let slack = self.slack(kind, unit);
-        // Shapes that touch are at the limit exactly: the run has seen it, too.
+        // Shapes that touch are at the limit exactly: the run has found it, too.
         let is_known = reported.violation_of(limit).is_some();
+        // A new violation must exceed the slack: rounding of recomputed poses would fail a run that passed at its
+        // limit.
         let sampled_violation = sampled.filter(|sampled| is_known || exceeds(sampled.beyond(limit), slack));
-        let seen = every_step.as_ref().and_then(|found| found.first_violation);
-        let seen = seen.or_else(|| sampled_violation?.violation_of(limit));
-        let violation = seen.or_else(|| reported.violation_of(limit));
+        // The origins in order of their steps: every step, then the samples, then the report.
+        let violation = every_step.as_ref().and_then(|found| found.first_violation);
+        let violation = violation.or_else(|| sampled_violation?.violation_of(limit));
+        let violation = violation.or_else(|| reported.violation_of(limit));
+        // Samples can show a violation. They cannot refute one that the report has between two of them.
         let basis = match (&every_step, sampled) {
             (Some(_), _) => Basis::EveryStep,
-            (None, Some(_)) if seen.is_some() || violation.is_none() => Basis::RecordedSamples,
+            (None, Some(_)) if violation.is_some() || violation.is_none() => Basis::RecordedSamples,
             _ => Basis::Report,
         };
         let worst = every_step.as_ref().or(sampled).unwrap_or(reported);
         let subject =
             sampled.and_then(|sampled| sampled.subject.clone()).or_else(|| reported.subject.clone());
         RecheckedQuantity {
-            quantity: name.clone(),
-            unit: unit.clone(),
+            quantity: name,
+            unit,
             bound: of.bound,
             limit,
             recorded_limit: reported.of.limit,
@@ -290,7 +306,7 @@ impl Context<'_> {
         kind: CheckKind,
         reported: &'e Evidence,
         (every_step, sampled): (Option<&'e Evidence>, Option<&'e Evidence>),
-    ) -> Option<(At, &'e Evidence, String)> {
+    ) -> Option<(TimedValue, &'e Evidence, String)> {
         // Infinity is `null` in the report.
         let is_same = |a: f64, b: f64| a.to_bits() == b.to_bits() || !a.is_finite() && b.is_nan();
         // A run that broke has not written the values of its last steps.
@@ -300,8 +316,10 @@ impl Context<'_> {
             let problem = "is the worst value of the check's series, and the report has another".to_owned();
             return Some((found.worst, found, problem));
         }
+        // Samples are some of the steps: they may be better than the worst value of the run, and worse by rounding
+        // only.
         let sampled = sampled?;
-        let slack = self.slack(kind, &reported.of.unit);
+        let slack = self.slack(kind, reported.of.unit);
         let difference = sampled.beyond(reported.worst.value);
         if exceeds(difference, slack)
             && !is_same(sampled.worst.value, reported.worst.value)
@@ -313,13 +331,15 @@ impl Context<'_> {
         }
         let first = reported.first_violation?;
         // In contact the physics keeps bodies apart: no joint position shows it.
-        let is_shown =
-            kind != CheckKind::Contact && self.is_recorded(first.time_s) && reported.of.unit != "s";
+        let is_shown = kind != CheckKind::Contact
+            && self.is_recorded(first.time_s)
+            && reported.of.unit != SiUnit::Second;
+        // So near to its limit, a violation can vanish when it is computed again.
         let is_near = (first.value - reported.of.limit).abs() <= slack;
         if is_shown && !is_near && sampled.violation_of(reported.of.limit).is_none() {
             let problem = format!(
                 "is the worst value that follows from the recorded series, and the report has a violation at {}",
-                congruent_description::display::quantity(first.time_s, "s")
+                congruent_input::display::quantity(first.time_s, "s")
             );
             return Some((sampled.worst, sampled, problem));
         }
@@ -329,6 +349,7 @@ impl Context<'_> {
     /// Whether there is a sample at this time.
     fn is_recorded(&self, time_s: f64) -> bool {
         let step_s = self.setup.clock.step_s;
+        // Half a step: recorded times are rounded to nanoseconds, and the next sample is at least a step away.
         self.replay.steps.iter().any(|&step| (self.setup.clock.time_s(step) - time_s).abs() < step_s / 2.0)
     }
 

@@ -1,16 +1,14 @@
 //! The checks of a scenario on the joint states that a recording holds, and on its errors of the links.
 
-use congruent_twin::{
-    Run, RunError, RunSetup,
-    comparison::Scalars,
-    recorder::Recorders,
-    scenario::{CheckKind, OnViolation},
-    verdict::Bound,
-};
+use congruent_input::{Quantity, SiUnit};
+use congruent_monitors::{Recorders, verdict::Bound};
+use congruent_results::comparison::Scalars;
+use congruent_scenario::{CheckKind, OnViolation};
+use congruent_twin::{Run, RunError, RunSetup};
 
 use super::states::RecordedStates;
 use crate::{
-    read::evidence::{Evidence, Quantity, merged},
+    read::evidence::{Evidence, LimitedQuantity, merged},
     rrd::paths,
 };
 
@@ -22,18 +20,20 @@ pub(super) struct Replay {
     /// What each check of the scenario finds; nothing if it cannot be evaluated at recorded instants.
     pub(super) found: Vec<Vec<Evidence>>,
     /// The limits of the scenario.
-    limits: Limits,
+    limits: ScenarioLimits,
 }
 
 /// The quantities of each check.
 #[derive(Debug, Default)]
-struct Limits(Vec<Vec<Quantity>>);
+struct ScenarioLimits(Vec<Vec<LimitedQuantity>>);
 
-impl Limits {
-    /// Those of the scenario, whatever its checks have seen.
-    fn of(setup: &RunSetup) -> Self {
+impl ScenarioLimits {
+    /// The limits that the checks of the scenario state, before any sample.
+    fn from_setup(setup: &RunSetup) -> Self {
         let (checks, robot) = (setup.checks(), &setup.description.robot);
-        let quantities = checks.iter().map(|check| check.limits(robot).iter().map(Quantity::of).collect());
+        let quantities = checks
+            .iter()
+            .map(|check| check.limits(robot).iter().map(LimitedQuantity::from_measure).collect());
         Self(quantities.collect())
     }
 }
@@ -62,13 +62,19 @@ impl Replay {
     ///
     /// # Errors
     /// [`RunError`] if the robot has no model or a shape no hull.
-    pub(super) fn of(scalars: &Scalars, setup: &RunSetup, left_out: &[CheckKind]) -> Result<Self, RunError> {
+    pub(super) fn evaluate(
+        scalars: &Scalars,
+        setup: &RunSetup,
+        left_out: &[CheckKind],
+    ) -> Result<Self, RunError> {
         let found = vec![Vec::new(); setup.scenario.check.len()];
-        let mut replay = Self { found, limits: Limits::of(setup), ..Self::default() };
+        let mut replay = Self { found, limits: ScenarioLimits::from_setup(setup), ..Self::default() };
         if let Some(states) = RecordedStates::new(scalars, &setup.description, setup.clock.step_s) {
             replay.steps = states.steps();
             replay.run(states, setup, left_out)?;
         }
+        // Errors of links are recorded as scalars with all digits; poses of links have those of the viewer and
+        // would not do.
         for (at, check) in setup.scenario.check.iter().enumerate() {
             if check.kind() == CheckKind::Agreement {
                 replay.found[at] = replay.errors(at, scalars, setup);
@@ -90,16 +96,19 @@ impl Replay {
         }
         let mut run = Run::with_source(setup, Box::new(states))?;
         for instant in 0..self.steps.len() {
+            // A new run is at the first instant already.
             if instant > 0 {
                 run.step()?;
             }
             run.compare()?;
             run.observe(&mut checks, &mut Recorders::default())?;
         }
+        // A run lets all its checks observe; results that need every step, or the end of the run, are not taken
+        // over.
         for (found, check) in self.found.iter_mut().zip(&checks) {
             if needs_states_alone(check.kind) && !left_out.contains(&check.kind) {
                 let result = check.result(run.names());
-                *found = merged(result.measures.iter().filter_map(Evidence::of_measure));
+                *found = merged(result.measures.iter().filter_map(Evidence::from_measure));
             }
         }
         Ok(())
@@ -107,24 +116,28 @@ impl Replay {
 
     /// The recorded errors of all links.
     fn errors(&self, check: usize, scalars: &Scalars, setup: &RunSetup) -> Vec<Evidence> {
-        let of_quantity = |name: &str, unit: &str, path: fn(&str) -> re_log_types::EntityPath| {
+        let of_quantity = |name: Quantity, unit: SiUnit, path: fn(&str) -> re_log_types::EntityPath| {
             let limit = self.limit(check, name, unit)?;
-            let of = Quantity { name: name.to_owned(), unit: unit.to_owned(), bound: Bound::AtMost, limit };
+            let of = LimitedQuantity { name, unit, bound: Bound::AtMost, limit };
             let of_link = |link: &str| {
-                let found = Evidence::of_values(&of, scalars.get(&path(link).to_string())?)?;
+                let found = Evidence::from_values(of, scalars.get(&path(link).to_string())?)?;
                 Some(Evidence { subject: Some(link.to_owned()), ..found })
             };
             let links = setup.description.robot.links().iter();
             merged(links.filter_map(|link| of_link(&link.name))).pop()
         };
-        let position = of_quantity("position", "m", paths::position_error);
-        position.into_iter().chain(of_quantity("orientation", "rad", paths::orientation_error)).collect()
+        let position = of_quantity(Quantity::Position, SiUnit::Metre, paths::position_error);
+        position
+            .into_iter()
+            .chain(of_quantity(Quantity::Orientation, SiUnit::Radian, paths::orientation_error))
+            .collect()
     }
 
     /// The limit of a quantity by the scenario, if its check has one.
-    pub(super) fn limit(&self, check: usize, name: &str, unit: &str) -> Option<f64> {
-        let told = self.limits.0[check].iter().find(|quantity| quantity.is(name, unit));
+    pub(super) fn limit(&self, check: usize, name: Quantity, unit: SiUnit) -> Option<f64> {
+        // A limit of the scenario comes before one that the check derived from what it observed.
+        let scenario_limit = self.limits.0[check].iter().find(|quantity| quantity.is(name, unit));
         let found = || self.found[check].iter().map(|found| &found.of).find(|of| of.is(name, unit));
-        told.or_else(found).map(|of| of.limit)
+        scenario_limit.or_else(found).map(|of| of.limit)
     }
 }

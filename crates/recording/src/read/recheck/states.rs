@@ -2,10 +2,9 @@
 
 use congruent_description::{LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{Pose, UrdfTree};
-use congruent_twin::{
-    comparison::Scalars,
-    source::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError},
-};
+use congruent_monitors::{JointSample, JointStateView, SetpointView};
+use congruent_results::comparison::Scalars;
+use congruent_twin::source::{JointStateSource, SourceError};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use crate::{rrd::paths, series::joints::COORDINATES};
@@ -33,7 +32,7 @@ pub(super) struct RecordedStates {
     poses: Vec<Pose>,
     tip: LinkIndex,
     tip_from_tcp: Isometry3<f64>,
-    /// The tip and the links below it: a tool that stands elsewhere takes them along.
+    /// The tip and the links below it, which move with the tool if it is placed differently.
     with_tip: Vec<LinkIndex>,
     /// Accelerations of setpoints are not recorded, and no check that is evaluated again needs them.
     no_accelerations: Vec<f64>,
@@ -50,6 +49,7 @@ impl RecordedStates {
         let positions = values("position")?;
         let times: Vec<f64> = positions.first()?.iter().map(|&(time_s, _)| time_s).collect();
         let rows = |series: Vec<&Vec<(f64, f64)>>| -> Option<Vec<Vec<f64>>> {
+            // A series that lacks a row would shift its later values to other times, so it counts as not recorded.
             let is_whole = |series: &&Vec<(f64, f64)>| {
                 series.len() == times.len()
                     && series
@@ -160,6 +160,8 @@ impl JointStateSource for RecordedStates {
             *isometry = pose.to_isometry();
         }
         if let Some(root_from_tcp) = self.instants[self.at].root_from_tcp {
+            // How far the recorded TCP is from the pose by the URDF: identity, unless the tool of the twin is
+            // placed differently.
             let recorded = root_from_tcp * self.tip_from_tcp.inverse();
             let moved = recorded * root_from_links[self.tip.get()].inverse();
             for link in &self.with_tip {
@@ -170,6 +172,7 @@ impl JointStateSource for RecordedStates {
     }
 
     fn advance(&mut self, _: f64) -> Result<(), SourceError> {
+        // Beyond the last instant the last one is repeated, instead of an index out of range.
         self.at = (self.at + 1).min(self.instants.len() - 1);
         self.place();
         Ok(())

@@ -1,22 +1,21 @@
-//! Controller, resistances, sensors and payloads of a scenario, each checked, so that one call names all faults.
+//! Controller, resistances, sensors and payloads of a scenario; all are checked, so that one call reports every error.
 
-use congruent_description::{Diagnostic, RobotDescription};
+use congruent_description::RobotDescription;
 use congruent_dynamics::JointResistance;
+use congruent_input::Findings;
+use congruent_monitors::RunPayload;
+use congruent_scenario::{FilePlace, Scenario, ScenarioFolder};
 
 use super::{
     controller::ControllerSetup, payloads::payloads, resistances::resistances, sensors::SensorSetup,
 };
-use crate::{
-    scenario::{FilePlace, Scenario, ScenarioFolder},
-    setup::payload::Payload,
-};
 
-/// What moves the joints of a run, what resists them, and how their state is known.
+/// Controller, resistances, sensors and payloads of the joints of a run.
 pub(in crate::setup) struct Actuation {
     pub(in crate::setup) controller: ControllerSetup,
     pub(in crate::setup) resistances: Vec<JointResistance>,
     pub(in crate::setup) sensors: SensorSetup,
-    pub(in crate::setup) payloads: Vec<Payload>,
+    pub(in crate::setup) payloads: Vec<RunPayload>,
 }
 
 impl Actuation {
@@ -26,7 +25,7 @@ impl Actuation {
         scenario: &Scenario,
         (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
         description: &RobotDescription,
-    ) -> Result<Self, Vec<Diagnostic>> {
+    ) -> Result<Self, Findings> {
         let (robot, step_s) = (&description.robot, scenario.simulation.step_s);
         let written = (place.key("controller"), folder);
         let controller = ControllerSetup::new(&scenario.controller, written, robot, step_s);

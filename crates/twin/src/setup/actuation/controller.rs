@@ -1,24 +1,28 @@
 //! `[controller]` checked against its robot: one number for each joint, periods in steps.
 
-use congruent_description::{Diagnostic, Robot, known_names};
+use congruent_description::Robot;
+use congruent_input::{Diagnostic, Findings};
+use congruent_scenario::{
+    ControllerKind, ControllerSettings, FilePlace, JointNumbers, Range, ScenarioFolder,
+};
 use congruent_simulation::Gains;
 
 use super::{
     joint_numbers::{NumberRule, Unnamed, resolve},
     torque_table::TorqueTable,
 };
-use crate::scenario::{ControllerKind, ControllerSettings, FilePlace, JointNumbers, Range, ScenarioFolder};
 
 /// The controller of a run; vectors hold one entry for each movable joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControllerSetup {
-    pub(crate) kind: ControllerKind,
+    /// The law by which efforts follow from states and setpoints.
+    pub kind: ControllerKind,
     pub(crate) gains: Vec<Gains>,
     /// Torque per integral of the position error.
     pub(crate) integral: Vec<f64>,
-    /// Constant torques.
+    /// Constant torques, N m or N.
     pub(crate) torque: Vec<f64>,
-    /// Torques over time, in addition.
+    /// Torques over time, added to the constant ones.
     pub(crate) torque_table: Option<TorqueTable>,
     /// `None` for a controller that is continuous in time.
     pub(crate) sampling: Option<Sampling>,
@@ -33,9 +37,9 @@ pub(crate) struct Sampling {
     pub(crate) delay: usize,
 }
 
-/// How far a rate or a delay may be from a whole number of steps, as a share of a step: digits of files.
+/// Largest deviation of a period or a delay from a whole number of steps, in steps. Kind: digits of files.
 const WHOLE_STEPS: f64 = 1e-6;
-/// Longest delay, in steps: the torques of all of them are kept.
+/// Longest period or delay, in steps: the torques of all steps of a delay are in memory.
 const MOST_DELAYED: f64 = 1e5;
 /// Largest file of torques that is read.
 const MOST_BYTES: u64 = 64 << 20;
@@ -51,8 +55,8 @@ impl ControllerSetup {
         (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
         robot: &Robot,
         step_s: f64,
-    ) -> Result<Self, Vec<Diagnostic>> {
-        let kind = kind(settings, place).map_err(|error| vec![error])?;
+    ) -> Result<Self, Findings> {
+        let kind = settings.kind;
         let mut errors: Vec<Diagnostic> = strange_keys(settings, kind, place).collect();
         let mut numbers = |numbers: &JointNumbers, key: &str, (range, unnamed)| {
             let rule = NumberRule { what: key, range, unnamed, of_angles: None };
@@ -69,7 +73,7 @@ impl ControllerSetup {
         let (Some((sampling, _)), Some((_, torque_table)), true) =
             (sampling, torque_table, errors.is_empty())
         else {
-            return Err(errors);
+            return Err(errors.into());
         };
         let gains = stiffness.into_iter().zip(damping);
         let gains = gains.map(|(stiffness, damping)| Gains { stiffness, damping }).collect();
@@ -77,15 +81,7 @@ impl ControllerSetup {
     }
 }
 
-fn kind(settings: &ControllerSettings, place: FilePlace<'_>) -> Result<ControllerKind, Diagnostic> {
-    ControllerKind::find(&settings.kind).ok_or_else(|| {
-        let message = format!("unknown controller \"{}\"", settings.kind);
-        let help = known_names(&settings.kind, "controllers", ControllerKind::names());
-        place.key("kind").mark(Diagnostic::error("scenario::unknown_kind", message).with_help(help))
-    })
-}
-
-/// Keys that do not belong to the controller; gains of zero say nothing.
+/// Keys that do not belong to the controller; gains of zero have no effect and are not reported.
 fn strange_keys<'a>(
     settings: &'a ControllerSettings,
     kind: ControllerKind,
@@ -103,9 +99,9 @@ fn strange_keys<'a>(
         ("delay_s", settings.delay_s.is_some()),
     ];
     given.into_iter().filter(move |&(key, is_given)| is_given && !kind.takes(key)).map(move |(key, _)| {
-        let message = format!("controller \"{}\" has no `{key}`", settings.kind);
-        let with = crate::scenario::CONTROLLER_KINDS.iter().filter(|(_, kind)| kind.takes(key));
-        let with: Vec<&str> = with.map(|(name, _)| *name).collect();
+        let message = format!("controller \"{}\" has no `{key}`", kind.name());
+        let with = congruent_scenario::CONTROLLER_KINDS.into_iter().filter(|kind| kind.takes(key));
+        let with: Vec<&str> = with.map(ControllerKind::name).collect();
         let error = Diagnostic::error("scenario::controller_key", message);
         place.key(key).mark(error.with_help(format!("controllers that have it: {}", with.join(", "))))
     })
@@ -123,15 +119,14 @@ fn sampling(
     let whole = |steps: f64, key: &str, written: String| {
         let rounded = steps.round();
         if (steps - rounded).abs() > WHOLE_STEPS || rounded < 1.0 {
-            let message = format!("{key} = {written} is {steps:.4} steps of {step_s} s");
-            let help =
-                "a period or delay is a whole number of steps; change it, or `step_s` under [simulation]";
+            let message = format!("{key} = {written} is {steps:.4} steps of {step_s} s, not a whole number");
+            let help = "change the value, or `step_s` under [simulation]";
             return Err(place
                 .key(key)
                 .mark(Diagnostic::error("scenario::sampling", message).with_help(help)));
         }
         if rounded > MOST_DELAYED {
-            let message = format!("{key} = {written} is {rounded} steps, more than {MOST_DELAYED}");
+            let message = format!("{key} = {written} is {rounded} steps, limit <= {MOST_DELAYED}");
             return Err(place.key(key).mark(Diagnostic::error("scenario::sampling", message)));
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 <= rounded <= 1e5")]

@@ -1,43 +1,43 @@
 //! A number for all joints, or numbers by joint, as one for each movable joint.
 
-use congruent_description::{Diagnostic, Joint, Robot, known_names};
+use congruent_description::{Joint, Robot};
+use congruent_input::{Diagnostic, Findings, known_names};
+use congruent_scenario::{FilePlace, JointNumbers, OTHERS, Range, mark};
 
-use crate::scenario::{FilePlace, JointNumbers, OTHERS, Range, mark};
-
-/// What the numbers of one key are.
+/// Rules for the numbers of one key.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NumberRule<'a> {
-    /// What one of them is, in messages.
+    /// The key, as messages name it.
     pub(super) what: &'a str,
-    /// What each must be.
+    /// Range that each number must be in.
     pub(super) range: Range,
-    /// What holds for the joints that a table does not name, if it has no `others`.
+    /// Value of joints that a table does not name, if it has no `others`.
     pub(super) unnamed: Unnamed<'a>,
-    /// Only joints that turn have one, or only joints that slide; `None` for both.
+    /// Whether the key applies to turning joints only (`true`), to sliding joints only (`false`), or to both (`None`).
     pub(super) of_angles: Option<bool>,
 }
 
-/// What holds for joints that have no number.
+/// Value of joints that have no number of their own.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Unnamed<'a> {
-    /// Each needs one.
+    /// An error: each joint needs a number.
     Refused,
-    /// Zero.
+    /// The value is zero.
     Zero,
-    /// What the description says.
+    /// The value of the robot's description, by coordinate.
     Described(&'a [f64]),
 }
 
 /// One number for each movable joint; those of mimic joints, which have no actuator of their own, cannot be given.
 ///
 /// # Errors
-/// Every unknown or mimic joint, every number out of range, and a table that leaves joints out that need a number.
+/// Every unknown or mimic joint, every number out of range, and a table that omits joints that need a number.
 pub(super) fn resolve(
     numbers: &JointNumbers,
     rule: NumberRule<'_>,
     place: FilePlace<'_>,
     robot: &Robot,
-) -> Result<Vec<f64>, Vec<Diagnostic>> {
+) -> Result<Vec<f64>, Findings> {
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let in_range = |number: f64, place: FilePlace<'_>| {
         let message = format!("expected {}, found {number}", rule.range.words());
@@ -64,14 +64,14 @@ pub(super) fn resolve(
         };
         if number.is_none() && rule.applies_to(joint) && matches!(rule.unnamed, Unnamed::Refused) {
             let message = format!("joint \"{}\" has no {}", joint.name, rule.what);
-            let help = "name it, or give `others = ...` for all that are not named";
+            let help = "add the joint, or `others = ...` for all joints that are not named";
             errors.push(place.mark(Diagnostic::error("scenario::joint_left_out", message).with_help(help)));
         }
         let unnamed =
             if let Unnamed::Described(described) = rule.unnamed { described[coordinate] } else { 0.0 };
         resolved.push(number.unwrap_or(unnamed));
     }
-    if errors.is_empty() { Ok(resolved) } else { Err(errors) }
+    if errors.is_empty() { Ok(resolved) } else { Err(errors.into()) }
 }
 
 impl NumberRule<'_> {
@@ -96,11 +96,15 @@ fn check_name(robot: &Robot, name: &str, rule: NumberRule<'_>) -> Result<(), Dia
         let master = &robot.joint(mimic.master).name;
         let message = format!("joint \"{name}\" mimics \"{master}\" and has no actuator of its own");
         return Err(Diagnostic::error("scenario::mimic_joint", message)
-            .with_help("give the number of the joint that it mimics"));
+            .with_help(format!("give the value for joint \"{master}\" instead")));
     }
     if rule.applies_to(joint) {
         return Ok(());
     }
-    let message = format!("joint \"{name}\" is {}, `{}` is for others", joint.kind.name(), rule.what);
-    Err(Diagnostic::error("scenario::joint_unit", message).with_help("give it under the key of its unit"))
+    let message = format!(
+        "joint \"{name}\" is {}: `{}` does not apply to this kind of joint",
+        joint.kind.name(),
+        rule.what
+    );
+    Err(Diagnostic::error("scenario::joint_unit", message).with_help("use the key of the other unit"))
 }

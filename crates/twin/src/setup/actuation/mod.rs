@@ -3,7 +3,6 @@
 mod all;
 mod controller;
 mod joint_numbers;
-mod limits;
 mod payloads;
 mod resistances;
 mod sensors;
@@ -12,6 +11,5 @@ mod torque_table;
 pub(super) use all::Actuation;
 pub use controller::ControllerSetup;
 pub(crate) use controller::Sampling;
-pub(crate) use limits::ActuatorLimits;
 pub use sensors::SensorSetup;
 pub use torque_table::TorqueTable;

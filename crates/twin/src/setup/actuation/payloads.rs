@@ -1,16 +1,12 @@
 //! `[[payload]]` checked against its robot.
 
-use congruent_description::{Diagnostic, Inertia, LinkIndex, RobotDescription, known_names, units::Unit};
-use congruent_simulation::CarriedBody;
+use congruent_description::{CarriedBody, Inertia, LinkIndex, RobotDescription};
+use congruent_input::{Diagnostic, Findings, known_names, units::Unit};
+use congruent_monitors::{HEAVIEST_KG, RunPayload, too_heavy};
+use congruent_scenario::{FilePlace, PayloadInertia, PayloadSettings};
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
-use crate::{
-    scenario::{FilePlace, PayloadInertia, PayloadSettings},
-    setup::{
-        payload::{HEAVIEST_KG, Payload, too_heavy},
-        surroundings::LARGEST_M,
-    },
-};
+use crate::setup::surroundings::LARGEST_M;
 
 /// The payloads of a run, in the order of the scenario.
 ///
@@ -20,9 +16,9 @@ pub(in crate::setup) fn payloads(
     all: &[PayloadSettings],
     places: FilePlace<'_>,
     description: &RobotDescription,
-) -> Result<Vec<Payload>, Vec<Diagnostic>> {
+) -> Result<Vec<RunPayload>, Findings> {
     let mut errors = Vec::new();
-    let mut payloads: Vec<Payload> = Vec::new();
+    let mut payloads: Vec<RunPayload> = Vec::new();
     for (index, settings) in all.iter().enumerate() {
         let place = places.item(index);
         match payload(settings, place, description) {
@@ -34,14 +30,14 @@ pub(in crate::setup) fn payloads(
             Err(error) => errors.push(error),
         }
     }
-    if errors.is_empty() { Ok(payloads) } else { Err(errors) }
+    if errors.is_empty() { Ok(payloads) } else { Err(errors.into()) }
 }
 
 fn payload(
     settings: &PayloadSettings,
     place: FilePlace<'_>,
     description: &RobotDescription,
-) -> Result<Payload, Diagnostic> {
+) -> Result<RunPayload, Diagnostic> {
     let wrong = |key: &str, message: String| {
         place
             .key(key)
@@ -55,7 +51,7 @@ fn payload(
     }
     let until_s = settings.until_s.unwrap_or(f64::INFINITY);
     if until_s <= settings.from_s {
-        let message = format!("it is left at {until_s} s, but taken at {} s", settings.from_s);
+        let message = format!("until_s = {until_s} s, limit > {} s, which is from_s", settings.from_s);
         return Err(wrong("until_s", message));
     }
     let (link, link_from_frame) = carrier(settings, place, description)?;
@@ -66,7 +62,7 @@ fn payload(
     let link_from_inertial = link_from_frame * frame_from_com;
     let inertia = Inertia { mass_kg: settings.mass_kg, link_from_inertial, tensor_kg_m2 };
     let carried = CarriedBody { link, inertia };
-    Ok(Payload { name: settings.name.clone(), carried, from_s: settings.from_s, until_s })
+    Ok(RunPayload { name: settings.name.clone(), carried, from_s: settings.from_s, until_s })
 }
 
 /// The link that carries the payload, and the frame in it in which the payload is given.
@@ -100,11 +96,11 @@ fn centre_of_mass(settings: &PayloadSettings) -> Result<Vector3<f64>, String> {
     if com_m.iter().all(|value| value.abs() <= LARGEST_M) {
         Ok(com_m.into())
     } else {
-        Err(format!("the centre of mass is further than {LARGEST_M} m"))
+        Err(format!("a coordinate of the centre of mass is not finite, or beyond the limit of {LARGEST_M} m"))
     }
 }
 
-/// The tensor, if a body can have it: each principal inertia is at most the sum of the others.
+/// The tensor, if a body can have it: each principal moment is at most the sum of the other two.
 fn tensor(entries: PayloadInertia) -> Result<Matrix3<f64>, String> {
     let PayloadInertia { xx, yy, zz, xy, xz, yz } = entries;
     let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
@@ -113,11 +109,14 @@ fn tensor(entries: PayloadInertia) -> Result<Matrix3<f64>, String> {
     }
     let principal = tensor.symmetric_eigenvalues();
     let (smallest, largest) = (principal.min(), principal.max());
-    // Rounding of what files give with few digits.
+    // Entries of a file have few digits, so that a plate, whose largest moment is the sum of the others, may miss it.
     let allowance = 1e-6 * largest.abs();
     if smallest < -allowance || 2.0 * largest > principal.sum() + allowance {
         let [a, b, c]: [f64; 3] = principal.into();
-        return Err(format!("no body has the principal inertias {a:.3e}, {b:.3e} and {c:.3e} kg m2"));
+        return Err(format!(
+            "no body has the principal moments of inertia {a:.3e}, {b:.3e} and {c:.3e} kg m^2: each must be at most the sum \
+             of the other two"
+        ));
     }
     Ok(tensor)
 }

@@ -1,10 +1,11 @@
-//! What resists each joint: the description's values, or those of `[joints]`.
+//! Damping, dry friction and armature of each joint: the description's values, or those of `[joints]`.
 
-use congruent_description::{Diagnostic, Robot};
+use congruent_description::Robot;
 use congruent_dynamics::JointResistance;
+use congruent_input::Findings;
+use congruent_scenario::{FilePlace, JointNumbers, JointSettings, Range};
 
 use super::joint_numbers::{NumberRule, Unnamed, resolve};
-use crate::scenario::{FilePlace, JointNumbers, JointSettings, Range};
 
 /// One for each movable joint.
 ///
@@ -14,7 +15,7 @@ pub(in crate::setup) fn resistances(
     settings: &JointSettings,
     place: FilePlace<'_>,
     robot: &Robot,
-) -> Result<Vec<JointResistance>, Vec<Diagnostic>> {
+) -> Result<Vec<JointResistance>, Findings> {
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let mut errors = Vec::new();
     let mut numbers = |numbers: &Option<JointNumbers>, key: &str, described: Vec<f64>| {
@@ -28,7 +29,7 @@ pub(in crate::setup) fn resistances(
     let friction = numbers(&settings.friction, "friction", joints().map(|joint| joint.friction).collect());
     let armature = numbers(&settings.armature, "armature", vec![0.0; robot.dof()]);
     if !errors.is_empty() {
-        return Err(errors);
+        return Err(errors.into());
     }
     let all = damping.into_iter().zip(friction).zip(armature);
     Ok(all.map(|((damping, friction), armature)| JointResistance { damping, friction, armature }).collect())

@@ -1,9 +1,10 @@
 //! `[sensors]` checked against its robot.
 
-use congruent_description::{Diagnostic, Robot, units::Unit};
+use congruent_description::Robot;
+use congruent_input::{Diagnostic, Findings, units::Unit};
+use congruent_scenario::{FilePlace, JointNumbers, Range, SensorSettings, VelocitySensor};
 
 use super::joint_numbers::{NumberRule, Unnamed, resolve};
-use crate::scenario::{FilePlace, JointNumbers, Range, SensorSettings, VelocitySensor};
 
 /// The encoders of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -17,11 +18,11 @@ pub struct SensorSetup {
 /// The encoder of one joint; zeros are exact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Encoder {
-    /// rad or m.
+    /// Step of the readings, rad or m.
     pub(crate) resolution: f64,
-    /// Standard deviation, rad or m.
+    /// Standard deviation of the position noise, rad or m.
     pub(crate) noise: f64,
-    /// Standard deviation, rad/s or m/s.
+    /// Standard deviation of the velocity noise, rad/s or m/s.
     pub(crate) velocity_noise: f64,
 }
 
@@ -88,7 +89,7 @@ impl SensorSetup {
         settings: &SensorSettings,
         place: FilePlace<'_>,
         robot: &Robot,
-    ) -> Result<Self, Vec<Diagnostic>> {
+    ) -> Result<Self, Findings> {
         let mut encoders = vec![Encoder::default(); robot.dof()];
         let mut errors = Vec::new();
         for key in keys(settings) {
@@ -101,17 +102,16 @@ impl SensorSetup {
         }
         let differentiates = settings.velocity == VelocitySensor::Differentiated;
         if differentiates && encoders.iter().any(|encoder| encoder.velocity_noise > 0.0) {
-            let message = "velocities that are differences of positions have no noise of their own";
+            let message = "velocity = \"differentiated\" cannot have a `velocity_noise`: the noise follows from the positions";
             let error = Diagnostic::error("scenario::sensors", message);
-            errors.push(
-                place.key("velocity").mark(error.with_help("leave out `velocity` or the velocity's noise")),
-            );
+            errors
+                .push(place.key("velocity").mark(error.with_help("remove `velocity` or the velocity noise")));
         }
-        if errors.is_empty() { Ok(Self { encoders, differentiates }) } else { Err(errors) }
+        if errors.is_empty() { Ok(Self { encoders, differentiates }) } else { Err(errors.into()) }
     }
 }
 
 fn twice(key: &str, place: FilePlace<'_>) -> Diagnostic {
     let message = format!("`{key}` gives a value of a joint that another key gives as well");
-    place.key(key).mark(Diagnostic::error("scenario::two_units", message).with_help("leave one of them out"))
+    place.key(key).mark(Diagnostic::error("scenario::two_units", message).with_help("remove one of them"))
 }

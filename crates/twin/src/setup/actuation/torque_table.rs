@@ -1,8 +1,9 @@
 //! A CSV file of torques over time.
 
-use congruent_description::{Diagnostic, Robot, SourceFile, known_names};
+use congruent_description::Robot;
+use congruent_input::{Diagnostic, SourceFile, known_names};
 
-/// Torques of all joints over time; between the rows it is interpolated, before the first and after the last it holds.
+/// Torques of all joints over time: interpolated between the rows, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueTable {
     times_s: Vec<f64>,
@@ -33,14 +34,18 @@ impl TorqueTable {
             let mut torques = vec![0.0; robot.dof()];
             for (cell, column) in cells.iter().zip(&columns) {
                 let value = cell.parse().ok().filter(|value: &f64| value.is_finite());
-                let value = value.ok_or_else(|| wrong(number, &format!("\"{cell}\" is no finite number")))?;
+                let value =
+                    value.ok_or_else(|| wrong(number, &format!("\"{cell}\" is not a finite number")))?;
                 match column {
                     Some(coordinate) => torques[*coordinate] = value,
                     None if table.times_s.last().is_none_or(|&last| last < value) => {
                         table.times_s.push(value);
                     }
                     None => {
-                        return Err(wrong(number, &format!("time {value} s is not after the one before")));
+                        return Err(wrong(
+                            number,
+                            &format!("time {value} s is not after that of the row before"),
+                        ));
                     }
                 }
             }
@@ -82,11 +87,15 @@ fn columns(header: &str, robot: &Robot) -> Result<Vec<Option<usize>>, Diagnostic
             }
         };
         if columns.contains(&column) {
-            return Err(wrong(1, &format!("column \"{name}\" is there twice")));
+            return Err(wrong(1, &format!("column \"{name}\" occurs twice")));
         }
         columns.push(column);
     }
-    if columns.contains(&None) { Ok(columns) } else { Err(wrong(1, &format!("there is no column {TIME}"))) }
+    if columns.contains(&None) {
+        Ok(columns)
+    } else {
+        Err(wrong(1, &format!("the table has no column {TIME}")))
+    }
 }
 
 fn wrong(line: usize, message: &str) -> Diagnostic {
@@ -131,7 +140,7 @@ mod tests {
             ("j1\n1\n", "no column time_s"),
             ("time_s,j3\n0,1\n", "no actuated joint \"j3\""),
             ("time_s,j1,j1\n0,1,1\n", "twice"),
-            ("time_s,j1\n0,nan\n", "line 2: \"nan\" is no finite number"),
+            ("time_s,j1\n0,nan\n", "line 2: \"nan\" is not a finite number"),
             ("time_s,j1\n0,1\n0,1\n", "line 3: time 0 s is not after"),
             ("time_s,j1\n0\n", "1 cells"),
         ] {

@@ -1,17 +1,16 @@
-//! The checks that a run has by default: a scenario that has none of its kind is checked all the same.
+//! The checks that a run has by default, if the scenario has no check of that kind.
 
 use congruent_description::{Joint, Robot};
+use congruent_scenario::{Check, CheckKind, LimitsCheck, Scenario, TrackingCheck};
 
-use crate::scenario::{Check, CheckKind, LimitsCheck, Scenario, TrackingCheck};
-
-/// How far a joint that turns may be from its setpoint at any instant. The scenarios of this project reach 0.43 deg under
-/// stiff servos and 4.2 deg under soft ones; an arm that falls, or is told to turn by 180 deg in 5 ms, is beyond it at once.
+/// Largest error of a turning joint at any instant. The scenarios of this project reach 0.43 deg under stiff servos and
+/// 4.2 deg under soft ones; an arm that falls, or that a setpoint turns by 180 deg in 5 ms, exceeds it at once.
 pub(crate) const PATH_DEG: f64 = 5.0;
-/// The same for a joint that slides.
+/// Largest error of a sliding joint at any instant.
 pub(crate) const PATH_MM: f64 = 20.0;
 
 /// The checks that are added to those of the scenario: `tracking` if it has motions, and `limits` if its robot declares
-/// some. A check of its own takes the place of a default one of the same kind.
+/// some. A check of the scenario replaces the default check of the same kind.
 pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Vec<Check> {
     let has = |kind: CheckKind| scenario.check.iter().any(|check| check.kind() == kind);
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
@@ -30,7 +29,7 @@ pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Ve
     tracking.into_iter().chain(limits).collect()
 }
 
-/// Whether a joint has a limit; a velocity or an effort of zero is none.
+/// Whether a joint has a limit; a velocity or an effort of zero means unknown.
 fn has_limits(joint: &Joint) -> bool {
     let stated = |limit: Option<f64>| limit.is_some_and(|limit| limit > 0.0);
     let of_motion = joint.limit.is_some_and(|limit| stated(limit.velocity) || stated(limit.effort));

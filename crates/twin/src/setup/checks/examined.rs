@@ -1,16 +1,15 @@
-//! Whether the checks of a scenario, and what it expects of them, are consistent with its robot.
+//! Whether the checks of a scenario, and its expectation, are consistent with its robot.
 
-use congruent_description::{Diagnostic, Diagnostics, RobotDescription, Use};
+use congruent_description::RobotDescription;
+use congruent_input::{Capability, Diagnostic, Diagnostics};
+use congruent_monitors::RunningCheck;
+use congruent_proximity::ObstacleMobility;
+use congruent_scenario::{Check, CheckKind, Expectation, FilePlace, Scenario};
 
 use super::tolerances::tolerances;
-use crate::{
-    monitor::RunningCheck,
-    proximity::ObstacleMobility,
-    scenario::{Check, CheckKind, Expectation, FilePlace, Scenario},
-    setup::surroundings::paired_with_checks,
-};
+use crate::setup::surroundings::paired_with_checks;
 
-/// Keeps what is wrong with the checks, and with what the scenario expects of them, in `found`; returns warnings.
+/// Adds the errors of the checks and of the expectation to `found`; returns warnings.
 pub(in crate::setup) fn examine_checks(
     scenario: &Scenario,
     place: FilePlace<'_>,
@@ -33,12 +32,12 @@ pub(in crate::setup) fn examine_checks(
     warnings.extend(unwatched(scenario, place));
     found.extend(unexpected(scenario, place.key("expect")));
     if needs_shapes(scenario) {
-        found.extend(description.for_use(Use::Clearance).err().into_iter().flatten());
+        found.extend(description.check_capability(Capability::Clearance).err().into_iter().flatten());
     }
     warnings
 }
 
-/// Obstacles that no check looks at, and that no link carries: an arm that goes through them passes.
+/// Warnings for obstacles that no check covers and no link carries: an arm that collides with them passes.
 fn unwatched<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<Item = Diagnostic> + 'a {
     let looks = |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact);
     let is_watched = scenario.check.iter().any(looks);
@@ -49,24 +48,22 @@ fn unwatched<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<
         let name = &obstacle.name;
         let warning = Diagnostic::warning(
             "scenario::unwatched",
-            format!("no check looks at obstacle \"{name}\""),
+            format!("no check covers obstacle \"{name}\": an arm that collides with it passes"),
         )
-        .one_of("obstacles are there that no check looks at", name)
-        .with_help(
-            "add a [[check]] with kind = \"clearance\" or \"contact\": an arm that goes through it passes",
-        );
+        .one_of("obstacles are not covered by any check", name)
+        .with_help("add a [[check]] with kind = \"clearance\" or \"contact\"");
         place.key("obstacle").item(index).mark(warning)
     })
 }
 
-/// Whether distances or contacts decide something: without obstacles nothing can be touched.
+/// Whether collision shapes are needed: for a check of distances, or for contact of the physics with an obstacle.
 pub(in crate::setup) fn needs_shapes(scenario: &Scenario) -> bool {
     let measures =
         |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact | CheckKind::Zone);
     !scenario.obstacle.is_empty() || scenario.check.iter().any(measures)
 }
 
-/// Checks that are expected to fail must be the scenario's.
+/// Errors for checks that are expected to fail, but that the scenario does not have.
 fn unexpected<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<Item = Diagnostic> + 'a {
     let named: &[CheckKind] = match &scenario.expect {
         Expectation::Pass => &[],
@@ -77,7 +74,7 @@ fn unexpected<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator
             return None;
         }
         let word = kind.word();
-        let message = format!("check \"{word}\" is expected to fail, but the scenario has none");
+        let message = format!("check \"{word}\" is expected to fail, but the scenario has no such check");
         let error = Diagnostic::error("scenario::expect", message)
             .with_help(format!("add a [[check]] with kind = \"{word}\""));
         Some(place.key("checks").item(index).mark(error))

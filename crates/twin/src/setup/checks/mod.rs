@@ -1,4 +1,4 @@
-//! The checks of a scenario: those that it has by default, and whether its own mean something.
+//! The checks of a scenario: default checks, and whether its own checks are consistent and can fail.
 
 mod defaults;
 mod examined;

@@ -1,20 +1,20 @@
-//! Tolerances that allow any pose: a check with one of these would pass whatever happens.
+//! Tolerances that are so wide that a check would always pass.
 
-use congruent_description::{
-    Diagnostic, Robot, Severity, ToleranceScale,
+use congruent_description::{Robot, ToleranceScale};
+use congruent_input::{
+    Diagnostic, Severity,
     display::{number, quantity},
 };
+use congruent_scenario::{Check, FilePlace, UnitKeys};
 
-use crate::scenario::{Check, FilePlace, UnitKeys};
-
-/// The largest share that tells anything: a difference as large as what it is a share of.
+/// Relative limit from which a check can never fail: a difference as large as the quantity itself.
 const WHOLE: f64 = 1.0;
-/// Above this part of what tells nothing a share or a velocity is told of. The default of `dynamics` at the longest step is 0.3.
+/// Part of such a limit above which a warning is given. The default of `dynamics` at the longest step is 0.3.
 const WIDE: f64 = 0.31;
 /// Largest limit of a velocity if the joints have none: rad/s and m/s. Kind: judgement; no arm is a hundredth as fast.
 const FASTEST: f64 = 1000.0;
 
-/// What is wrong with the tolerances of a check: errors, and warnings.
+/// Errors, and warnings, about the tolerances of a check.
 pub(super) fn tolerances(
     check: &Check,
     place: FilePlace<'_>,
@@ -22,12 +22,15 @@ pub(super) fn tolerances(
 ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let examined = check.unit_keys().into_iter().filter(|keys| is_tolerance(check, keys));
     examined
-        .filter_map(|keys| keys.examine_tolerance(place, scale))
+        .filter_map(|keys| {
+            let key = keys.written_key();
+            Some(place.key(key).mark(scale.examine(keys.unit, key, keys.value()?)?))
+        })
         .chain(beyond_meaning(check, place, (robot, scale)))
         .partition(|found| found.severity == Severity::Error)
 }
 
-/// An error if a check would pass whatever happens since its share or its velocity is that large, a warning if it is almost so.
+/// An error if the relative limit or the velocity limit of a check is so large that it always passes, a warning if nearly.
 fn beyond_meaning(
     check: &Check,
     place: FilePlace<'_>,
@@ -35,15 +38,17 @@ fn beyond_meaning(
 ) -> Vec<Diagnostic> {
     let share = |key: &'static str, value: Option<f64>, of: &str| {
         let value = value.filter(|&value| value > WIDE * WHOLE)?;
-        let told = if value > WHOLE {
+        let finding = if value > WHOLE {
             let message =
-                format!("`{key}` = {} is above 1, {of}: the check would always pass", number(value));
+                format!("the check would always pass: `{key}` = {} is above 1, {of}", number(value));
             Diagnostic::error("tolerance::meaningless", message)
         } else {
-            let message = format!("`{key}` = {} is a large part of 1, {of}", number(value));
+            let message = format!("a wide tolerance: `{key}` = {} is a large part of 1, {of}", number(value));
             Diagnostic::warning("tolerance::wide", message)
         };
-        Some(place.key(key).mark(told.with_help("give far less than 1, or leave it out for the default")))
+        Some(
+            place.key(key).mark(finding.with_help("give far less than 1, or remove the key for the default")),
+        )
     };
     match check {
         Check::Dynamics(check) => share("relative", check.relative, "as much as the torques themselves"),
@@ -65,18 +70,21 @@ fn too_fast(keys: &UnitKeys, place: FilePlace<'_>, (most, unit): (f64, &str)) ->
     let is_meaningless = value > most;
     let key = keys.written_key();
     let [value, most] = [value, most].map(|value| quantity(value, unit));
-    let told = if is_meaningless {
-        let message =
-            format!("`{key}` = {value} is above what the joints can do, {most}: the check would always pass");
+    let finding = if is_meaningless {
+        let message = format!(
+            "the check would always pass: `{key}` = {value} is above {most}, the largest possible speed"
+        );
         Diagnostic::error("tolerance::meaningless", message)
     } else {
-        let message = format!("`{key}` = {value} is a large part of what the joints can do, {most}");
+        let message = format!(
+            "a wide tolerance: `{key}` = {value} is a large part of {most}, the largest possible speed"
+        );
         Diagnostic::warning("tolerance::wide", message)
     };
-    Some(place.key(key).mark(told.with_help("give far less, or leave it out for the default")))
+    Some(place.key(key).mark(finding.with_help("give far less, or remove the key for the default")))
 }
 
-/// No frame of the robot is faster, m/s and rad/s: all joints at their limits, at the reach.
+/// Upper bound of the speed of any frame of the robot, m/s and rad/s: all joints at their limits, at the reach.
 fn fastest(robot: &Robot, scale: ToleranceScale) -> [f64; 2] {
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let (mut slides, mut turns) = (0.0, 0.0);
@@ -85,11 +93,11 @@ fn fastest(robot: &Robot, scale: ToleranceScale) -> [f64; 2] {
         *(if joint.kind.is_angular() { &mut turns } else { &mut slides }) += speed;
     }
     let linear = if turns > 0.0 { slides + turns * scale.reach_m().unwrap_or(f64::INFINITY) } else { slides };
-    // A joint that does not move either way leaves nothing that a limit could be above.
+    // A robot without turning (or sliding) joints has a bound of 0, above which every limit would be refused.
     [linear, turns].map(|most: f64| if most > 0.0 { most.min(FASTEST) } else { FASTEST })
 }
 
-/// Whether these keys say how far from each other two things may be that should be at one place.
+/// Whether these keys are a tolerance: a largest distance between poses that should be equal.
 fn is_tolerance(check: &Check, keys: &UnitKeys) -> bool {
     match check {
         Check::Agreement(_)

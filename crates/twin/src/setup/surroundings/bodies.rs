@@ -1,29 +1,26 @@
-//! `[[obstacle]] path` and `[[grasp]]` as moving bodies, and what carried bodies weigh as payloads.
+//! `[[obstacle]] path` and `[[grasp]]` as moving bodies, and the masses of carried bodies as payloads.
 
-use congruent_description::{
-    Diagnostic, Diagnostics, Geometry, Inertia, LinkIndex, RobotDescription, known_names,
-};
+use congruent_description::{CarriedBody, Geometry, Inertia, LinkIndex, Obstacle, RobotDescription};
+use congruent_input::{Diagnostic, Diagnostics, Findings, known_names};
 use congruent_kinematics::UrdfTree;
-use congruent_simulation::{CarriedBody, Obstacle};
+use congruent_monitors::{HEAVIEST_KG, RunPayload, too_heavy};
+use congruent_motion::Trajectory;
+use congruent_proximity::{BodyTrack, Grasp, MovingBody, ObstacleMobility, PathPose};
+use congruent_scenario::{
+    FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario, ScenarioFolder,
+};
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
 use super::spaces;
-use crate::{
-    bodies::{BodyCourse, Grasp, MovingBody, PathPose},
-    motion::Trajectory,
-    proximity::ObstacleMobility,
-    scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario, ScenarioFolder},
-    setup::payload::{HEAVIEST_KG, Payload, too_heavy},
-};
 
 /// The bodies around the robot.
 pub(in crate::setup) struct Surroundings {
-    /// `None` if one of them is wrong.
+    /// All obstacles; `None` if one of them is wrong.
     pub(in crate::setup) obstacles: Option<Vec<Obstacle>>,
-    /// Those of them that move.
+    /// The obstacles that move.
     pub(in crate::setup) moving: Vec<MovingBody>,
-    /// What those that are carried weigh.
-    pub(in crate::setup) payloads: Vec<Payload>,
+    /// The masses of the obstacles that are carried.
+    pub(in crate::setup) payloads: Vec<RunPayload>,
 }
 
 impl Surroundings {
@@ -52,13 +49,13 @@ impl Surroundings {
     }
 }
 
-/// How each of so many obstacles moves.
+/// How each obstacle moves, by index; `obstacles` is their number.
 pub(in crate::setup) fn mobility(bodies: &[MovingBody], obstacles: usize) -> Vec<ObstacleMobility> {
     let mut mobility = vec![ObstacleMobility::Still; obstacles];
     for body in bodies {
-        mobility[body.obstacle] = match &body.course {
-            BodyCourse::Path(_) => ObstacleMobility::Moves,
-            BodyCourse::Grasps(grasps) => {
+        mobility[body.obstacle] = match &body.track {
+            BodyTrack::Path(_) => ObstacleMobility::Moves,
+            BodyTrack::Grasps(grasps) => {
                 ObstacleMobility::Carried(grasps.iter().map(|grasp| grasp.link).collect())
             }
         };
@@ -66,23 +63,23 @@ pub(in crate::setup) fn mobility(bodies: &[MovingBody], obstacles: usize) -> Vec
     mobility
 }
 
-/// Builds the paths of obstacles; each stands at first at the beginning of its path.
+/// Builds the paths of obstacles and places each obstacle at the beginning of its path.
 fn paths(
     all: &[ObstacleSettings],
     places: FilePlace<'_>,
     obstacles: &mut [Obstacle],
-) -> Result<Vec<MovingBody>, Vec<Diagnostic>> {
+) -> Result<Vec<MovingBody>, Findings> {
     let (mut bodies, mut errors) = (Vec::new(), Vec::new());
     for (index, settings) in all.iter().enumerate().filter(|(_, settings)| !settings.path.is_empty()) {
         match path(settings, places.item(index)) {
             Ok(path) => {
                 obstacles[index].world_from_obstacle = path[0].world_from_obstacle;
-                bodies.push(MovingBody { obstacle: index, course: BodyCourse::Path(path) });
+                bodies.push(MovingBody { obstacle: index, track: BodyTrack::Path(path) });
             }
             Err(error) => errors.push(error),
         }
     }
-    if errors.is_empty() { Ok(bodies) } else { Err(errors) }
+    if errors.is_empty() { Ok(bodies) } else { Err(errors.into()) }
 }
 
 fn path(settings: &ObstacleSettings, place: FilePlace<'_>) -> Result<Vec<PathPose>, Diagnostic> {
@@ -90,58 +87,70 @@ fn path(settings: &ObstacleSettings, place: FilePlace<'_>) -> Result<Vec<PathPos
         Err(place.mark(Diagnostic::error("scenario::obstacle_path", message).with_help(help)))
     };
     let name = &settings.name;
-    let stands = settings.xyz_m.is_some() || settings.xyz_mm.is_some();
-    if stands || settings.rpy_deg.is_some() || settings.rpy_rad.is_some() {
+    let has_pose = settings.xyz_m.is_some() || settings.xyz_mm.is_some();
+    if has_pose || settings.rpy_deg.is_some() || settings.rpy_rad.is_some() {
         let message = format!("obstacle \"{name}\" has a pose of its own and a path");
         return refused(
             place,
             message,
-            "leave the pose out: it stands at the first of its path until that time",
+            "remove the pose: until the first `at_s` of its path the obstacle stays at the first pose of the path",
         );
     }
     let mut path: Vec<PathPose> = Vec::with_capacity(settings.path.len());
     for (index, written) in settings.path.iter().enumerate() {
         let place = place.key("path").item(index);
         if let Some(before) = path.last().filter(|before| written.at_s <= before.at_s) {
-            let message = format!("obstacle \"{name}\": {} s is not after {} s", written.at_s, before.at_s);
-            return refused(place.key("at_s"), message, "each pose of a path is later than the one before");
+            let message =
+                format!("obstacle \"{name}\": at_s = {} s is not after {} s", written.at_s, before.at_s);
+            return refused(
+                place.key("at_s"),
+                message,
+                "each pose of a path must be later than the pose before",
+            );
         }
         let (xyz_m, xyz_mm, rpy_deg, rpy_rad) =
             (written.xyz_m, written.xyz_mm, written.rpy_deg, written.rpy_rad);
         let pose = PoseSettings { xyz_m, xyz_mm, rpy_rad, rpy_deg, ..PoseSettings::default() };
         let world_from_obstacle = pose.isometry(place)?;
         if world_from_obstacle.translation.vector.amax() > spaces::LARGEST_M {
-            let message = format!("obstacle \"{name}\" goes further than {} m", spaces::LARGEST_M);
-            return refused(place, message, "give its path in metres, or under `xyz_mm`");
+            let message =
+                format!("obstacle \"{name}\": a coordinate is beyond the limit of {} m", spaces::LARGEST_M);
+            return refused(
+                place,
+                message,
+                "give the path in metres under `xyz_m`, or in millimetres under `xyz_mm`",
+            );
         }
         path.push(PathPose { at_s: written.at_s, world_from_obstacle });
     }
     Ok(path)
 }
 
-/// Builds the grasps of obstacles, beside those that move along a path, and their payloads.
+/// Builds the grasps of obstacles and their payloads; an obstacle with a path cannot be grasped.
 fn grasps(
     scenario: &Scenario,
     places: FilePlace<'_>,
     (description, trajectory): (&RobotDescription, &Trajectory),
     (obstacles, bodies): (&[Obstacle], &mut Vec<MovingBody>),
-) -> Result<Vec<Payload>, Vec<Diagnostic>> {
+) -> Result<Vec<RunPayload>, Findings> {
     let (mut payloads, mut errors) = (Vec::new(), Vec::new());
-    let mut held: Vec<Held<'_>> = Vec::new();
+    let mut held: Vec<GraspedBody<'_>> = Vec::new();
     for (index, settings) in scenario.grasp.iter().enumerate() {
         let place = places.item(index);
         match grasp(settings, place, (description, obstacles)) {
             Ok((obstacle, _)) if bodies.iter().any(|body| body.obstacle == obstacle) => {
-                let message =
-                    format!("obstacle \"{}\" moves along a path, so nothing can carry it", settings.body);
+                let message = format!(
+                    "obstacle \"{}\" moves along a path, so that no link can carry it",
+                    settings.body
+                );
                 errors.push(place.key("body").mark(Diagnostic::error("scenario::grasp", message)));
             }
-            Ok((obstacle, grasp)) => held.push(Held { obstacle, grasp, settings, place }),
+            Ok((obstacle, grasp)) => held.push(GraspedBody { obstacle, grasp, settings, place }),
             Err(error) => errors.push(error),
         }
     }
     if !errors.is_empty() {
-        return Err(errors);
+        return Err(errors.into());
     }
     held.sort_by(|a, b| a.obstacle.cmp(&b.obstacle).then(a.grasp.from_s.total_cmp(&b.grasp.from_s)));
     for of_body in held.chunk_by(|a, b| a.obstacle == b.obstacle) {
@@ -150,13 +159,13 @@ fn grasps(
             Err(error) => errors.push(error),
         }
         let grasps = of_body.iter().map(|held| held.grasp).collect();
-        bodies.push(MovingBody { obstacle: of_body[0].obstacle, course: BodyCourse::Grasps(grasps) });
+        bodies.push(MovingBody { obstacle: of_body[0].obstacle, track: BodyTrack::Grasps(grasps) });
     }
-    if errors.is_empty() { Ok(payloads) } else { Err(errors) }
+    if errors.is_empty() { Ok(payloads) } else { Err(errors.into()) }
 }
 
 /// A grasp with its place in the file.
-struct Held<'a> {
+struct GraspedBody<'a> {
     obstacle: usize,
     grasp: Grasp,
     settings: &'a GraspSettings,
@@ -173,7 +182,7 @@ fn grasp(
     };
     let names = || obstacles.iter().map(|obstacle| obstacle.name.as_str());
     let obstacle = names().position(|name| name == settings.body).ok_or_else(|| {
-        let message = format!("there is no obstacle \"{}\"", settings.body);
+        let message = format!("no obstacle is named \"{}\"", settings.body);
         unknown("body", message, known_names(&settings.body, "obstacles", names()))
     })?;
     let robot = &description.robot;
@@ -195,34 +204,33 @@ fn grasp(
     if let Some((key, _)) = without_mass {
         let message = format!("`{key}` of \"{}\" has no effect without `mass_kg`", settings.body);
         let error = Diagnostic::error("scenario::grasp", message);
-        return Err(place
-            .key(key)
-            .mark(error.with_help("give `mass_kg`, or leave it out: the body loads nothing")));
+        return Err(place.key(key).mark(error.with_help(format!("give `mass_kg`, or remove `{key}`"))));
     }
     let (from_s, until_s) = (settings.from_s, settings.until_s.unwrap_or(f64::INFINITY));
     if until_s <= from_s {
         let message =
-            format!("\"{}\" is left at {until_s} s, before it is taken at {from_s} s", settings.body);
+            format!("\"{}\": until_s = {until_s} s, limit > {from_s} s, which is from_s", settings.body);
         return Err(place.key("until_s").mark(Diagnostic::error("scenario::grasp", message)));
     }
     Ok((obstacle, Grasp { link, from_s, until_s }))
 }
 
-/// Follows one body along the planned motions: its pose in the link is that of the plan, in which the arm is exactly where
-/// it is told to be. Clearance and recording have it where the arm really takes it.
+/// Follows one body along the planned motions: its pose in the link is that of the plan, in which the arm is exactly at its
+/// setpoint. Clearance and recording use the pose at which the arm really takes the body.
 fn of_one_body(
-    held: &[Held<'_>],
+    held: &[GraspedBody<'_>],
     (description, trajectory): (&RobotDescription, &Trajectory),
     obstacle: &Obstacle,
-) -> Result<Vec<Payload>, Diagnostic> {
+) -> Result<Vec<RunPayload>, Diagnostic> {
     let overlap = held.windows(2).find(|pair| pair[1].grasp.from_s < pair[0].grasp.until_s);
     if let Some(pair) = overlap {
         let message = format!(
-            "\"{}\" is taken at {} s, but carried until {} s already",
+            "\"{}\": from_s = {} s is before the end of its previous grasp at {} s",
             obstacle.name, pair[1].grasp.from_s, pair[0].grasp.until_s
         );
-        let error =
-            Diagnostic::error("scenario::grasp", message).with_help("one link carries a body at a time");
+        let error = Diagnostic::error("scenario::grasp", message).with_help(
+            "only one link carries a body at a time: change `from_s`, or `until_s` of the previous grasp",
+        );
         return Err(pair[1].place.key("from_s").mark(error));
     }
     if held.iter().all(|held| held.settings.mass_kg.is_none()) {
@@ -235,8 +243,8 @@ fn of_one_body(
      -> Result<Isometry3<f64>, Diagnostic> {
         let q = trajectory.planned_at(time_s).ok_or_else(|| {
             let message =
-                format!("at {time_s} s a servo_tcp has begun, so that only the run tells how the mass lies in the link");
-            let help = "take the body before the servo_tcp, or leave `mass_kg` out";
+                format!("the position of the mass in the link is unknown at {time_s} s, after the start of a servo_tcp");
+            let help = "take the body before the servo_tcp, or remove `mass_kg`";
             place.key("from_s").mark(Diagnostic::error("scenario::grasp", message).with_help(help))
         })?;
         let pose = tree.root_from_link(&q, link);
@@ -245,7 +253,7 @@ fn of_one_body(
     };
     let mut world_from_obstacle = obstacle.world_from_obstacle;
     let mut payloads = Vec::new();
-    for (index, Held { grasp, settings, place, .. }) in held.iter().enumerate() {
+    for (index, GraspedBody { grasp, settings, place, .. }) in held.iter().enumerate() {
         let link_from_obstacle = link_at(grasp.link, grasp.from_s, *place)?.inv_mul(&world_from_obstacle);
         if let Some(mass_kg) = settings.mass_kg {
             let inertia =
@@ -254,7 +262,7 @@ fn of_one_body(
             let carried =
                 CarriedBody { link: grasp.link, inertia: Inertia { link_from_inertial, ..inertia } };
             let (from_s, until_s) = (grasp.from_s, grasp.until_s);
-            payloads.push(Payload { name: obstacle.name.clone(), carried, from_s, until_s });
+            payloads.push(RunPayload { name: obstacle.name.clone(), carried, from_s, until_s });
         }
         if index + 1 < held.len() {
             world_from_obstacle = link_at(grasp.link, grasp.until_s, *place)? * link_from_obstacle;
@@ -271,8 +279,8 @@ fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Resul
     let diagonal = if let Some(given) = settings.inertia_kg_m2 {
         let sum: f64 = given.iter().sum();
         if given.iter().any(|&moment| 2.0 * moment > sum * (1.0 + 1e-9)) {
-            let help = "none of the three may be larger than the sum of the others";
-            return refused("`inertia_kg_m2` is of no body", help);
+            let help = "each of the three moments must be at most the sum of the other two";
+            return refused("no body has this `inertia_kg_m2`", help);
         }
         Vector3::from(given)
     } else {
@@ -294,7 +302,10 @@ fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Resul
     };
     let com = Vector3::from(settings.com_m.unwrap_or_default());
     if !com.iter().all(|entry| entry.abs() <= spaces::LARGEST_M) {
-        return refused("`com_m` is no length of a body", "give three lengths of at most 100000 m");
+        return refused(
+            "`com_m` is not finite, or beyond the limit of 100000 m",
+            "give three coordinates in metres",
+        );
     }
     let link_from_inertial =
         Isometry3::from_parts(Translation3::from(com), nalgebra::UnitQuaternion::identity());

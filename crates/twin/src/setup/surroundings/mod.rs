@@ -1,4 +1,4 @@
-//! What stands and moves around the robot: obstacles, grasps and zones.
+//! The surroundings of the robot: obstacles, grasps and zones.
 
 mod bodies;
 mod overlaps;
@@ -8,5 +8,4 @@ mod zones;
 pub(super) use bodies::{Surroundings, mobility};
 pub(super) use overlaps::{FirstStep, overlaps};
 pub(crate) use spaces::LARGEST_M;
-pub use zones::Zone;
 pub(super) use zones::{build as zones, paired_with_checks};

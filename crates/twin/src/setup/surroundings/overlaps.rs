@@ -1,37 +1,33 @@
-//! Obstacles that overlap the robot at the start: the physics would push them apart with forces that no robot meets.
+//! Obstacles that overlap the robot at the start: the physics would push them apart with unrealistic forces.
 
-use congruent_description::{Diagnostic, Link, Robot, RobotQ, Shape, display::length};
+use congruent_description::{Link, Obstacle, Robot, RobotQ, Shape};
+use congruent_input::{Diagnostic, display::length};
 use congruent_kinematics::{Pose, UrdfTree};
-use congruent_simulation::Obstacle;
+use congruent_proximity::{BodyTrack, Hulls, MovingBody};
+use congruent_scenario::FilePlace;
 use nalgebra::Isometry3;
 
-use crate::{
-    bodies::{BodyCourse, MovingBody},
-    proximity::Hulls,
-    scenario::FilePlace,
-};
-
-/// An overlap that is let pass, m: a body that a link touches is given with few digits. Kind: engineering; the physics
-/// pushes such a depth away at 8 mm/s.
+/// Smaller overlaps are allowed, m: a body that a link touches is given with few digits. Kind: engineering; the physics
+/// removes such an overlap at 8 mm/s.
 const TOUCHING_M: f64 = 1e-3;
 /// Less than any distance of shapes that are apart, m.
 const APART_M: f64 = f64::MIN_POSITIVE;
 
-/// Where everything stands in the first step.
+/// Poses of robot and obstacles in the first step.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::setup) struct FirstStep<'a> {
-    /// The configuration.
+    /// The configuration of the robot at the start.
     pub(in crate::setup) q: &'a RobotQ,
-    /// The obstacles, those on a path at its beginning.
+    /// The obstacles; those with a path are at its beginning.
     pub(in crate::setup) obstacles: &'a [Obstacle],
-    /// Those of them that move.
+    /// The obstacles that move.
     pub(in crate::setup) moving: &'a [MovingBody],
-    /// The length of the step.
+    /// Length of the first step.
     pub(in crate::setup) step_s: f64,
 }
 
-/// An error for each obstacle that overlaps a link that can move; what is carried from the start on touches nothing, and
-/// the root's links stand still as obstacles do.
+/// An error for each obstacle that overlaps a link that can move. Obstacles that are carried from the start touch nothing,
+/// and links of the root body are at rest, as obstacles are.
 pub(in crate::setup) fn overlaps(
     start: FirstStep<'_>,
     robot: &Robot,
@@ -42,18 +38,17 @@ pub(in crate::setup) fn overlaps(
     }
     let Some(links) = moving_links(robot, start.q) else { return Vec::new() };
     let overlapping = |(index, obstacle): (usize, &Obstacle)| {
-        let course = start.moving.iter().find(|body| body.obstacle == index).map(|body| &body.course);
-        if is_carried(course, start.step_s) {
+        let track = start.moving.iter().find(|body| body.obstacle == index).map(|body| &body.track);
+        if is_carried(track, start.step_s) {
             return None;
         }
         let (link, depth_m) = deepest(obstacle, &links)?;
-        Some(refused(obstacle, (link, depth_m), course, places.item(index)))
+        Some(refused(obstacle, (link, depth_m), track, places.item(index)))
     };
     start.obstacles.iter().enumerate().filter_map(overlapping).collect()
 }
 
-/// The links with a shape that are not fixed to the root, where they stand; `None` if a shape has no hull, which the run
-/// says itself.
+/// The moving links with their hulls and poses at the start; `None` if a shape has no hull, which the run reports itself.
 fn moving_links<'a>(robot: &'a Robot, q: &RobotQ) -> Option<Vec<(&'a Link, Hulls, Isometry3<f64>)>> {
     let mut poses = vec![Pose::identity(); robot.links().len()];
     UrdfTree::new(robot).root_from_links_into(q, &mut poses).ok()?;
@@ -67,7 +62,7 @@ fn moving_links<'a>(robot: &'a Robot, q: &RobotQ) -> Option<Vec<(&'a Link, Hulls
         .collect()
 }
 
-/// The link that an obstacle overlaps most, if any, with the depth.
+/// The link that an obstacle overlaps most, with the depth, m; `None` if there is no overlap.
 fn deepest<'a>(obstacle: &Obstacle, links: &[(&'a Link, Hulls, Isometry3<f64>)]) -> Option<(&'a Link, f64)> {
     let shape = Shape {
         link_from_shape: Isometry3::identity(),
@@ -77,7 +72,7 @@ fn deepest<'a>(obstacle: &Obstacle, links: &[(&'a Link, Hulls, Isometry3<f64>)])
     let hulls = Hulls::new(&obstacle.name, &[shape]).ok()?;
     let depths = links.iter().filter_map(|(link, of_link, root_from_link)| {
         let link_from_obstacle = root_from_link.inv_mul(&obstacle.world_from_obstacle);
-        // Balls decide for most; a depth costs much more than a distance.
+        // The distance first: bounding balls decide it for most links, and the depth is defined for an overlap only.
         if of_link.distance_below_m(&hulls, &link_from_obstacle, APART_M) >= APART_M {
             return None;
         }
@@ -86,36 +81,36 @@ fn deepest<'a>(obstacle: &Obstacle, links: &[(&'a Link, Hulls, Isometry3<f64>)])
     depths.filter(|(_, depth_m)| *depth_m > TOUCHING_M).max_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 
-fn is_carried(course: Option<&BodyCourse>, time_s: f64) -> bool {
-    match course {
-        Some(BodyCourse::Grasps(grasps)) => {
+fn is_carried(track: Option<&BodyTrack>, time_s: f64) -> bool {
+    match track {
+        Some(BodyTrack::Grasps(grasps)) => {
             grasps.iter().any(|grasp| (grasp.from_s..grasp.until_s).contains(&time_s))
         }
-        Some(BodyCourse::Path(_)) | None => false,
+        Some(BodyTrack::Path(_)) | None => false,
     }
 }
 
 fn refused(
     obstacle: &Obstacle,
     (link, depth_m): (&Link, f64),
-    course: Option<&BodyCourse>,
+    track: Option<&BodyTrack>,
     place: FilePlace<'_>,
 ) -> Diagnostic {
     let message = format!(
-        "obstacle \"{}\" overlaps link \"{}\" at the start, {} deep, so that the physics would throw them apart",
+        "obstacle \"{}\" overlaps link \"{}\" by {} at the start, limit <= 1 mm: the physics would push them apart",
         obstacle.name,
         link.name,
         length(depth_m)
     );
-    let carried = match course {
-        Some(BodyCourse::Grasps(_)) => {
-            "; or let its [[grasp]] begin with `from_s = 0.0`: what is carried touches nothing"
+    let carried = match track {
+        Some(BodyTrack::Grasps(_)) => {
+            "; or let its [[grasp]] begin with `from_s = 0.0`: a carried body touches nothing"
         }
         _ => "",
     };
     let help = format!(
-        "move the obstacle or the start of the joints (meshes are taken as their convex hulls){carried}; a controller of \
-         kind \"kinematic\" moves the robot without forces, and the check `clearance` measures"
+        "move the obstacle or change [start] (meshes are replaced by their convex hulls){carried}; or use the controller \
+         \"kinematic\", which moves the robot without forces, and the check `clearance`"
     );
     place.mark(Diagnostic::error("scenario::obstacle_overlap", message).with_help(help))
 }

@@ -1,16 +1,15 @@
 //! `[[obstacle]]` and `[[zone]]` as bodies around the robot, in the root link's frame.
 
-use congruent_description::{Diagnostic, Geometry, Robot};
-use congruent_simulation::Obstacle;
+use congruent_description::{Geometry, Obstacle, Robot, read_mesh};
+use congruent_input::{Diagnostic, Findings};
+use congruent_scenario::{CylinderSettings, FilePlace, ObstacleSettings, PoseSettings, ScenarioFolder};
 use nalgebra::Vector3;
-
-use crate::scenario::{CylinderSettings, FilePlace, ObstacleSettings, PoseSettings, ScenarioFolder};
 
 /// Largest size and coordinate of an obstacle or zone: beyond it, rounding is no longer small against the
 /// accuracy of distances, and far beyond it products overflow.
 pub(crate) const LARGEST_M: f64 = 1e5;
 
-/// What a section describes: its word in messages, and the codes of its faults.
+/// Texts of a section: its name in messages, and the codes of its errors.
 pub(super) struct SpaceKind {
     word: &'static str,
     twice: &'static str,
@@ -22,7 +21,7 @@ pub(super) struct SpaceKind {
     shapes: &'static str,
 }
 
-/// `[[obstacle]]`.
+/// Texts and codes of `[[obstacle]]` sections.
 pub(super) const OBSTACLE: SpaceKind = SpaceKind {
     word: "obstacle",
     twice: "scenario::obstacle_twice",
@@ -33,7 +32,7 @@ pub(super) const OBSTACLE: SpaceKind = SpaceKind {
     shapes: "give one of `box_m`, `sphere_radius_m`, `cylinder`, `mesh`",
 };
 
-/// `[[zone]]`.
+/// Texts and codes of `[[zone]]` sections.
 pub(super) const ZONE: SpaceKind = SpaceKind {
     word: "zone",
     twice: "scenario::zone_twice",
@@ -44,13 +43,13 @@ pub(super) const ZONE: SpaceKind = SpaceKind {
     shapes: "give one of `box_m`, `sphere_radius_m`, `cylinder`",
 };
 
-/// Builds all of one kind; no other of that kind and no link of the robot has its name.
+/// Builds all obstacles, or all zones; names must be unique, also among the links of the robot.
 pub(super) fn build(
     all: &[ObstacleSettings],
     places: FilePlace<'_>,
     (kind, folder): (&SpaceKind, ScenarioFolder<'_>),
     robot: &Robot,
-) -> Result<Vec<Obstacle>, Vec<Diagnostic>> {
+) -> Result<Vec<Obstacle>, Findings> {
     let mut obstacles: Vec<Obstacle> = Vec::new();
     let mut errors = Vec::new();
     for (index, settings) in all.iter().enumerate() {
@@ -61,14 +60,15 @@ pub(super) fn build(
                 errors.push(place.mark(Diagnostic::error(kind.twice, message)));
             }
             Ok(obstacle) if robot.find_link(&obstacle.name).is_some() => {
-                let message = format!("{} \"{}\" is named as a link of the robot", kind.word, obstacle.name);
+                let message =
+                    format!("{} \"{}\" has the name of a link of the robot", kind.word, obstacle.name);
                 errors.push(place.mark(Diagnostic::error(kind.is_link, message)));
             }
             Ok(obstacle) => obstacles.push(obstacle),
             Err(error) => errors.push(error),
         }
     }
-    if errors.is_empty() { Ok(obstacles) } else { Err(errors) }
+    if errors.is_empty() { Ok(obstacles) } else { Err(errors.into()) }
 }
 
 fn obstacle(
@@ -79,7 +79,7 @@ fn obstacle(
     if settings.name.trim().is_empty() {
         return Err(place.key("name").mark(
             Diagnostic::error(kind.name, format!("the {}'s name is empty", kind.word))
-                .with_help("reports name it if something comes too close"),
+                .with_help("give a name: reports use it"),
         ));
     }
     if settings.scale.is_some() && settings.mesh.is_none() {
@@ -94,7 +94,7 @@ fn obstacle(
         }
         (None, None, None, Some(mesh)) => {
             let scale = Vector3::from(settings.scale.unwrap_or([1.0; 3]));
-            let read = folder.read_mesh(mesh, scale);
+            let read = read_mesh(folder.path, mesh, scale, folder.access);
             let mesh =
                 read.map_err(
                     |fault| if fault.source.is_none() { place.key("mesh").mark(fault) } else { fault },
@@ -102,7 +102,7 @@ fn obstacle(
             Geometry::Mesh(mesh)
         }
         _ => {
-            let message = format!("{} \"{}\" has not exactly one shape", kind.word, settings.name);
+            let message = format!("{} \"{}\" must have exactly one shape", kind.word, settings.name);
             return Err(place.mark(Diagnostic::error(kind.shape, message).with_help(kind.shapes)));
         }
     };
@@ -111,10 +111,13 @@ fn obstacle(
     let world_from_obstacle = pose.isometry(place)?;
     let furthest_m = world_from_obstacle.translation.vector.amax().max(largest_size_m(&geometry));
     if furthest_m > LARGEST_M {
-        let message = format!("{} \"{}\" is {furthest_m:e} m large or far", kind.word, settings.name);
+        let message = format!(
+            "{} \"{}\": a size or coordinate is {furthest_m:e} m, limit <= {LARGEST_M} m",
+            kind.word, settings.name
+        );
         return Err(place.mark(
             Diagnostic::error(kind.size, message)
-                .with_help(format!("sizes and coordinates are at most {LARGEST_M} m")),
+                .with_help("give lengths in metres, or coordinates in millimetres under `xyz_mm`"),
         ));
     }
     Ok(Obstacle { name: settings.name.clone(), world_from_obstacle, geometry })

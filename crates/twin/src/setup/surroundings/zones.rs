@@ -3,35 +3,23 @@
 
 use std::path::Path;
 
-use congruent_description::{Diagnostic, FileAccess, Geometry, Link, LinkIndex, Robot, known_names};
-use congruent_simulation::Obstacle;
+use congruent_description::{Geometry, Link, LinkIndex, Robot};
+use congruent_input::{Diagnostic, FileAccess, Findings, known_names};
+use congruent_proximity::{Zone, matches};
+use congruent_scenario::{Check, CheckKind, FilePlace, ObstacleSettings, ScenarioFolder, ZoneSettings};
 
 use super::spaces;
-use crate::{
-    proximity::matches,
-    scenario::{Check, CheckKind, FilePlace, ObstacleSettings, ScenarioFolder, ZoneSettings},
-};
 
-/// Space that is forbidden to some links.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Zone {
-    /// Its name, pose and shape.
-    pub space: Obstacle,
-    /// The links that may not enter, in the robot's order: at least one, each with a collision
-    /// shape.
-    pub links: Vec<LinkIndex>,
-}
-
-/// Builds all zones; names as of obstacles.
+/// Builds all zones; the rules for names are those of obstacles.
 ///
-/// `links` holds names of links, in which `*` stands for any characters. A name with `*` means the
-/// links that can move and have a collision shape: links that are fixed to the root are
-/// left out. A link that is named in full counts in any case.
+/// `links` holds names of links, in which `*` matches any characters. A name with `*` means the
+/// links that can move and have a collision shape, not those that are fixed to the root. A link
+/// that is named in full is always included.
 pub(in crate::setup) fn build(
     all: &[ZoneSettings],
     places: FilePlace<'_>,
     robot: &Robot,
-) -> Result<Vec<Zone>, Vec<Diagnostic>> {
+) -> Result<Vec<Zone>, Findings> {
     let mut errors = Vec::new();
     let mut links = Vec::new();
     for (index, zone) in all.iter().enumerate() {
@@ -49,7 +37,7 @@ pub(in crate::setup) fn build(
         Ok(spaces) if errors.is_empty() => {
             Ok(spaces.into_iter().zip(links).map(|(space, links)| Zone { space, links }).collect())
         }
-        _ => Err(errors),
+        _ => Err(errors.into()),
     }
 }
 
@@ -70,7 +58,7 @@ pub(in crate::setup) fn paired_with_checks(
             let message = format!("check \"{word}\" has nothing to check: the scenario has no zone");
             Err(place.key("check").item(check).mark(
                 Diagnostic::error("scenario::no_zone", message)
-                    .with_help("add a [[zone]] with name, links, a shape and its place"),
+                    .with_help("add a [[zone]] with a name, links, a shape and a position"),
             ))
         }
         _ => Ok(()),
@@ -81,12 +69,15 @@ fn forbidden_links(
     names: &[String],
     place: FilePlace<'_>,
     robot: &Robot,
-) -> Result<Vec<LinkIndex>, Vec<Diagnostic>> {
+) -> Result<Vec<LinkIndex>, Findings> {
     if names.is_empty() {
         return Err(place
             .mark(
-                Diagnostic::error("scenario::zone_links", "the zone is forbidden to no link")
-                    .with_help("give links = [\"*\"] for all links that move, or their names"),
+                Diagnostic::error(
+                    "scenario::zone_links",
+                    "the zone has no `links`: no link is forbidden to enter",
+                )
+                .with_help("give links = [\"*\"] for all moving links, or names of links"),
             )
             .into());
     }
@@ -100,7 +91,7 @@ fn forbidden_links(
     }
     links.sort_unstable();
     links.dedup();
-    if errors.is_empty() { Ok(links) } else { Err(errors) }
+    if errors.is_empty() { Ok(links) } else { Err(errors.into()) }
 }
 
 fn links_named(name: &str, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> {
@@ -116,7 +107,7 @@ fn links_named(name: &str, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> 
         None => Err(no_link(name, robot)),
         Some(link) if can_enter(link) => Ok(vec![link]),
         Some(_) => {
-            let message = format!("link \"{name}\" has no collision shape: it cannot enter a zone");
+            let message = format!("link \"{name}\" has no collision shape, so that it cannot enter a zone");
             Err(Diagnostic::error("scenario::zone_links", message).with_help(known_names(
                 "",
                 "links with one",
@@ -139,7 +130,7 @@ fn links_with_shape(robot: &Robot) -> impl Iterator<Item = &str> + Clone {
     robot.links().iter().filter(|link| has_shape(link)).map(|link| link.name.as_str())
 }
 
-/// Whether anything of the link can touch; a mesh without triangles is nothing.
+/// Whether the link has a collision shape; a mesh without triangles does not count.
 fn has_shape(link: &Link) -> bool {
     let is_empty =
         |geometry: &Geometry| matches!(geometry, Geometry::Mesh(mesh) if mesh.triangles.is_empty());

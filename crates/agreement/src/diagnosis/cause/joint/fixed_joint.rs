@@ -1,15 +1,15 @@
-//! `fixed_joint_dropped`: the model leaves out one fixed joint of the reference model.
+//! `fixed_joint_dropped`: the model omits one fixed joint of the reference model.
 
 use congruent_kinematics::Pose;
 
-use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
+use crate::diagnosis::hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis};
 
-pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let reference = &models.reference;
     let dropped = |joint: usize| {
-        Hypothesis::edit(
+        PoseHypothesis::edit(
             Cause::FixedJointDropped,
-            Place::ReferenceJoints(vec![joint]),
+            FaultPlace::ReferenceJoints(vec![joint]),
             move |models: &mut ModelPair| models.reference.joints[joint].parent_from_joint = Pose::identity(),
         )
     };

@@ -4,10 +4,10 @@ use congruent_description::DhRowKind;
 
 use crate::diagnosis::{
     candidate::RowConstants,
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
 };
 
-pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let twists: Vec<_> = models.reference.joints.iter().filter_map(|joint| joint.twist_in_joint).collect();
     let other = |row: usize| {
         let RowConstants::Dh { kind, .. } = models.candidate.rows[row].link else { return None };
@@ -18,8 +18,8 @@ pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothe
     (0..models.candidate.rows.len()).filter_map(other).collect()
 }
 
-fn changed(row: usize, expected: DhRowKind) -> Hypothesis {
-    Hypothesis::edit(Cause::Parameter, Place::Rows(vec![row]), move |models: &mut ModelPair| {
+fn changed(row: usize, expected: DhRowKind) -> PoseHypothesis {
+    PoseHypothesis::edit(Cause::Parameter, FaultPlace::Rows(vec![row]), move |models: &mut ModelPair| {
         if let RowConstants::Dh { kind, .. } = &mut models.candidate.rows[row].link {
             *kind = expected;
         }

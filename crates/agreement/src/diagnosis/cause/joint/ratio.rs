@@ -2,10 +2,11 @@
 
 use crate::diagnosis::{
     candidate::ModelParameter,
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
 };
 
-pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
-    let ratio = |row| Hypothesis::fit(Cause::Ratio, Place::Rows(vec![row]), vec![ModelParameter::Rate(row)]);
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
+    let ratio =
+        |row| PoseHypothesis::fit(Cause::Ratio, FaultPlace::Rows(vec![row]), vec![ModelParameter::Rate(row)]);
     (0..models.candidate.rows.len()).map(ratio).collect()
 }

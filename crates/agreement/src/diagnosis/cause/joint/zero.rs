@@ -2,16 +2,16 @@
 
 use crate::diagnosis::{
     candidate::ModelParameter,
-    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
 };
 
-pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let candidate = &models.candidate;
     let zero = |row: usize| {
         let entry = candidate.zero_entry(row);
-        let place = Place::Entries(entry, vec![row]);
+        let place = FaultPlace::Entries(entry, vec![row]);
         candidate.entry(row, entry)?;
-        Some(Hypothesis::fit(Cause::ZeroOffset, place, vec![ModelParameter::Row(row, entry)]))
+        Some(PoseHypothesis::fit(Cause::ZeroOffset, place, vec![ModelParameter::Row(row, entry)]))
     };
     (0..candidate.rows.len()).filter_map(zero).collect()
 }

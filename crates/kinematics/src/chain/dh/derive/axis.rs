@@ -1,10 +1,10 @@
-//! The axes of a chain as lines with a kind, or why a joint fits no row.
+//! The axes of a chain as lines or directions, and the errors of joints that fit no row.
 
 use nalgebra::Vector3;
 
 use crate::{chain::screws::chain::ScrewChain, spatial::twist::Twist};
 
-/// Why a chain has no Denavit-Hartenberg table. Joints are counted from 0, base to tip.
+/// The reason why a chain has no Denavit-Hartenberg table. Joints are counted from 0, base to tip.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeriveError {
@@ -14,21 +14,23 @@ pub enum DeriveError {
     /// A joint moves nothing.
     #[error("the variable of joint {joint} moves nothing")]
     Motionless {
-        /// The joint.
+        /// Index of the joint, from 0.
         joint: usize,
     },
     /// A joint moves more or less than its variable says, which no row can express.
-    #[error("joint {joint} moves {ratio} times its variable, a row moves once")]
+    #[error(
+        "joint {joint} moves by {ratio} units per unit of its variable, but a DH row can only express a ratio of 1"
+    )]
     Ratio {
-        /// The joint.
+        /// Index of the joint, from 0.
         joint: usize,
         /// Motion per unit of the variable.
         ratio: f64,
     },
     /// A joint turns and shifts at once.
-    #[error("joint {joint} is a screw of pitch {pitch_m_per_rad} m/rad, a row either turns or shifts")]
+    #[error("joint {joint} is a screw of pitch {pitch_m_per_rad} m/rad, but a row either turns or shifts")]
     Helical {
-        /// The joint.
+        /// Index of the joint, from 0.
         joint: usize,
         /// Shift along the axis per turn.
         pitch_m_per_rad: f64,
@@ -61,7 +63,7 @@ impl AxisLine {
     }
 }
 
-/// What moves a frame.
+/// The motion of a joint, as an axis in the base frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum MotionAxis {
     /// A turn about a line.
@@ -88,6 +90,8 @@ pub(super) fn axes(chain: &ScrewChain, accuracy: f64) -> Result<Vec<MotionAxis>,
 }
 
 fn axis(joint: usize, twist: &Twist, accuracy: f64) -> Result<MotionAxis, DeriveError> {
+    // A zero angular part is a pure shift. Otherwise the pitch w . v / w^2 must be zero, and the point of the axis nearest to
+    // the origin is w x v / w^2 (Lynch & Park, sec. 3.3.2).
     let (turn, shift) = (twist.angular.norm(), twist.linear.norm());
     let ratio = if turn > accuracy { turn } else { shift };
     if ratio <= accuracy {

@@ -3,7 +3,7 @@
 //! One pass along the axes gives parameters that both conventions group differently. What the theory
 //! does not determine is chosen, and every choice is reported.
 
-use congruent_description::{DhConvention, DhRow, DhRowKind, Elementary as _};
+use congruent_description::{DhConvention, DhRow, DhRowKind};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
@@ -29,16 +29,16 @@ pub(super) const PARALLEL_PART: f64 = 0.1;
 /// Values closer to a short one than this part of the accuracy are written short.
 const TIDY_PART: f64 = 0.01;
 
-/// How two consecutive axes of the chain lie, and where their normal is.
+/// Relation of two consecutive axes of the chain, and the position of their common normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisPair {
-    /// The joint of the first axis, from 0; the other is the next one's.
+    /// Index of the joint of the first axis, from 0; the second axis is that of the next joint.
     pub joint: usize,
-    /// How they lie.
+    /// Relation of the two axes.
     pub relation: AxisRelation,
-    /// Angle from the first to the second, `0..=pi`.
+    /// Angle from the first to the second axis, rad, `0..=pi`.
     pub angle_rad: f64,
-    /// Length of the common normal.
+    /// Length of the common normal, m.
     pub distance_m: f64,
     /// How far along the first axis the normal lies from the one before: huge for axes that are
     /// nearly but not quite parallel, and what limits the accuracy then.
@@ -48,11 +48,11 @@ pub struct AxisPair {
 /// A derived table, with the choices that were made for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DhDerivation {
-    /// The table.
+    /// The derived table with its constants.
     pub dh: SerialDh,
-    /// How consecutive axes lie, base to tip.
+    /// Relations of consecutive axes, base to tip.
     pub pairs: Vec<AxisPair>,
-    /// What the axes do not determine, and what was taken.
+    /// The properties that the axes do not determine and that were chosen.
     pub choices: Vec<FreeChoice>,
 }
 
@@ -65,9 +65,9 @@ impl DhDerivation {
 
 /// Derives a table from a chain, whatever the chain was written as.
 ///
-/// Frame k stands on the axis of joint k + 1 (standard) or k (modified), its x axis along the common
+/// Frame k is on the axis of joint k + 1 (standard) or k (modified), its x axis along the common
 /// normal to the next axis. The z axes point as the joints turn, so every sign is 1. The constants
-/// before and after take up what four parameters a row cannot hold.
+/// before and after the rows take up the rest of the motion, which four parameters a row cannot express.
 ///
 /// | value | shape | unit | frame |
 /// |---|---|---|---|
@@ -111,7 +111,7 @@ pub fn derive_dh(
     Ok(DhDerivation { dh: derivation.dh.to_convention(convention), ..derivation })
 }
 
-/// The axes with the tip, and when they count as parallel.
+/// The axes and the tip, with the bounds of "parallel" and of tidying.
 struct FrameAssignment {
     axes: Vec<MotionAxis>,
     tip: Pose,
@@ -138,6 +138,8 @@ impl FrameAssignment {
                 choices.extend(choice::undetermined(joint, &normal, &self.axes[joint + 1]));
                 normal
             };
+            // The next frame follows from the row as written (tidied), so that its change is compensated by the next row
+            // instead of adding up.
             let row = self.row(axis, &normal);
             base_from_here = base_from_here * fixed(&row);
             rows.push(row);
@@ -169,13 +171,13 @@ impl FrameAssignment {
         let line = self.line(0, &Pose::identity());
         let z = line.direction;
         let flat = |v: Vector3<f64>| v - z * v.dot(&z);
-        // Of two base axes one is always far from the joint's.
+        // The projection of a base axis is ill-conditioned if it is nearly along z; of x and y one never is.
         let x = if z.x.abs() < 0.9 { flat(Vector3::x()) } else { flat(Vector3::y()) }.normalize();
         let rotation = Matrix3::from_columns(&[x, z.cross(&x), z]);
         tidy::pose(&Pose::from_parts(rotation, line.nearest_to(&Vector3::zeros())), self.tidy)
     }
 
-    /// The line of an axis as seen from the frame before it. Only the direction of a shift counts:
+    /// The line of an axis, given the frame before it. Only the direction of a shift counts:
     /// its line goes along the turning axis that follows if the two are parallel (a telescopic
     /// quill), otherwise through the origin of the frame before.
     fn line(&self, joint: usize, base_from_before: &Pose) -> AxisLine {
@@ -192,29 +194,31 @@ impl FrameAssignment {
             None if is_nearly_parallel(&direction, &z_before) => Some(self.tip.translation),
             _ => None,
         };
-        // A line that is nearly but not quite parallel to the one before must meet it at a known point.
+        // A line nearly but not quite parallel to the axis before has its common normal far away, unless it passes through the
+        // origin of the frame before: then the two meet there.
         let sine = z_before.cross(&direction).norm();
         let is_sound = sine <= self.parallel_rad || sine >= NEARLY_PARALLEL_RAD;
         AxisLine { point: anchor.filter(|_| is_sound).unwrap_or(here), direction }
     }
 
-    /// The normal from the last axis to the z axis of the tip, so that `dhn_from_tip` is as plain as
-    /// it can be; none if that normal is ill-conditioned.
+    /// The normal from the last axis to the z axis of the tip, so that `dhn_from_tip` is as simple as
+    /// possible; a zero row if that normal is ill-conditioned.
     fn last_normal(&self, base_from_here: &Pose) -> CommonNormal {
         let tip_in_here = base_from_here.inverse() * self.tip;
         let column = |at: usize| self.tip.rotation.column(at).into_owned();
         let line = AxisLine { point: self.tip.translation, direction: column(2) };
+        // The last row is free up to its axis; if the tip's z axis is parallel or coincident, its origin also fixes d.
         let normal = normal::between(base_from_here, &line, self.parallel_rad);
         let x_in_here = tip_in_here.rotation.column(0).into_owned();
         match normal.relation {
             AxisRelation::Coincident => {
-                let theta_rad = x_in_here.y.arctangent_over(x_in_here.x);
+                let theta_rad = libm::atan2(x_in_here.y, x_in_here.x);
                 CommonNormal { theta_rad, d_m: tip_in_here.translation.z, ..normal }
             }
             AxisRelation::Parallel | AxisRelation::AntiParallel => {
                 CommonNormal { d_m: tip_in_here.translation.z, ..normal }
             }
-            _ if normal.alpha_rad.sine().abs() >= NEARLY_PARALLEL_RAD => normal,
+            _ if libm::sin(normal.alpha_rad).abs() >= NEARLY_PARALLEL_RAD => normal,
             relation => CommonNormal { relation, theta_rad: 0.0, d_m: 0.0, a_m: 0.0, alpha_rad: 0.0 },
         }
     }

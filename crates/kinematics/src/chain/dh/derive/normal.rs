@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-use congruent_description::Elementary as _;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -15,7 +14,7 @@ use crate::spatial::pose::Pose;
 /// The offset itself is kept.
 const SENSE_M: f64 = 1e-6;
 
-/// How two axes lie to each other.
+/// The relation of two axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AxisRelation {
@@ -51,7 +50,7 @@ pub(super) struct CommonNormal {
 ///
 /// Source: Spong, Hutchinson & Vidyasagar, *Robot Modeling and Control* (1st edition, 2006), section 3.2.2.
 pub(super) fn between(base_from_here: &Pose, next: &AxisLine, parallel_rad: f64) -> CommonNormal {
-    // In the frame itself the axis is z and the normal before is x: half of the terms are gone.
+    // Expressed in the frame itself the axis is z and the normal before is x, which removes half of the terms.
     let here_from_base = base_from_here.inverse();
     let direction = here_from_base.transform_vector(&next.direction);
     let point = here_from_base.rotation * next.point + here_from_base.translation;
@@ -62,6 +61,8 @@ pub(super) fn between(base_from_here: &Pose, next: &AxisLine, parallel_rad: f64)
     }
     let unit = across / sine;
     let offset_m = point.dot(&unit);
+    // x points towards the next axis, so that a >= 0; if the axes meet, to the side of the x axis before, so that theta stays
+    // within a quarter turn.
     let outward = if offset_m.abs() > SENSE_M { offset_m } else { unit.x };
     let sense = if outward < -SENSE_M { -1.0 } else { 1.0 };
     let x = unit * sense;
@@ -69,10 +70,11 @@ pub(super) fn between(base_from_here: &Pose, next: &AxisLine, parallel_rad: f64)
         if offset_m.abs() <= parallel_rad { AxisRelation::Intersecting } else { AxisRelation::Skew };
     CommonNormal {
         relation,
-        theta_rad: x.y.arctangent_over(x.x),
+        theta_rad: libm::atan2(x.y, x.x),
+        // Foot of the common normal on z: (p x w) . (z x w) / |z x w|^2, from p + t w = d z + a x.
         d_m: point.cross(&direction).dot(&across) / (sine * sine),
         a_m: offset_m * sense,
-        alpha_rad: sense * sine.arctangent_over(direction.z),
+        alpha_rad: sense * libm::atan2(sine, direction.z),
     }
 }
 
@@ -80,7 +82,7 @@ pub(super) fn between(base_from_here: &Pose, next: &AxisLine, parallel_rad: f64)
 fn parallel(direction: &Vector3<f64>, point: &Vector3<f64>, parallel_m: f64) -> CommonNormal {
     let is_same_sense = direction.z > 0.0;
     let alpha_rad = if is_same_sense { 0.0 } else { PI };
-    let a_m = point.x.hypotenuse_with(point.y);
+    let a_m = libm::hypot(point.x, point.y);
     if a_m <= parallel_m {
         return CommonNormal {
             relation: AxisRelation::Coincident,
@@ -91,5 +93,5 @@ fn parallel(direction: &Vector3<f64>, point: &Vector3<f64>, parallel_m: f64) -> 
         };
     }
     let relation = if is_same_sense { AxisRelation::Parallel } else { AxisRelation::AntiParallel };
-    CommonNormal { relation, theta_rad: point.y.arctangent_over(point.x), d_m: 0.0, a_m, alpha_rad }
+    CommonNormal { relation, theta_rad: libm::atan2(point.y, point.x), d_m: 0.0, a_m, alpha_rad }
 }

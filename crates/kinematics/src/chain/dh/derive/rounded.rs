@@ -1,8 +1,8 @@
-//! Axes that are parallel, meet or are one line but for the digits of a file: taken as what they were meant to
-//! be, with the deviation.
+//! Axes that are parallel, intersecting or coincident except for the digits of a file: replaced by axes that are exactly so, with
+//! the deviation.
 //!
-//! A quarter turn that is written with a few digits leaves axes nearly parallel, whose common normal then lies
-//! kilometres away. The table of such axes is exact and of no use.
+//! A quarter turn that is written with few digits makes axes nearly parallel, whose common normal then lies kilometres away.
+//! The table of such axes is exact but useless.
 
 use nalgebra::Vector3;
 
@@ -23,21 +23,21 @@ pub const ROUNDED_M: f64 = 5e-5;
 /// the worst of the public robots; unlike a small angle, a small distance makes no value of the table large.
 const NOISE_M: f64 = 1e-11;
 
-/// Two consecutive axes that were taken as what they are but for rounding.
+/// Two consecutive axes that were replaced by exactly parallel, intersecting or coincident ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundedPair {
-    /// The joint of the first axis, from 0; the other is the next one's, which was moved.
+    /// Index of the joint of the first axis, from 0; the axis of the next joint was moved.
     pub joint: usize,
-    /// What they were taken as.
+    /// The exact relation that they have now.
     pub relation: AxisRelation,
-    /// The angle by which they are not.
+    /// Angle by which they deviated from it, rad.
     pub angle_rad: f64,
-    /// The distance by which they are not.
+    /// Distance by which they deviated from it, m.
     pub distance_m: f64,
 }
 
-/// The chain whose consecutive axes are parallel, meet or are one line if they are but for rounding, and which
-/// pairs are not so in `chain`. Each axis is moved to the one before it, about its joint's origin.
+/// The chain in which consecutive axes that are nearly parallel, intersecting or coincident are exactly so, and the pairs that
+/// were changed. Each axis is moved to match the one before it, about its joint's origin.
 ///
 /// | value | shape | unit | frame |
 /// |---|---|---|---|
@@ -58,11 +58,11 @@ pub fn without_rounding(
         if let (MotionAxis::Turn(line), Some(origin)) = (&mut axes[joint], origins_in_base.get(joint)) {
             line.point = line.nearest_to(origin);
         }
-        let found = Deviation::of(&axes[joint - 1], &axes[joint]);
+        let found = Deviation::between(&axes[joint - 1], &axes[joint]);
         let smallest = accuracy * PARALLEL_PART;
         if found.angle_rad > smallest || found.distance_m > smallest.max(NOISE_M) {
-            axes[joint] = found.mended;
-            twists[joint] = twist(&found.mended);
+            axes[joint] = found.corrected;
+            twists[joint] = twist(&found.corrected);
             let Deviation { relation, angle_rad, distance_m, .. } = found;
             pairs.push(RoundedPair { joint: joint - 1, relation, angle_rad, distance_m });
         }
@@ -70,16 +70,18 @@ pub fn without_rounding(
     Ok((ScrewChain { twists_in_base: twists, ..chain.clone() }, pairs))
 }
 
-/// How far an axis is from a plain position to the one before, 0 if it is far from any, and the axis there.
+/// Deviation of an axis from an exact relation to the axis before (0 if it is near none), and the corrected axis.
 struct Deviation {
     relation: AxisRelation,
     angle_rad: f64,
     distance_m: f64,
-    mended: MotionAxis,
+    corrected: MotionAxis,
 }
 
 impl Deviation {
-    fn of(before: &MotionAxis, axis: &MotionAxis) -> Self {
+    fn between(before: &MotionAxis, axis: &MotionAxis) -> Self {
+        // The angle is removed first: for parallel axes the offset is measured across them, for others along their common
+        // normal, so its meaning depends on that decision.
         let (z, direction) = (before.direction(), axis.direction());
         let (across, cosine) = (z.cross(&direction), z.dot(&direction));
         let angle_rad = across.norm();
@@ -89,11 +91,11 @@ impl Deviation {
         let relation = if is_parallel { by_sense } else { AxisRelation::Skew };
         let angle_rad = if is_parallel { angle_rad } else { 0.0 };
         let (MotionAxis::Turn(first), MotionAxis::Turn(second)) = (before, axis) else {
-            let mended = match axis {
+            let corrected = match axis {
                 MotionAxis::Turn(line) => MotionAxis::Turn(AxisLine { direction, ..*line }),
                 MotionAxis::Slide(_) => MotionAxis::Slide(direction),
             };
-            return Self { relation, angle_rad, distance_m: 0.0, mended };
+            return Self { relation, angle_rad, distance_m: 0.0, corrected };
         };
         let point = second.point;
         let apart = point - first.point;
@@ -104,12 +106,12 @@ impl Deviation {
         };
         let distance_m = offset.norm();
         if distance_m > ROUNDED_M {
-            let mended = MotionAxis::Turn(AxisLine { point, direction });
-            return Self { relation, angle_rad, distance_m: 0.0, mended };
+            let corrected = MotionAxis::Turn(AxisLine { point, direction });
+            return Self { relation, angle_rad, distance_m: 0.0, corrected };
         }
         let relation = if is_parallel { AxisRelation::Coincident } else { AxisRelation::Intersecting };
-        let mended = MotionAxis::Turn(AxisLine { point: point - offset, direction });
-        Self { relation, angle_rad, distance_m, mended }
+        let corrected = MotionAxis::Turn(AxisLine { point: point - offset, direction });
+        Self { relation, angle_rad, distance_m, corrected }
     }
 }
 

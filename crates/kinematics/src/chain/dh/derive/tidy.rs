@@ -1,4 +1,4 @@
-//! Values as a reader would write them: rounding noise taken off where it is nothing but that.
+//! Rounds values to a short form if they differ from it only by rounding noise.
 
 use std::f64::consts::PI;
 

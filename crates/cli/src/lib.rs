@@ -1,0 +1,194 @@
+//! The command `congruent` as a library: arguments, printing, exit codes. What it prints is computed in
+//! the library `congruent`. A new command is a file here or in a folder, a variant of `Command` and a line in `answer`.
+
+mod arm;
+mod batch;
+mod ci;
+mod compare;
+mod completions;
+mod failure;
+mod faults;
+mod input;
+mod interrupt;
+mod man;
+mod model;
+mod new;
+mod output;
+#[cfg(feature = "recording")]
+mod recording;
+mod run;
+mod schema;
+mod terminal;
+
+use std::ffi::OsString;
+
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use congruent::input::Diagnostic;
+
+use crate::{
+    failure::{BAD_INPUT, Failure},
+    terminal::print::{Color, Format, Printer, Verbosity},
+};
+
+/// Columns of help, unless the terminal has fewer.
+const WIDEST_HELP: usize = 100;
+
+/// Checks whether a robot's analytical model and its URDF describe the same robot; if not, gives the difference and
+/// its cause.
+///
+/// Exit codes: 0 all as expected, 1 a check failed, 2 bad input, 3 the simulation or the machine
+/// failed, 4 nothing was checked.
+#[derive(Debug, Parser)]
+#[command(name = "congruent", version, max_term_width = WIDEST_HELP)]
+struct Arguments {
+    /// Output format: text for people, or one JSON document.
+    #[arg(long, value_enum, default_value_t = Format::Human, global = true)]
+    format: Format,
+    /// Colour what people read. `auto` is on a terminal, unless `NO_COLOR` is set.
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = Color::Auto, global = true)]
+    color: Color,
+    /// Print only the answer and errors: no warnings, no progress.
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// Also print what was read and how long it took, and findings in full, unless --quiet is given.
+    #[arg(short, long, global = true)]
+    verbose: bool,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Arguments),
+    Faults(faults::Arguments),
+    Check(model::check::Arguments),
+    Lint(model::lint::Arguments),
+    Describe(model::describe::Arguments),
+    Fk(arm::fk::Arguments),
+    Jacobian(arm::jacobian::Arguments),
+    Ik(arm::ik::Arguments),
+    Dynamics(arm::dynamics::Arguments),
+    Manipulability(arm::manipulability::Arguments),
+    Workspace(arm::workspace::Arguments),
+    Sensitivity(arm::sensitivity::Arguments),
+    Clearance(arm::clearance::Arguments),
+    Acm(arm::acm::Arguments),
+    Calibrate(model::calibrate::Arguments),
+    New(new::Arguments),
+    Derive(model::derive::Arguments),
+    Convert(model::convert::Arguments),
+    #[cfg(feature = "recording")]
+    Inspect(recording::inspect::Arguments),
+    #[cfg(feature = "recording")]
+    View(recording::view::Arguments),
+    Compare(compare::Arguments),
+    Schema(schema::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
+}
+
+impl Arguments {
+    fn verbosity(&self) -> Verbosity {
+        match (self.quiet, self.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (false, true) => Verbosity::Verbose,
+            (false, false) => Verbosity::Usual,
+        }
+    }
+}
+
+/// Does what the command `congruent` does with these arguments, and returns its exit code. The first argument is the
+/// name of the program, as the operating system gives it.
+///
+/// Results go to standard output, findings to standard error. It is made for one call in a process: `--color` and
+/// `--verbose` of the first call are those of all, and from then on Ctrl-C and SIGTERM end the process in order.
+///
+/// | exit code | meaning |
+/// |---|---|
+/// | 0 | all as expected |
+/// | 1 | a check failed |
+/// | 2 | bad input |
+/// | 3 | the simulation or the machine failed |
+/// | 4 | nothing was checked |
+///
+/// # Examples
+/// ```
+/// let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e");
+/// assert_eq!(congruent_cli::run(["congruent", "describe", robot]), 0);
+/// ```
+pub fn run<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> u8 {
+    let words: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let arguments = match input::shown_arguments(&words).map(|()| parse(&words)) {
+        Ok(Ok(arguments)) => arguments,
+        Ok(Err(error)) => return not_parsed(&error),
+        Err(failure) => {
+            Printer::explain(None, &failure);
+            return failure.exit_code();
+        }
+    };
+    interrupt::watch_signals();
+    arguments.color.apply();
+    let printer = Printer::new(arguments.format, arguments.verbosity());
+    if arguments.format == Format::Sarif && !matches!(arguments.command, Command::Lint(_)) {
+        let only = Diagnostic::error("cli::format", "--format sarif works with `lint` only");
+        Printer::explain(None, &Failure::from(only.with_help("use --format json")));
+        return BAD_INPUT;
+    }
+    answer(arguments.command, &printer).unwrap_or_else(|failure| {
+        printer.failure(&failure);
+        failure.exit_code()
+    })
+}
+
+/// The arguments; help is as wide as the terminal, up to what is read with ease.
+fn parse(words: &[OsString]) -> Result<Arguments, clap::Error> {
+    let command = Arguments::command();
+    let mut command = match terminal::columns() {
+        Some(columns) => command.term_width(columns.min(WIDEST_HELP)),
+        None => command,
+    };
+    let matches = command.try_get_matches_from_mut(words)?;
+    Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
+}
+
+/// Prints help or version, or what is wrong with the arguments.
+fn not_parsed(error: &clap::Error) -> u8 {
+    if error.use_stderr() {
+        Printer::usage(error);
+        return BAD_INPUT;
+    }
+    // There is nothing to be done if standard output is closed.
+    let _ = error.print();
+    0
+}
+
+fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
+    match command {
+        Command::Run(arguments) => run::run(&arguments, printer),
+        Command::Faults(arguments) => faults::run(&arguments, printer),
+        Command::Check(arguments) => model::check::run(&arguments, printer),
+        Command::Lint(arguments) => model::lint::run(&arguments, printer),
+        Command::Describe(arguments) => model::describe::run(&arguments, printer),
+        Command::Fk(arguments) => arm::fk::run(&arguments, printer),
+        Command::Jacobian(arguments) => arm::jacobian::run(&arguments, printer),
+        Command::Calibrate(arguments) => model::calibrate::run(&arguments, printer),
+        Command::Dynamics(arguments) => arm::dynamics::run(&arguments, printer),
+        Command::Ik(arguments) => arm::ik::run(&arguments, printer),
+        Command::Manipulability(arguments) => arm::manipulability::run(&arguments, printer),
+        Command::Workspace(arguments) => arm::workspace::run(&arguments, printer),
+        Command::Sensitivity(arguments) => arm::sensitivity::run(&arguments, printer),
+        Command::Clearance(arguments) => arm::clearance::run(&arguments, printer),
+        Command::Acm(arguments) => arm::acm::run(&arguments, printer),
+        Command::New(arguments) => new::run(&arguments, printer),
+        Command::Derive(arguments) => model::derive::run(&arguments, printer),
+        Command::Convert(arguments) => model::convert::run(&arguments, printer),
+        #[cfg(feature = "recording")]
+        Command::Inspect(arguments) => recording::inspect::run(&arguments, printer),
+        #[cfg(feature = "recording")]
+        Command::View(arguments) => recording::view::run(&arguments, printer),
+        Command::Compare(arguments) => compare::run(&arguments, printer),
+        Command::Schema(arguments) => schema::run(&arguments, printer),
+        Command::Completions(arguments) => completions::run(&arguments, Arguments::command(), printer),
+        Command::Man(arguments) => man::run(&arguments, Arguments::command(), printer),
+    }
+}

@@ -1,0 +1,59 @@
+//! `congruent describe`: what a robot's files say.
+
+use std::path::{Path, PathBuf};
+
+use congruent::{
+    analysis::description_summary::{DescriptionSummary, describe},
+    description::load_robot_with,
+    results::report::{TestResult, TestSuite},
+    text::description_text,
+};
+
+use crate::{
+    batch::{Batch, BatchReport},
+    ci::CiArguments,
+    failure::Failure,
+    input::{AccessArguments, ChainArguments},
+    terminal::print::Printer,
+};
+
+/// Summarises a robot's files: links, joints, and what is missing for kinematics, clearance or physics.
+///
+/// The tree with types, axes, limits, masses and shapes; the chain from base to tip, and other links at which it might
+/// end; what blocks kinematics, clearance or physics, and which missing data they do without.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
+    #[arg(required = true)]
+    robots: Vec<PathBuf>,
+    #[command(flatten)]
+    chain: ChainArguments,
+    #[command(flatten)]
+    access: AccessArguments,
+}
+
+impl BatchReport for DescriptionSummary {
+    fn exit_code(&self) -> u8 {
+        0
+    }
+
+    fn text(&self) -> String {
+        description_text(self)
+    }
+
+    fn test_suite(&self, input: &str) -> TestSuite {
+        TestSuite::with_case(input, "describe", TestResult::Passed)
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let ci = CiArguments::default();
+    let batch = Batch::begin(&arguments.robots, &ci, printer)?;
+    let summary = |path: &Path| {
+        let description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
+        batch.warn(path, &description.warnings);
+        Ok(describe(&description))
+    };
+    let robots = arguments.robots.iter();
+    batch.finish(robots.map(|path| batch.answer(path, || summary(path))).collect())
+}

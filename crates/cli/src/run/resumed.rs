@@ -1,0 +1,104 @@
+//! The scenarios of a call before they run, and those that `--resume` need not run again.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use congruent::{
+    input::{Diagnostic, InputFile},
+    results::{
+        Options,
+        files::{OutputFolder, result_files},
+        finished,
+        report::{RunReport, TestSuite, planned_suite},
+    },
+    scenario::{Override, scenario_name},
+    twin::RunSetup,
+};
+
+use super::{arguments::Arguments, index::remove_index, run_answer::no_folder};
+use crate::{
+    batch::{Answer, Batch},
+    failure::Failure,
+};
+
+/// A scenario that was read.
+pub(super) enum LoadedScenario {
+    /// The scenario must run.
+    New(Box<RunSetup>),
+    /// The scenario has finished in an earlier call: its report and the folder of its results.
+    Finished(Box<RunReport>, PathBuf),
+}
+
+impl LoadedScenario {
+    /// The suite of the JUnit file until the scenario has run.
+    pub(super) fn suite(&self) -> TestSuite {
+        match self {
+            Self::New(setup) => planned_suite(setup),
+            Self::Finished(report, _) => report.test_suite(),
+        }
+    }
+}
+
+/// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
+///
+/// Results of earlier runs of these scenarios are removed here, unless they are kept: no results of an earlier call
+/// remain after a call that is killed.
+pub(super) fn load(
+    arguments: &Arguments,
+    options: &Options<'_>,
+    batch: &Batch<'_>,
+) -> Result<Vec<Answer<LoadedScenario>>, Failure> {
+    let overrides = arguments.overrides();
+    let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
+    let access = arguments.access.access()?;
+    let mut load = |path: &PathBuf| {
+        let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation);
+        let setup = setup.inspect_err(|_| remove_results_of((path, &overrides), &arguments.out))?;
+        let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
+        if let Some(first) = folders.get(&folder) {
+            return Err(same_folder(&folder, first, path).into());
+        }
+        let results = result_files(&folder);
+        folders.insert(folder, path.clone());
+        let inputs: Vec<PathBuf> = setup.inputs.iter().map(|input| input.path.clone()).collect();
+        batch.reads(&inputs)?;
+        batch.writes(&results)?;
+        let earlier = arguments.resume.then(|| finished(&setup, options)).flatten();
+        if earlier.is_none() {
+            OutputFolder::create(&arguments.out, &setup.scenario.name, &setup.inputs).map_err(no_folder)?;
+        }
+        batch.warn(path, &setup.description.warnings);
+        batch.warn(path, &setup.warnings);
+        Ok(match earlier {
+            Some((report, folder)) => LoadedScenario::Finished(Box::new(report), folder),
+            None => LoadedScenario::New(Box::new(setup)),
+        })
+    };
+    if arguments.scenarios.len() > 1 {
+        remove_index(&arguments.out);
+    }
+    Ok(arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect())
+}
+
+/// Removes what an earlier call has left for a scenario that is refused, if its name can be read: CI that collects results
+/// would take them for those of this call.
+fn remove_results_of((scenario, overrides): (&Path, &[Override]), out: &Path) {
+    let Some(name) = scenario_name(scenario, overrides) else { return };
+    if OutputFolder::path_for(out, &name).is_dir() {
+        let input = InputFile { file: String::new(), sha256: String::new(), path: scenario.to_owned() };
+        // Another call that runs it keeps them.
+        let _ = OutputFolder::create(out, &name, &[input]);
+    }
+}
+
+fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
+    let message = format!(
+        "{} does not run, since {} writes to {} already",
+        second.display(),
+        first.display(),
+        folder.display()
+    );
+    Diagnostic::error("run::same_output", message).with_help("give the scenarios different names")
+}

@@ -1,0 +1,102 @@
+//! One scenario that runs, and what a batch says of it.
+
+use std::path::PathBuf;
+
+use congruent::{
+    input::Diagnostic,
+    results::{
+        ExecuteError, Options, execute,
+        files::FolderError,
+        report::{Reason, RunReport, TestCase, TestResult, TestSuite},
+    },
+    text::run_text,
+    twin::RunSetup,
+};
+use serde::{Serialize, Serializer};
+
+use crate::{
+    batch::BatchReport,
+    failure::{BROKEN, Failure, unwritable},
+    terminal::{print::Printer, progress::Progress},
+};
+
+/// A scenario that ran.
+pub(crate) struct RunAnswer {
+    pub(crate) report: RunReport,
+    /// Where its results are, or why they are not all on disk.
+    pub(crate) results: Result<PathBuf, String>,
+    /// Whether it ran in an earlier call.
+    pub(crate) is_kept: bool,
+}
+
+impl Serialize for RunAnswer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.report.serialize(serializer)
+    }
+}
+
+impl BatchReport for RunAnswer {
+    fn exit_code(&self) -> u8 {
+        if self.results.is_ok() { self.report.exit_code } else { BROKEN }
+    }
+
+    fn text(&self) -> String {
+        let results = match &self.results {
+            Ok(folder) if self.is_kept => {
+                format!("kept from an earlier call, results in {}", folder.display())
+            }
+            Ok(folder) => format!("results in {}", folder.display()),
+            Err(_) => "results are not all on disk".to_owned(),
+        };
+        format!("{}  {results}\n", run_text(&self.report))
+    }
+
+    fn test_suite(&self, _: &str) -> TestSuite {
+        let mut suite = self.report.test_suite();
+        if let Err(message) = &self.results {
+            let reason = Reason { kind: "machine".to_owned(), message: message.clone() };
+            let result = TestResult::Error(reason);
+            suite.cases.push(TestCase {
+                name: "results".to_owned(),
+                result,
+                output: String::new(),
+                place: None,
+            });
+        }
+        suite
+    }
+}
+
+/// Runs a scenario and writes its results.
+pub(crate) fn run_one(
+    setup: &RunSetup,
+    options: &Options<'_>,
+    progress: &Progress,
+) -> Result<RunAnswer, Failure> {
+    let progress = progress.start_run(setup);
+    match execute(setup, options, |steps| progress.steps(steps)) {
+        Ok((report, folder)) => {
+            Ok(RunAnswer { report, results: Ok(folder.path().to_owned()), is_kept: false })
+        }
+        Err(ExecuteError::Lost { report, source }) => {
+            Printer::explain(setup.path.as_deref(), &Failure::Machine(source.to_string()));
+            Ok(RunAnswer { report: *report, results: Err(source.to_string()), is_kept: false })
+        }
+        Err(ExecuteError::Folder(error)) => Err(no_folder(error)),
+        Err(ExecuteError::Output(error)) => Err(no_folder(error.into())),
+        Err(ExecuteError::Recording(error)) => Err(Failure::Machine(error.to_string())),
+        Err(error) => Err(Diagnostic::error("run::cannot_run", error.to_string()).into()),
+    }
+}
+
+/// Why there is no folder for results, and what to do.
+pub(crate) fn no_folder(error: FolderError) -> Failure {
+    let help = match error {
+        FolderError::Output(error) => {
+            return unwritable(&error, "choose a folder that can be written with --out");
+        }
+        FolderError::InUse { .. } => "wait for it, or give another folder with --out",
+        _ => "give another folder with --out",
+    };
+    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
+}

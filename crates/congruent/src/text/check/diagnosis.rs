@@ -1,0 +1,185 @@
+//! The diagnosis of `congruent check` as text for people: what is wrong, the lines to paste, the difference before
+//! and after each correction; and the table row by row if that is not all.
+
+use std::fmt::Write;
+
+use crate::{
+    agreement::{
+        diagnosis::Invariant,
+        report::{
+            ComparedValue, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
+            ReportedStage, TableComparison,
+        },
+    },
+    input::{
+        Diagnostic,
+        display::{angle, length, length_and_angle, number},
+    },
+};
+
+use crate::text::{TextOptions, finding_text, layout::column_width};
+
+/// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
+/// next best ones.
+pub(super) fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis, options: &TextOptions) {
+    /// Alternatives shown to people; JSON has all of them.
+    const SHOWN: usize = 6;
+    /// Next best causes are shown if their residual is less than this share of the difference.
+    const PROMISING: f64 = 0.5;
+    let Some(first) = diagnosis.causes.first() else { return };
+    let faults = faults(first);
+    let _ = writeln!(text, "\n  {}: {}", diagnosis.title, summary(first, diagnosis.findings.len()));
+    for (at, (finding, fault)) in diagnosis.findings.iter().zip(&faults).enumerate() {
+        text.push_str(&finding_text(&Diagnostic { help: None, ..finding.clone() }, options));
+        found(text, fault, first.stages.get(at));
+    }
+    if diagnosis.findings.is_empty() {
+        diagnosis.invariants.iter().for_each(|difference| differs(text, difference));
+    }
+    for alternative in diagnosis.indistinguishable.iter().take(SHOWN) {
+        equivalent(text, alternative, &faults);
+    }
+    if let Some(more) = diagnosis.indistinguishable.len().checked_sub(SHOWN + 1) {
+        let _ = writeln!(text, "  and {} more causes that cannot be distinguished", more + 1);
+    }
+    let before = first.stages.first().map_or(f64::INFINITY, |stage| stage.before.position_m);
+    // A cause that removes less than half of the difference would be no hint.
+    for next in diagnosis.causes[1..].iter().filter(|next| next.residual_m < PROMISING * before) {
+        let _ = writeln!(text, "  next best: {}; residual {}", next.fault.message, residual(next));
+    }
+    if let Some(table) = &diagnosis.table {
+        row_by_row(text, table);
+    }
+}
+
+/// The faults of a cause, each on its own.
+fn faults(cause: &ReportedCause) -> Vec<&Fault> {
+    if cause.parts.is_empty() { vec![&cause.fault] } else { cause.parts.iter().collect() }
+}
+
+fn residual(cause: &ReportedCause) -> String {
+    length_and_angle(cause.residual_m, cause.residual_rad)
+}
+
+/// How much of the difference is explained.
+fn summary(cause: &ReportedCause, count: usize) -> String {
+    let causes = match count {
+        0 => return "no known cause explains the difference".to_owned(),
+        1 => "one cause".to_owned(),
+        _ => format!("{count} causes together, the one with the largest effect first,"),
+    };
+    let verb = if count == 1 { "explains" } else { "explain" };
+    if cause.within_tolerance {
+        format!("{causes} {verb} the difference")
+    } else {
+        format!(
+            "{causes} {verb} the difference up to a residual of {}, which is above the tolerance",
+            residual(cause)
+        )
+    }
+}
+
+/// The lines to paste for a fault, and the difference before and after.
+fn found(text: &mut String, fault: &Fault, stage: Option<&ReportedStage>) {
+    // Outside of the snippet, whose width would break long lines.
+    if fault.pasted.is_empty() {
+        let _ = writeln!(text, "  to do: {}", fault.suggestion);
+    } else {
+        let _ = writeln!(text, "  to write:");
+        fault.pasted.iter().for_each(|lines| indented(text, lines));
+    }
+    if let Some(ReportedStage { before, after }) = stage {
+        let [before, after] =
+            [before, after].map(|error| length_and_angle(error.position_m, error.orientation_rad));
+        let _ = writeln!(text, "  difference before: {before}, after: {after}\n");
+    }
+}
+
+fn indented(text: &mut String, lines: &str) {
+    for line in lines.lines() {
+        let _ = writeln!(text, "    {line}");
+    }
+}
+
+/// A cause that cannot be distinguished from the named one: what is other than there.
+fn equivalent(text: &mut String, alternative: &ReportedAlternative, named: &[&Fault]) {
+    let is_named = |fault: &&Fault| named.iter().any(|known| known.message == fault.message);
+    let is_pasted =
+        |fault: &Fault| !fault.pasted.is_empty() && named.iter().any(|known| known.pasted == fault.pasted);
+    let all = faults(&alternative.cause);
+    let others: Vec<&Fault> = all.iter().copied().filter(|fault| !is_named(fault)).collect();
+    let others = if others.is_empty() { all } else { others };
+    let messages: Vec<&str> = others.iter().map(|fault| fault.message.as_str()).collect();
+    let same = if others.iter().all(|fault| is_pasted(fault)) { "; the same lines correct it" } else { "" };
+    let _ = writeln!(text, "  indistinguishable: {} ({}{same})", messages.join("; "), alternative.reason);
+    for fault in others.into_iter().filter(|fault| !is_pasted(fault)) {
+        fault.pasted.iter().for_each(|lines| indented(text, lines));
+    }
+}
+
+/// A quantity in which the chains differ.
+fn differs(text: &mut String, difference: &ReportedDifference) {
+    let ReportedDifference { invariant, joint, found, expected } = difference;
+    let [found, expected] = [found, expected].map(|value| quantity(*invariant, *value));
+    let _ =
+        writeln!(text, "    {:26} {joint:24} found {found:>12} expected {expected:>12}", words(*invariant));
+}
+
+fn words(invariant: Invariant) -> &'static str {
+    match invariant {
+        Invariant::Kind => "kind of joint",
+        Invariant::Ratio => "motion for one unit",
+        Invariant::AxisDistance => "distance to the next axis",
+        Invariant::AxisAngle => "angle to the next axis",
+        Invariant::Offset => "offset along the axis",
+        Invariant::Sign => "direction of the next axis",
+        Invariant::Zero => "angle at position zero",
+        Invariant::Base => "pose of the first axis",
+        Invariant::Tool => "pose of the tip",
+    }
+}
+
+/// The value of an invariant; `none` if a chain does not have the quantity.
+fn quantity(invariant: Invariant, value: f64) -> String {
+    match invariant {
+        _ if value.is_nan() => "none".to_owned(),
+        Invariant::Kind => if value > 0.0 { "prismatic" } else { "revolute" }.to_owned(),
+        Invariant::AxisDistance | Invariant::Offset => length(value),
+        Invariant::AxisAngle | Invariant::Zero => angle(value),
+        Invariant::Ratio | Invariant::Sign | Invariant::Base | Invariant::Tool => number(value),
+    }
+}
+
+/// The table beside the nearest one that agrees: a row for each joint, `found -> expected *` if the two differ.
+fn row_by_row(text: &mut String, table: &TableComparison) {
+    let _ = writeln!(text, "  this table and the nearest one that agrees (* where they differ):");
+    let is_constant = |value: &&ComparedValue| value.joint.is_none();
+    let mut rows: Vec<(&str, Vec<String>)> = Vec::new();
+    for value in table.values.iter().filter(|value| !is_constant(value)) {
+        let joint = value.joint.as_deref().unwrap_or_default();
+        if rows.last().is_none_or(|(last, _)| *last != joint) {
+            rows.push((joint, Vec::new()));
+        }
+        if let Some((_, cells)) = rows.last_mut() {
+            cells.push(cell(value));
+        }
+    }
+    let names = column_width(rows.iter().map(|(joint, _)| joint.len()));
+    let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
+    let width =
+        |column: usize| column_width(rows.iter().filter_map(|(_, cells)| cells.get(column)).map(String::len));
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    for (joint, cells) in &rows {
+        let padded = cells.iter().zip(&widths).map(|(cell, &width)| format!("{cell:width$}"));
+        let line = format!("    {joint:names$}  {}", padded.collect::<Vec<_>>().join("  "));
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    for value in table.values.iter().filter(is_constant) {
+        let _ = writeln!(text, "    {}", cell(value));
+    }
+}
+
+fn cell(value: &ComparedValue) -> String {
+    let ComparedValue { key, found, expected, differs, .. } = value;
+    if *differs { format!("{key} = {found} -> {expected} *") } else { format!("{key} = {found}") }
+}

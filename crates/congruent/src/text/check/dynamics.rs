@@ -1,0 +1,170 @@
+//! The dynamics of `congruent check` as text for people: one line if two sources agree; otherwise the cause with its lines
+//! of the file, what else would have the same torques, what no torque depends on, and how large the differences get.
+
+use std::fmt::Write;
+
+use crate::{
+    RobotCheck,
+    agreement::SourcePair,
+    description::{JointValues, Robot, RobotQ},
+    dynamics_agreement::{
+        DynamicsExplanation, DynamicsReport, LimitDifference, ParameterDifference, TorqueBracket,
+    },
+};
+
+use crate::text::layout::wrapped;
+
+/// Parameters, alternatives or hidden differences that are shown to people; JSON has all of them.
+const SHOWN: usize = 8;
+
+/// All comparisons of dynamics of a check.
+pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
+    let against = check.against.as_ref();
+    if let Some(why) = against.and_then(|against| against.dynamics_not_compared.as_ref()) {
+        let poses = &check.geometry.comparisons;
+        let and_poses =
+            if poses.iter().any(|of| of.name == SourcePair::UrdfOther) { "" } else { "poses and " };
+        let verb = if and_poses.is_empty() { "is" } else { "are" };
+        let _ = writeln!(text, "  disagree  {and_poses}dynamics {verb} not compared: {why}");
+    }
+    if let Some(links) = against.map(|of| &of.links_in_other_frames).filter(|links| !links.is_empty()) {
+        let _ = writeln!(
+            text,
+            "  the frames of {} are placed differently in their links in the other description, but the joints \
+             move the links alike: dynamics is compared in the frames of this description",
+            links.join(", ")
+        );
+    }
+    check.all_dynamics().for_each(|report| compared(text, report, robot));
+    let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
+    if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
+        let _ = writeln!(text, "  not compared (no [[inertial]] entry): {}", left_out.join("; "));
+    }
+}
+
+fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
+    let verdict = if report.agrees() { "agree" } else { "disagree" };
+    let (candidate, reference) = (&report.sides.candidate, &report.sides.reference);
+    let _ = writeln!(
+        text,
+        "  {verdict:9} dynamics of {candidate} against {reference}:\n    {}",
+        report.headline()
+    );
+    for explanation in &report.explanations {
+        explained(text, explanation);
+    }
+    if report.explanations.is_empty() && !report.has_same_torques() {
+        for difference in report.differences.iter().take(SHOWN) {
+            let file = Some(report.sides.candidate.as_str());
+            let _ = writeln!(text, "      {}", placed(difference.sentence(), difference, file));
+        }
+        if let Some(more) = more(report.differences.len(), "parameters") {
+            let _ = writeln!(text, "      {more}");
+        }
+    }
+    let mut lines: Vec<String> = limits(&report.limits);
+    if !report.has_same_torques() {
+        let others: Vec<&DynamicsExplanation> = report
+            .indistinguishable
+            .iter()
+            .filter(|other| !other.contradicted)
+            .filter(|other| !report.explanations.iter().any(|first| has_parts_of(first, other)))
+            .collect();
+        for other in others.iter().take(SHOWN) {
+            let reason = other.reason.map_or_else(String::new, |reason| format!(" ({})", reason.text()));
+            lines.push(format!("indistinguishable: {}{reason}", other.sentence()));
+        }
+        lines.extend(more(others.len(), "causes that cannot be distinguished"));
+        lines.extend(report.invariants.iter().flat_map(crate::dynamics_agreement::Invariants::sentences));
+    }
+    lines.extend(report.hidden_sentences().into_iter().take(SHOWN));
+    lines.extend(more(report.hidden_differences.len(), "differences that change no joint torque"));
+    for line in lines {
+        let _ = writeln!(text, "    {line}");
+    }
+    if let Some(worst) = report.worst_gravity() {
+        certified(text, ("gravity torque difference", worst), robot);
+    }
+    if let (Some(worst), Some(all)) = (report.worst_in_motion(), &report.certificates) {
+        certified(text, ("torque difference in motion", worst), robot);
+        let _ = writeln!(text, "      {}", all.covered_sentence());
+    }
+}
+
+/// Whether two explanations of several faults name the same faults, whatever their order and the last digits.
+fn has_parts_of(one: &DynamicsExplanation, other: &DynamicsExplanation) -> bool {
+    let is_same = one.parts.len() == other.parts.len() && !one.parts.is_empty();
+    is_same && one.parts.iter().all(|part| other.parts.contains(part))
+}
+
+fn more(all: usize, what: &str) -> Option<String> {
+    all.checked_sub(SHOWN + 1).map(|more| format!("and {} more {what}", more + 1))
+}
+
+/// A cause, its parameters with the lines that say them, and what to write.
+fn explained(text: &mut String, explanation: &DynamicsExplanation) {
+    let _ = writeln!(text, "    {}", explanation.sentence());
+    for parameter in explanation.parameters.iter().take(SHOWN) {
+        let _ =
+            writeln!(text, "      {}", placed(parameter.sentence(), parameter, explanation.file.as_deref()));
+    }
+    if let Some(more) = more(explanation.parameters.len(), "parameters") {
+        let _ = writeln!(text, "      {more}");
+    }
+    for law in &explanation.impossible_as_written {
+        let _ = writeln!(text, "      as written, the inertia is physically impossible: {law}");
+    }
+    if let Some(law) = &explanation.body_law {
+        let _ = writeln!(text, "      corrected, the inertia is still physically impossible: {law}");
+    }
+    if let Some(otherwise) = &explanation.otherwise {
+        let _ = writeln!(text, "      or the other file is wrong: {otherwise}");
+    }
+    if let Some(advice) = explanation.suggestion.as_ref().filter(|_| explanation.cause.is_of_one_file()) {
+        let _ = writeln!(text, "      {advice}");
+    }
+    if explanation.changes.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "      to write in {}:", explanation.file.as_deref().unwrap_or("the file"));
+    for change in &explanation.changes {
+        let _ = writeln!(text, "      line {}:", change.from_line);
+        for line in change.text.lines() {
+            let _ = writeln!(text, "        {}", line.trim_start());
+        }
+    }
+}
+
+fn placed(sentence: String, parameter: &ParameterDifference, file: Option<&str>) -> String {
+    match (file, parameter.line) {
+        (Some(file), Some(line)) => format!("{file}:{line}: {sentence}"),
+        _ => sentence,
+    }
+}
+
+/// The limits that differ with the lines that say them, each joint with what to write once.
+fn limits(differences: &[LimitDifference]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (at, difference) in differences.iter().enumerate() {
+        let sentence = difference.sentence();
+        lines.push(match (&difference.file, difference.line) {
+            (Some(file), Some(line)) => format!("{file}:{line}: {sentence}"),
+            _ => sentence,
+        });
+        if differences.get(at + 1).is_some_and(|next| next.changes == difference.changes) {
+            continue;
+        }
+        for change in &difference.changes {
+            lines.push(format!("  to write in line {}:", change.from_line));
+            lines.extend(change.text.lines().map(|line| format!("    {}", line.trim_start())));
+        }
+    }
+    lines
+}
+
+/// The largest difference of a torque, with the configuration that has it.
+fn certified(text: &mut String, (what, worst): (&str, &TorqueBracket), robot: &Robot) {
+    let _ = writeln!(text, "    largest {what} {}, at", worst.sentence());
+    let at = JointValues::for_movable_joints(robot, &RobotQ::from(worst.q.clone()));
+    text.push_str(&wrapped(&at.for_people(robot)));
+}

@@ -1,0 +1,105 @@
+//! The first line of a check: the answer in the words of the question, what was compared, and the largest difference.
+
+use crate::{
+    OtherDescription, RobotCheck,
+    agreement::{
+        SourcePair,
+        compare::{Agreement, CheckReport, Comparison, WorstDifference},
+    },
+    description::Tolerance,
+    input::display::{length_and_angle, listed},
+};
+
+/// The answer: whether the descriptions are the same robot, by which sources, and how far they differ.
+pub(super) fn headline(check: &RobotCheck) -> String {
+    let report = &check.geometry;
+    let file = &report.file;
+    if let Some((other, why)) = other_chain(check) {
+        let other = &other.file;
+        return format!(
+            "{file}: not the same robot as {other}: another chain, {why}; the two were not compared"
+        );
+    }
+    if report.verdict == Agreement::NothingCompared {
+        return format!("{file}: nothing was compared: {}", Agreement::why_nothing(&report.chain));
+    }
+    let (answer, found) = if poses_disagree(report) {
+        ("not the same robot", differing(report).join(", "))
+    } else {
+        // The largest difference of sources that agree is rounding, and its place means nothing.
+        let found = format!("{} agree within {}", listed(&agreeing(report)), difference(&report.worst));
+        (answer_of_agreeing_poses(check), found)
+    };
+    format!("{file}: {answer}. {found} ({}, {} configurations)", tolerance(report), report.configurations)
+}
+
+/// The answer if no pose differs. Physics and screws are made of the URDF, so that they are no second description of it.
+fn answer_of_agreeing_poses(check: &RobotCheck) -> &'static str {
+    let report = &check.geometry;
+    let has_second_geometry = report.table_compared || check.against.is_some();
+    match (report.verdict, has_second_geometry, &check.declared_dynamics) {
+        (Agreement::Disagree, true, _) => "same geometry, different dynamics",
+        (Agreement::Disagree, false, _) => "different dynamics",
+        (_, true, _) => "same robot",
+        (_, false, Some(_)) => "same dynamics, no second geometry was compared",
+        (_, false, None) => "no second description was compared",
+    }
+}
+
+/// The largest distance and angle.
+fn difference(worst: &WorstDifference) -> String {
+    length_and_angle(worst.error.position_m, worst.error.orientation_rad)
+}
+
+/// Whether poses differ, and not dynamics alone.
+pub(super) fn poses_disagree(report: &CheckReport) -> bool {
+    report.comparisons.iter().any(|comparison| comparison.verdict == Agreement::Disagree)
+}
+
+/// The tolerance, and that of the robot file if another one was requested.
+fn tolerance(report: &CheckReport) -> String {
+    let words = |tolerance: &Tolerance| length_and_angle(tolerance.position_m, tolerance.orientation_rad);
+    let replaced = report.replaced_tolerance.as_ref().map_or_else(String::new, |declared| {
+        format!(" by --tolerance, the robot file's is {}", words(declared))
+    });
+    format!("tolerance {}{replaced}", words(&report.tolerance))
+}
+
+/// Why nothing of two descriptions was compared: they have other joints.
+fn other_chain(check: &RobotCheck) -> Option<(&OtherDescription, &str)> {
+    let against = check.against.as_ref()?;
+    let mut compared = check.geometry.comparisons.iter().map(|of| of.name);
+    let why = against.dynamics_not_compared.as_ref()?;
+    (!compared.any(|name| name == SourcePair::UrdfOther)).then_some((against, why))
+}
+
+/// The two sources of a pair.
+fn sources(pair: SourcePair) -> [&'static str; 2] {
+    match pair {
+        SourcePair::ModelUrdf => ["DH table", "URDF"],
+        SourcePair::PoeUrdf => ["screws", "URDF"],
+        SourcePair::ModelSimulation => ["DH table", "physics"],
+        SourcePair::UrdfSimulation => ["URDF", "physics"],
+        SourcePair::UrdfOther => ["URDF", "other URDF"],
+    }
+}
+
+/// The sources that were compared: descriptions first, then what was made of them.
+fn agreeing(report: &CheckReport) -> Vec<&'static str> {
+    let compared: Vec<&str> =
+        report.comparisons.iter().flat_map(|comparison| sources(comparison.name)).collect();
+    ["DH table", "URDF", "other URDF", "screws", "physics"]
+        .into_iter()
+        .filter(|source| compared.contains(source))
+        .collect()
+}
+
+/// The pairs that differ, each with its largest difference and the link that has it.
+fn differing(report: &CheckReport) -> Vec<String> {
+    let differ = report.comparisons.iter().filter(|comparison| comparison.verdict == Agreement::Disagree);
+    let words = |comparison: &Comparison| {
+        let [a, b] = sources(comparison.name);
+        format!("{a} against {b}: up to {} at {}", difference(&comparison.worst), comparison.worst.link)
+    };
+    differ.map(words).collect()
+}

@@ -1,0 +1,141 @@
+//! What `congruent compare` prints of two runs.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use super::{
+    layout::{Table, wrapped},
+    options::TextOptions,
+};
+use crate::{
+    RunComparison,
+    input::{display::quantity, visible},
+    results::comparison::{ComparedFile, FileComparison, SeriesDifference, ValueDifference},
+};
+
+/// Most series, names and statements that are shown to people.
+const MOST_SHOWN: usize = 20;
+
+/// What `congruent compare` prints of two runs: whether they are the same, and the first and the worst difference of each
+/// series.
+pub fn comparison_text(comparison: &RunComparison, options: &TextOptions) -> String {
+    let mut text = String::new();
+    let RunComparison { a, b, tolerance, same, files, not_compared, .. } = comparison;
+    let within = if *tolerance > 0.0 { format!(" within {tolerance:?}") } else { String::new() };
+    let _ = writeln!(
+        text,
+        "A {a}\nB {b}\n{}",
+        match (*same, comparison.exit_code) {
+            (true, 0) => format!("the same{within}"),
+            (true, _) => "nothing was compared".to_owned(),
+            (false, _) => "different".to_owned(),
+        }
+    );
+    for file in files {
+        described(&mut text, file, options);
+    }
+    for statement in not_compared {
+        let _ = writeln!(text, "{statement}: not compared");
+    }
+    text
+}
+
+fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
+    let FileComparison { kind, same, compared, statements, first, series, only_in_a, only_in_b } = file;
+    let what = if *kind == ComparedFile::Report { "values" } else { "series" };
+    if *same {
+        let _ = writeln!(text, "{kind}: {compared} {what} are the same");
+        return;
+    }
+    let _ = writeln!(text, "{kind}: {} of {compared} {what} differ", series.len());
+    for statement in statements.iter().take(MOST_SHOWN) {
+        let _ = writeln!(text, "  {}", visible(statement));
+    }
+    if let Some(ValueDifference { series: name, time_s, a, b, difference, .. }) = first {
+        let time = time_s.map_or_else(String::new, |time_s| format!(" at {}", moment(time_s)));
+        let unit = series.iter().find(|series| series.series == *name).map_or("", |series| series.unit);
+        let apart =
+            difference.map_or_else(String::new, |apart| format!(", {} apart", quantity(apart.abs(), unit)));
+        let _ = writeln!(
+            text,
+            "  first{time}: {} is {} in A and {} in B{apart}",
+            visible(name),
+            shown(a),
+            shown(b)
+        );
+    }
+    let worst = rows(series);
+    if !worst.is_empty() {
+        let mut table = Table::headed(["differs", "first at", "values", "worst at", "difference"]);
+        for row in worst {
+            table.row(row);
+        }
+        table.write(text, options.columns);
+    }
+    if series.len() > MOST_SHOWN {
+        let _ = writeln!(text, "  and {} more", series.len() - MOST_SHOWN);
+    }
+    for (side, only) in [("A", only_in_a), ("B", only_in_b)] {
+        if !only.is_empty() {
+            let names: Vec<&str> = only.iter().take(MOST_SHOWN).map(String::as_str).collect();
+            let more = only.len() - names.len();
+            let more = if more > 0 { format!(", and {more} more") } else { String::new() };
+            let _ = write!(
+                text,
+                "  only in {side}:\n{}",
+                wrapped(&format!("{}{more}", visible(&names.join(", "))))
+            );
+        }
+    }
+}
+
+/// The worst difference of each series, joints first.
+fn rows(series: &[SeriesDifference]) -> Vec<[String; 5]> {
+    let time = |difference: &Option<ValueDifference>| {
+        let time_s = difference.as_ref().and_then(|difference| difference.time_s);
+        time_s.map_or_else(|| "-".to_owned(), moment)
+    };
+    let row = |series: &SeriesDifference| {
+        let SeriesDifference { series: name, unit, compared, differing, only_in_a, only_in_b, first, worst } =
+            series;
+        let apart = worst.as_ref().map_or_else(
+            || format!("{only_in_a} only in A, {only_in_b} only in B"),
+            |worst| match worst.difference {
+                Some(apart) => quantity(apart.abs(), unit),
+                None => format!("{} and {}", shown(&worst.a), shown(&worst.b)),
+            },
+        );
+        [visible(name).into_owned(), time(first), format!("{differing} of {compared}"), time(worst), apart]
+    };
+    // Poses and errors follow from the joints.
+    let has_joint =
+        |series: &&SeriesDifference| series.first.as_ref().is_some_and(|first| first.joint.is_some());
+    let joints = series.iter().filter(has_joint);
+    joints.chain(series.iter().filter(|series| !has_joint(series))).take(MOST_SHOWN).map(row).collect()
+}
+
+/// A time without the rounding of many steps added up, which starts far below a nanosecond.
+fn moment(time_s: f64) -> String {
+    const PARTS: f64 = 1e9;
+    format!("{:?} s", (time_s * PARTS).round() / PARTS)
+}
+
+/// A value with all its digits.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Null => "missing".to_owned(),
+        Value::String(text) => visible(text).into_owned(),
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_printed_without_the_rounding_of_a_sum() {
+        assert_eq!([1.1 + 2.2, 0.0, 1e-6].map(moment), ["3.3 s", "0.0 s", "1e-6 s"]);
+    }
+}

@@ -1,0 +1,108 @@
+//! Colours of the words that say how something ended, where answers have them: the second word of a row, the first of a row
+//! that has no name, and what follows the name in a heading.
+
+use std::{fmt::Write, ops::Range};
+
+const GREEN: u8 = 32;
+const RED: u8 = 31;
+const YELLOW: u8 = 33;
+
+/// Words with their colours; of two with the same beginning the longer is first.
+const WORDS: [(&str, u8); 19] = [
+    ("same robot", GREEN),
+    ("same geometry, different dynamics", RED),
+    ("different dynamics", RED),
+    ("same dynamics", GREEN),
+    ("not the same robot", RED),
+    ("no second description", YELLOW),
+    ("passed", GREEN),
+    ("pass", GREEN),
+    ("agree", GREEN),
+    ("certified", GREEN),
+    ("failed", RED),
+    ("fail", RED),
+    ("FAILED", RED),
+    ("disagree", RED),
+    ("error", RED),
+    ("BAD INPUT", RED),
+    ("BROKEN", RED),
+    ("skipped", YELLOW),
+    ("NOT CHECKED", YELLOW),
+];
+
+/// The text with the words coloured that say how something ended, as a terminal obeys it. Numbers and names stay as they
+/// are.
+///
+/// # Examples
+/// ```
+/// use congruent::text::layout::with_coloured_status;
+///
+/// assert_eq!(with_coloured_status("a: pass\n"), "a: \u{1b}[32mpass\u{1b}[0m\n");
+/// ```
+pub fn with_coloured_status(text: &str) -> String {
+    let mut coloured = String::with_capacity(text.len());
+    for line in text.split_inclusive('\n') {
+        match status(line) {
+            Some((Range { start, end }, colour)) => {
+                let (before, word, after) = (&line[..start], &line[start..end], &line[end..]);
+                let _ = write!(coloured, "{before}\u{1b}[{colour}m{word}\u{1b}[0m{after}");
+            }
+            None => coloured += line,
+        }
+    }
+    coloured
+}
+
+/// The place of the word in a line, and its colour.
+fn status(line: &str) -> Option<(Range<usize>, u8)> {
+    places(line).into_iter().flatten().find_map(|start| {
+        let is_here = |word: &str| {
+            let rest = line[start..].strip_prefix(word);
+            rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+        };
+        WORDS
+            .iter()
+            .find(|(word, _)| is_here(word))
+            .map(|&(word, colour)| (start..start + word.len(), colour))
+    })
+}
+
+/// Where the word may begin.
+fn places(line: &str) -> [Option<usize>; 2] {
+    /// Rows have this indent; what is deeper continues one.
+    const ROW: usize = 2;
+    let words = line.trim_start_matches(' ');
+    match line.len() - words.len() {
+        0 => [line.find(": ").map(|at| at + 2), None],
+        ROW => {
+            let name = words.find(' ').unwrap_or(words.len());
+            let gap = words[name..].len() - words[name..].trim_start_matches(' ').len();
+            [Some(ROW), Some(ROW + name + gap)]
+        }
+        _ => [None, None],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_word_of_an_answer_is_coloured_and_nothing_else() {
+        let check = |line: &str, word: Option<&str>| {
+            let found = status(line).map(|(place, _)| &line[place]);
+            assert_eq!(found, word, "{line}");
+        };
+        check("ur5e_pick: pass (ur5e, 4 s)", Some("pass"));
+        check("a.toml: BAD INPUT\n", Some("BAD INPUT"));
+        check("robot.toml: not the same robot. URDF and physics", Some("not the same robot"));
+        check("  limits     pass    61.1 deg left", Some("pass"));
+        check("  disagree  DH table against URDF chain", Some("disagree"));
+        check("  passive   passenger", None);
+        check("                     fail", None);
+        check("fail: 3", None);
+        check("", None);
+        check("  ", None);
+        assert_eq!(with_coloured_status("a: pass\nb\n"), "a: \u{1b}[32mpass\u{1b}[0m\nb\n");
+    }
+}

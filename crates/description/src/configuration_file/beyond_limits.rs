@@ -1,0 +1,60 @@
+//! Given positions outside the limits of their joints: one finding for all of them.
+
+use std::collections::BTreeMap;
+
+use congruent_input::{Diagnostic, display::quantity};
+
+use crate::model::Robot;
+
+/// Values that one finding lists.
+const MOST_LISTED: usize = 10;
+
+/// One sentence for each of these positions (rad or m) that is outside the limits of its joint.
+pub fn outside_limits(values: &BTreeMap<String, f64>, robot: &Robot) -> Vec<String> {
+    let sentence = |(name, &value): (&String, &f64)| {
+        let joint = robot.joint(robot.find_joint(name)?);
+        let (lower, upper) = joint.position_range()?;
+        let [shown, lower_shown, upper_shown] =
+            [value, lower, upper].map(|each| quantity(each, joint.kind.unit()));
+        (value < lower || value > upper)
+            .then(|| format!("{name} at {shown} (limits {lower_shown} to {upper_shown})"))
+    };
+    values.iter().filter_map(sentence).collect()
+}
+
+/// The warning that lists such sentences; `None` if there are none.
+pub fn outside_limits_warning(found: &[String]) -> Option<Diagnostic> {
+    let mut outside = OutsideLimits::default();
+    for what in found {
+        outside.add(|| what.clone());
+    }
+    outside.warning()
+}
+
+/// Such sentences, of which as many are kept as the warning lists.
+#[derive(Debug, Default)]
+pub(super) struct OutsideLimits {
+    listed: Vec<String>,
+    count: usize,
+}
+
+impl OutsideLimits {
+    pub(super) fn add(&mut self, what: impl FnOnce() -> String) {
+        self.count += 1;
+        if self.listed.len() < MOST_LISTED {
+            self.listed.push(what());
+        }
+    }
+
+    pub(super) fn warning(&self) -> Option<Diagnostic> {
+        let more = match self.count - self.listed.len() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let message = format!("outside the joint limits: {}{more}", self.listed.join(", "));
+        (self.count > 0).then(|| {
+            Diagnostic::warning("configurations::outside_limits", message)
+                .with_help("the result is computed, but the robot cannot reach these positions")
+        })
+    }
+}

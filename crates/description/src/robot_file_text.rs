@@ -1,0 +1,134 @@
+//! Writes a robot file and its `[dh]` section as text that the reader of this crate reads back to the same values.
+
+use std::{
+    fmt::Write,
+    path::{Component, Path},
+};
+
+use congruent_input::{
+    number::{number, numbers, short_degrees},
+    rpy_fixed_xyz_rad,
+};
+use nalgebra::{Isometry3, Vector3};
+
+use crate::{
+    description::RobotDescription,
+    model::{DhTable, Robot, Tolerance},
+    toml_literal::{toml_key, toml_string},
+};
+
+/// Writes a table as the section `[dh]` of a robot file: lengths in metres, angles in degrees if a
+/// short number says exactly the same, otherwise in radians with all digits.
+pub fn dh_section(table: &DhTable, robot: &Robot) -> String {
+    let mut text = String::from("[dh]\n");
+    let _ = writeln!(text, "convention = \"{}\"", table.convention.name());
+    if let Some(source) = &table.source {
+        let _ = writeln!(text, "source = {}", toml_string(source));
+    }
+    let _ = writeln!(text, "base_from_dh0 = {}", transform(&table.base_from_dh0));
+    let _ = writeln!(text, "dhn_from_tip = {}", transform(&table.dhn_from_tip));
+    for row in &table.rows {
+        let (joint, kind) = (toml_string(&robot.joint(row.joint).name), row.kind.name());
+        let _ = writeln!(text, "\n[[dh.row]]\njoint = {joint}\nkind = \"{kind}\"");
+        let _ = writeln!(text, "a_m = {}\n{}", number(row.a_m), angle("alpha", row.alpha_rad));
+        let _ = writeln!(text, "d_m = {}\n{}", number(row.d_m), angle("theta", row.theta_rad));
+        let _ = writeln!(text, "sign = {}", if row.sign < 0.0 { "-1" } else { "1" });
+    }
+    text
+}
+
+/// A whole robot file for the chain of `description`, with a section `[dh]`, to be written into `folder`. Paths
+/// are those of the description, so that `folder` and they must be absolute, or relative to the same folder.
+pub fn robot_file_text(
+    description: &RobotDescription,
+    dh_section: &str,
+    folder: &Path,
+    tolerance: Tolerance,
+) -> String {
+    let is_default = tolerance == Tolerance::default();
+    let values = robot_file_values(description, folder, tolerance);
+    let values = values.into_iter().filter(|(key, _)| !(is_default && *key == "tolerance"));
+    let mut text = String::new();
+    for (key, value) in values {
+        let _ = writeln!(text, "{key} = {value}");
+    }
+    text + "\n" + dh_section
+}
+
+/// The keys of a robot file above its sections, in their order, with their values as TOML. Paths as for
+/// [`robot_file_text`].
+pub fn robot_file_values(
+    description: &RobotDescription,
+    folder: &Path,
+    tolerance: Tolerance,
+) -> Vec<(&'static str, String)> {
+    let named = |path: &Path| toml_string(&relative_path(folder, path));
+    let link = |link| toml_string(&description.robot.link(link).name);
+    let mut values = vec![("name", toml_string(&description.name)), ("urdf", named(&description.urdf_path))];
+    values.extend(description.named_files.srdf.as_ref().map(|srdf| ("srdf", named(srdf))));
+    values.extend([("base", link(description.base)), ("tip", link(description.tip))]);
+    values.extend(description.tip_from_tcp.as_ref().map(|tip_from_tcp| ("tcp", transform(tip_from_tcp))));
+    let packages = description.named_files.packages.iter();
+    let packages: Vec<String> =
+        packages.map(|(name, path)| format!("{} = {}", toml_key(name), named(path))).collect();
+    if !packages.is_empty() {
+        values.push(("packages", format!("{{ {} }}", packages.join(", "))));
+    }
+    let Tolerance { position_m, orientation_rad } = tolerance;
+    let tolerance = format!("{{ position_m = {position_m:e}, orientation_rad = {orientation_rad:e} }}");
+    values.push(("tolerance", tolerance));
+    values
+}
+
+/// `path` relative to `folder`, with `/` between its parts as in every robot file.
+pub fn relative_path(folder: &Path, path: &Path) -> String {
+    let shared = folder.components().zip(path.components()).take_while(|(a, b)| a == b).count();
+    // Without a common root, as on two Windows drives, no relative path exists.
+    if shared == 0 && path.is_absolute() {
+        return path.display().to_string();
+    }
+    let up = folder.components().skip(shared).map(|_| Component::ParentDir);
+    let parts = up.chain(path.components().skip(shared)).map(|part| part.as_os_str().to_string_lossy());
+    let parts: Vec<_> = parts.collect();
+    if parts.is_empty() { ".".to_owned() } else { parts.join("/") }
+}
+
+fn angle(quantity: &str, angle_rad: f64) -> String {
+    match short_degrees(angle_rad) {
+        Some(degrees) => format!("{quantity}_deg = {}", number(degrees)),
+        None => format!("{quantity}_rad = {}", number(angle_rad)),
+    }
+}
+
+fn transform(pose: &Isometry3<f64>) -> String {
+    if is_identity(pose) {
+        return "{}".to_owned();
+    }
+    let xyz_m = numbers(pose.translation.vector.iter().copied(), ", ");
+    let rpy_rad = rpy_fixed_xyz_rad(pose);
+    let in_degrees: Option<Vec<f64>> = rpy_rad.into_iter().map(short_degrees).collect();
+    let rpy = match in_degrees {
+        Some(rpy_deg) => format!("rpy_deg = [{}]", numbers(rpy_deg, ", ")),
+        None => format!("rpy_rad = [{}]", numbers(rpy_rad, ", ")),
+    };
+    format!("{{ xyz_m = [{xyz_m}], {rpy} }}")
+}
+
+/// Whether a pose is exactly the identity.
+fn is_identity(pose: &Isometry3<f64>) -> bool {
+    pose.translation.vector == Vector3::zeros() && pose.rotation.angle() == 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_lead_from_the_folder_to_the_file() {
+        let from = |folder: &str, path: &str| relative_path(Path::new(folder), Path::new(path));
+        assert_eq!(from("/a/b", "/a/b/r.urdf"), "r.urdf");
+        assert_eq!(from("/a/b/c", "/a/d/r.urdf"), "../../d/r.urdf");
+        assert_eq!(from("/a", "/a"), ".");
+        assert_eq!(from("a", "/b"), "/b");
+    }
+}

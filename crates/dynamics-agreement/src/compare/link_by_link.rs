@@ -1,0 +1,145 @@
+//! If both models are descriptions, the difference of each link is diagnosed by itself, whatever else differs.
+
+use congruent_dynamics::DynamicsError;
+
+use super::unmatched::Unmatched;
+use crate::{
+    diagnosis::{
+        DiagnosisInput, ExactExplanation, ExplanationGroup, ReferenceTorques, diagnose_in_stages,
+        part_by_part,
+    },
+    model::DynamicsModel,
+    report::{content::DynamicsExplanation, explained::ExplanationContext, places::ModelFiles},
+    thresholds::COMPLEXITY_PER_PART,
+    torque::{
+        reduced_difference::{ReducedTorqueDifference, torques},
+        states::SampledState,
+    },
+};
+
+/// The best explanation of each link, of the joint terms and of gravity, each by itself; two of them are merged into one.
+/// Empty if links with the same name do not account for the whole difference.
+pub(super) fn link_by_link(
+    setting: &DiagnosisInput<'_>,
+    files: ModelFiles<'_>,
+    (reference, reference_in_candidate): (&DynamicsModel, &DynamicsModel),
+    (whole_torque, states): (&ReducedTorqueDifference, &[SampledState]),
+) -> Result<Vec<DynamicsExplanation>, DynamicsError> {
+    let model = setting.candidate;
+    let unmatched = Unmatched::new(model, reference);
+    let (mut whole, corrected) = one_by_one(model, reference, reference_in_candidate);
+    unmatched.correct(&mut whole);
+    // If all named links together do not give the reference, something without a common name differs (a frame,
+    // the tree), and causes link by link would be wrong.
+    if !is_same(&whole, reference_in_candidate, setting, states)? {
+        return Ok(Vec::new());
+    }
+    let mut explanations = unmatched.explanations(files);
+    let mut causes = Vec::new();
+    for (one, link) in &corrected {
+        let torque = ReducedTorqueDifference::new(model, states, &torques(one, states)?)?;
+        // The corrected copy is the reference of this link: every cause that changes anything else is
+        // contradicted.
+        let setting = DiagnosisInput { reference: Some(one), pairs: false, ..*setting };
+        match alone(&setting, (one, *link), &torque, states)? {
+            Alone::Same => {}
+            // One link without a cause makes the list incomplete; the explanation by torques of the whole is then
+            // preferred.
+            Alone::Unexplained => return Ok(Vec::new()),
+            Alone::Explained(cause) => {
+                explanations.push(ExplanationContext::new(&setting, files, &torque).explanation(&cause));
+                causes.push(cause.named);
+            }
+        }
+    }
+    // Two faults read better as one explanation with two parts, and have one list of edits.
+    if let (2, [first, second]) = (explanations.len(), &causes[..]) {
+        let parts = first.parts.iter().chain(&second.parts).cloned().collect();
+        let both = ExactExplanation::new(parts, model, setting.reference);
+        explanations = vec![ExplanationContext::new(setting, files, whole_torque).explanation(&both.alone())];
+    }
+    Ok(explanations)
+}
+
+/// The candidate with all parameters of the reference whose link or joint exists in both; and the candidate with one of
+/// them each: gravity, the joint terms, and every link with its index.
+fn one_by_one(
+    model: &DynamicsModel,
+    reference: &DynamicsModel,
+    reference_in_candidate: &DynamicsModel,
+) -> (DynamicsModel, Vec<(DynamicsModel, Option<usize>)>) {
+    let mut whole = DynamicsModel { gravity_m_s2: reference_in_candidate.gravity_m_s2, ..model.clone() };
+    whole.resistances.clone_from(&reference_in_candidate.resistances);
+    let mut corrected = vec![
+        (DynamicsModel { gravity_m_s2: whole.gravity_m_s2, ..model.clone() }, None),
+        (DynamicsModel { resistances: whole.resistances.clone(), ..model.clone() }, None),
+    ];
+    for (link, place) in model.frames.links.iter().enumerate() {
+        let Some(other) = reference.frames.find_link(&place.name) else { continue };
+        // Exact comparison: rounding is sorted out by the torques of each link below.
+        if reference.inertials[other] != model.inertials[link] {
+            whole.inertials[link] = reference.inertials[other];
+            let mut one = model.clone();
+            one.inertials[link] = reference.inertials[other];
+            corrected.push((one, Some(link)));
+        }
+    }
+    (whole, corrected)
+}
+
+/// The diagnosis of one link, of the joint terms or of gravity by itself.
+enum Alone {
+    Same,
+    Explained(Box<ExplanationGroup>),
+    Unexplained,
+}
+
+/// The simplest cause that changes no equal parameter: one for the whole link, or one each for its mass, centre of mass and
+/// inertia.
+fn alone(
+    setting: &DiagnosisInput<'_>,
+    (one, link): (&DynamicsModel, Option<usize>),
+    torque: &ReducedTorqueDifference,
+    states: &[SampledState],
+) -> Result<Alone, DynamicsError> {
+    let expected = torques(one, states)?;
+    let found = diagnose_in_stages(setting, torque, ReferenceTorques { states, torques: &expected })?;
+    if found.same {
+        return Ok(Alone::Same);
+    }
+    let by_parts = match link.and_then(|link| Some((link, one.inertials[link].as_ref()?))) {
+        Some(link_and_inertial) => {
+            part_by_part(setting, link_and_inertial, states)?.map(ExactExplanation::alone)
+        }
+        None => None,
+    };
+    let whole = found.explanations.into_iter().next();
+    let best = whole.into_iter().chain(by_parts).min_by(|a, b| {
+        let of = |grouped: &ExplanationGroup| (grouped.named.contradicted, grouped.named.complexity);
+        let (a, b) = (of(a), of(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    Ok(best.map_or(Alone::Unexplained, |best| Alone::Explained(Box::new(best))))
+}
+
+/// Whether the diagnosis link by link is simpler than the first explanation by torques: it has a lower complexity, or the
+/// other one changes a parameter that is equal in both files.
+pub(super) fn is_simpler(by_link: &[DynamicsExplanation], by_torque: &[DynamicsExplanation]) -> bool {
+    let Some(first) = by_torque.first() else { return true };
+    let parts = f64::from(u32::try_from(by_link.len().saturating_sub(1)).unwrap_or(u32::MAX));
+    let complexity =
+        by_link.iter().map(|explanation| explanation.numbers).sum::<f64>() + parts * COMPLEXITY_PER_PART;
+    !by_link.is_empty() && (first.contradicted || complexity < first.numbers)
+}
+
+/// Whether two models have the same torques at these states.
+fn is_same(
+    a: &DynamicsModel,
+    b: &DynamicsModel,
+    setting: &DiagnosisInput<'_>,
+    states: &[SampledState],
+) -> Result<bool, DynamicsError> {
+    let torque = ReducedTorqueDifference::new(a, states, &torques(b, states)?)?;
+    let size = libm::hypot(torque.difference.norm(), torque.outside);
+    Ok(size <= setting.precision.same * torque.torques)
+}

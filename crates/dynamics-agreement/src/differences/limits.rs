@@ -1,0 +1,144 @@
+//! Joint limits, compared by value: they have no effect on torques.
+
+use congruent_description::JointLimit;
+use congruent_input::ChangedLines;
+
+use crate::{
+    model::{DynamicsModel, frames::JointPlace},
+    thresholds::SAME_VALUE,
+};
+
+/// A joint limit in which two descriptions differ.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
+pub struct LimitDifference {
+    /// Name of the joint.
+    pub joint: String,
+    /// Which kind of limit differs.
+    pub cause: LimitCause,
+    /// `degrees` or `rpm` if the factor is that of this unit; otherwise empty.
+    pub detail: String,
+    /// `velocity`, `effort`, `lower`, `upper`.
+    #[serde(rename = "figure")]
+    pub parameter: String,
+    /// The candidate's value in `unit`; `null` if it does not state the limit.
+    pub found: Option<f64>,
+    /// The reference's value in `unit`; `null` if it does not state the limit.
+    pub expected: Option<f64>,
+    /// `found / expected`; `null` if one of them is not stated, or if `expected` is 0.
+    pub factor: Option<f64>,
+    /// Whether this difference makes the verdict `disagree`; a limit of speed or effort that only one of the two states does
+    /// not.
+    pub decides: bool,
+    /// SI unit of `found` and `expected`: `rad`, `m`, `rad/s`, `m/s`, `N m` or `N`.
+    pub unit: String,
+    /// Line of the limit in the candidate's file; `null` if it is not known.
+    pub line: Option<usize>,
+    /// Line of the limit in the reference's file; `null` if it is not known.
+    pub expected_line: Option<usize>,
+    /// Path of the candidate's file; `null` if it is not known.
+    pub file: Option<String>,
+    /// The lines of the candidate's file with all limits of the joint set to the reference's values; empty if the reference
+    /// does not state the limit, or if the file format cannot express it.
+    pub changes: Vec<ChangedLines>,
+}
+
+/// The kind of limit that differs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LimitCause {
+    /// The largest speed, rad/s or m/s.
+    VelocityLimit,
+    /// The largest torque or force, N m or N.
+    EffortLimit,
+    /// The smallest or largest position, rad or m.
+    PositionLimit,
+}
+
+const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+const RPM: f64 = 30.0 / std::f64::consts::PI;
+/// Relative tolerance of a factor that names a unit. No unit; kind: digits of a file, which rounds a limit to three; the
+/// factors of degrees and rpm differ by a factor of six.
+const FACTOR: f64 = 5e-3;
+
+/// The limits that differ. A speed or an effort of 0 counts as not stated, and so does the infinite range of a continuous
+/// joint.
+pub(crate) fn differences(
+    candidate: &DynamicsModel,
+    reference: &DynamicsModel,
+    joints: &[usize],
+) -> Vec<LimitDifference> {
+    let mut differences = Vec::new();
+    for (joint, &other) in joints.iter().enumerate() {
+        for (cause, parameter, value) in LIMITS {
+            let stated = |limit: Option<&JointLimit>| {
+                let value = limit.and_then(value).filter(|value| value.is_finite());
+                // A position limit of 0 is a value; a speed or effort of 0 is what exporters write for an unknown
+                // one.
+                value.filter(|value| cause == LimitCause::PositionLimit || *value != 0.0)
+            };
+            let (found, expected) =
+                (stated(candidate.limits[joint].as_ref()), stated(reference.limits[other].as_ref()));
+            let is_same = match (found, expected) {
+                (Some(found), Some(expected)) => {
+                    (found - expected).abs() <= SAME_VALUE * found.abs().max(expected.abs())
+                }
+                (None, None) => true,
+                _ => false,
+            };
+            if is_same {
+                continue;
+            }
+            let both = found.zip(expected);
+            let factor = both.filter(|of| of.1 != 0.0).map(|(found, expected)| found / expected);
+            differences.push(LimitDifference {
+                joint: candidate.frames.joint_name(joint).to_owned(),
+                cause,
+                detail: detail(cause, factor).to_owned(),
+                parameter: parameter.to_owned(),
+                found,
+                expected,
+                factor,
+                // A missing range changes where the robot may go; a missing speed or effort is usually just not
+                // given.
+                decides: both.is_some() || cause == LimitCause::PositionLimit,
+                unit: unit(cause, &candidate.frames.joints[joint]).to_owned(),
+                line: None,
+                expected_line: None,
+                file: None,
+                changes: Vec::new(),
+            });
+        }
+    }
+    differences
+}
+
+fn unit(cause: LimitCause, joint: &JointPlace) -> &'static str {
+    match (cause, joint.is_angular) {
+        (LimitCause::VelocityLimit, true) => "rad/s",
+        (LimitCause::VelocityLimit, false) => "m/s",
+        (LimitCause::EffortLimit, true) => "N m",
+        (LimitCause::EffortLimit, false) => "N",
+        (LimitCause::PositionLimit, true) => "rad",
+        (LimitCause::PositionLimit, false) => "m",
+    }
+}
+
+type LimitEntry = (LimitCause, &'static str, fn(&JointLimit) -> Option<f64>);
+
+const LIMITS: [LimitEntry; 4] = [
+    (LimitCause::VelocityLimit, "velocity", |limit| limit.velocity),
+    (LimitCause::EffortLimit, "effort", |limit| limit.effort),
+    (LimitCause::PositionLimit, "lower", |limit| Some(limit.lower)),
+    (LimitCause::PositionLimit, "upper", |limit| Some(limit.upper)),
+];
+
+fn detail(cause: LimitCause, factor: Option<f64>) -> &'static str {
+    let is = |unit: f64| factor.is_some_and(|factor| (factor / unit - 1.0).abs() <= FACTOR);
+    match cause {
+        // Neither degrees nor rpm are units of an effort, whatever its factor is.
+        LimitCause::EffortLimit => "",
+        _ if is(DEGREES) => "degrees",
+        LimitCause::VelocityLimit if is(RPM) => "rpm",
+        _ => "",
+    }
+}

@@ -1,0 +1,310 @@
+//! The sentences of the report, for people.
+
+use congruent_input::display::{length, number, quantity, quantity_in_full};
+
+use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict, TorqueCertificates};
+use crate::{
+    bound::{CoveredMotion, TorqueBracket},
+    diagnosis::{DynamicsCause, FaultySide},
+    differences::{CandidateAndReference, Invariants, LimitDifference, ParameterDifference},
+    thresholds::{LARGEST_ACCELERATION, LARGEST_SPEED, MOST_JOINTS, Precision, SAME_VALUE},
+};
+
+/// Most parameters that a suggestion lists; more are better read in the edited lines.
+const MOST_PARAMETERS: usize = 10;
+
+/// The values to write into the file; `None` if the file is right, or if too many of its values change.
+pub(super) fn suggestion(faulty: FaultySide, parameters: &[ParameterDifference]) -> Option<String> {
+    if faulty == FaultySide::Reference || parameters.is_empty() || parameters.len() > MOST_PARAMETERS {
+        return None;
+    }
+    let values: Vec<String> = parameters
+        .iter()
+        .filter_map(|parameter| {
+            Some(format!("{}: {} = {}", parameter.of, parameter.parameter, parameter.expected?))
+        })
+        .collect();
+    Some(values.join(", ").trim_start_matches(": ").to_owned())
+}
+
+impl ParameterDifference {
+    /// `shoulder_link: mass is 2.63 kg, expected 3.76 kg`.
+    pub fn sentence(&self) -> String {
+        let [found, expected] = with_distinct_digits(self.found, self.expected, &self.unit, "not given");
+        let what = format!("{} is {found}, expected {expected}", self.parameter);
+        if self.of.is_empty() { what } else { format!("{}: {what}", self.of) }
+    }
+}
+
+impl DynamicsExplanation {
+    /// `forearm_link: the centre of mass is given in another unit (mm)`.
+    pub fn sentence(&self) -> String {
+        let place = match self.place.join(", ") {
+            all if all == "*" && self.cause.is_of_joints() => "all joints".to_owned(),
+            all if all == "*" => "all links".to_owned(),
+            place => place,
+        };
+        if self.cause == DynamicsCause::Several {
+            let parts = self
+                .parts
+                .iter()
+                .map(|part| format!("{}: {}", part.place.join(", "), part.cause.with_detail(&part.detail)));
+            return parts.collect::<Vec<String>>().join("; ");
+        }
+        format!("{place}: {}", self.cause.with_detail(&self.detail))
+    }
+}
+
+impl DynamicsCause {
+    /// `the centre of mass is given in another unit (mm)`.
+    fn with_detail(self, detail: &str) -> String {
+        match (self, detail) {
+            (_, "") => self.text().to_owned(),
+            (Self::ComUnit, "m") => {
+                "the centre of mass is 1000 times too small: metres under com_mm, or metres divided by 1000"
+                    .to_owned()
+            }
+            (Self::InertiaAboutOrigin, _) => {
+                "the parallel-axis term is subtracted from an inertia that is already about the centre of mass"
+                    .to_owned()
+            }
+            _ => format!("{} ({detail})", self.text()),
+        }
+    }
+
+    /// Whether the cause is a link that only one of the two files has.
+    pub fn is_of_one_file(self) -> bool {
+        matches!(self, Self::LinkMissing | Self::LinkAdded)
+    }
+
+    /// Whether the cause names only the values that are wrong, not how they became wrong.
+    pub(super) fn is_of_free_values(self) -> bool {
+        matches!(
+            self,
+            Self::Mass
+                | Self::Density
+                | Self::ComEntry
+                | Self::Com
+                | Self::InertiaScale
+                | Self::InertiaEntry
+                | Self::Inertia
+                | Self::Inertial
+                | Self::Damping
+        )
+    }
+
+    fn is_of_joints(self) -> bool {
+        (Self::JointTermsMissing..=Self::Armature).contains(&self)
+    }
+}
+
+impl LimitDifference {
+    /// `elbow_joint: velocity limit is 10313 deg/s, expected 180 deg/s, factor 57.3: in degrees?`.
+    pub fn sentence(&self) -> String {
+        let [found, expected] = with_distinct_digits(self.found, self.expected, &self.unit, "not stated");
+        let factor = self.factor.map_or_else(String::new, |factor| format!(", factor {}", number(factor)));
+        let unit = if self.detail.is_empty() { String::new() } else { format!(": in {}?", self.detail) };
+        let remark = if self.decides { "" } else { "; stated in only one of the two: no disagreement" };
+        format!(
+            "{}: {} limit is {found}, expected {expected}{factor}{unit}{remark}",
+            self.joint, self.parameter
+        )
+    }
+}
+
+/// Two values with three digits, or with all digits if three do not distinguish them.
+fn with_distinct_digits(found: Option<f64>, expected: Option<f64>, unit: &str, nothing: &str) -> [String; 2] {
+    let texts = [found, expected]
+        .map(|value| value.map_or_else(|| nothing.to_owned(), |value| quantity(value, unit)));
+    match found.zip(expected) {
+        Some((a, b)) if texts[0] == texts[1] && a.total_cmp(&b).is_ne() => {
+            [a, b].map(|value| quantity_in_full(value, unit))
+        }
+        _ => texts,
+    }
+}
+
+impl Invariants {
+    /// Sentences about masses, centre of mass, gravity torques and mass matrix, each only if it differs.
+    pub fn sentences(&self) -> Vec<String> {
+        let mass = |what: &str, CandidateAndReference { found, expected }: CandidateAndReference| {
+            let differs = (found - expected).abs() > SAME_VALUE * expected.abs();
+            let values = with_distinct_digits(Some(found), Some(expected), "kg", "");
+            differs.then(|| format!("{what} {}, expected {}", values[0], values[1]))
+        };
+        let com = self.com_distance_m.filter(|distance| *distance > SAME_VALUE);
+        let gravity = self.gravity_joint.as_ref().filter(|_| self.gravity_n_m > SAME_VALUE);
+        let matrix = self.mass_matrix_relative.filter(|relative| *relative > SAME_VALUE);
+        let sentences = [
+            mass("total mass", self.total_mass_kg),
+            mass("moving mass", self.moving_mass_kg),
+            com.map(|distance| {
+                format!("centre of mass of the moving links, joints at zero, off by {}", length(distance))
+            }),
+            gravity.map(|joint| {
+                format!(
+                    "largest gravity torque difference at the compared states {} at {joint}",
+                    quantity(self.gravity_n_m, &self.gravity_unit)
+                )
+            }),
+            matrix.map(|relative| {
+                format!(
+                    "largest mass matrix difference at the compared states {} %",
+                    number(relative * 100.0)
+                )
+            }),
+        ];
+        sentences.into_iter().flatten().collect()
+    }
+}
+
+impl DynamicsReport {
+    /// Adds to each explanation the cause if the other of the two files is wrong.
+    pub fn add_otherwise(&mut self, other: &Self) {
+        for explanation in &mut self.explanations {
+            // Matched by place: the same fault in the other file is at the same link or joint.
+            let there = other.explanations.iter().find(|there| there.place == explanation.place);
+            explanation.otherwise = there.map(|there| {
+                let mut places =
+                    there.file.iter().zip(there.line).map(|(file, line)| format!("{file}:{line}: "));
+                let values: Vec<String> =
+                    there.parameters.iter().take(3).map(ParameterDifference::sentence).collect();
+                format!("{}{} ({})", places.next().unwrap_or_default(), there.sentence(), values.join("; "))
+            });
+        }
+    }
+
+    /// All sentences for a person, the result first.
+    pub fn sentences(&self) -> Vec<String> {
+        let mut sentences = vec![self.headline()];
+        for explanation in &self.explanations {
+            sentences.push(explanation.sentence());
+            sentences.extend(explanation.parameters.iter().map(ParameterDifference::sentence));
+        }
+        sentences.extend(self.limits.iter().map(LimitDifference::sentence));
+        sentences.extend(self.hidden_sentences());
+        if !self.has_same_torques() {
+            sentences.extend(self.invariants.iter().flat_map(Invariants::sentences));
+        }
+        sentences.extend(self.worst_gravity().map(TorqueBracket::sentence));
+        sentences
+    }
+
+    /// The result in one sentence, with the relative torque difference and the number of states.
+    pub fn headline(&self) -> String {
+        let states = number(count(self.premise.states));
+        let [equal, percent] = [1.0, 100.0].map(|unit| number(self.difference_relative * unit));
+        match self.verdict {
+            DynamicsVerdict::Same | DynamicsVerdict::SameTorques => {
+                let seen =
+                    self.identifiability_sentence().map_or_else(String::new, |seen| format!("; {seen}"));
+                format!("torques agree within {equal} (relative) at {states} states{seen}")
+            }
+            DynamicsVerdict::Explained => {
+                format!("torques differ by {percent} % at {states} states, explained")
+            }
+            DynamicsVerdict::Unexplained if self.seen.is_none() => format!(
+                "torques differ by {percent} % at {states} states; causes are searched for at most {MOST_JOINTS} joints"
+            ),
+            DynamicsVerdict::Unexplained => {
+                let no_body = self.premise.fit_relative;
+                let of_no_body = if no_body > Precision::ENGINE.of_torque {
+                    let percent = number(no_body * 100.0);
+                    format!("; {percent} % of the torques cannot come from any rigid-body parameters")
+                } else {
+                    String::new()
+                };
+                format!(
+                    "torques differ by {percent} % at {states} states, and no known cause explains it{of_no_body}"
+                )
+            }
+        }
+    }
+
+    /// The bracket of the largest gravity torque difference, if it was requested and there is one.
+    pub fn worst_gravity(&self) -> Option<&TorqueBracket> {
+        self.certificates.as_ref()?.gravity.worst.as_ref()
+    }
+
+    /// The bracket of the largest torque difference in any covered motion, if it was requested and there is one.
+    pub fn worst_in_motion(&self) -> Option<&TorqueBracket> {
+        self.certificates.as_ref()?.together.worst.as_ref()
+    }
+
+    /// Sentences about parameters that differ without an effect on torques, with both values.
+    pub fn hidden_sentences(&self) -> Vec<String> {
+        let why = |parameter: &ParameterDifference| match parameter.below_resolution {
+            Some(share) => format!(
+                "it changes joint torques by {} (relative), below the resolution of {}",
+                number(share),
+                number(Precision::EXACT.same)
+            ),
+            None => "it has no effect on joint torques".to_owned(),
+        };
+        let hidden = self.hidden_differences.iter();
+        hidden.map(|parameter| format!("{}; {}", parameter.sentence(), why(parameter))).collect()
+    }
+
+    /// How many inertial parameters are identifiable from joint torques; `None` if it is not computed.
+    pub fn identifiability_sentence(&self) -> Option<String> {
+        let seen = self.seen?;
+        let all = format!("{} of {} inertial parameters are identifiable", seen.numbers, seen.of);
+        Some(match seen.weak {
+            0 => all,
+            weak => format!("{all}, {} of them only through the rounding of joint axes", number(count(weak))),
+        })
+    }
+}
+
+impl TorqueBracket {
+    /// `3.43 N m at shoulder_lift_joint, certified below 3.44 N m (2.3 % of its effort limit) over the whole joint range`.
+    pub fn sentence(&self) -> String {
+        let share =
+            self.share_of_effort.map(|share| format!(" ({} % of its effort limit)", number(share * 100.0)));
+        let loose = self.ratio.filter(|ratio| *ratio > LOOSE);
+        let loose = loose.map(|ratio| format!(", {} times as much,", number(ratio)));
+        format!(
+            "{} at {}, certified below {}{}{} over the whole joint range",
+            quantity(self.attained_n_m, &self.unit),
+            self.joint,
+            quantity(self.certified_n_m, &self.unit),
+            share.unwrap_or_default(),
+            loose.unwrap_or_default(),
+        )
+    }
+}
+
+/// A bound above this multiple of the difference that was found is reported with the ratio. No unit; kind: choice.
+const LOOSE: f64 = 1.1;
+
+impl TorqueCertificates {
+    /// The speeds and accelerations that the bounds cover, and whether they are stated or assumed.
+    pub fn covered_sentence(&self) -> String {
+        let named = |is: fn(&CoveredMotion) -> bool| -> Vec<&str> {
+            self.covered.iter().filter(|covered| is(covered)).map(|covered| covered.joint.as_str()).collect()
+        };
+        let assumed = |what: &str, assumed: &[&str], most: f64| match assumed.len() {
+            0 => format!("{what} as stated"),
+            all if all == self.covered.len() => format!("{what} up to {} rad/s or m/s assumed", number(most)),
+            _ => format!(
+                "{what} as stated, up to {} rad/s or m/s assumed for {}",
+                number(most),
+                assumed.join(", ")
+            ),
+        };
+        let speeds = assumed("speeds", &named(|covered| !covered.speed_is_stated), LARGEST_SPEED);
+        let without = named(|covered| !covered.acceleration_is_declared);
+        let accelerations = assumed("accelerations", &without, LARGEST_ACCELERATION);
+        let accelerations = accelerations.replace("rad/s or m/s", "rad/s^2 or m/s^2");
+        let how = if without.is_empty() {
+            ""
+        } else {
+            " ([limits] acceleration_rad_s2 of robot.toml declares them)"
+        };
+        format!("{speeds}; {accelerations}{how}")
+    }
+}
+
+fn count(number: usize) -> f64 {
+    f64::from(u32::try_from(number).unwrap_or(u32::MAX))
+}

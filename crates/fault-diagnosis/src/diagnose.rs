@@ -1,0 +1,235 @@
+//! The diagnosis of a run: tool, transport and encoders by the poses, then actuators and payload by the efforts.
+
+use congruent_description::RobotDescription;
+use congruent_dynamics::DynamicsError;
+use congruent_monitors::{ActuatorLimits, RunClock, RunDynamics, SampleStore};
+use congruent_proximity::{Clearance, MovingBodies};
+use congruent_scenario::{ControllerKind, FaultKind, RunFault};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    actuator,
+    encoder::{self, DISTINCT, EncoderFaults},
+    fit::FaultFit,
+    observed::Observed,
+    payload,
+    residual::{HeldSamples, OffWindow, Residual, first_contact, residuals},
+    stuck, tool,
+    transport::{self, Dropped},
+};
+
+/// The faults of the twin, found from the samples of the run alone.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RunDiagnosis {
+    /// The faults that explain the samples, in order of their beginning.
+    pub faults: Vec<FoundFault>,
+    /// Deviations that no known fault explains, or several faults equally well.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unexplained: Vec<String>,
+}
+
+/// A fault with how well it explains the samples.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FoundFault {
+    /// Kind, joints, values and times of the fault.
+    #[serde(flatten)]
+    pub fault: RunFault,
+    /// Relative residual of the fault beyond the noise of the encoders: root mean square of the residual over that of the
+    /// difference.
+    pub remaining: f64,
+}
+
+impl RunDiagnosis {
+    /// Whether the samples show no deviation.
+    pub fn is_empty(&self) -> bool {
+        self.faults.is_empty() && self.unexplained.is_empty()
+    }
+
+    /// The faults without their residuals.
+    pub fn run_faults(&self) -> impl Iterator<Item = RunFault> {
+        self.faults.iter().map(|found| found.fault.clone())
+    }
+
+    /// Each fault, and each deviation that is not explained, in a sentence.
+    pub fn sentences(&self) -> Vec<String> {
+        let faults = self.faults.iter().map(|found| found.fault.sentence());
+        faults.chain(self.unexplained.iter().cloned()).collect()
+    }
+}
+
+/// What a diagnosis knows of a run beside its samples: what the scenario declares, and nothing of its faults.
+#[derive(Debug)]
+pub struct DiagnosedRun<'a> {
+    /// The robot with its model.
+    pub description: &'a RobotDescription,
+    /// Clock and gravity.
+    pub clock: &'a RunClock,
+    /// The kind of the controller.
+    pub controller: ControllerKind,
+    /// What each moving joint's actuator can do.
+    pub actuators: Vec<ActuatorLimits>,
+    /// Masses, payloads and resistances as declared.
+    pub dynamics: RunDynamics<'a>,
+    /// The obstacles that move, from the start of the run on.
+    pub bodies: MovingBodies<'a>,
+}
+
+/// Diagnoses the samples of a run; `None` if they show no deviation. `clearance` is that of the run.
+pub fn diagnose(
+    mut run: DiagnosedRun<'_>,
+    store: &SampleStore,
+    clearance: &mut Clearance,
+) -> Option<RunDiagnosis> {
+    let observed = Observed::new(store, &run.description.robot, run.clock);
+    let open = observed.independent_joints();
+    let mut search = Search { observed, open, found: Vec::new(), unexplained: Vec::new() };
+    // Poses before efforts: the efforts that a motion needs are computed from positions, which a fault of encoders or transport
+    // would falsify.
+    search.poses();
+    let first_contact = first_contact(&search.observed, &mut run.bodies, clearance);
+    search.efforts(run, first_contact).ok()?;
+    let Search { found: mut faults, unexplained, .. } = search;
+    faults.sort_by(|a, b| a.fault.from_s.total_cmp(&b.fault.from_s));
+    let found = |fit: FaultFit| FoundFault { fault: fit.fault, remaining: fit.remaining };
+    let diagnosis = RunDiagnosis { faults: faults.into_iter().map(found).collect(), unexplained };
+    (!diagnosis.is_empty()).then_some(diagnosis)
+}
+
+struct Search<'a> {
+    observed: Observed<'a>,
+    /// Joints whose reported effort is that of their drive, as far as is known.
+    open: Vec<usize>,
+    found: Vec<FaultFit>,
+    unexplained: Vec<String>,
+}
+
+impl Search<'_> {
+    /// The measured positions against those by the poses of the links.
+    fn poses(&mut self) {
+        // The tool first: a link at another pose makes the position of the joint before it appear wrong.
+        if let Some(tool) = tool::displaced(&self.observed).filter(|tool| tool.fit.explains()) {
+            self.found.push(tool.fit);
+            self.open.retain(|&joint| Some(joint) != tool.joint_before);
+        }
+        // A latency and faults of encoders explain the same readings: the latency is taken only if it explains distinctly more,
+        // since one latency replaces faults of all encoders.
+        let late = |observed: &Observed<'_>, open: &[usize]| {
+            let encoders = encoder::faults(observed, open);
+            let late = transport::late(observed, open);
+            (late.filter(|late| late.gain > encoders.gain + DISTINCT), encoders)
+        };
+        let (mut found, mut encoders) = late(&self.observed, &self.open);
+        // Before the search for lost readings: with a latency, readings repeat a while after the robot was at rest, not while
+        // it is, and would count as lost.
+        self.observed.late = found.as_ref().map(|late| (late.window, late.steps));
+        if let Some(Dropped { fit, is_held, would_show }) = transport::dropped(&self.observed, &self.open) {
+            self.found.push(fit);
+            // Only samples that would show a loss: in the others a lost reading looks like one that is late by a step.
+            self.observed.is_used =
+                is_held.iter().zip(&would_show).map(|(is_held, shows)| *shows && !is_held).collect();
+            found = transport::late(&self.observed, &self.open);
+            self.observed.is_used = is_held.into_iter().map(|is_held| !is_held).collect();
+            encoders = encoder::faults(&self.observed, &self.open);
+            found = found.filter(|late| late.gain > encoders.gain + DISTINCT);
+            self.observed.late = found.as_ref().map(|late| (late.window, late.steps));
+        }
+        match found {
+            Some(late) => self.found.push(late.fit),
+            None => self.encoders(encoders),
+        }
+    }
+
+    /// Takes the faults of encoders, and reports deviations that several faults explain, or none.
+    fn encoders(&mut self, encoders: EncoderFaults) {
+        let observed = &self.observed;
+        for (joint, hypotheses) in encoders.hidden {
+            let kinds: Vec<String> = hypotheses.iter().map(|fit| fit.fault.words()).collect();
+            self.unexplained
+                .push(format!("several faults are possible within the noise: {}", kinds.join("; or ")));
+            self.open.retain(|&other| other != joint);
+        }
+        for fit in encoders.found {
+            // The drive of such a joint counts the other way round, or moves another joint: its reported effort is not that of
+            // the joint, and would appear as a fault of the actuator.
+            if matches!(fit.fault.kind, FaultKind::FlippedAxis | FaultKind::SwappedJoints) {
+                self.open.retain(|&joint| !fit.fault.joints.contains(&observed.name(joint)));
+            }
+            self.found.push(fit);
+        }
+        let is_named = |joint: usize| {
+            let name = observed.name(joint);
+            self.found.iter().any(|fit| fit.fault.joints.contains(&name))
+        };
+        let (unknown, open): (Vec<usize>, Vec<usize>) =
+            self.open.iter().partition(|&&joint| !is_named(joint) && encoder::is_wrong(observed, joint));
+        self.open = open;
+        self.unexplained.extend(unknown.into_iter().map(|joint| {
+            let name = observed.name(joint);
+            format!("joint {name}: no known fault explains the difference between encoder and link poses")
+        }));
+    }
+
+    /// The reported efforts against those that the motion needs.
+    fn efforts(&mut self, run: DiagnosedRun<'_>, first_contact: Option<usize>) -> Result<(), DynamicsError> {
+        match run.controller {
+            ControllerKind::Kinematic => {
+                self.not_followed();
+                return Ok(());
+            }
+            // There is no setpoint, and no drive reports an effort.
+            ControllerKind::Passive => return Ok(()),
+            _ => {}
+        }
+        let mut residuals = residuals(&self.observed, run.dynamics, &run.actuators)?;
+        if let Some(contact) = first_contact {
+            residuals.retain(|residual| residual.sample < contact);
+        }
+        let robot = self.observed.robot;
+        let masters: Vec<usize> =
+            robot.joints().iter().filter_map(|joint| robot.coordinate(joint.mimic?.master)).collect();
+        // The effort of a joint that others mimic moves those as well, so it is not that of the joint alone.
+        self.open.retain(|joint| !masters.contains(joint));
+        let (mut off, mut alone) = (Vec::new(), Vec::new());
+        for &joint in &self.open {
+            let of = |held: HeldSamples| self.off_window(&residuals, (joint, held));
+            // Stuck first: a brake holds the joint, and exactly those samples are the evidence. For every other fault they are
+            // not, since dry friction may exert any torque in them.
+            let stuck = of(HeldSamples::Counts)
+                .and_then(|window| stuck::fault(&self.observed, joint, window.samples));
+            let window = of(if stuck.is_some() { HeldSamples::Counts } else { HeldSamples::LeftOut });
+            let Some(window) = window else { continue };
+            off.push((joint, window));
+            alone.extend(stuck.or_else(|| actuator::fault(&self.observed, joint, &residuals, window)));
+        }
+        let joints: Vec<usize> = off.iter().map(|&(joint, _)| joint).collect();
+        let together = off.iter().map(|&(_, window)| window).reduce(OffWindow::with);
+        let Some(together) = together else { return Ok(()) };
+        let load = payload::fault(&self.observed, run.description, &joints, (&residuals, together))?;
+        let load = load.filter(FaultFit::explains);
+        let score_alone: f64 = alone.iter().map(FaultFit::score).sum();
+        match load {
+            // One payload explains all joints with a residual, unless each has a better cause of its own: fewer causes first.
+            Some(load) if alone.len() < off.len() || load.score() < score_alone => self.found.push(load),
+            _ => self.found.extend(alone),
+        }
+        Ok(())
+    }
+
+    /// Joints that are not at their setpoints although the controller places the robot there.
+    fn not_followed(&mut self) {
+        for &joint in &self.open {
+            let behind = stuck::behind_setpoint(&self.observed, joint);
+            self.found.extend(behind.and_then(|window| stuck::fault(&self.observed, joint, window)));
+        }
+    }
+
+    /// When the residual of a joint is above the truncation error of a step, until the joint reaches a limit, whose stop exerts
+    /// an unknown torque.
+    fn off_window(&self, residuals: &[Residual], (joint, held): (usize, HeldSamples)) -> Option<OffWindow> {
+        let before_limit = self.observed.samples_before_limit(joint);
+        let usable = residuals.partition_point(|residual| residual.sample < before_limit);
+        let residuals = &residuals[..usable];
+        OffWindow::above_threshold(residuals, self.observed.samples(), (joint, held))
+    }
+}

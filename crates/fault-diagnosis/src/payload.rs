@@ -1,0 +1,110 @@
+//! Hypothesis: the tool carries a point mass that is not declared.
+
+use congruent_description::RobotDescription;
+use congruent_dynamics::{BodyTree, DynamicsError, JointMotionState, PARAMETERS, SpatialInertia};
+use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
+use nalgebra::{DMatrix, Point3, Vector3};
+
+use super::{
+    fit::{FaultFit, norm, solve},
+    observed::Observed,
+    residual::{OffWindow, Residual, body_of},
+};
+
+/// Largest number of residuals that are fitted: the regressor of each costs some microseconds.
+const MOST_RESIDUALS: usize = 1000;
+/// Rounds of the fixed-point iteration for the inertia of the point mass, which follows from mass and position: its effect is
+/// small compared with that of the weight, so that the iteration converges.
+const ROUNDS: usize = 12;
+/// A direction of the parameters is not identifiable if its singular value is a smaller part of the largest: efforts are known to
+/// about that precision.
+const NOT_IDENTIFIABLE: f64 = 1e-3;
+/// An axis with a smaller component along an axis that is not identifiable is identifiable. Kind: engineering.
+const PART_OF_AXIS: f64 = 0.05;
+/// Columns of the regressor: the first moment and the mass, after the six of the tensor.
+const FIRST_MOMENT: usize = 6;
+
+/// The point mass that explains the residuals of all `joints` in a window of them.
+pub(super) fn fault(
+    observed: &Observed<'_>,
+    description: &RobotDescription,
+    joints: &[usize],
+    (residuals, window): (&[Residual], OffWindow),
+) -> Result<Option<FaultFit>, DynamicsError> {
+    let tree = BodyTree::new(observed.robot).with_gravity(observed.clock.gravity_in_world);
+    let (body, body_from_tip) = body_of(observed.robot, description.tip);
+    let Some(body) = (0..tree.dof()).find(|&joint| tree.link(joint) == body) else { return Ok(None) };
+    let of_window = &residuals[window.residuals.samples()];
+    let every = of_window.len().div_ceil(MOST_RESIDUALS).max(1);
+    let (mut columns, mut needed) = (vec![Vec::new(); PARAMETERS], Vec::new());
+    let mut buffer = tree.buffer();
+    let mut regressor = DMatrix::zeros(tree.dof(), PARAMETERS * tree.dof());
+    for residual in of_window.iter().step_by(every) {
+        let motion = JointMotionState { q: &residual.q, qd: &residual.qd[0], qdd: &residual.qdd };
+        tree.regressor_into(&motion, &mut buffer, &mut regressor)?;
+        for &joint in joints.iter().filter(|&&joint| !residual.is_held[joint]) {
+            // Missing is needed minus reported; the drive exerts what the load needs, so the load has the opposite sign.
+            needed.push(-residual.missing[joint]);
+            for (parameter, column) in columns.iter_mut().enumerate() {
+                column.push(regressor[(joint, PARAMETERS * body + parameter)]);
+            }
+        }
+    }
+    let Some((load, remaining, is_identifiable)) = point_mass(&columns, &needed) else { return Ok(None) };
+    let com_in_body = load.first_moment_kg_m / load.mass_kg;
+    let com_in_tip = body_from_tip.inverse() * Point3::from(com_in_body);
+    // Identifiability is known along the axes of the body, but reported along those of the tip.
+    let body_from_tip = body_from_tip.rotation.to_rotation_matrix();
+    let of_axis = |axis: usize| {
+        let hidden = (0..3).filter(|&of_body| !is_identifiable[of_body]);
+        hidden.map(|of_body| body_from_tip[(of_body, axis)].abs()).sum::<f64>() < PART_OF_AXIS
+    };
+    let is_identifiable = std::array::from_fn(of_axis);
+    let (from_s, until_s) = observed.times(window.samples);
+    let fault = RunFault {
+        kind: FaultKind::WrongPayload,
+        joints: Vec::new(),
+        link: Some(observed.robot.link(description.tip).name.clone()),
+        values: FaultQuantity::payload(load.mass_kg, com_in_tip.coords, is_identifiable),
+        from_s,
+        until_s,
+    };
+    Ok(Some(FaultFit { fault, remaining, parameters: 4 }))
+}
+
+/// Mass and place by least squares, with the inertia of the mass and place of the round before.
+fn point_mass(columns: &[Vec<f64>], needed: &[f64]) -> Option<(SpatialInertia, f64, [bool; 3])> {
+    // Efforts are linear in first moment and mass, but quadratic in the position through the inertia: the inertia of the round
+    // before is subtracted, and the linear problem solved.
+    let linear = &columns[FIRST_MOMENT..];
+    // One scale for the three moments: with a scale of its own, a moment without effect would become as large as the others.
+    let moment = linear[..3].iter().map(|column| norm(column)).fold(0.0, f64::max);
+    let scales = [moment, moment, moment, norm(&linear[3])];
+    let mut is_identifiable = [false; 3];
+    let mut load = SpatialInertia::zero();
+    let mut remaining = 1.0;
+    let whole: f64 = needed.iter().map(|value| value * value).sum();
+    for _ in 0..ROUNDS {
+        let tensor = load.parameters();
+        let without_tensor: Vec<f64> = needed
+            .iter()
+            .enumerate()
+            .map(|(row, value)| {
+                value - (0..FIRST_MOMENT).map(|at| columns[at][row] * tensor[at]).sum::<f64>()
+            })
+            .collect();
+        let solution = solve((linear, &scales), &without_tensor, NOT_IDENTIFIABLE)?;
+        let [x, y, z, mass_kg] = solution.parameters[..] else { return None };
+        if !solution.is_identifiable[3] {
+            return None;
+        }
+        is_identifiable.copy_from_slice(&solution.is_identifiable[..3]);
+        if mass_kg <= 0.0 {
+            return None;
+        }
+        load = SpatialInertia::point_mass(mass_kg, Vector3::new(x, y, z) / mass_kg);
+        let rest: f64 = without_tensor.iter().map(|value| value * value).sum();
+        remaining = solution.remaining * (rest / whole).sqrt();
+    }
+    Some((load, remaining, is_identifiable))
+}

@@ -1,0 +1,282 @@
+//! Decides which files another file may name, and records which files were read.
+
+use std::{
+    fmt::Display,
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex},
+};
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use super::{
+    open::{decode_text, folder_of, read_named_bytes, read_regular_bytes},
+    project::{normalised, project_folder},
+    ros_packages::RosPackages,
+};
+use crate::diagnostic::{Diagnostic, SourceFile};
+
+/// Names that mark the top folder of a project of scenarios and robot files.
+const MARKS: [&str; 2] = ["package.xml", ".git"];
+
+/// The code of a file outside the folders that may be read.
+pub const OUTSIDE: &str = "file::outside";
+
+/// Permission to open files, and the record of the files that were read.
+///
+/// A file that a person names, on the command line or in a call, is opened wherever it is. A file that a scenario or a robot file names
+/// is opened only inside the project of the first file, with symbolic links resolved: the nearest folder at or above it
+/// that holds `package.xml` or `.git`, or else the folder above its own, or the current folder if that is higher above it, but
+/// never `/` or the home folder. Other folders are opened if a person allows them.
+#[derive(Debug, Clone, Default)]
+pub struct FileAccess {
+    ros: RosPackages,
+    allowed: Vec<PathBuf>,
+    /// The project, canonical; `None` until a file names others.
+    project: Option<PathBuf>,
+    read: Arc<Mutex<Vec<InputFile>>>,
+}
+
+/// A file that was read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct InputFile {
+    /// The file as it was named: a path, or the address of a mesh.
+    pub file: String,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+    /// Path of the file on this machine.
+    #[serde(skip)]
+    pub path: PathBuf,
+}
+
+impl FileAccess {
+    /// With the ROS packages to search, and with further folders that may be opened.
+    ///
+    /// # Errors
+    /// One of `allowed` is not a folder.
+    pub fn new(ros: RosPackages, allowed: &[PathBuf]) -> Result<Self, Diagnostic> {
+        let canonical = |folder: &PathBuf| {
+            let real = folder.canonicalize().ok().filter(|real| real.is_dir());
+            real.ok_or_else(|| {
+                let message = format!("--allow {}: not a folder", folder.display());
+                Diagnostic::error("file::allow", message)
+                    .with_help("give a folder that exists, whose files may be opened")
+            })
+        };
+        let allowed = allowed.iter().map(canonical).collect::<Result<_, _>>()?;
+        Ok(Self { ros, allowed, ..Self::default() })
+    }
+
+    /// The same with the folder of a file that a person names.
+    #[must_use]
+    pub fn beside(&self, file: &Path) -> Self {
+        let folder = real_folder(file).ok();
+        Self { allowed: self.allowed.iter().cloned().chain(folder).collect(), ..self.clone() }
+    }
+
+    /// The same for what `file` names: inside its project, unless a file before it has set that.
+    ///
+    /// # Errors
+    /// Its folder cannot be read.
+    pub fn inside_project_of(&self, file: &Path) -> Result<Self, Diagnostic> {
+        let project = if let Some(project) = &self.project {
+            project.clone()
+        } else {
+            let current = std::env::current_dir().and_then(|current| current.canonicalize()).ok();
+            project_folder(&real_folder(file)?, &MARKS, current.as_deref())
+        };
+        Ok(Self { project: Some(project), ..self.clone() })
+    }
+
+    /// The same permissions with an empty record of files.
+    #[must_use]
+    pub fn fresh(&self) -> Self {
+        Self { read: Arc::default(), ..self.clone() }
+    }
+
+    /// The files that were read, in the order of their first reading.
+    pub fn files(&self) -> Vec<InputFile> {
+        self.read.lock().map(|read| read.clone()).unwrap_or_default()
+    }
+
+    /// The text of a file that a person names: a regular file of at most `most_bytes`, a pipe, or `-` for standard input.
+    ///
+    /// # Errors
+    /// The file cannot be read or is no UTF-8 text; the fault comes with as much of the text as is needed to show its
+    /// place.
+    pub fn read_named_text(&self, path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
+        let bytes = read_named_bytes(path, most_bytes)?;
+        self.note(&path.display(), path, &bytes);
+        decode_text(path, &bytes)
+    }
+
+    /// The text of a file that another file names: a regular file of at most `most_bytes`.
+    ///
+    /// # Errors
+    /// The file may not be opened, or as [`FileAccess::read_named_text`].
+    pub fn read_text(&self, path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
+        self.check(path)?;
+        let bytes = read_regular_bytes(path, most_bytes)?;
+        self.note(&path.display(), path, &bytes);
+        decode_text(path, &bytes)
+    }
+
+    /// The bytes of a mesh, which was found in a folder that may be opened.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is longer than `most_bytes`.
+    pub fn read_mesh(&self, uri: &str, path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
+        let bytes = read_regular_bytes(path, most_bytes)?;
+        self.note(&uri, path, &bytes);
+        Ok(bytes)
+    }
+
+    /// Whether a file may name `path`. A path that does not exist is checked by its name alone, so that the answer does not
+    /// reveal which files exist outside the project.
+    ///
+    /// # Errors
+    /// It is outside of the project and of the folders that are allowed.
+    pub fn check(&self, path: &Path) -> Result<(), Diagnostic> {
+        let Some(project) = &self.project else { return Ok(()) };
+        let real = real(path);
+        if self.is_inside(&real) {
+            return Ok(());
+        }
+        let message = format!(
+            "{} is outside of the project folder {}, so it is not opened",
+            path.display(),
+            project.display()
+        );
+        let folder = real.parent().unwrap_or(&real).display();
+        Err(Diagnostic::error(OUTSIDE, message).with_help(format!(
+            "move it into the project, whose top is marked by package.xml or .git, or allow its folder: --allow {folder}"
+        )))
+    }
+
+    /// The ROS packages that may be searched.
+    pub(super) fn ros(&self) -> &RosPackages {
+        &self.ros
+    }
+
+    /// The folders that a person has allowed in addition to the project.
+    pub(super) fn allowed(&self) -> &[PathBuf] {
+        &self.allowed
+    }
+
+    /// The project, if a file has set it.
+    pub(super) fn project(&self) -> Option<&Path> {
+        self.project.as_deref()
+    }
+
+    fn is_inside(&self, path: &Path) -> bool {
+        self.project.iter().chain(&self.allowed).any(|folder| path.starts_with(folder))
+    }
+
+    /// Adds files to the list.
+    pub fn add(&self, files: &[InputFile]) {
+        let Ok(mut read) = self.read.lock() else { return };
+        for file in files {
+            if !read.contains(file) {
+                read.push(file.clone());
+            }
+        }
+    }
+
+    fn note(&self, name: &dyn Display, path: &Path, bytes: &[u8]) {
+        let sha256 = format!("{:x}", Sha256::digest(bytes));
+        self.add(&[InputFile { file: name.to_string(), sha256, path: path.to_owned() }]);
+    }
+}
+
+/// The folder of a file, canonical; a bare name is in the current folder, and so is standard input.
+fn real_folder(file: &Path) -> Result<PathBuf, Diagnostic> {
+    let folder = folder_of(file);
+    folder.canonicalize().map_err(|error| {
+        Diagnostic::error("file::unreadable", format!("{} cannot be read: {error}", folder.display()))
+    })
+}
+
+/// The path from the root without links; of what does not exist, as far as it exists.
+fn real(path: &Path) -> PathBuf {
+    if let Ok(real) = path.canonicalize() {
+        return real;
+    }
+    let named = normalised(&std::env::current_dir().unwrap_or_default().join(path));
+    let existing = named.ancestors().find_map(|above| {
+        let (real, rest) = (above.canonicalize().ok()?, named.strip_prefix(above).ok()?);
+        Some(real.join(rest))
+    });
+    existing.unwrap_or_else(|| named.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    /// `top/project/scenarios/s.toml` beside `top/project/robots`, and `top/outside`.
+    fn folders() -> tempfile::TempDir {
+        let top = tempfile::tempdir().unwrap();
+        for folder in ["project/scenarios", "project/robots", "outside"] {
+            fs::create_dir_all(top.path().join(folder)).unwrap();
+        }
+        for file in ["project/scenarios/s.toml", "project/robots/r.urdf", "outside/secret"] {
+            fs::write(top.path().join(file), "text").unwrap();
+        }
+        top
+    }
+
+    fn code(access: &FileAccess, path: &Path) -> Option<&'static str> {
+        access.read_text(path, 99).err().map(|fault| fault.code)
+    }
+
+    #[test]
+    fn files_name_only_what_is_in_their_project() {
+        let top = folders();
+        let scenario = top.path().join("project/scenarios/s.toml");
+        let access = FileAccess::default().inside_project_of(&scenario).unwrap();
+        let robots = scenario.parent().unwrap().join("../robots");
+        assert_eq!(code(&access, &robots.join("r.urdf")), None);
+        assert_eq!(code(&access, &robots.join("gone.urdf")), Some("file::not_found"));
+        assert_eq!(code(&access, &robots.join("../../outside/secret")), Some("file::outside"));
+        assert_eq!(code(&access, &robots.join("../../outside/gone")), Some("file::outside"));
+        assert_eq!(code(&access, Path::new("/etc/passwd")), Some("file::outside"));
+        // What a robot file names is inside the project of the scenario, not of its own folder's.
+        let nested = access.inside_project_of(&top.path().join("project/r.toml")).unwrap();
+        assert_eq!(code(&nested, &top.path().join("outside/secret")), Some("file::outside"));
+        #[cfg(unix)]
+        {
+            let link = robots.join("link");
+            std::os::unix::fs::symlink(top.path().join("outside"), &link).unwrap();
+            assert_eq!(code(&access, &link.join("secret")), Some("file::outside"));
+        }
+    }
+
+    #[test]
+    fn allowed_folders_and_marked_projects_are_wider() {
+        let top = folders();
+        let scenario = top.path().join("project/scenarios/s.toml");
+        let outside = top.path().join("outside");
+        let allowing = FileAccess::new(RosPackages::default(), std::slice::from_ref(&outside)).unwrap();
+        assert_eq!(code(&allowing.inside_project_of(&scenario).unwrap(), &outside.join("secret")), None);
+        fs::create_dir(top.path().join(".git")).unwrap();
+        let marked = FileAccess::default().inside_project_of(&scenario).unwrap();
+        assert_eq!(code(&marked, &outside.join("secret")), None);
+        assert!(FileAccess::new(RosPackages::default(), &[scenario]).is_err());
+    }
+
+    #[test]
+    fn what_was_read_is_listed_once_with_its_hash() {
+        let top = folders();
+        let access = FileAccess::default();
+        let file = top.path().join("outside/secret");
+        for _ in 0..2 {
+            access.read_named_text(&file, 99).unwrap();
+        }
+        let sha256 = "982d9e3eb996f559e633f4d194def3761d909f5a3b647d1a851fead67c32c9d1".to_owned();
+        assert_eq!(access.files(), [InputFile { file: file.display().to_string(), sha256, path: file }]);
+        assert!(access.fresh().files().is_empty());
+    }
+}

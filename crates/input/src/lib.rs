@@ -1,0 +1,39 @@
+//! What every reader of files uses: diagnostics that say what is wrong, at which place, and what to do; units,
+//! values as they are typed, and the files that may be opened.
+//!
+//! Parsers take text and give a value or diagnostics; only `files/` opens files.
+
+mod catch_panic;
+mod codes;
+mod diagnostic;
+pub mod display;
+mod edits;
+mod files;
+mod quantity;
+pub mod units;
+mod visible;
+mod written;
+pub mod xml;
+
+pub use catch_panic::catch_panic;
+pub use codes::Code;
+pub use diagnostic::{
+    Capability, Diagnostic, Diagnostics, Finding, FindingPlace, Findings, Grouping, LineCounter, Occurrence,
+    Severity, SourceFile, known_names, line_column, nearest,
+};
+pub use edits::{ChangedLines, TextEdit, changed_lines, edited, line_end};
+pub use files::{
+    FileAccess, InputFile, MESH_OUTSIDE, NOT_FOUND, OUTSIDE, Packages, Resolved, RosPackages, TextStream,
+    folder_of, head_of, is_standard_input, not_found, read_text,
+};
+pub use quantity::{Quantity, SiUnit};
+pub use visible::{hidden_character, is_hidden, visible, visible_lines};
+pub use written::{
+    array::fixed_array,
+    name::serde_name,
+    number::{self, Slack, fitted_number},
+    rotation_from_rpy_fixed_xyz,
+    rpy::fitted_rpy_fixed_xyz_rad,
+    rpy_fixed_xyz_rad, toml_text,
+    transform::{WrittenTransform, fitted_transform},
+};

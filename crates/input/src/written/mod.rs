@@ -1,0 +1,9 @@
+//! Values as files write them: arrays, numbers, rotations and transforms, and TOML text as a whole.
+
+pub(crate) mod array;
+pub(crate) mod name;
+pub mod number;
+pub(crate) mod rpy;
+pub mod toml_text;
+pub(crate) mod transform;
+pub use rpy::{rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad};

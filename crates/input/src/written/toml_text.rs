@@ -1,0 +1,249 @@
+//! TOML text to a struct that holds what is written; every fault is a diagnostic with its place in the text.
+//!
+//! serde stops at the first unknown key. Here that key is reported and taken out, and the rest is
+//! read again, so that one run names every misspelt key.
+
+use std::ops::Range;
+
+use serde::de::DeserializeOwned;
+use toml::{
+    Deserializer, Spanned,
+    de::{DeTable, DeValue, Error},
+};
+
+use crate::{
+    diagnostic::{Diagnostic, Diagnostics, known_names},
+    visible::hidden_character,
+};
+
+/// Parses `text`; faults go to `diagnostics`.
+///
+/// A value is returned as well if the only faults are unknown keys, so that the caller can
+/// check the rest and report everything at once.
+pub fn parse_toml<T: DeserializeOwned>(text: &str, diagnostics: &mut Diagnostics) -> Option<T> {
+    let root = diagnostics.keep(parse_document(text))?;
+    read_table(root, diagnostics)
+}
+
+/// The tree of a text. Names go into every output, so keys and texts have no hidden characters, written out or not.
+///
+/// # Errors
+/// The text is no TOML, or a key or a text in it has such a character.
+pub fn parse_document(text: &str) -> Result<Spanned<DeTable<'_>>, Diagnostic> {
+    let root = DeTable::parse(text).map_err(|error| diagnostic(&error))?;
+    check_all_visible(root.get_ref())?;
+    Ok(root)
+}
+
+fn check_all_visible(table: &DeTable<'_>) -> Result<(), Diagnostic> {
+    table.iter().try_for_each(|(key, value)| {
+        check_visible("the key", key.get_ref(), key.span())?;
+        check_value_visible(value)
+    })
+}
+
+fn check_value_visible(value: &Spanned<DeValue<'_>>) -> Result<(), Diagnostic> {
+    match value.get_ref() {
+        DeValue::String(text) => check_visible("the text", text, value.span()),
+        DeValue::Array(array) => array.iter().try_for_each(check_value_visible),
+        DeValue::Table(table) => check_all_visible(table),
+        _ => Ok(()),
+    }
+}
+
+fn check_visible(what: &str, text: &str, at: Range<usize>) -> Result<(), Diagnostic> {
+    let Some(hidden) = hidden_character(text) else { return Ok(()) };
+    let message = format!("{what} \"{text}\" has an invisible character: {hidden}");
+    Err(Diagnostic::error("toml::hidden_character", message).at(at).with_help("remove this character"))
+}
+
+/// The same for a table that is parsed already.
+pub fn read_table<T: DeserializeOwned>(
+    table: Spanned<DeTable<'_>>,
+    diagnostics: &mut Diagnostics,
+) -> Option<T> {
+    each_fault(table, |error| diagnostics.push(diagnostic(error)))
+}
+
+/// Reads a table and passes each fault to the callback: an unknown key is removed, and the rest is read again, since serde
+/// stops at the first one.
+fn each_fault<T: DeserializeOwned>(table: Spanned<DeTable<'_>>, mut report: impl FnMut(&Error)) -> Option<T> {
+    let (span, mut root) = (table.span(), table.into_inner());
+    for _ in 0..MOST_UNKNOWN_KEYS {
+        let attempt = Spanned::new(span.clone(), root.clone());
+        let error = match T::deserialize(Deserializer::from(attempt)) {
+            Ok(value) => return Some(value),
+            Err(error) => error,
+        };
+        report(&error);
+        let unknown = error.span().filter(|_| error.message().starts_with(UNKNOWN_KEY))?;
+        if !take_out(&mut root, &unknown) {
+            return None;
+        }
+    }
+    None
+}
+
+/// A key that matches no field.
+pub struct UnknownKey {
+    /// The key as it is written.
+    pub name: String,
+    /// Byte range of the key in the text.
+    pub span: Range<usize>,
+    /// The keys that are allowed at its place.
+    pub known: Vec<String>,
+}
+
+/// The unknown keys of a text, and the number of other faults; `None` if the text is not valid TOML.
+pub fn unknown_keys<T: DeserializeOwned>(text: &str) -> Option<(Vec<UnknownKey>, usize)> {
+    let (mut unknown, mut others) = (Vec::new(), 0);
+    each_fault::<T>(parse_document(text).ok()?, |error| {
+        let mut names = error.message().split('`').skip(1).step_by(2).map(str::to_owned);
+        match (error.message().starts_with(UNKNOWN_KEY), names.next(), error.span()) {
+            (true, Some(name), Some(span)) => unknown.push(UnknownKey { name, span, known: names.collect() }),
+            _ => others += 1,
+        }
+    });
+    Some((unknown, others))
+}
+
+/// Most unknown keys that are named in one run: each costs another pass over the text.
+const MOST_UNKNOWN_KEYS: usize = 100;
+
+/// The code of a diagnostic about an unknown key.
+pub const UNKNOWN_KEY_CODE: &str = "toml::unknown_key";
+
+/// The beginning of serde's message about an unknown key.
+const UNKNOWN_KEY: &str = "unknown field ";
+
+fn take_out(table: &mut DeTable<'_>, key: &Range<usize>) -> bool {
+    if let Some(name) = table.keys().find(|name| name.span() == *key).cloned() {
+        return table.remove(&name).is_some();
+    }
+    table.iter_mut().any(|(_, value)| take_out_of_value(value.get_mut(), key))
+}
+
+fn take_out_of_value(value: &mut DeValue<'_>, key: &Range<usize>) -> bool {
+    match value {
+        DeValue::Table(table) => take_out(table, key),
+        DeValue::Array(array) => array.iter_mut().any(|value| take_out_of_value(value.get_mut(), key)),
+        _ => false,
+    }
+}
+
+/// The error of the `toml` crate as a diagnostic.
+pub fn diagnostic(error: &Error) -> Diagnostic {
+    let text = error.message();
+    // serde quotes names with backticks: the offending one first, then the expected ones.
+    let mut names = text.split('`').skip(1).step_by(2);
+    let first = names.next().unwrap_or_default();
+    let known: Vec<&str> = names.collect();
+    let known_help = |what: &str| known_names(first, what, known.iter().copied());
+    let found = if text.starts_with(UNKNOWN_KEY) {
+        Diagnostic::error(UNKNOWN_KEY_CODE, format!("unknown key \"{first}\"")).with_help(known_help("keys"))
+    } else if text.starts_with("unknown variant ") {
+        Diagnostic::error("toml::unknown_value", format!("unknown value \"{first}\""))
+            .with_help(known_help("values"))
+    } else if text.starts_with("missing field ") {
+        Diagnostic::error("toml::missing_key", format!("missing key \"{first}\""))
+    } else {
+        Diagnostic::error("toml::invalid", text.replace('\n', ", "))
+    };
+    found.at(error.span().unwrap_or(0..0))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::Deserialize;
+
+    use super::*;
+    use crate::diagnostic::SourceFile;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Written {
+        duration: Option<f64>,
+        #[serde(default)]
+        row: Vec<Row>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Row {
+        kind: Kind,
+    }
+
+    #[derive(Debug, Deserialize, PartialEq)]
+    #[serde(rename_all = "snake_case")]
+    enum Kind {
+        Revolute,
+        Prismatic,
+    }
+
+    fn read(text: &str) -> (Option<Written>, Vec<String>) {
+        let mut diagnostics = Diagnostics::default();
+        let value = parse_toml(text, &mut diagnostics);
+        let source = SourceFile { path: "x.toml".into(), text: text.to_owned() };
+        let line = |found: Diagnostic| {
+            let (line, column) = found.line_column().unwrap();
+            let help = found.help.map_or(String::new(), |help| format!(" ({help})"));
+            format!("{line}:{column}: {}{help}", found.message)
+        };
+        (value, diagnostics.in_file(&source.into()).into_iter().map(line).collect())
+    }
+
+    #[test]
+    fn a_good_text_gives_the_value() {
+        let (value, diagnostics) = read("duration = 2\n[[row]]\nkind = \"prismatic\"");
+        let value = value.unwrap();
+        assert_eq!(diagnostics, Vec::<String>::new());
+        assert_eq!((value.duration, &value.row[0].kind), (Some(2.0), &Kind::Prismatic));
+    }
+
+    #[test]
+    fn every_unknown_key_is_named_in_one_run() {
+        let (value, diagnostics) = read("durration = 2\nseed = 1\n[[row]]\nkind = \"revolute\"\nkinds = 3\n");
+        assert!(value.is_some());
+        assert_eq!(
+            diagnostics,
+            [
+                "1:1: unknown key \"durration\" (did you mean \"duration\"? known keys: duration, row)",
+                "2:1: unknown key \"seed\" (known keys: duration, row)",
+                "5:1: unknown key \"kinds\" (did you mean \"kind\"? known keys: kind)",
+            ]
+        );
+    }
+
+    #[test]
+    fn endless_unknown_keys_end() {
+        let text = (0..1000).map(|key| format!("x{key} = 1\n")).collect::<Vec<_>>().concat();
+        assert_eq!(read(&text).1.len(), MOST_UNKNOWN_KEYS);
+    }
+
+    #[test]
+    fn other_faults_say_where() {
+        let (_, diagnostics) = read("[[row]]\nkind = \"revolut\"");
+        assert_eq!(
+            diagnostics,
+            ["2:8: unknown value \"revolut\" (did you mean \"revolute\"? known values: revolute, prismatic)"]
+        );
+        assert_eq!(read("\n[[row]]").1, ["2:1: missing key \"kind\""]);
+        assert_eq!(read("duration = \"2\"").1, ["1:12: invalid type: string \"2\", expected f64"]);
+        assert_eq!(read("duration = = 2").1.len(), 1);
+    }
+
+    #[test]
+    fn what_is_not_shown_is_refused_at_its_place() {
+        let refused = |text: &str| {
+            let fault = parse_document(text).unwrap_err();
+            (fault.message, fault.span.unwrap().start)
+        };
+        let (message, at) = refused("a = 1\nb = [{ c = \"x\\u001b[2J\" }]");
+        assert_eq!(message, r#"the text "x\u{1b}[2J" has an invisible character: U+001B"#);
+        assert_eq!(at, 17);
+        assert_eq!(refused("\"a\\nb\" = 1").0, r#"the key "a\nb" has an invisible character: U+000A"#);
+        assert_eq!(refused("a = '\u{202e}'").1, 4);
+        // A comment says nothing.
+        assert!(parse_document("a = 'Gelenk \u{e4}' # \u{202e}").is_ok());
+    }
+}

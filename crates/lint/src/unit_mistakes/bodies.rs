@@ -1,0 +1,221 @@
+//! Compares masses, inertia tensors and centres of mass with each other and with the shapes of their links.
+
+use congruent_description::{CENTER_OF_MASS, Inertia, LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LinkIndex};
+use congruent_input::display::{length, quantity};
+
+use super::{
+    UnitCheck, UnitMistake,
+    features::{LinkInertiaFeatures, median},
+    thresholds::{
+        FARTHEST_COM, FARTHEST_COM_IN_ORIGINS, GYRATION_TO_DIAGONAL, INERTIA_UNIT, LEAST_COM_M,
+        LEAST_MASS_KG, MEDIAN_BOX_DENSITY, MOST_BOX_DENSITY, PLACEHOLDER_GYRATION_TO_DIAGONAL,
+        PLACEHOLDER_SPHERE_DENSITY, SPHERE_DENSITY,
+    },
+};
+
+const MASS: UnitMistake =
+    UnitMistake { code: "units::mass", words: "links have an implausible mass for their size" };
+const INERTIA: UnitMistake =
+    UnitMistake { code: INERTIA_UNIT, words: "links have an implausible inertia for their mass and size" };
+const NO_TENSOR: UnitMistake =
+    UnitMistake { code: "urdf::zero_inertia", words: "links have a mass but an inertia of zero" };
+const COM: UnitMistake = UnitMistake {
+    code: CENTER_OF_MASS,
+    words: "links have a centre of mass far from their shapes and joints",
+};
+
+fn is_within([least, most]: [f64; 2], value: f64) -> bool {
+    (least..=most).contains(&value)
+}
+
+/// Medians over the links of the robot that are outside the usual range; `None` if usual. A unit mistake in the whole file
+/// shifts the median, and then placeholder tensors are compared like all others.
+struct UnusualMedians {
+    gyration: Option<f64>,
+    sphere: Option<f64>,
+    density: Option<f64>,
+}
+
+impl UnusualMedians {
+    fn over(bodies: &[LinkInertiaFeatures]) -> Self {
+        let unusual = |values: Vec<f64>, range: [f64; 2]| {
+            let middle = median(values.iter().copied()).filter(|_| values.len() >= 2);
+            middle.filter(|middle| !is_within(range, *middle))
+        };
+        let bare = bodies.iter().filter(|body| body.shapes.is_none() && !body.is_placeholder);
+        Self {
+            gyration: unusual(
+                bodies.iter().filter_map(LinkInertiaFeatures::gyration_share).collect(),
+                GYRATION_TO_DIAGONAL,
+            ),
+            sphere: unusual(bare.map(|body| body.sphere_density).collect(), SPHERE_DENSITY),
+            density: unusual(
+                bodies.iter().filter_map(LinkInertiaFeatures::box_density).collect(),
+                MEDIAN_BOX_DENSITY,
+            ),
+        }
+    }
+}
+
+impl UnitCheck<'_> {
+    pub(super) fn bodies(&mut self) {
+        let robot = self.robot;
+        let bodies: Vec<LinkInertiaFeatures> = robot
+            .link_indices()
+            .filter_map(|link| {
+                LinkInertiaFeatures::from_inertia(link, robot.link(link).inertia.as_ref()?, &self.sizes)
+            })
+            .collect();
+        let whole = UnusualMedians::over(&bodies);
+        for body in &bodies {
+            self.body(body, &whole);
+        }
+        for link in robot.link_indices() {
+            if let Some(inertia) = &robot.link(link).inertia {
+                self.center_of_mass(link, inertia);
+                self.tensor(link, inertia);
+                self.example(link, inertia);
+            }
+        }
+    }
+
+    fn body(&mut self, body: &LinkInertiaFeatures, whole: &UnusualMedians) {
+        let name = &self.robot.link(body.link).name;
+        let density = body.box_density();
+        let is_heavy =
+            density.is_some_and(|density| density > MOST_BOX_DENSITY) && body.mass_kg > LEAST_MASS_KG;
+        let is_off =
+            whole.density.is_some() && density.is_some_and(|density| !is_within(MEDIAN_BOX_DENSITY, density));
+        if let (Some(density), true) = (density, is_heavy || is_off) {
+            let what = format!(
+                "its density is {} (mass {} over the volume of the box around its shapes)",
+                quantity(density, "kg/m^3"),
+                quantity(body.mass_kg, "kg")
+            );
+            let help =
+                "steel has 7900 kg/m^3; is the mass in grams, or are the shapes in another unit?".to_owned();
+            self.warn_link(&MASS, name, &what, ("mass", help));
+            return;
+        }
+        if belongs(body, whole) {
+            return;
+        }
+        let what = match body.shapes {
+            Some(shapes) => format!(
+                "its radius of gyration is {}, but the diagonal of its shapes is {}",
+                length(body.gyration_m),
+                length(shapes.diagonal_m())
+            ),
+            None => format!(
+                "its radius of gyration is {}, as of a solid sphere of {} with a density of {}",
+                length(body.gyration_m),
+                quantity(body.mass_kg, "kg"),
+                quantity(body.sphere_density, "kg/m^3")
+            ),
+        };
+        self.warn_link(&INERTIA, name, &what, ("inertia", guess(body)));
+    }
+
+    /// Reports the placeholder tensor of 1 kg m^2 about every axis on a link that is far too small for it.
+    fn example(&mut self, link: LinkIndex, inertia: &Inertia) {
+        let shapes = self.sizes.shapes[link.get()].filter(|shapes| shapes.diagonal_m() > 0.0);
+        // For lighter links `urdf/inertial` has reported the radius of gyration already.
+        let gyration_m = (1.0 / inertia.mass_kg).sqrt();
+        if let Some(shapes) = shapes.filter(|_| inertia.is_example() && gyration_m < LARGEST_GYRATION_M)
+            && gyration_m > GYRATION_TO_DIAGONAL[1] * shapes.diagonal_m()
+        {
+            let what = format!(
+                "its inertia is the placeholder 1 kg m^2 about every axis, but the diagonal of its shapes is {}",
+                length(shapes.diagonal_m())
+            );
+            let help = "give the inertia of a box of the link's size".to_owned();
+            self.warn_link(&INERTIA, &self.robot.link(link).name, &what, ("inertia", help));
+        }
+    }
+
+    /// Reports a tensor of zero on a link with mass. Light links are markers, for which zero is usual.
+    fn tensor(&mut self, link: LinkIndex, inertia: &Inertia) {
+        if inertia.mass_kg > LEAST_MASS_KG && inertia.tensor_kg_m2.amax() == 0.0 {
+            let what = format!("its inertia is zero, but its mass is {}", quantity(inertia.mass_kg, "kg"));
+            let help = "if the inertia is not known, give that of a box of the link's size".to_owned();
+            self.warn_link(&NO_TENSOR, &self.robot.link(link).name, &what, ("inertia", help));
+        }
+    }
+
+    fn center_of_mass(&mut self, link: LinkIndex, inertia: &Inertia) {
+        let (robot, com) = (self.robot, inertia.link_from_inertial.translation.vector);
+        // Larger ones were reported by `urdf/pose.rs` when the file was read.
+        if inertia.mass_kg <= 0.0 || com.norm() < LEAST_COM_M || com.amax() > LARGEST_PLAUSIBLE_M {
+            return;
+        }
+        let what = if let Some(shapes) = self.sizes.shapes[link.get()] {
+            let joints = robot.joints().iter().filter(|joint| joint.parent == link);
+            let all = joints.fold(shapes.including(nalgebra::Vector3::zeros()), |all, joint| {
+                all.including(joint.parent_from_joint.translation.vector)
+            });
+            let (away_m, size_m) = (all.distance_m(com), all.diagonal_m());
+            (away_m > FARTHEST_COM * size_m).then(|| {
+                format!(
+                    "its centre of mass is {} away from its shapes and joints, which span {}",
+                    length(away_m),
+                    length(size_m)
+                )
+            })
+        } else {
+            let longest_m = self.sizes.longest_origin_m;
+            (longest_m > 0.0 && com.norm() > FARTHEST_COM_IN_ORIGINS * longest_m).then(|| {
+                format!(
+                    "its centre of mass is {} away from its origin, but the longest joint origin of the robot is {}",
+                    length(com.norm()),
+                    length(longest_m)
+                )
+            })
+        };
+        if let Some(what) = what {
+            let help = "the origin is read in metres: is the value in centimetres or millimetres?".to_owned();
+            self.warn_link(&COM, &robot.link(link).name, &what, ("origin", help));
+        }
+    }
+}
+
+/// Whether mass, tensor and shapes can belong to one body: by the radius of gyration against the shapes, or without shapes by
+/// the density of the equivalent solid sphere.
+fn belongs(body: &LinkInertiaFeatures, whole: &UnusualMedians) -> bool {
+    match body.gyration_share() {
+        Some(ratio) if body.is_placeholder && whole.gyration.is_none() => {
+            is_within(PLACEHOLDER_GYRATION_TO_DIAGONAL, ratio)
+        }
+        Some(ratio) => is_within(GYRATION_TO_DIAGONAL, ratio),
+        None if body.is_placeholder && whole.sphere.is_none() => {
+            is_within(PLACEHOLDER_SPHERE_DENSITY, body.sphere_density)
+        }
+        None => is_within(SPHERE_DENSITY, body.sphere_density),
+    }
+}
+
+/// The most likely correction of the unit: the one after which the density of the equivalent sphere is nearest to a usual
+/// density, in orders of magnitude.
+fn guess(body: &LinkInertiaFeatures) -> String {
+    // kg/m^3, as of plastics and hollow castings of aluminium.
+    const USUAL_DENSITY: f64 = 800.0;
+    let after = [
+        (1e-3, 1.0, "the mass is read in kg: is the value in grams?"),
+        (1.0, 1e3, "the inertia is read in kg m^2: is the value too small by a factor of 1000?"),
+        (
+            1.0,
+            1e6,
+            "the inertia is read in kg m^2: is the value too small by a factor of 10^6, converted twice?",
+        ),
+        (1.0, 1e-3, "the inertia is read in kg m^2: is the value in g m^2?"),
+        (1.0, 1e-4, "the inertia is read in kg m^2: is the value in kg cm^2?"),
+        (1.0, 1e-6, "the inertia is read in kg m^2: is the value in kg mm^2?"),
+        (1.0, 1e-9, "the inertia is read in kg m^2: is the value in g mm^2?"),
+    ];
+    let off = |(mass, inertia, _): &(f64, f64, &str)| {
+        // A sphere of mass m and moment I has r^2 = 5 I / (2 m), so its density goes with m / r^3 = m (m / I)^(3/2).
+        let density = body.sphere_density * mass * libm::pow(mass / inertia, 1.5);
+        libm::log(density / USUAL_DENSITY).abs()
+    };
+    let best = after.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    best.map_or_else(String::new, |(_, _, words)| (*words).to_owned())
+}

@@ -1,0 +1,84 @@
+//! Compares the velocity limits of revolute and continuous joints with the parts that they carry and with their torques.
+
+use congruent_description::{Joint, JointKind};
+use congruent_input::display::{number, quantity};
+
+use super::{
+    UnitCheck, UnitMistake,
+    features::median,
+    lengths::is_real,
+    thresholds::{
+        FASTEST_CONTINUOUS_RAD_S, FASTEST_ROTOR_RAD_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG,
+        MEDIAN_TURN_RAD_S, MOST_POWER_W_KG, MOST_SPEED_TO_MEDIAN,
+    },
+};
+
+const SPEED: UnitMistake =
+    UnitMistake { code: "units::speed", words: "joints have an implausible velocity limit" };
+
+fn speed(joint: &Joint) -> Option<f64> {
+    let speed = joint.limit.filter(|_| joint.kind.is_angular())?.velocity?;
+    (is_real(speed) && speed > 0.0).then_some(speed)
+}
+
+impl UnitCheck<'_> {
+    /// Reports implausible velocity limits. `fastest_tip_m_s` is the largest plausible speed of a carried point; `None` if the
+    /// lengths of the file are not reliable.
+    pub(super) fn speeds(&mut self, fastest_tip_m_s: Option<f64>) {
+        let robot = self.robot;
+        let speeds = || robot.joints().iter().filter_map(speed);
+        let middle = median(speeds()).filter(|_| speeds().count() >= 4);
+        let all_are_fast = middle > Some(MEDIAN_TURN_RAD_S);
+        let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
+        for joint in robot.joints() {
+            let Some(speed) = speed(joint).filter(|speed| *speed > LEAST_FAST_RAD_S) else { continue };
+            if self.is_rotor(joint) && speed < FASTEST_ROTOR_RAD_S {
+                continue;
+            }
+            let most = if joint.kind == JointKind::Continuous {
+                FASTEST_CONTINUOUS_RAD_S
+            } else {
+                FASTEST_TURN_RAD_S
+            };
+            let carried_m_s = speed * self.sizes.radius_m(robot, joint);
+            let effort = joint.limit.and_then(|limit| limit.effort).filter(|effort| is_real(*effort));
+            let power_w = effort.map_or(0.0, |effort| effort * speed);
+            // Only joints with a range are compared with the median: wheels and rotors may be far faster than the arm beside them.
+            let is_odd = joint.kind == JointKind::Revolute
+                && middle.is_some_and(|middle| speed > MOST_SPEED_TO_MEDIAN * middle);
+            let why = if speed > most || (all_are_fast && speed > MEDIAN_TURN_RAD_S) {
+                String::new()
+            } else if let (true, Some(middle)) = (is_odd, middle) {
+                format!(", but the median of the robot's joints is {} rad/s", number(middle))
+            } else if fastest_tip_m_s.is_some_and(|fastest_m_s| carried_m_s > fastest_m_s) {
+                format!(", at which the parts that it carries would reach {}", quantity(carried_m_s, "m/s"))
+            } else if mass_kg > LEAST_MASS_KG && power_w > MOST_POWER_W_KG * mass_kg {
+                format!(
+                    ", which times its effort limit is {} for a robot of {}",
+                    quantity(power_w, "W"),
+                    quantity(mass_kg, "kg")
+                )
+            } else {
+                continue;
+            };
+            let what = format!("its velocity limit is {} rad/s{why}", number(speed));
+            let help = format!(
+                "the velocity is read in rad/s: if the value is in deg/s, {} deg/s are {} rad/s",
+                number(speed),
+                number(speed.to_radians())
+            );
+            self.warn_joint(&SPEED, &joint.name, &what, ("limit", help));
+        }
+    }
+
+    /// Whether a joint turns a propeller, a spindle or the like. Only the names of the joint and its link distinguish it from a
+    /// wrist.
+    fn is_rotor(&self, joint: &Joint) -> bool {
+        let carries_none = self.robot.joints().iter().all(|other| other.parent != joint.child);
+        let names = [&joint.name, &self.robot.link(joint.child).name].map(|name| name.to_lowercase());
+        carries_none && ROTORS.iter().any(|rotor| names.iter().any(|name| name.contains(rotor)))
+    }
+}
+
+/// Parts of the names of joints and links that turn fast.
+const ROTORS: [&str; 8] = ["prop", "rotor", "spin", "flywheel", "fan", "turbine", "thruster", "centrifuge"];

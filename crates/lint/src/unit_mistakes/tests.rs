@@ -1,0 +1,96 @@
+//! Unit mistakes planted in one arm are reported, and the arm itself gets no warning.
+
+use std::sync::Arc;
+
+use congruent_description::parse_robot;
+use congruent_input::SourceFile;
+
+use super::*;
+
+/// An arm as a drawing has it: two links of aluminium tube, a gripper that slides.
+const ARM: &str = "<robot name='arm'>
+<link name='base'/>
+<link name='upper'><inertial><origin xyz='0.2 0 0'/><mass value='2'/>
+<inertia ixx='0.0021' ixy='0' ixz='0' iyy='0.028' iyz='0' izz='0.028'/></inertial>
+<visual><origin xyz='0.2 0 0'/><geometry><box size='0.4 0.08 0.08'/></geometry></visual></link>
+<link name='lower'><inertial><origin xyz='0.15 0 0'/><mass value='1.2'/>
+<inertia ixx='0.0009' ixy='0' ixz='0' iyy='0.0098' iyz='0' izz='0.0098'/></inertial>
+<visual><origin xyz='0.15 0 0'/><geometry><box size='0.3 0.06 0.06'/></geometry></visual></link>
+<link name='finger'><inertial><mass value='0.06'/>
+<inertia ixx='1.1e-5' ixy='0' ixz='0' iyy='1.2e-5' iyz='0' izz='1.4e-5'/></inertial>
+<visual><geometry><box size='0.04 0.03 0.03'/></geometry></visual></link>
+<joint name='shoulder' type='revolute'><origin xyz='0 0 0.1'/><parent link='base'/><child link='upper'/>
+<limit lower='-2' upper='2' velocity='3.1' effort='40'/></joint>
+<joint name='elbow' type='revolute'><origin xyz='0.4 0 0'/><parent link='upper'/><child link='lower'/>
+<limit lower='-2' upper='2' velocity='4.2' effort='20'/></joint>
+<joint name='grip' type='prismatic'><origin xyz='0.3 0 0'/><parent link='lower'/><child link='finger'/>
+<limit lower='0' upper='0.05' velocity='0.2' effort='20'/></joint>
+</robot>";
+
+fn findings(urdf: &str) -> Vec<(&'static str, String)> {
+    let source = Arc::new(SourceFile { path: "arm.urdf".into(), text: urdf.to_owned() });
+    let description = parse_robot(None, &source).unwrap();
+    unit_mistakes(&description).into_iter().map(|found| (found.code, found.message)).collect()
+}
+
+#[track_caller]
+fn check(from: &str, to: &str, code: &str, message: &str) {
+    assert!(ARM.contains(from), "{from}");
+    let found = findings(&ARM.replacen(from, to, 1));
+    assert!(
+        found.iter().any(|(of, said)| *of == code && said.contains(message)),
+        "{from} to {to}: {found:?}"
+    );
+}
+
+#[test]
+fn an_arm_as_it_should_be_is_not_reported() {
+    assert_eq!(findings(ARM), []);
+}
+
+#[test]
+fn what_belongs_together_reveals_a_mistake() {
+    check("mass value='2'", "mass value='2000'", "units::mass", "781250 kg/m^3");
+    check("mass value='0.06'", "mass value='60'", "units::mass", "link \"finger\"");
+    check(
+        "ixx='0.0009' ixy='0' ixz='0' iyy='0.0098' iyz='0' izz='0.0098'",
+        "ixx='900' ixy='0' ixz='0' iyy='9800' iyz='0' izz='9800'",
+        "units::inertia",
+        "radius of gyration is 75.5 m",
+    );
+    check(
+        "ixx='0.0009' ixy='0' ixz='0' iyy='0.0098' iyz='0' izz='0.0098'",
+        "ixx='9e-10' ixy='0' ixz='0' iyy='9.8e-9' iyz='0' izz='9.8e-9'",
+        "units::inertia",
+        "link \"lower\"",
+    );
+    check("velocity='3.1'", "velocity='178'", "units::speed", "178 rad/s");
+    check("upper='0.05'", "upper='50'", "units::travel", "over 50 m");
+    check("upper='0.05'", "upper='5'", "units::travel", "over 5000 mm");
+    check("velocity='0.2'", "velocity='200'", "units::slide_speed", "200 m/s");
+    check("xyz='0.15 0 0'/><mass", "xyz='1.5 0 0'/><mass", CENTER, "away from its shapes and joints");
+    check("xyz='0.3 0 0'/><parent", "xyz='5 0 0'/><parent", "units::origin", "joint \"grip\"");
+    check("size='0.3 0.06 0.06'", "size='9.9 6 6'", "units::large_shape", "link \"lower\"");
+}
+
+/// The arm on a rail.
+#[test]
+fn a_track_may_be_long_but_not_in_millimetres() {
+    let rail = |travel_m: &str| {
+        let rail = format!(
+            "<link name='floor'/><joint name='rail' type='prismatic'><parent link='floor'/><child link='base'/>\
+             <limit lower='0' upper='{travel_m}' velocity='1.5' effort='900'/></joint></robot>"
+        );
+        findings(&ARM.replace("</robot>", &rail))
+    };
+    assert_eq!(rail("12"), []);
+    for length in ["1200", "12000"] {
+        let found = rail(length);
+        assert!(
+            found.iter().any(|(code, said)| *code == "units::travel" && said.contains("rail")),
+            "{found:?}"
+        );
+    }
+}
+
+const CENTER: &str = congruent_description::CENTER_OF_MASS;

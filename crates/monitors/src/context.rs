@@ -1,0 +1,31 @@
+//! The inputs of checks before the first sample of a run.
+
+use congruent_description::{JointKind, RobotDescription};
+
+use crate::{RunClock, RunDynamics, RunPayload};
+
+/// The inputs of checks before the first sample of a run.
+#[derive(Debug)]
+pub struct CheckContext<'a> {
+    /// The robot with its model.
+    pub description: &'a RobotDescription,
+    /// Clock and gravity of the run.
+    pub clock: &'a RunClock,
+    /// Bodies that links carry for a time.
+    pub payloads: &'a [RunPayload],
+    /// The declared dynamics, with the payloads.
+    pub dynamics: RunDynamics<'a>,
+}
+
+impl CheckContext<'_> {
+    /// Number of movable joints.
+    pub(super) fn dof(&self) -> usize {
+        self.description.robot.dof()
+    }
+
+    /// How each movable joint moves.
+    pub(super) fn joint_kinds(&self) -> Vec<JointKind> {
+        let robot = &self.description.robot;
+        robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind).collect()
+    }
+}

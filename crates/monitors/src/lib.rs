@@ -1,0 +1,36 @@
+//! Checks of a scenario in a run: each is a [`Monitor`] that gets every [`Sample`], and never the physics engine.
+//!
+//! The folders hold the checks by what they look at, [`RunningCheck`] makes one from its settings, [`verdict`] is what they
+//! result in. A sample and what it holds, its names and the [`Recorder`] that gets it as well are here, too.
+
+mod actuator_limits;
+mod clock;
+mod context;
+mod forces;
+mod joint_sample;
+mod joints;
+mod monitor;
+mod names;
+mod payload;
+mod pose;
+mod recorder;
+mod run_dynamics;
+mod running_check;
+mod sample;
+mod sample_store;
+mod space;
+pub mod verdict;
+mod watch;
+
+pub use actuator_limits::ActuatorLimits;
+pub use clock::RunClock;
+pub use context::CheckContext;
+pub use joint_sample::{JointSample, JointStateView, SetpointView, StepForces};
+pub use monitor::{Monitor, Observed};
+pub use names::Names;
+pub use payload::{HEAVIEST_KG, RunPayload, taken_too_late, too_heavy};
+pub use recorder::{NoRecorder, Recorder, Recorders, RecordingError};
+pub use run_dynamics::RunDynamics;
+pub use running_check::{RunningCheck, write_out_limits};
+pub use sample::Sample;
+pub use sample_store::{SampleStore, StoredSample};

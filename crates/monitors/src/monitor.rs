@@ -1,0 +1,36 @@
+//! The trait of checks.
+
+use super::names::Names;
+use crate::{
+    sample::Sample,
+    verdict::{Contact, InstantValue, Measure},
+};
+
+/// A check that gets every sample of a run.
+pub trait Monitor: Send {
+    /// Evaluates the values of one sample.
+    fn observe(&mut self, sample: &mut Sample<'_>);
+
+    /// The results so far.
+    fn finish(&self, names: &Names) -> Observed;
+
+    /// Whether the check has failed already.
+    fn has_failed(&self) -> bool;
+
+    /// Calls `take` with each quantity that has a value at this time. Checks of the end of a run, and distances, which are
+    /// measured only if they may be the smallest, have none.
+    fn values(&self, _time_s: f64, _take: &mut dyn FnMut(InstantValue)) {}
+}
+
+/// The results of a monitor, without the check and the file that it belongs to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Observed {
+    /// Number of instants that were checked.
+    pub samples: u64,
+    /// The quantities with their limits and worst values.
+    pub measures: Vec<Measure>,
+    /// The pairs that touched, with begin and end of each contact.
+    pub contacts: Vec<Contact>,
+    /// Remarks on the values.
+    pub notes: Vec<String>,
+}

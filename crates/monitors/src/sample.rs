@@ -1,0 +1,61 @@
+//! One instant of a run, as monitors and recorders get it.
+
+use congruent_kinematics::{Pose, PoseError};
+use congruent_proximity::{Clearance, MovingBodies, Nearest, Pair};
+use nalgebra::Isometry3;
+
+use crate::{JointSample, StepForces, verdict::CheckValue};
+
+/// How far the physics keeps two shapes apart at most, m: the path of a link at 5 m/s in a step of 1 ms. Kind: physics.
+const KEPT_APART_M: f64 = 5e-3;
+
+/// One instant: borrowed from the run loop, nothing is copied.
+#[derive(Debug)]
+pub struct Sample<'a> {
+    /// Number of steps so far.
+    pub step: u64,
+    /// Time of the source.
+    pub time_s: f64,
+    /// When the last motion ends, as far as it is known by now.
+    pub motions_s: f64,
+    /// Whether no step follows. For monitors this is the end of the scenario, for recorders also the end
+    /// by a check at this instant.
+    pub is_last: bool,
+    /// Whether a check stops the run: from its violation on the setpoint leaves the motions and comes to rest.
+    pub is_stopping: bool,
+    /// Number of checks that have been violated by now; none for the checks themselves.
+    pub violated_checks: usize,
+    /// The joints: true states, measured states and setpoints.
+    pub joints: JointSample<'a>,
+    /// What acted in the step that led here.
+    pub forces: StepForces,
+    /// Poses by analysis at the measured joint positions, in the root link's frame and the robot's order of
+    /// links.
+    pub model: &'a [Pose],
+    /// Poses of the twin, likewise.
+    pub twin: &'a [Isometry3<f64>],
+    /// What the checks have measured at this instant; none for the checks themselves.
+    pub values: &'a [CheckValue],
+    /// Model against twin, link by link.
+    pub errors: &'a [PoseError],
+    /// Distances between links and to obstacles, measured when a monitor needs them.
+    pub clearance: &'a mut Clearance,
+    /// The obstacles that move.
+    pub bodies: &'a MovingBodies<'a>,
+    /// Distances from links to the zones that are forbidden to them, likewise.
+    pub zones: &'a mut Clearance,
+}
+
+impl Sample<'_> {
+    /// The pair that the physics keeps apart in this step although its hulls do not meet: the nearest of the chosen pairs of
+    /// a link and an obstacle. `None` if a pair overlaps, which then is the one in contact.
+    pub fn kept_apart(&mut self, is_chosen: impl Fn(usize) -> bool) -> Option<usize> {
+        if self.forces != StepForces::Contact {
+            return None;
+        }
+        let links = self.twin.len();
+        let is_chosen = |pair: usize, Pair { b, .. }: Pair| b >= links && is_chosen(pair);
+        let Nearest { distance_m, pair } = self.clearance.nearest_of(KEPT_APART_M, is_chosen)?;
+        (distance_m > 0.0).then_some(pair)
+    }
+}

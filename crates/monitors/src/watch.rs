@@ -1,0 +1,126 @@
+//! One quantity against its limit, sample after sample, without allocation.
+
+use congruent_description::JointValues;
+use congruent_input::{Quantity, SiUnit};
+
+use crate::{
+    sample::Sample,
+    verdict::{Bound, InstantValue, Measure, Moment},
+};
+
+/// Remembers the worst value and the first violation of one quantity.
+#[derive(Debug, Clone)]
+pub(crate) struct Watch {
+    quantity: Quantity,
+    unit: SiUnit,
+    bound: Bound,
+    limit: f64,
+    worst: Extreme,
+    first_violation: Extreme,
+    /// The worst value of the last instant, and its time.
+    latest: (f64, f64),
+    /// Index of the link, joint or pair that has that value.
+    latest_subject: usize,
+}
+
+/// A value with its time and configuration; `q` is allocated once.
+#[derive(Debug, Clone)]
+struct Extreme {
+    value: f64,
+    subject: usize,
+    time_s: f64,
+    q: Vec<f64>,
+    is_set: bool,
+}
+
+impl Extreme {
+    fn set(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
+        (self.value, self.subject, self.time_s, self.is_set) = (value, subject, sample.time_s, true);
+        self.q.copy_from_slice(sample.joints.truth.q);
+    }
+}
+
+impl Watch {
+    /// A watch over `quantity` for a robot with `dof` movable joints.
+    pub(crate) fn new(quantity: Quantity, unit: SiUnit, bound: Bound, limit: f64, dof: usize) -> Self {
+        let unset = Extreme { value: f64::NAN, subject: 0, time_s: 0.0, q: vec![0.0; dof], is_set: false };
+        Self {
+            quantity,
+            unit,
+            bound,
+            limit,
+            worst: unset.clone(),
+            first_violation: unset,
+            latest: (f64::NAN, f64::NAN),
+            latest_subject: 0,
+        }
+    }
+
+    /// Evaluates one value of `subject`, an index that `measure` turns into a name.
+    pub(crate) fn observe(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
+        let (latest, at_s) = &mut self.latest;
+        #[expect(clippy::float_cmp, reason = "the time of one sample")]
+        if *at_s != sample.time_s || self.bound.is_worse(value, *latest) {
+            (*latest, *at_s) = (value, sample.time_s);
+            self.latest_subject = subject;
+        }
+        if !self.worst.is_set || self.bound.is_worse(value, self.worst.value) {
+            self.worst.set(value, subject, sample);
+        }
+        if !self.first_violation.is_set && !self.bound.holds(value, self.limit) {
+            self.first_violation.set(value, subject, sample);
+        }
+    }
+
+    /// The worst value of this instant, if it has one.
+    pub(crate) fn at(&self, time_s: f64) -> Option<InstantValue> {
+        let Self { quantity, unit, bound, limit, latest: (value, at_s), latest_subject: subject, .. } = *self;
+        #[expect(clippy::float_cmp, reason = "the time of one sample")]
+        (at_s == time_s).then_some(InstantValue { quantity, unit, bound, limit, value, subject })
+    }
+
+    /// The watched quantity.
+    pub(crate) fn quantity(&self) -> Quantity {
+        self.quantity
+    }
+
+    /// Limit of the quantity, in its unit.
+    pub(crate) fn limit(&self) -> f64 {
+        self.limit
+    }
+
+    /// The worst value so far.
+    pub(crate) fn worst(&self) -> Option<f64> {
+        self.worst.is_set.then_some(self.worst.value)
+    }
+
+    /// The subject of the worst value so far.
+    pub(crate) fn worst_subject(&self) -> Option<usize> {
+        self.worst.is_set.then_some(self.worst.subject)
+    }
+
+    /// Whether a value was outside the limit.
+    pub(crate) fn is_violated(&self) -> bool {
+        self.first_violation.is_set
+    }
+
+    /// The report of this quantity; `joints` are the names that go with `q`.
+    pub(crate) fn measure(&self, joints: &[String], name: impl Fn(usize) -> String) -> Measure {
+        let moment = |extreme: &Extreme| {
+            extreme.is_set.then(|| Moment {
+                time_s: extreme.time_s,
+                subject: name(extreme.subject),
+                value: extreme.value,
+                q: JointValues::new(joints, &extreme.q),
+            })
+        };
+        Measure {
+            quantity: self.quantity,
+            unit: self.unit,
+            limit: self.limit,
+            bound: self.bound,
+            worst: moment(&self.worst),
+            first_violation: moment(&self.first_violation),
+        }
+    }
+}

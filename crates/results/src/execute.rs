@@ -1,0 +1,265 @@
+//! One scenario from its file to its results on disk.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::AtomicBool,
+};
+
+use congruent_monitors::{Recorder, Recorders, RecordingError};
+use congruent_scenario::TrajectoryFormat;
+use congruent_twin::{Run, RunError, RunSetup};
+
+use crate::{
+    files::{ComparedResults, FolderError, OutputError, OutputFolder, REPORT, compare_results, read_result},
+    report::{RunReport, earlier_report, explain, write_junit},
+    trajectory_file::TrajectoryRecorder,
+};
+
+/// Which results are written, and to which folder.
+#[derive(Clone)]
+pub struct Options<'a> {
+    /// The folder above the scenarios' own folders.
+    pub out: PathBuf,
+    /// The files that take the samples of the run, such as a recording for a viewer and a page: each kind once. They are
+    /// completed in this order.
+    pub recordings: Vec<&'a dyn RecordingFormat>,
+    /// Ends the run in order if it is set: what was computed until then is written.
+    pub interrupt: Option<&'a AtomicBool>,
+}
+
+/// A recording in progress: it takes samples, and the report at the end.
+pub trait Recording: Recorder {
+    /// Adds the results and closes the file.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be written.
+    fn finish(self: Box<Self>, report: &RunReport) -> Result<(), RecordingError>;
+}
+
+/// A kind of recording.
+pub trait RecordingFormat: Sync {
+    /// Name of the file in the folder of the scenario.
+    fn file_name(&self) -> &'static str;
+
+    /// What becomes of a file that could not be completed.
+    fn if_incomplete(&self) -> IfIncomplete;
+
+    /// Creates the file of a run that is about to start.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be written.
+    fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError>;
+}
+
+impl std::fmt::Debug for Options<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Options")
+            .field("out", &self.out)
+            .field("recordings", &self.recordings.iter().map(|format| format.file_name()).collect::<Vec<_>>())
+            .finish()
+    }
+}
+
+/// Why there is no report.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExecuteError {
+    /// There is no folder for the results; this was found before the run.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// Results cannot be written; this was found before the run.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The recording cannot be created.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// Results cannot be written after the run: the report is here instead.
+    #[error("the results of scenario \"{}\" cannot be written: {source}", .report.scenario)]
+    Lost {
+        /// The report of the run, which could not be written.
+        report: Box<RunReport>,
+        /// Why it could not be written.
+        source: OutputError,
+    },
+    /// The robot cannot be simulated as the scenario asks.
+    #[error("scenario \"{scenario}\" cannot run: {source}")]
+    CannotRun {
+        /// Name of the scenario.
+        scenario: String,
+        /// Why the run cannot start.
+        source: RunError,
+    },
+}
+
+/// The report of an earlier call that would be the same now, and its folder, if all results are there, to the last byte.
+///
+/// See [`earlier_report`] for what is the same.
+pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, PathBuf)> {
+    let folder = OutputFolder::path_for(&options.out, &setup.scenario.name);
+    let report = earlier_report(setup, &read_result(&folder.join(REPORT)).ok()?)?;
+    let trajectory = setup.scenario.output.trajectory.map(Trajectory::file_name);
+    let recordings = options.recordings.iter().map(|format| format.file_name());
+    let mut wanted = [REPORT, JUNIT, RESOLVED].into_iter().chain(recordings).chain(trajectory);
+    let ComparedResults { intact, changed } = compare_results(&folder)?;
+    (changed.is_empty() && wanted.all(|name| intact.contains(&name))).then_some((report, folder))
+}
+
+/// The checks of the run for CI.
+const JUNIT: &str = "junit.xml";
+/// The scenario with every default.
+const RESOLVED: &str = "scenario.resolved.toml";
+
+/// Runs a scenario, writes its results and returns the report.
+///
+/// `progress` is called with the number of steps taken.
+///
+/// # Errors
+/// [`ExecuteError`] if there can be no report. A run that fails midway has one.
+pub fn execute(
+    setup: &RunSetup,
+    options: &Options<'_>,
+    progress: impl FnMut(u64),
+) -> Result<(RunReport, OutputFolder), ExecuteError> {
+    let folder = OutputFolder::create(&options.out, &setup.scenario.name, &setup.inputs)?;
+    folder.write(RESOLVED, setup.scenario.to_toml().as_bytes())?;
+    let mut checks = setup.checks();
+    let cannot_run =
+        |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
+    let mut run = Run::new(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
+    let sources = run.model().sources().to_vec();
+    let mut recordings = Vec::new();
+    for format in &options.recordings {
+        let file = StreamedFile::new(format.file_name(), format.if_incomplete());
+        recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
+    }
+    let mut trajectory = Trajectory::begin(&folder, &run)?;
+    let mut recorders = Recorders::default();
+    recorders.0.extend(recordings.iter_mut().map(|(recording, _)| &mut **recording as &mut dyn Recorder));
+    recorders.0.extend(trajectory.as_mut().map(|trajectory| &mut trajectory.recorder as &mut dyn Recorder));
+    let (mut outcome, mut result) = run.finish(&mut checks, &mut recorders, progress);
+    let causes = explain(&mut run, &mut outcome);
+    let mut settled = Vec::new();
+    if let Some(Trajectory { file, recorder }) = trajectory {
+        let closed = file.settle(&folder, recorder.finish(), &mut settled);
+        result = result.and(closed.map_err(RunError::from));
+    }
+    let mut report = RunReport::new(setup, &sources, outcome.clone(), causes.clone(), result.as_ref().err());
+    for (recording, file) in recordings {
+        let closed = file.settle(&folder, recording.finish(&report), &mut settled);
+        if let Err(error) = closed {
+            // The error of the run is reported before an error of the recording that follows from it.
+            result = result.and(Err(error.into()));
+            report = RunReport::new(setup, &sources, outcome.clone(), causes.clone(), result.as_ref().err());
+        }
+    }
+    match write_results(settled, &folder, &report).and_then(|()| folder.write_digests()) {
+        Ok(()) => Ok((report, folder)),
+        Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
+    }
+}
+
+/// Writes the report, whatever became of the other files.
+fn write_results(
+    settled: Vec<Settled>,
+    folder: &OutputFolder,
+    report: &RunReport,
+) -> Result<(), OutputError> {
+    let write = || {
+        let written = write_report(folder, report);
+        written.and(write_junit(&folder.file(JUNIT), &[report.test_suite()]))
+    };
+    let written = write().or_else(|error| {
+        // On a full disk what is incomplete takes the space of the report, which matters more.
+        let mut incomplete = settled.iter().filter_map(|file| file.incomplete.as_ref()).peekable();
+        if incomplete.peek().is_none() {
+            return Err(error);
+        }
+        incomplete.try_for_each(|partial| folder.remove(partial))?;
+        write()
+    });
+    settled.into_iter().try_for_each(|file| file.result).and(written)
+}
+
+fn write_report(folder: &OutputFolder, report: &RunReport) -> Result<(), OutputError> {
+    let refused = |error: serde_json::Error| OutputError { path: folder.file(REPORT), source: error.into() };
+    folder.write(REPORT, &report.to_json().map_err(refused)?)
+}
+
+/// What becomes of a file that could not be completed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum IfIncomplete {
+    /// It can be read as far as it goes: it is kept, under a name that ends in `.partial`.
+    Keep,
+    /// It is of no use.
+    Remove,
+}
+
+/// A file that is written during the run, under a temporary name.
+#[derive(Debug, Clone)]
+struct StreamedFile {
+    partial: String,
+    name: &'static str,
+    if_incomplete: IfIncomplete,
+}
+
+/// What became of a [`StreamedFile`].
+struct Settled {
+    /// Its name if it is incomplete and was kept.
+    incomplete: Option<String>,
+    result: Result<(), OutputError>,
+}
+
+impl StreamedFile {
+    fn new(name: &'static str, if_incomplete: IfIncomplete) -> Self {
+        Self { partial: format!("{name}.partial"), name, if_incomplete }
+    }
+
+    /// Gives the file its name if it is complete, at once: the page links to files that are there. `Err` also if it was
+    /// complete and cannot be named, as when it was removed during the run.
+    fn settle(
+        self,
+        folder: &OutputFolder,
+        closed: Result<(), RecordingError>,
+        settled: &mut Vec<Settled>,
+    ) -> Result<(), RecordingError> {
+        let is_complete = closed.is_ok();
+        let file = match self.if_incomplete {
+            _ if is_complete => {
+                Settled { incomplete: None, result: folder.publish(&self.partial, self.name) }
+            }
+            IfIncomplete::Keep => Settled { incomplete: Some(self.partial), result: Ok(()) },
+            IfIncomplete::Remove => Settled { incomplete: None, result: folder.remove(&self.partial) },
+        };
+        let named = file.result.as_ref().map_err(|error| RecordingError { message: error.to_string() });
+        let named = if is_complete { named.copied() } else { Ok(()) };
+        settled.push(file);
+        closed.and(named)
+    }
+}
+
+/// The trajectory in progress, if the scenario asks for one.
+struct Trajectory {
+    file: StreamedFile,
+    recorder: TrajectoryRecorder,
+}
+
+impl Trajectory {
+    fn file_name(format: TrajectoryFormat) -> &'static str {
+        match format {
+            TrajectoryFormat::Csv => "trajectory.csv",
+            TrajectoryFormat::Parquet => "trajectory.parquet",
+        }
+    }
+
+    fn begin(folder: &OutputFolder, run: &Run<'_>) -> Result<Option<Self>, RecordingError> {
+        let Some(format) = run.setup().scenario.output.trajectory else { return Ok(None) };
+        let if_incomplete = match format {
+            TrajectoryFormat::Csv => IfIncomplete::Keep,
+            // It has its index at its end.
+            TrajectoryFormat::Parquet => IfIncomplete::Remove,
+        };
+        let file = StreamedFile::new(Self::file_name(format), if_incomplete);
+        let recorder = TrajectoryRecorder::create(&folder.file(&file.partial), format, run)?;
+        Ok(Some(Self { file, recorder }))
+    }
+}

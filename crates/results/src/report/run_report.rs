@@ -1,0 +1,239 @@
+//! The report of one run.
+
+use congruent_agreement::{compare::PoseSource, report::ReportedDiagnosis};
+use congruent_fault_diagnosis::RunDiagnosis;
+use congruent_input::{Finding, InputFile};
+use congruent_monitors::verdict::{CheckResult, RunStop, Status, Verdict, judge};
+use congruent_motion::{ServoResult, SlowedMotion};
+use congruent_scenario::{Expectation, MotionSettings, RunFault};
+use congruent_twin::{Outcome, RunError, RunSetup, source::ActuatorUse};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{causes::Causes, sentence::failing};
+
+/// The whole report of one scenario.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct RunReport {
+    /// Name and version of this format.
+    pub format: &'static str,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// The scenario file, as it was named.
+    pub scenario_file: Option<String>,
+    /// Values that replaced those of the file, `KEY=VALUE`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub overrides: Vec<String>,
+    /// Name of the robot.
+    pub robot: String,
+    /// Whether the run went as the scenario expects.
+    pub verdict: Verdict,
+    /// Exit code of the program for that verdict.
+    pub exit_code: u8,
+    /// The verdict that the scenario expects.
+    pub expected: Expectation,
+    /// The result of every check, in the order of the scenario; default checks last.
+    pub checks: Vec<CheckResult>,
+    /// The check that ended the run early, and when: later steps were neither taken nor checked.
+    pub stopped: Option<RunStop>,
+    /// The motions, one after another.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub motions: Vec<MotionTimes>,
+    /// The result of each `servo_tcp`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub servos: Vec<ServoResult>,
+    /// The use of each joint's actuator: its largest effort, and the shares of time at its limits.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub actuators: Vec<ActuatorUse>,
+    /// Why model and twin differ, if a check of their agreement failed: the diagnosis of each pair of models, as
+    /// `check` gives it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub diagnoses: Vec<ReportedDiagnosis>,
+    /// Faults that the scenario injects into the twin.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub faults: Vec<RunFault>,
+    /// Faults that the diagnosis found in the samples of the run, without knowledge of `faults`, if a check failed. `None` if
+    /// it found none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diagnosis: Option<RunDiagnosis>,
+    /// Why the run failed; `None` if it did not.
+    pub error: Option<String>,
+    /// Step, number of steps and duration.
+    pub simulation: RunClockReport,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// SHA-256 over the joint positions of every sample: equal runs have equal hashes.
+    pub trajectory_sha256: String,
+    /// The source of the model's pose of each link.
+    pub links: Vec<LinkSource>,
+    /// The files that the run was made from: the scenario, the robot's files with its meshes, and those that the scenario
+    /// names.
+    pub inputs: Vec<InputFile>,
+    /// Versions of this program and of the physics engine.
+    pub versions: Versions,
+    /// Warnings about the scenario and the robot.
+    pub warnings: Vec<Finding>,
+}
+
+/// The clock of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RunClockReport {
+    /// Length of a physics step.
+    pub step_s: f64,
+    /// Number of steps that were taken.
+    pub steps: u64,
+    /// Simulated time of these steps.
+    pub duration_s: f64,
+}
+
+/// Start and duration of a motion of the scenario.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct MotionTimes {
+    /// Kind of the motion: its key in the scenario, without a unit.
+    pub kind: &'static str,
+    /// Start of the motion, from the start of the run.
+    pub starts_s: f64,
+    /// Duration of the motion.
+    pub duration_s: f64,
+    /// Why the motion takes longer than the scenario says, if it was planned during the run, after a `servo_tcp`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slowed: Option<Finding>,
+}
+
+/// A link with the origin of its pose in the model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LinkSource {
+    /// Name of the link.
+    pub link: String,
+    /// Origin of the link's pose in the model: the table or the URDF.
+    pub source: PoseSource,
+}
+
+/// Programs that took part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Versions {
+    /// Version of this program.
+    pub congruent: &'static str,
+    /// Name and version of the physics engine.
+    pub physics: &'static str,
+}
+
+/// The motions as they were: one that was made slower in the run delays those after it.
+fn motions(setup: &RunSetup, slowed: &[SlowedMotion]) -> Vec<MotionTimes> {
+    let kinds = setup.scenario.motion.iter().map(MotionSettings::kind).enumerate();
+    let longer = |chosen: &dyn Fn(usize) -> bool| {
+        slowed.iter().filter(|slowed| chosen(slowed.motion)).map(|slowed| slowed.longer_s).sum::<f64>()
+    };
+    let times = |((index, kind), (starts_s, duration_s))| MotionTimes {
+        kind,
+        starts_s: starts_s + longer(&|motion| motion < index),
+        duration_s: duration_s + longer(&|motion| motion == index),
+        slowed: slowed.iter().find(|slowed| slowed.motion == index).map(|slowed| (&slowed.warning).into()),
+    };
+    kinds.zip(setup.trajectory.times()).map(times).collect()
+}
+
+impl RunReport {
+    /// The report of a run.
+    pub fn new(
+        setup: &RunSetup,
+        sources: &[PoseSource],
+        outcome: Outcome,
+        causes: Causes,
+        error: Option<&RunError>,
+    ) -> Self {
+        let robot = &setup.description.robot;
+        let mut checks = outcome.checks;
+        if error.is_some() {
+            for check in checks.iter_mut().filter(|check| check.status == Status::Pass) {
+                check.status = Status::Error; // it was not checked to the end
+            }
+        }
+        let verdict = if error.is_some() { Verdict::Broken } else { judge(&setup.scenario.expect, &checks) };
+        let links = robot.links().iter().zip(sources);
+        let warnings = setup.description.warnings.iter().chain(&setup.warnings);
+
+        Self {
+            format: "congruent-report/1",
+            scenario: setup.scenario.name.clone(),
+            scenario_file: setup.path.as_ref().map(|path| path.display().to_string()),
+            overrides: setup.overrides.clone(),
+            robot: robot.name().to_owned(),
+            verdict,
+            exit_code: verdict.exit_code(),
+            expected: setup.scenario.expect.clone(),
+            checks,
+            stopped: outcome.stopped,
+            motions: motions(setup, &outcome.slowed),
+            servos: outcome.servos,
+            actuators: outcome.actuators,
+            diagnoses: causes.poses,
+            faults: setup.faults.iter().map(|fault| fault.described().clone()).collect(),
+            diagnosis: causes.samples,
+            error: error.map(ToString::to_string),
+            simulation: RunClockReport {
+                step_s: setup.clock.step_s,
+                steps: outcome.steps,
+                duration_s: setup.clock.time_s(outcome.steps),
+            },
+            seed: setup.scenario.seed,
+            trajectory_sha256: outcome.trajectory_sha256,
+            links: links.map(|(link, &source)| LinkSource { link: link.name.clone(), source }).collect(),
+            inputs: setup.inputs.clone(),
+            versions: Versions {
+                congruent: env!("CARGO_PKG_VERSION"),
+                physics: congruent_simulation::ENGINE,
+            },
+            warnings: warnings.map(Finding::from).collect(),
+        }
+    }
+
+    /// The file `report.json`.
+    ///
+    /// # Errors
+    /// A value is no JSON, which none is.
+    pub fn to_json(&self) -> serde_json::Result<Vec<u8>> {
+        let mut json = serde_json::to_vec_pretty(self)?;
+        json.push(b'\n');
+        Ok(json)
+    }
+
+    /// The verdict as a sentence.
+    pub fn sentence(&self) -> String {
+        let failed = self.checks.iter().filter(|check| check.status == Status::Fail);
+        let failed: Vec<&str> = failed.map(|check| check.check.word()).collect();
+        let failed = failing(&failed);
+        match (self.verdict, &self.expected) {
+            (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
+            (Verdict::AsExpected, Expectation::Fail { .. }) => format!("{failed}, as expected"),
+            (Verdict::NotAsExpected, _) if failed.is_empty() => {
+                "every check passes, against expectation".to_owned()
+            }
+            (Verdict::NotAsExpected, _) => format!("{failed}, against expectation"),
+            (Verdict::NothingChecked, _) => "nothing was checked".to_owned(),
+            (Verdict::Broken, _) => "the run ended with an error".to_owned(),
+        }
+    }
+
+    /// The command that runs the same again.
+    pub fn command(&self) -> String {
+        let file = self.scenario_file.as_deref().unwrap_or("FILE");
+        let quoted = |change: &String| format!("--set '{}'", change.replace('\'', r"'\''"));
+        let has_seed = self.overrides.iter().any(|change| change.starts_with("seed="));
+        let seed = (!has_seed).then(|| format!("--seed {}", self.seed));
+        let words = ["congruent run".to_owned(), file.to_owned()].into_iter();
+        words.chain(self.overrides.iter().map(quoted)).chain(seed).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The checks, those that failed first.
+    pub fn checks_failed_first(&self) -> Vec<&CheckResult> {
+        let mut checks: Vec<&CheckResult> = self.checks.iter().collect();
+        let rank = |check: &CheckResult| !matches!(check.status, Status::Fail | Status::Error);
+        let first_s = |check: &CheckResult| {
+            let violations = check.measures.iter().filter_map(|measure| measure.first_violation.as_ref());
+            violations.map(|violation| violation.time_s).fold(f64::INFINITY, f64::min)
+        };
+        checks.sort_by(|a, b| rank(a).cmp(&rank(b)).then(first_s(a).total_cmp(&first_s(b))));
+        checks
+    }
+}

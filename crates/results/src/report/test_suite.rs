@@ -1,0 +1,140 @@
+//! A report as a test suite: one case for each check, compared with the expectation of the scenario.
+
+use congruent_fault_diagnosis::RunDiagnosis;
+use congruent_input::display::quantity;
+use congruent_monitors::verdict::{CheckResult, Status, Verdict};
+use congruent_scenario::{CheckKind, Expectation};
+use congruent_twin::RunSetup;
+use serde::Deserialize;
+
+use super::{
+    run_report::{RunClockReport, RunReport},
+    sentence::lines,
+    suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite},
+};
+
+/// The parts of a report that determine its suite.
+#[derive(Deserialize)]
+struct RunVerdict {
+    scenario: String,
+    scenario_file: Option<String>,
+    verdict: Verdict,
+    expected: Expectation,
+    checks: Vec<CheckResult>,
+    diagnosis: Option<RunDiagnosis>,
+    error: Option<String>,
+    simulation: RunClockReport,
+}
+
+impl RunReport {
+    /// The checks as a test suite, in the order of the scenario; its time is the simulated one.
+    pub fn test_suite(&self) -> TestSuite {
+        let Self { verdict, simulation, .. } = *self;
+        let run = RunVerdict {
+            scenario: self.scenario.clone(),
+            scenario_file: self.scenario_file.clone(),
+            verdict,
+            expected: self.expected.clone(),
+            checks: self.checks.clone(),
+            diagnosis: self.diagnosis.clone(),
+            error: self.error.clone(),
+            simulation,
+        };
+        run.into_suite()
+    }
+}
+
+/// The suite of a report that was read back from its JSON; `None` if that is no report of a run.
+pub fn recorded_suite(report: &serde_json::Value) -> Option<TestSuite> {
+    Some(RunVerdict::deserialize(report).ok()?.into_suite())
+}
+
+impl RunVerdict {
+    fn into_suite(self) -> TestSuite {
+        let checks = self.checks.iter().enumerate();
+        let mut cases: Vec<TestCase> = checks.map(|(index, check)| self.case(index, check)).collect();
+        if self.verdict == Verdict::NothingChecked || self.error.is_some() {
+            let message = match &self.error {
+                Some(error) => format!("{}: {error}", self.broken()),
+                None => "nothing was checked".to_owned(),
+            };
+            let reason = Reason { kind: "run".to_owned(), message };
+            let result = TestResult::Error(reason);
+            cases.push(TestCase { name: "run".to_owned(), result, output: String::new(), place: None });
+        }
+        let time_s = self.simulation.duration_s;
+        TestSuite { name: self.scenario, cases, time_s, clock: Clock::Simulated }
+    }
+
+    /// When and after how many steps a failed run ended.
+    fn broken(&self) -> String {
+        let RunClockReport { steps, duration_s, .. } = self.simulation;
+        format!("the run failed at {} after {steps} steps", quantity(duration_s, "s"))
+    }
+
+    fn case(&self, index: usize, check: &CheckResult) -> TestCase {
+        let diagnosis = self.diagnosis.iter().filter(|_| check.status == Status::Fail);
+        let causes = diagnosis.flat_map(RunDiagnosis::sentences).map(|cause| format!("diagnosis: {cause}"));
+        let output = lines(check).into_iter().chain(causes).collect::<Vec<_>>().join("\n");
+        let message = match &self.error {
+            Some(error) if check.status == Status::Error => {
+                format!("{}: {error}; result until then: {output}", self.broken())
+            }
+            _ => output.clone(),
+        };
+        let result = judged((check.check, check.status), &self.expected, self.verdict, message);
+        let place = CasePlace::if_known(self.scenario_file.as_deref(), check.line);
+        TestCase { name: case_name(index, (check.check, check.is_default)), result, output, place }
+    }
+}
+
+/// The result of a check by what the scenario expects of it, in a run of this verdict.
+pub fn judged(
+    (check, status): (CheckKind, Status),
+    expected: &Expectation,
+    verdict: Verdict,
+    message: String,
+) -> TestResult {
+    let must_fail = match expected {
+        Expectation::Pass => false,
+        Expectation::Fail { checks } => checks.is_empty() || checks.contains(&check),
+    };
+    let reason = |message: String| Reason { kind: check.word().to_owned(), message };
+    match status {
+        Status::Pass if !must_fail => TestResult::Passed,
+        Status::Fail if must_fail => TestResult::Passed,
+        // With no kind named, any one failure is enough.
+        Status::Pass if verdict == Verdict::AsExpected => TestResult::Passed,
+        Status::Pass => TestResult::Failed(reason(format!("unexpected pass: {message}"))),
+        Status::Skipped => TestResult::Skipped(message),
+        Status::Error => TestResult::Error(reason(message)),
+        Status::Fail => TestResult::Failed(reason(message)),
+    }
+}
+
+/// The suite of a scenario before its run: every check as not run, an error.
+pub fn planned_suite(setup: &RunSetup) -> TestSuite {
+    let file = setup.path.as_ref().map(|path| path.display().to_string());
+    let cases = setup.checks().into_iter().enumerate().map(|(index, check)| {
+        let message = "not finished: the program ended before this check".to_owned();
+        TestCase {
+            name: case_name(index, (check.kind, check.is_default)),
+            result: TestResult::Error(Reason { kind: "unfinished".to_owned(), message }),
+            output: String::new(),
+            place: CasePlace::if_known(file.as_deref(), check.line),
+        }
+    });
+    let mut cases: Vec<TestCase> = cases.collect();
+    if cases.is_empty() {
+        let message = "not finished: the program ended before this run".to_owned();
+        let reason = Reason { kind: "unfinished".to_owned(), message };
+        cases = TestSuite::with_case("", "run", TestResult::Error(reason)).cases;
+    }
+    TestSuite { name: setup.scenario.name.clone(), cases, time_s: 0.0, clock: Clock::Wall }
+}
+
+/// The name of a case: the number of the check in the scenario, from 1, and its kind.
+fn case_name(index: usize, (kind, is_default): (CheckKind, bool)) -> String {
+    let by_default = if is_default { "_default" } else { "" };
+    format!("{}_{kind}{by_default}", index + 1)
+}

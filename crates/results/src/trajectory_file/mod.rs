@@ -1,0 +1,15 @@
+//! What happened in a run as a table, `trajectory.csv` or `trajectory.parquet`: written row by row while the run goes
+//! on, and read back. Not to be confused with [`congruent_motion::Trajectory`], which is what is planned.
+//!
+//! `columns.rs` decides what the columns are; `csv.rs` and `parquet.rs` each know one format.
+
+mod columns;
+mod csv;
+mod parquet;
+mod read;
+mod recorder;
+mod table;
+
+pub use read::open;
+pub(crate) use recorder::TrajectoryRecorder;
+pub use table::{RowReader, TIME, TableError, Value};

@@ -1,0 +1,33 @@
+//! Settings of the checks of forces.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::on_violation::OnViolation;
+use crate::{number::optional_positive, text::variant};
+
+/// The acceleration of the twin in each step, against forward dynamics by analysis at the twin's state and efforts.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DynamicsCheck {
+    /// Largest difference, as torque, relative to the torques that act at the joint. The default is proportional to the length
+    /// of a step: the physics integrates to first order.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub relative: Option<f64>,
+    /// What the run does at the first violation of the check.
+    #[serde(default, deserialize_with = "variant")]
+    pub on_violation: OnViolation,
+}
+
+/// Work of the actuators against the change of energy and the losses by damping and dry friction.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PowerCheck {
+    /// Largest difference, relative to the energy that actuators and gravity have moved. The default is proportional to the
+    /// length of a step: the physics integrates to first order.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub relative: Option<f64>,
+    /// What the run does at the first violation of the check.
+    #[serde(default, deserialize_with = "variant")]
+    pub on_violation: OnViolation,
+}

@@ -1,0 +1,161 @@
+//! `[[check]]`: the checks of a run and their limits.
+
+mod forces;
+mod joints;
+mod on_violation;
+mod pose;
+mod space;
+mod unit_keys;
+
+use congruent_input::serde_name;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use forces::{DynamicsCheck, PowerCheck};
+pub use joints::{CycleTimeCheck, LimitsCheck, TrackingCheck};
+pub use on_violation::OnViolation;
+pub use pose::{AgreementCheck, GoalCheck, InvariantsCheck, TwistCheck};
+pub use space::{ClearanceCheck, ContactCheck, ZoneCheck};
+pub use unit_keys::UnitKeys;
+
+/// One check of a run with its limits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Check {
+    /// Model against twin: position and orientation of every link, at every sample.
+    Agreement(AgreementCheck),
+    /// Distance between links and to obstacles.
+    Clearance(ClearanceCheck),
+    /// Contact between links and with obstacles.
+    Contact(ContactCheck),
+    /// Motions that are finished in time.
+    CycleTime(CycleTimeCheck),
+    /// Acceleration of the twin against forward dynamics by analysis.
+    Dynamics(DynamicsCheck),
+    /// Pose or position of the TCP at the end.
+    Goal(GoalCheck),
+    /// Rotations are orthonormal, joint constraints hold, and joint states are finite numbers.
+    Invariants(InvariantsCheck),
+    /// Position, velocity and effort of each joint within their limits.
+    Limits(LimitsCheck),
+    /// Work of the actuators against the change of energy.
+    Power(PowerCheck),
+    /// The twin against its setpoint.
+    Tracking(TrackingCheck),
+    /// Velocity of the TCP by the Jacobian against the change of its pose.
+    Twist(TwistCheck),
+    /// Links stay out of the zones that are forbidden to them.
+    Zone(ZoneCheck),
+}
+
+/// The kind of a check, as files name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CheckKind {
+    /// See [`Check::Agreement`].
+    Agreement,
+    /// See [`Check::Clearance`].
+    Clearance,
+    /// See [`Check::Contact`].
+    Contact,
+    /// See [`Check::CycleTime`].
+    CycleTime,
+    /// See [`Check::Dynamics`].
+    Dynamics,
+    /// See [`Check::Goal`].
+    Goal,
+    /// See [`Check::Invariants`].
+    Invariants,
+    /// See [`Check::Limits`].
+    Limits,
+    /// See [`Check::Power`].
+    Power,
+    /// See [`Check::Tracking`].
+    Tracking,
+    /// See [`Check::Twist`].
+    Twist,
+    /// See [`Check::Zone`].
+    Zone,
+}
+
+impl CheckKind {
+    /// Every kind, in alphabetical order.
+    pub const ALL: [Self; 12] = [
+        Self::Agreement,
+        Self::Clearance,
+        Self::Contact,
+        Self::CycleTime,
+        Self::Dynamics,
+        Self::Goal,
+        Self::Invariants,
+        Self::Limits,
+        Self::Power,
+        Self::Tracking,
+        Self::Twist,
+        Self::Zone,
+    ];
+
+    /// The word of files and reports.
+    pub fn word(self) -> &'static str {
+        serde_name(&self)
+    }
+}
+
+impl std::fmt::Display for CheckKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+impl Check {
+    /// The kind of the check, without its limits.
+    pub fn kind(&self) -> CheckKind {
+        match self {
+            Self::Agreement(_) => CheckKind::Agreement,
+            Self::Clearance(_) => CheckKind::Clearance,
+            Self::Contact(_) => CheckKind::Contact,
+            Self::CycleTime(_) => CheckKind::CycleTime,
+            Self::Dynamics(_) => CheckKind::Dynamics,
+            Self::Goal(_) => CheckKind::Goal,
+            Self::Invariants(_) => CheckKind::Invariants,
+            Self::Limits(_) => CheckKind::Limits,
+            Self::Power(_) => CheckKind::Power,
+            Self::Tracking(_) => CheckKind::Tracking,
+            Self::Twist(_) => CheckKind::Twist,
+            Self::Zone(_) => CheckKind::Zone,
+        }
+    }
+
+    /// What the run does at the first violation of the check.
+    pub fn on_violation(&self) -> OnViolation {
+        match self {
+            Self::Agreement(check) => check.on_violation,
+            Self::Clearance(check) => check.on_violation,
+            Self::Contact(check) => check.on_violation,
+            Self::CycleTime(check) => check.on_violation,
+            Self::Dynamics(check) => check.on_violation,
+            Self::Goal(check) => check.on_violation,
+            Self::Invariants(check) => check.on_violation,
+            Self::Limits(check) => check.on_violation,
+            Self::Power(check) => check.on_violation,
+            Self::Tracking(check) => check.on_violation,
+            Self::Twist(check) => check.on_violation,
+            Self::Zone(check) => check.on_violation,
+        }
+    }
+
+    /// The values that a file may give in one of two units.
+    pub fn unit_keys(&self) -> Vec<UnitKeys> {
+        match self {
+            Self::Agreement(check) => check.unit_keys().into(),
+            Self::Clearance(check) => vec![check.unit_keys()],
+            Self::Contact(check) => vec![check.unit_keys()],
+            Self::Goal(check) => check.unit_keys().into(),
+            Self::CycleTime(check) => check.unit_keys().into(),
+            Self::Limits(check) => check.unit_keys().into(),
+            Self::Tracking(check) => check.unit_keys().into(),
+            Self::Twist(check) => check.unit_keys().into(),
+            Self::Dynamics(_) | Self::Invariants(_) | Self::Power(_) | Self::Zone(_) => Vec::new(),
+        }
+    }
+}

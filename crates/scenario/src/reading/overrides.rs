@@ -1,0 +1,162 @@
+//! `--set KEY=VALUE`: any value of a scenario, changed before the file is read.
+
+use std::ops::Range;
+
+use congruent_input::{Diagnostic, toml_text};
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue},
+};
+
+/// Characters that a value without quotes does not have: with one of these it was meant as TOML.
+const NOT_IN_WORDS: [char; 9] = ['"', '\'', '[', ']', '{', '}', '=', '#', '\n'];
+
+/// One value under another key path.
+///
+/// The path is the keys of the file joined by dots; an entry of a list has its number, from 1:
+/// `controller.stiffness`, `check.1.position_m`, `start.joints_deg.elbow_joint`. The value is TOML; a word
+/// that is not TOML is taken as a string.
+///
+/// # Examples
+/// ```
+/// use congruent_scenario::Override;
+/// let stiffer: Override = "controller.stiffness=500".parse().expect("a key and a value");
+/// assert_eq!(stiffer.to_string(), "controller.stiffness=500");
+/// assert!("controller.stiffness".parse::<Override>().is_err());
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Override {
+    path: Vec<String>,
+    written: String,
+    /// `value = ...`, as TOML.
+    document: String,
+}
+
+impl std::str::FromStr for Override {
+    type Err = Diagnostic;
+
+    fn from_str(text: &str) -> Result<Self, Diagnostic> {
+        let malformed = || {
+            Diagnostic::error("cli::set", format!("--set \"{text}\" is not KEY=VALUE"))
+                .with_help("for example --set controller.stiffness=500 or --set check.1.position_m=1e-6")
+        };
+        let (path, value) = text.split_once('=').ok_or_else(malformed)?;
+        let path: Vec<String> = path.split('.').map(|key| key.trim().to_owned()).collect();
+        if path.iter().any(String::is_empty) || value.trim().is_empty() {
+            return Err(malformed());
+        }
+        let as_toml = format!("value = {}", value.trim());
+        let document = match DeTable::parse(&as_toml) {
+            Ok(table) if table.get_ref().len() == 1 => as_toml,
+            _ if value.contains(NOT_IN_WORDS) => {
+                let message = format!("--set \"{text}\": the value is neither TOML nor a word");
+                return Err(Diagnostic::error("cli::set", message));
+            }
+            _ => format!("value = {}", toml::Value::String(value.trim().to_owned())),
+        };
+        toml_text::parse_document(&document)
+            .map_err(|fault| Diagnostic::error("cli::set", format!("--set \"{text}\": {}", fault.message)))?;
+        Ok(Self { path, written: text.to_owned(), document })
+    }
+}
+
+impl std::fmt::Display for Override {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.written)
+    }
+}
+
+impl Override {
+    /// An override of the scenario's seed.
+    pub fn seed(seed: u64) -> Self {
+        let written = format!("seed={seed}");
+        Self { path: vec!["seed".to_owned()], written, document: format!("value = {seed}") }
+    }
+
+    /// Puts the value into a document, at the place of the value that it replaces, or of the table that gets
+    /// it; returns that place.
+    ///
+    /// # Errors
+    /// The path goes through a value that is neither table nor list, or to an entry that a list does not have.
+    pub(super) fn apply<'a>(
+        &'a self,
+        document: &mut Spanned<DeTable<'a>>,
+    ) -> Result<Range<usize>, Diagnostic> {
+        let value = DeTable::parse(&self.document)
+            .ok()
+            .and_then(|table| table.into_inner().into_iter().next())
+            .map(|(_, value)| value.into_inner())
+            .ok_or_else(|| self.refused("the value is not TOML"))?;
+        let place = document.span();
+        self.put((document.get_mut(), &place), &self.path, value)
+    }
+
+    fn put<'a>(
+        &self,
+        (table, table_place): (&mut DeTable<'a>, &Range<usize>),
+        path: &'a [String],
+        value: DeValue<'a>,
+    ) -> Result<Range<usize>, Diagnostic> {
+        let (key, rest) = path.split_first().expect("a path has a key");
+        let entry = table
+            .entry(Spanned::new(table_place.clone(), key.as_str().into()))
+            .or_insert_with(|| Spanned::new(table_place.clone(), DeValue::Table(DeTable::new())));
+        self.replace((key, entry), rest, value)
+    }
+
+    /// Replaces a value or something in it.
+    fn replace<'a>(
+        &self,
+        (name, found): (&str, &mut Spanned<DeValue<'a>>),
+        path: &'a [String],
+        value: DeValue<'a>,
+    ) -> Result<Range<usize>, Diagnostic> {
+        let place = found.span();
+        let Some((number, rest)) = path.split_first() else {
+            *found = Spanned::new(place.clone(), placed(value, &place));
+            return Ok(place);
+        };
+        match found.get_mut() {
+            DeValue::Table(table) if table.is_empty() && number.parse::<usize>().is_ok() => {
+                Err(self.refused(&format!("\"{name}\" has no entry {number} in the file")))
+            }
+            DeValue::Table(table) => self.put((table, &place), path, value),
+            DeValue::Array(items) => {
+                let count = items.len();
+                let index = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+                match index.and_then(|index| items.get_mut(index)) {
+                    Some(item) => self.replace((name, item), rest, value),
+                    None => Err(self.refused(&format!("\"{name}\" has entries 1 to {count}"))),
+                }
+            }
+            _ => Err(self.refused(&format!("\"{name}\" is a value, not a table"))),
+        }
+    }
+
+    /// Whether both replace the same value.
+    pub(super) fn same_key(&self, other: &Self) -> bool {
+        self.path == other.path
+    }
+
+    pub(super) fn refused(&self, why: &str) -> Diagnostic {
+        Diagnostic::error("cli::set", format!("--set {}: {why}", self.written)).with_help(
+            "KEY is the keys of the file joined by dots, entries of lists by their number from 1: \
+             check.1.position_m=1e-6",
+        )
+    }
+}
+
+/// A value with all that it holds at one place: its own text is not the file's.
+fn placed<'a>(value: DeValue<'a>, place: &Range<usize>) -> DeValue<'a> {
+    let inner = |value: Spanned<DeValue<'a>>| Spanned::new(place.clone(), placed(value.into_inner(), place));
+    match value {
+        DeValue::Array(items) => DeValue::Array(items.into_iter().map(inner).collect()),
+        DeValue::Table(table) => {
+            let entry = |(key, value): (Spanned<std::borrow::Cow<'a, str>>, _)| {
+                (Spanned::new(place.clone(), key.into_inner()), inner(value))
+            };
+            DeValue::Table(table.into_iter().map(entry).collect())
+        }
+        value => value,
+    }
+}

@@ -1,9 +1,0 @@
-//! Obstacles that move: along a path, or carried by the tool.
-
-mod moving_bodies;
-mod moving_body;
-#[cfg(test)]
-mod tests;
-
-pub use moving_bodies::MovingBodies;
-pub use moving_body::{BodyCourse, Grasp, MovingBody, PathPose};

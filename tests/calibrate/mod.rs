@@ -1,0 +1,5 @@
+//! `congruent calibrate`: corrections estimated from measurements, their verdicts, and measurements that are refused.
+
+mod estimates;
+mod input;
+mod verdicts;

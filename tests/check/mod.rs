@@ -1,0 +1,13 @@
+//! `congruent check`: two models of a robot compared, the cause of a difference, and the change that removes it.
+
+mod configurations;
+mod diagnosis;
+mod diagnosis_chains;
+mod dynamics;
+mod dynamics_causes;
+mod joint_losses;
+mod joint_origins;
+mod mimics;
+mod planted_dynamics;
+mod published_tables;
+mod suggestions;

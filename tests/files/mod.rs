@@ -1,0 +1,11 @@
+//! What is read and written: wrong and large files, files outside of the project, faults of disk and memory.
+
+mod bad_input;
+mod chains;
+mod describe;
+mod fence;
+#[cfg(target_os = "linux")]
+mod large_inputs;
+mod long_chains;
+mod machine_faults;
+mod uses;

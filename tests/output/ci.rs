@@ -1,0 +1,141 @@
+//! What CI reads of a call: annotations at lines, the summary, JUnit with places; and that the files of `docs/ci` call
+//! commands that exist.
+
+use std::fs;
+
+use roxmltree::Document;
+
+use crate::support::{
+    command::{Answer, congruent, text},
+    corpus::workspace,
+    scratch_folder::ScratchFolder,
+};
+
+/// A scenario whose first check fails, and should not.
+const STRICT: [&str; 4] =
+    ["run", "scenarios/ur5e_pick.toml", "--no-recording", "--set=check.1.position_m=1e-20"];
+
+/// Runs a command with all that CI reads: the answer, the JUnit file, the summary.
+fn with_ci(scratch: &ScratchFolder, arguments: &[&str]) -> (Answer, String, String) {
+    let [junit, summary, out] =
+        ["ci/junit.xml", "ci/summary.md", "ci/out"].map(|name| text(&scratch.path().join(name)));
+    let mut all = arguments.to_vec();
+    all.extend(["--annotate", "github", "--junit", &junit, "--summary", &summary]);
+    if arguments[0] == "run" {
+        all.extend(["--out", &out]);
+    }
+    let answer = congruent(&all);
+    (answer, fs::read_to_string(&junit).unwrap(), fs::read_to_string(&summary).unwrap())
+}
+
+/// The line of a file, from 1, that holds this text.
+#[track_caller]
+fn line_of(file: &str, part: &str) -> usize {
+    let text = fs::read_to_string(workspace().join(file)).unwrap();
+    text.lines().position(|line| line.contains(part)).unwrap() + 1
+}
+
+#[track_caller]
+fn annotation(answer: &Answer) -> String {
+    let lines: Vec<&str> = answer.stderr.lines().filter(|line| line.starts_with("::error")).collect();
+    assert_eq!(lines.len(), 1, "{}", answer.stderr);
+    lines[0].to_owned()
+}
+
+#[test]
+fn a_check_that_fails_is_shown_at_its_line() {
+    let scratch = ScratchFolder::new();
+    let (answer, junit, summary) = with_ci(&scratch, &STRICT);
+    assert_eq!(answer.code, 1, "{}", answer.stderr);
+    let file = "scenarios/ur5e_pick.toml";
+    let line = line_of(file, "[[check]]");
+    let annotation = annotation(&answer);
+    assert!(annotation.starts_with(&format!("::error file={file},line={line},title=")), "{annotation}");
+    assert!(annotation.contains("position "), "{annotation}");
+    assert!(!answer.stdout.contains("::error"), "{}", answer.stdout);
+    assert!(summary.contains("**failed**") && summary.contains(&format!(".toml:{line} |")), "{summary}");
+    let document = Document::parse(&junit).unwrap();
+    let failed = document.descendants().find(|node| node.has_tag_name("failure")).unwrap();
+    let case = failed.parent().unwrap();
+    let place = ["file", "line"].map(|name| case.attribute(name).unwrap_or_default());
+    assert_eq!(place, [file, &line.to_string()]);
+    let message = failed.attribute("message").unwrap();
+    assert!(["position ", " at ", "limit ", " s)"].iter().all(|part| message.contains(part)), "{message}");
+}
+
+#[test]
+fn a_robot_that_disagrees_is_shown_at_the_wrong_line() {
+    let scratch = ScratchFolder::new();
+    let file = "robots/ur5e/wrong_convention.toml";
+    // Code hosts know files from the top of the repository.
+    let named = "robots/panda/../ur5e/wrong_convention.toml";
+    let (answer, _, summary) = with_ci(&scratch, &["check", named]);
+    assert_eq!(answer.code, 1, "{}", answer.stderr);
+    let line = line_of(file, "convention = ");
+    let start = format!("::error file={file},line={line},");
+    let annotations: Vec<&str> = answer.stderr.lines().filter(|line| line.starts_with("::error")).collect();
+    assert!(!annotations.is_empty(), "{}", answer.stderr);
+    assert!(annotations.iter().all(|annotation| annotation.starts_with(&start)), "{annotations:?}");
+    assert!(summary.starts_with("### Congruent: failed"), "{summary}");
+}
+
+#[test]
+fn what_cannot_start_is_an_error_at_the_line_of_the_finding() {
+    let scratch = ScratchFolder::new();
+    let scenario = fs::read_to_string(workspace().join("scenarios/ur5e_pick.toml")).unwrap();
+    let scenario = scenario.replace("../robots", &text(&workspace().join("robots")));
+    let path = scratch.write("typo.toml", &format!("sed = 1\n{scenario}"));
+    let (answer, junit, summary) = with_ci(&scratch, &["run", &path]);
+    assert_eq!(answer.code, 2, "{}", answer.stderr);
+    let annotation = annotation(&answer);
+    assert!(annotation.contains("line=1,") && annotation.contains("\"seed\""), "{annotation}");
+    assert!(junit.contains("errors=\"1\"") && junit.contains("line=\"1\""), "{junit}");
+    assert!(summary.contains("| error |") && summary.contains(":1 |"), "{summary}");
+}
+
+#[test]
+fn what_passes_is_summed_up_and_not_annotated() {
+    let scratch = ScratchFolder::new();
+    let (answer, _, summary) = with_ci(&scratch, &["check", "robots/ur5e", "robots/planar_2r"]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    assert!(!answer.stderr.contains("::"), "{}", answer.stderr);
+    assert!(summary.starts_with("### Congruent: passed") && summary.contains("robots/ur5e"), "{summary}");
+    // The summary of the next step of a job is below.
+    let (_, _, summary) = with_ci(&scratch, &["check", "robots/planar_2r"]);
+    assert_eq!(summary.matches("### Congruent").count(), 2, "{summary}");
+}
+
+#[test]
+fn a_summary_that_cannot_be_written_is_reported_before_the_work() {
+    let scratch = ScratchFolder::new();
+    let file = scratch.write("file", "");
+    let answer = congruent(&["check", "robots/ur5e", "--summary", &format!("{file}/below.md")]);
+    assert_eq!(answer.code, 2, "{}", answer.stderr);
+    assert!(answer.stderr.contains("--summary") && answer.stdout.is_empty(), "{}", answer.stderr);
+}
+
+#[test]
+fn workflows_call_commands_that_exist() {
+    let mut calls = 0;
+    for file in [".pre-commit-hooks.yaml", "docs/ci/github.yml", "docs/ci/gitlab.yml", "docs/ci/Jenkinsfile"]
+    {
+        let whole = fs::read_to_string(workspace().join(file)).unwrap().replace("\\\n", " ");
+        for line in whole.lines() {
+            let Some(start) = line.find("congruent check").or_else(|| line.find("congruent run")) else {
+                continue;
+            };
+            let words: Vec<&str> = line[start..].split_whitespace().collect();
+            let help = congruent(&[words[1], "--help"]);
+            let options = words.iter().filter(|word| word.starts_with("--"));
+            for option in options {
+                assert!(
+                    help.stdout.contains(&format!("{option} "))
+                        || help.stdout.contains(&format!("{option}\n")),
+                    "{file}: {option}"
+                );
+            }
+            calls += 1;
+        }
+    }
+    assert_eq!(calls, 8, "two in each file");
+}

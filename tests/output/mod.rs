@@ -1,0 +1,9 @@
+//! What people and other programs read: text, JSON, JUnit, annotations, pages, schemas, terminals.
+
+mod batch;
+mod ci;
+mod escapes;
+mod pages;
+mod schemas;
+mod snapshots;
+mod terminal;

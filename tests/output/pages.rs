@@ -1,0 +1,333 @@
+//! The pages of runs, checks and calibrations: their numbers are those of the JSON reports, and in a real browser (headless
+//! Chromium, where it is installed) no script fails, nothing is fetched, and every plot is drawn.
+
+#![allow(clippy::print_stderr, reason = "a skipped test says so")]
+
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use serde_json::Value;
+
+use crate::support::{
+    command::{congruent, congruent_json, text},
+    corpus::workspace,
+    measurements::CASE_04,
+    scratch_folder::ScratchFolder,
+};
+
+/// Numbers of plots are rounded to 32 bits. Kind: rounding, relative.
+const SINGLE_PRECISION: f64 = 1e-6;
+
+/// Text of an attribute or an element.
+fn unescaped(text: &str) -> String {
+    [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&amp;", "&")]
+        .iter()
+        .fold(text.to_owned(), |text, (escaped, plain)| text.replace(escaped, plain))
+}
+
+/// The places in the report that a page names, each with the value beside it.
+fn values(html: &str) -> Vec<(String, String)> {
+    let between = |text: &str, start: &str| {
+        text.split_once(start).and_then(|(_, rest)| rest.split_once('"')).map(|(value, _)| unescaped(value))
+    };
+    let elements = html.split("<data ").skip(1).map(|rest| rest.split('>').next().unwrap_or_default());
+    elements.map(|of| (between(of, "data-path=\"").unwrap(), between(of, " value=\"").unwrap())).collect()
+}
+
+/// Every value of a page is the one of the report at its place; returns how many there are.
+#[track_caller]
+fn holds_values_of(html: &str, report: &Value) -> usize {
+    let values = values(html);
+    for (path, value) in &values {
+        let exact = report.pointer(path).unwrap_or_else(|| panic!("the report has no {path}"));
+        let value: f64 = value.parse().unwrap();
+        // JSON has no number for what is infinite.
+        let same = exact
+            .as_f64()
+            .map_or(exact.is_null() && !value.is_finite(), |exact| exact.to_bits() == value.to_bits());
+        assert!(same, "{path}: {value} in the page, {exact} in the report");
+    }
+    values.len()
+}
+
+/// The whole of a page is in it: it names no other address.
+#[track_caller]
+fn is_one_file(html: &str) {
+    for fetching in ["src=\"http", "href=\"http", "@import", "url(http", "<link", "<iframe"] {
+        assert!(!html.contains(fetching), "{fetching}");
+    }
+    assert!(html.contains("default-src 'none'"));
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Runs a scenario; gives its folder, its page and its report.
+#[track_caller]
+fn run(scratch: &ScratchFolder, scenario: &str) -> (PathBuf, String, Value) {
+    let out = scratch.path().join("out");
+    let answer = congruent(&["run", scenario, "--out", &text(&out)]);
+    assert!(answer.code < 2, "{}", answer.stderr);
+    let name = Path::new(scenario).file_stem().unwrap();
+    let folder = out.join(name);
+    let report = serde_json::from_str(&read(&folder.join("report.json"))).unwrap();
+    let html = read(&folder.join("report.html"));
+    is_one_file(&html);
+    (folder, html, report)
+}
+
+/// Notes what goes wrong, from before the first script of the page.
+const WATCH: &str = "<script>window.wrong = [];
+addEventListener('error', (event) => wrong.push('error: ' + event.message), true);
+addEventListener('unhandledrejection', (event) => wrong.push('rejection: ' + event.reason));
+addEventListener('securitypolicyviolation', (event) => wrong.push('request: ' + event.blockedURI));</script>";
+
+/// Writes what became of the page into it.
+const REPORT: &str = "<script>addEventListener('load', () => setTimeout(() => {
+  const found = { wrong, fetched: performance.getEntriesByType('resource').map((entry) => entry.name), plots: 0, empty: [], largest: {} };
+  for (const figure of document.querySelectorAll('figure[data-chart]')) {
+    if (figure.closest('details:not([open])')) continue;
+    found.plots += 1;
+    const canvas = figure.querySelector('canvas');
+    const pixels = canvas ? canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data : [];
+    if (!pixels.some((value) => value > 0)) found.empty.push(figure.dataset.chart);
+  }
+  const data = document.getElementById('plots');
+  for (const chart of data ? JSON.parse(data.textContent).charts : []) {
+    const all = chart.lines.flatMap((line) => {
+      const bytes = Uint8Array.from(atob(line.values), (letter) => letter.charCodeAt(0));
+      return Array.from(new Float32Array(bytes.buffer));
+    });
+    found.largest[chart.id] = Math.max(...all);
+  }
+  found.images = document.querySelectorAll('img').length;
+  const place = document.createElement('pre');
+  place.id = 'found';
+  place.textContent = JSON.stringify(found);
+  document.body.append(place);
+}, 300));</script>";
+
+fn browser() -> Option<&'static str> {
+    let names = ["chromium", "chromium-browser", "google-chrome", "chrome"];
+    let found = names.into_iter().find(|name| {
+        Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success())
+    });
+    if found.is_none() {
+        eprintln!("skipped: no Chromium is installed");
+    }
+    found
+}
+
+/// Opens a page in the browser; gives what was found in it, or `None` without a browser.
+fn opened(page: &Path) -> Option<Value> {
+    let browser = browser()?;
+    let html = read(page);
+    let watched = html.replacen("<head>", &format!("<head>{WATCH}"), 1).replacen(
+        "</body>",
+        &format!("{REPORT}</body>"),
+        1,
+    );
+    let copy = page.with_extension("watched.html");
+    fs::write(&copy, watched).unwrap();
+    let profile = tempfile::tempdir().unwrap();
+    let log = profile.path().join("net.json");
+    let output = Command::new(browser)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-first-run",
+            "--disable-background-networking",
+        ])
+        .args([
+            "--disable-component-update",
+            "--disable-sync",
+            "--disable-default-apps",
+            "--window-size=1400,1000",
+        ])
+        .args(["--virtual-time-budget=5000", "--dump-dom"])
+        .arg(format!("--user-data-dir={}", profile.path().display()))
+        .arg(format!("--log-net-log={}", log.display()))
+        .arg(format!("file://{}", copy.canonicalize().unwrap().display()))
+        .output()
+        .unwrap();
+    let shown = String::from_utf8_lossy(&output.stdout);
+    let found = shown.split_once("<pre id=\"found\">").and_then(|(_, rest)| rest.split_once("</pre>"));
+    let (found, _) = found.unwrap_or_else(|| panic!("{shown}\n{}", String::from_utf8_lossy(&output.stderr)));
+    let mut found: Value = serde_json::from_str(&unescaped(found)).unwrap();
+    // What the browser asks for itself, as whether there is a new version, has no origin; what a page asks has one.
+    let log = read(&log);
+    let initiators = log.split("\"initiator\":\"").skip(1);
+    found["requests"] = initiators.filter(|rest| !rest.starts_with("not an origin")).count().into();
+    Some(found)
+}
+
+/// A page with nothing wrong in the browser; gives what was found.
+#[track_caller]
+fn opens_well(page: &Path) -> Option<Value> {
+    let found = opened(page)?;
+    assert_eq!(found["wrong"], Value::Array(Vec::new()), "{}", page.display());
+    assert_eq!(found["fetched"], Value::Array(Vec::new()), "{}", page.display());
+    assert_eq!(found["empty"], Value::Array(Vec::new()), "{}", page.display());
+    assert_eq!(found["requests"], 0, "{}", page.display());
+    Some(found)
+}
+
+#[test]
+fn a_page_that_asks_the_network_or_has_a_wrong_script_is_noticed() {
+    let scratch = ScratchFolder::new();
+    let image = "<img src=\"http://127.0.0.1:9/image.png\">";
+    let page = format!("<html><head></head><body>{image}<script>nothing.at.all();</script></body></html>");
+    let path = scratch.write("asking.html", &page);
+    let Some(found) = opened(Path::new(&path)) else { return };
+    assert!(found["requests"].as_u64().unwrap() > 0, "{found}");
+    assert!(found["wrong"].to_string().contains("nothing is not defined"), "{found}");
+    // The policy of a page stops what would be asked.
+    let policy = "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'\">";
+    let path = scratch.write("stopped.html", &page.replace("<head>", &format!("<head>{policy}")));
+    let found = opened(Path::new(&path)).unwrap();
+    assert_eq!(found["requests"], 0, "{found}");
+    assert!(found["wrong"].to_string().contains("request: http://127.0.0.1:9/image.png"), "{found}");
+}
+
+#[test]
+fn the_page_of_a_run_has_its_numbers_and_draws_them() {
+    let scratch = ScratchFolder::new();
+    for (name, passes) in [("ur5e_pick", true), ("ur5e_wrong_convention", false), ("ur5e_into_table", false)]
+    {
+        let (folder, html, report) = run(&scratch, &format!("scenarios/{name}.toml"));
+        assert!(holds_values_of(&html, &report) > 15, "{name}");
+        assert!(
+            html.contains(if passes { "PASS</span>" } else { "PASS (expected failure)</span>" }),
+            "{name}"
+        );
+        assert_eq!(html.contains("<h2>What failed</h2>"), !passes, "{name}");
+        assert!(html.contains("href=\"recording.rrd\"") && html.contains("href=\"report.json\""), "{name}");
+        assert!(html.len() < 3_000_000, "{name}: {} bytes", html.len());
+        let Some(found) = opens_well(&folder.join("report.html")) else { continue };
+        assert!(found["plots"].as_u64().unwrap() > 15, "{name}: {found}");
+        let largest_of = |quantity: &str| {
+            let measures = report["checks"].as_array().unwrap().iter();
+            let mut measures = measures
+                .filter(|check| check["check"] == "agreement")
+                .flat_map(|check| check["measures"].as_array().unwrap());
+            measures
+                .find(|measure| measure["quantity"] == quantity)
+                .map(|measure| measure["worst"]["value"].as_f64().unwrap())
+        };
+        for quantity in ["position", "orientation"] {
+            let Some(worst) = largest_of(quantity) else { continue };
+            let plotted = found["largest"][quantity].as_f64().unwrap();
+            assert!(
+                (plotted - worst).abs() <= SINGLE_PRECISION * worst,
+                "{name}, {quantity}: {plotted} is plotted of {worst}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_run_without_recording_links_to_none() {
+    let scratch = ScratchFolder::new();
+    let out = text(&scratch.path().join("out"));
+    let answer = congruent(&["run", "scenarios/ur5e_into_table.toml", "--no-recording", "--out", &out]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    let html = read(&scratch.path().join("out/ur5e_into_table/report.html"));
+    assert!(!html.contains("recording.rrd") && html.contains("href=\"junit.xml\""));
+}
+
+#[test]
+fn the_page_of_a_check_shows_lines_bound_and_both_arms() {
+    let scratch = ScratchFolder::new();
+    let page = scratch.path().join("pages/of/checks/check.html");
+    let answer = congruent_json(&["check", "robots/ur5e/wrong_convention.toml", "--html", &text(&page)]);
+    let html = read(&page);
+    is_one_file(&html);
+    assert!(holds_values_of(&html, &answer.json()) > 20);
+    for shown in
+        ["DISAGREE", "convention = &quot;modified&quot;", "convention = &quot;standard&quot;", "DH table"]
+    {
+        assert!(html.contains(shown), "{shown}");
+    }
+    // Two arms with a tip each, and links that are where they are.
+    assert_eq!(html.matches("class=\"arm ").count() % 2, 0);
+    assert!(html.matches("<line class=\"link\"").count() >= 20);
+    opens_well(&page);
+}
+
+#[test]
+fn the_page_of_several_robots_has_the_worst_first() {
+    let scratch = ScratchFolder::new();
+    let page = scratch.path().join("check.html");
+    let robots = ["robots/planar_2r", "robots/ur5e/wrong_convention.toml", "no_such_robot"];
+    let answer = congruent_json(&["check", robots[0], robots[1], robots[2], "--html", &text(&page)]);
+    assert_eq!(answer.code, 2, "{}", answer.stderr);
+    let html = read(&page);
+    holds_values_of(&html, &answer.json());
+    let at = |word: &str| html.find(&format!("{word}</")).unwrap_or_else(|| panic!("no {word}"));
+    assert!(at("no_such_robot") < at(robots[1]) && at(robots[1]) < at(robots[0]));
+    opens_well(&page);
+}
+
+#[test]
+fn the_page_of_a_calibration_has_its_numbers() {
+    let scratch = ScratchFolder::new();
+    let measurements = scratch.write("case_04.csv", CASE_04);
+    let page = scratch.path().join("calibration.html");
+    let answer = congruent_json(&["calibrate", "robots/planar_2r", &measurements, "--html", &text(&page)]);
+    let html = read(&page);
+    is_one_file(&html);
+    assert!(holds_values_of(&html, &answer.json()) > 20);
+    if let Some(found) = opens_well(&page) {
+        assert_eq!(found["images"], 1, "the plot");
+    }
+}
+
+#[test]
+fn the_index_of_several_runs_has_the_worst_first_and_leads_to_their_pages() {
+    let scratch = ScratchFolder::new();
+    let out = scratch.path().join("out");
+    let wrong = scratch.write("wrong.toml", "schema_version = 1\nname = \"wrong\"\n");
+    let scenarios = ["scenarios/ur5e_into_zone.toml", "scenarios/ur5e_into_table.toml", &wrong];
+    congruent(&["run", scenarios[0], scenarios[1], scenarios[2], "--out", &text(&out)]);
+    let page = out.join("index.html");
+    let html = read(&page);
+    is_one_file(&html);
+    assert!(html.contains("1 OF 3 DO NOT PASS") && html.contains("DID NOT START"), "{html}");
+    let links: BTreeMap<usize, &str> = html
+        .match_indices("href=\"")
+        .map(|(at, _)| (at, html[at + 6..].split('"').next().unwrap()))
+        .collect();
+    assert_eq!(links.len(), 2, "{links:?}");
+    assert!(links.values().all(|link| out.join(link).is_file()), "{links:?}");
+    assert!(html.find("wrong.toml").unwrap() < *links.keys().next().unwrap(), "the worst is first");
+    opens_well(&page);
+}
+
+/// Text of a file is text in a page, whatever it says.
+#[test]
+fn names_of_a_file_run_nothing() {
+    let scratch = ScratchFolder::new();
+    let hostile = "</script><img src=x onerror=alert(1)>";
+    let robot = text(&workspace().join("robots/planar_2r"));
+    let scenario = format!(
+        "schema_version = 1\nname = \"{hostile}\"\nrobot = {robot:?}\n[controller]\nkind = \"kinematic\"\n\
+         [[motion]]\nmove_joints_deg = {{ joint_1 = 5 }}\nduration_s = 0.1\n\
+         [[obstacle]]\nname = \"{hostile}\"\nbox_m = [0.1, 0.1, 0.1]\nxyz_m = [3, 0, 0]\n[[check]]\nkind = \"agreement\"\n"
+    );
+    let scenario = scratch.write("hostile.toml", &scenario);
+    let out = scratch.path().join("out");
+    let answer = congruent(&["run", &scenario, "--out", &text(&out)]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    let folder = fs::read_dir(&out).unwrap().next().unwrap().unwrap().path();
+    let html = read(&folder.join("report.html"));
+    assert!(!html.contains("<img") && html.contains("&lt;img src=x onerror=alert(1)&gt;"));
+    if let Some(found) = opens_well(&folder.join("report.html")) {
+        assert_eq!(found["images"], 0);
+    }
+}
