@@ -135,6 +135,11 @@ fn files_of_configurations_are_refused_with_what_they_lack() {
         &fk("[{\"q\": {}},\n{\"q\": {\"elbow_joint\": 1,\n\"elbow_joint\": 2}}]"),
         &["configuration 2: \"elbow_joint\" is given twice", "-:3:"],
     );
+    refused(
+        &fk("{\"q\": {}}\n{\"q\": {\"elbow_joint\": 1, \"elbow_joint\": 2}}\n"),
+        &["configuration 2: \"elbow_joint\" is given twice", "-:2:"],
+    );
+    refused(&fk(&format!("[{}]", vec!["{}"; 100_001].join(","))), &["100000", "per line (JSON Lines)"]);
     let two = fk(r#"[{"q": {"elbow_joint": 4}}, {"q": {"elbow_joint": 1}}, {"q": {"wrist_1_joint": -7}}]"#);
     assert_eq!(two.code, 0, "{}", two.stderr);
     assert_eq!(two.stderr.matches("configurations::outside_limits").count(), 1);

@@ -11,21 +11,20 @@ use crate::support::{command::with_memory, scratch_folder::ScratchFolder};
 /// configurations take 10 MB. With a form of its own for each configuration every one of these calls takes more.
 const MOST_KIB: u32 = 128 << 10;
 
-/// A list of configurations of the UR5e.
-fn list(configurations: usize) -> String {
+/// Configurations of the UR5e, one per line.
+fn lines(configurations: usize) -> String {
     let joints = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"];
-    let mut text = String::from("[\n");
+    let mut text = String::new();
     for at in 0..configurations {
-        let comma = if at == 0 { "" } else { ",\n" };
-        let _ = write!(text, "{comma}{{\"q\": {{");
+        text += "{\"q\": {";
         for (index, joint) in joints.iter().enumerate() {
             let comma = if index == 0 { "" } else { ", " };
             let thousandths = at * (index + 3) % 1000;
             let _ = write!(text, "{comma}\"{joint}_joint\": 0.{thousandths:03}");
         }
-        text += "}}";
+        text += "}}\n";
     }
-    text + "\n]\n"
+    text
 }
 
 /// What the command prints if it has no more memory than this.
@@ -41,7 +40,7 @@ fn limited(scratch: &ScratchFolder, arguments: &[&str]) -> String {
 fn memory_is_that_of_the_joint_values_however_many_configurations() {
     let scratch = ScratchFolder::new();
     let check = |configurations: usize, arguments: &[&str], entry: &str| {
-        let list = scratch.write("list.json", &list(configurations));
+        let list = scratch.write("list.jsonl", &lines(configurations));
         let (command, options) = arguments.split_first().unwrap();
         let all = [&[command, "robots/ur5e", "--configurations", &list], options].concat();
         let printed = limited(&scratch, &all);

@@ -192,8 +192,8 @@ impl ArmArguments {
 /// Configurations on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConfigurationArguments {
-    /// A JSON array of {"q": {"joint": value}} in rad and m, or - for standard input; joints that are not named
-    /// are at 0.
+    /// A file with one {"q": {"joint": value}} per line (JSON Lines), or a JSON array of at most 100,000 of them, in rad and
+    /// m; - is standard input. Joints that are not named are at 0.
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
     configurations: Option<PathBuf>,
     /// One joint's position in rad or m, or with a unit as 90deg, 1.57rad, 0.1m, 100mm; may be given several
@@ -259,7 +259,9 @@ impl ConfigurationArguments {
         let Some(path) = &self.configurations else {
             let message = "joint velocities are read from a file of configurations, and none is given";
             return Err(Diagnostic::error("cli::velocities", message)
-                .with_help(r#"--configurations FILE with [{"q": {"joint": 0.1}, "v": {"joint": 0.2}}]"#)
+                .with_help(
+                    r#"--configurations FILE with {"q": {"joint": 0.1}, "v": {"joint": 0.2}} on each line"#,
+                )
                 .into());
         };
         Ok(with_warning(read_states(path, &description.robot)?, description, printer))

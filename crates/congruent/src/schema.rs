@@ -51,7 +51,11 @@ impl Document {
     pub const ALL: &[Self] = &[
         Self::new("robot", "robot file (robot.toml)", robot_file_schema),
         Self::new("scenario", "scenario file", || schema_for!(Scenario)),
-        Self::new("configurations", "file of configurations, of --configurations", configurations_schema),
+        Self::new(
+            "configurations",
+            "list of --configurations: an array; in JSON Lines, each line is one of its items",
+            configurations_schema,
+        ),
         Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
         Self::new("faults", "table of faults against checks, printed by `faults`", written::<FaultTable>),
         Self::new("check", "report of one robot, printed by `check`", written::<RobotCheck>),

@@ -23,7 +23,7 @@ pub use diagnostic::{
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines, edited, line_end};
 pub use files::{
-    FileAccess, InputFile, MESH_OUTSIDE, NOT_FOUND, OUTSIDE, Packages, Resolved, RosPackages, TextStream,
+    FileAccess, InputFile, MESH_OUTSIDE, NOT_FOUND, OUTSIDE, Packages, Resolved, RosPackages, TextLines,
     folder_of, head_of, is_standard_input, not_found, read_text,
 };
 pub use quantity::{Quantity, SiUnit};

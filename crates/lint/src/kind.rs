@@ -70,7 +70,7 @@ impl FileToLint {
             let message = format!("{} is {what}, not a file that can be linted", path.display());
             return Err(Diagnostic::error("lint::kind", message).with_help(*now));
         }
-        if ["json", "csv"].contains(&extension.as_str()) && file.is_file() {
+        if ["json", "jsonl", "csv"].contains(&extension.as_str()) && file.is_file() {
             let head = head_of(&file, HEAD_BYTES)?;
             return table(path, &head).map(|kind| Self { kind, source: None });
         }
@@ -94,7 +94,7 @@ fn no_kind(path: &Path, why: &str) -> Diagnostic {
         path.display()
     );
     Diagnostic::error("lint::kind", message).with_help(
-        "give a .urdf, .srdf or .toml, a folder with robot.toml, or a .json or .csv that `fk`, `ik` or `calibrate` reads",
+        "give a .urdf, .srdf or .toml, a folder with robot.toml, or a .json, .jsonl or .csv that `fk`, `ik` or `calibrate` reads",
     )
 }
 
@@ -105,7 +105,8 @@ fn table(path: &Path, head: &str) -> Result<FileKind, Diagnostic> {
         head.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
     match head.trim_start_matches('\u{feff}').trim_start().chars().next() {
         None => Err(no_kind(path, "it is empty")),
-        Some('{') => Err(no_kind(path, "it is a JSON object, and tables are JSON arrays")),
+        Some('{') if is_configuration(header) => Ok(FileKind::Configurations),
+        Some('{') => Err(no_kind(path, "it is a JSON object that is no configuration")),
         Some('[') if !has(&["translation_", "quaternion_", "rpy_"]) => Ok(FileKind::Configurations),
         Some('[') if has(&["q\""]) => Ok(FileKind::Measurements),
         Some('[') => Ok(FileKind::Targets),
@@ -116,6 +117,12 @@ fn table(path: &Path, head: &str) -> Result<FileKind, Diagnostic> {
         }
         Some(_) => Ok(FileKind::Measurements),
     }
+}
+
+/// Whether a line of JSON begins as a configuration, so that the text is one configuration per line.
+fn is_configuration(line: &str) -> bool {
+    let dense: String = line.chars().filter(|c| !c.is_whitespace() && *c != '\u{feff}').collect();
+    ["{\"q\":{", "{\"v\":{", "{\"tau\":{", "{\"a\":{", "{}"].iter().any(|begin| dense.starts_with(begin))
 }
 
 impl FileKind {
@@ -174,6 +181,7 @@ mod tests {
     fn a_table_is_what_its_first_rows_are() {
         let kind = |head: &str| table(Path::new("t"), head).map_err(|fault| fault.code);
         assert_eq!(kind("[{\"q\": {\"a\": 1}}]"), Ok(FileKind::Configurations));
+        assert_eq!(kind("{\"q\": {\"a\": 1}}\n{}\n"), Ok(FileKind::Configurations));
         assert_eq!(kind("[{\"translation_m\": [0, 0, 1]}]"), Ok(FileKind::Targets));
         assert_eq!(kind("[{\"q\": {}, \"translation_mm\": [0, 0, 1]}]"), Ok(FileKind::Measurements));
         assert_eq!(kind("# made by hand\nj1_deg,x_m\n1,2\n"), Ok(FileKind::Measurements));

@@ -52,8 +52,8 @@ pub(crate) struct Arguments {
     /// Seed of the random configurations.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Also compare at the configurations of this file and show the difference at each: a JSON array of {"q":
-    /// {"joint": value}} in rad and m; joints that are not named are at 0.
+    /// Also compare at the configurations of this file and show the difference at each: one {"q": {"joint": value}} per
+    /// line (JSON Lines), or a JSON array of at most 100,000 of them, in rad and m; joints that are not named are at 0.
     #[arg(long, value_name = "FILE")]
     configurations: Option<PathBuf>,
     /// Show the position of the tip by both models and the error at each configuration as a table.

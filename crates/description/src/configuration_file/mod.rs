@@ -2,18 +2,17 @@
 
 mod beyond_limits;
 mod json_list;
-mod json_stream;
 mod rows;
 mod states;
 mod unique;
 
-use std::{collections::BTreeMap, path::Path};
+use std::{collections::BTreeMap, ops::Range, path::Path};
 
-use congruent_input::{Diagnostic, Findings, InputFile, TextStream, known_names};
+use congruent_input::{Diagnostic, Findings, InputFile, TextLines, known_names};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 
-use self::{beyond_limits::OutsideLimits, json_stream::EntryPlace};
+use self::beyond_limits::OutsideLimits;
 use crate::model::{Robot, RobotQ};
 
 pub use self::{
@@ -31,7 +30,7 @@ const MIMIC_DIGITS: f64 = 1e-9;
 const LIST: JsonList = JsonList {
     entry: "configuration",
     code: "configurations::json",
-    help: r#"expected a JSON array: [{"q": {"joint name": 0.1}}]"#,
+    help: r#"expected one configuration per line (JSON Lines), {"q": {"joint name": 0.1}}, or an array of them in [ ]"#,
 };
 /// Size limit of a file of configurations, bytes.
 const MOST_BYTES: u64 = 256 << 20;
@@ -71,11 +70,11 @@ pub struct Configurations<List> {
     pub input: Option<InputFile>,
 }
 
-/// Reads a file of configurations: a JSON array of `{"q": {joint: value}, ...}` in rad and m,
-/// missing joints 0. The text is read once and not kept: memory is taken by the values alone.
+/// Reads a file of configurations in rad and m, missing joints 0: `{"q": {joint: value}, ...}` on each line (JSON Lines), or
+/// a JSON array of at most 100,000 of them. Lines are read once and not kept: memory is taken by the values alone.
 ///
 /// # Errors
-/// The file cannot be read, is no such array, is empty, or names an unknown joint.
+/// The file cannot be read, is no such list, is empty, or names an unknown joint.
 pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Configurations<RobotQList>, Findings> {
     let mut list = RobotQList::new(robot.dof());
     let add = |written: &WrittenConfiguration| {
@@ -112,21 +111,21 @@ fn read(
     mut add: impl FnMut(&WrittenConfiguration) -> Result<(), Diagnostic>,
 ) -> Result<(Option<Diagnostic>, InputFile), Findings> {
     let (mut index, mut outside, mut first_outside) = (0, OutsideLimits::default(), None);
-    let entry = |written: WrittenConfiguration, place: &EntryPlace<'_>| {
+    let entry = |written: WrittenConfiguration, place: &mut dyn FnMut() -> Range<usize>| {
         index += 1;
         for group in [&written.v, &written.tau, &written.a] {
             self::place(group, robot)?;
         }
         let found = outside_limits(&written.q, robot);
         if !found.is_empty() {
-            first_outside.get_or_insert_with(|| place.keep());
+            first_outside.get_or_insert_with(place);
         }
         for what in found {
             outside.add(|| format!("configuration {index}: {what}"));
         }
         add(&written)
     };
-    let (input, source) = LIST.read_stream(TextStream::open(path, MOST_BYTES)?, entry)?;
+    let (input, source) = LIST.read_file(TextLines::open(path, MOST_BYTES)?, entry)?;
     if index == 0 {
         return Err(no_entry().in_file(&source).into());
     }

@@ -8,7 +8,7 @@ pub(super) const AREAS: &[Area] = &[Area {
         (
             1,
             "configurations::json",
-            "The file is not a JSON array of configurations.\n    [{\"q\": {\"elbow_joint\": 0.1}}]",
+            "The file is not a list of configurations: one on each line (JSON Lines), or a JSON array of at most 100,000.\n    {\"q\": {\"elbow_joint\": 0.1}}\n    {\"q\": {\"elbow_joint\": 0.2}}",
         ),
         (
             2,

@@ -196,13 +196,16 @@ pub(super) fn decode_text(path: &Path, bytes: &[u8]) -> Result<Arc<SourceFile>, 
     }
 }
 
+/// What is wrong with bytes that are no text, and the text up to there.
+pub(super) type NotText<'a> = Box<(Diagnostic, &'a str)>;
+
 /// UTF-8 without its byte order mark, or what is wrong and the text up to there.
-fn decode(bytes: &[u8]) -> Result<&str, Box<(Diagnostic, &str)>> {
-    let refused = |fault: Diagnostic, readable| {
-        let end = str::len(readable);
-        Box::new((fault.at(end..end), readable))
-    };
-    let bytes = without_mark(bytes).map_err(|fault| refused(fault, ""))?;
+pub(super) fn decode(bytes: &[u8]) -> Result<&str, NotText<'_>> {
+    valid_text(without_mark(bytes).map_err(|fault| Box::new((fault.at(0..0), "")))?, 0)
+}
+
+/// UTF-8 without NUL that follows this number of lines.
+pub(super) fn valid_text(bytes: &[u8], lines_before: usize) -> Result<&str, NotText<'_>> {
     let (good, bad) = match std::str::from_utf8(bytes) {
         Ok(text) => (text, None),
         Err(error) => {
@@ -210,18 +213,21 @@ fn decode(bytes: &[u8]) -> Result<&str, Box<(Diagnostic, &str)>> {
             (std::str::from_utf8(good).unwrap_or_default(), bad.first())
         }
     };
-    if let Some(at) = good.find('\0') {
-        return Err(refused(nul(line_column(good, at).0), &good[..at]));
-    }
-    let Some(&byte) = bad else { return Ok(good) };
-    Err(refused(not_utf8(byte, line_column(good, good.len()).0), good))
+    let end = good.find('\0').unwrap_or(good.len());
+    let line = lines_before + line_column(good, end).0;
+    let fault = match bad {
+        _ if end < good.len() => nul(line),
+        Some(&byte) => not_utf8(byte, line),
+        None => return Ok(good),
+    };
+    Err(Box::new((fault.at(end..end), &good[..end])))
 }
 
 /// The help of messages about a text in another encoding.
 const AS_UTF8: &str = "save the file as UTF-8";
 
 /// The bytes of a text without its byte order mark; refuses an empty file and one that begins with a UTF-16 mark.
-pub(super) fn without_mark(bytes: &[u8]) -> Result<&[u8], Diagnostic> {
+fn without_mark(bytes: &[u8]) -> Result<&[u8], Diagnostic> {
     if bytes.is_empty() {
         return Err(Diagnostic::error("file::empty", "the file is empty"));
     }
@@ -232,11 +238,11 @@ pub(super) fn without_mark(bytes: &[u8]) -> Result<&[u8], Diagnostic> {
     Ok(bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes))
 }
 
-pub(super) fn nul(line: usize) -> Diagnostic {
+fn nul(line: usize) -> Diagnostic {
     Diagnostic::error("file::nul", format!("NUL byte at line {line}: the file is not text"))
 }
 
-pub(super) fn not_utf8(byte: u8, line: usize) -> Diagnostic {
+fn not_utf8(byte: u8, line: usize) -> Diagnostic {
     let message = format!("byte 0x{byte:02X} at line {line} is not UTF-8");
     Diagnostic::error("file::not_utf8", message).with_help(AS_UTF8)
 }
