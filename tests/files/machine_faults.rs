@@ -85,8 +85,8 @@ fn a_recording_that_could_not_be_completed_is_read_as_far_as_it_goes() {
     let inspected = congruent(&["inspect", &partial, "--format", "json"]);
     let summary = inspected.json();
     assert_eq!((inspected.code, &summary["complete"]), (2, &Value::Bool(false)), "{}", inspected.stderr);
-    assert!(summary["check_sums"]["intact"].as_u64().unwrap() > 10, "{}", summary["check_sums"]);
-    assert_eq!(summary["check_sums"]["damaged"], Value::Array(Vec::new()));
+    let reason = summary["reason"].as_str().unwrap();
+    assert!(reason.contains("cut off") && reason.contains("repeat its run"), "{reason}");
     assert!(summary["duration_s"].as_f64().unwrap() > 5.0, "{}", summary["duration_s"]);
 }
 

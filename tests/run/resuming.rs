@@ -114,7 +114,7 @@ fn inspect_reports_results_that_are_not_as_written() {
     fs::write(&page, html).unwrap();
     let answer = inspected();
     assert_eq!(answer.code, 2, "{}", answer.stdout);
-    assert!(answer.stdout.contains("report.html beside the recording"), "{}", answer.stdout);
+    assert!(answer.stdout.contains("report.html has changed since the run wrote it"), "{}", answer.stdout);
     fs::remove_file(page).unwrap();
     assert_eq!(inspected().code, 0, "what was left behind is not damaged");
 }

@@ -119,6 +119,7 @@ const PLACES: &[(&str, &str)] = &[
     ("re_chunk::", "crates/recording/src"),
     ("re_log_encoding::", "crates/recording/src"),
     ("re_log_types::", "crates/recording/src"),
+    ("re_protos::", "crates/recording/src"),
     ("re_sdk_types::", "crates/recording/src"),
 ];
 

@@ -13,9 +13,9 @@ mod scene;
 mod series;
 
 pub use read::{
-    Basis, CheckSummary, CheckSums, Damage, Disagreement, EntitySummary, InspectError, QuantitySummary,
-    Recheck, RecheckError, RecheckedCheck, RecheckedQuantity, RecordingSummary, ScalarSummary,
-    TimelineSummary, inspect, recheck, scalars, scalars_csv,
+    Basis, CheckSummary, Disagreement, EntitySummary, InspectError, QuantitySummary, Recheck, RecheckError,
+    RecheckedCheck, RecheckedQuantity, RecordingSummary, ScalarSummary, TimelineSummary, inspect, recheck,
+    scalars, scalars_csv,
 };
 pub use recorder::{RerunFormat, RerunRecorder};
 

@@ -18,20 +18,21 @@ use crate::failure::{BAD_INPUT, NOTHING, worse};
 
 /// Adds what the files say: a report beside the recording must be its own, and the results as the run wrote them.
 pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access: &FileAccess) {
-    let Some(report) = &summary.report else { return };
-    summary.changed_inputs = changed_inputs(report, access);
+    let report = summary.report.as_ref();
+    summary.changed_inputs = report.and_then(|report| changed_inputs(report, access));
     // A recording under another name was moved out of the folder of its run: what lies beside it now is unrelated.
     if path.file_name().is_none_or(|name| name != RerunFormat.file_name()) {
         return;
     }
     let beside = read_result(&path.with_file_name(REPORT)).ok();
-    let is_its_own = |beside: Vec<u8>| serde_json::from_slice::<Value>(&beside).ok().as_ref() == Some(report);
-    let problem = if beside.is_some_and(|beside| !is_its_own(beside)) {
+    let is_its_own = |beside: Vec<u8>| serde_json::from_slice::<Value>(&beside).ok().as_ref() == report;
+    // A file that is damaged may have lost its report.
+    let problem = if report.is_some() && beside.is_some_and(|beside| !is_its_own(beside)) {
         format!(
             "{REPORT} beside the recording differs from the report inside the recording: {REPORT} has been changed, or belongs to another run"
         )
     } else if let Some(changed) = changed_results(path) {
-        format!("{changed} beside the recording has changed since the run wrote it (by {DIGESTS})")
+        format!("{changed} has changed since the run wrote it (by {DIGESTS} beside the recording)")
     } else {
         return;
     };

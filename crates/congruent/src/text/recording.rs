@@ -7,16 +7,14 @@ use crate::{
     input::{Quantity, SiUnit, display::quantity, serde_name},
     monitors::verdict::Status,
     recording::{
-        Basis, CheckSummary, CheckSums, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity,
-        RecordingSummary, TimelineSummary,
+        Basis, CheckSummary, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity, RecordingSummary,
+        TimelineSummary,
     },
     results::report::share_in_full,
 };
 
 /// The property that is printed as the verdict.
 const VERDICT: &str = "congruent/verdict";
-/// Text for files of other programs, which have no check sums.
-const NO_CHECK_SUMS: &str = "none: damage cannot be detected";
 /// The widest first column; a longer path has a line of its own.
 const PATH_WIDTH: usize = 35;
 
@@ -27,13 +25,11 @@ pub fn recording_text(summary: &RecordingSummary, options: &TextOptions) -> Stri
     let state = if summary.complete { "complete" } else { "incomplete" };
     let duration = summary.duration_s.map_or_else(|| "none".to_owned(), |seconds| quantity(seconds, "s"));
     let file = format!("{} bytes, {state}", summary.bytes);
-    let check_sums = summary.check_sums.as_ref().map_or_else(|| NO_CHECK_SUMS.to_owned(), check_sums);
     let inputs = inputs(summary);
-    let heading: [(&str, &str); 6] = [
+    let heading: [(&str, &str); 5] = [
         ("application", &summary.application_id),
         ("recording", &summary.recording_id),
         ("file", &file),
-        ("check sums", &check_sums),
         ("inputs", &inputs),
         ("duration", &duration),
     ];
@@ -71,14 +67,6 @@ fn push_verdict(text: &mut String, summary: &RecordingSummary) {
     }
     let verdict = summary.verdict.as_deref().unwrap_or("none");
     let _ = writeln!(text, "verdict: {verdict}\nreason: {}", summary.reason);
-}
-
-/// How many messages are as they were written.
-fn check_sums(of: &CheckSums) -> String {
-    match of.damaged.len() {
-        0 => format!("all {} match", of.intact),
-        damaged => format!("{} match, {damaged} do not", of.intact),
-    }
 }
 
 /// Whether the files of the run are as they were.

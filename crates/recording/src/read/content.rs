@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use congruent_input::display::quantity;
 use re_chunk::{
-    Chunk,
+    Chunk, TimeColumn,
     external::arrow::{
         array::{Array, AsArray},
         datatypes::{DataType, Float32Type, Float64Type, UInt64Type},
@@ -78,6 +78,8 @@ pub(super) struct RecordingContent {
     scalars: BTreeMap<String, ScalarStatistics>,
     properties: BTreeMap<String, Value>,
     problems: Vec<String>,
+    /// The entity of the last chunk, and its last time in nanoseconds.
+    last_chunk: Option<(String, Option<i64>)>,
     /// All values of each scalar with their times, if the caller wants them.
     pub(super) series: Option<BTreeMap<String, Vec<(i64, f64)>>>,
 }
@@ -94,9 +96,11 @@ impl RecordingContent {
         }
     }
 
-    /// Adds a problem of the file to those of the summary.
-    pub(super) fn add_problem(&mut self, problem: String) {
-        self.problems.push(problem);
+    /// The entity of the last chunk, and its last time: where a reader is in the file.
+    pub(super) fn last_chunk(&self) -> Option<String> {
+        let (entity, time) = self.last_chunk.as_ref()?;
+        let time = time.map(|time| format!(" at {}", quantity(seconds(time), "s")));
+        Some(format!("{entity}{}", time.unwrap_or_default()))
     }
 
     /// Adds a chunk; the error says why it cannot be read.
@@ -114,6 +118,9 @@ impl RecordingContent {
             return Ok(());
         }
         let path = chunk.entity_path().to_string();
+        let times =
+            chunk.timelines().values().filter(|column| column.timeline().typ() == TimeType::DurationNs);
+        self.last_chunk = Some((path.clone(), times.flat_map(TimeColumn::times_raw).max().copied()));
         let entity = self.entities.entry(path.clone()).or_default();
         entity.chunks += 1;
         entity.rows += chunk.num_rows() as u64;
@@ -202,12 +209,11 @@ impl RecordingContent {
             last: scalar.last.map(|(_, value)| value),
         };
         Some(RecordingSummary {
-            format: "congruent-recording-summary/1",
+            format: "congruent-recording-summary/2",
             application_id,
             recording_id,
             bytes: 0,
             complete: false,
-            check_sums: None,
             problems: std::mem::take(&mut self.problems),
             verdict,
             exit_code: 0,

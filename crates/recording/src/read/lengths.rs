@@ -2,82 +2,34 @@
 //! memory. Checks nothing but lengths.
 
 use re_chunk::external::arrow::ipc::root_as_message;
-use re_log_encoding::{Decodable, Encodable, MessageHeader, MessageKind, external::lz4_flex};
+use re_log_encoding::external::lz4_flex;
+use re_protos::{
+    common::v1alpha1::Compression,
+    log_msg::v1alpha1::{ArrowMsg, log_msg::Msg},
+};
 
 /// The largest compression ratio of LZ4.
-const MAX_COMPRESSION_RATIO: usize = 255;
-/// Field numbers of rerun's `ArrowMsg`, and its number for LZ4.
-const COMPRESSION: u64 = 2;
-const UNCOMPRESSED_LENGTH: u64 = 3;
-const PAYLOAD: u64 = 5;
-const LZ4: u64 = 2;
+const MAX_COMPRESSION_RATIO: u64 = 255;
 /// The bytes before the length of an Arrow message.
 const CONTINUATION: [u8; 4] = [0xff; 4];
 
 const WRONG_LENGTHS: &str = "its lengths do not match its data";
 
 /// Refuses a message that states a length beyond its data.
-pub(super) fn check(message: &dyn Encodable) -> Result<(), String> {
-    let mut bytes = Vec::new();
-    message.to_rrd_bytes(&mut bytes).map_err(|error| error.to_string())?;
-    let (header, body) =
-        bytes.split_at_checked(MessageHeader::ENCODED_SIZE_BYTES).ok_or("its header is missing")?;
-    let header = MessageHeader::from_rrd_bytes(header).map_err(|error| error.to_string())?;
-    if header.kind != MessageKind::ArrowMsg {
-        return Ok(());
-    }
-    let ArrowMessage { is_compressed, uncompressed_length, payload } =
-        ArrowMessage::read(body).ok_or(WRONG_LENGTHS)?;
-    if !is_compressed {
+pub(super) fn check(message: &Msg) -> Result<(), String> {
+    let Msg::ArrowMsg(message) = message else { return Ok(()) };
+    let ArrowMsg { payload, uncompressed_size, .. } = message;
+    if message.compression() != Compression::Lz4 {
         return check_arrow(payload).ok_or_else(|| WRONG_LENGTHS.to_owned());
     }
     // Checked before decompression, which allocates the stated length at once.
-    if uncompressed_length > payload.len().saturating_mul(MAX_COMPRESSION_RATIO) {
+    if *uncompressed_size > (payload.len() as u64).saturating_mul(MAX_COMPRESSION_RATIO) {
         return Err("its stated size is more than its compressed data can hold".to_owned());
     }
+    let uncompressed_size = usize::try_from(*uncompressed_size).map_err(|error| error.to_string())?;
     let uncompressed =
-        lz4_flex::block::decompress(payload, uncompressed_length).map_err(|error| error.to_string())?;
+        lz4_flex::block::decompress(payload, uncompressed_size).map_err(|error| error.to_string())?;
     check_arrow(&uncompressed).ok_or_else(|| WRONG_LENGTHS.to_owned())
-}
-
-/// The fields of rerun's message that state lengths, and the payload.
-#[derive(Debug, PartialEq, Eq)]
-struct ArrowMessage<'a> {
-    is_compressed: bool,
-    uncompressed_length: usize,
-    payload: &'a [u8],
-}
-
-impl<'a> ArrowMessage<'a> {
-    fn read(mut bytes: &'a [u8]) -> Option<Self> {
-        let mut fields = Self { is_compressed: false, uncompressed_length: 0, payload: &[] };
-        while !bytes.is_empty() {
-            let key = varint(&mut bytes)?;
-            // Protobuf: the low three bits are the type of encoding, the others the number of the field.
-            let (field, wire_type) = (key >> 3, key & 7);
-            match wire_type {
-                0 => {
-                    let value = varint(&mut bytes)?;
-                    match field {
-                        COMPRESSION => fields.is_compressed = value == LZ4,
-                        UNCOMPRESSED_LENGTH => fields.uncompressed_length = usize::try_from(value).ok()?,
-                        _ => {}
-                    }
-                }
-                2 => {
-                    let length = usize::try_from(varint(&mut bytes)?).ok()?;
-                    let value = take(&mut bytes, length)?;
-                    if field == PAYLOAD {
-                        fields.payload = value;
-                    }
-                }
-                1 => _ = take(&mut bytes, 8)?,
-                5 => _ = take(&mut bytes, 4)?,
-                _ => return None,
-            }
-        }
-        Some(fields)
-    }
 }
 
 /// Reads the lengths of the messages of an Arrow stream; `None` if one exceeds the remaining bytes.
@@ -106,35 +58,17 @@ fn take<'a>(bytes: &mut &'a [u8], length: usize) -> Option<&'a [u8]> {
     Some(taken)
 }
 
-/// A number of variable length, seven bits in a byte, the lowest first.
-fn varint(bytes: &mut &[u8]) -> Option<u64> {
-    let mut value = 0;
-    // At most ten bytes: a number that does not end is refused instead of read on.
-    for shift in (0..64).step_by(7) {
-        let byte = take(bytes, 1)?[0];
-        value |= u64::from(byte & 0x7f) << shift;
-        if byte & 0x80 == 0 {
-            return Some(value);
-        }
-    }
-    None
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn fields_are_found_among_others() {
-        // Field 1 as bytes, 2 = LZ4, 3 = 300, 5 as bytes, 7 = true.
-        let bytes = [0x0a, 2, 9, 9, 0x10, 2, 0x18, 0xac, 0x02, 0x2a, 3, 1, 2, 3, 0x38, 1];
-        let found = ArrowMessage::read(&bytes).unwrap();
-        assert_eq!(
-            found,
-            ArrowMessage { is_compressed: true, uncompressed_length: 300, payload: &[1, 2, 3] }
-        );
-        assert_eq!(ArrowMessage::read(&bytes[..10]), None, "a field is cut off");
-        assert_eq!(ArrowMessage::read(&[0xff; 12]), None, "a number never ends");
+    fn a_size_that_no_compression_reaches_is_refused() {
+        let compression = Compression::Lz4.into();
+        let message = |uncompressed_size| {
+            Msg::ArrowMsg(ArrowMsg { compression, uncompressed_size, ..ArrowMsg::default() })
+        };
+        assert!(check(&message(u64::MAX)).unwrap_err().contains("stated size"));
     }
 
     #[test]

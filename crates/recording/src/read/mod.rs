@@ -1,8 +1,7 @@
 //! Reads a recording back: its content, whether it is complete, and its verdict. Reads recordings of any
-//! program, complete or cut off. Draws nothing and repairs nothing.
+//! program up to their end or the first damaged message. Draws nothing and repairs nothing.
 
 mod content;
-mod damage;
 mod evidence;
 mod exit_code;
 mod frames;
@@ -15,23 +14,22 @@ mod table;
 use std::{
     collections::BTreeMap,
     fs::File,
-    io::{self, BufRead, BufReader},
+    io::{self, BufReader, Read},
     path::{Path, PathBuf},
 };
 
 use congruent_input::catch_panic;
 use congruent_results::comparison::Scalars;
-use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication};
+use re_log_encoding::{CachingApplicationIdInjector, Decodable, ToApplication};
 use re_log_types::LogMsg;
+use re_protos::log_msg::v1alpha1::log_msg::Msg;
 
 use self::{
     content::RecordingContent,
-    damage::MAX_PROBLEMS,
-    frames::{FileParts, Frames},
+    frames::{FileEnd, Frames},
 };
 use crate::rrd::times::seconds;
 
-pub use damage::{CheckSums, Damage};
 pub use recheck::{RecheckError, recheck};
 pub use rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity};
 pub use summary::{
@@ -81,8 +79,7 @@ pub enum InspectError {
 
 /// The summary of a recording.
 ///
-/// A file that is cut off is read up to its last complete message, one that is damaged except for what is; both is
-/// reported in [`RecordingSummary::problems`].
+/// A file that is cut off or damaged is read up to there, which is the first of [`RecordingSummary::problems`].
 ///
 /// # Errors
 /// [`InspectError`] if there is no recording to read.
@@ -117,55 +114,64 @@ fn read(path: &Path, content: &mut RecordingContent) -> Result<RecordingSummary,
     if metadata.len() == 0 {
         return Err(InspectError::Empty { path: path.to_owned() });
     }
-    let mut file = BufReader::new(File::open(path).map_err(refused)?);
-    let length = metadata.len();
-    let mut frames = Frames::read(&mut file, length)
+    let file = BufReader::new(File::open(path).map_err(refused)?);
+    let mut frames = Frames::begin(file, metadata.len())
         .map_err(refused)?
         .map_err(|reason| InspectError::NotARecording { path: path.to_owned(), reason })?;
-    // Before the content: the damaged ranges are examined for what they held, and then not read any more.
-    let damaged = frames.damaged.iter().map(|range| Damage::examine(&mut file, range.clone()));
-    let damaged: Vec<Damage> = damaged.collect::<io::Result<_>>().map_err(refused)?;
-    let problems = frames.problem(length).into_iter().chain(damage::problems(&damaged)).collect::<Vec<_>>();
-    // Each message has a header, which bounds their number.
-    let most = usize::try_from(length).unwrap_or(usize::MAX) / MessageHeader::ENCODED_SIZE_BYTES;
-    let parts = FileParts::new(file.into_inner(), std::mem::take(&mut frames.readable));
-    read_messages(BufReader::new(parts), most, content);
+    let (position, end) = read_messages(&mut frames, content).map_err(refused)?;
+    let problem = problem(position, &end, content);
     let mut summary = content.summary().ok_or_else(|| InspectError::NoRecording { path: path.to_owned() })?;
-    summary.bytes = length;
-    summary.complete = frames.is_complete();
-    summary.check_sums = frames.intact.map(|intact| CheckSums { intact, damaged });
-    // Problems of the file come before those of its values, and the first one is the reason of the exit code.
-    summary.problems.splice(0..0, problems);
+    summary.bytes = metadata.len();
+    summary.complete = end == FileEnd::Complete;
+    // The problem of the file comes before those of its values, and the first one is the reason of the exit code.
+    summary.problems.splice(0..0, problem);
     (summary.exit_code, summary.reason) = exit_code::judge(&summary);
     Ok(summary)
 }
 
-fn read_messages(file: impl BufRead, most: usize, content: &mut RecordingContent) {
+/// Adds the messages up to the end of the file or the first one that cannot be read. Returns why it is the last one, and
+/// its first byte.
+fn read_messages(
+    frames: &mut Frames<impl Read>,
+    content: &mut RecordingContent,
+) -> io::Result<(u64, FileEnd)> {
     let mut applications = CachingApplicationIdInjector::default();
-    let mut unreadable = 0_usize;
-    for message in DecoderTransport::decode_lazy(file).take(most) {
-        let taken = message.map_err(|error| error.to_string()).and_then(|message| {
-            // Before the Arrow reader sees the message: it allocates what the message states.
-            lengths::check(&message)?;
-            catch_panic(|| {
-                let message = message.to_application((&mut applications, None));
-                add(content, message.map_err(|error| error.to_string())?)
-            })
-        });
-        if let Err(error) = taken {
-            unreadable += 1;
-            if unreadable <= MAX_PROBLEMS {
-                content.add_problem(format!("a message cannot be read: {error}"));
-            }
+    loop {
+        let position = frames.position();
+        let message = match frames.next_message()? {
+            Ok(message) => message,
+            Err(end) => return Ok((position, end)),
+        };
+        // Damaged bytes reach code of rerun that expects its own output, and a panic there must not end the call.
+        if let Err(error) = catch_panic(|| add(content, &message, &mut applications)) {
+            return Ok((position, FileEnd::Damaged(error)));
         }
-    }
-    if unreadable > MAX_PROBLEMS {
-        content.add_problem(format!("{unreadable} messages cannot be read in total"));
     }
 }
 
-fn add(content: &mut RecordingContent, message: LogMsg) -> Result<(), String> {
-    match message {
+/// What is wrong with the file, and what to do.
+fn problem(position: u64, end: &FileEnd, content: &RecordingContent) -> Option<String> {
+    let what = match end {
+        FileEnd::Complete => return None,
+        FileEnd::NotFinished => "the file has no footer, so the recording was not finished".to_owned(),
+        FileEnd::CutOff => format!("the file is cut off in the message at byte {position}"),
+        FileEnd::Damaged(error) => format!("the file is damaged at byte {position}: {error}"),
+    };
+    let last = content.last_chunk().map_or_else(String::new, |last| format!(", after {last}"));
+    Some(format!("{what}{last}; it is read up to there: copy it again, or repeat its run"))
+}
+
+fn add(
+    content: &mut RecordingContent,
+    message: &[u8],
+    applications: &mut CachingApplicationIdInjector,
+) -> Result<(), String> {
+    let Some(message) = Option::<Msg>::from_rrd_bytes(message).map_err(|error| error.to_string())? else {
+        return Ok(());
+    };
+    // Before the Arrow reader sees the message: it allocates what the message states.
+    lengths::check(&message)?;
+    match message.to_application((applications, None)).map_err(|error| error.to_string())? {
         LogMsg::SetStoreInfo(info) => content.add_store(&info.info.store_id),
         LogMsg::ArrowMsg(store, message) => content.add_chunk(&store, &message)?,
         LogMsg::BlueprintActivationCommand(_) => {}

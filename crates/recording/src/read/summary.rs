@@ -7,7 +7,7 @@ use congruent_monitors::verdict::Bound;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{damage::CheckSums, rechecked::Recheck};
+use super::rechecked::Recheck;
 
 /// The property that holds the verdict.
 pub(super) const VERDICT: &str = "congruent/verdict";
@@ -23,11 +23,8 @@ pub struct RecordingSummary {
     pub recording_id: String,
     /// Size of the file, in bytes.
     pub bytes: u64,
-    /// Whether the file ends with its footer; otherwise it was cut off or the recording was not finished.
+    /// Whether the file was read to its footer; otherwise it is cut off or damaged, or the recording was not finished.
     pub complete: bool,
-    /// What the check sums of its messages say; `null` if it has none, as of other programs: its values may be damaged
-    /// and nothing shows it.
-    pub check_sums: Option<CheckSums>,
     /// Problems with the file or its values.
     pub problems: Vec<String>,
     /// The run's verdict, if this program made the recording.

@@ -1,6 +1,5 @@
 //! The file: its messages, identifiers, entity paths and timelines. What is recorded is decided elsewhere.
 
-pub(crate) mod check_sums;
 pub(crate) mod convert;
 pub(crate) mod identity;
 pub(crate) mod paths;

@@ -15,16 +15,14 @@ use std::{
 use congruent_monitors::RecordingError;
 use re_chunk::{Chunk, ChunkId, RowId, Span, TimeColumn, external::arrow::datatypes::Schema};
 use re_log_encoding::{
-    Compression, CrateVersion, Decodable, Encodable, EncodingOptions, MessageHeader, MessageKind, RRD_FOURCC,
-    RrdFooter, RrdManifestBuilder, StreamFooter, StreamHeader, ToTransport,
+    Compression, CrateVersion, Encodable, EncodingOptions, MessageHeader, MessageKind, RRD_FOURCC, RrdFooter,
+    RrdManifestBuilder, StreamFooter, StreamHeader, ToTransport,
 };
 use re_log_types::{
     ArrowMsg, BlueprintActivationCommand, EntityPath, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSource,
     TimePoint,
 };
 use re_sdk_types::{AsComponents, SerializedComponentBatch, SerializedComponentColumn};
-
-use super::check_sums::{CheckSums, FIELD_AND_SUM};
 
 /// A [`RecordingError`] with the message of an error of rerun or of the operating system.
 pub(crate) fn failed(error: impl Display) -> RecordingError {
@@ -38,7 +36,6 @@ const BUFFER_BYTES: usize = 1 << 18;
 pub(crate) struct RrdWriter {
     file: BufWriter<File>,
     written: u64,
-    sums: CheckSums,
     frame: Vec<u8>,
     store: StoreId,
     manifests: BTreeMap<StoreId, RrdManifestBuilder>,
@@ -53,7 +50,6 @@ impl RrdWriter {
         let mut writer = Self {
             file: BufWriter::with_capacity(BUFFER_BYTES, file),
             written: 0,
-            sums: CheckSums::default(),
             frame: Vec::new(),
             store: store.clone(),
             manifests: BTreeMap::new(),
@@ -169,9 +165,8 @@ impl RrdWriter {
         footer.manifests.sort_by_cached_key(|manifest| format!("{:?}", manifest.store_id));
         let mut bytes = Vec::new();
         footer.to_rrd_bytes(&mut bytes).map_err(failed)?;
-        self.put(&MessageHeader { kind: MessageKind::End, len: (bytes.len() + FIELD_AND_SUM) as u64 })?;
+        self.put(&MessageHeader { kind: MessageKind::End, len: bytes.len() as u64 })?;
         let start = self.written;
-        self.sums.close(&mut bytes);
         self.file.write_all(&bytes).map_err(failed)?;
         self.put(&StreamFooter::from_rrd_footer_bytes(start, &bytes))?;
         self.flush()
@@ -187,34 +182,18 @@ impl RrdWriter {
         manifest.append(&batch, span, uncompressed).map_err(failed)
     }
 
-    /// Writes a message with its check sum; returns the span of its payload in the file and its size before
-    /// compression.
+    /// Writes a message; returns the span of its payload in the file and its size before compression.
     fn message(&mut self, message: &LogMsg) -> Result<(Span<u64>, u64), RecordingError> {
         let message = message.to_transport(Compression::LZ4).map_err(failed)?;
-        self.frame.clear();
-        message.to_rrd_bytes(&mut self.frame).map_err(failed)?;
-        let (header, payload) =
-            self.frame.split_first_chunk_mut().ok_or_else(|| failed("a message has no header"))?;
-        let kind = MessageHeader::from_rrd_bytes(header).map_err(failed)?.kind;
-        // The header counts the check sum that is added to the payload, or readers would take it for the next
-        // message.
-        let len = (payload.len() + FIELD_AND_SUM) as u64;
-        *header = header_bytes(MessageHeader { kind, len })?;
-        self.sums.close(&mut self.frame);
-        let span = Span { start: self.written + HEADER as u64, len };
-        self.write_frame()?;
+        let start = self.written + MessageHeader::ENCODED_SIZE_BYTES as u64;
+        self.put(&message)?;
+        let span = Span { start, len: self.written - start };
         Ok((span, message.byte_size_uncompressed()))
     }
 
-    /// Writes a frame that has no check sum of its own.
     fn put(&mut self, frame: &dyn Encodable) -> Result<(), RecordingError> {
         self.frame.clear();
         frame.to_rrd_bytes(&mut self.frame).map_err(failed)?;
-        self.sums.add(&self.frame);
-        self.write_frame()
-    }
-
-    fn write_frame(&mut self) -> Result<(), RecordingError> {
         self.file.write_all(&self.frame).map_err(failed)?;
         self.written += self.frame.len() as u64;
         Ok(())
@@ -227,13 +206,4 @@ impl RrdWriter {
         let id = u128::from(self.last_id) << 64;
         (ChunkId::from_u128(id), RowId::from_u128(id + 1))
     }
-}
-
-/// Length of a message's header.
-const HEADER: usize = MessageHeader::ENCODED_SIZE_BYTES;
-
-fn header_bytes(header: MessageHeader) -> Result<[u8; HEADER], RecordingError> {
-    let mut bytes = Vec::with_capacity(HEADER);
-    header.to_rrd_bytes(&mut bytes).map_err(failed)?;
-    bytes.try_into().map_err(|_| failed("a header has another length"))
 }
