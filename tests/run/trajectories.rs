@@ -166,18 +166,36 @@ fn wrong_periods_are_refused_at_their_line() {
 #[test]
 fn a_table_that_a_run_has_written_is_played_back() {
     let scratch = ScratchFolder::new();
-    let folder = run(&scratch, &scenario(&scratch, "first", "trajectory = \"csv\""));
-    let table = folder.join("trajectory.csv");
+    let table = run(&scratch, &scenario(&scratch, "first", "trajectory = \"csv\"")).join("trajectory.csv");
+    let parquet =
+        run(&scratch, &scenario(&scratch, "parquet", "trajectory = \"parquet\"")).join("trajectory.parquet");
     let written = columns(&table);
     // A name with a comma, as of "box, red", is in quotes.
     let plain = fs::read_to_string(&table).unwrap();
     let quoted = plain.replace("wrist_1_link--wrist_3_link", "\"wrist_1_link--box, red\"");
     assert_ne!(plain, quoted);
     fs::write(&table, quoted).unwrap();
+    for (name, table) in [("from_csv", &table), ("from_parquet", &parquet)] {
+        let file = scratch.write(&format!("{name}.toml"), &playing(name, table));
+        let played = columns(&run(&scratch, &file).join("trajectory.csv"));
+        for name in ["shoulder_pan_joint.q_rad", "elbow_joint.q_rad"] {
+            let numbers =
+                |cells: &[String]| -> Vec<f64> { cells.iter().map(|cell| cell.parse().unwrap()).collect() };
+            let [first, again] = [&written, &played].map(|columns| numbers(&columns[name]));
+            assert_eq!(first.len(), again.len());
+            for (first, again) in first.iter().zip(&again) {
+                assert!((first - again).abs() < 1e-9, "{name}: {first} and {again}");
+            }
+        }
+    }
+}
+
+/// A scenario of the UR5e that follows a table.
+fn playing(name: &str, table: &Path) -> String {
     let robot = text(&workspace().join("robots/ur5e"));
-    let again = format!(
+    format!(
         r#"schema_version = 1
-name = "again"
+name = {name:?}
 robot = {robot:?}
 [start]
 joints_deg = {{ shoulder_lift_joint = -90.0, elbow_joint = 90.0, wrist_1_joint = -90.0, wrist_2_joint = -90.0 }}
@@ -191,16 +209,6 @@ kind = "agreement"
 [output]
 trajectory = "csv"
 "#,
-        text(&table)
-    );
-    let played = columns(&run(&scratch, &scratch.write("again.toml", &again)).join("trajectory.csv"));
-    for name in ["shoulder_pan_joint.q_rad", "elbow_joint.q_rad"] {
-        let numbers =
-            |cells: &[String]| -> Vec<f64> { cells.iter().map(|cell| cell.parse().unwrap()).collect() };
-        let [first, again] = [&written, &played].map(|columns| numbers(&columns[name]));
-        assert_eq!(first.len(), again.len());
-        for (first, again) in first.iter().zip(&again) {
-            assert!((first - again).abs() < 1e-9, "{name}: {first} and {again}");
-        }
-    }
+        text(table)
+    )
 }

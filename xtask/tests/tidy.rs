@@ -9,6 +9,7 @@ use support::{all_sources, code_lines, crate_names, program_sources, read, root}
 /// Which crate may depend on which.
 const ARROWS: &[(&str, &[&str])] = &[
     ("input", &[]),
+    ("tables", &["input"]),
     ("description", &["input"]),
     ("lint", &["input", "description"]),
     ("kinematics", &["input", "description"]),
@@ -16,10 +17,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("dynamics-agreement", &["input", "description", "kinematics", "dynamics"]),
     ("simulation", &["description"]),
     ("agreement", &["input", "description", "kinematics"]),
-    ("calibration", &["input", "description", "kinematics"]),
+    ("calibration", &["input", "tables", "description", "kinematics"]),
     ("analysis", &["input", "description", "kinematics", "dynamics"]),
     ("scenario", &["input"]),
-    ("motion", &["input", "description", "kinematics", "scenario"]),
+    ("motion", &["input", "tables", "description", "kinematics", "scenario"]),
     ("proximity", &["input", "description", "kinematics"]),
     ("monitors", &["input", "description", "kinematics", "dynamics", "scenario", "proximity"]),
     ("fault-diagnosis", &["input", "description", "dynamics", "scenario", "proximity", "monitors"]),
@@ -27,6 +28,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "twin",
         &[
             "input",
+            "tables",
             "description",
             "kinematics",
             "dynamics",
@@ -42,6 +44,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "results",
         &[
             "input",
+            "tables",
             "description",
             "kinematics",
             "simulation",
@@ -89,6 +92,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "congruent",
         &[
             "input",
+            "tables",
             "description",
             "lint",
             "kinematics",

@@ -22,6 +22,7 @@ pub use congruent_recording as recording;
 pub use congruent_results as results;
 pub use congruent_scenario as scenario;
 pub use congruent_simulation as simulation;
+pub use congruent_tables as tables;
 pub use congruent_twin as twin;
 pub use nalgebra;
 

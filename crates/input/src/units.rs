@@ -7,7 +7,7 @@ use toml::Spanned;
 use crate::diagnostic::Diagnostic;
 
 /// The physical quantity of a value, which decides the unit suffixes of its keys in files.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// Keys end in `_m` or `_mm`; the value in memory is in metres.
     Length,
@@ -35,14 +35,44 @@ impl UnitSystem {
     }
 }
 
+/// The unit that the last part of a name says: `_m`, `_mm`, `_rad` or `_deg`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct UnitSuffix {
+    /// The quantity.
+    pub unit: Unit,
+    /// Whether values are as in memory.
+    pub system: UnitSystem,
+}
+
+impl UnitSuffix {
+    /// The name without its suffix, and the unit: `elbow` and degrees for `elbow_deg`.
+    pub fn split(name: &str) -> Option<(&str, Self)> {
+        let (stem, suffix) = name.rsplit_once('_')?;
+        [Unit::Length, Unit::Angle].into_iter().find_map(|unit| {
+            let at = unit.suffixes().iter().position(|known| *known == suffix)?;
+            let system = [UnitSystem::Si, UnitSystem::Engineering][at];
+            Some((stem, Self { unit, system }))
+        })
+    }
+
+    /// A value in m or rad.
+    pub fn to_si(self, value: f64) -> f64 {
+        if self.system == UnitSystem::Si { value } else { self.unit.convert(value) }
+    }
+}
+
 impl Unit {
     /// The keys that may give `quantity`: in SI units, then in engineering units.
     pub fn keys(self, quantity: &str) -> [String; 2] {
-        let suffixes = match self {
+        self.suffixes().map(|suffix| format!("{quantity}_{suffix}"))
+    }
+
+    /// The ends of keys and columns: for SI units, then for engineering units.
+    fn suffixes(self) -> [&'static str; 2] {
+        match self {
             Self::Length => ["m", "mm"],
             Self::Angle => ["rad", "deg"],
-        };
-        suffixes.map(|suffix| format!("{quantity}_{suffix}"))
+        }
     }
 
     /// A value in engineering units (mm, deg) in SI units (m, rad).

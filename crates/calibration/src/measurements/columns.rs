@@ -1,7 +1,10 @@
 //! Columns of a table of measurements, by their names.
 
 use congruent_description::{JointKind, Robot};
-use congruent_input::{Diagnostic, known_names, units::Unit};
+use congruent_input::{
+    Diagnostic, known_names,
+    units::{Unit, UnitSuffix},
+};
 
 /// The quantity in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,14 +23,14 @@ pub(super) enum MeasuredQuantity {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MeasurementColumn {
     pub(super) quantity: MeasuredQuantity,
-    /// The kind of unit if the values are in degrees or millimetres; `None` for SI.
-    engineering_unit: Option<Unit>,
+    /// The unit in the column's name; a component of a quaternion has none.
+    unit: Option<UnitSuffix>,
 }
 
 impl MeasurementColumn {
     /// A value of the column in rad or m.
     pub(super) fn to_si(self, value: f64) -> f64 {
-        self.engineering_unit.map_or(value, |unit| unit.convert(value))
+        self.unit.map_or(value, |unit| unit.to_si(value))
     }
 
     /// The column with this name.
@@ -36,20 +39,10 @@ impl MeasurementColumn {
     /// The name is neither a joint nor a measured quantity, or its unit does not fit.
     pub(super) fn parse(name: &str, robot: &Robot) -> Result<Self, Diagnostic> {
         if let Some(at) = ["qw", "qx", "qy", "qz"].iter().position(|known| *known == name) {
-            return Ok(Self { quantity: MeasuredQuantity::Quaternion(at), engineering_unit: None });
+            return Ok(Self { quantity: MeasuredQuantity::Quaternion(at), unit: None });
         }
-        let split = [
-            ("_rad", Unit::Angle, false),
-            ("_deg", Unit::Angle, true),
-            ("_mm", Unit::Length, true),
-            ("_m", Unit::Length, false),
-        ]
-        .into_iter()
-        .find_map(|(suffix, unit, is_engineering_unit)| {
-            Some((name.strip_suffix(suffix)?, unit, is_engineering_unit))
-        });
-        let Some((stem, unit, is_engineering_unit)) = split else { return Err(without_unit(name, robot)) };
-        let engineering_unit = is_engineering_unit.then_some(unit);
+        let Some((stem, suffix)) = UnitSuffix::split(name) else { return Err(without_unit(name, robot)) };
+        let (unit, written) = (suffix.unit, Some(suffix));
         let joint = robot.find_joint(stem).and_then(|joint| Some((joint, robot.coordinate(joint)?)));
         let measured = match unit {
             Unit::Length => {
@@ -62,19 +55,18 @@ impl MeasurementColumn {
             }
         };
         if let Some(quantity) = measured {
-            return Ok(Self { quantity, engineering_unit });
+            return Ok(Self { quantity, unit: written });
         }
         let Some((joint, coordinate)) = joint else { return Err(unknown(name, stem, robot)) };
         let expected =
             if robot.joint(joint).kind == JointKind::Prismatic { Unit::Length } else { Unit::Angle };
-        let fits = matches!((expected, unit), (Unit::Length, Unit::Length) | (Unit::Angle, Unit::Angle));
-        if !fits {
+        if expected != unit {
             let [plain, engineering_unit] = expected.keys(stem);
             let message = format!("column \"{name}\" has the wrong unit for its joint");
             return Err(Diagnostic::error("measurements::unit", message)
                 .with_help(format!("write {plain} or {engineering_unit}")));
         }
-        Ok(Self { quantity: MeasuredQuantity::Joint(coordinate), engineering_unit })
+        Ok(Self { quantity: MeasuredQuantity::Joint(coordinate), unit: written })
     }
 }
 

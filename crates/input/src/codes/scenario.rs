@@ -249,7 +249,7 @@ pub(super) const AREAS: &[Area] = &[Area {
         (
             54,
             "scenario::torque_file",
-            "The file of torques is not a table of joint torques over time. Give a CSV table with the column `time_s` and columns named by joints; the message has the line.",
+            "The file of torques is not a table of joint torques over time. Give a table with the column `time_s` and columns named by joints; the message has the line.",
         ),
     ],
 }];

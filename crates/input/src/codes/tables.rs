@@ -51,11 +51,6 @@ pub(super) const AREAS: &[Area] = &[Area {
             "A target is farther away than any robot reaches. The coordinates of `translation_m` are in metres.",
         ),
         (
-            10,
-            "measurements::csv",
-            "The file is not a CSV table. The message has the reason. Separate columns with commas, and save the file as UTF-8.",
-        ),
-        (
             11,
             "measurements::json",
             "The file is not a JSON array of measurements. An entry has the joints and what was measured.\n    [{\"q\": {\"elbow_joint\": 0.1}, \"translation_m\": [0.5, 0, 0.3]}]",
@@ -127,5 +122,10 @@ pub(super) const AREAS: &[Area] = &[Area {
             "A measured point is farther from the other points than the robot can reach. Often its unit is wrong.",
         ),
         (26, "units::target", "A target is far beyond the reach of the robot. Often its unit is wrong."),
+        (
+            27,
+            "table::parquet",
+            "The file is named `.parquet`, but is not a Parquet table. The message has the reason. A file of a run that was killed has no end and cannot be read.",
+        ),
     ],
 }];

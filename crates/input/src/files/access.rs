@@ -116,10 +116,18 @@ impl FileAccess {
     /// # Errors
     /// The file may not be opened, or as [`FileAccess::read_named_text`].
     pub fn read_text(&self, path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
+        decode_text(path, &self.read_bytes(path, most_bytes)?)
+    }
+
+    /// The bytes of a file that another file names: a regular file of at most `most_bytes`.
+    ///
+    /// # Errors
+    /// The file may not be opened or cannot be read.
+    pub fn read_bytes(&self, path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
         self.check(path)?;
         let bytes = read_regular_bytes(path, most_bytes)?;
         self.note(&path.display(), path, &bytes);
-        decode_text(path, &bytes)
+        Ok(bytes)
     }
 
     /// The bytes of a mesh, which was found in a folder that may be opened.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use congruent_description::SPEED_MARGIN;
 use congruent_input::{Diagnostic, display::quantity};
 use congruent_scenario::{Between, PlaybackMotion, Profile};
+use congruent_tables::read_table;
 
 use super::{
     joint_path::check_positions,
@@ -23,7 +24,8 @@ const DIGITS: f64 = 1.0 + SPEED_MARGIN;
 pub(crate) fn plan(settings: &PlaybackMotion, planning: &mut Planning<'_>) -> Result<Motion, Diagnostic> {
     let place = planning.place.key("play_csv");
     let robot = &planning.description.robot;
-    let source = planning.folder.read_text(&settings.play_csv, MOST_BYTES);
+    let path = planning.folder.path.join(&settings.play_csv);
+    let source = read_table(planning.folder.access, &path, MOST_BYTES);
     let table = source.and_then(|source| JointTable::read(&source, (robot, planning.limits), planning.from));
     let JointTable { times_s, mut points, places } =
         table.map_err(|fault| if fault.source.is_none() { place.mark(fault) } else { fault })?;

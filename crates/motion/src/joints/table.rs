@@ -1,11 +1,20 @@
-//! A table of joint positions over time, read from CSV: a header that names time and joints with their units, one instant
+//! A table of joint positions over time, read from CSV or Parquet: a header that names time and joints with their units, one instant
 //! in each row.
 
-use std::{ops::Range, sync::Arc};
+use std::sync::Arc;
 
 use congruent_description::{Robot, RobotQ};
-use congruent_input::{Diagnostic, SourceFile, display::quantity, known_names, units::Unit};
+use congruent_input::{
+    Diagnostic, SourceFile,
+    display::quantity,
+    known_names,
+    units::{Unit, UnitSuffix},
+};
 use congruent_scenario::OverLimit;
+use congruent_tables::{
+    Header, Row, Table,
+    run_columns::{POSITION, TIME, is_other_quantity},
+};
 
 use crate::MotionLimits;
 
@@ -13,21 +22,8 @@ use crate::MotionLimits;
 pub(super) const MOST_BYTES: u64 = 256 << 20;
 /// How far positions of a table may be from where they should be, rad or m. Kind: digits of a table.
 pub(super) const SAME_PLACE: f64 = 1e-4;
-/// The column of times.
-const TIME: &str = "time_s";
-/// Between the name of a joint and the position among other quantities, in the tables that runs write.
-const POSITION: &str = ".q";
-
-/// Columns without a joint in tables that runs write. Other columns that are ignored have a dot in their names.
-const OF_THE_RUN: [&str; 7] = [
-    "step",
-    "position_error_m",
-    "position_error_link",
-    "orientation_error_rad",
-    "orientation_error_link",
-    "clearance_m",
-    "clearance_pair",
-];
+/// The code of tables that are not positions over time.
+const CODE: &str = "scenario::playback";
 
 /// Joint positions over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,14 +66,7 @@ impl TablePlaces {
 struct PositionColumn {
     cell: usize,
     coordinate: usize,
-    engineering_unit: Option<Unit>,
-}
-
-/// A line of the file that is not a comment.
-struct TableRow<'a> {
-    number: usize,
-    span: Range<usize>,
-    cells: Vec<&'a str>,
+    unit: UnitSuffix,
 }
 
 impl JointTable {
@@ -99,40 +88,35 @@ impl JointTable {
         (robot, limits): (&Robot, &MotionLimits),
         from: &RobotQ,
     ) -> Result<Self, Diagnostic> {
-        let mut rows = rows(&source.text);
-        let header = rows.next().ok_or_else(|| fault("the table has no header", 0..0))?;
-        let time = header.cells.iter().position(|&name| name == TIME);
-        let time = time.ok_or_else(|| fault("the table has no column time_s", header.span.clone()))?;
+        let no_header = || Diagnostic::error(CODE, "the table has no header").at(0..0);
+        let Table { header, rows } = Table::read(&source.text, CODE).ok_or_else(no_header)?;
+        let time = header.names().position(|name| name == TIME);
+        let time = time.ok_or_else(|| fault(&header, format!("the table has no column {TIME}")))?;
         let columns = columns(&header, robot)?;
         let names = |coordinate: usize| {
             let master = robot.joint(robot.movable_joints()[coordinate]).mimic.map(|mimic| mimic.master);
             let coordinate = master.and_then(|master| robot.coordinate(master)).unwrap_or(coordinate);
             let column = columns.iter().find(|column| column.coordinate == coordinate)?;
-            Some(header.cells[column.cell].to_owned())
+            header.names().nth(column.cell).map(str::to_owned)
         };
         let places = TablePlaces { lines: Vec::new(), columns: (0..robot.dof()).map(names).collect() };
         let mut table = Self { times_s: Vec::new(), points: Vec::new(), places };
         for row in rows {
-            if row.cells.len() != header.cells.len() {
-                let (found, expected) = (row.cells.len(), header.cells.len());
-                let message = format!("line {}: {found} cells, the header has {expected}", row.number);
-                return Err(fault(&message, row.span));
-            }
-            let time_s = row.number_in(time)?;
+            let row = row?;
+            let time_s = header.needed_number(CODE, &row, time)?;
             let mut q = from.clone();
             for column in &columns {
-                let value = row.number_in(column.cell)?;
-                q[column.coordinate] = column.engineering_unit.map_or(value, |unit| unit.convert(value));
+                q[column.coordinate] = column.unit.to_si(header.needed_number(CODE, &row, column.cell)?);
             }
             robot.apply_mimic(&mut q);
-            row.check_range(&q, robot, &table.places)?;
+            table.places.check_range(&row, &q, robot)?;
             table.follow(&row, (time_s, &q), (robot, limits))?;
             table.times_s.push(time_s);
             table.points.push(q);
-            table.places.lines.push(row.number);
+            table.places.lines.push(row.line);
         }
         if table.points.len() < 2 {
-            return Err(fault("the table has fewer than two rows of positions", header.span));
+            return Err(fault(&header, "the table has fewer than two rows of positions".to_owned()));
         }
         let first_s = table.times_s[0];
         table.times_s.iter_mut().for_each(|time_s| *time_s -= first_s);
@@ -142,7 +126,7 @@ impl JointTable {
     /// Refuses a row that does not follow on the one before.
     fn follow(
         &self,
-        row: &TableRow<'_>,
+        row: &Row,
         (time_s, q): (f64, &RobotQ),
         (robot, limits): (&Robot, &MotionLimits),
     ) -> Result<(), Diagnostic> {
@@ -150,8 +134,7 @@ impl JointTable {
             return Ok(());
         };
         if time_s <= before_s {
-            let message = format!("line {}: time {time_s} s is not after {before_s} s", row.number);
-            return Err(fault(&message, row.span.clone()));
+            return Err(row.fault(CODE, &format!("time {time_s} s is not after {before_s} s")));
         }
         // With "slow" or "warn" the whole move is compared with the limits later: a single row would be refused too early.
         if limits.over_limit != OverLimit::Refuse {
@@ -169,7 +152,7 @@ impl JointTable {
             [speed(joint), limits.velocity[joint]].map(|value| quantity(value, &format!("{unit}/s")));
         let message = format!(
             "line {}{}: joint \"{}\" jumps by {distance} in {interval}: {speed}, its limit is {limit}",
-            row.number,
+            row.line,
             self.places.column(joint),
             described.name
         );
@@ -179,9 +162,9 @@ impl JointTable {
     }
 }
 
-impl TableRow<'_> {
+impl TablePlaces {
     /// Refuses positions outside the range of a joint.
-    fn check_range(&self, q: &RobotQ, robot: &Robot, places: &TablePlaces) -> Result<(), Diagnostic> {
+    fn check_range(&self, row: &Row, q: &RobotQ, robot: &Robot) -> Result<(), Diagnostic> {
         for (coordinate, (&joint, &position)) in robot.movable_joints().iter().zip(q).enumerate() {
             let joint = robot.joint(joint);
             let Some((lower, upper)) = joint.position_range() else { continue };
@@ -190,107 +173,57 @@ impl TableRow<'_> {
                 let [position, lower, upper] = [position, lower, upper].map(|value| quantity(value, unit));
                 let message = format!(
                     "line {}{}: joint \"{}\" is at {position}, outside its range of {lower} to {upper}",
-                    self.number,
-                    places.column(coordinate),
+                    row.line,
+                    self.column(coordinate),
                     joint.name
                 );
-                return Err(Diagnostic::error("scenario::playback_range", message).at(self.span.clone()));
+                return Err(Diagnostic::error("scenario::playback_range", message).at(row.span.clone()));
             }
         }
         Ok(())
     }
-
-    fn number_in(&self, cell: usize) -> Result<f64, Diagnostic> {
-        let written = self.cells[cell];
-        written.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
-            let message = format!("line {}: \"{written}\" is not a finite number", self.number);
-            fault(&message, self.span.clone())
-        })
-    }
-}
-
-/// All lines except empty ones and comments.
-fn rows(text: &str) -> impl Iterator<Item = TableRow<'_>> {
-    let mut start = 0;
-    let lines = text.split_inclusive('\n').enumerate().map(move |(index, whole)| {
-        let line = whole.trim_end_matches(['\n', '\r']);
-        let span = start..start + line.len();
-        start += whole.len();
-        (index, line, span)
-    });
-    lines.filter(|(_, line, _)| !line.trim().is_empty() && !line.starts_with('#')).map(
-        |(index, line, span)| {
-            // A comma inside quotes does not separate cells (RFC 4180): joint names may contain one.
-            let mut is_quoted = false;
-            let separates = |character| {
-                is_quoted ^= character == '"';
-                character == ',' && !is_quoted
-            };
-            let cells = line.split(separates).map(|cell| cell.trim().trim_matches('"')).collect();
-            TableRow { number: index + 1, span, cells }
-        },
-    )
 }
 
 /// The columns of positions; other quantities in a table that a run has written are ignored.
-fn columns(header: &TableRow<'_>, robot: &Robot) -> Result<Vec<PositionColumn>, Diagnostic> {
+fn columns(header: &Header, robot: &Robot) -> Result<Vec<PositionColumn>, Diagnostic> {
     let mut columns: Vec<PositionColumn> = Vec::new();
-    for (cell, name) in header.cells.iter().enumerate().filter(|(_, name)| **name != TIME) {
-        let units = [
-            ("_rad", true, None),
-            ("_deg", true, Some(Unit::Angle)),
-            ("_mm", false, Some(Unit::Length)),
-            ("_m", false, None),
-        ];
-        let unit = units.iter().find_map(|(suffix, turns, engineering_unit)| {
-            Some((name.strip_suffix(suffix)?, *turns, *engineering_unit))
+    for (cell, name) in header.names().enumerate().filter(|(_, name)| *name != TIME) {
+        let column = UnitSuffix::split(name).and_then(|(quantity, unit)| {
+            let stem = quantity.rsplit_once('.').filter(|(_, quantity)| *quantity == POSITION);
+            let joint = robot.find_joint(stem.map_or(quantity, |(joint, _)| joint))?;
+            Some((robot.joint(joint), robot.coordinate(joint)?, unit))
         });
-        let (stem, turns, engineering_unit) = match unit {
-            Some((stem, turns, engineering_unit)) => {
-                (stem.strip_suffix(POSITION).unwrap_or(stem), turns, engineering_unit)
-            }
-            None if is_other_quantity(name, robot) => continue,
-            None => return Err(unknown(name, header, robot)),
-        };
-        let joint =
-            robot.find_joint(stem).and_then(|joint| Some((robot.joint(joint), robot.coordinate(joint)?)));
-        let Some((joint, coordinate)) = joint else {
-            if is_other_quantity(name, robot) {
+        let Some((joint, coordinate, unit)) = column else {
+            if is_other_quantity(name) && robot.find_joint(name).is_none() {
                 continue;
             }
             return Err(unknown(name, header, robot));
         };
+        let turns = unit.unit == Unit::Angle;
         if joint.kind.is_angular() != turns {
             let (what, keys) = if turns { ("slides", "_m or _mm") } else { ("turns", "_deg or _rad") };
             let message = format!("column \"{name}\": the joint {what}, so its column must end in {keys}");
-            return Err(fault(&message, header.span.clone()));
+            return Err(fault(header, message));
         }
         if columns.iter().any(|known| known.coordinate == coordinate) {
-            return Err(fault(&format!("joint \"{stem}\" has two columns"), header.span.clone()));
+            return Err(fault(header, format!("joint \"{}\" has two columns", joint.name)));
         }
         if joint.mimic.is_none() {
-            columns.push(PositionColumn { cell, coordinate, engineering_unit });
+            columns.push(PositionColumn { cell, coordinate, unit });
         }
     }
     if columns.is_empty() {
-        return Err(fault("the table has no column of a joint", header.span.clone()));
+        return Err(fault(header, "the table has no column of a joint".to_owned()));
     }
     Ok(columns)
 }
 
-/// Whether a column is one that runs write in addition to positions: `joint.qd_rad_s`, `clearance_m`.
-fn is_other_quantity(name: &str, robot: &Robot) -> bool {
-    let is_dotted = name.split_once('.').is_some_and(|(_, quantity)| !quantity.starts_with("q_"));
-    (is_dotted || OF_THE_RUN.contains(&name)) && robot.find_joint(name).is_none()
-}
-
-fn unknown(name: &str, header: &TableRow<'_>, robot: &Robot) -> Diagnostic {
+fn unknown(name: &str, header: &Header, robot: &Robot) -> Diagnostic {
     let message = format!("column \"{name}\" is not the name of a joint with a unit");
     let known = known_names(name, "joints", robot.movable_joint_names());
-    fault(&message, header.span.clone())
-        .with_help(format!("{known}; name a column JOINT_deg, _rad, _m or _mm"))
+    fault(header, message).with_help(format!("{known}; name a column JOINT_deg, _rad, _m or _mm"))
 }
 
-fn fault(message: &str, span: Range<usize>) -> Diagnostic {
-    Diagnostic::error("scenario::playback", message.to_owned()).at(span)
+fn fault(header: &Header, message: String) -> Diagnostic {
+    Diagnostic::error(CODE, message).at(header.row.span.clone())
 }

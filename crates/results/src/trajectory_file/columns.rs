@@ -3,15 +3,15 @@
 use congruent_description::{JointKind, LinkIndex, RobotDescription};
 use congruent_kinematics::{Pose, PoseError};
 use congruent_monitors::{Names, Sample};
+use congruent_tables::run_columns::{POSITION, STEP, TIME, WORST};
 use nalgebra::Isometry3;
 
-use super::table::{Cell, ColumnKind, TIME, TableWriter, TrajectoryColumn};
+use super::table::{Cell, ColumnKind, TableWriter, TrajectoryColumn};
 
 /// The columns of a robot, in the order of [`SampleCells::write`].
 pub(super) fn header(description: &RobotDescription) -> Vec<TrajectoryColumn> {
     let robot = &description.robot;
-    let mut header =
-        vec![number(TIME), TrajectoryColumn { name: "step".to_owned(), kind: ColumnKind::Count }];
+    let mut header = vec![number(TIME), TrajectoryColumn { name: STEP.to_owned(), kind: ColumnKind::Count }];
     for &joint in robot.movable_joints() {
         let joint = robot.joint(joint);
         let (position, speed, effort) = match joint.kind {
@@ -19,7 +19,7 @@ pub(super) fn header(description: &RobotDescription) -> Vec<TrajectoryColumn> {
             _ => ("rad", "rad_s", "n_m"),
         };
         let values = [
-            format!("q_{position}"),
+            format!("{POSITION}_{position}"),
             format!("qd_{speed}"),
             format!("effort_{effort}"),
             format!("reference_q_{position}"),
@@ -32,11 +32,7 @@ pub(super) fn header(description: &RobotDescription) -> Vec<TrajectoryColumn> {
         let values = ["x_m", "y_m", "z_m", "quaternion_w", "quaternion_x", "quaternion_y", "quaternion_z"];
         header.extend(values.iter().map(|value| number(&format!("{source}.{value}"))));
     }
-    for (value, subject) in [
-        ("position_error_m", "position_error_link"),
-        ("orientation_error_rad", "orientation_error_link"),
-        ("clearance_m", "clearance_pair"),
-    ] {
+    for [value, subject] in WORST {
         header.extend([number(value), TrajectoryColumn { name: subject.to_owned(), kind: ColumnKind::Name }]);
     }
     header

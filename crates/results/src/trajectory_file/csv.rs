@@ -3,9 +3,9 @@
 use std::{fmt::Write, fs::File, io, path::Path};
 
 use congruent_monitors::RecordingError;
-use csv::{Reader, StringRecord, Writer};
+use csv::Writer;
 
-use super::table::{Cell, RowReader, TableError, TableWriter, TrajectoryColumn, Value, failed};
+use super::table::{Cell, TableWriter, TrajectoryColumn, failed};
 
 /// Rows between two writes to the file: a run that is killed has written all but the last of them.
 const ROWS_A_FLUSH: u32 = 1000;
@@ -53,43 +53,5 @@ impl TableWriter for CsvTable {
 
     fn finish(mut self: Box<Self>) -> Result<(), RecordingError> {
         self.file.flush().map_err(failed)
-    }
-}
-
-pub(super) struct CsvRows {
-    file: Reader<File>,
-    columns: Vec<String>,
-    record: StringRecord,
-}
-
-impl CsvRows {
-    pub(super) fn open(path: &Path) -> Result<Self, TableError> {
-        let refused = |error: csv::Error| TableError::new(path, error);
-        let mut file = Reader::from_path(path).map_err(refused)?;
-        let columns = file.headers().map_err(refused)?.iter().map(str::to_owned).collect();
-        Ok(Self { file, columns, record: StringRecord::new() })
-    }
-}
-
-impl RowReader for CsvRows {
-    fn columns(&self) -> &[String] {
-        &self.columns
-    }
-
-    fn next_row(&mut self, row: &mut Vec<Value>) -> Result<bool, String> {
-        if !self.file.read_record(&mut self.record).map_err(|error| error.to_string())? {
-            return Ok(false);
-        }
-        row.clear();
-        row.extend(self.record.iter().map(value));
-        Ok(true)
-    }
-}
-
-fn value(text: &str) -> Value {
-    match text.parse() {
-        _ if text.is_empty() => Value::Missing,
-        Ok(number) => Value::Number(number),
-        Err(_) => Value::Name(text.to_owned()),
     }
 }

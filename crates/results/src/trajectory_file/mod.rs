@@ -6,10 +6,8 @@
 mod columns;
 mod csv;
 mod parquet;
-mod read;
 mod recorder;
 mod table;
 
-pub use read::open;
+pub use congruent_tables::{RowReader, TableError, Value, open, run_columns::TIME};
 pub(crate) use recorder::TrajectoryRecorder;
-pub use table::{RowReader, TIME, TableError, Value};

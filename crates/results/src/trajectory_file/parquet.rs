@@ -3,22 +3,16 @@
 
 use std::{fs::File, path::Path, sync::Arc};
 
-use congruent_input::catch_panic;
 use congruent_monitors::RecordingError;
 use parquet::{
     basic::{LogicalType, Repetition, Type as PhysicalType},
     data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type},
     errors::ParquetError,
-    file::{
-        properties::WriterProperties,
-        reader::{FileReader, SerializedFileReader},
-        writer::SerializedFileWriter,
-    },
-    record::{Field, reader::RowIter},
+    file::{properties::WriterProperties, writer::SerializedFileWriter},
     schema::types::Type,
 };
 
-use super::table::{Cell, ColumnKind, RowReader, TableError, TableWriter, TrajectoryColumn, Value, failed};
+use super::table::{Cell, ColumnKind, TableWriter, TrajectoryColumn, failed};
 
 /// Rows that are gathered: 5 MB for an arm with seven joints.
 const ROWS_A_GROUP: usize = 8192;
@@ -147,50 +141,5 @@ impl TableWriter for ParquetTable {
             self.write_group().map_err(failed)?;
         }
         self.file.close().map(|_| ()).map_err(failed)
-    }
-}
-
-pub(super) struct ParquetRows {
-    rows: RowIter<'static>,
-    columns: Vec<String>,
-}
-
-impl ParquetRows {
-    pub(super) fn open(path: &Path) -> Result<Self, TableError> {
-        let file = File::open(path).map_err(|error| TableError::new(path, error))?;
-        let opened = catch_panic(|| {
-            let reader = SerializedFileReader::new(file).map_err(|error| error.to_string())?;
-            let schema = reader.metadata().file_metadata().schema();
-            let columns = schema.get_fields().iter().map(|field| field.name().to_owned()).collect();
-            Ok(Self { rows: RowIter::from_file_into(Box::new(reader)), columns })
-        });
-        opened.map_err(|error| TableError::new(path, error))
-    }
-}
-
-impl RowReader for ParquetRows {
-    fn columns(&self) -> &[String] {
-        &self.columns
-    }
-
-    fn next_row(&mut self, row: &mut Vec<Value>) -> Result<bool, String> {
-        let next = catch_panic(|| self.rows.next().transpose().map_err(|error| error.to_string()))?;
-        let Some(next) = next else { return Ok(false) };
-        row.clear();
-        row.extend(next.get_column_iter().map(|(_, field)| value(field)));
-        Ok(true)
-    }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "steps are far below 2^52")]
-fn value(field: &Field) -> Value {
-    match field {
-        Field::Null => Value::Missing,
-        Field::Double(number) => Value::Number(*number),
-        Field::Float(number) => Value::Number(f64::from(*number)),
-        Field::Long(count) => Value::Number(*count as f64),
-        Field::Int(count) => Value::Number(f64::from(*count)),
-        Field::Str(name) => Value::Name(name.clone()),
-        other => Value::Name(other.to_string()),
     }
 }

@@ -1,11 +1,6 @@
-//! Tables: their columns and cells, and what a format must do.
-
-use std::path::{Path, PathBuf};
+//! Tables that are written: their columns and cells, and what a format must do.
 
 use congruent_monitors::RecordingError;
-
-/// The name of the column of time.
-pub const TIME: &str = "time_s";
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,17 +30,6 @@ pub(super) enum Cell<'a> {
     Missing,
 }
 
-/// One cell as it is read.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Value {
-    /// A number, in the unit of its column.
-    Number(f64),
-    /// The name of a link, a joint or a pair.
-    Name(String),
-    /// The cell is empty.
-    Missing,
-}
-
 /// A table that is written cell by cell, each row from its first column to its last.
 pub(super) trait TableWriter {
     /// The next cell of the row.
@@ -56,34 +40,6 @@ pub(super) trait TableWriter {
 
     /// Writes the end of the file and closes it.
     fn finish(self: Box<Self>) -> Result<(), RecordingError>;
-}
-
-/// Why a file is no table of a run.
-#[derive(Debug, thiserror::Error)]
-#[error("{} cannot be read as a trajectory: {message}", .path.display())]
-pub struct TableError {
-    /// Path of the file.
-    pub path: PathBuf,
-    /// The reason for which the file cannot be read.
-    pub message: String,
-}
-
-impl TableError {
-    pub(super) fn new(path: &Path, error: impl std::fmt::Display) -> Self {
-        Self { path: path.to_owned(), message: error.to_string() }
-    }
-}
-
-/// A table that is read row by row.
-pub trait RowReader {
-    /// The names of the columns.
-    fn columns(&self) -> &[String];
-
-    /// Reads the next row into `row`, one value for each column; `false` after the last.
-    ///
-    /// # Errors
-    /// The message of the reader if the rest of the file cannot be read.
-    fn next_row(&mut self, row: &mut Vec<Value>) -> Result<bool, String>;
 }
 
 /// An error with the message of another.

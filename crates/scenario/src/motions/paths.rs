@@ -164,7 +164,7 @@ pub enum Between {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaybackMotion {
-    /// A CSV file, relative to the scenario: a column `time_s`, and columns `JOINT_deg`, `_rad`, `_m` or `_mm`.
+    /// A CSV or Parquet file, relative to the scenario: a column `time_s`, and columns `JOINT_deg`, `_rad`, `_m` or `_mm`.
     pub play_csv: String,
     /// Interpolation of the joints between the rows.
     #[serde(default, deserialize_with = "variant")]

@@ -92,7 +92,7 @@ pub struct ControllerSettings {
     /// Of `torque`: N m, N.
     #[serde(default, skip_serializing_if = "JointNumbers::is_zero")]
     pub torque: JointNumbers,
-    /// Of `torque`: a CSV file of torques over time, added to `torque`: a column `time_s` and one for each joint, N m or
+    /// Of `torque`: a CSV or Parquet file of torques over time, added to `torque`: a column `time_s` and one for each joint, N m or
     /// N. Between the rows it is interpolated, before the first and after the last it holds. Relative to the scenario
     /// file.
     #[serde(default, skip_serializing_if = "Option::is_none")]

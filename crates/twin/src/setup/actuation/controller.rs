@@ -6,6 +6,7 @@ use congruent_scenario::{
     ControllerKind, ControllerSettings, FilePlace, JointNumbers, Range, ScenarioFolder,
 };
 use congruent_simulation::Gains;
+use congruent_tables::read_table;
 
 use super::{
     joint_numbers::{NumberRule, Unnamed, resolve},
@@ -147,10 +148,9 @@ fn torque_table(
     robot: &Robot,
 ) -> Result<Option<TorqueTable>, Diagnostic> {
     let Some(path) = &settings.torque_file else { return Ok(None) };
-    let read = folder.read_text(path, MOST_BYTES).and_then(|file| TorqueTable::read(&file, robot).map(Some));
-    read.map_err(|mut error| {
-        error.message = format!("torque_file \"{path}\": {}", error.message);
-        (error.span, error.source) = (None, None);
-        place.key("torque_file").mark(error)
-    })
+    let source = read_table(folder.access, &folder.path.join(path), MOST_BYTES);
+    let table = source.and_then(|source| {
+        TorqueTable::read(&source, robot).map(Some).map_err(|error| error.in_file(&source))
+    });
+    table.map_err(|error| if error.source.is_none() { place.key("torque_file").mark(error) } else { error })
 }

@@ -1,7 +1,8 @@
-//! A CSV file of torques over time.
+//! A table of torques over time.
 
 use congruent_description::Robot;
 use congruent_input::{Diagnostic, SourceFile, known_names};
+use congruent_tables::{Header, Table, run_columns::TIME};
 
 /// Torques of all joints over time: interpolated between the rows, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,8 +12,8 @@ pub struct TorqueTable {
     torques: Vec<Vec<f64>>,
 }
 
-/// The column of times.
-const TIME: &str = "time_s";
+/// The code of what is wrong.
+const CODE: &str = "scenario::torque_file";
 
 impl TorqueTable {
     /// Reads a table; joints without a column get no torque.
@@ -20,42 +21,30 @@ impl TorqueTable {
     /// # Errors
     /// The first thing that is wrong.
     pub(super) fn read(file: &SourceFile, robot: &Robot) -> Result<Self, Diagnostic> {
-        let lines = file.text.lines().enumerate().map(|(at, line)| (at + 1, line.trim()));
-        let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-        let (_, header) = lines.next().ok_or_else(|| wrong(1, "the file has no header"))?;
-        let columns = columns(header, robot)?;
+        let empty = |message: &str| Diagnostic::error(CODE, message.to_owned()).at(0..0);
+        let table = Table::read(&file.text, CODE).ok_or_else(|| empty("the file has no header"))?;
+        let Table { header, rows } = table;
+        let columns = columns(&header, robot)?;
         let mut table = Self { times_s: Vec::new(), torques: Vec::new() };
-        for (number, line) in lines {
-            let cells: Vec<&str> = line.split(',').map(str::trim).collect();
-            if cells.len() != columns.len() {
-                let (found, expected) = (cells.len(), columns.len());
-                return Err(wrong(number, &format!("{found} cells, but the header has {expected} columns")));
-            }
+        for row in rows {
+            let row = row?;
             let mut torques = vec![0.0; robot.dof()];
-            for (cell, column) in cells.iter().zip(&columns) {
-                let value = cell.parse().ok().filter(|value: &f64| value.is_finite());
-                let value =
-                    value.ok_or_else(|| wrong(number, &format!("\"{cell}\" is not a finite number")))?;
+            for (at, column) in columns.iter().enumerate() {
+                let value = header.needed_number(CODE, &row, at)?;
                 match column {
                     Some(coordinate) => torques[*coordinate] = value,
                     None if table.times_s.last().is_none_or(|&last| last < value) => {
                         table.times_s.push(value);
                     }
                     None => {
-                        return Err(wrong(
-                            number,
-                            &format!("time {value} s is not after that of the row before"),
-                        ));
+                        let message = format!("time {value} s is not after that of the row before");
+                        return Err(row.fault(CODE, &message));
                     }
                 }
             }
             table.torques.push(torques);
         }
-        if table.times_s.is_empty() {
-            Err(wrong(1, "the file has no row below its header"))
-        } else {
-            Ok(table)
-        }
+        if table.times_s.is_empty() { Err(empty("the file has no row below its header")) } else { Ok(table) }
     }
 
     /// Adds the torques at a time.
@@ -73,9 +62,9 @@ impl TorqueTable {
 }
 
 /// The coordinate of each column, `None` for the time.
-fn columns(header: &str, robot: &Robot) -> Result<Vec<Option<usize>>, Diagnostic> {
+fn columns(header: &Header, robot: &Robot) -> Result<Vec<Option<usize>>, Diagnostic> {
     let mut columns = Vec::new();
-    for name in header.split(',').map(str::trim) {
+    for (at, name) in header.names().enumerate() {
         let coordinate = robot.find_joint(name).filter(|&joint| robot.joint(joint).mimic.is_none());
         let column = match coordinate.and_then(|joint| robot.coordinate(joint)) {
             Some(coordinate) => Some(coordinate),
@@ -83,23 +72,20 @@ fn columns(header: &str, robot: &Robot) -> Result<Vec<Option<usize>>, Diagnostic
             None => {
                 let message = format!("robot \"{}\" has no actuated joint \"{name}\"", robot.name());
                 let known = robot.movable_joint_names().chain([TIME]);
-                return Err(wrong(1, &message).with_help(known_names(name, "columns", known)));
+                let fault = header.row.fault(CODE, &message).at(header.row.cells[at].span.clone());
+                return Err(fault.with_help(known_names(name, "columns", known)));
             }
         };
         if columns.contains(&column) {
-            return Err(wrong(1, &format!("column \"{name}\" occurs twice")));
+            return Err(header.row.fault(CODE, &format!("column \"{name}\" occurs twice")));
         }
         columns.push(column);
     }
     if columns.contains(&None) {
         Ok(columns)
     } else {
-        Err(wrong(1, &format!("the table has no column {TIME}")))
+        Err(header.row.fault(CODE, &format!("the table has no column {TIME}")))
     }
-}
-
-fn wrong(line: usize, message: &str) -> Diagnostic {
-    Diagnostic::error("scenario::torque_file", format!("line {line}: {message}"))
 }
 
 #[cfg(test)]
@@ -140,7 +126,7 @@ mod tests {
             ("j1\n1\n", "no column time_s"),
             ("time_s,j3\n0,1\n", "no actuated joint \"j3\""),
             ("time_s,j1,j1\n0,1,1\n", "twice"),
-            ("time_s,j1\n0,nan\n", "line 2: \"nan\" is not a finite number"),
+            ("time_s,j1\n0,nan\n", "line 2, column \"j1\": \"nan\" is not a finite number"),
             ("time_s,j1\n0,1\n0,1\n", "line 3: time 0 s is not after"),
             ("time_s,j1\n0\n", "1 cells"),
         ] {

@@ -1,0 +1,14 @@
+//! Tables in CSV and Parquet: measurements, positions and torques over time, and what a run has written.
+//!
+//! [`Table`] gives rows whose cells know their lines and columns, for messages; [`open`] goes through a file of any
+//! length without keeping it in memory. Both skip lines that begin with `#`.
+
+mod parquet;
+mod read;
+pub mod run_columns;
+mod stream;
+mod table;
+
+pub use read::read_table;
+pub use stream::{RowReader, TableError, Value, open};
+pub use table::{Cell, Header, Row, Rows, Table};
