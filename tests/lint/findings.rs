@@ -43,7 +43,7 @@ fn findings_have_a_place_a_number_and_what_they_stop() {
     let answer = congruent(&["lint", &folder.text("r.urdf")]);
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     for said in
-        ["CGR-URDF-018 urdf::axis", "warning: joint \"turn\": axis is normalised", "r.urdf:6:5", "2 warnings"]
+        ["CGR-URDF-018 urdf::axis", "warning: joint \"turn\": axis has length 2", "r.urdf:6:5", "2 warnings"]
     {
         assert!(answer.stdout.contains(said), "no {said:?} in {}", answer.stdout);
     }
@@ -139,6 +139,26 @@ fn codes_are_explained_by_number_and_by_name() {
     let unknown = congruent(&["lint", "--explain", "urdf::masless"]);
     assert_eq!(unknown.code, 2);
     assert!(unknown.stderr.contains("did you mean CGR-URDF-028, urdf::massless?"), "{}", unknown.stderr);
+}
+
+#[test]
+fn causes_of_check_are_explained_like_codes() {
+    let explained = |word: &str| congruent(&["lint", "--explain", word]);
+    for word in ["check::axis_flipped", "axis_flipped", "CHECK::AXIS_FLIPPED"] {
+        let answer = explained(word);
+        assert!(answer.code == 0 && answer.stdout.starts_with("check::axis_flipped\n"), "{}", answer.stdout);
+        assert!(answer.stdout.contains("change `sign` of the row"), "{}", answer.stdout);
+    }
+    assert!(
+        explained("mass_unit").stdout.contains("dynamics: the mass is given in another unit. A URDF has kg")
+    );
+    let of_both = explained("joints_swapped").stdout;
+    assert!(of_both.contains("Two rows") && of_both.contains("in dynamics: damping"), "{of_both}");
+    for word in ["check::axis_fliped", "axis_fliped"] {
+        let unknown = explained(word);
+        assert_eq!(unknown.code, 2);
+        assert!(unknown.stderr.contains("did you mean axis_flipped?"), "{}", unknown.stderr);
+    }
 }
 
 #[test]

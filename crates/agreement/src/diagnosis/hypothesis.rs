@@ -10,9 +10,9 @@ use super::{
     reference_model::ReferenceModel,
 };
 
-/// Declares [`Cause`] with the name and the finding code of each variant beside it.
+/// Declares [`Cause`] with the name, the finding code and the explanation of each variant beside it.
 macro_rules! causes {
-    ($($(#[$attribute:meta])* $variant:ident = $name:literal,)*) => {
+    ($($(#[$attribute:meta])* $variant:ident = $name:literal, $about:literal;)*) => {
         /// The cause of a difference, in the order in which causes of equal rank are named.
         #[derive(
             Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, serde::Serialize, schemars::JsonSchema,
@@ -22,6 +22,16 @@ macro_rules! causes {
         }
 
         impl Cause {
+            /// All causes.
+            pub const ALL: &[Self] = &[$(Self::$variant),*];
+
+            /// What is wrong, why, and what to try.
+            pub fn about(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $about,)*
+                }
+            }
+
             /// The stable code of a finding with this cause.
             pub fn code(self) -> &'static str {
                 match self {
@@ -35,43 +45,69 @@ macro_rules! causes {
 causes! {
     /// A joint moves in the opposite direction.
     AxisFlipped = "axis_flipped",
+        "The positive direction of the joint in the table is the negative one in the URDF. Of the two, the one that moves as the real robot does is right: change `sign` of the row, or the sign of <axis> in the URDF.";
     /// The table is read under the other convention.
     ConventionSwapped = "convention_swapped",
+        "The values of the table are those of the other DH convention. Standard, Rz Tz Tx Rx, and modified (Craig), Rx Tx Rz Tz, describe different robots with the same numbers, and data sheets often do not say which they use: change `convention`.";
     /// Two joints' rows or names are exchanged.
     JointsSwapped = "joints_swapped",
+        "Two rows of the table, or the names of two joints, are exchanged. Rows follow the chain from base to tip: exchange the rows or the names.";
     /// An angle in degrees was read as radians.
     DegreesAsRadians = "degrees_as_radians",
+        "Values in degrees are read as radians, so they are 57.3 times too large. Change the key to one that ends in _deg, or convert the values.";
     /// An angle in radians was read as degrees.
     RadiansAsDegrees = "radians_as_degrees",
+        "Values in radians are read as degrees, so they are 57.3 times too small. Change the key to one that ends in _rad, or convert the values.";
     /// A length is off by the factor between millimetres and metres.
     MillimetresAsMetres = "millimetres_as_metres",
+        "Lengths are off by a factor of 1000: millimetres under a key that ends in _m, or metres under one that ends in _mm. Change the key or the values.";
     /// Two entries are exchanged.
     ParametersExchanged = "parameters_exchanged",
+        "Two values or two columns of the table are exchanged, for example a and d: data sheets list them in different orders. Write each value under its own key.";
     /// Roll, pitch and yaw are in another order.
     RpyOrder = "rpy_order",
+        "Roll, pitch and yaw are in another order. The order here is that of a URDF, turns about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll). Convert the three angles.";
     /// The model lacks a fixed joint of the reference model.
     FixedJointDropped = "fixed_joint_dropped",
+        "The table leaves out a fixed joint of the URDF, such as a flange. Put its <origin> into base_from_dh0 or dhn_from_tip, or declare another base or tip.";
     /// A joint's zero is shifted.
     ZeroOffset = "zero_offset",
+        "The zero of a joint is at another position in the table than in the URDF. Add the difference to theta (to d of a prismatic joint), or correct <origin> of the joint in the URDF.";
     /// The declared transform behind the table is off.
     Tool = "tool",
+        "The transform from the last frame of the table to the tip is wrong. Correct dhn_from_tip, or declare the tip that the table ends at.";
     /// The declared transform before the table is off.
     Base = "base",
+        "The transform from the base to frame 0 of the table is wrong. Correct base_from_dh0, or declare the base that the table begins at.";
     /// One entry of one row is off, or the reference model's file has angles with too few digits.
     Parameter = "parameter",
+        "One value differs, for example by a typing error or another edition of the data sheet. Correct it in the file that is wrong; quarter turns need all digits, 1.5707963267948966.";
     /// A joint moves more or less than its variable says.
     Ratio = "ratio",
+        "The joint moves more or less than its variable says. Compare the gear ratio and the unit of the joint position in the program that gives the poses.";
     /// The `<mimic>` of a joint differs between two files, or only one of them has it.
     Mimic = "mimic",
+        "The <mimic> of a joint differs between the two URDFs, or only one of them has it. Give both the same joint, multiplier and offset.";
     /// A joint of one URDF has another `<origin>` than in another URDF.
     JointOrigin = "joint_origin",
+        "A joint has another <origin> in one URDF than in the other. Correct xyz or rpy in the file that is wrong.";
     /// A joint of one URDF has another `<axis>` than in another URDF.
     JointAxis = "joint_axis",
+        "A joint has another <axis> in one URDF than in the other. Correct it in the file that is wrong; a reversed axis reverses the motion.";
     /// Several of these together.
     Several = "several",
+        "Several causes explain the difference together, the one with the largest effect first. Correct them in this order, and check again after each.";
     /// None of the known causes explains the difference.
     #[default]
     Unexplained = "unexplained",
+        "No known cause explains the difference, alone or with others. Compare the table with the data sheet row by row, or check a shorter chain with --tip until the two agree.";
+}
+
+impl Cause {
+    /// Whether values are in a wrong unit, which a known factor corrects.
+    pub(crate) fn is_unit(self) -> bool {
+        matches!(self, Self::DegreesAsRadians | Self::RadiansAsDegrees | Self::MillimetresAsMetres)
+    }
 }
 
 impl fmt::Display for Cause {

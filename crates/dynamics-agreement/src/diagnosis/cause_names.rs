@@ -14,6 +14,9 @@ macro_rules! causes {
         }
 
         impl DynamicsCause {
+            /// All causes.
+            pub const ALL: &[Self] = &[$(Self::$variant),*];
+
             /// The name in JSON.
             pub fn name(self) -> &'static str {
                 match self {
@@ -95,4 +98,93 @@ causes! {
     Several = "several", "several values are wrong";
     #[default]
     Unexplained = "unexplained", "no known cause explains the difference";
+}
+
+impl DynamicsCause {
+    /// Why values become wrong like this, and what to try.
+    pub fn advice(self) -> &'static str {
+        match self {
+            Self::MassUnit | Self::ComUnit | Self::InertiaUnit | Self::CadUnits => {
+                "A URDF has kg, m and kg m^2, and CAD programs export g, mm and g mm^2 as well: convert the values."
+            }
+            Self::ComSign | Self::ComAxesSwapped | Self::Mirrored => {
+                "Compare the centre of mass with the CAD program, in the axes of the link's frame; the left part of a pair \
+                 is the mirror image of the right one."
+            }
+            Self::RpyMissing
+            | Self::RpyInverted
+            | Self::RpyTwice
+            | Self::Rpy
+            | Self::PrincipalAxesMissing
+            | Self::InertiaRotation => {
+                "The inertia is given in axes that are turned against the link's frame by rpy in <inertial><origin>: \
+                 compare rpy with the axes in which the CAD program gives the inertia."
+            }
+            Self::ComFrame | Self::ComAxes | Self::InertialFrame | Self::InertialAxes | Self::InertiaAxes => {
+                "Centre of mass and inertia belong to the link's own frame: export them in the coordinate system of the \
+                 link, not in that of the assembly or of the next joint."
+            }
+            Self::InertiaAboutOrigin => {
+                "A URDF has the inertia about the centre of mass. CAD programs give it about the origin of the \
+                 coordinate system as well: take the other one."
+            }
+            Self::ProductsSign | Self::ProductSign | Self::MomentSign => {
+                "A URDF has the entries of the tensor, ixy = -integral of x y. Some CAD programs give the integrals \
+                 without the minus: change the sign."
+            }
+            Self::MomentsSwapped | Self::ProductsSwapped | Self::InertiaOrder => {
+                "The order in a URDF is ixx, ixy, ixz, iyy, iyz, izz, and CAD programs have others: compare entry by entry."
+            }
+            Self::CountedTwice | Self::InertialsSwapped | Self::LinkMissing | Self::LinkAdded => {
+                "Compare which parts belong to which link in the two files; each part counts once."
+            }
+            Self::InertialLeftOut
+            | Self::InertialMissing
+            | Self::ComMissing
+            | Self::ProductsMissing
+            | Self::InertiaPlaceholder
+            | Self::InertiaMissing => {
+                "A value that is left out counts as 0, and placeholders are not the robot: take mass, centre of mass and \
+                 inertia from the other file, or from the CAD program."
+            }
+            Self::Mass
+            | Self::MassScale
+            | Self::Density
+            | Self::ComEntry
+            | Self::InertiaScale
+            | Self::InertiaEntry
+            | Self::Com
+            | Self::Inertia
+            | Self::Inertial => {
+                "The values differ, for example by another material, another edition of the part, or a typing error: \
+                 correct the file that is wrong."
+            }
+            Self::Payload => {
+                "One of the two files has a tool or a load at the tip: declare it in both, or in none of them."
+            }
+            Self::JointTermsMissing | Self::DampingMissing | Self::FrictionMissing => {
+                "<dynamics damping friction> is left out, which counts as 0: copy it from the other file."
+            }
+            Self::DampingFrictionSwapped
+            | Self::FrictionAsDamping
+            | Self::DampingDefault
+            | Self::DampingUnit
+            | Self::JointsSwapped
+            | Self::Damping
+            | Self::Friction
+            | Self::Armature => {
+                "damping is in N m s/rad (N s/m of a sliding joint), friction in N m (N): compare both with the \
+                 identification or the data sheet of the drive."
+            }
+            Self::GravitySign | Self::GravityMissing | Self::GravityDirection | Self::GravityMagnitude => {
+                "Gravity is along -z of the base, 9.81 m/s^2, unless another is declared: a robot on a wall or a \
+                 ceiling needs its own."
+            }
+            Self::Several => "Correct one value after the other, and check again after each.",
+            Self::Unexplained => {
+                "Compare <inertial> link by link with the other file; `congruent derive --base-parameters` lists what joint \
+                 torques depend on."
+            }
+        }
+    }
 }

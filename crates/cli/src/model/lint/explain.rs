@@ -2,7 +2,11 @@
 
 use std::fmt::Write;
 
-use congruent::input::{Code, Diagnostic};
+use congruent::{
+    agreement::diagnosis::Cause,
+    dynamics_agreement::DynamicsCause,
+    input::{Code, Diagnostic, nearest},
+};
 use serde::Serialize;
 
 use crate::{
@@ -15,25 +19,59 @@ use crate::{
 struct Explanation {
     id: String,
     code: &'static str,
-    about: &'static str,
+    about: String,
 }
 
 pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
-    let code = Code::find(word).ok_or_else(|| {
-        let unknown = Diagnostic::error("lint::code", format!("no finding has the code \"{word}\""));
-        match Code::nearest(word) {
-            Some(near) => unknown.with_help(format!("did you mean {near}, {}?", near.name)),
+    let explanation = explained(word).ok_or_else(|| {
+        let message = format!("neither a finding nor a cause of `check` has the code \"{word}\"");
+        let unknown = Diagnostic::error("lint::code", message);
+        let name = word.to_lowercase();
+        // Codes of findings have an area, `urdf::axis`; causes have none, or `check`.
+        let near = Some(cause_name(&name)).filter(|name| !name.contains("::"));
+        let near = near.and_then(|name| nearest(name, cause_names())).map(str::to_owned);
+        match near.or_else(|| Code::nearest(word).map(|code| format!("{code}, {}", code.name))) {
+            Some(near) => unknown.with_help(format!("did you mean {near}?")),
             None => unknown,
         }
     })?;
-    let explanation = Explanation { id: code.to_string(), code: code.name, about: code.about };
     printer.result(&explanation, text)?;
     Ok(0)
 }
 
+fn explained(word: &str) -> Option<Explanation> {
+    let of_code =
+        |code: Code| Explanation { id: code.to_string(), code: code.name, about: code.about.to_owned() };
+    Code::find(word).map(of_code).or_else(|| cause(cause_name(&word.to_lowercase())))
+}
+
+/// The cause of a difference in poses, in dynamics, or of both that have this name.
+fn cause(name: &str) -> Option<Explanation> {
+    let poses = Cause::ALL.iter().find(|cause| cause_name(cause.code()) == name);
+    let dynamics = DynamicsCause::ALL.iter().find(|cause| cause.name() == name);
+    let of_poses = poses.map(|cause| cause.about().to_owned());
+    let of_dynamics =
+        dynamics.map(|cause| format!("A difference in dynamics: {}. {}", cause.text(), cause.advice()));
+    let about: Vec<String> = of_poses.into_iter().chain(of_dynamics).collect();
+    let code = poses.map(|cause| cause.code()).or_else(|| dynamics.map(|cause| cause.name()))?;
+    Some(Explanation { id: code.to_owned(), code, about: about.join(" ") })
+}
+
+/// The name of a cause without the `check::` of its code.
+fn cause_name(code: &str) -> &str {
+    code.strip_prefix("check::").unwrap_or(code)
+}
+
+fn cause_names() -> impl Iterator<Item = &'static str> {
+    let of_poses = Cause::ALL.iter().map(|cause| cause_name(cause.code()));
+    of_poses.chain(DynamicsCause::ALL.iter().map(|cause| cause.name()))
+}
+
 fn text(code: &Explanation) -> String {
     let mut lines = code.about.lines();
-    let mut text = format!("{} {}\n\n", code.id, code.code);
+    // A cause has a name, and no number.
+    let name = if code.id == code.code { String::new() } else { format!(" {}", code.code) };
+    let mut text = format!("{}{name}\n\n", code.id);
     text += &paragraph(lines.next().unwrap_or_default(), 2, 2);
     for (at, example) in lines.enumerate() {
         let _ = writeln!(text, "{}{example}", if at == 0 { "\n" } else { "" });
