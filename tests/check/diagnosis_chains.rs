@@ -247,4 +247,20 @@ fn a_column_in_another_unit_is_named_with_figures_and_line() {
     let cause = first(&check(&radians, &urdf()));
     assert_eq!([&cause["cause"], &cause["parameter"]], ["radians_as_degrees", "alpha"]);
     assert_eq!(cause["suggestion"], "alpha_deg = -90\nalpha_deg = -90\nalpha_deg = 90");
+    let message = "all values of alpha in the table are in radians, but their keys say degrees";
+    assert_eq!(cause["message"], message);
+    let twice = first(&check(&scaled(&table(), "d_m", 1e-3), &urdf()));
+    let message = "all values of d in the table are 1000 times too small, as if converted to metres twice";
+    assert_eq!(twice["message"], message);
+}
+
+/// A value in another unit is not fitted: as a hypothesis that does not explain the difference it keeps its digits.
+#[test]
+fn a_value_in_another_unit_keeps_its_digits() {
+    let turned = table().replacen("theta_deg = 0.0", "theta_deg = 90.0", 1);
+    let report = check(&turned, &urdf()).json();
+    let all = report["diagnosis"].as_array().unwrap();
+    let quarter =
+        all.iter().find(|cause| cause["cause"] == "degrees_as_radians" && cause["parameter"] == "theta");
+    assert_eq!(quarter.unwrap()["suggestion"], "theta_deg = 1.570796327", "{all:#?}");
 }

@@ -75,6 +75,13 @@ fn declared_ends_are_declared_and_another_chain_loses_the_table() {
     let other = congruent(&["check", "robots/rrr_arm", "--tip", "link_3"]);
     assert_eq!(other.code, 0, "{}", other.stderr);
     assert!(other.stderr.contains("chain::table_dropped"), "{}", other.stderr);
+    assert!(other.stdout.lines().next().unwrap().ends_with("so it is not used"), "{}", other.stdout);
+    // What is not compared is in the answer, also if warnings are not printed.
+    let both = congruent(&["check", "robots/ur5e", "--tip", "wrist_1_link", "--quiet"]);
+    let dropped = "; the [dh] table and the [[inertial]] entries describe the chain from \"base_link\" to \"tool0\", \
+                   not from \"base_link\" to \"wrist_1_link\", so they are not used";
+    assert!(both.stdout.lines().next().unwrap().ends_with(dropped), "{}", both.stdout);
+    assert_eq!(both.stderr, "");
     let bare = congruent(&["check", RRR_ARM]).stdout;
     let answer = "no second description was compared. URDF, screws and physics agree within";
     assert!(bare.starts_with(&format!("{RRR_ARM}: {answer}")), "{bare}");

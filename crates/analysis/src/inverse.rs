@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
 use congruent_description::{
     ArmQ, JointValues, JsonList, ReportedChain, Robot, RobotDescription, configuration, unique_names,
 };
-use congruent_input::{Diagnostic, Finding, Findings, read_text};
+use congruent_input::{Diagnostic, Finding, Findings, display::limit_number, read_text};
 use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use schemars::JsonSchema;
@@ -130,7 +130,9 @@ fn outside(robot: &Robot, name: &str, value: f64) -> Option<String> {
     };
     let is_outside = turned < limit.lower || turned > limit.upper;
     is_outside.then(|| {
-        format!("start {value} of \"{name}\" is outside its limits {} to {}", limit.lower, limit.upper)
+        let [value, lower, upper] = [value, limit.lower, limit.upper].map(limit_number);
+        let unit = joint.kind.unit();
+        format!("start {value} {unit} of \"{name}\" is outside its limits {lower} {unit} to {upper} {unit}")
     })
 }
 
@@ -156,8 +158,9 @@ fn unit_quaternion([w, x, y, z]: [f64; 4]) -> Result<UnitQuaternion<f64>, Diagno
         return Ok(UnitQuaternion::from_quaternion(quaternion));
     }
     let message = format!("quaternion_wxyz has norm {norm:.7}, it must be 1 within {QUATERNION_NORM}");
-    Err(Diagnostic::error("targets::quaternion_norm", message)
-        .with_help("quaternions are not normalised silently: write it with more digits, scalar first"))
+    Err(Diagnostic::error("targets::quaternion_norm", message).with_help(
+        "write the quaternion with more digits, in the order w, x, y, z: it is not normalised for you",
+    ))
 }
 
 /// Solves all targets for the robot's arm, the URDF chain from `base` to `tip` with its tool.

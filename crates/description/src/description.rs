@@ -123,7 +123,7 @@ impl RobotDescription {
                 self.name_of(self.base)
             );
             return Err(Diagnostic::error("chain::broken", message)
-                .with_help("no chain of joints leads from base down to tip"));
+                .with_help("the tip must be a link below the base: choose another --tip or --base, or other keys tip and base"));
         }
         if before != (self.base, self.tip) {
             self.drop_table(before);
@@ -132,9 +132,16 @@ impl RobotDescription {
     }
 
     fn drop_table(&mut self, (base, tip): (LinkIndex, LinkIndex)) {
-        if self.dh.take().is_some() {
+        let (table, inertials) = (self.dh.take(), self.dynamics.take());
+        let dropped = match (table, inertials) {
+            (Some(_), Some(_)) => Some(("[dh] table and the [[inertial]] entries describe", "they are")),
+            (Some(_), None) => Some(("[dh] table describes", "it is")),
+            (None, Some(_)) => Some(("[[inertial]] entries describe", "they are")),
+            (None, None) => None,
+        };
+        if let Some((what, they_are)) = dropped {
             let message = format!(
-                "the [dh] table describes the chain from \"{}\" to \"{}\", not from \"{}\" to \"{}\", so it is not used",
+                "the {what} the chain from \"{}\" to \"{}\", not from \"{}\" to \"{}\", so {they_are} not used",
                 self.name_of(base),
                 self.name_of(tip),
                 self.name_of(self.base),
@@ -143,7 +150,7 @@ impl RobotDescription {
             self.warnings.push(Diagnostic::warning(TABLE_DROPPED, message));
         }
         // The frames of the declared dynamics are those of the table or of its base; the tool is declared in the old tip.
-        (self.dynamics, self.places.inertials) = (None, None);
+        self.places.inertials = None;
         self.tip_from_tcp = None;
         self.places.robot_file = None;
     }

@@ -17,6 +17,8 @@ const fn step(from: f64, unit: &'static str, units_in_si: f64) -> Step {
 /// Below the last step only rounding is left, which is printed in SI units with an exponent.
 const LENGTHS: [Step; 4] =
     [step(10.0, "m", 1.0), step(1e-4, "mm", 1e3), step(1e-6, "um", 1e6), step(1e-9, "nm", 1e9)];
+/// Below this a decimal fraction is mostly zeros.
+const SMALLEST_DECIMAL: f64 = 1e-4;
 const ANGLES: [Step; 3] =
     [step(1e-3 * PI / 180.0, "deg", 180.0 / PI), step(1e-6, "urad", 1e6), step(1e-9, "nrad", 1e9)];
 
@@ -89,6 +91,26 @@ pub fn quantity_in_full(value: f64, unit: &str) -> String {
     format!("{value} {unit}").trim_end().to_owned()
 }
 
+/// A value in its SI unit with so many significant digits, for two that [`quantity`] prints alike.
+///
+/// # Examples
+/// ```
+/// use congruent_input::display::quantity_with_digits;
+/// assert_eq!(quantity_with_digits(3.000_001_000_000_000_4, "kg", 8), "3.000001 kg");
+/// assert_eq!(quantity_with_digits(5.551e-17, "kg", 2), "5.6e-17 kg");
+/// ```
+pub fn quantity_with_digits(value: f64, unit: &str, digits: usize) -> String {
+    let decimals = digits.saturating_sub(1);
+    let rounded: f64 = format!("{value:.decimals$e}").parse().unwrap_or(value);
+    let text = if rounded.abs() < SMALLEST_DECIMAL { format!("{rounded:e}") } else { rounded.to_string() };
+    format!("{text} {unit}").trim_end().to_owned()
+}
+
+/// A position or a limit of a joint in rad or m, with digits enough to see on which side of the limit it is.
+pub fn limit_number(value: f64) -> String {
+    quantity_with_digits(value, "", 7)
+}
+
 /// Formats a number without unit.
 ///
 /// # Examples
@@ -98,8 +120,6 @@ pub fn quantity_in_full(value: f64, unit: &str) -> String {
 /// assert_eq!(numbers, ["0.462", "2687", "1", "3.2e-16"]);
 /// ```
 pub fn number(value: f64) -> String {
-    /// Below this a decimal fraction is mostly zeros.
-    const SMALLEST_DECIMAL: f64 = 1e-4;
     /// From here on it is mostly digits.
     const LARGEST_DECIMAL: f64 = 1e7;
     match value.abs() {

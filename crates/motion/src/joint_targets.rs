@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, ops::Range};
 
 use congruent_description::{Joint, JointIndex, JointKind, Robot, RobotQ};
-use congruent_input::{Diagnostic, Findings, known_names, units::Unit};
+use congruent_input::{Diagnostic, Findings, display::limit_number, known_names, units::Unit};
 use congruent_scenario::{FilePlace, JointMotion, JointPathMotion, StartSettings};
 
 /// Positions under one key, as written.
@@ -70,8 +70,9 @@ impl JointTarget {
     pub fn beyond_limits(&self, robot: &Robot, what: &str) -> Option<String> {
         let joint = robot.joint(self.joint);
         let (lower, upper) = joint.position_range()?;
-        let (name, value, unit) = (&joint.name, self.value, joint.kind.unit());
-        (!(lower..=upper).contains(&value)).then(|| {
+        (!(lower..=upper).contains(&self.value)).then(|| {
+            let (name, unit) = (&joint.name, joint.kind.unit());
+            let [value, lower, upper] = [self.value, lower, upper].map(limit_number);
             format!("joint \"{name}\": {what} {value} {unit} is outside its range [{lower}, {upper}] {unit}")
         })
     }

@@ -35,10 +35,13 @@ pub(super) fn slack(models: &ModelPair, explanation: &Explanation, criterion: &C
     let (residual, tolerance) = (explanation.residual, criterion.tolerance);
     #[expect(clippy::cast_precision_loss, reason = "tables have few entries")]
     let values = count as f64;
+    // A value in another unit is not fitted: it keeps its digits, however far it is from explaining the difference.
+    let noise =
+        if explanation.faults.iter().all(|fault| fault.cause.is_unit()) { 0.0 } else { PART_OF_RESIDUAL };
     // Digits below the residual are noise of the fit; with an exact fit they end where data sheets end.
-    let least = (PART_OF_RESIDUAL * residual.position_m).max(MOST_SLACK);
+    let least = (noise * residual.position_m).max(MOST_SLACK);
     // An angle at the base moves the tip by the angle times the reach, so it needs as many more digits.
-    let angle_rad = (least / reach_m).max(PART_OF_RESIDUAL * residual.orientation_rad);
+    let angle_rad = (least / reach_m).max(noise * residual.orientation_rad);
     // Nothing to stay within: the model is not accepted with all digits either.
     if !criterion.accepts(&residual) {
         return Slack { length_m: least, angle_rad };

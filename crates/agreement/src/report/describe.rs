@@ -72,7 +72,7 @@ fn describe(
         0 => Fault {
             cause: Cause::Unexplained,
             message: "no known cause explains the difference".to_owned(),
-            suggestion: "no known cause explains the difference: see `invariants` for the screws that differ"
+            suggestion: "no known cause explains the difference: compare the table row by row with the data sheet; `invariants` lists the joint axes that differ"
                 .into(),
             ..Fault::default()
         },

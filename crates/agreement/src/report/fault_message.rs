@@ -18,6 +18,7 @@ use congruent_kinematics::{Pose, rotation_log};
 use super::{
     content::Fault,
     names::ModelNames,
+    units::WrongUnit,
     values::{ReportedValue, isometry, value_literal},
 };
 use crate::diagnosis::{CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants};
@@ -39,7 +40,7 @@ impl FaultMessage {
             pasted.push(format!("{new}  # {place}"));
         }
         self.fault.suggestion = if lines.is_empty() {
-            "the lines of the other causes correct this as well".to_owned()
+            "nothing more: the lines to write for another cause correct this as well".to_owned()
         } else {
             lines.join("\n")
         };
@@ -115,7 +116,8 @@ impl FaultContext<'_> {
             suggestion: format!("convention = \"{expected}\""),
             ..Fault::default()
         };
-        let message = format!("the table is written in the other DH convention ({expected}, not {found})");
+        let message =
+            format!("the values are those of the {expected} DH convention, but convention = \"{found}\"");
         FaultMessage { fault, message, location: self.in_robot_file(span) }
     }
 
@@ -270,12 +272,17 @@ impl FaultContext<'_> {
         let how = match self.fault.cause {
             Cause::RpyOrder => "has its roll, pitch and yaw in the wrong order".to_owned(),
             Cause::Tool | Cause::Base => format!("is off by {}", off_by(shift.norm(), turn.norm())),
-            Cause::DegreesAsRadians => "has angles in degrees, but its key says radians".to_owned(),
-            Cause::RadiansAsDegrees => "has angles in radians, but its key says degrees".to_owned(),
-            _ if found.translation.norm() > expected.translation.norm() => {
-                "has lengths in millimetres, but its key says metres".to_owned()
+            _ => {
+                let is_angle = self.fault.cause != Cause::MillimetresAsMetres;
+                let is_too_large = match self.fault.cause {
+                    Cause::DegreesAsRadians => true,
+                    Cause::RadiansAsDegrees => false,
+                    _ => found.translation.norm() > expected.translation.norm(),
+                };
+                let (what, unit) = if is_angle { ("angles", Unit::Angle) } else { ("lengths", Unit::Length) };
+                let units = self.names.places.map(|places| places.constant_units(key, unit));
+                format!("has {what} {}", WrongUnit { is_angle, is_too_large }.under(units, "its key says"))
             }
-            _ => "has lengths in metres, but its key says millimetres".to_owned(),
         };
         let places = self.names.places;
         let [found, expected] = [found, expected].map(|pose| isometry(&pose));

@@ -24,7 +24,7 @@ impl FaultContext<'_> {
         let mut fault = Fault::default();
         let (message, suggestion) = match self.fault.cause {
             Cause::FixedJointDropped => (
-                format!("the model lacks the fixed joint \"{listed}\" of the URDF"),
+                format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
                 format!(
                     "write the <origin> of \"{listed}\" into base_from_dh0 or dhn_from_tip, or declare another base or tip"
                 ),
@@ -60,7 +60,10 @@ impl FaultContext<'_> {
             expected.push(format!("rpy=\"{}\" in line {line}", with_exact_quarters(&rpy)));
         }
         let most = angle(most_rad);
-        let message = format!("the URDF rounds quarter turns, by up to {most}: {}", found.join(", "));
+        let message = format!(
+            "the URDF has rounded quarter turns (1.5708, not 1.5707963267948966), off by up to {most}: {}",
+            found.join(", ")
+        );
         (message, format!("in the URDF: {}", expected.join(", ")))
     }
 }

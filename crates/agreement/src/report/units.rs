@@ -1,6 +1,6 @@
 //! Messages about whole columns: a wrong unit, and exchanged columns.
 
-use congruent_input::fitted_number;
+use congruent_input::{fitted_number, units::UnitSystem};
 
 use super::{
     content::Fault,
@@ -8,6 +8,51 @@ use super::{
     values::ReportedValue,
 };
 use crate::diagnosis::{DhEntry, FaultPlace, ModelPair};
+
+/// Values in a wrong unit.
+#[derive(Clone, Copy)]
+pub(super) struct WrongUnit {
+    pub(super) is_angle: bool,
+    pub(super) is_too_large: bool,
+}
+
+impl WrongUnit {
+    /// The unit that the values seem to have.
+    fn given(self) -> &'static str {
+        self.unit(if self.is_too_large { UnitSystem::Engineering } else { UnitSystem::Si })
+    }
+
+    /// The unit that they should have.
+    fn right(self) -> &'static str {
+        self.unit(self.right_system())
+    }
+
+    fn right_system(self) -> UnitSystem {
+        if self.is_too_large { UnitSystem::Si } else { UnitSystem::Engineering }
+    }
+
+    fn unit(self, system: UnitSystem) -> &'static str {
+        match (self.is_angle, system) {
+            (true, UnitSystem::Engineering) => "degrees",
+            (true, UnitSystem::Si) => "radians",
+            (false, UnitSystem::Engineering) => "millimetres",
+            (false, UnitSystem::Si) => "metres",
+        }
+    }
+
+    /// `in degrees, but their keys say radians`. If the keys already say the unit that the values seem to have, the values
+    /// were converted once too often.
+    pub(super) fn under(self, key: Option<UnitSystem>, keys_say: &str) -> String {
+        match key.filter(|&key| key != self.right_system()) {
+            None => format!("in {}, but {keys_say} {}", self.given(), self.right()),
+            Some(key) => {
+                let factor = if self.is_angle { "57.3" } else { "1000" };
+                let size = if self.is_too_large { "large" } else { "small" };
+                format!("{factor} times too {size}, as if converted to {} twice", self.unit(key))
+            }
+        }
+    }
+}
 
 impl FaultContext<'_> {
     /// Two columns that are exchanged in every row.
@@ -47,21 +92,20 @@ impl FaultContext<'_> {
         };
         // A model in screws has no rows: then the declared transforms show in which direction the unit is wrong.
         let is_too_large = if factor.is_nan() { self.is_declared_too_large() } else { factor > 1.0 };
-        let (unit, right) = match (entry.is_angle(), is_too_large) {
-            (true, true) => ("degrees", "radians"),
-            (true, false) => ("radians", "degrees"),
-            (false, true) => ("millimetres", "metres"),
-            (false, false) => ("metres", "millimetres"),
-        };
+        let wrong_unit = WrongUnit { is_angle: entry.is_angle(), is_too_large };
         let names = entries.iter().map(DhEntry::to_string).collect::<Vec<_>>().join(" and ");
         let is_table = self.before.candidate.convention.is_some();
         let also = if self.fault.place == FaultPlace::Model { " and of the declared transforms" } else { "" };
         let (message, suggestion) = if is_table {
+            let place = self.names.places.and_then(|places| places.value(row, row_key(entry)));
+            let wrong = wrong_unit.under(place.map(|place| place.units), "their keys say");
+            let right = wrong_unit.right();
             (
-                format!("{names} of the whole table{also} are in {unit}, but their keys say {right}"),
+                format!("all values of {names} in the table{also} are {wrong}"),
                 format!("write {names} in {right}, or change the keys"),
             )
         } else {
+            let [unit, right] = [wrong_unit.given(), wrong_unit.right()];
             (
                 format!("all lengths of the chain are in {unit} instead of {right}"),
                 format!("write all lengths in {right}"),

@@ -119,8 +119,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     one_plot(arguments)?;
     refuse_same(arguments.ci.outputs().chain(arguments.page.output()).chain(arguments.plot.output()))?;
     if arguments.table && arguments.configurations.is_none() {
-        let error = Diagnostic::error("check::table", "--table needs configurations, and none are given");
-        return Err(error.with_help("give --configurations FILE").into());
+        let error = Diagnostic::error("check::table", "--table needs --configurations, which is missing");
+        return Err(error.with_help("give --configurations FILE: the joint positions of each row").into());
     }
     let batch = Batch::begin(&arguments.robots, &arguments.ci, printer)?;
     let robots = arguments.robots.iter();
@@ -155,9 +155,12 @@ fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
         return Ok(());
     }
     match (&arguments.configurations, arguments.robots.len()) {
-        (None, _) => refused("--plot needs configurations, and none are given", "give --configurations FILE"),
+        (None, _) => refused(
+            "--plot needs --configurations, which is missing",
+            "give --configurations FILE: the joint positions that are plotted",
+        ),
         (Some(_), 2..) => {
-            refused("--plot works for one robot, and several are given", "check them one by one")
+            refused("--plot works for one robot, but several are given", "check them one by one")
         }
         (Some(_), _) => Ok(()),
     }

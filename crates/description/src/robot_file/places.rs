@@ -174,6 +174,20 @@ impl RobotFilePlaces {
         first.or(second).or(matrix.as_ref().map(Spanned::span)).unwrap_or(written.span())
     }
 
+    /// The unit system of the key under which a declared transform has its lengths or angles.
+    pub fn constant_units(&self, key: ConstantKey, unit: Unit) -> UnitSystem {
+        let default = self.units(unit);
+        let Some(written) = self.written(key).map(Spanned::get_ref) else { return default };
+        match unit {
+            Unit::Length => {
+                UnitSystem::from_given_key(written.xyz_m.as_ref(), written.xyz_mm.as_ref(), default)
+            }
+            Unit::Angle => {
+                UnitSystem::from_given_key(written.rpy_rad.as_ref(), written.rpy_deg.as_ref(), default)
+            }
+        }
+    }
+
     /// Roll, pitch and yaw of a declared transform, if the file writes them.
     pub fn rpy_rad(&self, key: ConstantKey) -> Option<[f64; 3]> {
         let WrittenTransform { rpy_rad, rpy_deg, .. } = self.written(key)?.get_ref();

@@ -26,7 +26,7 @@ impl EquivalenceReason {
     pub fn text(self) -> &'static str {
         match self {
             Self::OneBody => "fixed joints connect the links: only the sum of their inertias is identifiable",
-            Self::FewNumbersSeen => "few parameters of this body are identifiable from joint torques",
+            Self::FewNumbersSeen => "joint torques determine only few parameters of this body",
             Self::AcrossJoint => "mass on a joint's axis can belong to the link before or after the joint",
             Self::SameEffect => "both have the same effect on all joint torques",
         }

@@ -1,6 +1,6 @@
 //! The sentences of the report, for people.
 
-use congruent_input::display::{length, number, quantity, quantity_in_full};
+use congruent_input::display::{length, number, quantity, quantity_with_digits};
 
 use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict, TorqueCertificates};
 use crate::{
@@ -104,7 +104,8 @@ impl LimitDifference {
         let [found, expected] = with_distinct_digits(self.found, self.expected, &self.unit, "not stated");
         let factor = self.factor.map_or_else(String::new, |factor| format!(", factor {}", number(factor)));
         let unit = if self.detail.is_empty() { String::new() } else { format!(": in {}?", self.detail) };
-        let remark = if self.decides { "" } else { "; stated in only one of the two: no disagreement" };
+        let remark =
+            if self.decides { "" } else { "; only one of the two states it, so this is no disagreement" };
         format!(
             "{}: {} limit is {found}, expected {expected}{factor}{unit}{remark}",
             self.joint, self.parameter
@@ -112,16 +113,24 @@ impl LimitDifference {
     }
 }
 
-/// Two values with three digits, or with all digits if three do not distinguish them.
+/// Two values with three digits, or with as many as distinguish them. Values that differ in their last digits only, as by
+/// rounding, are one value and a difference.
 fn with_distinct_digits(found: Option<f64>, expected: Option<f64>, unit: &str, nothing: &str) -> [String; 2] {
+    /// More digits are read one by one.
+    const MOST_DIGITS: usize = 8;
     let texts = [found, expected]
         .map(|value| value.map_or_else(|| nothing.to_owned(), |value| quantity(value, unit)));
-    match found.zip(expected) {
-        Some((a, b)) if texts[0] == texts[1] && a.total_cmp(&b).is_ne() => {
-            [a, b].map(|value| quantity_in_full(value, unit))
-        }
-        _ => texts,
+    let Some((a, b)) = found.zip(expected) else { return texts };
+    if texts[0] != texts[1] || a.total_cmp(&b).is_eq() {
+        return texts;
     }
+    let rounded = |digits| [a, b].map(|value| quantity_with_digits(value, unit, digits));
+    let distinct = (4..=MOST_DIGITS).map(rounded).find(|[a, b]| a != b);
+    distinct.unwrap_or_else(|| {
+        let sign = if a < b { '-' } else { '+' };
+        let difference = quantity_with_digits((a - b).abs(), unit, 2);
+        [format!("{} {sign} {difference}", texts[1]), texts[1].clone()]
+    })
 }
 
 impl Invariants {
@@ -201,10 +210,10 @@ impl DynamicsReport {
                 format!("torques agree within {equal} (relative) at {states} states{seen}")
             }
             DynamicsVerdict::Explained => {
-                format!("torques differ by {percent} % at {states} states, explained")
+                format!("torques differ by {percent} % at {states} states; the cause is found:")
             }
             DynamicsVerdict::Unexplained if self.seen.is_none() => format!(
-                "torques differ by {percent} % at {states} states; causes are searched for at most {MOST_JOINTS} joints"
+                "torques differ by {percent} % at {states} states; the cause is searched only for robots of at most {MOST_JOINTS} joints"
             ),
             DynamicsVerdict::Unexplained => {
                 let no_body = self.premise.fit_relative;

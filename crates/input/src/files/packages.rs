@@ -138,12 +138,12 @@ impl Packages {
                     format!("mesh \"{uri}\": network paths are not allowed, no connection was made");
                 Err(Diagnostic::error("mesh::network", message)
                     .one_of("meshes are on the network, which is never used", uri)
-                    .with_help("put the mesh beside the URDF and name it by a relative path"))
+                    .with_help("put meshes beside the URDF and name them by relative paths"))
             }
             _ => {
                 let message = format!("mesh \"{uri}\": unknown scheme {scheme}://");
                 Err(Diagnostic::error("mesh::scheme", message)
-                    .one_of("meshes have an address of an unknown scheme", uri)
+                    .one_of("mesh addresses have an unknown scheme (known: package://, file://)", uri)
                     .with_help("use package://, file:// or a path relative to the URDF"))
             }
         }

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use congruent_description::{Obstacle, Robot, RobotDescription, RobotQ, load_robot_with};
 use congruent_dynamics::JointResistance;
-use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile};
+use congruent_input::{
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile, display::limit_number,
+};
 use congruent_kinematics::move_inside_limits;
 use congruent_monitors::{
     ActuatorLimits, CheckContext, RunClock, RunDynamics, RunPayload, RunningCheck, taken_too_late,
@@ -357,10 +359,10 @@ fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item
         let joint = robot.joint(joint);
         let (lower, upper) = joint.position_range().filter(|_| joint.mimic.is_none())?;
         (!(lower..=upper).contains(&q)).then(|| {
+            let [start, lower, upper] = [q.clamp(lower, upper), lower, upper].map(limit_number);
             let message = format!(
-                "joint \"{}\" has no start position, and 0 is outside its range [{lower}, {upper}]: it starts at {} {}",
+                "joint \"{}\" has no start position, and 0 is outside its range [{lower}, {upper}]: it starts at {start} {}",
                 joint.name,
-                q.clamp(lower, upper),
                 joint.kind.unit()
             );
             Diagnostic::warning("scenario::start_default", message)
@@ -368,7 +370,7 @@ fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item
                     "joints have no start position, and 0 is outside their ranges: they start at a limit",
                     &joint.name,
                 )
-                .with_help("give its position under [start]")
+                .with_help("give start positions under [start]")
         })
     })
 }

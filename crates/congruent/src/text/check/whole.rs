@@ -227,7 +227,7 @@ fn compared(text: &mut String, comparison: &Comparison) {
     }
     for link in &comparison.links {
         let fitted = match link.source {
-            PoseSource::DhFitted => "(frame not fixed by the table: informative)",
+            PoseSource::DhFitted => "(the table does not define this frame: for information only)",
             _ => "",
         };
         let _ = writeln!(

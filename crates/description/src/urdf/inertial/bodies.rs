@@ -232,7 +232,7 @@ impl InertiaCheck<'_, '_> {
                         &link.name,
                     )
                     .at(at)
-                    .with_help("give it an <inertial> with mass and inertia"),
+                    .with_help("give each link that moves an <inertial> with mass and inertia"),
             );
         }
     }
