@@ -231,8 +231,8 @@ fn nothing_that_exists_is_lost_by_an_output() {
     fs::hard_link(&path, &linked).unwrap();
     for (output, says) in [
         (text(&linked), "is an input file"),
-        (text(folder.path()), "ends in .toml"),
-        (path.clone(), "ends in .toml"),
+        (text(folder.path()), "must end in .toml"),
+        (path.clone(), "must end in .toml"),
         (text(&folder.path().join("nowhere/robot.toml")), "cannot write"),
     ] {
         let refused = congruent(&["derive", &path, "--convention", "standard", "--force", "--out", &output]);

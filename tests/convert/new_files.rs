@@ -138,7 +138,7 @@ fn a_robot_file_that_would_hide_meshes_is_refused() {
     );
     let beside = congruent(&["new", "robot", &urdf, "--out", &text(&inner)]);
     assert_eq!(beside.code, 2, "{}", beside.stdout);
-    assert!(beside.stderr.contains("marks the top of a project"), "{}", beside.stderr);
+    assert!(beside.stderr.contains("would make that folder the project"), "{}", beside.stderr);
     assert!(!inner.join("robot.toml").exists());
     let above = congruent(&["new", "robot", &urdf, "--out", &text(&folder.path().join("pkg"))]);
     assert!(above.code == 0 || above.code == 4, "{}", above.stderr);

@@ -195,7 +195,7 @@ pub fn stiction(
         .map(|(_, joint)| joint.name.as_str())
         .collect();
     let message = format!(
-        "joints at rest, which dry friction may hold in the robot but not in the equations of motion: {}",
+        "dry friction may hold these joints at rest, which the equations of motion do not model: {}",
         held.join(", ")
     );
     let help =

@@ -44,8 +44,9 @@ pub fn calibrate(
 ) -> Result<CalibrationReport, Diagnostic> {
     if options.suggestions > CANDIDATES {
         let message = format!("cannot suggest {} configurations to measure next", options.suggestions);
-        return Err(Diagnostic::error("calibrate::next", message)
-            .with_help(format!("at most {CANDIDATES}, the number of random candidates")));
+        return Err(Diagnostic::error("calibrate::next", message).with_help(format!(
+            "ask for at most {CANDIDATES}: they are chosen from that many random configurations"
+        )));
     }
     let nominal = NominalChain::new(description)?;
     let parameters = free::parameters(&nominal, &options.free, &options.hold)?;

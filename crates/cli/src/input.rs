@@ -29,7 +29,7 @@ pub(crate) fn shown_arguments(arguments: &[OsString]) -> Result<(), Failure> {
             "cli::hidden_character",
             format!("the argument \"{argument}\" has a control character or a line break"),
         )
-        .with_help("write it without; rename a file that has one in its name")
+        .with_help("type the argument again without it; rename a file that has one in its name")
         .into()),
     }
 }
@@ -119,10 +119,10 @@ pub(crate) fn needs_to_be_allowed(file: &Path, named: &Path) -> Option<Diagnosti
     FileAccess::default().inside_project_of(file).ok()?.check(named).err()?;
     let folder = named.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let message = format!("{} is outside of the project of {}", named.display(), file.display());
-    Some(
-        Diagnostic::warning("new::outside", message)
-            .with_help(format!("other commands open it with --allow {}", folder.display())),
-    )
+    Some(Diagnostic::warning("new::outside", message).with_help(format!(
+        "add --allow {} to every other command that reads the new file",
+        folder.display()
+    )))
 }
 
 /// A chain of the robot, if it is not the declared one.
@@ -257,7 +257,7 @@ impl ConfigurationArguments {
         printer: &Printer,
     ) -> Result<JointStateList, Failure> {
         let Some(path) = &self.configurations else {
-            let message = "joint velocities are read from a file of configurations, and none is given";
+            let message = "joint velocities are needed, and only a file of configurations can give them: --configurations is missing";
             return Err(Diagnostic::error("cli::velocities", message)
                 .with_help(
                     r#"--configurations FILE with {"q": {"joint": 0.1}, "v": {"joint": 0.2}} on each line"#,

@@ -47,7 +47,7 @@ pub(crate) fn run(
         return Ok(0);
     };
     fs::create_dir_all(folder).map_err(|error| {
-        Diagnostic::error("man::out", format!("cannot make the folder {}: {error}", folder.display()))
+        Diagnostic::error("man::out", format!("cannot create the folder {}: {error}", folder.display()))
             .with_help("choose another folder with --out")
     })?;
     let mut files = Vec::new();

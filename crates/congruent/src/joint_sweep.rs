@@ -162,14 +162,15 @@ fn range_of(kind: JointKind, range: Option<(f64, f64)>) -> ([f64; 2], Option<Str
     let range_and_note = |range: [f64; 2], note: &str| (range, Some(note.to_owned()));
     match range {
         Some((lower, upper)) if upper < lower || lower.is_nan() || upper.is_nan() => {
-            range_and_note([0.0; 2], "its range is empty or not a number: it does not move")
+            range_and_note([0.0; 2], "its position limits are empty or not numbers, so it is not moved")
         }
         Some((lower, upper)) if upper - lower <= widest => {
-            let note = (upper <= lower).then(|| "its range has no width: it does not move".to_owned());
+            let note = (upper <= lower)
+                .then(|| "its lower and upper position limits are equal, so it is not moved".to_owned());
             ([lower, upper], note)
         }
         _ if kind.is_angular() => range_and_note([0.0, 2.0 * PI], "without limits: one turn"),
-        _ => range_and_note([0.0; 2], "a sliding joint without limits: it does not move"),
+        _ => range_and_note([0.0; 2], "a sliding joint without position limits: it is not moved"),
     }
 }
 

@@ -140,7 +140,7 @@ pub fn check_finite(key: &str, value: f64, span: Range<usize>) -> Result<(), Dia
         return Ok(());
     }
     let message = format!("{key} is {value}, which is not a finite number");
-    let help = "every comparison with NaN is false, so a check could never fail";
+    let help = "give a finite number: a check that compares with NaN could never fail";
     Err(Diagnostic::error("toml::not_finite", message).at(span).with_help(help))
 }
 

@@ -121,7 +121,7 @@ fn rounded_up(duration_s: f64) -> f64 {
 pub(super) fn no_velocity_limit(planning: &Planning<'_>, coordinate: usize) -> Diagnostic {
     let robot = &planning.description.robot;
     let name = &robot.joint(robot.movable_joints()[coordinate]).name;
-    let message = format!("the least duration is unknown: joint \"{name}\" has no velocity limit");
+    let message = format!("the shortest duration cannot be computed: joint \"{name}\" has no velocity limit");
     let help = "give `duration_s`, or a velocity under [limits]";
     planning.place.mark(Diagnostic::error("scenario::no_velocity_limit", message).with_help(help))
 }

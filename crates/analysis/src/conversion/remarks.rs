@@ -26,7 +26,7 @@ pub(super) fn rounded(pairs: &[RoundedReport], against_source: &Proof) -> Option
     let listed: Vec<String> = pairs.iter().map(sentence).collect();
     let Proof { position_m, orientation_rad, configurations, .. } = *against_source;
     let message = format!(
-        "the source has rounded values, so these axes were made exact: {}; the table differs from the source by up \
+        "the numbers of the source are rounded, so these axes were made exactly parallel or intersecting: {}; the table differs from the source by up \
          to {} at {configurations} configurations",
         listed.join(", "),
         length_and_angle(position_m, orientation_rad)
@@ -61,14 +61,14 @@ pub(super) fn far(report: &ConversionReport, reach_m: f64) -> Option<Diagnostic>
         )
     });
     let message = format!(
-        "lengths far beyond the reach of {}: {}{}",
+        "the table has lengths far beyond the reach of {}: {}{}",
         length(reach_m),
         far.join(", "),
         pairs.collect::<String>()
     );
     (!far.is_empty()).then(|| {
         Diagnostic::warning("convert::far_normal", message).with_help(
-            "the table is correct within its accuracy; a coarser --accuracy treats such axes as parallel",
+            "two nearly parallel axes have a common normal that is far away. The table is correct; a coarser --accuracy, such as 1e-9, treats such axes as parallel",
         )
     })
 }

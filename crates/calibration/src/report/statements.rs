@@ -1,5 +1,7 @@
 //! The sentences of the report.
 
+use std::fmt::Write;
+
 use congruent_input::display::{length, length_and_angle, number};
 
 use super::calibration_report::{
@@ -157,29 +159,30 @@ fn unverifiable(report: &CalibrationReport) -> String {
             .to_owned();
     }
     format!(
-        "the measurements have no redundancy for {} corrections (repetitions at one configuration count once): \
-         the corrections cannot be verified",
+        "the measurements are too few to verify {} corrections (repetitions at one configuration count once): \
+         measure at more configurations",
         report.parameters.len()
     )
 }
 
 fn unexplained_rows(report: &CalibrationReport) -> String {
     let row = |each: &RowResidual| {
-        format!("{} ({})", each.row, length_and_angle(each.least_squares_m, each.least_squares_rad))
+        format!("{} (off by {})", each.row, length_and_angle(each.least_squares_m, each.least_squares_rad))
     };
     let rows: Vec<String> = report.outliers.iter().map(row).collect();
-    let plural = if rows.len() > 1 { "s" } else { "" };
+    let (noun, are, them) = if rows.len() > 1 {
+        ("measurements", "are outliers", "them")
+    } else {
+        ("measurement", "is an outlier", "it")
+    };
     let corrections = match &report.parameters[..] {
         [only] => only.name.as_str(),
         _ => "the free corrections",
     };
-    let mut text = format!(
-        "no value of {corrections} explains measurement{plural} {} (residual after least squares)",
-        listed(&rows)
-    );
+    let mut text = format!("{noun} {} {are}: no value of {corrections} explains {them}", listed(&rows));
     if let (Recommendation::Robust, Some(error)) = (report.recommended, &report.held_out) {
-        text += "; residual of the robust estimate on the other rows, held out: ";
-        text += &length_and_angle(error.rms_m, error.rms_rad);
+        let error = length_and_angle(error.rms_m, error.rms_rad);
+        let _ = write!(text, "; the robust estimate explains the other rows within {error} (held out)");
     }
     text
 }

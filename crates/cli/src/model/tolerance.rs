@@ -47,7 +47,7 @@ impl FromStr for ToleranceArgument {
             };
             if place.replace(value).is_some() {
                 let what = if matches!(unit, Unit::Length) { "a length" } else { "an angle" };
-                return Err(format!("\"{part}\" is {what} and one is given already"));
+                return Err(format!("\"{part}\" is {what}, and {what} is already given"));
             }
         }
         Ok(tolerance)

@@ -39,7 +39,7 @@ pub(super) fn answer(
     let inputs = files_of(description);
     if let Some(section) = &report.robot_toml {
         if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
-            let message = format!("--out {}: the name of a robot file ends in .toml", path.display());
+            let message = format!("--out {}: the name of a robot file must end in .toml", path.display());
             return Err(Diagnostic::error("output::name", message).into());
         }
         let text = comments(&report) + &robot_file(description, &report, section, &folder_of(path)?)?;
@@ -63,7 +63,7 @@ fn robot_file(
     folder: &std::path::Path,
 ) -> Result<String, Diagnostic> {
     if is_standard_input(&description.urdf_path) {
-        let message = "the URDF came from standard input, and a robot file names its URDF";
+        let message = "the URDF came from standard input, but a robot file must name its URDF by a path";
         return Err(Diagnostic::error("output::urdf", message).with_help("give the URDF as a file"));
     }
     let absolute = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());

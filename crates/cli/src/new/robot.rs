@@ -130,7 +130,10 @@ fn is_urdf(path: &Path) -> Result<(), Diagnostic> {
         Err(Diagnostic::error("new::urdf", format!("{} {why}", path.display())).with_help(help))
     };
     if is_standard_input(path) {
-        return refused("is standard input, and a robot file names its URDF", "give the URDF as a file");
+        return refused(
+            "is standard input, but a robot file must name its URDF by a path",
+            "give the URDF as a file",
+        );
     }
     if path.is_dir() {
         return refused("is a folder", "give a .urdf file");
@@ -153,12 +156,11 @@ fn checked(written: &Path, before: &RobotDescription, arguments: &Arguments) -> 
             && let Err(mut lost) = description.check_capability(each)
         {
             let message = format!(
-                "a robot.toml in {} marks the top of a project, so that files above it are not opened",
+                "a robot.toml in {} would make that folder the project, and files outside of it could not be opened",
                 arguments.out.display()
             );
-            lost.extend([Diagnostic::error("new::project", message).with_help(
-                "choose a folder beside or above that of the URDF, such as the one that holds both URDF and meshes",
-            )]);
+            lost.extend([Diagnostic::error("new::project", message)
+                .with_help("choose --out in a folder that contains both the URDF and its meshes")]);
             return Err(lost.into());
         }
     }

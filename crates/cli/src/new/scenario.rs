@@ -40,11 +40,12 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let out = &arguments.out;
     let refused = |message: String, help: &str| Diagnostic::error("new::scenario", message).with_help(help);
     if is_standard_input(&arguments.robot.robot) {
-        let message = "the robot came from standard input, and a scenario names its robot".to_owned();
+        let message =
+            "the robot came from standard input, but a scenario must name its robot by a path".to_owned();
         return Err(refused(message, "give the robot as a file").into());
     }
     if out.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
-        let message = format!("--out {}: the name of a scenario file ends in .toml", out.display());
+        let message = format!("--out {}: the name of a scenario file must end in .toml", out.display());
         return Err(refused(message, "for example --out scenarios/first.toml").into());
     }
     let description = arguments.robot.load_for(Capability::Physics, printer)?;

@@ -97,7 +97,7 @@ pub(super) fn recording_format(
         return Ok(Some(Box::new(congruent::recording::RerunFormat)));
     }
     if arguments.scenarios.len() > 1 {
-        let message = format!("--view shows one run, and there are {} scenarios", arguments.scenarios.len());
+        let message = format!("--view shows one run, but {} scenarios are given", arguments.scenarios.len());
         return Err(Diagnostic::error("run::view", message).with_help("give one scenario").into());
     }
     let viewer = Viewer::find(None)?;

@@ -82,7 +82,7 @@ pub(super) fn robot_of_table(path: &Path, beside: NearbyFiles<'_>) -> Result<Rob
         _ if file.is_file() => &file,
         _ => {
             let how_many = if given.is_empty() { "no robot is" } else { "several robots are" };
-            let message = format!("{how_many} given with {}, so its joints are not known", path.display());
+            let message = format!("{how_many} given for {}, so its joints are not known", path.display());
             return Err(Diagnostic::error("lint::no_robot", message).with_help(
                 "give its robot in the same call: `congruent lint robot.toml table.json`; `fk`, `ik` and `calibrate` \
                  check their tables as they read them",

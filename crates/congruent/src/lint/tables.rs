@@ -34,7 +34,7 @@ pub(super) fn measured(
             let message = format!("line {} is outside the joint limits: {what}", row.line);
             let warning = Diagnostic::warning("measurements::outside_limits", message)
                 .one_of("measurements are outside the joint limits", format!("line {}", row.line))
-                .with_help("the ending of a column's name is its unit: are the positions in degrees or mm?");
+                .with_help("the ending of a column's name is its unit (_rad, _deg, _m, _mm): do the values have that unit?");
             found.push(warning.at(at()));
         }
         let away_m = distance_m(&row.tip_in_base_m, &middle_m);

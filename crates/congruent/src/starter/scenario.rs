@@ -100,8 +100,7 @@ pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioD
             Some((_, why)) => last = why,
             None => {
                 if is_playback {
-                    let remark =
-                        "played back without forces, so without the checks dynamics and power: with forces";
+                    let remark = "the motion is played back without forces, so the checks dynamics and power are left out: with forces";
                     content.remarks.push(format!("{remark} it does not pass ({last})"));
                 }
                 leave_out(&mut content, &results);

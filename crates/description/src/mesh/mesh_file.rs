@@ -31,10 +31,10 @@ pub(crate) enum MeshError {
     #[error("{bytes} bytes are too short for an STL file, whose header alone is 84")]
     TooShort { bytes: usize },
     /// The count in the header and the length of the file disagree.
-    #[error("the header promises {promised} triangles, the file holds {held}: it is truncated")]
+    #[error("the file is truncated: its header declares {promised} triangles, but it holds only {held}")]
     Truncated { promised: u32, held: usize },
     /// The header promises fewer triangles than the file holds.
-    #[error("the header promises {promised} triangles, the file holds {held}: readers ignore the others")]
+    #[error("the header declares {promised} triangles, but the file holds {held}: the others are ignored")]
     Surplus { promised: u32, held: usize },
     /// A fault with its line.
     #[error("line {line}: {what}")]
@@ -49,7 +49,7 @@ pub(crate) enum MeshError {
     #[error("triangle {triangle} has a vertex that is not finite")]
     NotFinite { triangle: usize },
     /// No machine is so large, and squares of such numbers overflow.
-    #[error("a vertex is {furthest_m:.1e} m away from the origin, the limit is {FURTHEST_M:e} m")]
+    #[error("a vertex is {furthest_m:.1e} m away from the origin (limit {FURTHEST_M:e} m)")]
     TooFar { furthest_m: f64 },
     /// All triangles are degenerate, or there are none.
     #[error("no triangle has area")]

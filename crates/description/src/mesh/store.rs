@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(mirrored.vertices_m[1], Point3::new(-2.0, 0.0, 0.0));
         assert_eq!(mirrored.triangles, [[0, 2, 1]]);
         let far = store.find("a.obj", Vector3::repeat(1e300)).err().map(|fault| fault.message);
-        let expected = "mesh \"a.obj\": a vertex is 1.0e300 m away from the origin, the limit is 1e6 m";
+        let expected = "mesh \"a.obj\": a vertex is 1.0e300 m away from the origin (limit 1e6 m)";
         assert_eq!(far.as_deref(), Some(expected));
     }
 

@@ -102,7 +102,7 @@ fn chain(
         diagnostics.push(
             Diagnostic::error("robot_file::chain", message)
                 .at(at)
-                .with_help("no chain of joints leads from base down to tip"),
+                .with_help("the tip must be a link below the base: choose another --tip or --base, or other keys tip and base"),
         );
         return None;
     };

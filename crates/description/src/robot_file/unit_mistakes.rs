@@ -113,7 +113,7 @@ enum LengthKey {
 fn too_long(what: &str, length_m: f64, size_m: f64, at: Range<usize>, key: LengthKey) -> Option<Diagnostic> {
     (size_m > 0.0 && length_m > LEAST_M && length_m > MOST_SIZES * size_m).then(|| {
         let message = format!(
-            "{what} {} long, but all links of the robot in a row are only {} long",
+            "{what} {} long, but the robot stretched out is only {} long",
             length(length_m),
             length(size_m)
         );

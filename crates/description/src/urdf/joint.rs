@@ -111,14 +111,18 @@ impl JointReader<'_, '_> {
             return Vector3::z_axis();
         }
         if !length.is_finite() {
-            self.error("urdf::axis", "the axis is so long that its length overflows", "axis");
+            self.error(
+                "urdf::axis",
+                "the numbers of the axis are so large that its length overflows",
+                "axis",
+            );
             return Vector3::z_axis();
         }
         if (length - 1.0).abs() > AXIS_LENGTH {
             // 1e300 without an exponent has 301 digits.
             let is_short = (1e-6..1e6).contains(&length);
             let length = if is_short { length.to_string() } else { format!("{length:e}") };
-            self.warn("urdf::axis", format!("axis is normalised from length {length}"), "axis");
+            self.warn("urdf::axis", format!("axis has length {length} and is normalised to 1"), "axis");
         }
         Unit::new_normalize(scaled)
     }
@@ -162,18 +166,20 @@ impl JointReader<'_, '_> {
             self.error("urdf::limit", format!("lower limit {lower} is above upper limit {upper}"), "limit");
         } else if !missing.is_empty() && lower.is_finite() && upper.is_finite() {
             let what = format!(
-                "limit without {} counts as 0 there: the range is [{lower}, {upper}]",
+                "<limit> has no {}, which counts as 0: the range is [{lower}, {upper}]",
                 missing.join(" and ")
             );
             self.warn("urdf::limit", what, "limit");
         } else if upper <= lower {
-            self.warn("urdf::limit", format!("limits lock the joint at {lower}"), "limit");
+            self.warn(
+                "urdf::limit",
+                format!("lower and upper limit are both {lower}: the joint cannot move"),
+                "limit",
+            );
         }
         let furthest = lower.abs().max(upper.abs());
         if furthest.is_finite() && furthest > LARGEST_LIMIT {
-            let what = format!(
-                "limit {furthest:e} is beyond {LARGEST_LIMIT:e}, the largest position that poses are computed for"
-            );
+            let what = format!("limit {furthest:e} is too large: poses are computed up to {LARGEST_LIMIT:e}");
             self.error("urdf::limit", what, "limit");
         } else if kind.is_angular() && furthest.is_finite() && furthest > LARGEST_PLAUSIBLE_RAD {
             let what =

@@ -128,7 +128,7 @@ pub fn parse_urdf(text: &str) -> Result<Robot, Findings> {
 
 /// Refuses every mesh: for texts without a folder.
 pub(crate) fn no_mesh(uri: &str, _: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
-    let message = format!("mesh \"{uri}\" cannot be found from text alone");
+    let message = format!("mesh \"{uri}\" cannot be opened: the URDF was given as text, without a folder");
     Err(Diagnostic::error("mesh::no_folder", message))
 }
 

@@ -188,7 +188,11 @@ fn joints_are_checked() {
 
 #[test]
 fn suspicious_joints_are_warned_of() {
-    joint_warning(&format!("{LIMIT}<axis xyz='0 0 2'/>"), "urdf::axis", "normalised from length 2");
+    joint_warning(
+        &format!("{LIMIT}<axis xyz='0 0 2'/>"),
+        "urdf::axis",
+        "axis has length 2 and is normalised to 1",
+    );
     joint_warning(
         "<limit upper='1' effort='1' velocity='1'/>",
         "urdf::limit",
@@ -197,7 +201,7 @@ fn suspicious_joints_are_warned_of() {
     joint_warning(
         "<limit lower='1' upper='1' effort='1' velocity='1'/>",
         "urdf::limit",
-        "lock the joint at 1",
+        "lower and upper limit are both 1: the joint cannot move",
     );
     joint_warning(
         "<limit lower='-90' upper='90' effort='1' velocity='1'/>",
@@ -216,7 +220,7 @@ fn suspicious_joints_are_warned_of() {
 fn an_axis_of_any_length_keeps_its_direction() {
     for axis in ["3e307 4e307 0", "3e160 4e160 0", "3e-170 4e-170 0", "3e-310 4e-310 0"] {
         let (robot, diagnostics) = read(&arm(&format!("{LIMIT}<axis xyz='{axis}'/>"), INERTIAL));
-        assert!(diagnostics.iter().all(|diagnostic| diagnostic.message.contains("normalised from length")));
+        assert!(diagnostics.iter().all(|diagnostic| diagnostic.message.contains("is normalised to 1")));
         let axis = robot.unwrap().joints()[0].axis_in_joint;
         assert!((axis.into_inner() - Vector3::new(0.6, 0.8, 0.0)).norm() < 1e-12, "{axis:?}");
     }

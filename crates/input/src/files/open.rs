@@ -109,7 +109,7 @@ fn open_pipe(path: &Path) -> Result<File, Diagnostic> {
     let pipe: PathBuf = path.to_owned();
     std::thread::spawn(move || sender.send(File::open(pipe)));
     let opened = receiver.recv_timeout(WRITER_WAIT).map_err(|_| {
-        let message = format!("{} is a pipe that no program writes to", path.display());
+        let message = format!("{} is a named pipe, and no program writes to it", path.display());
         Diagnostic::error("file::no_writer", message)
     })?;
     opened.map_err(|error| unreadable(path, &error))

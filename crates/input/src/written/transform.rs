@@ -163,7 +163,7 @@ fn from_quaternion(written: &Spanned<[f64; 4]>) -> Result<UnitQuaternion<f64>, D
         let message = format!("quaternion_wxyz has norm {norm:.7}, it must be 1 within {QUATERNION_NORM}");
         return Err(Diagnostic::error("transform::quaternion_norm", message)
             .at(written.span())
-            .with_help("it is not normalised silently: write it with more digits, in the order w, x, y, z"));
+            .with_help("write it with more digits, in the order w, x, y, z: it is not normalised for you"));
     }
     Ok(UnitQuaternion::from_quaternion(quaternion))
 }

@@ -57,7 +57,7 @@ fn links(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup
                         td data-label="pose of the first" {
                             @match link.source {
                                 PoseSource::Dh => "table",
-                                PoseSource::DhFitted => "table (frame not fixed by the table: informative)",
+                                PoseSource::DhFitted => "table (the table does not define this frame: for information only)",
                                 PoseSource::Urdf => "URDF",
                             }
                         }

@@ -85,8 +85,10 @@ fn positions<'a, 'i>(vertices: Node<'a, 'i>, ids: &Ids<'a, 'i>) -> Result<Vec<Po
     let values: Vec<f64> = numbers(array)?;
     let needed = count.checked_mul(stride).and_then(|needed| needed.checked_add(offset));
     if needed.is_none_or(|needed| needed > values.len()) {
-        let what =
-            format!("{count} positions of {stride} numbers are promised, the array holds {}", values.len());
+        let what = format!(
+            "<accessor> declares {count} positions of {stride} numbers, but the array holds {}",
+            values.len()
+        );
         return Err(fault(array, what));
     }
     Ok(values[offset..].chunks_exact(stride).take(count).map(|p| Point3::new(p[0], p[1], p[2])).collect())

@@ -104,9 +104,9 @@ fn faults_are_named() {
     refused(&good.replace("0 1 2<", "0 1<"), "2 corners are not a whole number");
     refused(
         &good.replace("count=\"4\"", "count=\"5\""),
-        "5 positions of 3 numbers are promised, the array holds 12",
+        "<accessor> declares 5 positions of 3 numbers, but the array holds 12",
     );
-    refused(&good.replace("count=\"4\"", "count=\"18446744073709551615\""), "are promised");
+    refused(&good.replace("count=\"4\"", "count=\"18446744073709551615\""), "but the array holds");
     refused(&good.replace("0 0 1<", "0 0 x<"), "\"x\" is not a number");
     refused(&document("<unit meter=\"0\"/>", "", PLAIN), "not a positive number");
     let too_many = format!("<polylist>{INPUT}<vcount>9</vcount><p>0 1 2</p></polylist>");

@@ -89,7 +89,7 @@ pub(super) fn suspicious_size(inertia: &Inertia) -> Option<String> {
     let gyration_m = (most / inertia.mass_kg).sqrt();
     (inertia.mass_kg > 0.0 && gyration_m > LARGEST_GYRATION_M).then(|| {
         format!(
-            "inertia implies a radius of gyration of {} (limit {})",
+            "inertia is too large for the mass: radius of gyration {} (limit {})",
             length(gyration_m),
             length(LARGEST_GYRATION_M)
         )

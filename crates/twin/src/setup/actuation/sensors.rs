@@ -112,6 +112,6 @@ impl SensorSetup {
 }
 
 fn twice(key: &str, place: FilePlace<'_>) -> Diagnostic {
-    let message = format!("`{key}` gives a value of a joint that another key gives as well");
+    let message = format!("`{key}` and another key both give this value for the same joint");
     place.key(key).mark(Diagnostic::error("scenario::two_units", message).with_help("remove one of them"))
 }

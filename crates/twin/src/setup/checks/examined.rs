@@ -48,7 +48,7 @@ fn unwatched<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<
         let name = &obstacle.name;
         let warning = Diagnostic::warning(
             "scenario::unwatched",
-            format!("no check covers obstacle \"{name}\": an arm that collides with it passes"),
+            format!("no check covers obstacle \"{name}\": a run in which the arm collides with it passes"),
         )
         .one_of("obstacles are not covered by any check", name)
         .with_help("add a [[check]] with kind = \"clearance\" or \"contact\"");
