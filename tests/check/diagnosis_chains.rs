@@ -124,7 +124,7 @@ fn near(found: &Value, expected: f64) {
 
 /// The line at fault, in the file of that name.
 #[track_caller]
-fn is_at_line(cause: &Value, (name, file): (&str, &str), line: &str) {
+fn is_at_line(cause: &Value, name: &str, file: &str, line: &str) {
     assert!(cause["file"].as_str().expect("a file").ends_with(name), "{cause}");
     let number = usize::try_from(cause["line"].as_u64().expect("a line")).unwrap();
     assert_eq!(file.lines().nth(number - 1), Some(line));
@@ -162,7 +162,7 @@ fn a_figure_of_a_mimic_joint_is_named() {
     assert_eq!([&cause["cause"], &cause["joint"], &cause["parameter"]], ["parameter", "follower", "a"]);
     near(&cause["found"], 0.41);
     near(&cause["expected"], 0.4);
-    is_at_line(&cause, ("robot.toml", &file), "a_m = 0.41");
+    is_at_line(&cause, "robot.toml", &file, "a_m = 0.41");
     // The physics, which knows no table, reports the same.
     let report = answer.json();
     assert_eq!(report["diagnoses"][1]["causes"][0]["joint"], "follower");
@@ -202,7 +202,7 @@ fn a_fixed_joint_that_is_left_out_has_a_line_in_the_urdf() {
     let file = changed(&table(), ("[dh]", "{ xyz_m = [0, 0, 0.08], rpy_rad = [0, 0, 0.3] }", "{}"));
     let cause = first(&check(&file, &urdf()));
     assert_eq!([&cause["cause"], &cause["joint"]], ["fixed_joint_dropped", "mount"]);
-    is_at_line(&cause, ("linkage.urdf", &urdf()), "<origin xyz='0 0 0.08' rpy='0 0 0.3'/></joint>");
+    is_at_line(&cause, "linkage.urdf", &urdf(), "<origin xyz='0 0 0.08' rpy='0 0 0.3'/></joint>");
 }
 
 #[test]
@@ -214,7 +214,7 @@ fn an_rpy_in_another_order_has_a_line_in_the_urdf() {
     let urdf = changed(&urdf(), ("name='follower'", "0.4 -0 0.02' rpy='0 0 0'", "0.4 0 0' rpy='0.5 0 0.7'"));
     let cause = first(&check(&file, &urdf));
     assert_eq!([&cause["cause"], &cause["joint"]], ["rpy_order", "follower"]);
-    is_at_line(&cause, ("linkage.urdf", &urdf), "<origin xyz='0.4 0 0' rpy='0.5 0 0.7'/>");
+    is_at_line(&cause, "linkage.urdf", &urdf, "<origin xyz='0.4 0 0' rpy='0.5 0 0.7'/>");
 }
 
 #[test]
@@ -225,7 +225,7 @@ fn a_column_in_another_unit_is_named_with_figures_and_line() {
     assert_eq!(cause["expected"], "d = [0.3, 0, 0.02, 0.1, 0.05]");
     near(&cause["value"], 1e3);
     assert_eq!(cause["suggestion"], "d_m = 0.3\nd_m = 0.02\nd_m = 0.1\nd_m = 0.05");
-    is_at_line(&cause, ("robot.toml", &scaled(&table(), "d_m", 1e3)), "d_m = 300.0");
+    is_at_line(&cause, "robot.toml", &scaled(&table(), "d_m", 1e3), "d_m = 300.0");
 
     let metres = table().replace("d_m = ", "d_mm = ").replace("a_m = ", "a_mm = ");
     let cause = first(&check(&metres, &urdf()));
@@ -241,7 +241,7 @@ fn a_column_in_another_unit_is_named_with_figures_and_line() {
     let quarter = "1.5707963268";
     let lines = format!("alpha_rad = -{quarter}\nalpha_rad = -{quarter}\nalpha_rad = {quarter}");
     assert_eq!(cause["suggestion"], lines);
-    is_at_line(&cause, ("robot.toml", &degrees), "alpha_rad = -90.0");
+    is_at_line(&cause, "robot.toml", &degrees, "alpha_rad = -90.0");
 
     let radians = scaled(&table(), "alpha_deg", std::f64::consts::PI / 180.0);
     let cause = first(&check(&radians, &urdf()));

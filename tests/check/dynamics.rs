@@ -189,7 +189,7 @@ fn a_vendors_table_agrees_with_the_urdf() {
 
 /// A robot file in which one text is another: the cause, the joint's link, and the line that is wrong.
 #[track_caller]
-fn declared(old: &str, new: &str, (cause, place): (&str, &str), line: &str) {
+fn declared(old: &str, new: &str, cause: &str, place: &str, line: &str) {
     let robot = RobotCopy::of("ur5e");
     let file = fs::read_to_string(robot.robot_file()).unwrap();
     assert!(file.contains(old));
@@ -210,10 +210,11 @@ fn a_mistake_in_the_table_is_found_there() {
     declared(
         "com_m = [0.15, 0.0, 0.0265]",
         "com_m = [150, 0.0, 26.5]",
-        ("com_unit", "forearm_link"),
+        "com_unit",
+        "forearm_link",
         "com_m = [150",
     );
-    declared("mass_kg = 1.37", "mass_kg = 1370", ("mass_unit", "wrist_1_link"), "mass_kg = 1370");
+    declared("mass_kg = 1.37", "mass_kg = 1370", "mass_unit", "wrist_1_link", "mass_kg = 1370");
 }
 
 #[test]
@@ -265,8 +266,8 @@ fn a_link_that_is_only_turned_is_the_one_that_is_named() {
 #[test]
 fn gravity_in_another_direction() {
     let gravity = |value: &str| format!("[dynamics]\ngravity_m_s2 = {value}");
-    declared("[dynamics]", &gravity("[0, -9.81, 0]"), ("gravity_direction", "gravity"), "gravity_m_s2");
-    declared("[dynamics]", &gravity("[0, 0, 9.81]"), ("gravity_sign", "gravity"), "gravity_m_s2");
+    declared("[dynamics]", &gravity("[0, -9.81, 0]"), "gravity_direction", "gravity", "gravity_m_s2");
+    declared("[dynamics]", &gravity("[0, 0, 9.81]"), "gravity_sign", "gravity", "gravity_m_s2");
 }
 
 #[test]

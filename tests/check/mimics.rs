@@ -32,12 +32,12 @@ fn urdf(mimic: &str, length_m: f64) -> String {
 }
 
 /// The report of two such files.
-fn against(first: &str, second: (&str, f64)) -> Answer {
+fn against(first: &str, second: &str, second_length_m: f64) -> Answer {
     let temporary = tempfile::tempdir().unwrap();
     let [one, other, asked] =
         ["one.urdf", "other.urdf", "asked.json"].map(|name| temporary.path().join(name));
     fs::write(&one, urdf(first, 0.4)).unwrap();
-    fs::write(&other, urdf(second.0, second.1)).unwrap();
+    fs::write(&other, urdf(second, second_length_m)).unwrap();
     fs::write(&asked, json!([{ "q": { "lift": 1.0 } }]).to_string()).unwrap();
     let [one, other, asked] = [&one, &other, &asked].map(|path| text(path));
     congruent_json(&["check", &one, "--against", &other, "--configurations", &asked])
@@ -46,7 +46,7 @@ fn against(first: &str, second: (&str, f64)) -> Answer {
 const HALF: &str = "<mimic joint=\"lift\" multiplier=\"0.5\"/>";
 
 fn named(second: &str, parameter: &str) -> Value {
-    let answer = against(HALF, (second, 0.4));
+    let answer = against(HALF, second, 0.4);
     let report = answer.json();
     assert_eq!((answer.code, &report["verdict"]), (1, &json!("disagree")), "{second}");
     let fault = report["diagnosis"][0].clone();
@@ -78,10 +78,10 @@ fn another_offset_and_a_joint_that_follows_in_one_file_alone_are_faults() {
 
 #[test]
 fn equal_relations_agree_and_a_wrong_length_is_named_as_well() {
-    assert_eq!(against(HALF, (HALF, 0.4)).code, 0);
+    assert_eq!(against(HALF, HALF, 0.4).code, 0);
     let rounded = "<mimic joint=\"lift\" multiplier=\"0.5000000000001\"/>";
-    assert_eq!(against(HALF, (rounded, 0.4)).code, 0);
-    let both = against(HALF, ("<mimic joint=\"lift\" multiplier=\"0.6\"/>", 0.41)).json();
+    assert_eq!(against(HALF, rounded, 0.4).code, 0);
+    let both = against(HALF, "<mimic joint=\"lift\" multiplier=\"0.6\"/>", 0.41).json();
     let first = &both["diagnosis"][0];
     assert_eq!(first["stages"].as_array().unwrap().len(), 2, "{first}");
     assert_eq!((&first["cause"], &first["within_tolerance"]), (&json!("several"), &json!(true)), "{first}");

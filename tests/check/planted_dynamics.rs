@@ -106,7 +106,7 @@ fn check(path: &Path, original: &Path) -> (i32, Value) {
     (answer.code, answer.json())
 }
 
-fn assert_named(fault: &Value, (code, report): (i32, &Value), (path, original): (&Path, &Path)) {
+fn assert_named(fault: &Value, code: i32, report: &Value, path: &Path, original: &Path) {
     let id = fault["id"].as_str().unwrap();
     assert_eq!(code, 1, "{id}");
     let planted: Vec<String> = names(&fault["place"]).into_iter().map(str::to_owned).collect();
@@ -148,7 +148,7 @@ fn every_planted_fault_is_named_with_its_line_and_its_correction_agrees() {
         let (code, report) = check(&path, &original);
         let dynamics = &report["dynamics"];
         if fault["seen_by_joint_torque"] == true {
-            assert_named(fault, (code, &report), (&path, &original));
+            assert_named(fault, code, &report, &path, &original);
             shown += 1;
             continue;
         }

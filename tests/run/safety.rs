@@ -132,11 +132,7 @@ fn row(axis: usize, quaternion_wxyz: &[f64]) -> [f64; 3] {
 
 /// How far the links reach along one axis of the root (`sign` 1) or against it (-1) at each
 /// configuration, and which link that is. The links that stand still are left out.
-fn reaches(
-    robot: &RobotDescription,
-    joint_path: &[[f64; 6]],
-    (axis, sign): (usize, f64),
-) -> Vec<(f64, String)> {
+fn reaches(robot: &RobotDescription, joint_path: &[[f64; 6]], axis: usize, sign: f64) -> Vec<(f64, String)> {
     let folder = tempfile::tempdir().unwrap();
     let batch = folder.path().join("positions.json");
     let named = |q: &[f64; 6]| json!({ "q": UR5E_JOINTS.iter().zip(q).collect::<std::collections::BTreeMap<_, _>>() });
@@ -187,7 +183,7 @@ fn path_into_zone() -> Vec<[f64; 6]> {
 #[test]
 fn case_13_the_first_link_in_a_forbidden_zone_stops_the_motion() {
     let joint_path = path_into_zone();
-    let (step, link) = first_beyond(&reaches(&ur5e(), &joint_path, (1, 1.0)), ZONE_FACE_M);
+    let (step, link) = first_beyond(&reaches(&ur5e(), &joint_path, 1, 1.0), ZONE_FACE_M);
     let (code, report) = run_variant("ur5e_into_zone.toml", &[]);
     assert_eq!((code, &report["verdict"]), (0, &json!("as_expected")));
     let violation = stopped_by(&report, "zone", step);
@@ -289,7 +285,7 @@ fn case_13_a_coming_collision_stops_the_motion() {
             step => between(above_deg, down_deg, quintic((step - 800.0) / 1200.0)),
         })
         .collect();
-    let (step, link) = first_beyond(&reaches(&ur5e(), &joint_path, (2, -1.0)), -MINIMUM_M);
+    let (step, link) = first_beyond(&reaches(&ur5e(), &joint_path, 2, -1.0), -MINIMUM_M);
     let stop = ("minimum_m = 0.02", "minimum_m = 0.02\non_violation = \"stop\"");
     let (code, report) = run_variant("ur5e_into_table.toml", &[stop]);
     assert_eq!(code, 0, "{report:#}");

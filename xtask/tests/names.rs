@@ -4,66 +4,18 @@ mod support;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use support::{code_lines, parts_at_commas, plain_code, program_sources};
+use support::{parts_at_commas, plain_code, program_sources};
 
-/// Names of types that two crates declare today, at least one of them for itself. The goal is an empty list: a reader
-/// who meets a name in a message of the compiler or in a search should not have to ask which of the two it is. No
-/// name is *public* in two crates, and none may be: that list is empty already.
-const DOUBLE_NAMES: &[&str] = &[
-    "Area",
-    "Arm",
-    "Batch",
-    "Block",
-    "ByJoint",
-    "Camera",
-    "Chart",
-    "Count",
-    "Curve",
-    "Distances",
-    "Explanation",
-    "ExplanationRank",
-    "FaultPlace",
-    "Frames",
-    "Instant",
-    "JointParts",
-    "JointQuantity",
-    "JointSweep",
-    "Lanes",
-    "Loss",
-    "Measure",
-    "MimicFollower",
-    "Motion",
-    "MovingBody",
-    "Observed",
-    "Outcome",
-    "Progress",
-    "Results",
-    "Rows",
-    "Sampling",
-    "Shape",
-    "Solution",
-    "ThinnedPath",
-    "Trajectory",
-];
 /// Types that each command or each crate has under one name on purpose.
 const ONE_IN_EACH: &[&str] = &["Arguments"];
-
-/// Most functions with a tuple among their parameters. The goal is the few that take a pair of like values.
-const MOST_WITH_TUPLES: usize = 185;
-/// Most functions with more than five arguments, a tuple counted by its elements. The goal is none.
-const MOST_WITH_MANY: usize = 15;
-/// Most functions with a parameter that is a tuple of more than [`UNLIKE`] values of different types. The goal is none.
-const MOST_WITH_UNLIKE: usize = 12;
-/// Values of different types that a tuple parameter may have.
-const UNLIKE: usize = 2;
 /// Arguments that a function may have; `clippy.toml` counts a tuple as one.
 const MOST_ARGUMENTS: usize = 5;
 
-/// The types that a source declares outside of functions and traits, those with this beginning alone.
-fn types(text: &str, beginning: &str) -> Vec<String> {
+/// The types that a source declares outside of functions and traits.
+fn types(text: &str) -> Vec<String> {
     let code = plain_code(text);
     let mut found = Vec::new();
-    for line in code.lines().filter_map(|line| line.strip_prefix(beginning)) {
+    for line in code.lines().map(|line| line.strip_prefix("pub ").unwrap_or(line)) {
         let mut words = line.split(|letter: char| letter != '_' && !letter.is_alphanumeric());
         if words.next().is_some_and(|kind| ["struct", "enum", "trait", "type", "union"].contains(&kind)) {
             found.extend(words.next().map(str::to_owned));
@@ -72,39 +24,20 @@ fn types(text: &str, beginning: &str) -> Vec<String> {
     found
 }
 
-/// The names that two crates declare or more, with those crates.
-fn doubles(types_of: impl Fn(&str) -> Vec<String>) -> BTreeMap<String, BTreeSet<String>> {
+/// A reader who meets a name in a message of the compiler or in a search should not have to ask which of two it is.
+#[test]
+fn a_name_means_one_type() {
     let mut crates_by_name: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for (name, files) in program_sources() {
-        for found in files.iter().flat_map(|(_, text)| types_of(text)) {
+        for found in files.iter().flat_map(|(_, text)| types(text)) {
             crates_by_name.entry(found).or_default().insert(name.clone());
         }
     }
     crates_by_name.retain(|name, crates| crates.len() > 1 && !ONE_IN_EACH.contains(&name.as_str()));
-    crates_by_name
-}
-
-#[test]
-fn a_public_name_means_one_type() {
-    let is_public = |line: &&str| line.starts_with("pub ");
-    let public = |text: &str| {
-        let lines: Vec<&str> = code_lines(text).filter(is_public).collect();
-        types(&lines.join("\n"), "pub ")
-    };
-    let found = doubles(public);
     assert!(
-        found.is_empty(),
-        "public types of two crates with one name; name each by what it is: {found:#?}"
+        crates_by_name.is_empty(),
+        "types of two crates with one name; name each by what it is: {crates_by_name:#?}"
     );
-}
-
-#[test]
-fn a_name_means_one_type() {
-    let found = doubles(|text| [types(text, ""), types(text, "pub ")].concat());
-    let new: Vec<_> = found.iter().filter(|(name, _)| !DOUBLE_NAMES.contains(&name.as_str())).collect();
-    assert!(new.is_empty(), "types of two crates with one name; name the new one by what it is: {new:#?}");
-    let gone: Vec<_> = DOUBLE_NAMES.iter().filter(|&&name| !found.contains_key(name)).collect();
-    assert!(gone.is_empty(), "no doubles any more, take them off DOUBLE_NAMES: {gone:?}");
 }
 
 /// A function and the types of its parameters, `self` not counted.
@@ -168,44 +101,30 @@ fn argument_count(kind: &str) -> usize {
     elements(kind).map_or(1, |elements| elements.iter().map(|element| argument_count(element)).sum())
 }
 
-/// The elements of a tuple whose types differ; 0 for other types and for tuples of like values.
-fn unlike_count(kind: &str) -> usize {
-    let Some(elements) = elements(kind) else { return 0 };
-    let is_unlike = elements.iter().any(|element| *element != elements[0]);
-    if is_unlike { argument_count(kind) } else { 0 }
+/// Whether a type is a tuple of different things.
+fn is_of_unlike_things(kind: &str) -> bool {
+    elements(kind).is_some_and(|elements| elements.iter().any(|element| *element != elements[0]))
 }
 
 #[test]
 fn arguments_are_not_packed_into_tuples() {
-    let (mut with_tuples, mut with_many, mut unlike) = (Vec::new(), Vec::new(), Vec::new());
+    let mut packed = Vec::new();
     for (file, text) in program_sources().into_values().flatten() {
         for Signature { name, parameters } in signatures(&plain_code(&text)) {
-            let place = format!("{file}: {name}({})", parameters.join(", "));
-            let tuples = parameters.iter().filter(|kind| elements(kind).is_some()).count();
+            let has_tuple = parameters.iter().any(|kind| elements(kind).is_some());
             let arguments: usize = parameters.iter().map(|kind| argument_count(kind)).sum();
-            if tuples > 0 && arguments > MOST_ARGUMENTS {
-                with_many.push(format!("{arguments} {place}"));
-            }
-            if parameters.iter().any(|kind| unlike_count(kind) > UNLIKE) {
-                unlike.push(place.clone());
-            }
-            if tuples > 0 {
-                with_tuples.push(place);
+            let has_unlike = parameters.iter().any(|kind| is_of_unlike_things(kind));
+            if has_unlike || (has_tuple && arguments > MOST_ARGUMENTS) {
+                packed.push(format!("{file}: {name}({})", parameters.join(", ")));
             }
         }
     }
-    for (found, most, what) in [
-        (with_many, MOST_WITH_MANY, "have more than five arguments, a tuple counted by its elements"),
-        (unlike, MOST_WITH_UNLIKE, "have a tuple of three or more unlike things"),
-        (with_tuples, MOST_WITH_TUPLES, "have a tuple among their parameters"),
-    ] {
-        assert!(
-            found.len() <= most,
-            "{} functions {what}, {most} are allowed. Take a struct with named fields, or several parameters:\n{}",
-            found.len(),
-            found.join("\n")
-        );
-    }
+    assert!(
+        packed.is_empty(),
+        "functions with a tuple of unlike things as a parameter, or with more than five arguments, a tuple counted by its \
+         elements. Take several parameters, or a struct with named fields:\n{}",
+        packed.join("\n")
+    );
 }
 
 #[test]
@@ -218,5 +137,6 @@ fn tuples_are_counted_by_their_elements() {
         .collect();
     let expected = [("packed".to_owned(), vec![2, 3, 1]), ("plain".to_owned(), vec![1, 1])];
     assert_eq!(found, expected);
-    assert_eq!(["(f64, f64)", "(f64, u8)", "&(u8, u8, f64)", "f64"].map(unlike_count), [0, 2, 3, 0]);
+    let kinds = ["(f64, f64)", "(f64, u8)", "&(u8, u8, f64)", "f64"];
+    assert_eq!(kinds.map(is_of_unlike_things), [false, true, true, false]);
 }

@@ -5,7 +5,7 @@ mod support;
 
 use std::f64::consts::PI;
 
-use congruent_agreement::bound::{Bracket, Budget, Certificate, certify, certify_driven};
+use congruent_agreement::bound::{Bracket, Budget, Certificate, DrivenScrews, certify, certify_driven};
 use congruent_description::{ChainQ, DhConvention};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain, Twist};
 use nalgebra::{Isometry3, Vector3};
@@ -74,7 +74,7 @@ fn equal_chains_are_zero_apart() {
 fn one_robot_written_twice_is_certified_at_rounding_level() {
     let robot = ur5e_table().robot();
     let (base, tip) = (robot.root(), robot.find_link("tip").unwrap());
-    let urdf = ScrewChain::from_urdf(&robot, (base, tip), &[0, 1, 2, 3, 4, 5]).unwrap();
+    let urdf = ScrewChain::from_urdf(&robot, base, tip, &[0, 1, 2, 3, 4, 5]).unwrap();
     let certificate = certify(&chain(&ur5e_table()), &urdf, &[TURN; 6], Budget::default()).unwrap();
     assert!(support::within(certificate.position_m.certified, IDENTIFIED));
     assert!(support::within(certificate.orientation_rad.certified, IDENTIFIED));
@@ -223,10 +223,10 @@ fn more_than_one_turn_repeats_itself() {
 fn parallel_joints_in_another_order_agree_in_orientation() {
     // The same two lengths, the joints exchanged: shoulder and elbow trade their parts.
     let arm = chain(&planar(0.4));
-    let (in_order, exchanged): (&[usize], &[usize]) = (&[0, 1], &[1, 0]);
+    let [in_order, exchanged] =
+        [[0, 1], [1, 0]].map(|drivers| DrivenScrews { chain: arm.clone(), drivers: drivers.to_vec() });
     let ranges = [TURN, (-0.5, 0.5)];
-    let certificate =
-        certify_driven((&arm, in_order), (&arm, exchanged), &ranges, Budget::default()).unwrap();
+    let certificate = certify_driven(&in_order, &exchanged, &ranges, Budget::default()).unwrap();
     assert_exact(&certificate.orientation_rad, 0.0);
     let apart = |q: [f64; 2]| {
         let tip = |q1: f64, q2: f64| {

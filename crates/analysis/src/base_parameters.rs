@@ -1,6 +1,6 @@
 //! `congruent derive --base-parameters`: the combinations of inertial parameters that are identifiable from joint torques.
 
-use congruent_description::{RobotDescription, RobotQ};
+use congruent_description::{JointIndex, RobotDescription, RobotQ};
 use congruent_dynamics::{BodyTree, DynamicsError, InertialParameter, JointMotionState};
 use congruent_input::Finding;
 use congruent_kinematics::{Uniform, range};
@@ -100,11 +100,15 @@ pub fn base_parameters(
     let mut random = Uniform::seeded(seed);
     // All rates are drawn before the positions: the order of the draws fixes the motions of a seed.
     let mut rates =
-        |count: usize| -> Vec<f64> { (0..count).map(|_| random.between((-FASTEST, FASTEST))).collect() };
+        |count: usize| -> Vec<f64> { (0..count).map(|_| random.between(-FASTEST, FASTEST)).collect() };
     let moving: Vec<(Vec<f64>, Vec<f64>)> =
         (0..MOTIONS).map(|_| (rates(robot.dof()), rates(robot.dof()))).collect();
     let mut place = || -> RobotQ {
-        robot.movable_joints().iter().map(|&joint| random.between(range(robot.joint(joint)))).collect()
+        let draw = |&joint: &JointIndex| {
+            let (lower, upper) = range(robot.joint(joint));
+            random.between(lower, upper)
+        };
+        robot.movable_joints().iter().map(draw).collect()
     };
     let places: Vec<RobotQ> = (0..MOTIONS).map(|_| place()).collect();
     let motions: Vec<JointMotionState<'_>> =

@@ -28,9 +28,11 @@ pub struct PointPayload {
     pub position_m: [f64; 3],
 }
 
-/// Options of `congruent dynamics`: friction and payload.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Options of `congruent dynamics`: source, friction and payload.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DynamicsOptions {
+    /// What computes the dynamics.
+    pub source: DynamicsSource,
     /// Whether the damping and dry friction of the description count.
     pub friction: bool,
     /// A mass that the tool carries.
@@ -151,21 +153,22 @@ pub fn robot_with_options(
 /// # Errors
 /// The source refuses the first state.
 pub fn dynamics<'a>(
-    (description, robot): (&RobotDescription, &Robot),
+    description: &RobotDescription,
+    robot: &Robot,
     options: &DynamicsOptions,
-    (source, mut by): (DynamicsSource, Box<dyn JointDynamics + 'a>),
+    mut by: Box<dyn JointDynamics + 'a>,
     states: &'a JointStateList,
 ) -> Result<JointDynamicsReport<DynamicsStream<'a>>, Diagnostic> {
     let at = move |state: JointState| DynamicsResult::at(&state, &mut *by).map_err(|error| refused(&error));
     let results = Stream::begin(states.iter().map(at))?;
-    let at_rest = stiction(robot, (source, options), states);
+    let at_rest = stiction(robot, options, states);
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     Ok(JointDynamicsReport {
         robot: robot.name().to_owned(),
         chain: description.reported_chain(),
         joints: joints().map(|joint| joint.name.clone()).collect(),
         units: joints().map(|joint| joint.kind.si_unit()).collect(),
-        source,
+        source: options.source,
         friction: options.friction,
         payload: options.payload,
         results,
@@ -179,13 +182,9 @@ pub fn refused(error: &dyn std::error::Error) -> Diagnostic {
 }
 
 /// A warning if joints are at rest that dry friction may hold, and the source does not model this.
-pub fn stiction(
-    robot: &Robot,
-    (source, options): (DynamicsSource, &DynamicsOptions),
-    states: &JointStateList,
-) -> Option<Diagnostic> {
+pub fn stiction(robot: &Robot, options: &DynamicsOptions, states: &JointStateList) -> Option<Diagnostic> {
     // The physics engine models stiction; without friction there is nothing to hold.
-    if source != DynamicsSource::Model || !options.friction {
+    if options.source != DynamicsSource::Model || !options.friction {
         return None;
     }
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint)).enumerate();

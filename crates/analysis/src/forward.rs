@@ -104,7 +104,7 @@ impl ForwardReport<PoseStream<'_>> {
         let [from, to] = [from, to].map(|frame| frame.map(str::to_owned));
         let results = {
             let (from, to) = (from.clone(), to.clone());
-            self.results.map(move |poses| poses.between((source, &root), from.as_deref(), to.as_deref()))?
+            self.results.map(move |poses| poses.between(source, &root, from.as_deref(), to.as_deref()))?
         };
         Ok(Self { from: from.unwrap_or(self.from), to, results, ..self })
     }
@@ -113,7 +113,8 @@ impl ForwardReport<PoseStream<'_>> {
 impl ReportedLinkPoses {
     fn between(
         self,
-        (source, root): (Source, &str),
+        source: Source,
+        root: &str,
         from: Option<&str>,
         to: Option<&str>,
     ) -> Result<Self, Diagnostic> {
@@ -153,7 +154,8 @@ fn unknown_frame(name: &str, source: Source, links: &[(String, ReportedPose)]) -
 /// [`ForwardError`] if the source refuses the first configuration.
 pub fn forward<'a>(
     description: &'a RobotDescription,
-    (source, mut link_poses): (Source, Box<dyn LinkPoses + 'a>),
+    source: Source,
+    mut link_poses: Box<dyn LinkPoses + 'a>,
     configurations: impl Iterator<Item = RobotQ> + 'a,
 ) -> Result<ForwardReport<PoseStream<'a>>, Diagnostic> {
     let robot = &description.robot;

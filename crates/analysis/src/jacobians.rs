@@ -141,7 +141,7 @@ pub fn jacobians<'a>(
     let tree = UrdfTree::new(&description.robot);
     let (link, link_from_frame) = frame.in_link();
     let at = move |q: RobotQ| {
-        let jacobian = tree.jacobian_of_frame(&q, (link, &link_from_frame), kind)?;
+        let jacobian = tree.jacobian_of_frame(&q, link, &link_from_frame, kind)?;
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative: None })
     };
     report(description, frame, kind, configurations.map(at))
@@ -160,7 +160,7 @@ pub fn jacobians_in_motion<'a>(
     let tree = UrdfTree::new(&description.robot);
     let (link, link_from_frame) = frame.in_link();
     let at = move |JointState { q, qd, .. }: JointState| {
-        let jacobian = tree.jacobian_of_frame(&q, (link, &link_from_frame), kind)?;
+        let jacobian = tree.jacobian_of_frame(&q, link, &link_from_frame, kind)?;
         let derivative = Some(JacobianBlocks::from(&jacobian.rate(&qd)?));
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative })
     };

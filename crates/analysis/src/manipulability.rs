@@ -199,6 +199,7 @@ fn outline(
     let seen = Matrix2x3::from_fn(|row, column| {
         ellipsoid.axes[column][axes[row]] * ellipsoid.semi_axes[column] * scale
     });
+    // The shadow of an ellipsoid is an ellipse, whose squared semi-axes are the eigenvalues of P P'.
     let eigen = (seen * seen.transpose()).symmetric_eigen();
     (0..=CORNERS).map(move |corner| {
         let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS));

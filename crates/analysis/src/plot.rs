@@ -30,7 +30,7 @@ const GREY: RGBColor = RGBColor(90, 90, 90);
 const FONT: &str = "sans-serif";
 const TITLE_PX: u32 = 44;
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type PlotArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// One bar: its length, and a mark within it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,7 +67,7 @@ pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
     let name_px = chart.groups.iter().map(|(name, _)| name.len()).max().unwrap_or(0) * 7 + 24;
     let mut svg = String::new();
     {
-        let root = page(&mut svg, (860, height), &chart.title)?;
+        let root = page(&mut svg, 860, height, &chart.title)?;
         let mut plane = ChartBuilder::on(&root)
             .margin(12)
             .margin_top(TITLE_PX + 22)
@@ -85,14 +85,14 @@ pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
         let mut row = 0.5;
         for (name, bars) in &chart.groups {
             let middle = plane.backend_coord(&(0.0, row + as_f64(bars.len()) / 2.0));
-            text(&root, name, (middle.0 - 8, middle.1), HPos::Right)?;
+            text(&root, name, middle.0 - 8, middle.1, HPos::Right)?;
             for (series, bar) in bars.iter().enumerate() {
                 let corners = [(0.0, row + 0.06), (bar.worst, row + 0.94)];
                 plane.draw_series([Rectangle::new(corners, colour(series).filled())])?;
                 let mark = vec![(bar.mean, row + 0.06), (bar.mean, row + 0.94)];
                 plane.draw_series([PathElement::new(mark, WHITE.stroke_width(2))])?;
                 let end = plane.backend_coord(&(bar.worst, row + 0.5));
-                text(&root, &format!("{:.3}", bar.worst), (end.0 + 5, end.1), HPos::Left)?;
+                text(&root, &format!("{:.3}", bar.worst), end.0 + 5, end.1, HPos::Left)?;
                 row += 1.0;
             }
             row += 1.0;
@@ -135,7 +135,7 @@ pub fn errors(chart: &ErrorChart) -> Result<String, PlotError> {
     let count = u32::try_from(chart.panels.len().max(1)).unwrap_or(1);
     let mut svg = String::new();
     {
-        let root = page(&mut svg, (860, TITLE_PX + 24 + PANEL_PX * count), &chart.title)?;
+        let root = page(&mut svg, 860, TITLE_PX + 24 + PANEL_PX * count, &chart.title)?;
         legend(&root, &chart.series)?;
         let (_, below) = root.split_vertically(TITLE_PX + 20);
         for (area, panel) in below.split_evenly((chart.panels.len().max(1), 1)).iter().zip(&chart.panels) {
@@ -145,7 +145,7 @@ pub fn errors(chart: &ErrorChart) -> Result<String, PlotError> {
     Ok(svg)
 }
 
-fn draw_errors(area: &Area<'_>, panel: &ErrorPanel) -> Result<(), PlotError> {
+fn draw_errors(area: &PlotArea<'_>, panel: &ErrorPanel) -> Result<(), PlotError> {
     let all = || panel.values.iter().flatten().copied().filter(|value| value.is_finite());
     let largest = all().fold(0.0, f64::max);
     // Without any error the tolerance alone gives the scale.
@@ -185,7 +185,7 @@ fn draw_errors(area: &Area<'_>, panel: &ErrorPanel) -> Result<(), PlotError> {
     }
     let place = if is_above { ", above the chart" } else { " (grey line)" };
     let tolerance = format!("tolerance {} {}{place}", number(panel.tolerance), panel.unit);
-    text(area, &tolerance, (80, 12), HPos::Left)
+    text(area, &tolerance, 80, 12, HPos::Left)
 }
 
 /// A curve in a plane view.
@@ -219,10 +219,12 @@ pub fn views(title: &str, series: &[String], views: &[PlaneView]) -> Result<Stri
     /// Room for the title.
     const NARROWEST_PX: u32 = 620;
     let count = u32::try_from(views.len().max(1)).unwrap_or(1);
+    // One scale for all views, so that they can be compared.
     let radius = views.iter().map(|view| span(view).1).fold(f64::MIN_POSITIVE, f64::max) * 1.06;
     let mut svg = String::new();
     {
-        let root = page(&mut svg, ((VIEW_PX * count).max(NARROWEST_PX), VIEW_PX + TITLE_PX + 24), title)?;
+        let width = (VIEW_PX * count).max(NARROWEST_PX);
+        let root = page(&mut svg, width, VIEW_PX + TITLE_PX + 24, title)?;
         legend(&root, series)?;
         let (_, below) = root.split_vertically(TITLE_PX + 20);
         for (area, view) in below.split_evenly((1, views.len().max(1))).iter().zip(views) {
@@ -232,7 +234,7 @@ pub fn views(title: &str, series: &[String], views: &[PlaneView]) -> Result<Stri
     Ok(svg)
 }
 
-fn draw_view(area: &Area<'_>, view: &PlaneView, radius: f64) -> Result<(), PlotError> {
+fn draw_view(area: &PlotArea<'_>, view: &PlaneView, radius: f64) -> Result<(), PlotError> {
     let ([x, y], _) = span(view);
     let mut builder = ChartBuilder::on(area);
     builder.margin(14).x_label_area_size(44).y_label_area_size(56);
@@ -280,27 +282,27 @@ fn span(view: &PlaneView) -> ([f64; 2], f64) {
     ([0, 1].map(|axis| f64::midpoint(lower[axis], upper[axis])), half)
 }
 
-fn page<'a>(svg: &'a mut String, size: (u32, u32), title: &str) -> Result<Area<'a>, PlotError> {
-    let root = SVGBackend::with_string(svg, size).into_drawing_area();
+fn page<'a>(svg: &'a mut String, width: u32, height: u32, title: &str) -> Result<PlotArea<'a>, PlotError> {
+    let root = SVGBackend::with_string(svg, (width, height)).into_drawing_area();
     root.fill(&WHITE)?;
     let style = (FONT, 18).into_font().color(&BLACK);
     root.draw(&Text::new(title.to_owned(), (16, 14), style))?;
     Ok(root)
 }
 
-fn legend(root: &Area<'_>, series: &[String]) -> Result<(), PlotError> {
+fn legend(root: &PlotArea<'_>, series: &[String]) -> Result<(), PlotError> {
     let mut left = 16;
     for (index, name) in series.iter().enumerate() {
         root.draw(&Rectangle::new([(left, 44), (left + 12, 56)], colour(index).filled()))?;
-        text(root, name, (left + 18, 50), HPos::Left)?;
+        text(root, name, left + 18, 50, HPos::Left)?;
         left += 40 + 7 * i32::try_from(name.len()).unwrap_or(0);
     }
     Ok(())
 }
 
-fn text(root: &Area<'_>, words: &str, at: (i32, i32), side: HPos) -> Result<(), PlotError> {
+fn text(root: &PlotArea<'_>, words: &str, x: i32, y: i32, side: HPos) -> Result<(), PlotError> {
     let style = TextStyle::from((FONT, 13).into_font()).color(&BLACK).pos(Pos::new(side, VPos::Center));
-    root.draw(&Text::new(words.to_owned(), at, style))?;
+    root.draw(&Text::new(words.to_owned(), (x, y), style))?;
     Ok(())
 }
 

@@ -148,6 +148,7 @@ fn zero_effects(arm: &Arm, names: &[String], sampling: Sampling) -> Vec<FoundDis
         let mut shifted = ArmQ::zeros(names.len());
         let pair = |q: &ArmQ| {
             shifted.copy_from_slice(q);
+            // A wrong zero: the joint is elsewhere than its coordinate says.
             shifted[at] += error.in_si();
             let pose = |arm: &mut Arm, q: &ArmQ| arm.base_from_tcp(q).expect("q is a configuration");
             (pose(&mut nominal, q), pose(&mut perturbed, &shifted))

@@ -30,6 +30,7 @@ impl<'a, T: 'a> Stream<'a, T> {
     /// The first result cannot be computed.
     pub fn begin(results: impl Iterator<Item = Result<T, Diagnostic>> + 'a) -> Result<Self, Diagnostic> {
         let mut results: Results<'a, T> = (Box::new(results) as Box<dyn Iterator<Item = _> + 'a>).peekable();
+        // The first result now: a source that refuses is an error of the call, before anything is written.
         match results.next_if(Result::is_err) {
             Some(Err(fault)) => Err(fault),
             _ => Ok(Self { results: results.into(), fault: None.into() }),

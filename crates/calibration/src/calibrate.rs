@@ -60,7 +60,7 @@ pub fn calibrate(
         None => fit_with_estimated_noise(problem, kept),
     };
     let robustly = |problem: &Problem<'_>, kept: &[usize]| {
-        fit_robustly(problem, kept, options.loss, (&plain(problem, kept), options.noise))
+        fit_robustly(problem, kept, options.loss, &plain(problem, kept), options.noise)
     };
     let least_squares = plain(&problem, &identification.kept);
     let robust = robustly(&problem, &identification.kept);
@@ -77,7 +77,7 @@ pub fn calibrate(
     let is_noise_known = redundancy > 0 || options.noise.is_some();
     // Without redundancy the residuals are zero, and so would be the noise: every gain would be infinite.
     let noise = if is_noise_known { best.noise } else { ordinary_noise(&problem) };
-    let next = most_informative(&problem, (&best.corrections, &noise), &in_chain, options.suggestions);
+    let next = most_informative(&problem, &best.corrections, &noise, &in_chain, options.suggestions);
     let computed = Computed {
         description,
         options,

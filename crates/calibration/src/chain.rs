@@ -34,13 +34,13 @@ impl<'a> NominalChain<'a> {
         let (mut chain, coordinates) = if let Some((_, dh)) = &table {
             (ScrewChain::from_dh(dh, robot.dof()).map_err(refused)?, dh.coordinates().to_vec())
         } else {
-            let ends = (description.base, description.tip);
-            let coordinates = moving(robot, ends).ok_or_else(|| {
+            let (base, tip) = (description.base, description.tip);
+            let coordinates = moving(robot, base, tip).ok_or_else(|| {
                 let message =
                     format!("robot \"{}\": no joint moves the tip relative to the base", robot.name());
                 Diagnostic::error("calibrate::robot", message)
             })?;
-            (ScrewChain::from_urdf(robot, ends, &coordinates).map_err(refused)?, coordinates)
+            (ScrewChain::from_urdf(robot, base, tip, &coordinates).map_err(refused)?, coordinates)
         };
         let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
         chain.base_from_tip_at_zero = chain.base_from_tip_at_zero * tip_from_tcp;
@@ -72,7 +72,7 @@ impl<'a> NominalChain<'a> {
 }
 
 /// Indices, in the configuration vector, of the joints that move the tip relative to the base; `None` if there are none.
-fn moving(robot: &Robot, (base, tip): (LinkIndex, LinkIndex)) -> Option<Vec<usize>> {
+fn moving(robot: &Robot, base: LinkIndex, tip: LinkIndex) -> Option<Vec<usize>> {
     let joints = robot.chain(base, tip)?;
     let coordinates: Vec<usize> = joints.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
     (!coordinates.is_empty()).then_some(coordinates)

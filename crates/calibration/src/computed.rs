@@ -47,7 +47,7 @@ impl Computed<'_> {
         !self.outlier_rows.is_empty()
     }
 
-    /// The recommended estimate.
+    /// The recommended estimate: the robust one if there is an outlier, else least squares.
     pub(crate) fn best(&self) -> &CalibrationFit {
         if self.is_robust_best() { &self.robust.fit } else { &self.least_squares }
     }

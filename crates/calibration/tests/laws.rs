@@ -105,7 +105,7 @@ proptest! {
         }
         let worst = fit.residuals.iter().map(|each| each.position_m.norm()).fold(0.0, f64::max);
         prop_assert!(support::within(worst, ROUNDING));
-        let robust = fit_robustly(&problem, &found.kept, Loss::Tukey, (&fit, None));
+        let robust = fit_robustly(&problem, &found.kept, Loss::Tukey, &fit, None);
         prop_assert!(robust.outliers.is_empty());
     }
 }

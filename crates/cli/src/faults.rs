@@ -19,7 +19,7 @@ use crate::{
     output::file::replace,
     terminal::{
         print::Printer,
-        progress::{Progress, RunProgress},
+        progress::{ProgressLines, RunProgress},
     },
 };
 
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         Ok(setup)
     };
     let document = arguments.markdown.as_deref().map(MarkdownDocument::read).transpose()?;
-    let progress = Progress::new(printer);
+    let progress = ProgressLines::new(printer);
     let (mut reports, mut exit_code) = (Vec::new(), 0);
     for path in &arguments.scenarios {
         match load(path).and_then(|setup| report(&setup, &progress.start_run(&setup))) {

@@ -31,7 +31,7 @@ pub fn forward<'a>(
         Source::Poe => Box::new(ScrewTree::new(robot)),
         Source::Simulation => Box::new(simulated_poses(description)?),
     };
-    Ok(congruent_analysis::forward::forward(description, (source, link_poses), configurations)?)
+    Ok(congruent_analysis::forward::forward(description, source, link_poses, configurations)?)
 }
 
 /// The physics of a robot, or the findings for which it cannot be built.
@@ -47,13 +47,13 @@ pub(crate) fn simulated_poses(description: &RobotDescription) -> Result<Simulate
 /// # Errors
 /// The findings for which the robot has no dynamics, or what a source says that refuses a state.
 pub fn joint_dynamics<'a>(
-    (description, robot): (&RobotDescription, &'a Robot),
-    source: DynamicsSource,
+    description: &RobotDescription,
+    robot: &'a Robot,
     options: &DynamicsOptions,
     states: &'a JointStateList,
 ) -> Result<JointDynamicsReport<DynamicsStream<'a>>, Findings> {
     description.check_capability(Capability::Physics)?;
-    let mut by: Box<dyn JointDynamics + 'a> = match source {
+    let mut by: Box<dyn JointDynamics + 'a> = match options.source {
         DynamicsSource::Model => Box::new(TreeDynamics::new(robot)),
         DynamicsSource::Simulation => {
             Box::new(SimulatedDynamics::new(robot).map_err(|error| refused(&error))?)
@@ -64,28 +64,28 @@ pub fn joint_dynamics<'a>(
         match DynamicsResult::at(&state, &mut *by) {
             Ok(result) if result.is_finite() => {}
             // A number that overflows may look like a joint without inertia.
-            Ok(_) => return Err(beyond_numbers((description, robot), states).into()),
+            Ok(_) => return Err(beyond_numbers(description, robot, states).into()),
             Err(error) => {
-                return Err(match largest_value((description, robot), states) {
-                    (_, value, _) if value > LARGEST_VALUE => beyond_numbers((description, robot), states),
+                return Err(match largest_value(description, robot, states) {
+                    (_, value, _) if value > LARGEST_VALUE => beyond_numbers(description, robot, states),
                     _ => refused(&error),
                 }
                 .into());
             }
         }
     }
-    Ok(dynamics((description, robot), options, (source, by), states)?)
+    Ok(dynamics(description, robot, options, by, states)?)
 }
 
 /// Squares of larger values times lengths and speeds overflow. Kind: range of numbers.
 const LARGEST_VALUE: f64 = 1e100;
 
 /// The finding that torques overflow, with the largest value as the likely cause.
-fn beyond_numbers(robot: (&RobotDescription, &Robot), states: &JointStateList) -> Diagnostic {
-    let (what, value, span) = largest_value(robot, states);
+fn beyond_numbers(description: &RobotDescription, robot: &Robot, states: &JointStateList) -> Diagnostic {
+    let (what, value, span) = largest_value(description, robot, states);
     let message = format!("{what} = {value:e} is too large: the computed torques are not finite");
     let found = Diagnostic::error("dynamics::overflow", message);
-    match (span, robot.0.places.urdf.as_ref()) {
+    match (span, description.places.urdf.as_ref()) {
         (Some(span), Some(places)) => found.at(span).in_file(places.source()),
         _ => found,
     }
@@ -93,7 +93,8 @@ fn beyond_numbers(robot: (&RobotDescription, &Robot), states: &JointStateList) -
 
 /// The largest value of masses, inertias, friction and states, what it is and where the URDF says it.
 fn largest_value(
-    (description, robot): (&RobotDescription, &Robot),
+    description: &RobotDescription,
+    robot: &Robot,
     states: &JointStateList,
 ) -> (String, f64, Option<Range<usize>>) {
     let places = description.places.urdf.as_ref();

@@ -127,8 +127,7 @@ fn a_source_of_torques() {
             let description = NamedModel { name: "arm.urdf", model: &file, places: None };
             let mut engine = Engine(imported.tree());
             let options = IdentificationOptions { seed: 1, step_s: 1e-4 };
-            let report =
-                compare_with_source(&description, ("engine", &mut engine), options).expect("it runs");
+            let report = compare_with_source(&description, "engine", &mut engine, options).expect("it runs");
             let explanations = report.explanations.iter().chain(&report.indistinguishable);
             explanations
                 .flat_map(|found| {

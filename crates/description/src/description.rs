@@ -126,12 +126,12 @@ impl RobotDescription {
                 .with_help("the tip must be a link below the base: choose another --tip or --base, or other keys tip and base"));
         }
         if before != (self.base, self.tip) {
-            self.drop_table(before);
+            self.drop_table(before.0, before.1);
         }
         Ok(self.with_tip_warning())
     }
 
-    fn drop_table(&mut self, (base, tip): (LinkIndex, LinkIndex)) {
+    fn drop_table(&mut self, base: LinkIndex, tip: LinkIndex) {
         let (table, inertials) = (self.dh.take(), self.dynamics.take());
         let dropped = match (table, inertials) {
             (Some(_), Some(_)) => Some(("[dh] table and the [[inertial]] entries describe", "they are")),

@@ -155,7 +155,7 @@ pub fn parse_robot(
 }
 
 fn load_bare_urdf(urdf: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
-    let (robot, warnings) = load_urdf(urdf, (BTreeMap::new(), access), &Repairs::default())?;
+    let (robot, warnings) = load_urdf(urdf, BTreeMap::new(), access, &Repairs::default())?;
     Ok(bare(urdf, robot, warnings))
 }
 
@@ -187,7 +187,8 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
 /// Reads a URDF with its meshes.
 fn load_urdf(
     source: &Arc<SourceFile>,
-    (declared, access): (BTreeMap<String, PathBuf>, &FileAccess),
+    declared: BTreeMap<String, PathBuf>,
+    access: &FileAccess,
     repairs: &Repairs,
 ) -> Result<(Robot, Vec<Diagnostic>), Findings> {
     let path = &source.path;
@@ -252,7 +253,7 @@ fn read_robot_file(
 ) -> Option<RobotDescription> {
     let (written, urdf_path) = written_robot(robot_file, access, diagnostics)?;
     let folder = folder_of(&robot_file.path);
-    let packages = declared_packages(&written, (folder, access), diagnostics);
+    let packages = declared_packages(&written, folder, access, diagnostics);
     let named_files = NamedFiles {
         srdf: written.srdf.as_ref().map(|srdf| folder.join(srdf.get_ref())),
         packages: packages.clone(),
@@ -260,7 +261,7 @@ fn read_robot_file(
     let repairs = written.repairs(robot_file);
     // If the URDF cannot be used, nothing after it can be checked: names of links and joints would all be unknown.
     let urdf = access.read_text(&urdf_path, URDF_BYTES).map_err(Findings::from);
-    let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, (packages, access), &repairs)?, urdf)));
+    let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, packages, access, &repairs)?, urdf)));
     let ((robot, warnings), urdf) = match robot {
         Ok(read) => read,
         Err(faults) => {
@@ -271,7 +272,7 @@ fn read_robot_file(
     };
     diagnostics.extend(warnings);
     let srdf = written.srdf.clone();
-    let disabled_collisions = disabled_collisions(srdf.as_ref(), (folder, access), &robot, diagnostics);
+    let disabled_collisions = disabled_collisions(srdf.as_ref(), folder, access, &robot, diagnostics);
     let description = declared(written, robot_file, &urdf, robot, diagnostics)?;
     Some(RobotDescription { named_files, disabled_collisions, ..description })
 }
@@ -316,7 +317,8 @@ fn declared(
 
 fn disabled_collisions(
     srdf: Option<&Spanned<PathBuf>>,
-    (folder, access): (&Path, &FileAccess),
+    folder: &Path,
+    access: &FileAccess,
     robot: &Robot,
     diagnostics: &mut Diagnostics,
 ) -> BTreeSet<(LinkIndex, LinkIndex)> {
@@ -366,7 +368,8 @@ fn written_robot(
 
 fn declared_packages(
     written: &WrittenRobot,
-    (folder, access): (&Path, &FileAccess),
+    folder: &Path,
+    access: &FileAccess,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, PathBuf> {
     let mut resolve = |(name, written): (&String, &Spanned<PathBuf>)| {

@@ -79,11 +79,11 @@ fn certificates(all: &TorqueCertificates) -> [(&'static str, &TorqueCertificate)
 /// Speeds and accelerations mostly at their limits, where torques are large.
 fn random_motion(random: &mut Uniform, covered: &[CoveredMotion]) -> Motion {
     let mut part = |of: &dyn Fn(&CoveredMotion) -> f64| -> Vec<f64> {
-        let share = |random: &mut Uniform| (2.0 * random.between((-1.0, 1.0))).clamp(-1.0, 1.0);
+        let share = |random: &mut Uniform| (2.0 * random.between(-1.0, 1.0)).clamp(-1.0, 1.0);
         covered.iter().map(|covered| share(random) * of(covered)).collect()
     };
     let (qd, qdd) = (part(&|covered| covered.speed), part(&|covered| covered.acceleration));
-    let q = covered.iter().map(|covered| random.between((covered.lower, covered.upper))).collect();
+    let q = covered.iter().map(|covered| random.between(covered.lower, covered.upper)).collect();
     Motion { q, qd, qdd }
 }
 

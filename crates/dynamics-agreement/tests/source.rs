@@ -47,7 +47,7 @@ fn identified(
     engine: &mut dyn AccelerationSource,
 ) -> Result<DynamicsReport, CompareError> {
     let description = NamedModel { name: "file", model: candidate, places: None };
-    compare_with_source(&description, ("engine", engine), IdentificationOptions { seed: 1, step_s: 1e-4 })
+    compare_with_source(&description, "engine", engine, IdentificationOptions { seed: 1, step_s: 1e-4 })
 }
 
 fn compared(name: &str, change: impl Fn(&mut DynamicsModel)) -> DynamicsReport {

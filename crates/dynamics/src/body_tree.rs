@@ -36,7 +36,7 @@ pub struct BodyTree {
     pub(crate) bodies: Vec<TreeBody>,
     pub(crate) resistances: Vec<JointResistance>,
     pub(crate) gravity_in_root: Vector3<f64>,
-    pub(crate) mimics: Vec<Option<MimicFollower>>,
+    pub(crate) mimics: Vec<Option<FollowerRatio>>,
     /// The joints without a master.
     pub(crate) independent: Vec<usize>,
     joint_names: Vec<String>,
@@ -61,7 +61,7 @@ pub(crate) struct TreeBody {
 
 /// A coordinate that follows another one rigidly.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct MimicFollower {
+pub(crate) struct FollowerRatio {
     pub(crate) master: usize,
     pub(crate) ratio: f64,
 }
@@ -96,6 +96,7 @@ impl BodyTree {
         };
         // For each link the body that it belongs to, and its pose in it.
         let mut carriers: Vec<(Option<usize>, Pose)> = vec![(None, Pose::identity()); robot.links().len()];
+        // Parents come before children, so a parent's carrier is known.
         for joint in robot.joints() {
             let (parent, parent_from_link) = carriers[joint.parent.get()];
             let parent_from_joint = parent_from_link * Pose::from(joint.parent_from_joint);
@@ -115,15 +116,18 @@ impl BodyTree {
                     link: joint.child,
                 });
                 let (damping, friction) = (joint.damping, joint.friction);
+                // A URDF has no armature.
                 tree.resistances.push(JointResistance { damping, friction, armature: 0.0 });
                 tree.mimics.push(joint.mimic.and_then(|mimic| {
-                    Some(MimicFollower { master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
+                    Some(FollowerRatio { master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
                 }));
                 (Some(tree.bodies.len() - 1), joint_from_body.inverse())
             } else {
+                // A fixed joint makes no body: its link belongs to the parent's.
                 (parent, parent_from_joint)
             };
         }
+        // After all bodies are there; links on the root are at rest and add to no torque.
         for (link, (body, body_from_link)) in robot.links().iter().zip(carriers) {
             if let (Some(body), Some(inertia)) = (body, &link.inertia) {
                 let inertia = SpatialInertia::from_link(inertia).transformed_by(&body_from_link);

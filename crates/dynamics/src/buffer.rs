@@ -85,6 +85,7 @@ impl BodyTree {
     /// Sine and cosine of every turning joint.
     pub(crate) fn turn(&self, q: &[f64], buffer: &mut DynamicsBuffer) {
         for ((angle_rad, body), &q) in buffer.angles_rad.iter_mut().zip(&self.bodies).zip(q) {
+            // Sliding joints turn by 0, so that all sines are computed in one pass without a branch.
             *angle_rad = if body.frame.turns { q } else { 0.0 };
         }
         SinCos::from_angles_into(&buffer.angles_rad, &mut buffer.turns);

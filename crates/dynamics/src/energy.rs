@@ -15,7 +15,7 @@ pub struct Energy {
 }
 
 /// A body in motion, in the root's frame.
-struct MovingBody {
+struct BodyInRoot {
     inertia_in_root: SpatialInertia,
     twist_in_root: Twist,
 }
@@ -29,7 +29,8 @@ impl BodyTree {
     /// [`DynamicsError::Length`] if a vector is another robot's.
     pub fn energy(&self, q: &RobotQ, qd: &[f64]) -> Result<Energy, DynamicsError> {
         let mut energy = Energy { kinetic_j: 0.0, potential_j: 0.0 };
-        for MovingBody { inertia_in_root, twist_in_root } in self.moving_bodies(q, qd)? {
+        for BodyInRoot { inertia_in_root, twist_in_root } in self.moving_bodies(q, qd)? {
+            // Half the power of momentum and twist.
             energy.kinetic_j += inertia_in_root.momentum(&twist_in_root).power(&twist_in_root) / 2.0;
             // Mass times position of the centre of mass is the first moment about the root's origin: V = -g . (m
             // c).
@@ -47,7 +48,7 @@ impl BodyTree {
     /// [`DynamicsError::Length`] if a vector is another robot's.
     pub fn momentum_in_root(&self, q: &RobotQ, qd: &[f64]) -> Result<Wrench, DynamicsError> {
         let mut sum = Wrench::zero();
-        for MovingBody { inertia_in_root, twist_in_root } in self.moving_bodies(q, qd)? {
+        for BodyInRoot { inertia_in_root, twist_in_root } in self.moving_bodies(q, qd)? {
             let momentum = inertia_in_root.momentum(&twist_in_root);
             sum.moment += momentum.moment;
             sum.force += momentum.force;
@@ -56,11 +57,11 @@ impl BodyTree {
     }
 
     /// Each body in the root's frame, parents first.
-    fn moving_bodies(&self, q: &RobotQ, qd: &[f64]) -> Result<Vec<MovingBody>, DynamicsError> {
+    fn moving_bodies(&self, q: &RobotQ, qd: &[f64]) -> Result<Vec<BodyInRoot>, DynamicsError> {
         DynamicsError::check("positions", self.dof(), q)?;
         DynamicsError::check("speeds", self.dof(), qd)?;
         let mut root_from_bodies: Vec<Pose> = Vec::with_capacity(self.dof());
-        let mut moving: Vec<MovingBody> = Vec::with_capacity(self.dof());
+        let mut moving: Vec<BodyInRoot> = Vec::with_capacity(self.dof());
         for (joint, body) in self.bodies.iter().enumerate() {
             let (root_from_parent, parent) =
                 body.parent.map_or((Pose::identity(), Twist::zero()), |parent| {
@@ -68,7 +69,7 @@ impl BodyTree {
                 });
             let root_from_body = root_from_parent * body.parent_from_body_at(q[joint]);
             let axis_in_root = body.axis().transformed_by(&root_from_body);
-            moving.push(MovingBody {
+            moving.push(BodyInRoot {
                 inertia_in_root: body.spatial_inertia.transformed_by(&root_from_body),
                 twist_in_root: Twist {
                     angular: parent.angular + axis_in_root.angular * qd[joint],

@@ -108,6 +108,8 @@ impl BodyTree {
         for joint in 0..self.dof() {
             let (row, ratio) = self.driver(joint);
             let resisting = self.resistances[joint].against_speed(state.qd[joint]);
+            // Principle of virtual work: a follower moves `ratio` times as fast, so its torque counts `ratio` times
+            // at the master.
             buffer.reduced[row] += ratio * (state.tau[joint] - buffer.bias[joint] - resisting);
             for other in 0..self.dof() {
                 let (column, other_ratio) = self.driver(other);
@@ -134,6 +136,7 @@ impl BodyTree {
     fn solve_reduced(&self, buffer: &mut DynamicsBuffer) -> Result<(), DynamicsError> {
         let (matrix, vector) = (&mut buffer.reduced_mass_matrix, &mut buffer.reduced);
         let m = vector.len();
+        // Cholesky in place, by columns, below the diagonal: nalgebra's would allocate.
         for column in 0..m {
             for row in column..m {
                 let known: f64 = (0..column).map(|k| matrix[(row, k)] * matrix[(column, k)]).sum();
@@ -147,6 +150,7 @@ impl BodyTree {
                 }
             }
         }
+        // L y = b, then L' x = y.
         for row in 0..m {
             let known: f64 = (0..row).map(|k| matrix[(row, k)] * vector[k]).sum();
             vector[row] = (vector[row] - known) / matrix[(row, row)];
@@ -192,6 +196,7 @@ impl ArticulatedBodies<'_> {
                 None => (None, PaddedVector::ZERO),
             };
             let rooted = body.frame.rooted(axes, q, &self.buffer.turns[joint]);
+            // Only the products: the accelerations of joints are not known before the last pass.
             let acceleration = body.frame.velocity_products(&rooted, turning, qd);
             let angular_velocity = if body.frame.turns { turning + rooted.axis() * qd } else { turning };
             let inertia = body.inertia.turned(&rooted.axes);

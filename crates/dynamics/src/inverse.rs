@@ -57,6 +57,7 @@ impl BodyTree {
         for (((tau, resistance), &qd), &qdd) in
             tau.iter_mut().zip(&self.resistances).zip(motion.qd).zip(motion.qdd)
         {
+            // These act at the joint itself; no other joint feels them.
             *tau += resistance.against_speed(qd) + resistance.armature * qdd;
         }
         Ok(())
@@ -125,12 +126,13 @@ impl BodyTree {
     /// How each body moves, outwards from the root.
     #[inline(always)]
     pub(crate) fn move_bodies(&self, motion: &JointMotionState<'_>, buffer: &mut DynamicsBuffer) {
+        // The root accelerates upwards instead of gravity acting on each body (Featherstone 2008, sec. 5.3).
         let root = BodyMotion { acceleration: self.root_acceleration(), ..BodyMotion::ZERO };
         for (joint, body) in self.bodies.iter().enumerate() {
             let parent = body.parent.map_or(root, |parent| buffer.values[parent].motion);
             let turn = &buffer.turns[joint];
             let placement = body.frame.placement(motion.q[joint], turn);
-            let mut moved = body.frame.carried(&parent, (placement.origin, turn), motion.qd[joint]);
+            let mut moved = body.frame.carried(&parent, placement.origin, turn, motion.qd[joint]);
             moved.acceleration = body.frame.accelerated(moved.acceleration, motion.qdd[joint]);
             let values = &mut buffer.values[joint];
             (values.placement, values.motion) = (placement, moved);
@@ -162,6 +164,7 @@ impl WithSimd for NewtonEuler<'_> {
         for (body, values) in tree.bodies.iter().zip(&mut buffer.values) {
             values.wrench = body.inertia.wrench(&values.motion);
         }
+        // From the tips: the wrench on a body is complete only after those of all its children.
         for (joint, body) in tree.bodies.iter().enumerate().rev() {
             let BodyValues { placement, wrench, .. } = &buffer.values[joint];
             tau[joint] = body.frame.along_axis(wrench);

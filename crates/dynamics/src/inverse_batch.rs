@@ -97,25 +97,26 @@ impl BodyTree {
             let found = buffer.bodies.len();
             return Err(DynamicsError::Length { what: "buffer", expected: n, found });
         }
+        // The largest whole number of samples that fits: a rest of `tau` then shows as a wrong length.
         let expected = tau.len().checked_div(n).unwrap_or(0) * n;
         DynamicsError::check("torques", expected, tau)?;
         DynamicsError::check("positions", expected, motions.q)?;
         DynamicsError::check("speeds", expected, motions.qd)?;
         DynamicsError::check("accelerations", expected, motions.qdd)?;
-        Arch::new().dispatch(Batch { tree: self, motions, buffer, tau });
+        Arch::new().dispatch(BatchPass { tree: self, motions, buffer, tau });
         Ok(())
     }
 }
 
 /// All samples, compiled for the widest vector instructions of the machine.
-struct Batch<'a> {
+struct BatchPass<'a> {
     tree: &'a BodyTree,
     motions: &'a JointMotions<'a>,
     buffer: &'a mut BatchBuffer,
     tau: &'a mut [f64],
 }
 
-impl WithSimd for Batch<'_> {
+impl WithSimd for BatchPass<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -148,6 +149,7 @@ impl Group<'_> {
     fn joint_lanes(&self, numbers: &[f64], joint: usize) -> Lanes {
         let n = self.tree.dof();
         let numbers = &numbers[self.first..][..self.samples * n];
+        // Lanes without a sample repeat the first one: their results are never read.
         lanes(|lane| numbers[if lane < self.samples { lane * n } else { 0 } + joint])
     }
 
@@ -167,6 +169,7 @@ impl Group<'_> {
         let body = &self.tree.bodies[joint];
         let (q, qd) = (self.joint_lanes(motions.q, joint), self.joint_lanes(motions.qd, joint));
         let qdd = self.joint_lanes(motions.qdd, joint);
+        // As in `move_bodies`: the root accelerates upwards in place of gravity.
         let parent = body.parent.map_or_else(
             || MotionLanes {
                 linear: LaneVector::splat(&-self.tree.gravity_in_root),
@@ -176,7 +179,7 @@ impl Group<'_> {
         );
         let lanes = &mut self.bodies[joint];
         lanes.place(body, &q);
-        lanes.motion = lanes.carried(body, &parent, (&qd, &qdd));
+        lanes.motion = lanes.carried(body, &parent, &qd, &qdd);
         (lanes.moment, lanes.force) = wrench(&body.spatial_inertia, &lanes.motion);
     }
 
@@ -214,6 +217,7 @@ impl BodyLanes {
             self.cos = lanes(|lane| turns[lane].cos);
             self.origin = LaneVector::splat(origin);
         } else {
+            // Its sine and cosine stay those of the empty buffer: no turn.
             let axis = body.parent_from_body.rotation.column(2);
             let [ox, oy, oz] = [origin.x, origin.y, origin.z];
             self.origin = LaneVector([
@@ -238,7 +242,7 @@ impl BodyLanes {
 
     /// Source: Luh, Walker, Paul (1980), with the acceleration of the point at the frame's origin.
     #[inline(always)]
-    fn carried(&self, body: &TreeBody, parent: &MotionLanes, (qd, qdd): (&Lanes, &Lanes)) -> MotionLanes {
+    fn carried(&self, body: &TreeBody, parent: &MotionLanes, qd: &Lanes, qdd: &Lanes) -> MotionLanes {
         let turning = parent.angular_velocity;
         let linear =
             parent.linear + parent.angular.cross(&self.origin) + turning.cross(&turning.cross(&self.origin));

@@ -58,6 +58,8 @@ pub trait JointDynamics {
         self.mass_matrix_into(motion.q, &mut matrix)?;
         let state = DrivenState { q: motion.q, qd: motion.qd, tau };
         self.independent_forward_into(&state, &mut found)?;
+        // Forward dynamics is affine in the torque, with the inverse of the mass matrix: `tau = g + M (qdd -
+        // qdd(g))`.
         for (found, wanted) in found.iter_mut().zip(motion.qdd) {
             *found = wanted - *found;
         }

@@ -64,6 +64,7 @@ impl WithSimd for CompositeBodies<'_> {
             let BodyValues { composite, rooted, .. } = buffer.values[joint];
             let own = composite.accelerated_along(rooted.axis(), &body.frame);
             buffer.values[joint].wrench = own;
+            // Column-major: the entries of a column are contiguous.
             let column = &mut mass_matrix.as_mut_slice()[joint * tree.dof()..];
             column[joint] = body.frame.along(rooted.axis(), &own) + tree.resistances[joint].armature;
             let Some(parent) = body.parent else { continue };

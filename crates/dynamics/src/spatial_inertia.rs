@@ -54,6 +54,7 @@ impl SpatialInertia {
         Self {
             mass_kg,
             first_moment_kg_m: position * mass_kg,
+            // `shift(p, m p) = 2 m (p.p 1 - p p')`, twice the inertia of the point.
             tensor_kg_m2: shift(&position, &(position * mass_kg)) / 2.0,
         }
     }
@@ -81,6 +82,7 @@ impl SpatialInertia {
     /// ```
     pub fn to_link(&self) -> Option<Inertia> {
         let has_mass = self.mass_kg.is_finite() && self.mass_kg > 0.0;
+        // Infinite without a mass, but then not used.
         let center = self.first_moment_kg_m / self.mass_kg;
         has_mass.then(|| Inertia {
             mass_kg: self.mass_kg,
@@ -111,6 +113,8 @@ impl SpatialInertia {
         Self {
             mass_kg: self.mass_kg,
             first_moment_kg_m: turned + origin * self.mass_kg,
+            // Steiner about any point: `-[p][b] - [b][p]` for `b = h + m p / 2`; no centre of mass is needed, so a
+            // mass of zero is no special case.
             tensor_kg_m2: tensor + shift(origin, &(turned * 2.0 + origin * self.mass_kg)) / 2.0,
         }
     }

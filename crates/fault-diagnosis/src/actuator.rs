@@ -4,7 +4,7 @@ use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
 
 use super::{
     fit::{FaultFit, Window, best, least_squares},
-    observed::{Observed, spread},
+    observed::{ObservedRun, spread},
     residual::{OffWindow, Residual},
 };
 
@@ -15,12 +15,13 @@ const SLIDING_PART: f64 = 0.02;
 
 /// The best hypothesis on the actuator of a joint, of the residuals in a window of them.
 pub(super) fn fault(
-    observed: &Observed<'_>,
+    observed: &ObservedRun<'_>,
     joint: usize,
     residuals: &[Residual],
     window: OffWindow,
 ) -> Option<FaultFit> {
     let of_window: Vec<&Residual> =
+        // Samples in which friction may hold the joint say nothing about its actuator: any effort fits them.
         residuals[window.residuals.samples()].iter().filter(|residual| !residual.is_held[joint]).collect();
     let missing: Vec<f64> = of_window.iter().map(|residual| residual.missing[joint]).collect();
     let effort: Vec<f64> = of_window.iter().map(|residual| residual.effort[joint]).collect();
@@ -54,6 +55,7 @@ pub(super) fn fault(
             if speed.abs() > SLIDING_PART * fastest { dry.copysign(speed) + viscous * speed } else { 0.0 }
         });
         let values = FaultQuantity::friction([dry, viscous], observed.unit(joint));
+        // A part that is zero was not fitted, and a parameter fewer is the better explanation.
         let parameters = if dry > 0.0 && viscous > 0.0 { 2 } else { 1 };
         FaultFit { fault: make(FaultKind::AddedFriction, values, ends), remaining, parameters }
     }));
@@ -61,7 +63,7 @@ pub(super) fn fault(
 }
 
 /// Whether a joint follows its moving setpoint.
-fn follows(observed: &Observed<'_>, joint: usize, window: Window) -> bool {
+fn follows(observed: &ObservedRun<'_>, joint: usize, window: Window) -> bool {
     /// Largest spread of the lag, as a part of the spread of the setpoint.
     const BEHIND: f64 = 0.1;
     /// A setpoint with a smaller spread is at rest, rad and m, so that nothing follows from it.
@@ -84,9 +86,11 @@ fn friction(joint: usize, residuals: &[&Residual]) -> Vec<([f64; 2], f64)> {
     let is_sliding = |residual: &&Residual| speed(residual).abs() > SLIDING_PART * fastest;
     let sliding: Vec<&Residual> = residuals.iter().copied().filter(is_sliding).collect();
     let missing: Vec<f64> = sliding.iter().map(|residual| residual.missing[joint]).collect();
+    // Minus: what resists the motion is missing in its direction.
     let dry: Vec<f64> = sliding.iter().map(|residual| -speed(residual).signum()).collect();
     let viscous: Vec<f64> = sliding.iter().map(|residual| -speed(residual)).collect();
     let mut fits = Vec::new();
+    // Each alone before both: noise always gives the second parameter some value.
     for (columns, places) in
         [(vec![dry.clone()], vec![0]), (vec![viscous.clone()], vec![1]), (vec![dry, viscous], vec![0, 1])]
     {

@@ -12,7 +12,7 @@ use super::{
     actuator,
     encoder::{self, DISTINCT, EncoderFaults},
     fit::FaultFit,
-    observed::Observed,
+    observed::ObservedRun,
     payload,
     residual::{HeldSamples, OffWindow, Residual, first_contact, residuals},
     stuck, tool,
@@ -63,7 +63,7 @@ impl RunDiagnosis {
 pub struct DiagnosedRun<'a> {
     /// The robot with its model.
     pub description: &'a RobotDescription,
-    /// Clock and gravity.
+    /// Length and number of the steps (s), and gravity (m/s^2, world).
     pub clock: &'a RunClock,
     /// The kind of the controller.
     pub controller: ControllerKind,
@@ -81,7 +81,7 @@ pub fn diagnose(
     store: &SampleStore,
     clearance: &mut Clearance,
 ) -> Option<RunDiagnosis> {
-    let observed = Observed::new(store, &run.description.robot, run.clock);
+    let observed = ObservedRun::new(store, &run.description.robot, run.clock);
     let open = observed.independent_joints();
     let mut search = Search { observed, open, found: Vec::new(), unexplained: Vec::new() };
     // Poses before efforts: the efforts that a motion needs are computed from positions, which a fault of encoders or transport
@@ -97,7 +97,7 @@ pub fn diagnose(
 }
 
 struct Search<'a> {
-    observed: Observed<'a>,
+    observed: ObservedRun<'a>,
     /// Joints whose reported effort is that of their drive, as far as is known.
     open: Vec<usize>,
     found: Vec<FaultFit>,
@@ -114,7 +114,7 @@ impl Search<'_> {
         }
         // A latency and faults of encoders explain the same readings: the latency is taken only if it explains distinctly more,
         // since one latency replaces faults of all encoders.
-        let late = |observed: &Observed<'_>, open: &[usize]| {
+        let late = |observed: &ObservedRun<'_>, open: &[usize]| {
             let encoders = encoder::faults(observed, open);
             let late = transport::late(observed, open);
             (late.filter(|late| late.gain > encoders.gain + DISTINCT), encoders)
@@ -128,6 +128,7 @@ impl Search<'_> {
             // Only samples that would show a loss: in the others a lost reading looks like one that is late by a step.
             self.observed.is_used =
                 is_held.iter().zip(&would_show).map(|(is_held, shows)| *shows && !is_held).collect();
+            // Again without the lost readings, which repeat the one before and so look late.
             found = transport::late(&self.observed, &self.open);
             self.observed.is_used = is_held.into_iter().map(|is_held| !is_held).collect();
             encoders = encoder::faults(&self.observed, &self.open);
@@ -192,7 +193,7 @@ impl Search<'_> {
         self.open.retain(|joint| !masters.contains(joint));
         let (mut off, mut alone) = (Vec::new(), Vec::new());
         for &joint in &self.open {
-            let of = |held: HeldSamples| self.off_window(&residuals, (joint, held));
+            let of = |held: HeldSamples| self.off_window(&residuals, joint, held);
             // Stuck first: a brake holds the joint, and exactly those samples are the evidence. For every other fault they are
             // not, since dry friction may exert any torque in them.
             let stuck = of(HeldSamples::Counts)
@@ -205,7 +206,7 @@ impl Search<'_> {
         let joints: Vec<usize> = off.iter().map(|&(joint, _)| joint).collect();
         let together = off.iter().map(|&(_, window)| window).reduce(OffWindow::with);
         let Some(together) = together else { return Ok(()) };
-        let load = payload::fault(&self.observed, run.description, &joints, (&residuals, together))?;
+        let load = payload::fault(&self.observed, run.description, &joints, &residuals, together)?;
         let load = load.filter(FaultFit::explains);
         let score_alone: f64 = alone.iter().map(FaultFit::score).sum();
         match load {
@@ -226,10 +227,10 @@ impl Search<'_> {
 
     /// When the residual of a joint is above the truncation error of a step, until the joint reaches a limit, whose stop exerts
     /// an unknown torque.
-    fn off_window(&self, residuals: &[Residual], (joint, held): (usize, HeldSamples)) -> Option<OffWindow> {
+    fn off_window(&self, residuals: &[Residual], joint: usize, held: HeldSamples) -> Option<OffWindow> {
         let before_limit = self.observed.samples_before_limit(joint);
         let usable = residuals.partition_point(|residual| residual.sample < before_limit);
         let residuals = &residuals[..usable];
-        OffWindow::above_threshold(residuals, self.observed.samples(), (joint, held))
+        OffWindow::above_threshold(residuals, self.observed.samples(), joint, held)
     }
 }

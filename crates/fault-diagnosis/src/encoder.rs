@@ -4,8 +4,8 @@ use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
 
 use super::{
     fit::{EXPLAINED, FaultFit, Window},
-    observed::Observed,
-    shape::{self, Count, Shape},
+    observed::ObservedRun,
+    shape::{self, FittedShape, ShapeTerm},
 };
 
 /// Evidence for a fault, in variances of the noise that it explains: by chance, the best of all beginnings and ends in a run
@@ -34,12 +34,13 @@ struct EncoderHypothesis {
 }
 
 /// The faults of encoders of `joints`.
-pub(super) fn faults(observed: &Observed<'_>, joints: &[usize]) -> EncoderFaults {
+pub(super) fn faults(observed: &ObservedRun<'_>, joints: &[usize]) -> EncoderFaults {
     let mut faults = EncoderFaults::default();
     let mut open = joints.to_vec();
     // Pairs first: two exchanged encoders would otherwise be two faults with wrong values.
     for (at, &a) in joints.iter().enumerate() {
         for &b in &joints[at + 1..] {
+            // Part of a pair that was found already.
             if !open.contains(&a) || !open.contains(&b) {
                 continue;
             }
@@ -62,6 +63,7 @@ pub(super) fn faults(observed: &Observed<'_>, joints: &[usize]) -> EncoderFaults
         }) {
             faults.hidden.push((joint, hypotheses.into_iter().map(|hypothesis| hypothesis.fit).collect()));
         } else {
+            // In variances, so that gains of joints in rad and in m add up.
             faults.gain += best.gain / observed.uncertainty[joint].variance();
             faults.found.extend(hypotheses.into_iter().next().map(|hypothesis| hypothesis.fit));
         }
@@ -75,7 +77,7 @@ fn count(samples: usize) -> f64 {
 }
 
 /// Whether readings are farther from the position than noise and resolution explain.
-pub(super) fn is_wrong(observed: &Observed<'_>, joint: usize) -> bool {
+pub(super) fn is_wrong(observed: &ObservedRun<'_>, joint: usize) -> bool {
     /// One reading may be an outlier of the noise.
     const FEWEST: usize = 3;
     let largest = observed.uncertainty[joint].largest();
@@ -85,21 +87,23 @@ pub(super) fn is_wrong(observed: &Observed<'_>, joint: usize) -> bool {
 
 /// A hypothesis that adds a series to the readings of a joint, if it explains their error.
 fn hypothesis(
-    observed: &Observed<'_>,
+    observed: &ObservedRun<'_>,
     joint: usize,
-    (series, how): (&[f64], Count),
-    fault: impl Fn(&Shape) -> RunFault,
+    series: &[f64],
+    how: ShapeTerm,
+    fault: impl Fn(&FittedShape) -> RunFault,
 ) -> Option<EncoderHypothesis> {
     let uncertainty = observed.uncertainty[joint];
     let error = &observed.error[joint];
     let negligible = uncertainty.evidence(DISTINCT, 0.0);
-    let shape = shape::fit((error, &observed.is_used), series, how, negligible)?;
+    let shape = shape::fit(error, &observed.is_used, series, how, negligible)?;
     let (mut whole, mut residual, mut used) = (0.0, 0.0, 0.0);
     for sample in observed.used() {
         whole += error[sample].powi(2);
         residual += (error[sample] - shape.at(series, sample)).powi(2);
         used += 1.0;
     }
+    // What noise in the worst case would leave over is no evidence against the hypothesis.
     let beyond = (residual - used * uncertainty.unlucky()).max(0.0);
     // Computed again from the residuals: the gain of the shape is a difference of sums over the whole run, whose rounding may
     // exceed the evidence that is required.
@@ -113,10 +117,11 @@ fn hypothesis(
 }
 
 fn fault(
-    observed: &Observed<'_>,
+    observed: &ObservedRun<'_>,
     kind: FaultKind,
     joints: &[usize],
-    (values, window): (Vec<FaultQuantity>, Window),
+    values: Vec<FaultQuantity>,
+    window: Window,
 ) -> RunFault {
     let (from_s, until_s) = observed.times(window);
     let joints = joints.iter().map(|&joint| observed.name(joint)).collect();
@@ -124,41 +129,42 @@ fn fault(
 }
 
 /// Both encoders read the other joint, counted from the beginning of the fault; with the variances that this explains.
-fn swapped(observed: &Observed<'_>, a: usize, b: usize) -> Option<(FaultFit, f64)> {
+fn swapped(observed: &ObservedRun<'_>, a: usize, b: usize) -> Option<(FaultFit, f64)> {
     let reads_other = |joint: usize, other: usize| {
         let (own, read) = (&observed.q[joint], &observed.q[other]);
         let series: Vec<f64> = read.iter().zip(own).map(|(read, own)| read - own).collect();
-        let described = |shape: &Shape| {
-            fault(observed, FaultKind::SwappedJoints, &[joint, other], (Vec::new(), shape.window))
+        let described = |shape: &FittedShape| {
+            fault(observed, FaultKind::SwappedJoints, &[joint, other], Vec::new(), shape.window)
         };
-        hypothesis(observed, joint, (&series, Count::OnceFromBegin), described)
+        hypothesis(observed, joint, &series, ShapeTerm::OnceFromBegin, described)
     };
     let (mut first, second) = (reads_other(a, b)?, reads_other(b, a)?);
     let gain = |joint: usize, of: &EncoderHypothesis| of.gain / observed.uncertainty[joint].variance();
     let gain = gain(a, &first) + gain(b, &second);
     let (fault, other) = (&mut first.fit.fault, &second.fit.fault);
     fault.from_s = fault.from_s.min(other.from_s);
+    // The fault lasts as long as either encoder shows it; without an end if one of them has none.
     fault.until_s = fault.until_s.zip(other.until_s).map(|(a, b)| a.max(b));
     first.fit.remaining = first.fit.remaining.max(second.fit.remaining);
     Some((first.fit, gain))
 }
 
 /// Hypotheses on one encoder that explain its error.
-fn alone(observed: &Observed<'_>, joint: usize) -> Vec<EncoderHypothesis> {
+fn alone(observed: &ObservedRun<'_>, joint: usize) -> Vec<EncoderHypothesis> {
     let unit = observed.unit(joint);
-    let described = |kind: FaultKind, values: Vec<FaultQuantity>, shape: &Shape| {
-        fault(observed, kind, &[joint], (values, shape.window))
+    let described = |kind: FaultKind, values: Vec<FaultQuantity>, shape: &FittedShape| {
+        fault(observed, kind, &[joint], values, shape.window)
     };
     let constant = vec![1.0; observed.samples()];
-    let offset = hypothesis(observed, joint, (&constant, Count::Whole), |shape| {
+    let offset = hypothesis(observed, joint, &constant, ShapeTerm::Whole, |shape| {
         described(FaultKind::EncoderOffset, vec![FaultQuantity::offset(shape.factor, unit)], shape)
     });
-    let drift = hypothesis(observed, joint, (&observed.times_s, Count::FromBegin), |shape| {
+    let drift = hypothesis(observed, joint, &observed.times_s, ShapeTerm::FromBegin, |shape| {
         described(FaultKind::EncoderDrift, vec![FaultQuantity::rate(shape.factor, unit)], shape)
     });
     // Reading -(q - q0) + q0 instead of q: the error is -2 (q - q0), a slope of -2 over the position.
     let back: Vec<f64> = observed.q[joint].iter().map(|q| -2.0 * q).collect();
-    let flipped = hypothesis(observed, joint, (&back, Count::OnceFromBegin), |shape| {
+    let flipped = hypothesis(observed, joint, &back, ShapeTerm::OnceFromBegin, |shape| {
         described(FaultKind::FlippedAxis, Vec::new(), shape)
     });
     [offset, drift, flipped].into_iter().flatten().collect()

@@ -50,6 +50,7 @@ pub(super) struct FaultFit {
 impl FaultFit {
     /// Relative residual with a penalty for each parameter: smaller is better.
     pub(super) fn score(&self) -> f64 {
+        // Below `NEGLIGIBLE` the residual is rounding: there only the number of parameters decides.
         self.remaining.max(NEGLIGIBLE) / COMPLEXITY_PER_PARAMETER.powi(self.parameters)
     }
 
@@ -83,22 +84,18 @@ pub(super) struct Solution {
 pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<(Vec<f64>, f64)> {
     const SINGULAR: f64 = 1e-9;
     let scales: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
-    let Solution { parameters, remaining, .. } = solve((columns, &scales), values, SINGULAR)?;
+    let Solution { parameters, remaining, .. } = solve(columns, &scales, values, SINGULAR)?;
     Some((parameters, remaining))
 }
 
-/// The Euclidean norm.
+/// The Euclidean norm, in the unit of the values.
 pub(super) fn norm(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
 /// The parameters of columns that are divided by `scales`. Directions of the parameters whose singular value is below the part
 /// `singular` of the largest are set to zero.
-pub(super) fn solve(
-    (columns, scales): (&[Vec<f64>], &[f64]),
-    values: &[f64],
-    singular: f64,
-) -> Option<Solution> {
+pub(super) fn solve(columns: &[Vec<f64>], scales: &[f64], values: &[f64], singular: f64) -> Option<Solution> {
     /// A parameter with a smaller component in a direction that is set to zero does not depend on it. Kind: engineering.
     const PART_OF_DIRECTION: f64 = 0.05;
     let whole = rms(values.iter().copied());
@@ -139,13 +136,13 @@ mod tests {
         let columns = [column(f64::sin), column(f64::cos), nothing];
         let values: Vec<f64> = columns[0].iter().zip(&columns[1]).map(|(a, b)| 2.0 * a - 3.0 * b).collect();
         let scale = norm(&columns[0]);
-        let solution = solve((&columns, &[scale; 3]), &values, 1e-3).expect("they are independent");
+        let solution = solve(&columns, &[scale; 3], &values, 1e-3).expect("they are independent");
         assert_eq!(solution.is_identifiable, [true, true, false]);
         assert!((solution.parameters[0] - 2.0).abs() < 1e-9 && (solution.parameters[1] + 3.0).abs() < 1e-9);
         assert!(solution.parameters[2].abs() < 1e-9 && solution.remaining < 1e-9);
         // Of two that have the same effect only the sum is shown.
         let twice = [columns[0].clone(), columns[0].clone(), columns[1].clone()];
-        let solution = solve((&twice, &[scale; 3]), &values, 1e-3).expect("a column is independent");
+        let solution = solve(&twice, &[scale; 3], &values, 1e-3).expect("a column is independent");
         assert_eq!(solution.is_identifiable, [false, false, true]);
     }
 }

@@ -40,6 +40,7 @@ pub fn judge(injected: &[RunFault], found: &[RunFault]) -> FaultVerdict {
     let partner = |fault: &RunFault| found.iter().find(|found| is_about_the_same(fault, found));
     let pairs: Option<Vec<_>> =
         injected.iter().map(|fault| partner(fault).map(|found| (fault, found))).collect();
+    // As many pairs as findings: a finding without a partner is a fault too many.
     match pairs.filter(|pairs| pairs.len() == found.len()) {
         None => FaultVerdict::Wrong,
         Some(pairs) if pairs.iter().all(|(fault, found)| values_are_near(fault, found)) => {
@@ -55,12 +56,14 @@ fn is_about_the_same(a: &RunFault, b: &RunFault) -> bool {
 }
 
 fn values_are_near(injected: &RunFault, found: &RunFault) -> bool {
+    // A value that is not named is zero: `y` of a mass on the x axis.
     let value = |fault: &RunFault, quantity: Quantity| {
         fault.values.iter().find(|value| value.quantity == quantity).map_or(0.0, |value| value.value)
     };
     let is_found = |quantity: Quantity| found.values.iter().any(|value| value.quantity == quantity);
     let near = |known: &FaultQuantity| {
         let of_unit = injected.values.iter().filter(|value| value.unit == known.unit);
+        // By the largest value of the unit: a coordinate near zero has no relative error.
         let scale = of_unit.map(|value| value.value.abs()).fold(known.value.abs(), f64::max);
         let allowed =
             if injected.kind == FaultKind::DroppedSamples { SHARE_OFF_BY } else { OFF_BY_PART * scale };

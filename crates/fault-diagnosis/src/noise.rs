@@ -49,6 +49,7 @@ pub(super) fn resolution(q: &[f64], measured: &[f64]) -> Option<f64> {
     let changes =
         |series: &[f64]| series.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect::<Vec<f64>>();
     let (moved, read) = (changes(q), changes(measured));
+    // Without a repetition while the joint moves, equal changes are those of an even motion, not steps.
     let repeats = moved.iter().zip(&read).any(|(moved, read)| *moved > ROUNDING && *read <= 0.0);
     let smallest = read.iter().copied().filter(|change| *change > 0.0).fold(f64::INFINITY, f64::min);
     let is_multiple = |change: &f64| (change / smallest - (change / smallest).round()).abs() < MULTIPLE;
@@ -79,5 +80,6 @@ pub(super) fn noise(error: &[f64], is_in_triple: impl Fn(usize) -> bool) -> f64 
     }
     second.sort_by(f64::total_cmp);
     // The variance of a second difference is 1 + 4 + 1 times that of the noise.
+    // The median: differences at the beginning and end of a fault are large, but few.
     second[second.len() / 2] / (MEDIAN * 6.0_f64.sqrt())
 }

@@ -20,7 +20,7 @@ const FARTHEST: f64 = 1e5;
 
 /// All kept samples as series over time, joint by joint.
 #[derive(Debug)]
-pub(super) struct Observed<'a> {
+pub(super) struct ObservedRun<'a> {
     pub(super) store: &'a SampleStore,
     pub(super) robot: &'a Robot,
     pub(super) clock: &'a RunClock,
@@ -41,7 +41,7 @@ pub(super) struct Observed<'a> {
     pub(super) late: Option<(Window, usize)>,
 }
 
-impl<'a> Observed<'a> {
+impl<'a> ObservedRun<'a> {
     pub(super) fn new(store: &'a SampleStore, robot: &'a Robot, clock: &'a RunClock) -> Self {
         let is_usable = |&sample: &usize| store.sample(sample).q.iter().all(|q| q.abs() < FARTHEST);
         let samples = (0..store.steps().len()).take_while(is_usable).count();
@@ -54,6 +54,7 @@ impl<'a> Observed<'a> {
             let joint = robot.joint(robot.movable_joints()[coordinate]);
             joint_position(joint, &joint_motion(joint, store.sample(sample).root_from_links))
         });
+        // Poses know an angle up to whole turns only; encoders count them.
         for ((q, measured), &joint) in q.iter_mut().zip(&measured).zip(robot.movable_joints()) {
             if robot.joint(joint).kind.is_angular() {
                 unwind(q, measured, store.steps());
@@ -117,6 +118,7 @@ impl<'a> Observed<'a> {
             Some((window, _)) if window.samples().contains(&sample) => return None,
             _ => sample,
         };
+        // Kept samples have gaps: `arrived` has to be that many steps later in the run, not only in the list.
         let is_direct = self.store.steps()[arrived] - self.store.steps()[sample]
             == u64::try_from(arrived - sample).unwrap_or(u64::MAX);
         (is_direct && self.is_used[arrived]).then(|| self.store.sample(arrived).effort)

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Point3, Vector3};
 
 use super::{
     fit::{FaultFit, norm, solve},
-    observed::Observed,
+    observed::ObservedRun,
     residual::{OffWindow, Residual, body_of},
 };
 
@@ -26,15 +26,17 @@ const FIRST_MOMENT: usize = 6;
 
 /// The point mass that explains the residuals of all `joints` in a window of them.
 pub(super) fn fault(
-    observed: &Observed<'_>,
+    observed: &ObservedRun<'_>,
     description: &RobotDescription,
     joints: &[usize],
-    (residuals, window): (&[Residual], OffWindow),
+    residuals: &[Residual],
+    window: OffWindow,
 ) -> Result<Option<FaultFit>, DynamicsError> {
     let tree = BodyTree::new(observed.robot).with_gravity(observed.clock.gravity_in_world);
     let (body, body_from_tip) = body_of(observed.robot, description.tip);
     let Some(body) = (0..tree.dof()).find(|&joint| tree.link(joint) == body) else { return Ok(None) };
     let of_window = &residuals[window.residuals.samples()];
+    // Evenly over the window, so that all its configurations are represented.
     let every = of_window.len().div_ceil(MOST_RESIDUALS).max(1);
     let (mut columns, mut needed) = (vec![Vec::new(); PARAMETERS], Vec::new());
     let mut buffer = tree.buffer();
@@ -93,8 +95,9 @@ fn point_mass(columns: &[Vec<f64>], needed: &[f64]) -> Option<(SpatialInertia, f
                 value - (0..FIRST_MOMENT).map(|at| columns[at][row] * tensor[at]).sum::<f64>()
             })
             .collect();
-        let solution = solve((linear, &scales), &without_tensor, NOT_IDENTIFIABLE)?;
+        let solution = solve(linear, &scales, &without_tensor, NOT_IDENTIFIABLE)?;
         let [x, y, z, mass_kg] = solution.parameters[..] else { return None };
+        // Without the mass neither the place nor the inertia follows: the moments alone are no payload.
         if !solution.is_identifiable[3] {
             return None;
         }
@@ -104,6 +107,8 @@ fn point_mass(columns: &[Vec<f64>], needed: &[f64]) -> Option<(SpatialInertia, f
         }
         load = SpatialInertia::point_mass(mass_kg, Vector3::new(x, y, z) / mass_kg);
         let rest: f64 = without_tensor.iter().map(|value| value * value).sum();
+        // The solver's residual is relative to what is left after the inertia; the fault's is relative to all that is
+        // missing.
         remaining = solution.remaining * (rest / whole).sqrt();
     }
     Some((load, remaining, is_identifiable))

@@ -6,7 +6,7 @@ use congruent_monitors::{ActuatorLimits, RunDynamics};
 use congruent_proximity::{Clearance, MovingBodies};
 use nalgebra::Isometry3;
 
-use super::{fit::Window, observed::Observed};
+use super::{fit::Window, observed::ObservedRun};
 
 /// Residuals below this part of the largest effort of the joint are the truncation error of the engine's step, proportional to its
 /// length. Worst seen without fault, beyond the part that `CHANGES` covers: 0.0018, in steps of 1 ms, on UR5e and Panda in random
@@ -53,13 +53,16 @@ impl OffWindow {
     pub(super) fn above_threshold(
         usable: &[Residual],
         samples: usize,
-        (joint, held): (usize, HeldSamples),
+        joint: usize,
+        held: HeldSamples,
     ) -> Option<Self> {
         let largest =
             |joint: usize| usable.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
         let joints = usable.first()?.effort.len();
         let of_any = (0..joints).map(largest).fold(0.0, f64::max);
         let friction = FRICTION_PART * usable.first()?.friction;
+        // The largest of the causes, each of which makes a residual by itself; what grows with the change of a step
+        // is added below.
         let threshold = SMALLEST.max(STEP_PART * largest(joint)).max(COUPLED_PART * of_any).max(friction);
         let is_off = |index: usize| {
             let residual = &usable[index];
@@ -177,7 +180,7 @@ fn find_changes(residuals: &mut [Residual], dof: usize) {
 /// # Errors
 /// [`DynamicsError`] if the robot has no dynamics.
 pub(super) fn residuals(
-    observed: &Observed<'_>,
+    observed: &ObservedRun<'_>,
     mut declared: RunDynamics<'_>,
     limits: &[ActuatorLimits],
 ) -> Result<Vec<Residual>, DynamicsError> {
@@ -187,20 +190,23 @@ pub(super) fn residuals(
         {
             continue;
         }
+        // Payloads at the beginning of the step, as the physics takes them.
         let (tree, buffer) = declared.at(observed.times_s[sample - 1]);
         found.push(residual(observed, sample, tree, buffer)?);
     }
     find_changes(&mut found, observed.robot.dof());
+    // Only now: changes are those from step to step, also across samples without a report.
     found.retain(|residual| residual.is_known);
     for residual in &mut found {
         residual.is_limited = residual.is_at(limits);
     }
+    // Without any effort the drives report none, and everything would be missing.
     let is_driven = found.iter().any(|residual| residual.effort.iter().any(|effort| effort.abs() > 0.0));
     Ok(if is_driven { found } else { Vec::new() })
 }
 
 fn residual(
-    observed: &Observed<'_>,
+    observed: &ObservedRun<'_>,
     sample: usize,
     tree: &BodyTree,
     buffer: &mut DynamicsBuffer,
@@ -225,6 +231,7 @@ fn residual(
     let change = vec![0.0; q.len()];
     let (effort, is_known) = match observed.effort(sample) {
         Some(effort) => (effort.to_vec(), true),
+        // The needed effort, so that nothing is missing; the sample is taken out later.
         None => (residual.clone(), false),
     };
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
@@ -290,7 +297,7 @@ const TOUCHING_M: f64 = 2e-3;
 
 /// The first kept sample in which a link touches an obstacle: from then on efforts are not those of its motion alone.
 pub(super) fn first_contact(
-    observed: &Observed<'_>,
+    observed: &ObservedRun<'_>,
     bodies: &mut MovingBodies<'_>,
     clearance: &mut Clearance,
 ) -> Option<usize> {

@@ -5,7 +5,7 @@ use congruent_scenario::{FaultKind, RunFault};
 use super::{
     fit::{FaultFit, Window},
     noise::ROUNDING,
-    observed::{Observed, spread},
+    observed::{ObservedRun, spread},
 };
 
 /// A joint that moves by less than this part of its setpoint is stuck. A brake of 1e9 N m s/rad yields by 1e-7 rad/s under 100
@@ -13,7 +13,7 @@ use super::{
 const STUCK_PART: f64 = 1e-3;
 
 /// The joint does not move in a window of samples, and its setpoint does.
-pub(super) fn fault(observed: &Observed<'_>, joint: usize, window: Window) -> Option<FaultFit> {
+pub(super) fn fault(observed: &ObservedRun<'_>, joint: usize, window: Window) -> Option<FaultFit> {
     // The joint comes to rest within the first step of the fault.
     let after = (window.first + 2).min(window.end)..window.end;
     let commanded = spread(&observed.setpoint[joint][after.clone()]);
@@ -29,7 +29,7 @@ pub(super) fn fault(observed: &Observed<'_>, joint: usize, window: Window) -> Op
 }
 
 /// When a joint is not at its setpoint, for a robot that is placed there.
-pub(super) fn behind_setpoint(observed: &Observed<'_>, joint: usize) -> Option<Window> {
+pub(super) fn behind_setpoint(observed: &ObservedRun<'_>, joint: usize) -> Option<Window> {
     let (q, setpoint) = (&observed.q[joint], &observed.setpoint[joint]);
     Window::spanning(q.len(), |sample| (q[sample] - setpoint[sample]).abs() > ROUNDING)
 }

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use super::{
     fit::{FaultFit, Window, rms},
     noise::ROUNDING,
-    observed::Observed,
+    observed::ObservedRun,
 };
 
 /// A displaced tool, and the joint whose position the poses give wrongly because of it.
@@ -16,8 +16,9 @@ pub(super) struct DisplacedTool {
 }
 
 /// The first link that is not at its nominal pose on its parent.
-pub(super) fn displaced(observed: &Observed<'_>) -> Option<DisplacedTool> {
+pub(super) fn displaced(observed: &ObservedRun<'_>) -> Option<DisplacedTool> {
     let samples = observed.samples();
+    // The first: links are in the order of the tree, and everything behind it is displaced with it.
     let (link, window) = (0..observed.robot.links().len()).find_map(|link| {
         let is_off = |sample| size(&observed.displacement(link, sample, None)) > ROUNDING;
         Some((link, Window::spanning(samples, is_off)?))

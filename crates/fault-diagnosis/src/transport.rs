@@ -6,10 +6,10 @@ use super::{
     encoder::{DISTINCT, SIGNIFICANT},
     fit::{EXPLAINED, FaultFit, Window, rms},
     noise::ROUNDING,
-    observed::Observed,
+    observed::ObservedRun,
 };
 
-/// Lost readings.
+/// Readings that were lost on their path to the controller, which then has the one before again.
 pub(super) struct Dropped {
     pub(super) fit: FaultFit,
     /// Whether the reading of a sample was lost.
@@ -19,7 +19,7 @@ pub(super) struct Dropped {
 }
 
 /// Readings that repeat the one before to the last bit in every joint although that would not happen by chance.
-pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<Dropped> {
+pub(super) fn dropped(observed: &ObservedRun<'_>, joints: &[usize]) -> Option<Dropped> {
     /// Chance of a repetition below which it is one of a reading that got lost.
     const CHANCE: f64 = 1e-6;
     let shows_loss = |sample: usize| {
@@ -29,6 +29,7 @@ pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<Dropp
                 < CHANCE
     };
     let repeats = |sample: usize| {
+        // All joints: a transport loses whole messages.
         observed.measured.iter().all(|q| sample > 0 && q[sample].to_bits() == q[sample - 1].to_bits())
     };
     let shows_loss: Vec<bool> = (0..observed.samples()).map(shows_loss).collect();
@@ -53,12 +54,13 @@ pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<Dropp
     let remaining = if others > 0.0 { (others / of_repeats).min(1.0) } else { 0.0 };
     let value = FaultQuantity::share(lost / all);
     let is_held = (0..observed.samples()).map(|sample| shows_loss[sample] && repeats(sample)).collect();
-    let fit = fit(observed, FaultKind::DroppedSamples, (value, window, joints), remaining);
+    let fault = fault(observed, FaultKind::DroppedSamples, value, window, joints);
+    let fit = FaultFit { fault, remaining, parameters: 1 };
     Some(Dropped { fit, is_held, would_show: shows_loss })
 }
 
 /// A bound of the chance that a reading repeats the one before.
-fn repeats_by_chance(observed: &Observed<'_>, joint: usize, sample: usize) -> f64 {
+fn repeats_by_chance(observed: &ObservedRun<'_>, joint: usize, sample: usize) -> f64 {
     let uncertainty = observed.uncertainty[joint];
     let (q, noise) = (&observed.q[joint], uncertainty.noise);
     let late = observed.late.map_or(0, |(_, steps)| steps);
@@ -77,15 +79,15 @@ fn repeats_by_chance(observed: &Observed<'_>, joint: usize, sample: usize) -> f6
     (uncertainty.resolution.max(f64::EPSILON) / (std::f64::consts::PI.sqrt() * noise)).min(1.0)
 }
 
-fn fit(
-    observed: &Observed<'_>,
+fn fault(
+    observed: &ObservedRun<'_>,
     kind: FaultKind,
-    (value, window, joints): (FaultQuantity, Window, &[usize]),
-    remaining: f64,
-) -> FaultFit {
+    value: FaultQuantity,
+    window: Window,
+    joints: &[usize],
+) -> RunFault {
     let (from_s, until_s) = observed.times_in_motion(window, joints);
-    let fault = RunFault { kind, joints: Vec::new(), link: None, values: vec![value], from_s, until_s };
-    FaultFit { fault, remaining, parameters: 1 }
+    RunFault { kind, joints: Vec::new(), link: None, values: vec![value], from_s, until_s }
 }
 
 /// Readings of an earlier time.
@@ -98,7 +100,7 @@ pub(super) struct Late {
 }
 
 /// All readings are those of an earlier time.
-pub(super) fn late(observed: &Observed<'_>, joints: &[usize]) -> Option<Late> {
+pub(super) fn late(observed: &ObservedRun<'_>, joints: &[usize]) -> Option<Late> {
     // A geometric grid, then bisection of the distance around the best: each trial costs a pass over all samples, and the gain
     // has one broad maximum at the right latency.
     let most = observed.store.steps().last()? / 2;
@@ -116,26 +118,29 @@ pub(super) fn late(observed: &Observed<'_>, joints: &[usize]) -> Option<Late> {
         }
     }
     let (steps, (window, gain)) = best;
-    let remaining =
-        joints.iter().map(|&joint| remaining(observed, joint, (steps, window))).fold(0.0, f64::max);
+    let remaining = joints.iter().map(|&joint| remaining(observed, joint, steps, window)).fold(0.0, f64::max);
     let is_significant =
-        gain > SIGNIFICANT && remaining <= EXPLAINED && is_beyond_steps(observed, joints, (steps, window));
+        gain > SIGNIFICANT && remaining <= EXPLAINED && is_beyond_steps(observed, joints, steps, window);
     #[expect(clippy::cast_precision_loss, reason = "steps of a run are far below 2^52")]
     let value = FaultQuantity::latency(steps as f64 * observed.clock.step_s);
-    let fit = fit(observed, FaultKind::Latency, (value, window, joints), remaining);
+    let fault = fault(observed, FaultKind::Latency, value, window, joints);
+    let fit = FaultFit { fault, remaining, parameters: 1 };
     is_significant.then_some(Late { fit, window, steps: usize::try_from(steps).ok()?, gain })
 }
 
 /// The error that a latency adds to the reading of every sample.
-fn added(observed: &Observed<'_>, joint: usize, steps: u64) -> impl Fn(usize) -> f64 {
+fn added(observed: &ObservedRun<'_>, joint: usize, steps: u64) -> impl Fn(usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "steps of a run are far below 2^52")]
     let latency_s = steps as f64 * observed.clock.step_s;
     let (q, times_s) = (&observed.q[joint], &observed.times_s);
-    move |sample| interpolated(q, position_in_time(times_s, times_s[sample] - latency_s)) - q[sample]
+    move |sample| {
+        let (before, part) = position_in_time(times_s, times_s[sample] - latency_s);
+        interpolated(q, before, part) - q[sample]
+    }
 }
 
 /// The window in which a latency explains most, in variances: the largest sum of successive gains (Kadane's algorithm).
-fn shifted(observed: &Observed<'_>, joints: &[usize], steps: u64) -> (Window, f64) {
+fn shifted(observed: &ObservedRun<'_>, joints: &[usize], steps: u64) -> (Window, f64) {
     let mut gains = vec![0.0; observed.samples()];
     for &joint in joints {
         let (error, added) = (&observed.error[joint], added(observed, joint, steps));
@@ -164,7 +169,7 @@ fn shifted(observed: &Observed<'_>, joints: &[usize], steps: u64) -> (Window, f6
 }
 
 /// Relative residual of a joint with a latency, beyond noise.
-fn remaining(observed: &Observed<'_>, joint: usize, (steps, window): (u64, Window)) -> f64 {
+fn remaining(observed: &ObservedRun<'_>, joint: usize, steps: u64, window: Window) -> f64 {
     let (error, added) = (&observed.error[joint], added(observed, joint, steps));
     let (mut whole, mut residual, mut noise) = (0.0, 0.0, 0.0);
     for sample in observed.used() {
@@ -177,7 +182,7 @@ fn remaining(observed: &Observed<'_>, joint: usize, (steps, window): (u64, Windo
 }
 
 /// Whether the latency changes readings by more than the steps of the encoders.
-fn is_beyond_steps(observed: &Observed<'_>, joints: &[usize], (steps, window): (u64, Window)) -> bool {
+fn is_beyond_steps(observed: &ObservedRun<'_>, joints: &[usize], steps: u64, window: Window) -> bool {
     joints.iter().any(|&joint| {
         let added = added(observed, joint, steps);
         let resolution = observed.uncertainty[joint].resolution;
@@ -193,6 +198,7 @@ fn position_in_time(times_s: &[f64], time_s: f64) -> (usize, f64) {
     let before = after.saturating_sub(1);
     let next = (before + 1).min(times_s.len() - 1);
     let interval_s = times_s[next] - times_s[before];
+    // Rounding of times: a latency of whole steps has to give readings, not interpolations between them.
     let part = if interval_s > 0.0 { ((time_s - times_s[before]) / interval_s).clamp(0.0, 1.0) } else { 0.0 };
     let part = if part < AT_SAMPLE {
         0.0
@@ -204,7 +210,7 @@ fn position_in_time(times_s: &[f64], time_s: f64) -> (usize, f64) {
     (before, part)
 }
 
-fn interpolated(series: &[f64], (before, part): (usize, f64)) -> f64 {
+fn interpolated(series: &[f64], before: usize, part: f64) -> f64 {
     let next = (before + 1).min(series.len() - 1);
     series[before] + part * (series[next] - series[before])
 }

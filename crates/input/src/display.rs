@@ -80,7 +80,7 @@ pub fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// A value in its SI unit with all its digits, for two that [`quantity`] prints alike.
+/// A value in its SI unit with all its digits, to be copied into a file.
 ///
 /// # Examples
 /// ```
@@ -100,9 +100,15 @@ pub fn quantity_in_full(value: f64, unit: &str) -> String {
 /// assert_eq!(quantity_with_digits(5.551e-17, "kg", 2), "5.6e-17 kg");
 /// ```
 pub fn quantity_with_digits(value: f64, unit: &str, digits: usize) -> String {
+    /// From here on the digits end before the decimal point. Kind: choice.
+    const LARGEST_IN_FULL: f64 = 1e9;
     let decimals = digits.saturating_sub(1);
     let rounded: f64 = format!("{value:.decimals$e}").parse().unwrap_or(value);
-    let text = if rounded.abs() < SMALLEST_DECIMAL { format!("{rounded:e}") } else { rounded.to_string() };
+    let text = match rounded.abs() {
+        0.0 => "0".to_owned(),
+        size if (SMALLEST_DECIMAL..LARGEST_IN_FULL).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    };
     format!("{text} {unit}").trim_end().to_owned()
 }
 

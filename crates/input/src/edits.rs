@@ -42,6 +42,7 @@ pub fn changed_lines(text: &str, edits: &[TextEdit]) -> Vec<ChangedLines> {
         match changed.last_mut() {
             Some((lines, so_far)) if start < lines.end => {
                 so_far.push_str(&text[written_to..span.start]);
+                // One beyond its end, so that an empty line contains its own start.
                 lines.end = lines.end.max(line_end(text, span.end) + 1);
             }
             _ => {

@@ -86,7 +86,7 @@ fn poe_all_links(bencher: Bencher<'_, '_>) {
 /// The chain through the description, as `urdf_to_tip` takes it.
 fn serial() -> SerialChain {
     let (robot, _) = arm(DhConvention::Standard);
-    SerialChain::from_urdf(&robot, (robot.root(), tip(&robot)))
+    SerialChain::from_urdf(&robot, robot.root(), tip(&robot))
 }
 
 #[divan::bench]

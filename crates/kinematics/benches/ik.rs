@@ -44,11 +44,11 @@ fn measure(named: &str) {
     let path = parts.next().expect("a name has a first part");
     let description = load_robot(Path::new(path)).expect("the robot loads");
     let link = |name: &str| description.robot.find_link(name).expect("the link exists");
-    let ends = match (parts.next(), parts.next()) {
+    let (base, tip) = match (parts.next(), parts.next()) {
         (Some(base), Some(tip)) => (link(base), link(tip)),
         _ => (description.base, description.tip),
     };
-    let mut arm = Arm::new(&description.robot, ends, Pose::identity()).expect("the arm moves");
+    let mut arm = Arm::new(&description.robot, base, tip, Pose::identity()).expect("the arm moves");
     let part = if arm.joints().len() < 6 { TargetPart::Position } else { TargetPart::Pose };
     let targets = reachable(&mut arm);
     let middle = arm.middle();

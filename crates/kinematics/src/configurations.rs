@@ -63,7 +63,10 @@ pub fn axis_steps(robot: &Robot) -> Vec<AxisStep> {
 /// Seeded draws within the limits; mimic joints follow their masters.
 pub fn random_configurations(robot: &Robot, seed: u64, count: usize) -> Vec<RobotQ> {
     let mut random = Uniform::seeded(seed);
-    let mut draw = |&joint: &JointIndex| random.between(range(robot.joint(joint)));
+    let mut draw = |&joint: &JointIndex| {
+        let (lower, upper) = range(robot.joint(joint));
+        random.between(lower, upper)
+    };
     let mut configuration = || {
         let mut q: RobotQ = robot.movable_joints().iter().map(&mut draw).collect();
         robot.apply_mimic(&mut q);

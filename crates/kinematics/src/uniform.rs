@@ -17,7 +17,7 @@ impl Uniform {
 
     /// A number in `lower..upper`, with 53 random bits.
     #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
-    pub fn between(&mut self, (lower, upper): (f64, f64)) -> f64 {
+    pub fn between(&mut self, lower: f64, upper: f64) -> f64 {
         let share = (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         lower + (upper - lower) * share
     }

@@ -353,8 +353,8 @@ proptest! {
     fn case_08_a_tables_screws_are_those_of_its_robot(figures in support::table_figures()) {
         let robot = figures.robot();
         let coordinates: Vec<usize> = (0..robot.dof()).collect();
-        let links = (robot.root(), robot.find_link("tip").unwrap());
-        let by_urdf = ScrewChain::from_urdf(&robot, links, &coordinates).unwrap();
+        let tip = robot.find_link("tip").unwrap();
+        let by_urdf = ScrewChain::from_urdf(&robot, robot.root(), tip, &coordinates).unwrap();
         prove(&SerialDh::from_table(&figures.table(&robot)), &by_urdf);
         let by_table = chain_of(&figures);
         prove(&derive_dh(&by_urdf, figures.convention, ACCURACY).unwrap().dh, &by_table);

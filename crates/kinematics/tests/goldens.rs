@@ -157,7 +157,7 @@ fn assert_batches(name: &str, robot: &Robot, golden: &Value) {
     let configurations = array(&golden["configs"]);
     for (at, link) in array(&golden["links"]).iter().enumerate() {
         let tip = robot.find_link(text(link)).expect("the robot has the golden's link");
-        let chain = SerialChain::from_urdf(robot, (robot.root(), tip));
+        let chain = SerialChain::from_urdf(robot, robot.root(), tip);
         let q: Vec<f64> = configurations
             .iter()
             .flat_map(|configuration| {

@@ -23,8 +23,7 @@ fn load(name: &str) -> RobotDescription {
 
 /// The arm without its tool.
 fn arm(description: &RobotDescription) -> Arm {
-    Arm::new(&description.robot, (description.base, description.tip), Pose::identity())
-        .expect("the arm moves")
+    Arm::new(&description.robot, description.base, description.tip, Pose::identity()).expect("the arm moves")
 }
 
 /// The tip by joint after joint of the description: another path than the solver's.

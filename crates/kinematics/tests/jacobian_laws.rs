@@ -112,7 +112,7 @@ proptest! {
         let (tree, q) = (UrdfTree::new(&robot), &q.of_robot(&robot));
         let all = links(&robot);
         let [base, tip] = ends.map(|end| all[end.index(all.len())]);
-        let chain = SerialChain::from_urdf(&robot, (base, tip));
+        let chain = SerialChain::from_urdf(&robot, base, tip);
         let of_chain = q.chain_positions(chain.coordinates());
         let base_from_root = tree.root_from_link(q, base).unwrap().inverse();
         let expected = base_from_root * tree.root_from_link(q, tip).unwrap();
@@ -138,12 +138,12 @@ proptest! {
     fn tables_and_screws_give_the_same_serial_chain(figures in support::table_figures(), q in support::positions()) {
         let robot = figures.robot();
         let (q, of_chain) = (&q.of_robot(&robot), &q.of_chain(robot.dof()));
-        let ends = (robot.root(), robot.find_link("tip").unwrap());
-        let by_urdf = SerialChain::from_urdf(&robot, ends);
+        let tip = robot.find_link("tip").unwrap();
+        let by_urdf = SerialChain::from_urdf(&robot, robot.root(), tip);
         let by_table = SerialChain::from_dh(&figures.table(&robot), &robot);
-        let screws = ScrewChain::from_urdf(&robot, ends, by_urdf.coordinates()).unwrap();
+        let screws = ScrewChain::from_urdf(&robot, robot.root(), tip, by_urdf.coordinates()).unwrap();
         let by_screws = SerialChain::from_screws(&screws);
-        let tree = UrdfTree::new(&robot).jacobian(q, ends.1, JacobianKind::Geometric).unwrap();
+        let tree = UrdfTree::new(&robot).jacobian(q, tip, JacobianKind::Geometric).unwrap();
         for chain in [by_urdf, by_table, by_screws] {
             let mut columns = vec![Twist::zero(); chain.joint_count()];
             chain.pose_and_jacobian_into(of_chain, JacobianKind::Geometric, &mut columns).unwrap();
@@ -161,7 +161,7 @@ fn wrong_lengths_are_refused() {
     let columns = &mut [Twist::zero()];
     let refused = tree.jacobian_into(&RobotQ::zeros(0), robot.root(), JacobianKind::Body, columns);
     assert_eq!(refused, Err(KinematicsError::ColumnCount { expected: 0, found: 1 }));
-    let chain = SerialChain::from_urdf(&robot, (robot.root(), robot.root()));
+    let chain = SerialChain::from_urdf(&robot, robot.root(), robot.root());
     let refused = chain.pose_and_jacobian_into(&ChainQ::zeros(1), JacobianKind::Body, columns);
     assert_eq!(refused, Err(KinematicsError::JointCount { expected: 0, found: 1 }));
     let jacobian = Jacobian::from_columns(JacobianKind::Body, columns.to_vec());

@@ -56,7 +56,7 @@ fn size(joints: &[Moving], tool_x: f64, samples: usize, seed: u64) -> WorkspaceS
     let robot = robot(joints);
     let tip = robot.find_link(&format!("link_{}", joints.len())).unwrap();
     let tool = Pose { translation: Vector3::new(tool_x, 0.0, 0.0), ..Pose::identity() };
-    let mut arm = Arm::new(&robot, (robot.root(), tip), tool).unwrap();
+    let mut arm = Arm::new(&robot, robot.root(), tip, tool).unwrap();
     arm.workspace(Sampling { samples, seed }).size.expect("the tool moves in two directions or more")
 }
 

@@ -14,6 +14,7 @@ pub fn declared_encoding(source: &Arc<SourceFile>) -> Option<Diagnostic> {
     let (declared, at) = declaration(&source.text)?;
     let name = declared.to_ascii_lowercase();
     let is_same = ["utf-8", "utf8"].contains(&name.as_str())
+        // ASCII text is the same in all of these.
         || (source.text.is_ascii() && EXTENDED_ASCII.iter().any(|known| name.starts_with(known)));
     if is_same {
         return None;
@@ -30,6 +31,7 @@ fn declaration(text: &str) -> Option<(&str, usize)> {
     let value = value.trim_start().strip_prefix('=')?.trim_start();
     let quote = value.chars().next().filter(|quote| ['"', '\''].contains(quote))?;
     let name = value[1..].split_once(quote)?.0;
+    // The name is a slice of the text, so the distance of the pointers is its place.
     Some((name, name.as_ptr().addr() - text.as_ptr().addr()))
 }
 

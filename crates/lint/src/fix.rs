@@ -60,6 +60,7 @@ fn names(text: &str, place: &Misspelt<'_>, written: &str) -> Vec<Range<usize>> {
             let end =
                 closing.map(|at| at..at + written.len()).filter(|end| text.get(end.clone()) == Some(written));
             let is_closed = !text[range].trim_end().ends_with("/>");
+            // No edit at all rather than one of two tags: the file would not be XML any more.
             match (end, is_closed) {
                 (Some(end), true) => vec![start, end],
                 (None, true) => Vec::new(),
@@ -86,6 +87,7 @@ fn unit_axis(joint: Node<'_, '_>) -> Option<SafeFix> {
         return None;
     }
     let unit = vector / length;
+    // `+ 0.0` turns -0 into 0; the shortest digits that read back as the same number.
     let text = unit.iter().map(|entry| (entry + 0.0).to_string()).collect::<Vec<_>>().join(" ");
     Some(SafeFix {
         code: "urdf::axis",
@@ -104,6 +106,7 @@ fn no_range(text: &str, joint: Node<'_, '_>) -> Option<SafeFix> {
         return None;
     }
     let with_space = |range: Range<usize>| {
+        // The space before the attribute goes with it.
         let before = text[..range.start].trim_end().len();
         TextEdit { span: before..range.end, text: String::new() }
     };

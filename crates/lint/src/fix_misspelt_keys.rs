@@ -40,7 +40,9 @@ fn meant(key: &UnknownKey) -> Option<&str> {
     let most = if key.name.chars().count() < LONG_KEY { 1 } else { 2 };
     let unit = |name: &str| UNITS.iter().filter(|unit| name.ends_with(**unit)).max_by_key(|unit| unit.len());
     let is_near = |known: &str| strsim::osa_distance(&key.name, known) <= most;
+    // The same unit: `_m` and `_mm` are a letter apart, and exchanging them changes the value a thousandfold.
     let mut near = key.known.iter().filter(|known| unit(known) == unit(&key.name) && is_near(known));
+    // Two near keys are no correction but a choice.
     let (only, None) = (near.next()?, near.next()) else { return None };
     Some(only)
 }

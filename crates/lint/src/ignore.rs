@@ -37,6 +37,7 @@ struct LintAlone {
 impl Ignores {
     /// Reads the entries of a robot file; none if the file is not valid, which its own reader reports.
     pub fn from_robot_file(source: &Arc<SourceFile>) -> Self {
+        // A file that cannot be read has been reported by its reader.
         let written = toml::from_str::<LintAlone>(&source.text).map(|file| file.lint).unwrap_or_default();
         Self { source: Some(Arc::clone(source)), written }
     }

@@ -66,11 +66,13 @@ impl FileToLint {
     pub fn open(path: &Path, access: &FileAccess) -> Result<Self, Diagnostic> {
         let file = file_of_robot(path)?;
         let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        // By the extension, before the file is opened: logs may have gigabytes.
         if let Some((_, what, now)) = ELSEWHERE.iter().find(|(end, ..)| *end == extension) {
             let message = format!("{} is {what}, not a file that can be linted", path.display());
             return Err(Diagnostic::error("lint::kind", message).with_help(*now));
         }
         if ["json", "jsonl", "csv"].contains(&extension.as_str()) && file.is_file() {
+            // Tables may be large; their first keys decide.
             let head = head_of(&file, HEAD_BYTES)?;
             return table(path, &head).map(|kind| Self { kind, source: None });
         }
@@ -107,6 +109,8 @@ fn table(path: &Path, head: &str) -> Result<FileKind, Diagnostic> {
         None => Err(no_kind(path, "it is empty")),
         Some('{') if is_configuration(header) => Ok(FileKind::Configurations),
         Some('{') => Err(no_kind(path, "it is a JSON object that is no configuration")),
+        // Keys of poses distinguish the three kinds: configurations have none, measurements have joint positions as
+        // well.
         Some('[') if !has(&["translation_", "quaternion_", "rpy_"]) => Ok(FileKind::Configurations),
         Some('[') if has(&["q\""]) => Ok(FileKind::Measurements),
         Some('[') => Ok(FileKind::Targets),
@@ -140,10 +144,12 @@ impl FileKind {
             };
             text.lines().filter(|line| is_key(line.trim_start())).count()
         };
+        // Counted by lines, since a file with a mistake is not TOML and needs the right messages all the same.
         if count(&SCENARIO_KEYS) > count(&ROBOT_KEYS) { Self::Scenario } else { Self::RobotFile }
     }
 
     fn from_xml_text(text: &str) -> Self {
+        // What is no XML gets the messages of a URDF.
         let Ok(document) = xml::parse(text) else { return Self::Urdf };
         let top = |names: &[&str]| {
             let mut children = document.root_element().children();

@@ -48,6 +48,7 @@ pub fn zero_limits(description: &RobotDescription) -> Vec<Diagnostic> {
     let mut found = Diagnostics::default();
     for limit in &ZERO_LIMIT_RULES {
         let value = |joint: &Joint| joint.limit.as_ref().and_then(limit.of);
+        // If no joint has an effort limit, 0 is the exporter's word for "none" and no oversight.
         if limit.is_idiom && driven().all(|joint| value(joint).is_none_or(|value| value == 0.0)) {
             continue;
         }

@@ -14,6 +14,7 @@ pub fn undefined_materials(description: &RobotDescription) -> Vec<Diagnostic> {
         .descendants()
         .filter(|node| node.has_tag_name("material"))
         .filter_map(|node| Some((node, node.attribute("name").filter(|name| !name.is_empty())?)))
+        // A material with a colour or texture defines its name, an empty one refers to it.
         .partition(|(node, _)| node.children().any(|child| child.is_element()));
     let defined: BTreeSet<&str> = defined.into_iter().map(|(_, name)| name).collect();
     let mut found = Diagnostics::default();

@@ -169,7 +169,7 @@ impl<'a> KnownNames<'a> {
             .attribute(attribute)
             .filter(|name| !name.is_empty())
         {
-            Some(name) => self.unknown(node, (attribute, name), named),
+            Some(name) => self.unknown(node, attribute, name, named),
             None if is_needed => {
                 let message = format!("{} has no {attribute}", described(node));
                 Some(Diagnostic::warning("srdf::missing_name", message).at(tag(node)))
@@ -182,7 +182,8 @@ impl<'a> KnownNames<'a> {
     fn unknown(
         &self,
         node: Node<'_, '_>,
-        (attribute, name): (&str, &str),
+        attribute: &str,
+        name: &str,
         named: ReferenceKind,
     ) -> Option<Diagnostic> {
         let known = self.names.get(&named).filter(|known| !known.contains(name))?;

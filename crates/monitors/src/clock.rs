@@ -72,7 +72,7 @@ impl RunClock {
                 .with_help("give `duration_s` under [simulation], or a [[motion]]"));
         }
         if step_s > duration_s {
-            let message = format!("step_s = {step_s:?}, limit <= {duration_s:?} s, the duration of the run");
+            let message = format!("step_s = {step_s:?} s is longer than the run of {duration_s:?} s");
             return Err(at_step(Diagnostic::error("scenario::step", message)));
         }
         let steps = duration_s / step_s;

@@ -22,12 +22,9 @@ pub struct Names {
 impl Names {
     /// The names of a robot, of the pairs that are watched around it, and of its zones.
     pub fn new(robot: &Robot, clearance: &Clearance, zones: &Clearance) -> Self {
-        let pair = |index| {
-            let (a, b) = clearance.names(index);
-            format!("{a}--{b}")
-        };
+        let pair = |index| clearance.names(index).join("--");
         let in_zone = |index| {
-            let (zone, link) = zones.names(index);
+            let [zone, link] = zones.names(index);
             format!("{link}--{zone}")
         };
         Self {

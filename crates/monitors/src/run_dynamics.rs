@@ -49,6 +49,7 @@ impl<'a> RunDynamics<'a> {
             let now = payload.is_carried_at(time_s);
             has_changed |= std::mem::replace(is_carried, now) != now;
         }
+        // Only inertias differ, so that the tree's shape, and with it the buffer, stays valid.
         if has_changed {
             let loaded = self.loaded(time_s);
             let inertias: Vec<_> = (0..loaded.dof()).map(|joint| loaded.inertia_in_link(joint)).collect();
@@ -62,6 +63,7 @@ impl<'a> RunDynamics<'a> {
     fn loaded(&self, time_s: f64) -> BodyTree {
         let mut robot = self.robot.clone();
         for payload in self.payloads.iter().filter(|payload| payload.is_carried_at(time_s)) {
+            // In the link's frame, to which the payload is fixed: hence identities below.
             let link = payload.carried.link;
             let parts = [robot.link(link).inertia, Some(payload.carried.inertia)];
             let parts = parts.into_iter().flatten().map(|part| (Isometry3::identity(), part));

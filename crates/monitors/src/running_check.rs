@@ -3,7 +3,7 @@
 
 use congruent_description::{Robot, RobotDescription};
 use congruent_input::Diagnostic;
-use congruent_proximity::ObstacleMobility;
+use congruent_proximity::{ObstacleMobility, PairNames};
 use congruent_scenario::{Check, CheckKind, FilePlace, ObstacleSettings, OnViolation};
 
 use super::{
@@ -54,19 +54,24 @@ impl<'a> RunningCheck<'a> {
     pub fn examine(
         check: &Check,
         place: FilePlace<'_>,
-        around: (&RobotDescription, &[ObstacleSettings], &[ObstacleMobility]),
+        description: &RobotDescription,
+        obstacles: &[ObstacleSettings],
+        mobility: &[ObstacleMobility],
     ) -> Result<(), Diagnostic> {
         check.unit_keys().iter().try_for_each(|keys| keys.examine(place))?;
-        let robot = &around.0.robot;
+        let pairs = |pairs: &[[String; 2]], ignore: &[[String; 2]]| {
+            let names = PairNames { pairs: pairs.to_vec(), ignore: ignore.to_vec() };
+            examine_pairs(&names, place, description, obstacles, mobility)
+        };
         match check {
             Check::Clearance(check) => {
                 examine_minimum(check, place)?;
-                examine_pairs((&check.pairs, &check.ignore), place, around)
+                pairs(&check.pairs, &check.ignore)
             }
-            Check::Contact(check) => examine_pairs((&check.pairs, &check.ignore), place, around),
+            Check::Contact(check) => pairs(&check.pairs, &check.ignore),
             Check::Goal(check) => examine_goal(check, place).map(|_| ()),
             Check::Limits(check) => examine_limits(check, place),
-            Check::Tracking(check) => examine_tracking(check, place, robot),
+            Check::Tracking(check) => examine_tracking(check, place, &description.robot),
             Check::Agreement(_)
             | Check::CycleTime(_)
             | Check::Dynamics(_)

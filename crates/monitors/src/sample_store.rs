@@ -63,6 +63,7 @@ impl SampleStore {
         }
         if self.steps.len() == self.capacity {
             self.thin_out();
+            // With the longer stride this sample may be one that is not kept.
             if !self.keeps(sample.step) {
                 return;
             }
@@ -85,6 +86,8 @@ impl SampleStore {
     }
 
     fn keeps(&self, step: u64) -> bool {
+        // Groups, not single samples: accelerations are second differences of positions, which need neighbours in
+        // time.
         self.stride == 1 || step % self.stride < CONSECUTIVE
     }
 

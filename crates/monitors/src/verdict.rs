@@ -123,6 +123,7 @@ impl Bound {
     /// Whether `value` is worse than `known`; NaN is worst of all.
     pub fn is_worse(self, value: f64, known: f64) -> bool {
         match self {
+            // First, so that a NaN stays the worst: nothing that comes later may make the result look better.
             _ if known.is_nan() => false,
             _ if value.is_nan() => true,
             Self::AtMost => value > known,

@@ -60,6 +60,8 @@ impl Watch {
     pub(crate) fn observe(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
         let (latest, at_s) = &mut self.latest;
         #[expect(clippy::float_cmp, reason = "the time of one sample")]
+        // One instant has a value for each subject. The first replaces that of the instant before, later ones only if
+        // worse.
         if *at_s != sample.time_s || self.bound.is_worse(value, *latest) {
             (*latest, *at_s) = (value, sample.time_s);
             self.latest_subject = subject;
@@ -79,7 +81,7 @@ impl Watch {
         (at_s == time_s).then_some(InstantValue { quantity, unit, bound, limit, value, subject })
     }
 
-    /// The watched quantity.
+    /// The watched quantity, as measures name it.
     pub(crate) fn quantity(&self) -> Quantity {
         self.quantity
     }

@@ -91,6 +91,7 @@ impl JointTargets<'_> {
     pub fn resolve(self, robot: &Robot, place: FilePlace<'_>) -> Result<Vec<JointTarget>, Findings> {
         let mut targets: Vec<JointTarget> = Vec::new();
         let mut errors = Vec::new();
+        // Degrees and radians share `Unit::Angle`: the kind of the joint is checked by the quantity, not by the key.
         let groups: [(&ByName, &str, Unit, ToSi); 4] = [
             (self.deg, "deg", Unit::Angle, Unit::convert),
             (self.rad, "rad", Unit::Angle, |_, rad| rad),
@@ -103,6 +104,7 @@ impl JointTargets<'_> {
             for (name, &value) in written {
                 let at_name = |error: Diagnostic| congruent_scenario::mark(error, place.key_span(name));
                 match joint_named(robot, name, unit) {
+                    // Before the search for a repeated joint, as a value that is not finite is never stored.
                     Ok(_) if !value.is_finite() => {
                         let message = format!("expected a finite number, found {value}");
                         errors.push(place.key(name).mark(Diagnostic::error("toml::invalid", message)));

@@ -61,8 +61,10 @@ pub fn build(
     }
     let (declared_acceleration, declared_jerk) = (acceleration.clone(), jerk.clone());
     for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
+        // Zero is what descriptions write for unknown.
         let own = robot.joint(joint).limit.and_then(|limit| limit.velocity).filter(|&limit| limit > 0.0);
         velocity[coordinate] = velocity[coordinate].min(own.unwrap_or(f64::INFINITY));
+        // Infinite if the velocity is: such a joint never needs a ramp.
         if acceleration[coordinate].is_infinite() {
             acceleration[coordinate] = velocity[coordinate] / TO_VELOCITY_S;
         }
@@ -105,6 +107,7 @@ impl Reader<'_> {
         ];
         // Named joints come after all others, so that they keep their own value.
         for is_every in [true, false] {
+            // Anew for both rounds: a joint's own limit beside `*` is an exception to it, not a repetition.
             let mut given_by = vec![None; self.robot.dof()];
             for ((key, by_joint), (unit, to_si)) in keys.into_iter().zip(units) {
                 let chosen = by_joint.iter().filter(|(name, _)| (*name == EVERY) == is_every);

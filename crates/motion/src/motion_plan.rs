@@ -55,7 +55,7 @@ pub enum JointSpacePath {
 
 /// The setpoint of all joints, to be written: positions, velocities and accelerations in SI units.
 pub(super) struct SetpointMut<'a> {
-    pub(super) q: &'a mut [f64],
+    pub(super) q: &'a mut RobotQ,
     pub(super) qd: &'a mut [f64],
     pub(super) qdd: &'a mut [f64],
 }

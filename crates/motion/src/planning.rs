@@ -65,6 +65,7 @@ impl Planning<'_> {
         where_: &str,
     ) -> Result<PlannedMove, Diagnostic> {
         let duration_s = planned.time_scaling.duration_s();
+        // Before the message: it names a duration that keeps the limit as it is printed.
         let least_s = rounded_up(duration_s * violation.slower);
         let message = self.in_words(violation, where_);
         let [least, given] = [quantity_in_full(least_s, "s"), quantity(duration_s, "s")];
@@ -81,6 +82,7 @@ impl Planning<'_> {
                 let help = format!("the motion takes {least} instead of {given}");
                 let warning = Diagnostic::warning(SLOWED, message).with_help(help);
                 self.warnings.push(self.place.mark(warning));
+                // By the rounded duration, so that the motion takes what the warning says.
                 planned.time_scaling = planned.time_scaling.slowed(least_s / duration_s);
                 Ok(planned)
             }

@@ -136,7 +136,9 @@ impl<'a> ReferenceGenerator<'a> {
     /// [`MotionError`] if `measured_q` is not a configuration of the robot, or a motion after a servo cannot be planned.
     pub fn advance(&mut self, time_s: f64, measured_q: &RobotQ) -> Result<(), MotionError> {
         let before_s = std::mem::replace(&mut self.time_s, time_s);
+        // Before the first motion the arm holds its start.
         let Some((index, starts_s)) = self.under_way(time_s) else { return Ok(()) };
+        // Once per motion: results of servos are stored, and an open motion is planned only when its start is known.
         if self.current.is_none_or(|(current, _)| current != index) {
             self.leave(measured_q)?;
             self.current = Some((index, starts_s));
@@ -166,7 +168,7 @@ impl<'a> ReferenceGenerator<'a> {
                     servo,
                     measured_q,
                     interval,
-                    (&mut self.q, &mut self.qd),
+                    setpoint(&mut self.q, &mut self.qd, &mut self.qdd),
                 )?;
             }
         }
@@ -178,6 +180,7 @@ impl<'a> ReferenceGenerator<'a> {
     /// # Errors
     /// [`KinematicsError::JointCount`] if `measured_q` is not a configuration of the robot.
     pub fn finish(&mut self, measured_q: &RobotQ) -> Result<Vec<ServoResult>, KinematicsError> {
+        // A simulation that has failed may have NaN here; a result of it would hide the error.
         if measured_q.iter().all(|q| q.is_finite()) {
             self.leave(measured_q)?;
         }
@@ -191,9 +194,12 @@ impl<'a> ReferenceGenerator<'a> {
 
     /// The motion at a time with its start. A motion that was made slower is not left before its own, later end.
     fn under_way(&self, time_s: f64) -> Option<(usize, f64)> {
+        // The plan's clock: it runs behind by what motions have taken longer.
         let planned = self.trajectory.under_way(time_s - self.later_s);
         let begun = planned.map(|(index, starts_s)| (index, starts_s + self.later_s));
         match (self.current, begun) {
+            // Only forwards: `later_s` grows when a motion is slowed, and the plan's clock then goes back into the
+            // motion before.
             (Some((current, _)), Some((index, _))) if index > current => begun,
             (None, _) => begun,
             (current, _) => current,
@@ -221,6 +227,7 @@ impl<'a> ReferenceGenerator<'a> {
         let mut planned = plan(std::slice::from_ref(settings), 0, &mut planning).map_err(refused)?;
         let Motion { duration_s, motion_plan } = planned.swap_remove(0);
         let longer_s = duration_s - self.trajectory.motions[index].duration_s;
+        // Rounding may change the duration without a warning; only a motion that was slowed shifts the others.
         if let Some(warning) = warnings.into_iter().find(|warning| warning.code == SLOWED) {
             self.later_s += longer_s;
             self.slowed.push(SlowedMotion { motion: index, longer_s, warning });

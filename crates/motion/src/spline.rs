@@ -121,6 +121,8 @@ impl JointSpline {
     /// The interval of a value of the parameter, and its length.
     fn interval(&self, parameter: f64) -> (usize, f64) {
         let after = self.knots.partition_point(|&knot| knot <= parameter);
+        // Outside the knots the first or the last interval counts; a double knot of `joined` has no length and is
+        // never found.
         let interval = after.clamp(1, self.knots.len() - 1) - 1;
         (interval, self.knots[interval + 1] - self.knots[interval])
     }
@@ -129,6 +131,7 @@ impl JointSpline {
 /// The knots with one more in the middle of the first and of the last interval; of two, at thirds.
 fn with_free_knots(knots: &[f64]) -> Vec<f64> {
     let (first, last) = (knots[0], knots[knots.len() - 1]);
+    // In one interval both midpoints would be the same knot.
     if knots.len() == 2 {
         let third = (last - first) / 3.0;
         return vec![first, first + third, last - third, last];
@@ -152,6 +155,8 @@ fn resting(knots: &[f64], given: &[f64]) -> (Vec<f64>, Vec<f64>) {
     };
     let inner = &given[1..given.len() - 1];
     let nothing = vec![0.0; inner.len()];
+    // With slopes of zero built in; the second derivatives at the ends are then affine in the two free positions:
+    // base + x1 of_first + x2 of_last.
     let solve = |y: &[f64]| second_derivatives(knots, y, [0.0; 2]);
     let base = solve(&with(inner, given[0], given[given.len() - 1]));
     let mut unit = with(&nothing, 1.0, 0.0);
@@ -159,11 +164,13 @@ fn resting(knots: &[f64], given: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let of_first = solve(&unit);
     (unit[1], unit[last - 1]) = (0.0, 1.0);
     let of_last = solve(&unit);
+    // Cramer's rule for both second derivatives to be zero.
     let determinant = of_first[0] * of_last[last] - of_last[0] * of_first[last];
     let first = (of_last[0] * base[last] - base[0] * of_last[last]) / determinant;
     let second = (base[0] * of_first[last] - of_first[0] * base[last]) / determinant;
     let y = with(inner, given[0] + first, given[given.len() - 1] + second);
     let mut derivatives = solve(&y);
+    // Zero up to rounding; exactly zero, so that the arm starts without acceleration.
     (derivatives[0], derivatives[last]) = (0.0, 0.0);
     (y, derivatives)
 }
@@ -176,6 +183,7 @@ fn parabola_slopes(knots: &[f64], y: &[f64]) -> [f64; 2] {
         return [slope(0, 1); 2];
     }
     let at_end = |end: usize, near: usize, far: usize| {
+        // Newton's divided differences: the slope of the parabola at the end.
         let bend = (slope(near, far) - slope(end, near)) / (knots[far] - knots[end]);
         slope(end, near) - bend * (knots[near] - knots[end])
     };
@@ -191,6 +199,7 @@ fn second_derivatives(knots: &[f64], y: &[f64], slopes: [f64; 2]) -> Vec<f64> {
     // The tridiagonal system is eliminated downwards and solved upwards.
     let mut above = vec![0.0; y.len()];
     for row in 0..=last {
+        // Rows of the clamped cubic spline: the first and the last say the slope, the others that slopes join.
         let (below, diagonal, right, value) = if row == 0 {
             (0.0, 2.0 * h(0), h(0), slope(0) - slopes[0])
         } else if row == last {
@@ -199,6 +208,7 @@ fn second_derivatives(knots: &[f64], y: &[f64], slopes: [f64; 2]) -> Vec<f64> {
             (h(row - 1), 2.0 * (h(row - 1) + h(row)), h(row), slope(row) - slope(row - 1))
         };
         let (above_before, before) = if row == 0 { (0.0, 0.0) } else { (above[row - 1], second[row - 1]) };
+        // Diagonally dominant, so elimination needs no pivoting.
         let pivot = diagonal - below * above_before;
         above[row] = right / pivot;
         second[row] = (6.0 * value - below * before) / pivot;

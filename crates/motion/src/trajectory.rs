@@ -68,6 +68,7 @@ impl Trajectory {
             }
             let from = trajectory.end().clone();
             let mut planning = Planning { description, limits, folder, from: &from, place: places, warnings };
+            // One call may plan several: lines and arcs that blend are one path.
             for motion in plan(&motions[index..], index, &mut planning)? {
                 trajectory.push(motion);
             }
@@ -101,6 +102,7 @@ impl Trajectory {
     /// The planned positions at a time; `None` from the beginning of a servo on.
     pub fn planned_at(&self, time_s: f64) -> Option<RobotQ> {
         let Some((index, starts_s)) = self.under_way(time_s) else { return Some(self.start.clone()) };
+        // Any before it, too: what follows a servo starts where the servo ends.
         if self.motions[..=index].iter().any(|motion| !matches!(motion.motion_plan, MotionPlan::Planned(_))) {
             return None;
         }
@@ -152,6 +154,7 @@ pub(super) fn plan(
     first: usize,
     planning: &mut Planning<'_>,
 ) -> Result<Vec<Motion>, Findings> {
+    // Before `place` is narrowed to one motion: a path marks each of its legs.
     let count = path::group_length(motions);
     if count > 0 {
         return Ok(path::plan(&motions[..count], first, planning)?);

@@ -1,5 +1,7 @@
 //! The largest violation of joint limits by a planned move: of velocity, and of acceleration and jerk if they are declared.
 
+use congruent_description::RobotQ;
+
 use super::{
     motion_plan::{JointSpacePath, PlannedMove, SetpointMut},
     timing::MotionLimits,
@@ -91,6 +93,7 @@ pub(super) fn worst_violation(planned: &PlannedMove, limits: &MotionLimits) -> O
         ];
         for ((rate, values, limits), rounding) in all.into_iter().zip(ROUNDING) {
             for (coordinate, (value, &limit)) in values.iter().zip(limits).enumerate() {
+                // An infinite limit gives 0.
                 let times = value.abs() / limit;
                 // Compared by duration, not by ratio: 2x the velocity needs twice the time, 2x the jerk only 1.26 times.
                 let slower = rate.slower(times);
@@ -106,7 +109,7 @@ pub(super) fn worst_violation(planned: &PlannedMove, limits: &MotionLimits) -> O
 
 /// Derivatives of all joints at one instant.
 struct Rates {
-    q: Vec<f64>,
+    q: RobotQ,
     velocity: Vec<f64>,
     acceleration: Vec<f64>,
     jerk: Vec<f64>,
@@ -118,7 +121,13 @@ impl Rates {
     fn new(planned: &PlannedMove) -> Self {
         let zeros = || vec![0.0; planned.to.len()];
         let later = [[zeros(), zeros()], [zeros(), zeros()]];
-        Self { q: zeros(), velocity: zeros(), acceleration: zeros(), jerk: zeros(), later }
+        Self {
+            q: RobotQ::zeros(planned.to.len()),
+            velocity: zeros(),
+            acceleration: zeros(),
+            jerk: zeros(),
+            later,
+        }
     }
 
     /// Evaluates the move at a time; jerks are changes of the acceleration over `jerk_over_s`. A jump of the acceleration, as

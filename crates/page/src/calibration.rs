@@ -13,7 +13,7 @@ use congruent_input::display::{angle, counted, length, number};
 use maud::{Markup, html};
 
 use crate::{
-    parts::{Outcome, Pointer, badge, count, document, value, warnings},
+    parts::{BadgeKind, Pointer, badge, count, document, value, warnings},
     run::capitalised,
 };
 
@@ -34,17 +34,17 @@ pub fn calibration_page(report: &CalibrationReport, robot: &Robot) -> String {
     document(&format!("{}: calibration", report.robot), &body, None)
 }
 
-fn outcome(verdict: CalibrationVerdict) -> (Outcome, &'static str) {
+fn outcome(verdict: CalibrationVerdict) -> (BadgeKind, &'static str) {
     match verdict {
-        CalibrationVerdict::Explained => (Outcome::Good, "EXPLAINED"),
-        CalibrationVerdict::UnexplainedRows => (Outcome::Unclear, "EXPLAINED, EXCEPT OUTLIERS"),
-        CalibrationVerdict::NoImprovement => (Outcome::Unclear, "NO IMPROVEMENT"),
-        CalibrationVerdict::NoiseExceeded => (Outcome::Bad, "RESIDUAL ABOVE THE NOISE"),
-        CalibrationVerdict::Unexplained => (Outcome::Bad, "NOT EXPLAINED"),
-        CalibrationVerdict::Misinterpreted => (Outcome::Bad, "FILE LIKELY IN OTHER UNITS, ORDER OR FRAME"),
-        CalibrationVerdict::TooLarge => (Outcome::Bad, "CORRECTIONS TOO LARGE"),
-        CalibrationVerdict::Unverifiable => (Outcome::Unclear, "CANNOT BE VERIFIED"),
-        CalibrationVerdict::NothingIdentified => (Outcome::Unclear, "NOTHING IDENTIFIED"),
+        CalibrationVerdict::Explained => (BadgeKind::Good, "EXPLAINED"),
+        CalibrationVerdict::UnexplainedRows => (BadgeKind::Unclear, "EXPLAINED, EXCEPT OUTLIERS"),
+        CalibrationVerdict::NoImprovement => (BadgeKind::Unclear, "NO IMPROVEMENT"),
+        CalibrationVerdict::NoiseExceeded => (BadgeKind::Bad, "RESIDUAL ABOVE THE NOISE"),
+        CalibrationVerdict::Unexplained => (BadgeKind::Bad, "NOT EXPLAINED"),
+        CalibrationVerdict::Misinterpreted => (BadgeKind::Bad, "FILE LIKELY IN OTHER UNITS, ORDER OR FRAME"),
+        CalibrationVerdict::TooLarge => (BadgeKind::Bad, "CORRECTIONS TOO LARGE"),
+        CalibrationVerdict::Unverifiable => (BadgeKind::Unclear, "CANNOT BE VERIFIED"),
+        CalibrationVerdict::NothingIdentified => (BadgeKind::Unclear, "NOTHING IDENTIFIED"),
     }
 }
 
@@ -216,7 +216,7 @@ fn rows(report: &CalibrationReport) -> Markup {
                         tr {
                             th scope="row" {
                                 (row.row) span.small { " line " (row.line) }
-                                @if is_outlier(row) { " " (badge(Outcome::Unclear, "outlier")) }
+                                @if is_outlier(row) { " " (badge(BadgeKind::Unclear, "outlier")) }
                             }
                             td data-label="nominal" { (both([(&at.key("nominal_m"), row.nominal_m), (&at.key("nominal_rad"), row.nominal_rad)])) }
                             td data-label="least squares" { (both([(&at.key("least_squares_m"), row.least_squares_m), (&at.key("least_squares_rad"), row.least_squares_rad)])) }

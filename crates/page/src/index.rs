@@ -6,7 +6,7 @@ use congruent_results::report::{RunReport, lines};
 use maud::{Markup, html};
 
 use crate::{
-    parts::{Outcome, badge, document},
+    parts::{BadgeKind, badge, document},
     run::{capitalised, outcome},
 };
 
@@ -22,8 +22,8 @@ pub struct IndexEntry<'a> {
 }
 
 impl IndexEntry<'_> {
-    fn outcome(&self) -> (Outcome, &'static str) {
-        self.result.as_ref().map_or((Outcome::Bad, "DID NOT START"), |report| outcome(report))
+    fn outcome(&self) -> (BadgeKind, &'static str) {
+        self.result.as_ref().map_or((BadgeKind::Bad, "DID NOT START"), |report| outcome(report))
     }
 
     /// Worst first: what could not run, what failed, then what is nearest to a limit.
@@ -35,6 +35,7 @@ impl IndexEntry<'_> {
             Verdict::NotAsExpected => 3,
             Verdict::AsExpected => 4,
         };
+        // Negated: sorted upwards, the largest share comes first.
         (verdict, -tightest(report).map_or(0.0, |(_, _, share)| share))
     }
 }
@@ -46,15 +47,15 @@ pub fn index_page(entries: &[IndexEntry<'_>]) -> String {
         let ((a, a_share), (b, b_share)) = (a.rank(), b.rank());
         a.cmp(&b).then(a_share.total_cmp(&b_share))
     });
-    let bad = entries.iter().filter(|entry| entry.outcome().0 != Outcome::Good).count();
+    let bad = entries.iter().filter(|entry| entry.outcome().0 != BadgeKind::Good).count();
     let title = format!("{} scenarios", entries.len());
     let body = html! {
         header {
             p.kind { "Runs of scenarios" }
             h1 { (title) }
             p.verdict {
-                @if bad == 0 { (badge(Outcome::Good, "ALL PASS")) }
-                @else { (badge(Outcome::Bad, &format!("{bad} OF {} DO NOT PASS", entries.len()))) }
+                @if bad == 0 { (badge(BadgeKind::Good, "ALL PASS")) }
+                @else { (badge(BadgeKind::Bad, &format!("{bad} OF {} DO NOT PASS", entries.len()))) }
             }
         }
         section {

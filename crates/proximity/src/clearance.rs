@@ -71,7 +71,7 @@ impl Clearance {
         obstacles: &[Obstacle],
         choice: PairChoice,
     ) -> Result<Self, ProximityError> {
-        Self::with_moving(description, (obstacles, &vec![ObstacleMobility::Still; obstacles.len()]), choice)
+        Self::with_moving(description, obstacles, &vec![ObstacleMobility::Still; obstacles.len()], choice)
     }
 
     /// The same if some of the obstacles move; each has an entry.
@@ -80,7 +80,8 @@ impl Clearance {
     /// As [`Clearance::new`].
     pub fn with_moving(
         description: &RobotDescription,
-        (obstacles, mobility): (&[Obstacle], &[ObstacleMobility]),
+        obstacles: &[Obstacle],
+        mobility: &[ObstacleMobility],
         choice: PairChoice,
     ) -> Result<Self, ProximityError> {
         let robot = &description.robot;
@@ -94,7 +95,7 @@ impl Clearance {
             clearance.can_move[subject] = *mobility != ObstacleMobility::Still;
         }
         let is_solid = |subject: usize| !clearance.hulls[subject].is_empty();
-        let pairs = pairs(description, (mobility, is_solid), choice);
+        let pairs = pairs(description, mobility, is_solid, choice);
         let watched = |pair: Pair| WatchedPair {
             while_carried: while_carried(robot, mobility, &pair),
             ..WatchedPair::new(pair)
@@ -145,6 +146,7 @@ impl Clearance {
         for watch in watches {
             let index = self.watches.len();
             self.watches.push(watch);
+            // Bounds of one link against bodies at rest shrink alike, so a heap keeps their order.
             match self.only_mover(watch.pair) {
                 Some(link) => self.waiting[link].push(f64::NEG_INFINITY, index),
                 None => self.of_movers.push(index),
@@ -196,9 +198,9 @@ impl Clearance {
     }
 
     /// Names of the two subjects of one pair.
-    pub fn names(&self, pair: usize) -> (&str, &str) {
+    pub fn names(&self, pair: usize) -> [&str; 2] {
         let Pair { a, b } = self.watches[pair].pair;
-        (&self.subjects[a], &self.subjects[b])
+        [&self.subjects[a], &self.subjects[b]]
     }
 
     /// The exact distance of one pair if it was measured at this instant.
@@ -340,6 +342,7 @@ impl Clearance {
             let origins_m = (root_from_a.translation.vector - root_from_b.translation.vector).norm();
             return origins_m - radius_m - self.hulls[a].radius_m() - DISTANCE_SLACK_M;
         }
+        // By the relative pose, since two links that move together have long paths but do not come nearer.
         let approach_m = largest_shift_m(&watch.a_from_b, &root_from_a.inv_mul(root_from_b), radius_m);
         watch.exact_m - approach_m - DISTANCE_SLACK_M
     }

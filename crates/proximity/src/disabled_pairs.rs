@@ -118,6 +118,7 @@ pub fn suggest_disabled(
     sampling: Sampling,
 ) -> Result<DisabledPairs, DistanceError> {
     let robot = &description.robot;
+    // Before the hulls are built, which takes longest.
     within_reason(robot)?;
     let hulls = |link: &Link| Hulls::new(&format!("link \"{}\"", link.name), &link.collisions);
     let mut shapes = Shapes {
@@ -144,6 +145,7 @@ pub fn suggest_disabled(
             (false, false) => None,
         };
     }
+    // All configurations are drawn at once, so that a seed means the same samples however early pairs are decided.
     sample(&mut shapes, &mut candidates, &random_configurations(robot, sampling.seed, sampling.samples))?;
     // "Never" hides a collision if it is wrong, so each such pair is searched locally before it is suggested.
     for candidate in &mut candidates {
@@ -152,7 +154,7 @@ pub fn suggest_disabled(
         }
     }
     let links = shapes.hulls.iter().filter(|hulls| !hulls.is_empty()).count();
-    Ok(report(description, sampling, (links, &candidates)))
+    Ok(report(description, sampling, links, &candidates))
 }
 
 /// The links with their shapes at one configuration.
@@ -212,9 +214,11 @@ impl Shapes {
         let Some(mut q) = candidate.nearest.take() else { return Ok(()) };
         let of_joints = |step: f64| (0..robot.dof()).flat_map(move |at| [(at, step), (at, -step)]);
         for (coordinate, share) in STEPS.into_iter().flat_map(of_joints) {
-            let tried = moved(robot, &q, (coordinate, share));
+            // Both directions at each step length, long steps first: short ones alone stop in the nearest hollow.
+            let tried = moved(robot, &q, coordinate, share);
             self.move_to(&tried)?;
             let distance_m = self.distance_below_m(candidate.pair, candidate.least_m);
+            // Touching in a reachable configuration: the pair has to be checked, so it gets no reason at all.
             if distance_m <= 0.0 {
                 candidate.reason = None;
                 return Ok(());
@@ -228,7 +232,7 @@ impl Shapes {
 }
 
 /// A configuration with one joint moved by a share of its range, within its limits; mimic joints follow their masters.
-fn moved(robot: &Robot, q: &RobotQ, (coordinate, share): (usize, f64)) -> RobotQ {
+fn moved(robot: &Robot, q: &RobotQ, coordinate: usize, share: f64) -> RobotQ {
     let (lower, upper) = range(robot.joint(robot.movable_joints()[coordinate]));
     let mut moved = q.clone();
     moved[coordinate] = (q[coordinate] + share * (upper - lower)).clamp(lower, upper);
@@ -272,6 +276,7 @@ fn sample(
         }
     }
     for candidate in candidates.iter_mut().filter(|candidate| is_open(candidate)) {
+        // Open to the end means never touched, or too few gaps to refute "always".
         let never = candidate.touching == 0;
         candidate.reason = Some(if never { DisableReason::Never } else { DisableReason::Always });
     }
@@ -283,6 +288,7 @@ fn sample(
 fn adjacent(robot: &Robot, is_solid: impl Fn(LinkIndex) -> bool) -> BTreeSet<[LinkIndex; 2]> {
     let mut adjacent = BTreeSet::new();
     // The solid links around each group of connected links without a shape, by the group's link nearest to the root.
+    // Parents come before children in `link_indices`, so a link finds the group of its parent complete.
     let mut groups: Vec<Option<LinkIndex>> = vec![None; robot.links().len()];
     let mut around: Vec<BTreeSet<LinkIndex>> = vec![BTreeSet::new(); robot.links().len()];
     for link in robot.link_indices() {
@@ -290,6 +296,7 @@ fn adjacent(robot: &Robot, is_solid: impl Fn(LinkIndex) -> bool) -> BTreeSet<[Li
         if !is_solid(link) {
             let group = parent.and_then(|parent| groups[parent.get()]).unwrap_or(link);
             groups[link.get()] = Some(group);
+            // The solid parent counts as around the group: it is connected to what hangs below the shapeless links.
             around[group.get()].extend(parent.filter(|&parent| is_solid(parent)));
         } else if let Some(parent) = parent {
             match groups[parent.get()] {
@@ -300,6 +307,7 @@ fn adjacent(robot: &Robot, is_solid: impl Fn(LinkIndex) -> bool) -> BTreeSet<[Li
     }
     for group in &around {
         for &a in group {
+            // Sets are ordered, so the pair has the lower index first, as candidates have.
             adjacent.extend(group.range(a..).skip(1).map(|&b| [a, b]));
         }
     }
@@ -311,6 +319,7 @@ fn within_reason(robot: &Robot) -> Result<(), DistanceError> {
     /// Largest width of a joint's range, rad or m. Kind: choice; `DistanceError::Range` names it.
     const WIDEST: f64 = 1e6;
     let width = |joint: &Joint| joint.position_range().map_or(0.0, |(lower, upper)| upper - lower);
+    // Continuous joints have no range and pass.
     match robot.joints().iter().find(|joint| width(joint) > WIDEST) {
         Some(joint) => Err(DistanceError::Range { joint: joint.name.clone(), width: width(joint) }),
         None => Ok(()),
@@ -324,6 +333,7 @@ fn default_position(robot: &Robot) -> RobotQ {
         _ => 0.0,
     };
     let mut q: RobotQ = robot.movable_joints().iter().map(|&joint| position(robot.joint(joint))).collect();
+    // After all masters have their positions: the order of joints does not say who follows whom.
     robot.apply_mimic(&mut q);
     q
 }
@@ -331,7 +341,8 @@ fn default_position(robot: &Robot) -> RobotQ {
 fn report(
     description: &RobotDescription,
     sampling: Sampling,
-    (links, candidates): (usize, &[SampledPair]),
+    links: usize,
+    candidates: &[SampledPair],
 ) -> DisabledPairs {
     let robot = &description.robot;
     let names = |pair: [LinkIndex; 2]| pair.map(|link| robot.link(link).name.clone());
@@ -340,6 +351,7 @@ fn report(
             pair: names(candidate.pair),
             reason: candidate.reason?,
             is_rigid: candidate.is_rigid,
+            // Infinite for pairs that structure decides: JSON has no infinity.
             least_m: Some(candidate.least_m).filter(|least_m| least_m.is_finite()),
         })
     });
@@ -357,6 +369,7 @@ fn report(
 }
 
 fn declared(description: &RobotDescription, candidates: &[SampledPair]) -> Option<DeclaredPairs> {
+    // Without a file there is nothing to compare with, which differs from a file that disables no pair.
     description.named_files.srdf.as_ref()?;
     let disabled = &description.disabled_collisions;
     let known: Vec<&SampledPair> = candidates
@@ -370,6 +383,7 @@ fn declared(description: &RobotDescription, candidates: &[SampledPair]) -> Optio
         pairs: disabled.len(),
         suggested: known.iter().filter(|candidate| candidate.reason.is_some()).count(),
         hidden: hidden.map(names).collect(),
+        // Every pair of links with shapes is a candidate, so a pair that is not known lacks a shape.
         without_shape: disabled.len() - known.len(),
     })
 }

@@ -123,13 +123,13 @@ pub fn distances<'a>(
 ) -> Result<DistanceReport<'a>, DistanceError> {
     let robot = &description.robot;
     let clearance = Clearance::new(description, obstacles, options.choice)?;
-    let measured: Vec<(&str, &str)> =
-        (0..clearance.pairs().len()).map(|pair| clearance.names(pair)).collect();
+    let measured: Vec<[&str; 2]> = (0..clearance.pairs().len()).map(|pair| clearance.names(pair)).collect();
     let subjects: Vec<&str> = clearance.subjects().iter().map(String::as_str).collect();
+    // Before anything is measured: a misspelt name would exclude nothing, silently.
     options.names.examine(&subjects, &measured).map_err(DistanceError::Pair)?;
-    let names = |chosen: &dyn Fn((&str, &str)) -> bool| -> Vec<[String; 2]> {
+    let names = |chosen: &dyn Fn([&str; 2]) -> bool| -> Vec<[String; 2]> {
         let pairs = measured.iter().filter(|&&pair| chosen(pair));
-        pairs.map(|&(a, b)| [a.to_owned(), b.to_owned()]).collect()
+        pairs.map(|pair| pair.map(str::to_owned)).collect()
     };
     let pairs = names(&|pair| options.names.is_evaluated(pair));
     let ignored = names(&|pair| options.names.is_ignored(pair));
@@ -145,6 +145,7 @@ pub fn distances<'a>(
         overlap: options.overlap,
     };
     let results = DistanceList::new(configurations, measuring)?;
+    // Only for a limit: it goes through all configurations, which are measured again when they are written.
     let least = options.limit_m.map_or_else(Vec::new, |_| least(&pairs, &results));
     Ok(DistanceReport {
         robot: robot.name().to_owned(),
@@ -172,6 +173,7 @@ fn least(pairs: &[[String; 2]], results: &DistanceList<'_>) -> Vec<BelowLimit> {
     let mut least: Vec<Option<BelowLimit>> = vec![None; pairs.len()];
     for (configuration, result) in (1..).zip(results.iter()) {
         for ((pair, least), distance_m) in pairs.iter().zip(&mut least).zip(result.distances_m) {
+            // Strictly less: the first of several configurations with the same distance is reported.
             if least.as_ref().is_none_or(|least| distance_m < least.distance_m) {
                 *least = Some(BelowLimit { pair: pair.clone(), distance_m, configuration });
             }
@@ -229,6 +231,7 @@ impl Measuring {
         for (pose, by_analysis) in root_from_links.iter_mut().zip(by_analysis) {
             *pose = by_analysis.to_isometry();
         }
+        // Every call is a new instant, so that no distance of the configuration before counts as current.
         clearance.move_links(root_from_links);
         let measure = |&pair: &usize| match overlap {
             Overlap::Zero => clearance.measure(pair),

@@ -35,7 +35,7 @@ pub struct Hulls {
     radius_m: f64,
 }
 
-/// One convex shape.
+/// One convex shape at its place on the link.
 #[derive(Clone)]
 struct Hull {
     link_from_local: Pose,
@@ -70,6 +70,7 @@ impl Hulls {
                 continue;
             };
             hull.link_from_local = pose(&shape.link_from_shape) * hull.link_from_local;
+            // About the link's origin, not the shape's: bounds need no pose but the link's.
             hulls.radius_m = hulls.radius_m.max(hull.link_from_local.translation.length() + hull.radius_m);
             hulls.shapes.push(hull);
         }
@@ -100,6 +101,7 @@ impl Hulls {
     /// The same if it is less than `most_m`, which is returned otherwise: shapes whose bounding balls are farther apart are
     /// not measured.
     pub fn distance_below_m(&self, other: &Self, self_from_other: &Isometry3<f64>, most_m: f64) -> f64 {
+        // The error of a simplified hull may exceed a small distance: then the meshes may touch.
         self.smallest(other, self_from_other, most_m, distance_apart).max(0.0)
     }
 
@@ -193,6 +195,7 @@ fn nearest_points(a: &Hull, a_from_b: &Pose, b: &Hull) -> Option<NearestPoints> 
     };
     let (a_form, b_form) = (&*a.form, &*b.form);
     let apart = query::closest_points(&Pose::IDENTITY, a_form, a_from_b, b_form, f64::MAX).expect(ANSWERS);
+    // With an infinite margin anything that does not intersect is within it; overlaps need the penetration.
     if let ClosestPoints::WithinMargin(on_a, on_b) = apart {
         let distance_m = (on_b - on_a).length();
         return Some(NearestPoints { distance_m, points: in_link(on_a, on_b) });
@@ -223,6 +226,7 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Hull>, ProximityE
         Geometry::Mesh(mesh) => {
             let (hull, error_m) =
                 hull_of(mesh).ok_or_else(|| ProximityError::NoHull { subject: subject.to_owned() })?;
+            // Of the reduced hull, so the mesh may reach beyond it by its error, which is added below.
             let radius_m = hull.points().iter().map(|point| point.length()).fold(0.0, f64::max);
             hull_error_m = error_m;
             (SharedShape::new(hull), radius_m + error_m)

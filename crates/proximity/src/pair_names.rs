@@ -24,13 +24,13 @@ pub struct PairFault {
 
 impl PairNames {
     /// Whether a pair is evaluated: chosen, and not ignored.
-    pub fn is_evaluated(&self, pair: (&str, &str)) -> bool {
+    pub fn is_evaluated(&self, pair: [&str; 2]) -> bool {
         (self.pairs.is_empty() || self.pairs.iter().any(|entry| is_named(entry, pair)))
             && !self.is_ignored(pair)
     }
 
     /// Whether a pair is ignored by its name.
-    pub fn is_ignored(&self, pair: (&str, &str)) -> bool {
+    pub fn is_ignored(&self, pair: [&str; 2]) -> bool {
         self.ignore.iter().any(|entry| is_named(entry, pair))
     }
 
@@ -39,7 +39,9 @@ impl PairNames {
     ///
     /// # Errors
     /// The first entry that is wrong.
-    pub fn examine(&self, subjects: &[&str], measured: &[(&str, &str)]) -> Result<(), Box<PairFault>> {
+    pub fn examine(&self, subjects: &[&str], measured: &[[&str; 2]]) -> Result<(), Box<PairFault>> {
+        // Names first: a misspelt name would be reported as a pair that is not measured, which sends the user to the
+        // SRDF.
         let lists = [("pairs", &self.pairs), ("ignore", &self.ignore)];
         for (key, list) in lists {
             for (entry, [a, b]) in list.iter().enumerate() {
@@ -54,6 +56,7 @@ impl PairNames {
             }
         }
         for (entry, [a, b]) in self.pairs.iter().enumerate() {
+            // Only equal names in either order; overlapping patterns are meant as "all of these, except those".
             let fault = if self.ignore.iter().any(|[c, d]| (a, b) == (c, d) || (a, b) == (d, c)) {
                 let message = format!("the pair of \"{a}\" and \"{b}\" is in `pairs` and in `ignore`");
                 Diagnostic::error("clearance::pair_in_both", message).with_help("remove it from one of them")
@@ -68,6 +71,7 @@ impl PairNames {
             };
             return Err(Box::new(PairFault { key: "pairs", entry, diagnostic: fault }));
         }
+        // No single entry is at fault: the last one is where the list ends.
         if let Some(entry) = self.ignore.len().checked_sub(1)
             && !measured.is_empty()
             && !measured.iter().any(|&pair| self.is_evaluated(pair))
@@ -84,13 +88,13 @@ impl PairNames {
     /// Entries of `ignore` that match no measured pair.
     pub fn without_effect<'a>(
         &'a self,
-        measured: impl Iterator<Item = (&'a str, &'a str)> + Clone + 'a,
+        measured: impl Iterator<Item = [&'a str; 2]> + Clone + 'a,
     ) -> impl Iterator<Item = &'a [String; 2]> + 'a {
         self.ignore.iter().filter(move |entry| !measured.clone().any(|pair| is_named(entry, pair)))
     }
 }
 
-fn is_named([a, b]: &[String; 2], (first, second): (&str, &str)) -> bool {
+fn is_named([a, b]: &[String; 2], [first, second]: [&str; 2]) -> bool {
     (matches(a, first) && matches(b, second)) || (matches(a, second) && matches(b, first))
 }
 
@@ -99,6 +103,8 @@ pub fn matches(pattern: &str, name: &str) -> bool {
     let Some((start, rest)) = pattern.split_once('*') else { return pattern == name };
     let Some(mut name) = name.strip_prefix(start) else { return false };
     let mut pieces: Vec<&str> = rest.split('*').collect();
+    // The last piece has to be at the end: found greedily it could match too early. `ends_with` on the rest also
+    // keeps it from overlapping the pieces before.
     let end = pieces.pop().unwrap_or_default();
     for piece in pieces {
         // Greedy is exact: the first match gives the longest rest of the name to the other pieces.
@@ -140,19 +146,19 @@ mod tests {
 
     #[test]
     fn pairs_in_either_order() {
-        assert!(names(&[], &[]).is_evaluated(("a", "b")));
-        assert!(names(&[["b", "a"]], &[]).is_evaluated(("a", "b")));
-        assert!(!names(&[["b", "a"]], &[]).is_evaluated(("a", "c")));
-        assert!(!names(&[], &[["b", "a"]]).is_evaluated(("a", "b")));
+        assert!(names(&[], &[]).is_evaluated(["a", "b"]));
+        assert!(names(&[["b", "a"]], &[]).is_evaluated(["a", "b"]));
+        assert!(!names(&[["b", "a"]], &[]).is_evaluated(["a", "c"]));
+        assert!(!names(&[], &[["b", "a"]]).is_evaluated(["a", "b"]));
         let around_table = names(&[["*", "table"]], &[["table", "base"]]);
         assert!(
-            around_table.is_evaluated(("wrist", "table")) && !around_table.is_evaluated(("base", "table"))
+            around_table.is_evaluated(["wrist", "table"]) && !around_table.is_evaluated(["base", "table"])
         );
     }
 
     #[test]
     fn faults_name_their_entry() {
-        let (subjects, measured) = (["base", "wrist", "table"], [("wrist", "table")]);
+        let (subjects, measured) = (["base", "wrist", "table"], [["wrist", "table"]]);
         for (found, key, entry, code) in [
             (names(&[["wrist", "table"], ["wirst", "table"]], &[]), "pairs", 1, "clearance::unknown_name"),
             (names(&[], &[["base", "chair*"]]), "ignore", 0, "clearance::unknown_name"),
@@ -172,7 +178,7 @@ mod tests {
     #[test]
     fn ignoring_what_is_not_measured_has_no_effect() {
         let both = names(&[], &[["wrist", "table"], ["base", "table"]]);
-        let idle: Vec<_> = both.without_effect([("wrist", "table")].into_iter()).collect();
+        let idle: Vec<_> = both.without_effect([["wrist", "table"]].into_iter()).collect();
         assert_eq!(idle, [&["base".to_owned(), "table".to_owned()]]);
     }
 }

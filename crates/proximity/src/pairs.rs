@@ -77,9 +77,10 @@ pub fn measured_pairs(
     let links = description.robot.links();
     let is_empty =
         |geometry: &Geometry| matches!(geometry, Geometry::Mesh(mesh) if mesh.triangles.is_empty());
+    // As `Hulls::new`, which skips empty meshes: the pairs agree with those of a `Clearance` without building hulls.
     let has_shape = |link: &Link| link.collisions.iter().any(|shape| !is_empty(&shape.geometry));
     let is_solid = |subject: usize| links.get(subject).is_none_or(has_shape);
-    pairs(description, (mobility, is_solid), choice)
+    pairs(description, mobility, is_solid, choice)
 }
 
 /// Whether a watched pair counts only while one of the two is carried: both are at rest otherwise.
@@ -89,7 +90,9 @@ pub(super) fn while_carried(robot: &Robot, mobility: &[ObstacleMobility], pair: 
         subject >= links && matches!(mobility[subject - links], ObstacleMobility::Carried(_))
     };
     match robot.link_indices().nth(pair.a) {
+        // A link fixed to the root never moves against an obstacle that rests, only against one that is carried.
         Some(link) => robot.body(link) == robot.root() && is_held_at_times(pair.b),
+        // Two obstacles.
         None => true,
     }
 }
@@ -97,7 +100,8 @@ pub(super) fn while_carried(robot: &Robot, mobility: &[ObstacleMobility], pair: 
 /// Pairs among links and obstacles, links first, of which some are solid.
 pub(super) fn pairs(
     description: &RobotDescription,
-    (mobility, is_solid): (&[ObstacleMobility], impl Fn(usize) -> bool),
+    mobility: &[ObstacleMobility],
+    is_solid: impl Fn(usize) -> bool,
     choice: PairChoice,
 ) -> Vec<Pair> {
     let robot = &description.robot;
@@ -107,15 +111,20 @@ pub(super) fn pairs(
     let is_watched = |a: usize, b: usize| {
         let (body_a, body_b) = (body(a), body(b));
         let moves = |subject: usize| subject.checked_sub(links.len()).map(|obstacle| &mobility[obstacle]);
+        // Pairs have the lower index first, so a lone obstacle is always `b`.
         match (moves(a), moves(b)) {
             (None, Some(ObstacleMobility::Moves)) => return true,
             (None, Some(ObstacleMobility::Carried(by))) => {
+                // The carrying link touches the object by design, and its neighbours are too close to measure
+                // anything else.
                 let near = |link: &LinkIndex| {
                     let body = robot.body(*link);
                     body == body_a || are_neighbours(robot, body, body_a)
                 };
                 return !by.iter().any(near);
             }
+            // Two obstacles matter only if the robot brings one to the other; what paths of a scenario do to each
+            // other is not the robot's.
             (Some(a), Some(b)) => {
                 return [a, b].iter().any(|each| matches!(each, ObstacleMobility::Carried(_)));
             }
@@ -125,6 +134,7 @@ pub(super) fn pairs(
         if body_a == body_b {
             return false;
         }
+        // An obstacle at rest against a link that moves.
         let (Some(&a), Some(&b)) = (links.get(a), links.get(b)) else { return true };
         choice == PairChoice::All
             || !(are_neighbours(robot, body_a, body_b) || description.disabled_collisions.contains(&(a, b)))
@@ -135,6 +145,7 @@ pub(super) fn pairs(
 
 /// Whether one joint connects the two bodies.
 fn are_neighbours(robot: &Robot, a: LinkIndex, b: LinkIndex) -> bool {
+    // By bodies, so that fixed links between joint and shape (flanges, adapters) do not hide the neighbour.
     let hangs_on = |lower: LinkIndex, upper: LinkIndex| {
         robot.parent_joint(lower).is_some_and(|joint| robot.body(robot.joint(joint).parent) == upper)
     };

@@ -14,6 +14,8 @@ struct Waiting {
 impl Ord for Waiting {
     /// A heap gives its greatest first: that is the pair with the smallest reach.
     fn cmp(&self, other: &Self) -> Ordering {
+        // `total_cmp`: pairs that were not measured are at minus infinity, which comes first. Equal reaches go by
+        // index, so that runs repeat.
         other.reach_m.total_cmp(&self.reach_m).then(other.pair.cmp(&self.pair))
     }
 }

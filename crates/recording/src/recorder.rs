@@ -91,6 +91,8 @@ impl RerunRecorder {
     ) -> Result<Self, RecordingError> {
         let description = &setup.description;
         let (robot, tolerance) = (&description.robot, description.tolerance);
+        // Without a check of agreement nothing is violated, but the arrows still have to appear at some error: that
+        // of the description's own tolerance.
         let limits = AgreementLimits::tightest(&setup.scenario.check).unwrap_or(AgreementLimits {
             position_m: tolerance.position_m,
             orientation_rad: tolerance.orientation_rad,
@@ -102,6 +104,8 @@ impl RerunRecorder {
         DisagreementSeries::write_static(&mut writer)?;
         PairSeries::write_static(&mut writer)?;
         styles::write(&mut writer, &description.robot, names, sources)?;
+        // Shapes and frames are in the file before the first sample: a run that is killed early still shows its
+        // robot.
         writer.flush()?;
         Ok(Self {
             writer,
@@ -201,15 +205,15 @@ impl Recorder for RerunRecorder {
 impl Recording for RerunRecorder {
     fn finish(mut self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
         self.write_batch()?;
-        shapes::write_names(&mut self.writer, (&self.obstacles, &self.moving), &self.zones, self.robot_box)?;
+        shapes::write_names(&mut self.writer, &self.obstacles, &self.moving, &self.zones, self.robot_box)?;
         let lines = LimitLines::until(timeline::time(report, report.simulation.duration_s));
         lines.write_checks(&mut self.writer, report)?;
         let robot = &self.description.robot;
         let near_limits = joint_limits::near_limits(robot, &self.extents.joints);
-        joint_limits::write(&mut self.writer, &lines, (robot, &self.names), &near_limits)?;
+        joint_limits::write(&mut self.writer, &lines, robot, &self.names, &near_limits)?;
         for (number, name) in self.names.joints.iter().enumerate() {
             if self.extents.joints[number].is_misread {
-                styles::write_measured(&mut self.writer, robot, (number, name))?;
+                styles::write_measured(&mut self.writer, robot, number, name)?;
             }
         }
         timeline::write(&mut self.writer, report)?;

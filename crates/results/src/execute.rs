@@ -97,7 +97,7 @@ pub enum ExecuteError {
 pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, PathBuf)> {
     let folder = OutputFolder::path_for(&options.out, &setup.scenario.name);
     let report = earlier_report(setup, &read_result(&folder.join(REPORT)).ok()?)?;
-    let trajectory = setup.scenario.output.trajectory.map(Trajectory::file_name);
+    let trajectory = setup.scenario.output.trajectory.map(TrajectoryOutput::file_name);
     let recordings = options.recordings.iter().map(|format| format.file_name());
     let mut wanted = [REPORT, JUNIT, RESOLVED].into_iter().chain(recordings).chain(trajectory);
     let ComparedResults { intact, changed } = compare_results(&folder)?;
@@ -132,14 +132,14 @@ pub fn execute(
         let file = StreamedFile::new(format.file_name(), format.if_incomplete());
         recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
     }
-    let mut trajectory = Trajectory::begin(&folder, &run)?;
+    let mut trajectory = TrajectoryOutput::begin(&folder, &run)?;
     let mut recorders = Recorders::default();
     recorders.0.extend(recordings.iter_mut().map(|(recording, _)| &mut **recording as &mut dyn Recorder));
     recorders.0.extend(trajectory.as_mut().map(|trajectory| &mut trajectory.recorder as &mut dyn Recorder));
     let (mut outcome, mut result) = run.finish(&mut checks, &mut recorders, progress);
     let causes = explain(&mut run, &mut outcome);
     let mut settled = Vec::new();
-    if let Some(Trajectory { file, recorder }) = trajectory {
+    if let Some(TrajectoryOutput { file, recorder }) = trajectory {
         let closed = file.settle(&folder, recorder.finish(), &mut settled);
         result = result.and(closed.map_err(RunError::from));
     }
@@ -238,12 +238,12 @@ impl StreamedFile {
 }
 
 /// The trajectory in progress, if the scenario asks for one.
-struct Trajectory {
+struct TrajectoryOutput {
     file: StreamedFile,
     recorder: TrajectoryRecorder,
 }
 
-impl Trajectory {
+impl TrajectoryOutput {
     fn file_name(format: TrajectoryFormat) -> &'static str {
         match format {
             TrajectoryFormat::Csv => "trajectory.csv",

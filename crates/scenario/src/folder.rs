@@ -7,7 +7,7 @@ use congruent_input::FileAccess;
 /// The folder to which the paths in a scenario are relative, and which files may be opened from there.
 #[derive(Debug, Clone, Copy)]
 pub struct ScenarioFolder<'a> {
-    /// The folder.
+    /// The folder of the scenario file; an empty path is the current folder.
     pub path: &'a Path,
     /// The files that may be opened.
     pub access: &'a FileAccess,

@@ -34,6 +34,7 @@ pub(crate) fn pose(isometry: &Isometry3<f64>) -> Pose {
 /// The pose as it is: rapier's quaternions are products of unit quaternions, unit to rounding.
 pub(crate) fn isometry(pose: &Pose) -> Isometry3<f64> {
     let (t, r) = (pose.translation, pose.rotation);
+    // Normalising again would change last bits, and poses of equal states would differ from rapier's.
     let rotation = UnitQuaternion::new_unchecked(Quaternion::new(r.w, r.x, r.y, r.z));
     Isometry3::from_parts(Translation3::new(t.x, t.y, t.z), rotation)
 }
@@ -43,6 +44,8 @@ pub(crate) fn isometry(pose: &Pose) -> Isometry3<f64> {
 /// By the half vector, which is exact to rounding for any axis; rapier's own helper takes axes
 /// nearer than 3e-8 rad to x for x.
 pub(crate) fn x_onto(axis: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
+    // Half vectors of nearly opposite directions are short and lose digits: turn by pi about z first, then it is at
+    // most 90 deg.
     let (start, turn) = if axis.x < 0.0 {
         let half_turn_about_z = Quaternion::new(0.0, 0.0, 0.0, 1.0);
         (-Vector3::x(), UnitQuaternion::new_unchecked(half_turn_about_z))
@@ -59,10 +62,12 @@ pub(crate) fn x_onto(axis: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
 pub(crate) fn mass_properties(inertia: &Inertia) -> MassProperties {
     let eigen = inertia.tensor_kg_m2.symmetric_eigen();
     let mut axes = eigen.eigenvectors;
+    // Eigenvectors may be left-handed, which no quaternion represents.
     if axes.determinant() < 0.0 {
         axes.column_mut(2).neg_mut();
     }
     let floor = eigen.eigenvalues.amax() * SMALLEST_PRINCIPAL_RATIO;
+    // Tiny negative values are rounding of a thin rod or plate; large ones are wrong input and stay visible.
     let principal = eigen.eigenvalues.map(|value| if value.abs() < floor { floor } else { value });
     let frame = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
     MassProperties::with_principal_inertia_frame(

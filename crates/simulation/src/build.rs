@@ -50,6 +50,7 @@ pub(crate) fn build(
         .map(|(body, inertia)| sets.bodies.insert(rigid_body(body, inertia)))
         .collect();
     let mut moving = BTreeMap::new();
+    // Without obstacles nothing can touch: links never collide with each other.
     if settings.contacts && !settings.obstacles.is_empty() {
         let links = add_colliders(&mut sets, &handles, robot, bodies)?;
         let standing;
@@ -60,6 +61,8 @@ pub(crate) fn build(
         }
     }
     let slots = slots(robot, settings)?;
+    // In the order of movable joints: rapier numbers links in the order of insertion, with the root as 0, and
+    // everything else counts on link `i + 1` being coordinate `i`.
     for (slot, &index) in slots.iter().zip(robot.movable_joints()) {
         let joint = robot.joint(index);
         let (parent, child) = (bodies.links[joint.parent.get()].body, bodies.links[joint.child.get()].body);
@@ -85,6 +88,7 @@ fn rigid_body(body: usize, inertia: &Inertia) -> RigidBodyBuilder {
         return RigidBodyBuilder::fixed();
     }
     let mass_properties = adapter::mass_properties(inertia);
+    // Forces are added without waking a body, so none may sleep.
     RigidBodyBuilder::dynamic().additional_mass_properties(mass_properties).can_sleep(false)
 }
 
@@ -109,6 +113,7 @@ fn add_obstacles(
     let (mut moving, mut standing) = (BTreeMap::new(), Vec::new());
     for (index, obstacle) in settings.obstacles.iter().enumerate() {
         if settings.moving_obstacles.contains(&index) {
+            // Its pose is that of its body; a collider with the same pose would have it twice.
             let at_origin = Obstacle { world_from_obstacle: Isometry3::identity(), ..obstacle.clone() };
             let Some(collider) = shapes::obstacle_collider(&at_origin)? else { continue };
             let pose = adapter::pose(&obstacle.world_from_obstacle);
@@ -127,15 +132,16 @@ fn slots(robot: &Robot, settings: &WorldSettings) -> Result<Vec<EngineSlot>, Sim
         robot.movable_joints().iter().map(|&joint| slot(robot, joint)).collect::<Result<Vec<_>, _>>()?;
     if !settings.actuator_limits {
         for slot in &mut slots {
+            // Not infinite: products with 0 would be NaN.
             slot.capability = DriveCapability { effort: f64::MAX, speed: f64::MAX };
         }
     }
     for (row, &joint) in robot.movable_joints().iter().enumerate() {
         if let Some(mimic) = robot.joint(joint).mimic {
             let master = robot.coordinate(mimic.master).expect("a mimicked joint moves");
-            let range = (slots[row].lower, slots[row].upper);
+            let (lower, upper) = (slots[row].lower, slots[row].upper);
             (slots[row].lower, slots[row].upper) = (f64::NEG_INFINITY, f64::INFINITY);
-            slots[master].narrow(range, &mimic);
+            slots[master].narrow(lower, upper, &mimic);
         }
     }
     Ok(slots)
@@ -144,7 +150,8 @@ fn slots(robot: &Robot, settings: &WorldSettings) -> Result<Vec<EngineSlot>, Sim
 impl EngineSlot {
     /// Makes a master stop if one of its followers has to. Two limits on coupled joints would
     /// be one constraint twice, with which the solver converges slowly: 1e-12 instead of 1e-15.
-    fn narrow(&mut self, (lower, upper): (f64, f64), mimic: &Mimic) {
+    fn narrow(&mut self, lower: f64, upper: f64, mimic: &Mimic) {
+        // A negative multiplier swaps the ends; one of 0 gives values that are not used below.
         let [a, b] = [lower, upper].map(|end| (end - mimic.offset) / mimic.multiplier);
         let (lower, upper) = (self.lower.max(a.min(b)), self.upper.min(a.max(b)));
         // Ranges without a common position limit nothing that could be kept.
@@ -188,6 +195,7 @@ fn generic_joint(joint: &Joint, bodies: &Bodies, slot: &EngineSlot) -> GenericJo
     let body_from_joint = adapter::pose(&parent.body_from_link) * adapter::pose(&joint.parent_from_joint);
     let turn: Pose = adapter::pose(&x_onto_axis);
     let mut data = GenericJoint::new(locked);
+    // The same turn on both sides, so that at zero the child has its own axes again.
     data.set_local_frame1(body_from_joint * turn).set_local_frame2(turn).set_contacts_enabled(false);
     data
 }
@@ -208,6 +216,7 @@ fn finish_multibody(sets: &mut EngineSets, index: MultibodyIndex, robot: &Robot,
         if let Some(mimic) = joint.mimic {
             let master = robot.coordinate(mimic.master).expect("a mimicked joint moves");
             multibody.add_dof_coupling(MultibodyDofCoupling {
+                // Links of the multibody count the root as 0.
                 link1: master + 1,
                 dof1: 0,
                 axis1: slots[master].axis as usize,

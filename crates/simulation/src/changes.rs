@@ -112,8 +112,10 @@ impl World {
 
     fn load_links(&mut self) {
         let carried = self.state.carried.iter().flatten();
+        // The root's body is fixed and needs no inertia.
         for (body, own) in self.own_inertias.iter().enumerate().skip(1) {
             let on_body = carried.clone().filter_map(|carried| {
+                // A link on a fixed joint hands its load to the body it belongs to, at its place on that body.
                 let place = self.links[carried.link.get()];
                 (place.body == body).then_some((place.body_from_link, carried.inertia))
             });
@@ -121,6 +123,7 @@ impl World {
             let whole = Inertia::sum_of_parts(own.chain(on_body));
             self.engine.set_inertia(body, &whole);
         }
+        // The centres of mass have moved; gravity torques of the next command would be those of the old ones.
         self.engine.update_jacobians();
     }
 

@@ -47,6 +47,7 @@ impl Commands {
             *motor = motor.and_then(|mut motor| {
                 motor.gains.stiffness *= share;
                 motor.gains.damping *= share;
+                // As in `drive`: without gains there is no servo.
                 (*share > 0.0).then_some(motor)
             });
         }

@@ -57,6 +57,7 @@ impl DriveCapability {
     ) -> JointDrive {
         let mut drive =
             JointDrive { torque: torque.clamp(-self.effort, self.effort), servo, ..JointDrive::default() };
+        // By bits: any change by the clamp counts, however small.
         drive.saturation.effort = drive.torque.to_bits() != torque.to_bits();
         if !self.limit_speed(&mut drive, state) && drive.servo.is_some() {
             // A guess of the state at the end, to which the law applies; `correct` repeats the step if it was wrong.
@@ -70,12 +71,15 @@ impl DriveCapability {
     /// returns whether it did.
     fn limit_speed(self, drive: &mut JointDrive, state: CoordinateState) -> bool {
         let wanted = drive.effort(state).clamp(-self.effort, self.effort);
+        // Braking is never limited, and once limited a drive stays so for the step: corrections have to end.
         if wanted * state.qd <= 0.0 || state.qd.abs() <= self.speed || drive.saturation.speed {
             return false;
         }
         // The effort falls linearly from the commanded one to zero within the margin: no jump, and stable, since implicit.
         let margin = SPEED_MARGIN * self.speed;
         let gains = Gains { stiffness: 0.0, damping: wanted.abs() / margin };
+        // Beyond the limit by the margin, where the damping's effort is zero: at the limit itself it is the wanted
+        // one.
         let qd = (self.speed + margin).copysign(wanted);
         (drive.torque, drive.servo) = (0.0, Some(Motor { gains, q: state.q, qd }));
         drive.is_constrained = drive.effort(state).abs() > self.effort;
@@ -88,6 +92,8 @@ impl DriveCapability {
         if self.limit_speed(drive, end) {
             return true;
         }
+        // Only towards constrained, never back: the repeated step may end below the limit again, and would then
+        // alternate.
         let exceeds = drive.servo.is_some() && !drive.is_constrained && self.exerted(drive, end).1;
         drive.is_constrained |= exceeds;
         exceeds
@@ -129,6 +135,7 @@ impl JointDrive {
             return Linear { torque: self.torque, ..Linear::default() };
         };
         let torque = self.torque + damping * qd;
+        // Infinite or NaN without stiffness; the comparison below then keeps the constant torque.
         let shift = torque / stiffness;
         if shift.abs() < LARGEST_SHIFT {
             return Linear { stiffness, damping, rest: q + shift, torque: 0.0 };

@@ -59,6 +59,7 @@ impl Engine {
     pub(crate) fn new(built: Built, settings: &WorldSettings) -> Self {
         let parameters = IntegrationParameters {
             dt: settings.step_s,
+            // One substep: the servo of `drive.rs` is implicit in the whole step.
             num_solver_iterations: 1,
             max_ccd_substeps: 0,
             normalized_max_linear_velocity: f64::MAX,
@@ -149,6 +150,8 @@ impl Engine {
             let body = sets.bodies.get_mut(link.rigid_body_handle()).expect("the body exists");
             for &collider in body.colliders() {
                 let collider = sets.colliders.get_mut(collider).expect("the collider exists");
+                // rapier moves colliders only within a step: contacts of the next one would begin with the old
+                // places.
                 if let Some(&body_from_shape) = collider.position_wrt_parent() {
                     collider.set_position(*link.local_to_world() * body_from_shape);
                 }
@@ -229,6 +232,7 @@ impl Engine {
         let Some(index) = self.multibody else { return };
         let multibody = self.sets.multibody_joints.get_multibody(index).expect("the multibody exists");
         for (coordinate, (slot, drive)) in self.slots.iter().zip(&self.drives).enumerate() {
+            // A constrained servo has the torque in its target (`combined`), within one common limit.
             let torque = if drive.is_constrained { 0.0 } else { drive.linear().torque };
             if torque == 0.0 {
                 continue;
@@ -263,6 +267,8 @@ impl Engine {
             }
             let drive = &self.drives[row];
             let linear = if drive.is_constrained { Linear::default() } else { drive.linear() };
+            // The spring is in the mass matrix, so implicit and exact; the motor below is a constraint that sweeps
+            // solve, but only it knows a largest force.
             link.joint.set_spring(slot.axis as usize, linear.stiffness, linear.rest);
             if let Some(motor) = drive.combined().filter(|_| drive.is_constrained) {
                 // rapier's target is that at the beginning of the step and moves with its velocity; ours is that at its end.
@@ -297,6 +303,7 @@ impl Engine {
         let quarantine = self.pipeline.quarantine().bodies();
         if !quarantine.is_empty() {
             let bad = |handle: &RigidBodyHandle| quarantine.contains(handle);
+            // The root has no coordinate, thus body `i + 1` is coordinate `i`.
             return self.handles.iter().skip(1).position(bad).or(Some(0));
         }
         let factors = self.multibody()?.inv_augmented_mass().lu_internal();
@@ -319,6 +326,7 @@ impl Engine {
     pub(crate) fn asked(&self, commands: &Commands, q: &[f64], qd: &[f64], torque: &mut [f64]) {
         for (row, slot) in self.slots.iter().enumerate() {
             let servo = commands.motors[row].filter(|_| !slot.is_mimic);
+            // Without the limit of speed, which belongs to the delivered motion and not to the command.
             let drive = JointDrive { torque: commands.torque[row], servo, ..JointDrive::default() };
             torque[row] = slot.capability.exerted(&drive, CoordinateState { q: q[row], qd: qd[row] }).0;
         }
@@ -332,6 +340,7 @@ impl Engine {
             let body = self.sets.bodies.get(link.rigid_body_handle()).expect("the body exists");
             let weight = self.gravity * body.mass();
             let jacobian = multibody.body_jacobian(link.link_id());
+            // Rows 0 to 2 are linear in rapier, opposite to this project's order.
             for (torque, column) in torque.iter_mut().zip(jacobian.column_iter()) {
                 *torque -= column[0] * weight.x + column[1] * weight.y + column[2] * weight.z;
             }
@@ -368,6 +377,7 @@ impl EngineSlot {
     fn passed_limits(&self, q: f64, step_s: f64) -> Option<[f64; 2]> {
         let distance = RETURN_SPEED * step_s;
         let is_inside = (self.lower..=self.upper).contains(&q);
+        // Limits that lie one step's return away: the constraint then asks for `RETURN_SPEED`, no more.
         (!is_inside).then(|| [self.lower.min(q + distance), self.upper.max(q - distance)])
     }
 }

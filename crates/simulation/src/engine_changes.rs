@@ -7,6 +7,7 @@ use crate::{adapter, engine::Engine, settings::Touches};
 
 impl Engine {
     pub(crate) fn set_damping(&mut self, coordinate: usize, damping: f64) {
+        // Applied with the next step, together with the damping of its servo.
         self.sets.damping[coordinate] = damping;
     }
 
@@ -14,6 +15,7 @@ impl Engine {
         if let Some(multibody) = self.multibody_mut() {
             multibody.frictions_mut()[coordinate] = friction;
         }
+        // Friction that holds needs more sweeps than motion does.
         self.choose_sweeps();
     }
 
@@ -48,9 +50,12 @@ impl Engine {
         match touches {
             Touches::Links => {
                 body.set_enabled(true);
+                // By its next position rapier knows a velocity, with which it pushes links; put there at once, it
+                // would appear inside them.
                 if was_enabled {
                     body.set_next_kinematic_position(pose);
                 } else {
+                    // Released: the jump from where it was carried is no motion.
                     body.set_position(pose, true);
                 }
             }

@@ -44,11 +44,13 @@ fn place(robot: &Robot, link: LinkIndex, before: &[LinkOnBody]) -> LinkOnBody {
         let body_from_link = parent.body_from_link * joint.parent_from_joint;
         return LinkOnBody { body: parent.body, body_from_link, is_first: false };
     }
+    // Body 0 is the root's.
     first_of(robot.coordinate(index).expect("a movable joint has a coordinate") + 1)
 }
 
 fn inertia(robot: &Robot, body: usize, links: &[LinkOnBody]) -> Inertia {
     let on_body = links.iter().zip(robot.links()).filter(move |(place, _)| place.body == body);
+    // Links without inertia add nothing; a body of such links alone is found later by the mass matrix.
     Inertia::sum_of_parts(on_body.filter_map(|(place, link)| Some((place.body_from_link, link.inertia?))))
 }
 

@@ -4,7 +4,10 @@ use congruent_description::{CarriedBody, Inertia, LinkIndex, Robot, RobotQ};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
-    actuation::{Controller, connection::Connections},
+    actuation::{
+        Controller,
+        connection::{Connections, TrueState},
+    },
     build,
     commands::{Commands, Motor},
     drive::Saturation,
@@ -20,9 +23,8 @@ use crate::{
 /// products and sums is about 1e-16. Dimensionless.
 const NO_INERTIA_RATIO: f64 = 1e-15;
 
-/// Numbers from here on count as infinite, whether they come in or out. Below, no product that
-/// rapier forms of them overflows; above, one may, and rapier then continues with accelerations of
-/// zero without an error.
+/// Numbers from here on count as infinite, whether they come in or out. Below, no product that rapier forms of them
+/// overflows; above, one may, and rapier then continues with accelerations of zero without an error.
 const LARGEST: f64 = 1e75;
 
 /// A robot in physics.
@@ -105,8 +107,7 @@ pub struct WorldSnapshot {
 impl World {
     /// Builds the world; the robot is at zero positions, at rest, at time zero.
     ///
-    /// A robot without mass is accepted: it can be placed, and stepped by a controller that
-    /// places it.
+    /// A robot without mass is accepted: it can be placed, and stepped by a controller that places it.
     ///
     /// # Errors
     /// [`SimulationError`] if a setting is out of range, the limits of a joint exclude each other, or a
@@ -152,6 +153,7 @@ impl World {
         self.state.torque.fill(0.0);
         self.state.asked.fill(0.0);
         self.state.saturations.fill(Saturation::default());
+        // Read back: rapier's coordinates are the state that every step starts from.
         self.engine.read(&mut self.state.q, &mut self.state.qd);
         Ok(())
     }
@@ -190,6 +192,7 @@ impl World {
     /// Simulated time, s: the number of steps times their length.
     #[expect(clippy::cast_precision_loss, reason = "2^53 steps of 1 ms are 285 thousand years")]
     pub fn time_s(&self) -> f64 {
+        // A product, not a sum of steps, whose rounding would grow with the run.
         self.state.step_count as f64 * self.engine.step_s()
     }
 
@@ -262,16 +265,18 @@ impl World {
         self.check_setpoint(setpoint)?;
         self.check_vector("measured position", measured.q)?;
         self.check_vector("measured velocity", measured.qd)?;
+        // A joint that the controller does not command now must not keep its command of the step before.
         self.commands.clear();
         let (q, qd, time_s) = (measured.q, measured.qd, self.time_s());
         let joints = JointsView { q, qd, time_s, engine: &self.engine };
         controller.command(&joints, setpoint, &mut self.commands);
         let WorldState { q, qd, connections, .. } = &self.state;
-        connections.connect(&mut self.commands, &mut self.asked, (q, qd), measured);
+        connections.connect(&mut self.commands, &mut self.asked, TrueState { q, qd }, measured);
         self.apply(setpoint)
     }
 
     fn apply(&mut self, setpoint: &Setpoint<'_>) -> Result<(), SimulationError> {
+        // Before the test for masses: a robot without them can still be placed.
         if self.commands.placed {
             self.state.step_count += 1;
             return self.set_state(setpoint.q, setpoint.qd);
@@ -280,6 +285,7 @@ impl World {
             return Err(SimulationError::Massless { link: link.clone() });
         }
         self.check_commands()?;
+        // What drives are asked for, before they deliver a share of it.
         self.asked.copy_from(&self.commands);
         self.commands.deliver(&self.state.delivered);
         self.engine.step(&self.commands, &self.state.q, &self.state.qd);
@@ -297,8 +303,7 @@ impl World {
         self.engine.mass_matrix()
     }
 
-    /// Torques that hold the robot against gravity at the present configuration; mimic joints
-    /// count as free.
+    /// Torques that hold the robot against gravity at the present configuration; mimic joints count as free.
     pub fn gravity_torque(&self) -> DVector<f64> {
         let mut torque = DVector::zeros(self.state.q.len());
         self.engine.add_gravity_torque(torque.as_mut_slice());
@@ -380,6 +385,7 @@ fn is_number(value: f64) -> bool {
 
 fn check(settings: &WorldSettings) -> Result<(), SimulationError> {
     let WorldSettings { step_s, gravity_in_world, .. } = settings;
+    // Negated, so that NaN is refused as well.
     if !(step_s.is_finite() && *step_s > 0.0) {
         return Err(SimulationError::Step { step_s: *step_s });
     }

@@ -1,4 +1,5 @@
 //! Tables of every form: marks, line ends, quotes, comments, and what is wrong in them.
+#![expect(clippy::unwrap_used, reason = "helpers of tests panic")]
 
 use std::fs;
 

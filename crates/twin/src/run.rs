@@ -115,8 +115,9 @@ impl<'a> Run<'a> {
         let robot = &setup.description.robot;
         let links = robot.links().len();
         let mobility = setup.mobility();
-        let obstacles = (setup.obstacles.as_slice(), mobility.as_slice());
-        let clearance = Clearance::with_moving(&setup.description, obstacles, PairChoice::Usual)?;
+        let clearance =
+            Clearance::with_moving(&setup.description, &setup.obstacles, &mobility, PairChoice::Usual)?;
+        // With the hulls of the links, which take long to build for large meshes.
         let zones = clearance.before_zones(&setup.zones)?;
         Ok(Self {
             setup,
@@ -175,6 +176,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// [`RunError::Source`] if the source fails.
     pub fn step(&mut self) -> Result<(), RunError> {
+        // From the number of the step, not by addition: sums of steps would drift from the times of the plan.
         let time_s = self.setup.clock.time_s(self.source.step_count() + 1);
         Ok(self.source.advance(time_s)?)
     }
@@ -185,12 +187,16 @@ impl<'a> Run<'a> {
     /// [`KinematicsError`] if the source gives no configuration of the robot.
     pub fn compare(&mut self) -> Result<(), KinematicsError> {
         let joints = self.source.joints();
+        // Poses of the source come first: those of a simulation are its own kinematics, and comparing them is what a
+        // twin is for.
         if !self.source.root_from_links_into(&mut self.root_from_links) {
             self.tree.root_from_links_into(joints.truth.q, &mut self.by_tree)?;
             for (isometry, pose) in self.root_from_links.iter_mut().zip(&self.by_tree) {
                 *isometry = pose.to_isometry();
             }
         }
+        // The model gets what the encoders say, the twin is where the joints truly are: their difference is what
+        // encoder faults cause.
         let model: &[Pose] = self.model.root_from_links(joints.measured.q)?;
         for ((error, model), twin) in self.errors.iter_mut().zip(model).zip(&self.root_from_links) {
             *error = PoseError::to_isometry(model, twin);
@@ -207,8 +213,10 @@ impl<'a> Run<'a> {
         checks: &mut [RunningCheck<'_>],
         recorder: &mut dyn Recorder,
     ) -> Result<bool, RunError> {
+        // Before the checks: they ask for distances at this instant.
         self.move_bodies();
         let is_end = self.source.step_count() >= self.steps();
+        // A stop makes the run longer or shorter, and only `ends` below knows which sample is its last.
         let is_last = is_end && self.stopping.is_none();
         let mut sample = self.sample();
         sample.is_last = is_last;
@@ -220,7 +228,9 @@ impl<'a> Run<'a> {
         for (check, running) in checks.iter().enumerate() {
             running.values(time_s, &mut |kind, of| self.values.push(CheckValue { check, kind, of }));
         }
+        // The stop begins after the checks of its sample, so that the report names the instant of the violation.
         let ends = self.ends(checks);
+        // Bits of the true positions in a fixed byte order: equal hashes mean equal motions on any machine.
         for q in self.source.joints().truth.q {
             self.hash.update(q.to_le_bytes());
         }
@@ -235,6 +245,7 @@ impl<'a> Run<'a> {
     /// Moves links and obstacles to where they are at this instant.
     fn move_bodies(&mut self) {
         let time_s = self.setup.clock.time_s(self.source.step_count());
+        // Bodies before links: a carried body needs the pose of its link now, and both take effect in `move_links`.
         self.bodies.advance(time_s, |link| self.root_from_links[link.get()]);
         self.bodies.move_in(&mut self.clearance);
         self.clearance.move_links(&self.root_from_links);
@@ -277,12 +288,13 @@ impl<'a> Run<'a> {
         let root_from_tip = self.root_from_links[description.tip.get()];
         let root_from_tcp = description.tip_from_tcp.map_or(root_from_tip, |tcp| root_from_tip * tcp);
         let tcp_in_root = root_from_tcp.translation.vector;
+        // Only the first violation starts a stop: a later one must not start it again from a slower state.
         if self.stopping.is_none() {
             let Some(check) = checks.iter().position(RunningCheck::stops) else {
                 return step >= self.steps();
             };
             let q = self.source.joints().truth.q.clone();
-            let mut stopping = Stopping::new(check, (step, time_s), (q, tcp_in_root));
+            let mut stopping = Stopping::new(check, step, time_s, q, tcp_in_root);
             stopping.can_stop = self.source.begin_stop();
             self.stopping = Some(stopping);
         }
@@ -298,7 +310,9 @@ impl<'a> Run<'a> {
         recorder: &mut dyn Recorder,
         mut progress: impl FnMut(u64),
     ) -> (Outcome, Result<(), RunError>) {
+        // A closure, so that an error ends the loop but the results so far still get into the outcome.
         let mut go = || -> Result<(), RunError> {
+            // The state at time 0 is a sample as well.
             self.compare()?;
             while !self.observe(checks, recorder)? {
                 if self.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
@@ -312,6 +326,7 @@ impl<'a> Run<'a> {
         };
         let result = go();
         let steps = self.steps();
+        // The error of the run itself is the cause; one of the clean-up follows from it.
         let (servos, result) = match self.source.finish() {
             Ok(servos) => (servos, result),
             Err(error) => (Vec::new(), result.and(Err(error.into()))),

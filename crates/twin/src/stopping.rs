@@ -37,11 +37,7 @@ pub(crate) struct Stopping {
 
 impl Stopping {
     /// By the check of this number, at this step and state.
-    pub(crate) fn new(
-        check: usize,
-        (step, time_s): (u64, f64),
-        (q, tcp_in_root): (RobotQ, Vector3<f64>),
-    ) -> Self {
+    pub(crate) fn new(check: usize, step: u64, time_s: f64, q: RobotQ, tcp_in_root: Vector3<f64>) -> Self {
         Self {
             check,
             step,
@@ -71,11 +67,14 @@ impl Stopping {
         let is_commanded_to_rest =
             joints.setpoint.is_none_or(|setpoint| setpoint.qd.iter().all(|&qd| qd == 0.0));
         self.slow_since_s =
+            // Without the condition on the setpoint, an arm that has not begun to brake at a turning point would
+            // count.
             (is_commanded_to_rest && slow(joints.truth.qd)).then(|| self.slow_since_s.unwrap_or(time_s));
-        // An arm that is placed, not driven, is at rest as soon as its setpoint does.
+        // An arm that is placed, not driven, is at rest as soon as its setpoint is.
         let is_still = joints.truth.qd.iter().all(|&qd| qd == 0.0);
         let rest_s = self.slow_since_s.filter(|since_s| is_still || time_s - since_s >= STAYS_S);
         self.is_at_rest = rest_s.is_some();
+        // To the beginning of the rest, without the time that was waited to be sure.
         self.duration_s = rest_s.unwrap_or(time_s) - self.time_s;
         !self.can_stop || self.is_at_rest || self.duration_s >= LONGEST_S
     }
@@ -149,7 +148,7 @@ mod tests {
     /// When the stop of one joint ends that has this speed.
     fn stopped(speed: impl Fn(f64) -> f64) -> (Stopping, f64) {
         let q = RobotQ::zeros(1);
-        let mut stopping = Stopping::new(0, (0, 0.0), (q.clone(), Vector3::zeros()));
+        let mut stopping = Stopping::new(0, 0, 0.0, q.clone(), Vector3::zeros());
         stopping.can_stop = true;
         let mut times_s = (1..=10_000).map(|step| f64::from(step) * 1e-3);
         let end_s = times_s.find(|&time_s| {

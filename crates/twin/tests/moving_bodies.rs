@@ -86,7 +86,7 @@ impl Recorder for Seen {
         }
         let pairs = 0..sample.clearance.pairs().len();
         let found = pairs.filter_map(|pair| {
-            let (a, b) = sample.clearance.names(pair);
+            let [a, b] = sample.clearance.names(pair);
             Some((format!("{a}--{b}"), sample.clearance.current_m(pair)?))
         });
         let joints = sample.joints.truth;
@@ -243,7 +243,7 @@ fn what_cannot_move_so_is_refused() {
         "before the end of its previous grasp at 1.5 s",
     );
     let early = GraspSettings { until_s: Some(0.2), ..grasp(None) };
-    refused(one(part(), vec![early]), "scenario::grasp", "until_s = 0.2 s, limit > ");
+    refused(one(part(), vec![early]), "scenario::grasp", "until_s = 0.2 s must be later");
     let moving = along("part", 0.05, &[(0.0, [0.0, 0.3, 0.1])]);
     refused(one(moving, vec![grasp(None)]), "scenario::grasp", "moves along a path");
     let no_body = GraspSettings { inertia_kg_m2: Some([1.0, 1.0, 3.0]), ..grasp(Some(1.0)) };

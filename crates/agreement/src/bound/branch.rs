@@ -109,7 +109,7 @@ impl BranchAndBound<'_> {
     }
 
     /// Bounds a box that is part of a larger one, starting with the bound that was least for the larger.
-    fn bound(&mut self, intervals: Vec<PositionInterval>, (outer, bound_index): (f64, usize)) -> BoxNode {
+    fn bound(&mut self, intervals: Vec<PositionInterval>, outer: f64, bound_index: usize) -> BoxNode {
         self.boxes += 1;
         // A part of a box has no larger maximum than the box, so the bound of the box is where the bound of the part
         // starts: bounds never grow from a box to its halves, whichever bound is computed for them.
@@ -187,7 +187,7 @@ impl BranchAndBound<'_> {
         [(lower, middle), (middle, upper)].map(|half| {
             let mut intervals = node.intervals.clone();
             intervals[node.split_joint] = half;
-            self.bound(intervals, (node.bound, node.bound_index))
+            self.bound(intervals, node.bound, node.bound_index)
         })
     }
 }
@@ -203,7 +203,7 @@ pub(super) fn bracket(task: &BracketTask<'_>, incumbent: Incumbent) -> BracketOu
     let mut search = BranchAndBound { task, incumbent, buffers, nearest, boxes: 0, corners_spent: 0 };
     let Budget { corners, .. } = task.budget;
     // The outermost box has nothing around it, so its bound starts at infinity.
-    let mut open = BinaryHeap::from([search.bound(task.ranges.to_vec(), (f64::INFINITY, 0))]);
+    let mut open = BinaryHeap::from([search.bound(task.ranges.to_vec(), f64::INFINITY, 0)]);
     // Best first: the top of the heap has the largest bound of all open boxes, and together they cover the whole
     // range. So its bound holds for every configuration, and the loop may end at any time with it. Nothing is gained
     // by another order: every box above the target has to be split sooner or later.

@@ -19,7 +19,7 @@ use congruent_kinematics::{KinematicsError, ScrewChain};
 use super::{
     branch::{BracketOutcome, BracketTask, DisagreementBound, NormConversion, bracket, is_affordable},
     budget::{Budget, ROUNDING_LEVEL},
-    common_order::AlignedChains,
+    common_order::{AlignedChains, DrivenScrews},
     corner::PositionInterval,
     difference_norm::DifferenceNorm,
     intermediate_chains::{self, ChainSequence},
@@ -108,8 +108,9 @@ pub fn certify(
 ) -> Result<Certificate, KinematicsError> {
     KinematicsError::check_joint_count(a.joint_count(), b.joint_count())?;
     KinematicsError::check_joint_count(a.joint_count(), ranges.len())?;
-    let each_its_own: Vec<usize> = (0..a.joint_count()).collect();
-    certify_driven((a, &each_its_own), (b, &each_its_own), ranges, budget)
+    let drivers: Vec<usize> = (0..a.joint_count()).collect();
+    let [a, b] = [a, b].map(|chain| DrivenScrews { chain: chain.clone(), drivers: drivers.clone() });
+    certify_driven(&a, &b, ranges, budget)
 }
 
 /// As [`certify`] for joints that are driven in any order: each chain comes with the index of the position
@@ -120,24 +121,25 @@ pub fn certify(
 /// # Examples
 /// Two consecutive joints that follow one position turn twice as far as one joint:
 /// ```
-/// use congruent_agreement::bound::{Budget, certify_driven};
+/// use congruent_agreement::bound::{Budget, DrivenScrews, certify_driven};
 /// use congruent_kinematics::{Pose, ScrewChain, Twist};
 /// use nalgebra::Vector3;
 /// let turn = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
 /// let chain = |twists_in_base| ScrewChain { twists_in_base, base_from_tip_at_zero: Pose::identity() };
-/// let (once, twice) = (chain(vec![turn]), chain(vec![turn, turn]));
-/// let certificate = certify_driven((&once, &[0]), (&twice, &[0, 0]), &[(0.0, 0.5)], Budget::default())?;
+/// let once = DrivenScrews { chain: chain(vec![turn]), drivers: vec![0] };
+/// let twice = DrivenScrews { chain: chain(vec![turn, turn]), drivers: vec![0, 0] };
+/// let certificate = certify_driven(&once, &twice, &[(0.0, 0.5)], Budget::default())?;
 /// assert!((certificate.orientation_rad.attained - 0.5).abs() < 1e-7);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
 /// ```
 pub fn certify_driven(
-    a: (&ScrewChain, &[usize]),
-    b: (&ScrewChain, &[usize]),
+    a: &DrivenScrews,
+    b: &DrivenScrews,
     ranges: &[(f64, f64)],
     budget: Budget,
 ) -> Result<Certificate, KinematicsError> {
-    KinematicsError::check_joint_count(a.0.joint_count(), a.1.len())?;
-    KinematicsError::check_joint_count(b.0.joint_count(), b.1.len())?;
+    KinematicsError::check_joint_count(a.chain.joint_count(), a.drivers.len())?;
+    KinematicsError::check_joint_count(b.chain.joint_count(), b.drivers.len())?;
     // First the common order: all later steps compare the chains joint by joint.
     let AlignedChains { chains: [a, b], drivers } = AlignedChains::new(a, b);
     check_ranges(&drivers, ranges)?;
@@ -145,7 +147,7 @@ pub fn certify_driven(
     let ranges_of_joints: Vec<PositionInterval> = drivers.iter().map(|&driver| ranges[driver]).collect();
     // Of the given chains, not of the denoised ones: this bound needs no slack.
     let first = TelescopingBound::new(&a, &b, &ranges_of_joints);
-    let denoised = Denoised::new((&a, &b), &drivers, ranges);
+    let denoised = Denoised::new(&a, &b, &drivers, ranges);
     let problem = CertificateProblem { denoised: &denoised, near_zero: &near_zero, budget };
     // Grossly different chains: the telescoping sum counts each fault over the full lever arm and may exceed what
     // the two arms can reach in opposite directions. Angles have their own limit, half a turn.
@@ -265,7 +267,7 @@ impl CertificateProblem<'_> {
         let attained = from_norm(outcome.incumbent.norm);
         if outcome.certified > (attained * (1.0 + relative_gap)).max(ROUNDING_LEVEL) {
             // The largest difference is probably flat around its maximum, as if two faults add up: bound it in steps.
-            let sequences = self.sequences(measure, (&difference, &outcome.incumbent), allowance);
+            let sequences = self.sequences(measure, &difference, &outcome.incumbent, allowance);
             task.bounds = affordable([vec![itself], sequences].concat());
             task.budget = Budget { corners: corners - corners / FIRST_PHASE_PART, relative_gap };
             let further = bracket(&task, outcome.incumbent);
@@ -289,13 +291,14 @@ impl CertificateProblem<'_> {
     fn sequences(
         &self,
         measure: &BracketedMeasure,
-        (difference, incumbent): (&DifferenceNorm, &Incumbent),
+        difference: &DifferenceNorm,
+        incumbent: &Incumbent,
         allowance: f64,
     ) -> Vec<DisagreementBound> {
         let Denoised { a, b, drivers, positions, .. } = self.denoised;
         let ranges: Vec<PositionInterval> = drivers.iter().map(|&driver| positions[driver]).collect();
         let step = |[from, to]: &[ScrewChain; 2]| -> (Option<DifferenceNorm>, f64) {
-            let denoised = Denoised::new((from, to), drivers, positions);
+            let denoised = Denoised::new(from, to, drivers, positions);
             let Simplified { difference, slack } = (measure.simplify)(&denoised, allowance);
             match intermediate_chains::bound_of_rigid_move(from, to, &ranges) {
                 // Corners are tighter than the closed form, which adds lengths of links; so that is for too many

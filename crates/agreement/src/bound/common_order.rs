@@ -4,8 +4,14 @@
 use congruent_kinematics::{ScrewChain, Twist};
 use nalgebra::Vector3;
 
-/// A chain, and for each of its joints the index of the position that drives it.
-pub(super) type DrivenChain<'a> = (&'a ScrewChain, &'a [usize]);
+/// A chain with the positions that drive it.
+#[derive(Debug, Clone)]
+pub struct DrivenScrews {
+    /// The chain.
+    pub chain: ScrewChain,
+    /// For each joint the index of the position that moves it; of a mimic joint that of the joint that it mimics.
+    pub drivers: Vec<usize>,
+}
 
 /// Two chains with the same joints in the same order.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,8 +29,8 @@ struct CommonJoint {
 }
 
 impl AlignedChains {
-    pub(super) fn new(a: DrivenChain<'_>, b: DrivenChain<'_>) -> Self {
-        let places = common_order(a.1, b.1);
+    pub(super) fn new(a: &DrivenScrews, b: &DrivenScrews) -> Self {
+        let places = common_order(&a.drivers, &b.drivers);
         let still = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
         let spread = |which: usize, chain: &ScrewChain| {
             let mut twists = chain.twists_in_base.iter();
@@ -38,7 +44,7 @@ impl AlignedChains {
             ScrewChain { twists_in_base: places.iter().map(twist).collect(), ..chain.clone() }
         };
         Self {
-            chains: [spread(0, a.0), spread(1, b.0)],
+            chains: [spread(0, &a.chain), spread(1, &b.chain)],
             drivers: places.iter().map(|place| place.driver).collect(),
         }
     }

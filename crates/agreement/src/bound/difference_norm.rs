@@ -169,6 +169,7 @@ impl DifferenceNorm {
                 slots[later].corner_of.is_some() || slots.iter().any(|it| it.corner_of == Some(later))
             };
             let free = |&later: &usize| slots[index].can_share_corners(&slots[later]) && !taken(later);
+            // A pair, never a chain of three: `multiply_out` looks a corner up in one step.
             slots[index].corner_of = if taken(index) { None } else { (index + 1..slots.len()).find(free) };
         }
         Self { slots, tips }
@@ -345,7 +346,7 @@ impl DifferenceNorm {
             // end. Of several positions the largest difference counts: a split cannot get below it.
             let of_joint = self.slots.iter().zip(worst).filter(|(other, _)| other.joint == slot.joint);
             let pulled_in =
-                of_joint.map(|(_, taken)| self.at_one_position(intervals, worst, (slot.joint, taken)));
+                of_joint.map(|(_, taken)| self.at_one_position(intervals, worst, slot.joint, taken));
             let drop = here - pulled_in.fold(0.0, f64::max);
             total_reduction += drop.max(0.0);
             if drop > reduction {
@@ -365,7 +366,8 @@ impl DifferenceNorm {
         &self,
         intervals: &[PositionInterval],
         worst: &[Corner],
-        (joint, taken): (usize, &Corner),
+        joint: usize,
+        taken: &Corner,
     ) -> f64 {
         let moved = |(slot, &corner): (&FeatureSlot, &Corner)| {
             if slot.joint == joint { slot.on_curve(intervals, corner, taken.position) } else { corner }

@@ -6,7 +6,7 @@ use nalgebra::{Matrix4, Vector4};
 use super::difference_norm::{DifferenceNorm, FeatureSlot};
 
 /// The motions of a configuration that changes joint by joint.
-pub(super) struct JointSweep<'a> {
+pub(super) struct SlotSweep<'a> {
     difference: &'a DifferenceNorm,
     /// Each joint that the difference depends on, with its first and its last slot, in the order of the first ones.
     joints: Vec<(usize, [usize; 2])>,
@@ -16,12 +16,13 @@ pub(super) struct JointSweep<'a> {
     rests: Vec<[Vector4<f64>; 2]>,
 }
 
-impl<'a> JointSweep<'a> {
+impl<'a> SlotSweep<'a> {
     /// The motions at joint positions `at`.
     pub(super) fn new(difference: &'a DifferenceNorm, at: &[f64]) -> Self {
         let mut joints: Vec<(usize, [usize; 2])> = Vec::new();
         let mut place = vec![None; at.len()];
         for (index, slot) in difference.slots.iter().enumerate() {
+            // One entry for each joint, whose slots may be apart: its last one is updated.
             let place = place[slot.joint].get_or_insert(joints.len());
             match joints.get_mut(*place) {
                 Some((_, [_, last])) => *last = index,
@@ -59,7 +60,7 @@ impl<'a> JointSweep<'a> {
             let difference_at = |position: f64| {
                 let motions = slots[first..=last].iter().zip(&self.motions[first..=last]).rev();
                 let rest = motions.fold(self.rests[last + 1], |rest, (slot, motions)| {
-                    moved(&motions_at(slot, motions, (joint, position)), &rest)
+                    moved(&motions_at(slot, motions, joint, position), &rest)
                 });
                 let [a, b] = moved(&before, &rest);
                 (a - b).norm()
@@ -68,7 +69,7 @@ impl<'a> JointSweep<'a> {
                 at[joint] = position;
                 // A later joint may lie between the slots of this one, and needs what is behind it as it is now.
                 for index in (first..=last).rev() {
-                    self.motions[index] = motions_at(&slots[index], &self.motions[index], (joint, position));
+                    self.motions[index] = motions_at(&slots[index], &self.motions[index], joint, position);
                     self.rests[index] = moved(&self.motions[index], &self.rests[index + 1]);
                 }
             }
@@ -86,7 +87,8 @@ fn slot_motions(slot: &FeatureSlot, position: f64) -> [Matrix4<f64>; 2] {
 fn motions_at(
     slot: &FeatureSlot,
     motions: &[Matrix4<f64>; 2],
-    (joint, position): (usize, f64),
+    joint: usize,
+    position: f64,
 ) -> [Matrix4<f64>; 2] {
     if slot.joint == joint { slot_motions(slot, position) } else { *motions }
 }
@@ -131,7 +133,7 @@ mod tests {
         let tip = Vector4::new(0.2, 0.1, 0.3, 1.0);
         let difference = DifferenceNorm::new(slots, [tip, tip]);
         let mut at = vec![0.1, -0.4, 0.8, 0.5];
-        let mut sweep = JointSweep::new(&difference, &at);
+        let mut sweep = SlotSweep::new(&difference, &at);
         for round in 0..3 {
             let mut expected = at.clone();
             let mut visited = Vec::new();

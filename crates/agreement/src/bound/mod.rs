@@ -18,3 +18,4 @@ mod telescoping;
 
 pub use budget::Budget;
 pub use certify::{Bracket, Certificate, certify, certify_driven};
+pub use common_order::DrivenScrews;

@@ -60,7 +60,7 @@ mod tests {
     #[test]
     fn no_tip_is_farther() {
         let mut random = Uniform::seeded(5);
-        let mut vector = || Vector3::from_fn(|_, _| random.between((-1.0, 1.0)));
+        let mut vector = || Vector3::from_fn(|_, _| random.between(-1.0, 1.0));
         for _ in 0..200 {
             let mut twists_in_base: Vec<Twist> = (0..5).map(|_| turn(vector(), vector())).collect();
             twists_in_base[2] = Twist { angular: Vector3::zeros(), linear: vector() };

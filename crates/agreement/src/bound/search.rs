@@ -1,7 +1,7 @@
 //! The bound from below: a configuration with a large difference, by local search from many starts. Nothing
 //! is random: the starts are a lattice, so the same chains give the same configuration.
 
-use super::{corner::PositionInterval, difference_norm::DifferenceNorm, joint_sweep::JointSweep};
+use super::{corner::PositionInterval, difference_norm::DifferenceNorm, joint_sweep::SlotSweep};
 
 /// Number of starts in addition to the middle of the ranges.
 const STARTS: usize = 16;
@@ -66,7 +66,7 @@ impl Incumbent {
         let mut step = FIRST_STEP;
         // Without this a search on a difference of a few nm would follow the rounding of its own arithmetic.
         let rounding = difference.rounding(&self.at.iter().map(|&q| (q, q)).collect::<Vec<_>>());
-        let mut sweep = JointSweep::new(difference, &self.at);
+        let mut sweep = SlotSweep::new(difference, &self.at);
         for _ in 0..MAX_ROUNDS {
             if step < LAST_STEP {
                 break;
@@ -106,6 +106,8 @@ impl Incumbent {
         let between =
             |part: f64| far.iter().zip(&middle).map(move |(far, middle)| middle + part * (far - middle));
         let (mut inside, mut outside) = (0.0, 1.0);
+        // Ends with the inside or the outside point of an interval of 2^-60 of the path: the two norms differ by
+        // rounding.
         for _ in 0..HALVINGS {
             let part = f64::midpoint(inside, outside);
             *self = Self::new(difference, between(part).collect());

@@ -45,7 +45,8 @@ pub(super) struct Simplified {
 impl Denoised {
     /// Removes turns, pitches and differences of rate that are noise.
     pub(super) fn new(
-        (a, b): (&ScrewChain, &ScrewChain),
+        a: &ScrewChain,
+        b: &ScrewChain,
         drivers: &[usize],
         positions: &[PositionInterval],
     ) -> Self {
@@ -59,6 +60,7 @@ impl Denoised {
             let (rate_a, rate_b) = (a.angular.norm(), b.angular.norm());
             if rate_b > 0.0 && (rate_a - rate_b).abs() * furthest <= NOISE {
                 // Rates that differ by noise would get two feature slots instead of one, and several times the corners.
+                // To the rate of the second chain, not to the mean: only one chain then needs slack.
                 let scale = rate_b / rate_a;
                 *a = Twist { angular: a.angular * scale, linear: a.linear * scale };
                 // Cut to one turn only what repeats itself exactly: a pitch moves on with every turn, and another
@@ -190,6 +192,7 @@ fn turns(
     let slot = |rate: f64, motions| FeatureSlot::new(joint, Some(rate), motions);
     let mut slots = Vec::new();
     if shared > 0.0 {
+        // Two turns about one axis at the common rate and at the rest: a product of commuting motions.
         slots.push(slot(shared, [motion(a), motion(b)]));
     }
     if !alike && a.rate > shared {
@@ -273,6 +276,7 @@ fn without_noise(twist: &Twist, furthest: f64) -> Twist {
     }
     let axis = twist.angular / rate;
     let along = axis.dot(&twist.linear);
+    // A small pitch would add a shift slot and double the corners.
     let linear = if along.abs() * furthest <= NOISE { twist.linear - axis * along } else { twist.linear };
     Twist { linear, ..*twist }
 }

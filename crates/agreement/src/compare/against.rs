@@ -29,7 +29,8 @@ impl CheckReport {
     /// [`CheckError`] if the source rejects a configuration.
     pub fn add_other(
         &mut self,
-        (description, other): (&RobotDescription, &RobotDescription),
+        description: &RobotDescription,
+        other: &RobotDescription,
         poses: &mut dyn LinkPoses,
         options: &CheckOptions,
     ) -> Result<(), CheckError> {

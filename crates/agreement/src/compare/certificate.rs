@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
-    bound::{Bracket, Budget, Certificate, certify_driven},
+    bound::{Bracket, Budget, Certificate, DrivenScrews, certify_driven},
     compare::{
         error::CheckError,
         identified::{IdentifiedChain, SCREW_RESIDUAL_LIMIT, base_from_tip},
@@ -179,7 +179,7 @@ impl<'a> ComparedChain<'a> {
         let RobotDescription { robot, base, tip, .. } = description;
         let (tree, base, tip, coordinates) =
             (UrdfTree::new(robot), *base, *tip, description.moving_coordinates());
-        let chain = ScrewChain::from_urdf(robot, (base, tip), &coordinates)?;
+        let chain = ScrewChain::from_urdf(robot, base, tip, &coordinates)?;
         Ok(Self {
             driven: DrivenScrews::new(robot, &coordinates, &chain),
             residual: PoseError::default(),
@@ -220,8 +220,7 @@ fn certified(robot: &Robot, chains: [&ComparedChain<'_>; 2]) -> Result<Option<Ce
     if !ranges.iter().all(|range| range.0.is_finite() && range.1.is_finite()) {
         return Ok(None);
     }
-    let mut found =
-        certify_driven((&a.chain, &a.drivers), (&b.chain, &b.drivers), &ranges, Budget::default())?;
+    let mut found = certify_driven(a, b, &ranges, Budget::default())?;
     let rounding = a.rounding() + b.rounding();
     let residual = chains.map(|side| side.residual);
     // The search bounds two screw chains. Each model differs from its chain by at most rounding and residual, so
@@ -275,15 +274,6 @@ fn report(
         position_m: bracket(certificate.position_m, |error| error.position_m)?,
         orientation_rad: bracket(certificate.orientation_rad, |error| error.orientation_rad)?,
     }))
-}
-
-/// A chain with the positions that drive it.
-#[derive(Debug, Clone)]
-struct DrivenScrews {
-    chain: ScrewChain,
-    /// For each joint the entry of the configuration vector that moves it; of a mimic joint the entry of
-    /// the joint that it mimics.
-    drivers: Vec<usize>,
 }
 
 impl DrivenScrews {
@@ -356,7 +346,7 @@ mod tests {
             let by_urdf = description.moving_coordinates();
             let table = ScrewChain::from_dh(&by_table, robot.dof()).unwrap();
             let table = DrivenScrews::new(robot, by_table.coordinates(), &table);
-            let urdf = ScrewChain::from_urdf(robot, (description.base, description.tip), &by_urdf).unwrap();
+            let urdf = ScrewChain::from_urdf(robot, description.base, description.tip, &by_urdf).unwrap();
             let urdf = DrivenScrews::new(robot, &by_urdf, &urdf);
             for q in congruent_kinematics::sample_configurations(robot, 0, 50) {
                 let root_from = |link| tree.root_from_link(&q, link).unwrap();

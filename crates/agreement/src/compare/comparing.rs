@@ -122,8 +122,7 @@ impl LinkPoseSources<'_> {
     /// The tip by each two sources that describe the robot, at the configuration of the last evaluation.
     fn tips(&self, description: &RobotDescription) -> Vec<TipDifference> {
         let (base, tip) = (description.base.get(), description.tip.get());
-        // The base is placed by the URDF, which places the table.
-        // Relative to the base, as a table gives it; each source has its own pose of the root otherwise.
+        // Relative to the base, as a table gives it. The base of the table is placed by the URDF.
         let in_base = |links: &[Pose], base: &Pose| base.inverse() * links[tip];
         let by_urdf = in_base(&self.by_urdf, &self.by_urdf[base]);
         let between = |pair, first: Pose, second: Pose| TipDifference {

@@ -28,7 +28,8 @@ impl CheckReport {
     /// If [`CheckReport::add_other`] was not called before, or if the two have other moving joints.
     pub fn add_mimics(
         &mut self,
-        (description, other): (&RobotDescription, &RobotDescription),
+        description: &RobotDescription,
+        other: &RobotDescription,
         poses: &mut dyn LinkPoses,
         options: &CheckOptions,
     ) -> Result<Option<String>, CheckError> {
@@ -131,6 +132,7 @@ impl DifferingMimic {
     /// Whether the two relations are not the same within the tolerance: two that follow the same joint may differ by
     /// the rounding of their numbers.
     fn matters(&self, description: &RobotDescription, seed: u64) -> Result<bool, CheckError> {
+        // Driven in one file and following in the other: this differs at every other position.
         let [Some((master, ..)), Some((other_master, ..))] = self.relations else { return Ok(true) };
         if master != other_master {
             return Ok(true);
@@ -182,7 +184,8 @@ impl<'a> MimicDifferences<'a> {
         let mut driven = q.clone();
         for joint in self.joints.iter().filter(|joint| joint.relations.iter().any(Option::is_none)) {
             let index = self.robot.movable_joints()[joint.coordinate];
-            driven[joint.coordinate] = random.between(range(self.robot.joint(index)));
+            let (lower, upper) = range(self.robot.joint(index));
+            driven[joint.coordinate] = random.between(lower, upper);
         }
         let mut own = driven.clone();
         self.robot.apply_mimic(&mut own);

@@ -105,11 +105,11 @@ pub enum RowConstants {
     Dh {
         /// Which entry the joint drives.
         kind: DhRowKind,
-        /// Link length, m.
+        /// Link length a, m.
         a_m: f64,
-        /// Link twist, rad.
+        /// Link twist alpha, rad.
         alpha_rad: f64,
-        /// Link offset, m.
+        /// Link offset d, m.
         d_m: f64,
         /// Joint angle at position zero, rad.
         theta_rad: f64,
@@ -295,6 +295,8 @@ impl CandidateModel {
                 match entry {
                     DhEntry::A => rigid(by.a, row + own),
                     DhEntry::Alpha => rigid(by.alpha, row + own),
+                    // `theta` and `d` act along the row's own axis, which they leave in place: the first row that
+                    // moves is the next.
                     DhEntry::D => rigid(by.d, row + 1),
                     DhEntry::Theta => rigid(by.theta, row + 1),
                 }
@@ -322,6 +324,7 @@ impl CandidateModel {
 
 /// The twist of one component: translations along x, y, z, then rotations about x, y, z.
 fn unit(component: usize) -> Twist {
+    // `Twist::units` has the rotations first.
     Twist::units()[(component + 3) % 6]
 }
 

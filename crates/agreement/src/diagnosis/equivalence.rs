@@ -67,6 +67,7 @@ pub(super) fn equivalence(
         return Equivalence::WithinTolerance;
     }
     let both = [named, other].map(|explanation| changes(models, &explanation.corrected));
+    // In both directions: it is the same reason whichever of the two is named.
     let either = |one: ModelChange, other: &dyn Fn(&ModelChange) -> bool| {
         (both[0] == [one] && both[1].iter().all(other)) || (both[1] == [one] && both[0].iter().all(other))
     };

@@ -64,7 +64,7 @@ pub(crate) fn compare(models: &ModelPair) -> Vec<JointDifference> {
     let reference = models.reference.screws();
     let mut differences = Vec::new();
     let (found_here, expected_here) = (quantities(&candidate), quantities(&reference));
-    let value = |list: &[JointQuantity], at: usize, of: Invariant| {
+    let value = |list: &[QuantityOfJoint], at: usize, of: Invariant| {
         list.iter().find(|(joint, (kind, _))| (*joint, *kind) == (at, of)).map(|(_, (_, value))| *value)
     };
     for &(joint, (invariant, found)) in &found_here {
@@ -108,6 +108,7 @@ pub(crate) fn compare(models: &ModelPair) -> Vec<JointDifference> {
         let joint = joints.saturating_sub(1);
         differences.push(JointDifference { invariant: Invariant::Tool, joint, found: off, expected: 0.0 });
     }
+    // By invariance first: a wrong axis distance says more than the tool pose that follows from it.
     differences.sort_by_key(|difference| (difference.invariant, difference.joint));
     differences
 }
@@ -125,6 +126,7 @@ impl JointAxisLine {
         let Twist { angular, linear } = twist;
         let turn = angular.norm();
         if turn > NO_TURN {
+            // w x v / w^2, the point of the axis nearest to the origin.
             let through = Some(angular.cross(linear) / (turn * turn));
             return Some(Self { direction: angular / turn, through, ratio: turn });
         }
@@ -155,10 +157,10 @@ impl JointAxisLine {
 }
 
 /// A quantity with the joint that it belongs to.
-type JointQuantity = (usize, (Invariant, f64));
+type QuantityOfJoint = (usize, (Invariant, f64));
 
 /// All quantities that a chain has.
-fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
+fn quantities(chain: &ScrewChain) -> Vec<QuantityOfJoint> {
     let axes: Vec<Option<JointAxisLine>> =
         chain.twists_in_base.iter().map(JointAxisLine::from_twist).collect();
     let mut list = Vec::new();
@@ -169,14 +171,17 @@ fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
         let Some(Some(next)) = axes.get(joint + 1) else { continue };
         let (sine, cosine) =
             (axis.direction.cross(&next.direction).norm(), axis.direction.dot(&next.direction));
+        // As undirected lines; the direction is a quantity of its own, since a flipped axis is a fault of its own.
         list.push((joint, (Invariant::AxisAngle, libm::atan2(sine, cosine.abs()))));
         list.push((joint, (Invariant::Sign, if cosine.abs() < PARALLEL { 0.0 } else { cosine.signum() })));
         list.extend(axis.distance(next).map(|distance| (joint, (Invariant::AxisDistance, distance))));
         let Some(Some(last)) = axes.get(joint + 2) else { continue };
         if let (Some(before), Some(behind)) = (next.foot(axis), next.foot(last)) {
+            // Without its sign, which depends on the direction of the axis.
             list.push((joint, (Invariant::Offset, (behind - before).abs())));
         }
         let normals = (axis.direction.cross(&next.direction), next.direction.cross(&last.direction));
+        // Parallel axes have no common normal whose direction could be compared.
         if normals.0.norm() > PARALLEL && normals.1.norm() > PARALLEL {
             let sine = normals.0.cross(&normals.1).dot(&next.direction);
             list.push((joint, (Invariant::Zero, libm::atan2(sine, normals.0.dot(&normals.1)))));

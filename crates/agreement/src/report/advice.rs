@@ -152,7 +152,7 @@ impl FileValue {
                     if matches!(key, RowKey::Alpha | RowKey::Theta) { Unit::Angle } else { Unit::Length };
                 let place = places.value(row, key);
                 value(before).zip(value(after)).zip(place).map(|((found, expected), place)| {
-                    value_literal(unit, place.units, (found, expected), slack)
+                    value_literal(unit, place.units, found, expected, slack)
                 })
             }
         };

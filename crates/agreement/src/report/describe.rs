@@ -19,11 +19,12 @@ use crate::{
 
 pub(super) fn reported_diagnosis(
     pair: SourcePair,
-    (models, criterion): (&ModelPair, &Criterion),
+    models: &ModelPair,
+    criterion: &Criterion,
     diagnosis: &Diagnosis,
     names: &ModelNames<'_>,
 ) -> ReportedDiagnosis {
-    let described = |explanation: &Explanation| describe(explanation, (models, criterion), names);
+    let described = |explanation: &Explanation| describe(explanation, models, criterion, names);
     let causes: Vec<(ReportedCause, Vec<Diagnostic>)> =
         diagnosis.explanations.iter().map(described).collect();
     let findings = causes.first().map(|(_, findings)| findings.clone()).unwrap_or_default();
@@ -46,7 +47,8 @@ pub(super) fn reported_diagnosis(
 
 fn describe(
     explanation: &Explanation,
-    (models, criterion): (&ModelPair, &Criterion),
+    models: &ModelPair,
+    criterion: &Criterion,
     names: &ModelNames<'_>,
 ) -> (ReportedCause, Vec<Diagnostic>) {
     let slack = advice::slack(models, explanation, criterion);

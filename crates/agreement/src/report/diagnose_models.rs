@@ -55,7 +55,7 @@ pub fn diagnose_models(
         pairs.push((SourcePair::UrdfSimulation, ModelPair { candidate, reference }));
     }
     let diagnosis = |(pair, models): &(SourcePair, ModelPair)| {
-        reported_diagnosis(*pair, (models, &criterion), &diagnose(models, &criterion), &names)
+        reported_diagnosis(*pair, models, &criterion, &diagnose(models, &criterion), &names)
     };
     pairs.iter().map(diagnosis).collect()
 }

@@ -240,7 +240,7 @@ impl FaultContext<'_> {
             return FaultMessage { fault, message, location: self.location(second, row_key(entry)) };
         }
         let joint = self.joint(row);
-        let right = self.corrected(row, entry, (found, expected));
+        let right = self.corrected(row, entry, found, expected);
         let given = if self.is_written(row, row_key(entry)) {
             self.given(row, entry, found)
         } else {
@@ -330,16 +330,16 @@ impl FaultContext<'_> {
 
     /// A value of a row as the file writes it, with its key and in the unit of that key.
     fn written(&self, row: usize, entry: DhEntry, value: f64) -> String {
-        self.corrected(row, entry, (f64::INFINITY, value))
+        self.corrected(row, entry, f64::INFINITY, value)
     }
 
     /// The expected value of a row, with enough digits to differ from the found one.
-    fn corrected(&self, row: usize, entry: DhEntry, values: (f64, f64)) -> String {
+    fn corrected(&self, row: usize, entry: DhEntry, found: f64, expected: f64) -> String {
         let place = self.names.places.and_then(|places| places.value(row, row_key(entry)));
         let unit = if entry.is_angle() { Unit::Angle } else { Unit::Length };
         let (key, units) =
             place.map_or_else(|| (entry.to_string(), UnitSystem::Si), |place| (place.key, place.units));
-        format!("{key} = {}", value_literal(unit, units, values, self.slack))
+        format!("{key} = {}", value_literal(unit, units, found, expected, self.slack))
     }
 
     /// The given value of a row, in the digits of the file.

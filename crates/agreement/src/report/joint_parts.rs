@@ -68,7 +68,7 @@ pub(crate) fn diagnosed_by_joints(
     explained: &ExplainedByJoints,
     differences: Vec<ReportedDifference>,
 ) -> ReportedDiagnosis {
-    let parts = JointParts { descriptions, robots };
+    let parts = CorrectionMessages { descriptions, robots };
     let ExplainedByJoints { corrections, worst, alternatives } = explained;
     let stages: Vec<ReportedStage> =
         worst.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] }).collect();
@@ -108,12 +108,12 @@ fn cause(mut parts: Vec<Fault>, stages: Vec<ReportedStage>) -> ReportedCause {
 }
 
 /// Two descriptions, the one that is checked first.
-struct JointParts<'a> {
+struct CorrectionMessages<'a> {
     descriptions: [&'a RobotDescription; 2],
     robots: &'a MatchedRobots<'a>,
 }
 
-impl JointParts<'_> {
+impl CorrectionMessages<'_> {
     fn message(&self, correction: &JointCorrection) -> FaultMessage {
         let joint = self.robots.robot.joint(correction.joint);
         let (part, attributes, fault) = match &correction.expected {
@@ -154,7 +154,7 @@ impl JointParts<'_> {
         };
         let mut message = FaultMessage { fault, message: text, location };
         if let Some(places) = own {
-            advise(&mut message, places, (&joint.name, part), &attributes);
+            advise(&mut message, places, &joint.name, part, &attributes);
         }
         message
     }
@@ -192,11 +192,10 @@ impl JointParts<'_> {
         };
         let attribute = |name: &'static str| JointAttribute {
             name,
-            found: self.written(0, (joint, "origin", name), || numbers(name, found)),
-            expected: match there {
-                Some(there) => self.written(1, (there, "origin", name), || numbers(name, expected)),
-                None => numbers(name, expected),
-            },
+            found: self.written(0, joint, "origin", name).unwrap_or_else(|| numbers(name, found)),
+            expected: there
+                .and_then(|there| self.written(1, there, "origin", name))
+                .unwrap_or_else(|| numbers(name, expected)),
         };
         let [shift, turn] = off(found, expected);
         let xyz = (shift.norm() > ROUNDING).then(|| attribute("xyz"));
@@ -204,27 +203,18 @@ impl JointParts<'_> {
         xyz.into_iter().chain(rpy).collect()
     }
 
-    fn axis(&self, joint: &Joint, expected: &UnitVector<Vector3<f64>>) -> Vec<JointAttribute> {
+    fn axis(&self, joint: &Joint, expected_axis: &UnitVector<Vector3<f64>>) -> Vec<JointAttribute> {
         let numbers = |axis: &UnitVector<Vector3<f64>>| listed(Unit::Length, axis.into_inner().into());
-        let found = self.written(0, (joint, "axis", "xyz"), || numbers(&joint.axis_in_joint));
-        let expected = match self.robots.namesake(joint) {
-            Some(there) => self.written(1, (there, "axis", "xyz"), || numbers(expected)),
-            None => numbers(expected),
-        };
+        let found = self.written(0, joint, "axis", "xyz").unwrap_or_else(|| numbers(&joint.axis_in_joint));
+        let there = self.robots.namesake(joint);
+        let expected = there.and_then(|there| self.written(1, there, "axis", "xyz"));
+        let expected = expected.unwrap_or_else(|| numbers(expected_axis));
         vec![JointAttribute { name: "xyz", found, expected }]
     }
 
-    /// An attribute as a file writes it, or the default of the URDF reader if the file does not write it.
-    fn written(
-        &self,
-        file: usize,
-        (joint, part, attribute): (&Joint, &str, &str),
-        otherwise: impl Fn() -> String,
-    ) -> String {
-        let places = self.descriptions[file].places.urdf.as_ref();
-        places
-            .and_then(|places| places.joint_attribute(&joint.name, part, attribute))
-            .unwrap_or_else(otherwise)
+    /// An attribute as a file writes it; without it the default of the URDF reader counts.
+    fn written(&self, file: usize, joint: &Joint, part: &str, attribute: &str) -> Option<String> {
+        self.descriptions[file].places.urdf.as_ref()?.joint_attribute(&joint.name, part, attribute)
     }
 }
 
@@ -254,7 +244,8 @@ fn sentence(fault: &Fault, joint: &str, [found, expected]: [&str; 2]) -> String 
 fn advise(
     message: &mut FaultMessage,
     places: &UrdfPlaces,
-    (joint, part): (&str, &str),
+    joint: &str,
+    part: &str,
     attributes: &[JointAttribute],
 ) {
     let new: Vec<(&'static str, String)> =

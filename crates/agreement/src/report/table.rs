@@ -46,8 +46,7 @@ pub(super) fn table_comparison(
     let mut values: Vec<ComparedValue> = Vec::new();
     for row in rows {
         values.extend(signs(tables, row, names));
-        values
-            .extend(DhEntry::ALL.into_iter().filter_map(|entry| entries(tables, (row, entry), names, slack)));
+        values.extend(DhEntry::ALL.into_iter().filter_map(|entry| entries(tables, row, entry, names, slack)));
     }
     values.push(constant(tables, ConstantKey::BaseFromDh0, slack));
     values.push(constant(tables, ConstantKey::DhnFromTip, slack));
@@ -74,7 +73,8 @@ fn signs(
 
 fn entries(
     [given, nearest]: [&CandidateModel; 2],
-    (row, entry): (usize, DhEntry),
+    row: usize,
+    entry: DhEntry,
     names: &ModelNames<'_>,
     slack: Slack,
 ) -> Option<ComparedValue> {

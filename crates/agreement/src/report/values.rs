@@ -29,7 +29,8 @@ pub(super) fn isometry(pose: &Pose) -> Isometry3<f64> {
 pub(super) fn value_literal(
     unit: Unit,
     units: UnitSystem,
-    (found, expected): (f64, f64),
+    found: f64,
+    expected: f64,
     slack: Slack,
 ) -> String {
     /// Part of its change that a value may be off.

@@ -3,7 +3,7 @@
 //! `CONGRUENT_EACH` says how many faults of each robot.
 
 use congruent_agreement::{
-    bound::{Bracket, Budget, Certificate, certify_driven},
+    bound::{Bracket, Budget, Certificate, DrivenScrews, certify_driven},
     diagnosis::{ModelPair, ReferenceModel},
 };
 use congruent_description::ChainQ;
@@ -32,7 +32,9 @@ fn certificate(models: &ModelPair, ranges: &[(f64, f64)], budget: Budget) -> Cer
         models.candidate.base_from_tip(&q)
     });
     let in_order: Vec<usize> = (0..joints).collect();
-    certify_driven((&candidate, &rows), (&models.reference.screws(), &in_order), ranges, budget).unwrap()
+    let candidate = DrivenScrews { chain: candidate, drivers: rows };
+    let reference = DrivenScrews { chain: models.reference.screws(), drivers: in_order };
+    certify_driven(&candidate, &reference, ranges, budget).unwrap()
 }
 
 fn pick<'a>(faults: &'a [InjectedFault], generator: &mut ChaCha8Rng) -> &'a InjectedFault {

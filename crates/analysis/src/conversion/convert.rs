@@ -70,6 +70,7 @@ fn to_table(
     mut report: ConversionReport,
 ) -> Result<ConversionReport, Diagnostic> {
     let mut corrected = None;
+    // A declared table is only written otherwise: a derivation might choose other frames.
     let dh = if let Some(declared) = model.declared() {
         SerialDh::from_table(declared).to_convention(convention)
     } else {
@@ -89,6 +90,8 @@ fn to_table(
     let mut found = |q: &ChainQ| written.base_from_tip(q).expect("one position for each row");
     let proof = prove(model, conversion, &mut found);
     report.proof = ProofReport::new(&proof, conversion);
+    // Against the source the table differs by what was rounded, which the warning below reports. The limit holds
+    // against the corrected chain.
     match &corrected {
         None => within_limit(&proof, &report)?,
         Some(chain) => {

@@ -72,7 +72,7 @@ pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
     fixed.sort_unstable();
     let effect = threshold * largest;
     let in_own_units = |parameter: usize| {
-        let mut fixed = relation((&information, effect), &kept, parameter);
+        let mut fixed = relation(&information, effect, &kept, parameter);
         for (other, factor) in &mut fixed.correlated_with {
             // Factors were found in scaled units (metres at the tip); the report says them in rad and m.
             *factor *= scale(&parameters[parameter], reach_m) / scale(&parameters[*other], reach_m);
@@ -130,7 +130,8 @@ fn singular_values(information: &DMatrix<f64>) -> Vec<f64> {
 
 /// Least squares of one column of the Jacobian by the kept ones, in scaled units.
 fn relation(
-    (information, least_effect): (&DMatrix<f64>, f64),
+    information: &DMatrix<f64>,
+    least_effect: f64,
     kept: &[usize],
     parameter: usize,
 ) -> FixedParameter {

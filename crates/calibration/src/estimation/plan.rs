@@ -38,7 +38,8 @@ pub struct Suggestion {
 /// If a candidate has another length than the chain has joints.
 pub fn most_informative(
     problem: &Problem<'_>,
-    (corrections, noise): (&[f64], &Noise),
+    corrections: &[f64],
+    noise: &Noise,
     candidates: &[ChainQ],
     count: usize,
 ) -> Vec<Suggestion> {
@@ -55,7 +56,7 @@ pub fn most_informative(
         .map(|q| {
             let mut equations = CalibrationEquations::zeros(corrections.len());
             let measurement = like_at(like, q, problem.chain.base_from_tip(q, corrections));
-            equations.add(&mut at_corrections, &measurement, (1.0, &noise));
+            equations.add(&mut at_corrections, &measurement, 1.0, &noise);
             equations.information
         })
         .collect();
@@ -136,5 +137,6 @@ fn prior(problem: &Problem<'_>) -> DMatrix<f64> {
 
 /// Half the logarithm of the determinant.
 fn log_volume(factor: &Cholesky<f64, Dyn>) -> f64 {
+    // det A = (product of the factor's diagonal)^2, so this is half of log det.
     factor.l_dirty().diagonal().iter().map(|entry| libm::log(*entry)).sum()
 }

@@ -3,7 +3,7 @@
 use super::{
     estimate::CalibrationFit,
     problem::{Problem, median_norm},
-    robust::{Loss, RobustFit, distance},
+    robust::{RobustFit, distance},
 };
 
 /// The cost at one value of a correction, the others as estimated.
@@ -29,12 +29,14 @@ pub struct CostPoint {
 /// If the chain has no correction of this index.
 pub fn cost_curve(
     problem: &Problem<'_>,
-    (plain, robust, loss): (&CalibrationFit, &RobustFit, Loss),
+    plain: &CalibrationFit,
+    robust: &RobustFit,
     parameter: usize,
     values: impl Iterator<Item = f64>,
 ) -> Vec<CostPoint> {
     let (mut plain_p, mut robust_p) = (plain.corrections.clone(), robust.fit.corrections.clone());
     let noise = robust.scale;
+    // The others stay as estimated: the curve is a section of the cost, not its profile.
     let point = |value: f64| {
         plain_p[parameter] = value;
         robust_p[parameter] = value;
@@ -45,7 +47,7 @@ pub fn cost_curve(
         let costs = rows.map(|(measurement, residual)| {
             // `distance` was scaled to one component; the cost of a row with three has three times the squares.
             let stretch = median_norm(measurement.component_count()) / median_norm(1);
-            stretch * stretch * loss.cost(distance(measurement, residual, &noise))
+            stretch * stretch * robust.loss.cost(distance(measurement, residual, &noise))
         });
         CostPoint {
             value,

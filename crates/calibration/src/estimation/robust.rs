@@ -93,6 +93,8 @@ impl Loss {
 /// An estimate with a robust loss.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobustFit {
+    /// The loss of a row by its distance.
+    pub loss: Loss,
     /// The estimate; its noise is that of the inliers.
     pub fit: CalibrationFit,
     /// Weight of each row, in 0 to 1.
@@ -120,9 +122,10 @@ pub fn fit_robustly(
     problem: &Problem<'_>,
     kept: &[usize],
     loss: Loss,
-    (start, known_noise): (&CalibrationFit, Option<Noise>),
+    start: &CalibrationFit,
+    known_noise: Option<Noise>,
 ) -> RobustFit {
-    let mut fit = start_of_agreement(problem, kept, (start, known_noise));
+    let mut fit = start_of_agreement(problem, kept, start, known_noise);
     let noise_of = |fit: &CalibrationFit, factor: f64| {
         known_noise.unwrap_or_else(|| median_noise(problem, &fit.residuals, factor)).floored()
     };
@@ -159,7 +162,7 @@ pub fn fit_robustly(
     if known_noise.is_none() {
         fit = fit.with_redundancy(problem.redundancy(kept));
     }
-    RobustFit { fit, weights, scale, outliers }
+    RobustFit { loss, fit, weights, scale, outliers }
 }
 
 /// Norm of a row in units of the noise, scaled so that half of normal rows are within 0.6745, as of
@@ -173,7 +176,8 @@ pub(super) fn distance(measurement: &Measurement, residual: &PoseResidual, noise
 fn start_of_agreement(
     problem: &Problem<'_>,
     kept: &[usize],
-    (plain, known_noise): (&CalibrationFit, Option<Noise>),
+    plain: &CalibrationFit,
+    known_noise: Option<Noise>,
 ) -> CalibrationFit {
     let noise_of = |residuals: &[PoseResidual]| {
         known_noise.unwrap_or_else(|| comparable_noise(problem, residuals)).floored()

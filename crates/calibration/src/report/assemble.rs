@@ -36,7 +36,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let nominal = residuals(computed, &nothing);
     let held_out = held_out(computed, &nominal);
     let (corrected_size, nominal_size) = residual_sizes(computed, &nominal);
-    let verdict = explanation(computed, held_out.as_ref(), (&corrected_size, &nominal_size));
+    let verdict = explanation(computed, held_out.as_ref(), &corrected_size, &nominal_size);
     let (verdict, likely_reason) = reinterpreted(computed, verdict, &corrected_size);
     let recommended = match verdict {
         CalibrationVerdict::Explained
@@ -208,7 +208,8 @@ fn reinterpreted(
 fn explanation(
     computed: &Computed<'_>,
     held_out: Option<&HeldOutSummary>,
-    (corrected, nominal): (&ResidualSize, &ResidualSize),
+    corrected: &ResidualSize,
+    nominal: &ResidualSize,
 ) -> CalibrationVerdict {
     if computed.identification.kept.is_empty() {
         return CalibrationVerdict::NothingIdentified;
@@ -362,7 +363,7 @@ fn curve(computed: &Computed<'_>) -> Option<CostCurve> {
     let upper = marked.into_iter().fold(f64::NEG_INFINITY, f64::max) + margin;
     let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
     let values = (0..=STEPS).map(|step| lower + (upper - lower) * f64::from(step) / f64::from(STEPS));
-    let points = cost_curve(&problem, (plain, robust, computed.options.loss), parameter, values);
+    let points = cost_curve(&problem, plain, robust, parameter, values);
     Some(CostCurve {
         parameter: index,
         values: points.iter().map(|point| point.value).collect(),

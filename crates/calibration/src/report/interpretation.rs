@@ -131,7 +131,7 @@ fn interpreted_fit(
         return None;
     }
     let plain = fit_with_estimated_noise(&problem, &kept);
-    let robust = fit_robustly(&problem, &kept, Loss::Tukey, (&plain, None));
+    let robust = fit_robustly(&problem, &kept, Loss::Tukey, &plain, None);
     Some(InterpretedFit {
         residual: reach_scale.residual_size(&robust.fit.residuals, &robust.outliers),
         correction_size: reach_scale.correction_size(&chain, &robust.fit.corrections),

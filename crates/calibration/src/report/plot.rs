@@ -40,7 +40,7 @@ impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for Calib
     }
 }
 
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+type PlotChart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// The plot as an SVG document.
 ///
@@ -170,7 +170,7 @@ fn rows(
     legend(&mut chart, SeriesLabelPosition::UpperLeft)
 }
 
-fn mesh(chart: &mut Chart<'_, '_>, x: &str, y: &str) -> Result<(), CalibrationPlotError> {
+fn mesh(chart: &mut PlotChart<'_, '_>, x: &str, y: &str) -> Result<(), CalibrationPlotError> {
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
@@ -186,7 +186,7 @@ fn mesh(chart: &mut Chart<'_, '_>, x: &str, y: &str) -> Result<(), CalibrationPl
 }
 
 fn legend<'a, 'b: 'a>(
-    chart: &mut Chart<'a, 'b>,
+    chart: &mut PlotChart<'a, 'b>,
     position: SeriesLabelPosition,
 ) -> Result<(), CalibrationPlotError> {
     chart
@@ -203,7 +203,7 @@ fn legend<'a, 'b: 'a>(
 
 /// A dashed line at a value.
 fn upright<'c, 'a, 'b>(
-    chart: &'c mut Chart<'a, 'b>,
+    chart: &'c mut PlotChart<'a, 'b>,
     value: f64,
     top: f64,
     colour: RGBColor,

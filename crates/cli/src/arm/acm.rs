@@ -1,21 +1,19 @@
 //! `congruent acm`: pairs of links to exclude from collision checking.
 
-use std::{fmt::Write, path::PathBuf};
+use std::path::PathBuf;
 
 use congruent::{
-    input::{
-        Capability, Diagnostic,
-        display::{counted, length},
-    },
+    input::{Capability, Diagnostic},
     kinematics::Sampling,
-    proximity::{DisableReason, DisabledPairs, srdf_text, suggest_disabled},
+    proximity::{srdf_text, suggest_disabled},
+    text::disabled_pairs_text,
 };
 
 use crate::{
     failure::{Failure, NOTHING},
     input::{RobotArgument, files_of},
     output::file::{NewFile, folder_of},
-    terminal::{layout::paragraph, print::Printer, progress::waiting},
+    terminal::{print::Printer, progress::waiting},
 };
 
 /// Suggests link pairs to exclude from collision checking (allowed collision matrix).
@@ -68,69 +66,21 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         .map_err(|error| Diagnostic::error("acm::shape", error.to_string()))?;
     let srdf = srdf_text(&pairs);
     if pairs.pairs == 0 {
-        printer.result(&pairs, summary)?;
+        printer.result(&pairs, disabled_pairs_text)?;
         return Ok(NOTHING);
     }
     match &file {
         Some(file) => {
             file.write(&srdf, &inputs, |_| Ok(()))?;
-            printer
-                .result(&pairs, |pairs| format!("{}written to {}\n", summary(pairs), file.path.display()))?;
+            printer.result(&pairs, |pairs| {
+                format!("{}written to {}\n", disabled_pairs_text(pairs), file.path.display())
+            })?;
         }
         None => printer.verbatim(&pairs, |pairs| {
             // Two hyphens end a comment in XML.
-            let remarks = format!("<!--\n{}-->\n", summary(pairs).replace("--", "- -"));
+            let remarks = format!("<!--\n{}-->\n", disabled_pairs_text(pairs).replace("--", "- -"));
             srdf.clone() + &remarks
         })?,
     }
     Ok(0)
-}
-
-/// How many pairs have which reason, and what to examine before the SRDF is used.
-fn summary(pairs: &DisabledPairs) -> String {
-    let mut text = String::new();
-    let (of_links, links) = (counted(pairs.pairs, "pair"), counted(pairs.links, "link"));
-    let _ = writeln!(text, "{}: {of_links} of {links} with a shape", pairs.robot);
-    if pairs.pairs == 0 {
-        return text + "  no pair to examine: no SRDF is written\n";
-    }
-    let counts = [
-        (DisableReason::Adjacent, "connected by a joint".to_owned()),
-        (DisableReason::Default, "touch in the default position".to_owned()),
-        (DisableReason::Always, format!("touch in 95 % of {} samples, seed {}", pairs.samples, pairs.seed)),
-        (DisableReason::Never, "no contact in any sample, which is no proof".to_owned()),
-    ];
-    for (reason, words) in counts {
-        let _ = writeln!(text, "  {:4} {reason:?}: {words}", pairs.count(reason));
-    }
-    let _ = writeln!(
-        text,
-        "  {:4} touch in some configurations: keep them in collision checking",
-        pairs.pairs - pairs.suggested.len()
-    );
-    if let Some(nearest) = pairs.nearest_never()
-        && let Some(least_m) = nearest.least_m
-    {
-        let [a, b] = &nearest.pair;
-        text += &paragraph(
-            &format!("nearest pair of Never: {a} and {b}, smallest distance {}", length(least_m)),
-            2,
-            4,
-        );
-    }
-    if let Some(declared) = &pairs.declared {
-        let line = format!(
-            "pairs that the robot's SRDF disables: {}; also suggested: {}; without a shape: {}",
-            declared.pairs, declared.suggested, declared.without_shape
-        );
-        text += &paragraph(&line, 2, 4);
-        for [a, b] in &declared.hidden {
-            text += &paragraph(
-                &format!("it disables {a} and {b}, which touch in some configurations and not in others"),
-                2,
-                4,
-            );
-        }
-    }
-    text
 }

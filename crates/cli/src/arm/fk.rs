@@ -1,20 +1,11 @@
 //! `congruent fk`: poses of the links.
 
-use std::iter::once;
-
-use congruent::{
-    analysis::forward::{ForwardReport, PoseStream, ReportedLinkPoses, Source},
-    input::Capability,
-};
+use congruent::{analysis::forward::Source, input::Capability, text::forward_text_parts};
 
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
-    terminal::{
-        columns,
-        layout::{POSE_COLUMNS, Table, pose_cells},
-        print::Printer,
-    },
+    terminal::print::{Printer, text_options},
 };
 
 /// Poses of all links in the root link's frame, by a chosen source.
@@ -48,23 +39,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let report = congruent::forward(&description, arguments.source, configurations.iter())?;
     let report = report.between(arguments.from.as_deref(), arguments.to.as_deref())?;
     let root = &description.robot.link(description.robot.root()).name;
-    let printed = printer.parts(&report, |report| parts(report, root));
+    let options = text_options();
+    let printed = printer.parts(&report, |report| forward_text_parts(report, root, &options));
     report.results.end()?;
     printed?;
     Ok(0)
-}
-
-/// The heading, and each configuration.
-fn parts<'a>(report: &'a ForwardReport<PoseStream<'_>>, root: &str) -> impl Iterator<Item = String> + 'a {
-    let frame = if report.from == root { format!("the root link {root}") } else { report.from.clone() };
-    let configuration = move |(number, poses): (usize, ReportedLinkPoses)| {
-        let mut text = format!("configuration {number}: poses in {frame}\n");
-        let mut table = Table::headed(POSE_COLUMNS);
-        for (name, pose) in &poses.links {
-            table.row([name.clone()].into_iter().chain(pose_cells(pose)));
-        }
-        table.write(&mut text, columns());
-        text
-    };
-    once(format!("{}\n", report.chain)).chain((1..).zip(report.results.iter()).map(configuration))
 }

@@ -1,22 +1,17 @@
 //! `congruent ik`: joint positions that bring the tool to given poses.
 
-use std::{fmt::Write, path::PathBuf};
+use std::path::PathBuf;
 
 use congruent::{
-    analysis::inverse::{
-        IkMethod, IkOptions, InverseReport, InverseSolution, TargetPart, inverse, read_targets,
-    },
-    description::{Joint, Robot},
-    input::{
-        Diagnostic,
-        display::{length, length_and_angle, position},
-    },
+    analysis::inverse::{IkMethod, IkOptions, TargetPart, inverse, read_targets},
+    input::Diagnostic,
+    text::inverse_text,
 };
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, named},
-    terminal::{columns, layout::Table, print::Printer},
+    terminal::print::{Printer, text_options},
 };
 
 /// Joint positions that bring the tip, or the TCP if one is declared, to given poses.
@@ -71,50 +66,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     };
     let report = inverse(&description, &targets, &options)
         .map_err(|error| Diagnostic::error("ik::robot", error.to_string()))?;
-    printer.result(&report, |report| text(report, &description.robot, arguments.tolerance))?;
+    printer.result(&report, |report| {
+        inverse_text(report, &description.robot, arguments.tolerance, &text_options())
+    })?;
     Ok(match &report.results[..] {
         [] => NOTHING,
         results if results.iter().all(|result| result.converged) => 0,
         _ => FAILED,
     })
-}
-
-fn text(report: &InverseReport, robot: &Robot, tolerance: f64) -> String {
-    let mut text = format!("{}\n", report.chain);
-    if report.results.is_empty() {
-        text += "the file has no target\n";
-    }
-    for (index, result) in report.results.iter().enumerate() {
-        let _ = writeln!(
-            text,
-            "target {}: {} after {} steps, residual {}, tolerance {}",
-            index + 1,
-            if result.converged { "reached" } else { "NOT REACHED" },
-            result.iterations,
-            length_and_angle(result.residual_position_m, result.residual_orientation_rad),
-            length(tolerance)
-        );
-        joints(&mut text, result, robot);
-    }
-    text
-}
-
-/// Each joint with its position, its margin to the nearer limit, and its range.
-fn joints(text: &mut String, result: &InverseSolution, robot: &Robot) {
-    let mut table = Table::headed(["joint", "position", "margin", "range"]);
-    for (name, value) in result.q.iter() {
-        let joint = robot.find_joint(name).map(|joint| robot.joint(joint));
-        let unit = joint.map_or("", |joint| joint.kind.unit());
-        let [margin, range] = match joint.and_then(Joint::position_range) {
-            None => ["no limit".to_owned(), String::new()],
-            Some((lower, upper)) => {
-                let is_held = result.limits_held.iter().any(|held| held == name);
-                let margin = position((value - lower).min(upper - value), unit);
-                let ends = format!("{} to {}", position(lower, unit), position(upper, unit));
-                [if is_held { "at its limit".to_owned() } else { margin }, ends]
-            }
-        };
-        table.row([name.to_owned(), position(value, unit), margin, range]);
-    }
-    table.write(text, columns());
 }

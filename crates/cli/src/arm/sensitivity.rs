@@ -1,15 +1,10 @@
 //! `congruent sensitivity`: displacement of the tool by small errors of the model.
 
-use std::fmt::Write;
-
 use congruent::{
-    analysis::sensitivity::{SensitivityReport, plot, sensitivity},
-    description::Robot,
-    input::{
-        Diagnostic,
-        display::{in_column, length, number},
-    },
+    analysis::sensitivity::{plot, sensitivity},
+    input::Diagnostic,
     kinematics::Sampling,
+    text::sensitivity_text,
 };
 
 use crate::{
@@ -17,9 +12,7 @@ use crate::{
     input::{ArmArguments, files_of},
     output::plot::PlotArgument,
     terminal::{
-        columns,
-        layout::{Table, wrapped},
-        print::Printer,
+        print::{Printer, text_options},
         progress::waiting,
     },
 };
@@ -57,42 +50,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let compute = || sensitivity(&description, &arguments.length_factors, sampling);
     let report = waiting(printer, "computing sensitivities", compute)
         .map_err(|error| Diagnostic::error("sensitivity::robot", error.to_string()))?;
-    printer.result(&report, |report| text(report, &description.robot))?;
+    printer.result(&report, |report| sensitivity_text(report, &description.robot, &text_options()))?;
     arguments.plot.write(|| plot(&report), &inputs)?;
     Ok(0)
-}
-
-fn text(report: &SensitivityReport, robot: &Robot) -> String {
-    let mut text = format!("{}\n", report.chain);
-    for arm in &report.arms {
-        let _ = writeln!(
-            text,
-            "{}, lengths x {}: displacement of the tool over {} configurations",
-            report.robot,
-            number(arm.length_factor),
-            report.samples
-        );
-        let mut table = Table::headed(["joint", "entry", "error", "worst mm", "mean mm", "rotation deg"]);
-        for parameter in &arm.parameters {
-            let values = [parameter.worst_mm, parameter.mean_mm].map(|value| in_column(value / 1e3, "m"));
-            let rotation = in_column(parameter.worst_deg.to_radians(), "rad");
-            let named =
-                [parameter.joint.clone(), parameter.parameter.to_string(), parameter.error.to_string()];
-            table.row(named.into_iter().chain(values).chain([rotation]));
-        }
-        table.write(&mut text, columns());
-        let worst = arm.parameters.iter().max_by(|a, b| a.worst_mm.total_cmp(&b.worst_mm));
-        if let Some(worst) = worst {
-            let _ = writeln!(
-                text,
-                "  largest: {} for an error of {} in {} of {}, at",
-                length(worst.worst_mm / 1e3),
-                worst.error,
-                worst.parameter,
-                worst.joint
-            );
-            text += &wrapped(&worst.worst_at.for_people(robot));
-        }
-    }
-    text
 }

@@ -1,15 +1,10 @@
 //! `congruent workspace`: the reachable positions of the tool.
 
-use std::fmt::Write;
-
 use congruent::{
-    analysis::workspace::{WorkspaceReport, plot, workspace},
-    description::Robot,
-    input::{
-        Diagnostic,
-        display::{in_column, position, quantity},
-    },
+    analysis::workspace::{plot, workspace},
+    input::Diagnostic,
     kinematics::Sampling,
+    text::workspace_text,
 };
 
 use crate::{
@@ -17,9 +12,7 @@ use crate::{
     input::{ArmArguments, files_of},
     output::plot::PlotArgument,
     terminal::{
-        columns,
-        layout::{Table, wrapped},
-        print::Printer,
+        print::{Printer, text_options},
         progress::waiting,
     },
 };
@@ -49,62 +42,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
     let (report, found) = waiting(printer, "computing the workspace", || workspace(&description, sampling))
         .map_err(|error| Diagnostic::error("workspace::robot", error.to_string()))?;
-    printer.result(&report, |report| text(report, &description.robot))?;
+    printer.result(&report, |report| workspace_text(report, &description.robot, &text_options()))?;
     arguments.plot.write(|| plot(&report, &found), &inputs)?;
     Ok(0)
-}
-
-/// An interval wider than this share of the estimate is worth a remark.
-const WIDE: f64 = 0.1;
-
-fn text(report: &WorkspaceReport, robot: &Robot) -> String {
-    let mut text = format!("{}\n", report.chain);
-    let _ = writeln!(
-        text,
-        "{}: the tool in link {}, {} configurations",
-        report.robot, report.chain.base, report.samples
-    );
-    for (name, reach) in ["nearest", "farthest"].iter().zip(&report.reach) {
-        let distance = position(reach.distance_m, "m");
-        let _ = writeln!(text, "  {name} {distance} from the base's origin, at");
-        text += &wrapped(&reach.at.for_people(robot));
-    }
-    let mut table = Table::headed(["", "lower mm", "upper mm"]);
-    for (at, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        let ends = [report.lower_m[at], report.upper_m[at]].map(|end| in_column(end, "m"));
-        table.row([axis.to_owned()].into_iter().chain(ends));
-    }
-    table.write(&mut text, columns());
-    size(&mut text, report);
-    text
-}
-
-fn size(text: &mut String, report: &WorkspaceReport) {
-    let (name, size, unit) = match (report.volume_m3, report.area_m2) {
-        (Some(volume_m3), _) => ("volume", volume_m3, "m3"),
-        (_, Some(area_m2)) => ("area", area_m2, "m2"),
-        _ => return,
-    };
-    let [lower, upper] = report.between.unwrap_or([size; 2]);
-    if report.points == 0 {
-        let what = if name == "volume" { "surface" } else { "curve" };
-        let _ = writeln!(text, "  {name} 0: the tool stays on a {what}");
-        return;
-    }
-    let _ = writeln!(
-        text,
-        "  {name} {}, between {} and {} (three standard errors, {} points tested)",
-        quantity(size, unit),
-        quantity(lower - third_digit(lower) / 2.0, unit),
-        quantity(upper + third_digit(upper) / 2.0, unit),
-        report.points
-    );
-    if upper - lower > WIDE * size {
-        let _ = writeln!(text, "  the interval is wide: more --samples narrow it");
-    }
-}
-
-/// One unit of the third digit, of which half makes rounding go outwards.
-fn third_digit(value: f64) -> f64 {
-    if value > 0.0 { libm::pow(10_f64, libm::log10(value).floor() - 2.0) } else { 0.0 }
 }

@@ -1,20 +1,14 @@
 //! `congruent derive`: a Denavit-Hartenberg table from a URDF, or its base inertial parameters.
 
-use std::fmt::Write;
-
 use clap::ValueEnum;
 use congruent::{
     analysis::{
-        base_parameters::{
-            BaseParameterReport, NamedParameter, ReportedBaseParameter, base_parameters as derived,
-        },
+        base_parameters::base_parameters as derived,
         conversion::{ConversionSource, ConversionTarget},
     },
     description::RobotDescription,
-    input::{
-        Diagnostic,
-        display::{number, quantity},
-    },
+    input::Diagnostic,
+    text::base_parameters_text,
 };
 
 use crate::{
@@ -22,7 +16,7 @@ use crate::{
     input::ArmArguments,
     model::{convert::AccuracyArguments, written_model::answer},
     output::file::OutputArgument,
-    terminal::{layout::wrapped, print::Printer},
+    terminal::print::Printer,
 };
 
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.
@@ -78,40 +72,6 @@ fn base_parameters(description: &RobotDescription, printer: &Printer) -> Result<
     }
     let report = derived(description, SEED)
         .map_err(|error| Diagnostic::error("derive::base_parameters", error.to_string()))?;
-    printer.result(&report, text)?;
+    printer.result(&report, base_parameters_text)?;
     Ok(0)
-}
-
-fn text(report: &BaseParameterReport) -> String {
-    let (identifiable, all) = (report.base_parameters.len(), report.of);
-    let mut text = format!(
-        "{}: {identifiable} base parameters of {all} inertial parameters are identifiable from joint torques\n",
-        report.file
-    );
-    text += "  about the origin and in the axes of each link: ixx to izz inertia, mx to mz mass times centre of mass, m mass\n";
-    for group in &report.base_parameters {
-        let _ = writeln!(text, "  {}", sum(group));
-    }
-    if !report.not_seen.is_empty() {
-        let _ = writeln!(text, "  not identifiable, since they change no joint torque:");
-        let names: Vec<String> = report.not_seen.iter().map(name).collect();
-        text += &wrapped(&names.join(", "));
-    }
-    text
-}
-
-fn name(of: &NamedParameter) -> String {
-    format!("{} {}", of.link, of.parameter)
-}
-
-/// `upper_arm_link ixx - forearm_link mz + 0.18 forearm_link m = 1.2 kg m^2`.
-fn sum(group: &ReportedBaseParameter) -> String {
-    let mut sum = name(&group.of);
-    for part in &group.grouped {
-        let sign = if part.coefficient < 0.0 { '-' } else { '+' };
-        let factor = number(part.coefficient.abs());
-        let factor = if factor == "1" { String::new() } else { format!("{factor} ") };
-        let _ = write!(sum, " {sign} {factor}{}", name(&part.of));
-    }
-    format!("{sum} = {}", quantity(group.value, group.unit))
 }

@@ -1,22 +1,19 @@
 //! A converted model as text, printed or written to a file.
 
-use std::{fmt::Write, path::PathBuf};
+use std::path::PathBuf;
 
 use congruent::{
-    analysis::conversion::{Conversion, ConversionReport, ConversionSource, PoeReport, ScrewReport, convert},
+    analysis::conversion::{Conversion, ConversionReport, convert},
     description::{RobotDescription, Tolerance, load_robot_with, robot_file_text},
-    input::{
-        Diagnostic, FileAccess,
-        display::{angle, length, length_and_angle},
-        is_standard_input, serde_name,
-    },
+    input::{Diagnostic, FileAccess, is_standard_input},
+    text::{conversion_comments, conversion_remarks, conversion_text},
 };
 
 use crate::{
     failure::Failure,
     input::{allowing_inputs, files_of},
     output::file::{OutputArgument, folder_of},
-    terminal::{layout::column_width, print::Printer},
+    terminal::print::Printer,
 };
 
 /// The tolerance of a written robot file whose table is off by rounded axes, as a multiple of what was found at
@@ -33,7 +30,7 @@ pub(super) fn answer(
     let report = convert(description, conversion)?;
     printer.warnings(None, &report.findings);
     let Some(path) = &output.out else {
-        printer.verbatim(&report, text)?;
+        printer.verbatim(&report, conversion_text)?;
         return Ok(0);
     };
     let inputs = files_of(description);
@@ -42,16 +39,18 @@ pub(super) fn answer(
             let message = format!("--out {}: the name of a robot file must end in .toml", path.display());
             return Err(Diagnostic::error("output::name", message).into());
         }
-        let text = comments(&report) + &robot_file(description, &report, section, &folder_of(path)?)?;
+        let text =
+            conversion_comments(&report) + &robot_file(description, &report, section, &folder_of(path)?)?;
         output.write(path, &text, &inputs, |written| {
             let access = allowing_inputs(FileAccess::default(), description);
             Ok(load_robot_with(written, &access).map(drop)?)
         })?;
     } else {
         folder_of(path)?;
-        output.write(path, &text(&report), &inputs, |_| Ok(()))?;
+        output.write(path, &conversion_text(&report), &inputs, |_| Ok(()))?;
     }
-    printer.result(&report, |report| format!("{}written to {}\n", remarks(report), path.display()))?;
+    printer
+        .result(&report, |report| format!("{}written to {}\n", conversion_remarks(report), path.display()))?;
     Ok(0)
 }
 
@@ -85,85 +84,4 @@ fn robot_file(
 
 fn one_digit(value: f64) -> f64 {
     format!("{value:.0e}").parse().unwrap_or(value)
-}
-
-/// Text that can be pasted or saved as it is: everything but the model itself is a comment.
-fn text(report: &ConversionReport) -> String {
-    if let Some(urdf) = &report.urdf {
-        // Two hyphens end a comment in XML.
-        let remarks = remarks(report).replace("--", "- -");
-        return urdf.replacen('\n', &format!("\n<!--\n{remarks}-->\n"), 1);
-    }
-    let mut text = comments(report);
-    if let Some(section) = &report.robot_toml {
-        text += section;
-    }
-    if let Some(poe) = &report.poe {
-        screws(&mut text, poe);
-    }
-    text
-}
-
-fn comments(report: &ConversionReport) -> String {
-    remarks(report).lines().fold(String::new(), |text, line| text + "# " + line + "\n")
-}
-
-fn remarks(report: &ConversionReport) -> String {
-    let mut text = String::new();
-    let from = match report.from {
-        ConversionSource::Dh => "its [dh] table",
-        ConversionSource::Urdf => "its URDF",
-    };
-    let _ = writeln!(text, "{}: {}, from {from}", report.robot, report.chain);
-    if let Some(table) = &report.table {
-        let _ = writeln!(text, "each row is {}", table.equation);
-    }
-    let proof = &report.proof;
-    let _ = writeln!(
-        text,
-        "proof: screws agree within {} and {}, home pose within {}, poses at {} configurations within {}; limit {:e} rad and m",
-        angle(proof.screw_rad),
-        length(proof.screw_m),
-        length_and_angle(proof.home_m, proof.home_rad),
-        proof.configurations,
-        length_and_angle(proof.position_m, proof.orientation_rad),
-        proof.limit
-    );
-    for warning in &report.findings {
-        let _ = writeln!(text, "warning: {warning}");
-    }
-    for note in &report.notes {
-        let _ = writeln!(text, "note: {note}");
-    }
-    for pair in &report.axes {
-        let [a, b] = &pair.joints;
-        let relation = serde_name(&pair.relation).replace('_', "-");
-        let _ = writeln!(
-            text,
-            "axes of {a} and {b}: {relation}, {}, {} apart",
-            angle(pair.angle_rad),
-            length(pair.distance_m)
-        );
-    }
-    for free in &report.free_choices {
-        let _ = writeln!(text, "free choice at {}: {}", free.joint, free.text);
-    }
-    text
-}
-
-fn screws(text: &mut String, poe: &PoeReport) {
-    let mut list = |title: &str, screws: &[ScrewReport]| {
-        let _ = writeln!(text, "{title}: angular, linear");
-        let width = column_width(screws.iter().map(|screw| screw.joint.len()));
-        for ScrewReport { joint, angular: [a, b, c], linear: [x, y, z] } in screws {
-            let _ =
-                writeln!(text, "  {joint:width$}  {a:13.9} {b:13.9} {c:13.9}   {x:13.9} {y:13.9} {z:13.9}");
-        }
-    };
-    list("space screws", &poe.space_screws);
-    list("body screws", &poe.body_screws);
-    let [x, y, z] = poe.base_from_tip_at_zero.translation_m;
-    let [qw, qx, qy, qz] = poe.base_from_tip_at_zero.quaternion_wxyz;
-    let _ = writeln!(text, "tip at zero: translation in m, quaternion w x y z");
-    let _ = writeln!(text, "  {x:13.9} {y:13.9} {z:13.9}   {qw:12.9} {qx:12.9} {qy:12.9} {qz:12.9}");
 }

@@ -1,7 +1,6 @@
 //! `congruent new robot`: a robot file for a URDF.
 
 use std::{
-    fmt::Write,
     fs,
     path::{Path, PathBuf},
 };
@@ -12,15 +11,16 @@ use congruent::{
     agreement::compare::{Agreement, CheckOptions},
     analysis::conversion::ConversionTarget,
     description::{RobotDescription, load_robot_with},
-    input::{Capability, Diagnostic, Finding, display::length_and_angle, is_standard_input},
+    input::{Capability, Diagnostic, Finding, is_standard_input},
     starter::{NewRobot, RobotFileDraft, robot_file},
+    text::new_robot_text,
 };
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, allowing_inputs, files_of, needs_to_be_allowed},
     output::file::{NewFile, unwritable},
-    terminal::{layout::paragraph, print::Printer},
+    terminal::print::Printer,
 };
 
 /// A commented robot file for a URDF, with a derived table.
@@ -67,7 +67,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         printer.warnings(None, std::slice::from_ref(&warning));
         report.warnings.push(Finding::from(&warning));
     }
-    printer.result(&report, text)?;
+    printer.result(&report, new_robot_text)?;
     Ok(match report.verdict {
         Agreement::Agree => 0,
         Agreement::Disagree => FAILED,
@@ -93,7 +93,7 @@ fn written(
     let file = arguments.out.join(FILE);
     target(arguments, &file).write(&draft.text, &files_of(description), |written| {
         let check = checked(written, description, arguments)?;
-        Ok(report(written, description, (&draft, check)))
+        Ok(report(written, description, &draft, check))
     })
 }
 
@@ -171,7 +171,8 @@ fn checked(written: &Path, before: &RobotDescription, arguments: &Arguments) -> 
 fn report(
     written: &Path,
     description: &RobotDescription,
-    (draft, check): (&RobotFileDraft, RobotCheck),
+    draft: &RobotFileDraft,
+    check: RobotCheck,
 ) -> NewRobot {
     NewRobot {
         file: written.display().to_string(),
@@ -185,24 +186,6 @@ fn report(
         worst: check.geometry.worst,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     }
-}
-
-fn text(report: &NewRobot) -> String {
-    let mut text = format!("written to {}\n", report.file);
-    text += &paragraph(&report.chain.to_string(), 2, 4);
-    text += &paragraph(&format!("refers to {}; nothing is copied", report.urdf), 2, 4);
-    if let Some(why) = &report.no_table {
-        text += &paragraph(&format!("without a table: {why}"), 2, 4);
-    }
-    let worst = length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad);
-    let tolerance = length_and_angle(report.tolerance.position_m, report.tolerance.orientation_rad);
-    let _ = match report.verdict {
-        Agreement::NothingCompared => {
-            writeln!(text, "  check: nothing to compare: {}", Agreement::why_nothing(&report.chain))
-        }
-        verdict => writeln!(text, "  check: {verdict}, largest difference {worst} (tolerance {tolerance})"),
-    };
-    text
 }
 
 #[cfg(test)]

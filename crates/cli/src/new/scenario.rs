@@ -8,6 +8,7 @@ use congruent::{
     monitors::verdict::{CheckResult, Status},
     results::report::lines,
     starter::{NewScenario, ScenarioDraft, scenario, try_scenario},
+    text::new_scenario_text,
     twin::{Outcome, RunSetup},
 };
 
@@ -15,7 +16,7 @@ use crate::{
     failure::Failure,
     input::{RobotArgument, allowing_inputs, files_of, needs_to_be_allowed},
     output::file::{NewFile, folder_of},
-    terminal::{layout::paragraph, print::Printer},
+    terminal::print::Printer,
 };
 
 /// A commented scenario for a robot, which passes.
@@ -62,12 +63,12 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         passed(&outcome)?;
         Ok((setup, outcome))
     })?;
-    let mut report = report(arguments, (&description, draft), (&setup, outcome));
+    let mut report = report(arguments, &description, draft, &setup, outcome);
     if let Some(warning) = needs_to_be_allowed(out, &description.path) {
         printer.warnings(None, std::slice::from_ref(&warning));
         report.warnings.push(Finding::from(&warning));
     }
-    printer.result(&report, text)?;
+    printer.result(&report, new_scenario_text)?;
     Ok(0)
 }
 
@@ -87,8 +88,10 @@ fn passed(outcome: &Outcome) -> Result<(), Failure> {
 
 fn report(
     arguments: &Arguments,
-    (description, draft): (&RobotDescription, ScenarioDraft),
-    (setup, outcome): (&RunSetup, Outcome),
+    description: &RobotDescription,
+    draft: ScenarioDraft,
+    setup: &RunSetup,
+    outcome: Outcome,
 ) -> NewScenario {
     NewScenario {
         file: arguments.out.display().to_string(),
@@ -101,22 +104,4 @@ fn report(
         checks: outcome.checks,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     }
-}
-
-fn text(report: &NewScenario) -> String {
-    let mut text = format!("written to {}, which passes\n", report.file);
-    text += &paragraph(&report.chain.to_string(), 2, 4);
-    let joints = report.joints.join(", ");
-    let (seconds, controller) = (report.duration_s, &report.controller);
-    let line = format!("there and back in {seconds:.1} s, controller {controller}: {joints}");
-    text += &paragraph(&line, 2, 4);
-    for remark in &report.remarks {
-        text += &paragraph(remark, 2, 4);
-    }
-    for check in &report.checks {
-        let words = lines(check);
-        let worst = words.first().map_or(String::new(), |line| format!(": {line}"));
-        text += &paragraph(&format!("{} {}{worst}", check.status.word(), check.check), 2, 4);
-    }
-    text
 }

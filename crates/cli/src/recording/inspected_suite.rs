@@ -33,6 +33,6 @@ fn evaluate_again(cases: &mut [TestCase], recheck: &Recheck) {
     for (case, check) in cases.iter_mut().zip(&recheck.checks) {
         rechecked_text(check).trim().clone_into(&mut case.output);
         case.result =
-            judged((check.check, check.status), &recheck.expected, recheck.verdict, case.output.clone());
+            judged(check.check, check.status, &recheck.expected, recheck.verdict, case.output.clone());
     }
 }

@@ -1,19 +1,19 @@
 //! `congruent view`: opens the rerun viewer on a recording, on a robot whose joints move, or on a run.
 
 use std::{
-    fmt::Write,
     fs,
     path::{Path, PathBuf},
 };
 
 use congruent::{
-    JointSweep, SweepError, SweptJoint,
+    SweepError,
     description::load_robot_with,
-    input::{Diagnostic, display::position},
+    input::Diagnostic,
     joint_sweep,
     page::PageFormat,
     recording::RerunFormat,
     results::{Options, RecordingFormat},
+    text::joint_sweep_text,
     twin::RunSetup,
 };
 
@@ -23,7 +23,10 @@ use crate::{
     failure::Failure,
     input::AccessArguments,
     run::{no_folder, run_one},
-    terminal::{columns, layout::Table, print::Printer, progress::Progress},
+    terminal::{
+        print::{Printer, text_options},
+        progress::ProgressLines,
+    },
 };
 
 /// Opens the rerun viewer on a recording, on a robot with each joint moving over its range, or on the run of a scenario.
@@ -91,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             let description = load_robot_with(&arguments.input, &arguments.access.access()?)?;
             printer.warnings(None, &description.warnings);
             let sweep = joint_sweep(description, &arguments.out).map_err(refused)?;
-            printer.result(&sweep, text)?;
+            printer.result(&sweep, |sweep| joint_sweep_text(sweep, &text_options()))?;
             open(&sweep.recording, arguments, printer)?;
             Ok(0)
         }
@@ -116,7 +119,7 @@ fn scenario(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     printer.warnings(None, &setup.warnings);
     let options =
         Options { out: arguments.out.clone(), recordings: vec![&RerunFormat, &PageFormat], interrupt: None };
-    let ran = run_one(&setup, &options, &Progress::new(printer))?;
+    let ran = run_one(&setup, &options, &ProgressLines::new(printer))?;
     printer.result(&ran, BatchReport::text)?;
     let code = ran.exit_code();
     let Ok(folder) = &ran.results else { return Ok(code) };
@@ -133,26 +136,4 @@ fn open(recording: &Path, arguments: &Arguments, printer: &Printer) -> Result<()
     let viewer = Viewer::find(Some(recording))?;
     printer.notes(viewer.remark().as_deref());
     viewer.show(recording)
-}
-
-fn text(sweep: &JointSweep) -> String {
-    let mut text = format!("{}: each joint over its range\n", sweep.robot);
-    let mut table = Table::headed(["joint", "from", "to", "at", ""]);
-    for joint in &sweep.joints {
-        let SweptJoint { joint, unit, range: [lower, upper], from_s, until_s, note, .. } = joint;
-        let at = if until_s > from_s { format!("{from_s} s to {until_s} s") } else { "-".to_owned() };
-        let note = note.clone().unwrap_or_default();
-        table.row([joint.clone(), position(*lower, unit), position(*upper, unit), at, note]);
-    }
-    table.write(&mut text, columns());
-    if !sweep.follow.is_empty() {
-        let _ = writeln!(text, "  joints that follow others: {}", sweep.follow.join(", "));
-    }
-    let agreement = if sweep.agrees { "agree" } else { "do NOT agree" };
-    let _ = writeln!(
-        text,
-        "  model and URDF {agreement} in all of it\n  recording {}",
-        sweep.recording.display()
-    );
-    text
 }

@@ -5,10 +5,7 @@ mod index;
 mod resumed;
 mod run_answer;
 
-use std::sync::{
-    Mutex,
-    atomic::{AtomicBool, Ordering},
-};
+use std::sync::{Mutex, atomic::Ordering};
 
 use congruent::results::Options;
 
@@ -21,7 +18,7 @@ use crate::{
     batch::{Answer, Batch},
     failure::Failure,
     interrupt::flag_of_signals,
-    terminal::{print::Printer, progress::Progress},
+    terminal::{print::Printer, progress::ProgressLines},
 };
 
 #[cfg(feature = "recording")]
@@ -39,9 +36,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let loaded = load(arguments, &options, &batch)?;
     batch.plan(&loaded, LoadedScenario::suite);
     let interrupt = flag_of_signals();
-    let progress = Progress::new(printer);
+    let progress = ProgressLines::new(printer);
     let options = Options { interrupt: Some(&interrupt), ..options };
-    let answers = run_all(loaded, (arguments, &interrupt), &options, (&batch, &progress));
+    let answers = run_all(loaded, arguments, &options, &batch, &progress);
     if arguments.resume {
         let kept = answers.iter().filter(|answer| answer.report().is_ok_and(|ran| ran.is_kept)).count();
         let note = format!("{kept} of {} kept from an earlier call", answers.len());
@@ -54,10 +51,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 /// Runs scenarios on `--jobs` threads; answers are in the order of the arguments.
 fn run_all(
     loaded: Vec<Answer<LoadedScenario>>,
-    (arguments, interrupt): (&Arguments, &AtomicBool),
+    arguments: &Arguments,
     options: &Options<'_>,
-    (batch, progress): (&Batch<'_>, &Progress),
+    batch: &Batch<'_>,
+    progress: &ProgressLines,
 ) -> Vec<Answer<RunAnswer>> {
+    let is_interrupted = || options.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed));
     let jobs = arguments.threads(loaded.len());
     let waiting = Mutex::new(loaded.into_iter().enumerate());
     let work = || {
@@ -69,7 +68,7 @@ fn run_all(
                 LoadedScenario::Finished(report, folder) => {
                     Ok(RunAnswer { report: *report, results: Ok(folder), is_kept: true })
                 }
-                LoadedScenario::New(_) if interrupt.load(Ordering::Relaxed) => {
+                LoadedScenario::New(_) if is_interrupted() => {
                     Err(Failure::Machine("interrupted before it started".to_owned()))
                 }
                 LoadedScenario::New(setup) => run_one(&setup, options, progress),

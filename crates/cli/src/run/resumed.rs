@@ -55,7 +55,7 @@ pub(super) fn load(
     let access = arguments.access.access()?;
     let mut load = |path: &PathBuf| {
         let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation);
-        let setup = setup.inspect_err(|_| remove_results_of((path, &overrides), &arguments.out))?;
+        let setup = setup.inspect_err(|_| remove_results_of(path, &overrides, &arguments.out))?;
         let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
         if let Some(first) = folders.get(&folder) {
             return Err(same_folder(&folder, first, path).into());
@@ -84,7 +84,7 @@ pub(super) fn load(
 
 /// Removes what an earlier call has left for a scenario that is refused, if its name can be read: CI that collects results
 /// would take them for those of this call.
-fn remove_results_of((scenario, overrides): (&Path, &[Override]), out: &Path) {
+fn remove_results_of(scenario: &Path, overrides: &[Override], out: &Path) {
     let Some(name) = scenario_name(scenario, overrides) else { return };
     if OutputFolder::path_for(out, &name).is_dir() {
         let input = InputFile { file: String::new(), sha256: String::new(), path: scenario.to_owned() };

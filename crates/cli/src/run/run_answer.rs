@@ -17,7 +17,7 @@ use serde::{Serialize, Serializer};
 use crate::{
     batch::BatchReport,
     failure::{BROKEN, Failure, unwritable},
-    terminal::{print::Printer, progress::Progress},
+    terminal::{print::Printer, progress::ProgressLines},
 };
 
 /// A scenario that ran.
@@ -71,7 +71,7 @@ impl BatchReport for RunAnswer {
 pub(crate) fn run_one(
     setup: &RunSetup,
     options: &Options<'_>,
-    progress: &Progress,
+    progress: &ProgressLines,
 ) -> Result<RunAnswer, Failure> {
     let progress = progress.start_run(setup);
     match execute(setup, options, |steps| progress.steps(steps)) {

@@ -46,13 +46,13 @@ pub(crate) fn waiting<T>(printer: &Printer, what: &str, work: impl FnOnce() -> T
 
 /// The lines of a call, one for each scenario that runs; none if no one sees them.
 #[derive(Debug)]
-pub(crate) struct Progress(Option<MultiProgress>);
+pub(crate) struct ProgressLines(Option<MultiProgress>);
 
 /// The line of a run, which goes with it.
 #[derive(Debug)]
 pub(crate) struct RunProgress(Option<ProgressBar>);
 
-impl Progress {
+impl ProgressLines {
     pub(crate) fn new(printer: &Printer) -> Self {
         Self(printer.is_interactive().then(MultiProgress::new))
     }

@@ -34,7 +34,8 @@ pub struct OtherDescription {
 /// Adds the comparison of geometry to the report, and compares dynamics if the two are the same chain.
 pub(super) fn compared(
     geometry: &mut CheckReport,
-    (description, other): (&RobotDescription, &RobotDescription),
+    description: &RobotDescription,
+    other: &RobotDescription,
     options: &CheckOptions,
 ) -> Result<(OtherDescription, Option<DynamicsReport>), CheckError> {
     let mut against = OtherDescription {
@@ -48,8 +49,8 @@ pub(super) fn compared(
     }
     let mut poses = PosesOfOther::new(&description.robot, &other.robot);
     // Joints as if all were driven; how mimic joints follow is compared after it, with them following.
-    geometry.add_other((description, other), &mut poses, options)?;
-    if let Some(followed) = geometry.add_mimics((description, other), &mut poses, options)? {
+    geometry.add_other(description, other, &mut poses, options)?;
+    if let Some(followed) = geometry.add_mimics(description, other, &mut poses, options)? {
         against.dynamics_not_compared = Some(format!(
             "the driven joints differ, so the joint torques cannot be compared: {followed} in the other file"
         ));
@@ -59,7 +60,7 @@ pub(super) fn compared(
     // obstacle.
     let misplaced = misplaced_joint(description, geometry);
     let in_other_frames = match &misplaced {
-        Some(_) => moved_alike((description, other), options.seed)?,
+        Some(_) => moved_alike(description, other, options.seed)?,
         None => Vec::new(),
     };
     if misplaced.is_some() && in_other_frames.is_empty() {
@@ -104,7 +105,8 @@ pub(super) fn compared(
 /// Links whose frames lie elsewhere in the other description, if all links move alike otherwise: then each differs from
 /// the one of its name by the same transform at all positions. Empty if one does not.
 fn moved_alike(
-    (description, other): (&RobotDescription, &RobotDescription),
+    description: &RobotDescription,
+    other: &RobotDescription,
     seed: u64,
 ) -> Result<Vec<String>, CheckError> {
     let (robot, tolerance) = (&description.robot, &description.tolerance);
@@ -123,7 +125,10 @@ fn moved_alike(
     // it is at zero.
     let mut random = Uniform::seeded(seed);
     for _ in 0..POSITIONS {
-        let q = robot.movable_joints().iter().map(|&joint| random.between(range(robot.joint(joint))));
+        let q = robot.movable_joints().iter().map(|&joint| {
+            let (lower, upper) = range(robot.joint(joint));
+            random.between(lower, upper)
+        });
         let there_from_here = at(&q.collect())?;
         let is_other =
             |link: &usize| !PoseError::between(&at_zero[*link], &there_from_here[*link]).is_within(tolerance);

@@ -51,14 +51,14 @@ fn checked(
     let against = match other {
         Some(other) => {
             // First, since it adds to the geometry on which the verdicts of dynamics below depend.
-            let (against, dynamics) = against::compared(&mut geometry, (description, other), options)?;
+            let (against, dynamics) = against::compared(&mut geometry, description, other, options)?;
             compared.extend(dynamics);
             geometry.warnings.extend(other.warnings.iter().map(Finding::from));
             Some(against)
         }
         None => None,
     };
-    let at_configurations = at_configurations((description, other), &geometry, options)?;
+    let at_configurations = at_configurations(description, other, &geometry, options)?;
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
         // A value that cannot be read was taken as 0 and would appear as a difference.
@@ -103,7 +103,8 @@ fn checked(
 
 /// The differences at requested configurations, by the sources that the comparison had.
 fn at_configurations(
-    (description, other): (&RobotDescription, Option<&RobotDescription>),
+    description: &RobotDescription,
+    other: Option<&RobotDescription>,
     geometry: &CheckReport,
     options: &CheckOptions,
 ) -> Result<Option<DifferencesAt>, CheckError> {

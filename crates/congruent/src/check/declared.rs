@@ -40,7 +40,7 @@ pub(super) fn compared(
         AtZero::new(description).map_err(|error| CompareError::Source { message: error.to_string() })?;
     let bodies: Vec<DeclaredBody> =
         declared.inertials.iter().map(|of| DeclaredBody::new(of, &zero, &description.robot)).collect();
-    let model = declared_model(declared, (&bodies, &zero), &urdf);
+    let model = declared_model(declared, &bodies, &zero, &urdf);
     let places = description.places.inertials.as_deref();
     let robot = &description.robot;
     let places =
@@ -214,7 +214,8 @@ impl DeclaredBody {
 /// The dynamics that the file declares; values that it omits are those of the URDF.
 fn declared_model(
     declared: &DynamicsTable,
-    (bodies, zero): (&[DeclaredBody], &AtZero),
+    bodies: &[DeclaredBody],
+    zero: &AtZero,
     urdf: &DynamicsModel,
 ) -> DynamicsModel {
     let mut model = urdf.clone();

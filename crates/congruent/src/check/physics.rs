@@ -29,7 +29,7 @@ pub(super) fn compared(description: &RobotDescription, seed: u64) -> Result<Dyna
     let compared_at = |part_of_step: f64| {
         let simulated = SimulatedDynamics::with_part_of_step(&description.robot, part_of_step)
             .map_err(|error| refused(&error))?;
-        compare_with_source(&candidate, ("physics", &mut Extrapolated(simulated)), options)
+        compare_with_source(&candidate, "physics", &mut Extrapolated(simulated), options)
             .map_err(|error| refused(&error))
     };
     let report = compared_at(1.0)?;

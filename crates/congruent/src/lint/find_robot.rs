@@ -15,11 +15,12 @@ const MOST_LOOKED_AT: usize = 100;
 const MOST_BYTES: u64 = 16 << 20;
 const ROBOT_FILE: &str = "robot.toml";
 
-/// What is known beside a file: the other files of the call, and what may be opened.
-type NearbyFiles<'a> = (&'a [PathBuf], &'a FileAccess);
-
 /// The robots among the files of a call. What comes from a pipe can be read once, so none of these is one.
-fn robots<'a>(path: &'a Path, (others, access): NearbyFiles<'a>) -> impl Iterator<Item = &'a PathBuf> {
+fn robots<'a>(
+    path: &'a Path,
+    others: &'a [PathBuf],
+    access: &'a FileAccess,
+) -> impl Iterator<Item = &'a PathBuf> {
     let is_robot = move |other: &&PathBuf| {
         let is_other = other.as_path() != path && (other.is_file() || other.is_dir());
         let opened = is_other.then(|| FileToLint::open(other, &access.fresh()));
@@ -35,11 +36,12 @@ fn robots<'a>(path: &'a Path, (others, access): NearbyFiles<'a>) -> impl Iterato
 pub(super) fn robot_of_srdf(
     path: &Path,
     source: &Arc<SourceFile>,
-    beside: NearbyFiles<'_>,
+    others: &[PathBuf],
+    access: &FileAccess,
 ) -> Result<Robot, Diagnostic> {
     let name = robot_name(&source.text).unwrap_or_default();
-    let load = |path: &Path| load_robot_with(path, &beside.1.fresh()).ok().map(|loaded| loaded.robot);
-    let mut given: Vec<Robot> = robots(path, beside).filter_map(|path| load(path)).collect();
+    let load = |path: &Path| load_robot_with(path, &access.fresh()).ok().map(|loaded| loaded.robot);
+    let mut given: Vec<Robot> = robots(path, others, access).filter_map(|path| load(path)).collect();
     if let Some(same) = given.iter().position(|robot| robot.name() == name) {
         return Ok(given.swap_remove(same));
     }
@@ -74,8 +76,12 @@ fn urdfs_named(name: &str, folder: &Path) -> Vec<PathBuf> {
 }
 
 /// The robot of a table: the only one of the call, else that of the robot file in the same folder.
-pub(super) fn robot_of_table(path: &Path, beside: NearbyFiles<'_>) -> Result<RobotDescription, Diagnostic> {
-    let given: Vec<&PathBuf> = robots(path, beside).collect();
+pub(super) fn robot_of_table(
+    path: &Path,
+    others: &[PathBuf],
+    access: &FileAccess,
+) -> Result<RobotDescription, Diagnostic> {
+    let given: Vec<&PathBuf> = robots(path, others, access).collect();
     let file = path.with_file_name(ROBOT_FILE);
     let robot = match given[..] {
         [only] => only,
@@ -89,7 +95,7 @@ pub(super) fn robot_of_table(path: &Path, beside: NearbyFiles<'_>) -> Result<Rob
             ));
         }
     };
-    load_robot_with(robot, &beside.1.fresh()).map_err(|_| {
+    load_robot_with(robot, &access.fresh()).map_err(|_| {
         let message =
             format!("{} is not checked: its robot {} cannot be read", path.display(), robot.display());
         Diagnostic::error("lint::no_robot", message).with_help("lint the robot first")

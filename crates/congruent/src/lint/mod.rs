@@ -135,7 +135,7 @@ fn examined(path: &Path, others: &[PathBuf], access: &FileAccess) -> Examined {
         Err(fault) => return Examined { kind: None, found: vec![fault], ignores: Ignores::default() },
     };
     let (found, ignores) = match &source {
-        None => (table(path, kind, (others, access)), Ignores::default()),
+        None => (table(path, kind, others, access), Ignores::default()),
         Some(source) => {
             let subject = Subject { path, source, others, access };
             match kind {
@@ -216,7 +216,7 @@ fn srdf_of(description: &RobotDescription) -> Option<Arc<SourceFile>> {
 
 /// An SRDF by itself, with the robot that is given beside it or lies beside it.
 fn srdf(subject: &Subject<'_>) -> Vec<Diagnostic> {
-    match find_robot::robot_of_srdf(subject.path, subject.source, (subject.others, subject.access)) {
+    match find_robot::robot_of_srdf(subject.path, subject.source, subject.others, subject.access) {
         Ok(robot) => examine_srdf(subject.source, Some(&robot)),
         Err(unknown) => {
             let mut found = examine_srdf(subject.source, None);
@@ -227,8 +227,8 @@ fn srdf(subject: &Subject<'_>) -> Vec<Diagnostic> {
 }
 
 /// A table, as the command reads it that takes such a table.
-fn table(path: &Path, kind: FileKind, (others, access): (&[PathBuf], &FileAccess)) -> Vec<Diagnostic> {
-    let description = match find_robot::robot_of_table(path, (others, access)) {
+fn table(path: &Path, kind: FileKind, others: &[PathBuf], access: &FileAccess) -> Vec<Diagnostic> {
+    let description = match find_robot::robot_of_table(path, others, access) {
         Ok(description) => description,
         Err(unknown) => return vec![unknown],
     };

@@ -49,10 +49,10 @@ impl JointMove {
     /// The same start with a motion of another size, as a share of the largest.
     pub(super) fn scaled(&self, robot: &Robot, size: f64) -> Self {
         let is_held = self.is_held;
-        Self { is_held, ..Self::from(robot, self.start.clone(), (self.moving.clone(), size)) }
+        Self { is_held, ..Self::from(robot, self.start.clone(), self.moving.clone(), size) }
     }
 
-    fn from(robot: &Robot, start: RobotQ, (moving, size): (Vec<usize>, f64)) -> Self {
+    fn from(robot: &Robot, start: RobotQ, moving: Vec<usize>, size: f64) -> Self {
         let mut target = start.clone();
         let mut duration_s = LEAST_S;
         for &coordinate in &moving {
@@ -105,7 +105,7 @@ pub(super) fn moves(description: &RobotDescription) -> Vec<JointMove> {
     });
     let mut gravity = TreeDynamics::new(robot);
     let mut moves: Vec<JointMove> = starts
-        .map(|start| JointMove::from(robot, start, (moving.clone(), 1.0)))
+        .map(|start| JointMove::from(robot, start, moving.clone(), 1.0))
         .map(|motion| JointMove { is_held: is_held(robot, &mut gravity, &motion), ..motion })
         .collect();
     // Stable: within both groups the plainest start, zero, stays first.

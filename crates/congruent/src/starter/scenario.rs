@@ -20,7 +20,7 @@ use super::{
     joint_move::{JointMove, moves},
     scenario_text::{ScenarioContent, text},
     settings::{checks, computed_torque, gravity_compensation, motion_settings, start_settings},
-    touching::{Distances, FarthestMove},
+    touching::{FarthestMove, PairDistances},
     written::absolute,
 };
 
@@ -215,7 +215,7 @@ fn add_distance_checks(
         remarks.push(format!("no check of distances: {}", findings.to_string().replace('\n', "; ")));
         return Ok(None);
     }
-    let distances = Distances::new(description)
+    let distances = PairDistances::new(description)
         .map_err(|error| Diagnostic::error("new::shape", error.to_string()))?
         .farthest(description, moves);
     let Some(FarthestMove { motion, least_m, ignored, touching }) = distances else { return Ok(None) };

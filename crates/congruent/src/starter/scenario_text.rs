@@ -32,7 +32,7 @@ pub(super) fn text(description: &RobotDescription, content: &ScenarioContent, du
     controller(&mut text, scenario);
     for (motion, about) in scenario.motion.iter().zip(["there", "and back"]) {
         let MotionSettings::Joints(motion) = motion else { continue };
-        joint_motion(&mut text, description, (motion, about));
+        joint_motion(&mut text, description, motion, about);
     }
     for check in &scenario.check {
         let (keys, about) = keys_and_purpose(check);
@@ -67,7 +67,7 @@ fn controller(text: &mut String, scenario: &Scenario) {
     });
 }
 
-fn joint_motion(text: &mut String, description: &RobotDescription, (motion, about): (&JointMotion, &str)) {
+fn joint_motion(text: &mut String, description: &RobotDescription, motion: &JointMotion, about: &str) {
     let _ = writeln!(text, "\n[[motion]] # {about}");
     let joints = [("move_joints_deg", &motion.move_joints_deg), ("move_joints_m", &motion.move_joints_m)];
     by_name(text, description, joints);

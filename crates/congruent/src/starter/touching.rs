@@ -18,7 +18,7 @@ const MOST: usize = 40;
 const FAR_M: f64 = 0.02;
 
 /// The distances of all pairs that a scenario would measure.
-pub(super) struct Distances {
+pub(super) struct PairDistances {
     clearance: Clearance,
     tree: UrdfTree,
     by_tree: Vec<Pose>,
@@ -48,7 +48,7 @@ struct CandidateMove<'a> {
     distances_m: Vec<f64>,
 }
 
-impl Distances {
+impl PairDistances {
     pub(super) fn new(description: &RobotDescription) -> Result<Self, ProximityError> {
         let links = description.robot.links().len();
         Ok(Self {
@@ -99,10 +99,7 @@ impl Distances {
         }
         let CandidateMove { motion, distances_m, .. } = best?;
         let touches = |pair: &usize| distances_m[*pair] < TOUCH_M;
-        let names = |pair: usize| {
-            let (a, b) = self.clearance.names(pair);
-            [a.to_owned(), b.to_owned()]
-        };
+        let names = |pair: usize| self.clearance.names(pair).map(str::to_owned);
         let apart = distances_m.iter().copied().filter(|&distance_m| distance_m >= TOUCH_M);
         let all = 0..distances_m.len();
         Some(FarthestMove {

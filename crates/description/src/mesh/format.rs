@@ -32,6 +32,8 @@ impl MeshFormat {
     /// An empty result is an empty COLLADA scene, which real robots hold; every other mesh without a
     /// triangle that has area is refused.
     pub(super) fn parse(self, bytes: &[u8]) -> Result<MeshFile, MeshError> {
+        // Before the format: a pointer has the extension of the mesh that it stands for, and its message says how to
+        // get it.
         if bytes.starts_with(LFS_POINTER.as_bytes()) {
             return Err(MeshError::LfsPointer);
         }
@@ -43,6 +45,7 @@ impl MeshFormat {
             Self::Obj => obj::parse(bytes)?,
             Self::Collada => {
                 let mesh = dae::parse(bytes)?;
+                // An empty scene is legal COLLADA and gets a warning; `check` would refuse it for having no area.
                 if mesh.triangles.is_empty() {
                     return Ok(mesh);
                 }

@@ -69,6 +69,7 @@ impl MeshFile {
             if [a, b, c].iter().any(|corner| !corner.coords.iter().all(|coordinate| coordinate.is_finite())) {
                 return Err(MeshError::NotFinite { triangle });
             }
+            // Exactly zero: a mesh may be tiny, and exporters write degenerate triangles among good ones.
             has_area |= (b - a).cross(&(c - a)) != Vector3::zeros();
         }
         if has_area { Ok(()) } else { Err(MeshError::NoArea) }

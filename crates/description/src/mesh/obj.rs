@@ -7,6 +7,7 @@ use nalgebra::Point3;
 use super::mesh_file::{MeshError, MeshFile};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
+    // Names and comments may be in any encoding; vertices and faces are ASCII.
     let text = String::from_utf8_lossy(bytes);
     let mut mesh = MeshFile { material_libraries: material_libraries(&text), ..MeshFile::default() };
     let (mut vertices, mut places) = (Vec::new(), BTreeMap::new());
@@ -53,8 +54,11 @@ fn vertex<'a>(words: impl Iterator<Item = &'a str>) -> Option<Point3<f64>> {
 /// The vertex of a corner `vertex/texture/normal`: from 1, or from the last one back if it is negative.
 fn corner(word: &str, vertices: usize) -> Result<usize, String> {
     let written = word.split('/').next().unwrap_or_default();
-    let index: i64 = written.parse().map_err(|_| format!("\"{word}\" is not a face vertex"))?;
+    let index: i64 = written
+        .parse()
+        .map_err(|_| format!("\"{word}\" is not a vertex of a face (expected v, v/vt, v//vn or v/vt/vn)"))?;
     let back = usize::try_from(index.unsigned_abs()).unwrap_or(usize::MAX);
+    // From 1 on, or backwards from the last vertex so far (-1): 0 is neither and fails `checked_sub`.
     let found = if index > 0 { back.checked_sub(1) } else { vertices.checked_sub(back) };
     found
         .filter(|&found| found < vertices)

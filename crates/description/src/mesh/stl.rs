@@ -39,10 +39,12 @@ fn count(bytes: &[u8]) -> Option<u32> {
 /// triangles means that the count in the header is wrong.
 fn binary_length(bytes: &[u8]) -> Result<usize, MeshError> {
     let promised = count(bytes).ok_or(MeshError::TooShort { bytes: bytes.len() })?;
+    // `get` in `count` has found a header, so the difference is not negative.
     let held = (bytes.len() - HEADER_BYTES) / TRIANGLE_BYTES;
     if promised as usize > held {
         return Err(MeshError::Truncated { promised, held });
     }
+    // A rest that is no whole number of triangles is text after the data, which exporters append.
     let is_exact = bytes.len() == HEADER_BYTES + held * TRIANGLE_BYTES;
     if is_exact && (promised as usize) < held {
         return Err(MeshError::Surplus { promised, held });
@@ -60,6 +62,7 @@ fn ascii(bytes: &[u8]) -> Option<Vec<u8>> {
         return None;
     }
     let after_name = text.iter().position(|&byte| byte == b'\n').map_or(&text[..0], |end| &text[end..]);
+    // The name is replaced: `stl_io` wants one word, files have none or several.
     Some([b"solid mesh", after_name].concat())
 }
 

@@ -43,6 +43,8 @@ impl<'a> MeshStore<'a> {
     /// The mesh that a URDF names by `uri`, in metres, scaled.
     pub(crate) fn find(&mut self, uri: &str, scale: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
         let Resolved { path, warning } = self.packages.resolve(uri)?;
+        // By bits, since floats have no total order; a scale that differs in the last bit is read twice, which is
+        // harmless.
         let key = (path.clone(), scale.map(f64::to_bits).into());
         if let Some(mesh) = self.read.get(&key) {
             return Ok(FoundMesh { mesh: Arc::clone(mesh), warnings: warning.into_iter().collect() });
@@ -111,6 +113,7 @@ pub fn read_mesh(
 fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, MeshError> {
     let vertices_m: Vec<_> =
         mesh.vertices_m.iter().map(|vertex| Point3::from(vertex.coords.component_mul(&scale))).collect();
+    // After scaling: a mesh in millimetres may have coordinates of 1e5.
     let furthest_m = vertices_m.iter().fold(0.0, |furthest: f64, vertex| furthest.max(vertex.coords.amax()));
     if furthest_m > FURTHEST_M {
         return Err(MeshError::TooFar { furthest_m });

@@ -181,6 +181,7 @@ fn find_loop(
     }
     let first = path.iter().enumerate().min_by_key(|(_, link)| **link).map_or(0, |(at, _)| at);
     let cut = (first + 1) % path.len();
+    // To the end, since the names of a loop are written in reverse.
     path.rotate_left(cut);
     let closing = above[*path.last().expect("not empty")].expect("a link of a loop has a parent");
     loop_error(&path, &joints[closing], links)
@@ -199,6 +200,7 @@ fn children(links: usize, ends: &[Ends]) -> Vec<Vec<usize>> {
 fn depth_first(root: usize, links: usize, ends: &[Ends]) -> Vec<usize> {
     let children = children(links, ends);
     let mut order = Vec::with_capacity(ends.len());
+    // Reversed: the last one on the stack is the first one taken.
     let mut open: Vec<usize> = children[root].iter().rev().copied().collect();
     while let Some(joint) = open.pop() {
         order.push(joint);

@@ -42,6 +42,7 @@ pub(crate) fn check(
     let accelerations = limits::accelerations(written.limits.as_ref(), robot, diagnostics);
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
     let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
+    // All that follows needs the chain; what does not was checked before.
     let (base, tip, chain) = chain(written, robot, diagnostics)?;
     let size_m = unit_mistakes::size_m(robot);
     if let (Some(tcp), Some(_)) = (&written.tcp, tip_from_tcp) {

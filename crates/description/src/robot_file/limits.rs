@@ -15,7 +15,7 @@ use toml::Spanned;
 use crate::model::{Joint, Robot};
 
 /// Values by joint name; `*` means every joint of this kind (revolute or prismatic) that is not named.
-type ByJoint = BTreeMap<Spanned<String>, Spanned<f64>>;
+type SpannedByJoint = BTreeMap<Spanned<String>, Spanned<f64>>;
 
 /// The name that means every joint of a kind.
 const EVERY: &str = "*";
@@ -32,19 +32,19 @@ pub(crate) struct WrittenLimits {
     /// Accelerations by joint, in radians per second squared.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, f64>")]
-    pub(crate) acceleration_rad_s2: ByJoint,
+    pub(crate) acceleration_rad_s2: SpannedByJoint,
     /// Accelerations by joint, in degrees per second squared.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, f64>")]
-    pub(crate) acceleration_deg_s2: ByJoint,
+    pub(crate) acceleration_deg_s2: SpannedByJoint,
     /// Accelerations by joint, in metres per second squared.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, f64>")]
-    pub(crate) acceleration_m_s2: ByJoint,
+    pub(crate) acceleration_m_s2: SpannedByJoint,
     /// Accelerations by joint, in millimetres per second squared.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, f64>")]
-    pub(crate) acceleration_mm_s2: ByJoint,
+    pub(crate) acceleration_mm_s2: SpannedByJoint,
 }
 
 /// The declared acceleration of each moving joint, in rad/s^2 or m/s^2; `None` for those without one.
@@ -59,14 +59,14 @@ pub(super) fn accelerations(
     for is_every in [true, false] {
         let mut given_by: Vec<Option<&str>> = vec![None; robot.dof()];
         for (key, by_joint) in written.keys() {
-            for entry in by_joint.iter().filter(|(name, _)| (name.get_ref() == EVERY) == is_every) {
-                diagnostics.extend(in_degrees(&key, entry));
-                let Some((joints, acceleration)) = diagnostics.keep(read(&key, entry, robot)) else {
+            for (name, value) in by_joint.iter().filter(|(name, _)| (name.get_ref() == EVERY) == is_every) {
+                diagnostics.extend(in_degrees(&key, name, value));
+                let Some((joints, acceleration)) = diagnostics.keep(read(&key, name, value, robot)) else {
                     continue;
                 };
                 for joint in joints {
                     accelerations[joint] = Some(acceleration);
-                    let twice = given_by[joint].replace(key.name).map(|first| twice(first, entry.0));
+                    let twice = given_by[joint].replace(key.name).map(|first| twice(first, name));
                     diagnostics.extend(twice);
                 }
             }
@@ -83,7 +83,7 @@ struct AccelerationKey {
 }
 
 impl WrittenLimits {
-    fn keys(&self) -> [(AccelerationKey, &ByJoint); 4] {
+    fn keys(&self) -> [(AccelerationKey, &SpannedByJoint); 4] {
         let key = |name, unit, system| AccelerationKey { name, unit, system };
         [
             (key("acceleration_rad_s2", Unit::Angle, UnitSystem::Si), &self.acceleration_rad_s2),
@@ -100,7 +100,7 @@ fn twice(first: &str, name: &Spanned<String>) -> Diagnostic {
 }
 
 /// A warning of an acceleration in radians that is plausible only in degrees.
-fn in_degrees(key: &AccelerationKey, (name, value): (&Spanned<String>, &Spanned<f64>)) -> Option<Diagnostic> {
+fn in_degrees(key: &AccelerationKey, name: &Spanned<String>, value: &Spanned<f64>) -> Option<Diagnostic> {
     let is_in_rad = matches!((key.unit, key.system), (Unit::Angle, UnitSystem::Si));
     let is_fast = value.get_ref().is_finite() && *value.get_ref() > FASTEST_RAD_S2;
     (is_in_rad && is_fast).then(|| {
@@ -119,7 +119,8 @@ fn in_degrees(key: &AccelerationKey, (name, value): (&Spanned<String>, &Spanned<
 /// The joints of an entry, as indices in `Robot::movable_joints` order, and its value in SI units.
 fn read(
     key: &AccelerationKey,
-    (name, value): (&Spanned<String>, &Spanned<f64>),
+    name: &Spanned<String>,
+    value: &Spanned<f64>,
     robot: &Robot,
 ) -> Result<(Vec<usize>, f64), Diagnostic> {
     let value = positive(key.name, name.get_ref(), value)?;

@@ -23,6 +23,7 @@ pub(super) fn check(
 ) -> Option<Vec<DhRow>> {
     let written = &dh.get_ref().row;
     let rows: Vec<Option<DhRow>> = written.iter().map(|row| self::row(row, context, diagnostics)).collect();
+    // All or none: a row with a fault would be reported a second time, as missing.
     let rows: Vec<DhRow> = rows.into_iter().collect::<Option<_>>()?;
     no_joint_twice(written, &rows, diagnostics);
     every_joint_has_a_row(dh, &rows, context, diagnostics);
@@ -55,6 +56,7 @@ fn row(
     let a_m = needed("a", Unit::Length, a_m);
     let alpha_rad = needed("alpha", Unit::Angle, alpha_rad);
     let d_m = needed("d", Unit::Length, d_m);
+    // Only under the keys in radians: in degrees such values are usual.
     for (quantity, value, span) in [
         ("alpha", alpha_rad, row.alpha_rad.as_ref().map(Spanned::span)),
         ("theta", theta_rad.flatten(), row.theta_rad.as_ref().map(Spanned::span)),

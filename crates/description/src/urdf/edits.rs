@@ -33,10 +33,12 @@ impl UrdfPlaces {
         let written = element(inertial, "origin");
         let attribute = |name: &str| written.and_then(|origin| origin.attribute(name));
         let com = inertia.link_from_inertial.translation.vector;
+        // Compared by value: a number that is written differently keeps its form.
         if nalgebra::Vector3::from(triple(attribute("xyz"))) != com {
             origin.push(("xyz", xyz(inertia)));
         }
         let rotation = rotation_from_rpy_fixed_xyz(triple(attribute("rpy")));
+        // As rotations: several triples of angles are one rotation, and the file's is kept.
         if rotation.angle_to(&inertia.link_from_inertial.rotation) > SAME_ROTATION_RAD {
             origin.push(("rpy", rpy(inertia)));
         }
@@ -84,6 +86,7 @@ impl UrdfPlaces {
         let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
         let Some(joint) = last(document.root_element(), "joint", joint) else { return Vec::new() };
         let Some(name) = LIMITS.into_iter().find(|name| *name == limit) else { return Vec::new() };
+        // A continuous joint ignores them.
         if joint.attribute("type") == Some("continuous") && RANGE.contains(&name) {
             return Vec::new();
         }
@@ -104,6 +107,7 @@ fn changed(parent: Node<'_, '_>, child: &str, values: &[(&'static str, f64)]) ->
     let written = element(parent, child);
     let value = |name: &str| written?.attribute(name)?.trim().parse::<f64>().ok();
     let other =
+        // `+ 0.0` makes -0 to 0, which the file would otherwise get as a change.
         values.iter().filter(|(name, new)| value(name).unwrap_or(0.0).total_cmp(&(new + 0.0)).is_ne());
     other.map(|(name, new)| (*name, significant(*new))).collect()
 }
@@ -136,6 +140,7 @@ fn new_element(name: &str, attributes: &[Attribute]) -> String {
 /// A text as the first child of an element.
 fn inserted(parent: Node<'_, '_>, text: &str) -> TextEdit {
     let range = parent.range();
+    // Before the first child, its line break included, so that what follows keeps its indentation.
     if let Some(child) = parent.first_child() {
         let start = child.range().start;
         return TextEdit { span: start..start, text: text.to_owned() };

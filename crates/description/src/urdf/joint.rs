@@ -134,6 +134,7 @@ impl JointReader<'_, '_> {
             self.error("urdf::limit", format!("a {} joint needs <limit>{or}", kind.name()), "limit");
         }
         let limit = &self.joint.limit;
+        // Limits of fixed joints mean nothing.
         let written = written.filter(|_| kind.is_movable())?;
         let effort = self.capability("effort", limit.effort, written);
         let velocity = self.capability("velocity", limit.velocity, written);
@@ -155,6 +156,7 @@ impl JointReader<'_, '_> {
         if value < 0.0 {
             self.physics("urdf::limit", format!("limit {key} {value} is negative"), "limit");
         }
+        // `urdf-rs` has 0 for one that is missing, which is another statement.
         written.has_attribute(key).then_some(value)
     }
 
@@ -162,6 +164,7 @@ impl JointReader<'_, '_> {
         let (lower, upper) = (self.joint.limit.lower, self.joint.limit.upper);
         let missing: Vec<&str> =
             ["lower", "upper"].into_iter().filter(|key| !written.has_attribute(*key)).collect();
+        // The most serious first: each range gets one message.
         if lower > upper {
             self.error("urdf::limit", format!("lower limit {lower} is above upper limit {upper}"), "limit");
         } else if !missing.is_empty() && lower.is_finite() && upper.is_finite() {

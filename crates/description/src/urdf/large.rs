@@ -42,7 +42,9 @@ fn large(link: &Link) -> Option<Extent> {
     let shapes = link.visuals.iter().chain(&link.collisions);
     let extent = shapes.filter_map(Extent::of_shape).reduce(Extent::with)?;
     let (inertia, size_m) = (link.inertia.as_ref()?, extent.diagonal_m());
+    // The trace of an inertia is twice that of the second moments.
     let gyration_m = (inertia.tensor_kg_m2.trace() / 2.0 / inertia.mass_kg).sqrt();
+    // Size, density, gyration and centre of mass together: a unit mistake in one of them would contradict the others.
     let is_whole = size_m > LEAST_LARGE_M
         && (DENSITY[0]..DENSITY[1]).contains(&(inertia.mass_kg / extent.volume_m3()))
         && gyration_m < MOST_GYRATION * size_m
@@ -55,6 +57,7 @@ pub(crate) fn without_large_links(robot: &Robot, found: Vec<Diagnostic>) -> Vec<
     let of_sizes = |found: &Diagnostic| {
         [TOO_FAR, CENTER_OF_MASS, INERTIA_SIZE].contains(&found.code) && found.severity == Severity::Warning
     };
+    // Bounds of all shapes cost a pass over all vertices: only if a warning depends on them.
     if !found.iter().any(of_sizes) {
         return found;
     }

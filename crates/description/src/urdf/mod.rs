@@ -66,6 +66,7 @@ pub(crate) fn parse(
     let document = diagnostics.keep(xml::parse(text).map_err(dialect::explain))?;
     let root = document.root_element();
     diagnostics.keep(dialect::check(root))?;
+    // Our own grammar first: `urdf-rs` stops at the first fault, without its place.
     let unread = grammar::check(root, diagnostics);
     let links = elements(root, "link").count();
     if links > MOST_LINKS {
@@ -78,6 +79,7 @@ pub(crate) fn parse(
     if unread.is_empty() {
         return read(root, &mut inputs, diagnostics);
     }
+    // Blanked, not cut: all later places remain those of the file.
     let readable = blanked(text, &unread);
     let document = diagnostics.keep(xml::parse(&readable))?;
     read(document.root_element(), &mut inputs, diagnostics)
@@ -140,6 +142,7 @@ fn for_urdf_rs(root: Node<'_, '_>) -> String {
     let mut written = String::with_capacity(text.len());
     let mut copied = 0;
     for node in root.descendants() {
+        // Text between elements is left out: `urdf-rs` refuses some of it, and it has no meaning.
         if node.is_text() {
             written += &text[copied..node.range().start];
             copied = node.range().end;
@@ -147,6 +150,7 @@ fn for_urdf_rs(root: Node<'_, '_>) -> String {
             let tag_end = tag(node).end;
             written += &text[copied..tag_end];
             copied = tag_end;
+            // `urdf-rs` demands both, URDF does not.
             for key in ["effort", "velocity"].into_iter().filter(|key| !node.has_attribute(*key)) {
                 let _ = write!(written, " {key}=\"0\"");
             }

@@ -42,20 +42,21 @@ impl ShapeReader<'_, '_> {
             own_color(material).or_else(|| self.colors.get(material.name.as_str()).copied())
         };
         let color_rgba = visual.material.as_ref().and_then(color);
-        let shape = self.shape(&visual.origin, &visual.geometry, (node, None))?;
+        let shape = self.shape(&visual.origin, &visual.geometry, node, None)?;
         Some(Shape { color_rgba, ..shape })
     }
 
     /// A collision shape; `None` if something is wrong with it.
     pub(super) fn collision(&mut self, collision: &urdf_rs::Collision, node: Node<'_, '_>) -> Option<Shape> {
-        self.shape(&collision.origin, &collision.geometry, (node, Some(Capability::Clearance)))
+        self.shape(&collision.origin, &collision.geometry, node, Some(Capability::Clearance))
     }
 
     fn shape(
         &mut self,
         origin: &urdf_rs::Pose,
         geometry: &urdf_rs::Geometry,
-        (node, needed_by): (Node<'_, '_>, Option<Capability>),
+        node: Node<'_, '_>,
+        needed_by: Option<Capability>,
     ) -> Option<Shape> {
         let owner = node.parent_element().unwrap_or(node);
         let link_from_shape =

@@ -72,7 +72,8 @@ pub(super) fn stops(
     text: &str,
     line: usize,
     stopped: Option<Capability>,
-    (code, message): (&str, &str),
+    code: &str,
+    message: &str,
 ) -> Robot {
     one(text, Severity::Warning, line, code, message);
     let (robot, found) = read(text);
@@ -82,13 +83,13 @@ pub(super) fn stops(
 
 /// Elements beside a good inertial.
 #[track_caller]
-fn link_stops(link: &str, stopped: Option<Capability>, found: (&str, &str)) -> Robot {
-    stops(&arm(LIMIT, &format!("{link}{INERTIAL}")), 8, stopped, found)
+fn link_stops(link: &str, stopped: Option<Capability>, code: &str, message: &str) -> Robot {
+    stops(&arm(LIMIT, &format!("{link}{INERTIAL}")), 8, stopped, code, message)
 }
 
 #[track_caller]
-fn joint_stops(joint: &str, stopped: Option<Capability>, found: (&str, &str)) -> Robot {
-    stops(&arm(joint, INERTIAL), 5, stopped, found)
+fn joint_stops(joint: &str, stopped: Option<Capability>, code: &str, message: &str) -> Robot {
+    stops(&arm(joint, INERTIAL), 5, stopped, code, message)
 }
 
 #[test]
@@ -258,11 +259,11 @@ fn shapes_are_checked() {
         ("<colision/>".to_owned(), "urdf::unknown_element", "did you mean <collision>?"),
         ("<collision/>".to_owned(), "urdf::missing_element", "<collision> has no <geometry>"),
     ] {
-        let robot = link_stops(&shape, Some(Capability::Clearance), (code, message));
+        let robot = link_stops(&shape, Some(Capability::Clearance), code, message);
         assert_eq!(robot.links()[1].collisions, [], "{shape}");
         // What is only drawn stops nothing.
         let drawn = shape.replace("collision", "visual").replace("colision", "visaul");
-        let robot = link_stops(&drawn, None, (code, &message.replace("collision", "visual")));
+        let robot = link_stops(&drawn, None, code, &message.replace("collision", "visual"));
         assert_eq!(robot.links()[1].visuals, [], "{drawn}");
     }
 }
@@ -295,15 +296,16 @@ fn forces_need_what_kinematics_does_not() {
     let read = of(joint_stops(
         &limit("effort='1'"),
         None,
-        ("urdf::missing_attribute", "<limit> has no velocity: it is taken as unlimited"),
+        "urdf::missing_attribute",
+        "<limit> has no velocity: it is taken as unlimited",
     ));
     assert_eq!((read.effort, read.velocity, read.upper), (Some(1.0), None, 1.0));
-    let read = of(joint_stops(&limit("effort='many' velocity='1'"), physics, ("urdf::number", "\"many\"")));
+    let read = of(joint_stops(&limit("effort='many' velocity='1'"), physics, "urdf::number", "\"many\""));
     assert_eq!((read.effort, read.velocity), (None, Some(1.0)));
-    joint_stops(&limit("effort='-1' velocity='1'"), physics, ("urdf::limit", "effort -1 is negative"));
-    joint_stops(&format!("{LIMIT}<dynamics damping='-1'/>"), physics, ("urdf::dynamics", "damping -1"));
-    joint_stops(&format!("{LIMIT}<dynamics damping='a'/>"), physics, ("urdf::number", "\"a\" is not"));
-    joint_stops(&format!("{LIMIT}<safety_controller/>"), None, ("urdf::missing_attribute", "k_velocity"));
+    joint_stops(&limit("effort='-1' velocity='1'"), physics, "urdf::limit", "effort -1 is negative");
+    joint_stops(&format!("{LIMIT}<dynamics damping='-1'/>"), physics, "urdf::dynamics", "damping -1");
+    joint_stops(&format!("{LIMIT}<dynamics damping='a'/>"), physics, "urdf::number", "\"a\" is not");
+    joint_stops(&format!("{LIMIT}<safety_controller/>"), None, "urdf::missing_attribute", "k_velocity");
     // A fixed joint needs none of it.
     good(&arm("<limit lower='0' upper='1'/>", "").replace("revolute", "fixed"));
 }

@@ -62,7 +62,8 @@ impl TorqueBracket {
         model: &DynamicsModel,
         joint: usize,
         [attained, certified]: [f64; 2],
-        (at, boxes): (AttainedAt, usize),
+        at: AttainedAt,
+        boxes: usize,
     ) -> Self {
         let effort = model.limits[joint].and_then(|limit| limit.effort).filter(|effort| *effort > 0.0);
         let place = &model.frames.joints[joint];

@@ -15,15 +15,21 @@ pub(super) struct Coupling {
     /// For each driven joint itself and its followers with their ratios; empty for a follower.
     groups: Vec<Vec<(usize, f64)>>,
     /// Master, ratio, offset of each follower.
-    followers: Vec<(usize, MimicFollower)>,
+    followers: Vec<(usize, CoupledFollower)>,
     ranges: Vec<(f64, f64)>,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct MimicFollower {
+struct CoupledFollower {
     master: usize,
     ratio: f64,
     offset: f64,
+}
+
+/// The best position that a search has found so far, and its value.
+struct BestPosition<'a> {
+    q: &'a mut RobotQ,
+    value: f64,
 }
 
 impl Coupling {
@@ -36,7 +42,7 @@ impl Coupling {
                 // group marks it.
                 groups[joint].clear();
                 groups[master].push((joint, ratio));
-                followers.push((joint, MimicFollower { master, ratio, offset }));
+                followers.push((joint, CoupledFollower { master, ratio, offset }));
             }
         }
         let ranges = frames.joints.iter().map(|joint| joint.range).collect();
@@ -116,25 +122,25 @@ impl Coupling {
         let mut driven: Vec<usize> = joints.iter().map(|&joint| self.driver(joint)).collect();
         driven.sort_unstable();
         driven.dedup();
-        let mut best = value(q)?;
+        let mut best = BestPosition { value: value(q)?, q };
         for _ in 0..ROUNDS {
-            let before = best;
+            let before = best.value;
             for &joint in &driven {
-                self.search_one(joint, (q, &mut best), &mut value)?;
+                self.search_one(joint, &mut best, &mut value)?;
             }
             // A round that gains nothing cannot be followed by one that does: the next would try the same
             // positions.
-            if best <= before * (1.0 + LEAST_GAIN) {
+            if best.value <= before * (1.0 + LEAST_GAIN) {
                 break;
             }
         }
-        Ok(best)
+        Ok(best.value)
     }
 
     fn search_one<E>(
         &self,
         joint: usize,
-        (q, best): (&mut RobotQ, &mut f64),
+        best: &mut BestPosition<'_>,
         value: &mut impl FnMut(&RobotQ) -> Result<f64, E>,
     ) -> Result<(), E> {
         let (lower, upper) = self.ranges[joint];
@@ -142,13 +148,13 @@ impl Coupling {
         // A grid before the halving: along one joint the torque has several maxima, and halving alone would stay
         // at the nearest.
         for index in 0..=POSITIONS {
-            self.try_at((joint, lower + step * f64::from(index)), (q, best), value)?;
+            self.try_at(joint, lower + step * f64::from(index), best, value)?;
         }
         for _ in 0..HALVINGS {
             for by in [-step, step] {
                 // Clamped instead of skipped, because the largest torque is often at a limit.
-                let position = (q[joint] + by).clamp(lower, upper);
-                self.try_at((joint, position), (q, best), value)?;
+                let position = (best.q[joint] + by).clamp(lower, upper);
+                self.try_at(joint, position, best, value)?;
             }
             step /= 2.0;
         }
@@ -157,19 +163,20 @@ impl Coupling {
 
     fn try_at<E>(
         &self,
-        (joint, position): (usize, f64),
-        (q, best): (&mut RobotQ, &mut f64),
+        joint: usize,
+        position: f64,
+        best: &mut BestPosition<'_>,
         value: &mut impl FnMut(&RobotQ) -> Result<f64, E>,
     ) -> Result<(), E> {
-        let before = q[joint];
-        q[joint] = position;
-        self.place(q);
-        let found = value(q)?;
-        if found > *best {
-            *best = found;
+        let before = best.q[joint];
+        best.q[joint] = position;
+        self.place(best.q);
+        let found = value(best.q)?;
+        if found > best.value {
+            best.value = found;
         } else {
-            q[joint] = before;
-            self.place(q);
+            best.q[joint] = before;
+            self.place(best.q);
         }
         Ok(())
     }

@@ -57,7 +57,7 @@ impl<'a> JointDependency<'a> {
         let variable = |&joint: &usize| {
             let place = &self.frames.joints[joint];
             let new = if place.is_angular { Variable::turning } else { Variable::sliding };
-            new(joint, place.range)
+            new(joint, place.range.0, place.range.1)
         };
         joints.iter().map(variable).collect()
     }

@@ -11,7 +11,7 @@ use super::{
     function::{
         branch::{SearchLimits, upper_bound},
         local_search,
-        measure::Measure,
+        measure::ValueMeasure,
         trigonometric::{Trigonometric, Variable},
     },
 };
@@ -40,6 +40,7 @@ pub(super) struct GravityTorques<'a> {
 impl<'a> GravityTorques<'a> {
     /// Brackets of all driven joints.
     pub(super) fn certify(&self, seed: u64) -> Result<TorqueCertificate, DynamicsError> {
+        // Followers have no torque of their own: theirs is in that of their masters.
         let driven = (0..self.frames.dof()).filter(|&joint| self.dependency.coupling.is_driven(joint));
         let brackets = driven.map(|joint| self.bracket(joint, seed));
         let by_joint: Vec<TorqueBracket> =
@@ -58,6 +59,7 @@ impl<'a> GravityTorques<'a> {
             return Ok(Some(all));
         }
         let torque = self.torque(joint, self.dependency.variables(&all))?;
+        // `sampled` drops variables without an effect, so these are the joints that really matter.
         Ok(Some(torque.variables.iter().map(|variable| variable.joint).collect()))
     }
 
@@ -76,6 +78,7 @@ impl<'a> GravityTorques<'a> {
         });
         let differs = differs.collect();
         let bare = |gravity| candidate.frames.tree.clone().with_gravity(gravity);
+        // One tree for each axis: torques under unit gravity along x, y and z are the components of the lever.
         let weightless: Vec<BodyTree> = (0..3)
             // The lever bound factors |g| out, which is possible only if both descriptions have the same gravity.
             .filter(|_| same_gravity)
@@ -104,11 +107,12 @@ impl<'a> GravityTorques<'a> {
         let crude = self.crude_bound(joint);
         if variables.len() > MAX_VARIABLES {
             let (attained, q) = self.sampled(joint, seed)?;
-            return Ok(Some(self.report(joint, [attained, crude], (q, 0))));
+            return Ok(Some(self.report(joint, [attained, crude], q, 0)));
         }
         let torque = self.torque(joint, variables)?;
         let (mut attained, positions) = local_search::largest(&torque, seed);
         let mut q = RobotQ::zeros(self.frames.dof());
+        // Joints that do not matter stay as near to zero as their ranges allow: the reported position is readable.
         for place in 0..q.len() {
             q[place] = q[place].clamp(self.frames.joints[place].range.0, self.frames.joints[place].range.1);
         }
@@ -123,6 +127,7 @@ impl<'a> GravityTorques<'a> {
             attained = self.dependency.coupling.search(&mut q, &places, |q| difference(q).map(f64::abs))?;
         }
         self.dependency.coupling.place(&mut q);
+        // After the search, which needs the function anyway; only then is "no difference" certain.
         if torque.coefficients.iter().all(|value| *value == 0.0) && torque.slack == 0.0 {
             return Ok(None);
         }
@@ -148,7 +153,7 @@ impl<'a> GravityTorques<'a> {
         }
         // Far below the sum of the levers: masses cancel, and the remainder is rounding.
         let is_rounding = certified <= NO_COEFFICIENT * crude && crude.is_finite();
-        Ok((!is_rounding).then(|| self.report(joint, [attained, certified], (q, boxes))))
+        Ok((!is_rounding).then(|| self.report(joint, [attained, certified], q, boxes)))
     }
 
     /// The largest difference at random positions, for a torque of more than `MAX_VARIABLES` joints.
@@ -180,8 +185,8 @@ impl<'a> GravityTorques<'a> {
         }
     }
 
-    fn report(&self, joint: usize, bracket: [f64; 2], at: (RobotQ, usize)) -> TorqueBracket {
-        TorqueBracket::new(self.candidate, joint, bracket, (AttainedAt::rest(at.0), at.1))
+    fn report(&self, joint: usize, bracket: [f64; 2], q: RobotQ, boxes: usize) -> TorqueBracket {
+        TorqueBracket::new(self.candidate, joint, bracket, AttainedAt::rest(q), boxes)
     }
 
     /// The difference of a joint's gravity torque as a function of these variables.
@@ -190,7 +195,7 @@ impl<'a> GravityTorques<'a> {
         let mut difference_at = self.difference_at(joint);
         let joints: Vec<usize> = variables.iter().map(|variable| variable.joint).collect();
         let mut q = RobotQ::zeros(self.frames.dof());
-        let function = Trigonometric::sampled(variables, (1, Measure::Sum), |positions| {
+        let function = Trigonometric::sampled(variables, 1, ValueMeasure::Sum, |positions| {
             joints.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
             // The sampler cannot fail, so the first error is kept and returned after it.
             vec![difference_at(&q).unwrap_or_else(|found| {
@@ -213,7 +218,7 @@ impl<'a> GravityTorques<'a> {
         let mut tau = vec![0.0; self.frames.dof()];
         let mut q = RobotQ::zeros(self.frames.dof());
         let function =
-            Trigonometric::sampled(self.dependency.variables(below), (3, Measure::Length), |positions| {
+            Trigonometric::sampled(self.dependency.variables(below), 3, ValueMeasure::Length, |positions| {
                 below.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
                 let mut along = Vec::with_capacity(3);
                 for tree in &self.along_axes {

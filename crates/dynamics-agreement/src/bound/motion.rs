@@ -10,11 +10,11 @@ use super::{
     function::{
         branch::{SearchLimits, UpperBound, upper_bound},
         local_search::{self, SectionedFunction},
-        measure::{LargestMotion, Measure, Motion},
+        measure::{LargestMotion, MotionCoefficients, ValueMeasure},
         trigonometric::{Trigonometric, along},
     },
     gravity::GravityTorques,
-    rows::Rows,
+    rows::DifferenceRows,
     variable_group::{TorquePart, VariableGroup},
 };
 use crate::{
@@ -41,7 +41,7 @@ pub(crate) fn certify(
     let gravity_torques = GravityTorques::new(candidate, reference);
     // Gravity first: its certificate is a summand of the bound of the whole motion.
     let gravity = gravity_torques.certify(seed)?;
-    let motions = Motions { rows: Rows::new(candidate, reference)?, seed };
+    let motions = Motions { rows: DifferenceRows::new(candidate, reference)?, seed };
     let mut by_joint: Vec<(usize, [Option<TorqueBracket>; 3])> = Vec::new();
     for variable_group in VariableGroup::all(&motions.rows, &gravity_torques)? {
         let function =
@@ -77,6 +77,7 @@ fn side_by_side<T: Send, E: Send>(
 ) -> Result<Vec<T>, E> {
     std::thread::scope(|scope| {
         let result_of = &result_of;
+        // Collected before joining: a lazy iterator would run one thread after the other.
         let running: Vec<_> = (0..count).map(|at| scope.spawn(move || result_of(at))).collect();
         running
             .into_iter()
@@ -86,7 +87,7 @@ fn side_by_side<T: Send, E: Send>(
 }
 
 struct Motions<'a> {
-    rows: Rows<'a>,
+    rows: DifferenceRows<'a>,
     seed: u64,
 }
 
@@ -102,10 +103,10 @@ impl Motions<'_> {
         let mut error = Ok(());
         let mut q = RobotQ::zeros(self.rows.covered.len());
         let count = variable_group.joints.len() * variable_group.values();
-        let function = Trigonometric::sampled(variables, (count, Measure::Sum), |positions| {
+        let function = Trigonometric::sampled(variables, count, ValueMeasure::Sum, |positions| {
             places.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
-            let moving = (&variable_group.joints[..], &variable_group.moving[..]);
-            self.rows.values(&q, moving, &mut memory).unwrap_or_else(|found| {
+            let VariableGroup { joints, moving, .. } = variable_group;
+            self.rows.values(&q, joints, moving, &mut memory).unwrap_or_else(|found| {
                 error = Err(found);
                 vec![0.0; count]
             })
@@ -127,7 +128,8 @@ impl Motions<'_> {
     /// the coefficients.
     fn best(
         &self,
-        (part, joint): (TorquePart, usize),
+        part: TorquePart,
+        joint: usize,
         motions: Vec<AttainedAt>,
     ) -> Result<(f64, AttainedAt), DynamicsError> {
         // Below every absolute value, so that a motion is reported even if all torques are zero.
@@ -209,19 +211,18 @@ impl OneJoint<'_> {
             // Far below the crude bound: inertias cancel, and the remainder is rounding.
             let is_rounding = certified <= NO_COEFFICIENT * crude && crude.is_finite();
             let bracket = [attained, certified];
-            Ok((!is_rounding)
-                .then(|| TorqueBracket::new(motions.rows.candidate, joint, bracket, (at, boxes))))
+            Ok((!is_rounding).then(|| TorqueBracket::new(motions.rows.candidate, joint, bracket, at, boxes)))
         };
         let Some(function) = self.function else {
-            return report(motions.best((part, joint), self.random_motions(part))?, crude, 0);
+            return report(motions.best(part, joint, self.random_motions(part))?, crude, 0);
         };
         let motion = self.variable_group.motion(part, motions.rows.resistance(joint));
         let values = self.variable_group.values_of(part, self.at);
-        let function = function.selected(values, Measure::Motion(motion));
+        let function = function.selected(values, ValueMeasure::Motion(motion));
         let positions = self.local_maximum(part, &function)?;
         let largest = motion.largest(&function.at(&positions));
-        let candidates = self.candidates(&motion, (&function, &positions), &largest);
-        let attained = motions.best((part, joint), candidates)?;
+        let candidates = self.candidates(&motion, &function, &positions, &largest);
+        let attained = motions.best(part, joint, candidates)?;
         let stop = SearchLimits {
             below: attained.0 * (1.0 + CLOSED_SUM),
             boxes: MAX_BOXES,
@@ -263,8 +264,8 @@ impl OneJoint<'_> {
             let mut sampled = Vec::with_capacity(variable.size() * function.values);
             for position in variable.samples() {
                 at_q[variable.joint] = position;
-                let moving = (&variable_group.joints[self.at..=self.at], &variable_group.moving[..]);
-                match motions.rows.values(&at_q, moving, &mut memory) {
+                let joint = &variable_group.joints[self.at..=self.at];
+                match motions.rows.values(&at_q, joint, &variable_group.moving, &mut memory) {
                     Ok(all) => sampled.extend_from_slice(&all[values.clone()]),
                     Err(found) => {
                         error = Err(found);
@@ -272,19 +273,20 @@ impl OneJoint<'_> {
                     }
                 }
             }
-            along(&sampled, (&mut [variable.size()], function.values), 0, &variable.coefficient_rows())
+            along(&sampled, &mut [variable.size(), function.values], 0, &variable.coefficient_rows())
         };
         let sectioned =
             SectionedFunction { variables: &function.variables, measure: function.measure, along_variable };
         let (_, positions) = local_search::largest_sampled(sectioned, motions.seed);
         error?;
-        self.followed((part, function), positions)
+        self.followed(part, function, positions)
     }
 
     /// Positions that the robot can reach, searched from positions at which followers were free.
     fn followed(
         &self,
-        (part, function): (TorquePart, &Trigonometric),
+        part: TorquePart,
+        function: &Trigonometric,
         positions: Vec<f64>,
     ) -> Result<Vec<f64>, DynamicsError> {
         let (rows, coupling) = (&self.motions.rows, &self.motions.rows.dependency.coupling);
@@ -296,9 +298,9 @@ impl OneJoint<'_> {
         places.iter().zip(&positions).for_each(|(&place, position)| q[place] = *position);
         let mut memory = rows.memory();
         let values = self.variable_group.values_of(part, 0);
-        let moving = (&self.variable_group.joints[self.at..=self.at], &self.variable_group.moving[..]);
+        let joint = &self.variable_group.joints[self.at..=self.at];
         coupling.search(&mut q, &places, |q| {
-            let all = rows.values(q, moving, &mut memory)?;
+            let all = rows.values(q, joint, &self.variable_group.moving, &mut memory)?;
             Ok(function.measure.value(&all[values.clone()]))
         })?;
         Ok(places.iter().map(|&place| q[place]).collect())
@@ -308,8 +310,9 @@ impl OneJoint<'_> {
     /// since dry friction depends on its sign alone.
     fn candidates(
         &self,
-        motion: &Motion,
-        (function, positions): (&Trigonometric, &[f64]),
+        motion: &MotionCoefficients,
+        function: &Trigonometric,
+        positions: &[f64],
         largest: &LargestMotion,
     ) -> Vec<AttainedAt> {
         let covered = &self.motions.rows.covered;
@@ -353,10 +356,10 @@ impl OneJoint<'_> {
             for &joint in &self.variable_group.moving {
                 let covered = &rows.covered[joint];
                 if part != TorquePart::Velocity {
-                    at.qdd[joint] = covered.acceleration * random.between((-1.0, 1.0)).signum();
+                    at.qdd[joint] = covered.acceleration * random.between(-1.0, 1.0).signum();
                 }
                 if part != TorquePart::Inertia {
-                    at.qd[joint] = covered.speed * random.between((-1.0, 1.0)).signum();
+                    at.qd[joint] = covered.speed * random.between(-1.0, 1.0).signum();
                 }
             }
             at
@@ -370,7 +373,7 @@ impl OneJoint<'_> {
 fn one_by_one(function: &Trigonometric) -> UpperBound {
     let mut sum = UpperBound { value: 0.0, boxes: 0 };
     for at in 0..function.values {
-        let one = function.selected(at..at + 1, Measure::Sum);
+        let one = function.selected(at..at + 1, ValueMeasure::Sum);
         let mut bound = UpperBound { value: one.sum_of_amplitudes(), boxes: 0 };
         if one.control_values() <= VALUES_OF_ONE / FEWEST_BOXES {
             let control_values = VALUES_OF_ONE;

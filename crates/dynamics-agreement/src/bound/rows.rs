@@ -15,7 +15,7 @@ use super::{
 use crate::{model::DynamicsModel, thresholds::SAME_VALUE};
 
 /// The difference between a candidate and a reference in the candidate's geometry.
-pub(super) struct Rows<'a> {
+pub(super) struct DifferenceRows<'a> {
     pub(super) candidate: &'a DynamicsModel,
     pub(super) dependency: JointDependency<'a>,
     pub(super) covered: Vec<CoveredMotion>,
@@ -39,7 +39,7 @@ pub(super) struct Memory {
     qd: Vec<f64>,
 }
 
-impl<'a> Rows<'a> {
+impl<'a> DifferenceRows<'a> {
     pub(super) fn new(
         candidate: &'a DynamicsModel,
         reference: &DynamicsModel,
@@ -47,6 +47,7 @@ impl<'a> Rows<'a> {
         let reach_m = candidate.frames.reach_m.max(1.0);
         let size = |body: &SpatialInertia| {
             let moment = body.first_moment_kg_m.norm();
+            // Steiner's terms for a body at the largest distance.
             body.tensor_kg_m2.norm() + 2.0 * moment * reach_m + body.mass_kg.abs() * reach_m * reach_m
         };
         // The origin of a body turns at a distance of at most the reach; 1.5 covers the centripetal and the Coriolis part of
@@ -95,12 +96,13 @@ impl<'a> Rows<'a> {
         Memory { buffer, matrix, tau: [vec![0.0; n], vec![0.0; n]], qd: vec![0.0; n] }
     }
 
-    /// For each of some joints the values of [`Motion`](super::function::measure::Motion) at one position: gravity, and the
+    /// For each of some joints the values of [`MotionCoefficients`](super::function::measure::MotionCoefficients) at one position: gravity, and the
     /// coefficients of accelerations and products of speeds of the joints that move.
     pub(super) fn values(
         &self,
         q: &RobotQ,
-        (joints, moving): (&[usize], &[usize]),
+        joints: &[usize],
+        moving: &[usize],
         memory: &mut Memory,
     ) -> Result<Vec<f64>, DynamicsError> {
         let Memory { buffer, matrix, tau, qd } = memory;

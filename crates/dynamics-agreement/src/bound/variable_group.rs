@@ -7,11 +7,11 @@ use congruent_dynamics::DynamicsError;
 
 use super::{
     function::{
-        measure::Motion,
+        measure::MotionCoefficients,
         speeds::{MAX_SPEEDS, entries},
     },
     gravity::GravityTorques,
-    rows::Rows,
+    rows::DifferenceRows,
 };
 use crate::thresholds::MAX_COEFFICIENTS;
 
@@ -40,7 +40,10 @@ pub(super) struct VariableGroup {
 
 impl VariableGroup {
     /// The groups of all driven joints with the same variables.
-    pub(super) fn all(rows: &Rows<'_>, gravity: &GravityTorques<'_>) -> Result<Vec<Self>, DynamicsError> {
+    pub(super) fn all(
+        rows: &DifferenceRows<'_>,
+        gravity: &GravityTorques<'_>,
+    ) -> Result<Vec<Self>, DynamicsError> {
         let mut all: Vec<Self> = Vec::new();
         for joint in (0..rows.covered.len()).filter(|&joint| rows.dependency.coupling.is_driven(joint)) {
             let mut one = Self::for_joint(rows, joint);
@@ -59,7 +62,7 @@ impl VariableGroup {
         Ok(all)
     }
 
-    fn for_joint(rows: &Rows<'_>, joint: usize) -> Self {
+    fn for_joint(rows: &DifferenceRows<'_>, joint: usize) -> Self {
         let (dependency, frames) = (&rows.dependency, rows.dependency.frames);
         let carries = dependency.has_difference(joint);
         // A joint without a body that differs can still differ by armature, damping or friction: then only its
@@ -86,7 +89,7 @@ impl VariableGroup {
         self.positions.sort_unstable();
     }
 
-    fn count(&self, rows: &Rows<'_>) -> usize {
+    fn count(&self, rows: &DifferenceRows<'_>) -> usize {
         // Coefficients of one variable: 1 and a cosine and a sine for each degree; 1 and a power for each degree
         // if it slides.
         let size = |(joint, degree): &(usize, usize)| {
@@ -112,9 +115,9 @@ impl VariableGroup {
     }
 
     /// How the values of this part combine to a torque.
-    pub(super) fn motion(&self, part: TorquePart, resistance: f64) -> Motion {
+    pub(super) fn motion(&self, part: TorquePart, resistance: f64) -> MotionCoefficients {
         let moving = self.moving.len();
-        Motion {
+        MotionCoefficients {
             gravity: part == TorquePart::Together,
             accelerations: if part == TorquePart::Velocity { 0 } else { moving },
             speeds: if part == TorquePart::Inertia { 0 } else { moving },

@@ -105,12 +105,12 @@ pub fn compare(
     let reference_in_candidate = in_geometry_of(candidate.model, reference.model, &joints);
     let states = random_states(&candidate.model.frames, seed, STATES);
     // Both torques are computed with one geometry, so that only masses, joint terms and gravity can differ.
-    let expected = torques(&reference_in_candidate, &states)?;
+    let torques = torques(&reference_in_candidate, &states)?;
+    let expected = ReferenceTorques { states: &states, torques: &torques };
     if joints.len() > MOST_JOINTS {
-        let of_states = (states.as_slice(), expected.as_slice());
-        return Ok(compare_long((candidate, reference), (&reference_in_candidate, &joints), of_states)?);
+        return Ok(compare_long(candidate, reference, &reference_in_candidate, &joints, expected)?);
     }
-    let torque = ReducedTorqueDifference::new(candidate.model, &states, &expected)?;
+    let torque = ReducedTorqueDifference::new(candidate.model, &states, &torques)?;
     let setting = DiagnosisInput {
         candidate: candidate.model,
         reference: Some(reference.model),
@@ -119,9 +119,7 @@ pub fn compare(
         pairs: false,
     };
     let files = ModelFiles { found: candidate.places, expected: reference.places };
-    let expected = ReferenceTorques { states: &states, torques: &expected };
-    let models = (reference.model, &reference_in_candidate);
-    let mut diagnosis = diagnose_with_fallbacks(&setting, files, models, (&torque, expected))?;
+    let mut diagnosis = diagnose_with_fallbacks(&setting, files, &reference_in_candidate, &torque, expected)?;
     // With both files at hand an explanation that changes a parameter which is equal in both is refuted.
     diagnosis.explanations.retain(|explanation| !explanation.contradicted);
     let mut differences = hidden::differences(candidate.model, reference.model);
@@ -168,8 +166,9 @@ pub fn compare(
 fn diagnose_with_fallbacks(
     setting: &DiagnosisInput<'_>,
     files: ModelFiles<'_>,
-    models: (&DynamicsModel, &DynamicsModel),
-    (torque, expected): (&ReducedTorqueDifference, ReferenceTorques<'_>),
+    reference_in_candidate: &DynamicsModel,
+    torque: &ReducedTorqueDifference,
+    expected: ReferenceTorques<'_>,
 ) -> Result<NamedDiagnosis, CompareError> {
     let mut diagnosis = NamedDiagnosis::new(setting, files, torque, expected)?;
     // An explanation without a free parameter is accepted as it is: fitting cannot have produced it.
@@ -178,7 +177,7 @@ fn diagnose_with_fallbacks(
         .first()
         .map_or(!diagnosis.same, |first| first.contradicted || first.numbers > 0.0)
     {
-        let by_link = link_by_link(setting, files, models, (torque, expected.states))?;
+        let by_link = link_by_link(setting, files, reference_in_candidate, torque, expected.states)?;
         if by_link.is_empty() {
             diagnosis =
                 NamedDiagnosis::new(&DiagnosisInput { pairs: true, ..*setting }, files, torque, expected)?;

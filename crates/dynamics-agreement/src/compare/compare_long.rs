@@ -5,7 +5,7 @@ use congruent_dynamics::DynamicsError;
 
 use super::named_diagnosis::NamedModel;
 use crate::{
-    diagnosis::FaultySide,
+    diagnosis::{FaultySide, ReferenceTorques},
     differences::{hidden, invariants::invariants, limits, parameters},
     model::DynamicsModel,
     report::{
@@ -13,21 +13,20 @@ use crate::{
         places::ModelFiles,
     },
     thresholds::{INVARIANT_STATES, Precision},
-    torque::{
-        reduced_difference::{torques, weights},
-        states::SampledState,
-    },
+    torque::reduced_difference::{torques, weights},
 };
 
 /// Compares at some states; `reference_in_candidate` is the reference expressed in the candidate's geometry, `expected` its
 /// torques.
 pub(super) fn compare_long(
-    (candidate, reference): (&NamedModel<'_>, &NamedModel<'_>),
-    (reference_in_candidate, joints): (&DynamicsModel, &[usize]),
-    (states, expected): (&[SampledState], &[Vec<f64>]),
+    candidate: &NamedModel<'_>,
+    reference: &NamedModel<'_>,
+    reference_in_candidate: &DynamicsModel,
+    joints: &[usize],
+    expected: ReferenceTorques<'_>,
 ) -> Result<DynamicsReport, DynamicsError> {
-    let (own, other) = (candidate.model, reference.model);
-    let difference_relative = difference_relative(expected, &torques(own, states)?, own.frames.dof());
+    let (own, other, states) = (candidate.model, reference.model, expected.states);
+    let difference_relative = difference_relative(expected.torques, &torques(own, states)?, own.frames.dof());
     let files = ModelFiles { found: candidate.places, expected: reference.places };
     let mut differences = hidden::differences(own, other);
     differences.extend(parameters::joint_term_differences(

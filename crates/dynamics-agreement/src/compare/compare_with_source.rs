@@ -28,7 +28,8 @@ use crate::{
 /// [`CompareError`] if the source fails, or if parameters are not finite.
 pub fn compare_with_source(
     candidate: &NamedModel<'_>,
-    (name, source): (&str, &mut dyn AccelerationSource),
+    name: &str,
+    source: &mut dyn AccelerationSource,
     options: IdentificationOptions,
 ) -> Result<DynamicsReport, CompareError> {
     check_count(candidate.model.frames.dof())?;

@@ -22,10 +22,12 @@ use crate::{
 pub(super) fn link_by_link(
     setting: &DiagnosisInput<'_>,
     files: ModelFiles<'_>,
-    (reference, reference_in_candidate): (&DynamicsModel, &DynamicsModel),
-    (whole_torque, states): (&ReducedTorqueDifference, &[SampledState]),
+    reference_in_candidate: &DynamicsModel,
+    whole_torque: &ReducedTorqueDifference,
+    states: &[SampledState],
 ) -> Result<Vec<DynamicsExplanation>, DynamicsError> {
     let model = setting.candidate;
+    let Some(reference) = setting.reference else { return Ok(Vec::new()) };
     let unmatched = Unmatched::new(model, reference);
     let (mut whole, corrected) = one_by_one(model, reference, reference_in_candidate);
     unmatched.correct(&mut whole);
@@ -41,7 +43,7 @@ pub(super) fn link_by_link(
         // The corrected copy is the reference of this link: every cause that changes anything else is
         // contradicted.
         let setting = DiagnosisInput { reference: Some(one), pairs: false, ..*setting };
-        match alone(&setting, (one, *link), &torque, states)? {
+        match alone(&setting, one, *link, &torque, states)? {
             Alone::Same => {}
             // One link without a cause makes the list incomplete; the explanation by torques of the whole is then
             // preferred.
@@ -98,7 +100,8 @@ enum Alone {
 /// inertia.
 fn alone(
     setting: &DiagnosisInput<'_>,
-    (one, link): (&DynamicsModel, Option<usize>),
+    one: &DynamicsModel,
+    link: Option<usize>,
     torque: &ReducedTorqueDifference,
     states: &[SampledState],
 ) -> Result<Alone, DynamicsError> {
@@ -108,9 +111,7 @@ fn alone(
         return Ok(Alone::Same);
     }
     let by_parts = match link.and_then(|link| Some((link, one.inertials[link].as_ref()?))) {
-        Some(link_and_inertial) => {
-            part_by_part(setting, link_and_inertial, states)?.map(ExactExplanation::alone)
-        }
+        Some((link, right)) => part_by_part(setting, link, right, states)?.map(ExactExplanation::alone),
         None => None,
     };
     let whole = found.explanations.into_iter().next();

@@ -50,6 +50,7 @@ impl<'a> Unmatched<'a> {
             let in_body = inertial.about_origin().transformed_by(&place.body_from_link);
             let carried = model.frames.joints[joint].link;
             let before = model.inertials[carried].unwrap_or_else(Inertial::nothing);
+            // About one origin, where inertias add.
             let sum = Inertial::from_origin(&(before.about_origin() + in_body), before.link_from_axes);
             model.inertials[carried] = Some(sum);
         }
@@ -62,7 +63,8 @@ impl<'a> Unmatched<'a> {
             let nothing = Inertial::nothing();
             let edits = files.found.map(|file| file.lines(&file.set_inertial(name, &nothing)));
             let explanation = explanation(
-                (DynamicsCause::LinkAdded, name),
+                DynamicsCause::LinkAdded,
+                name,
                 [self.candidate.inertials[link].as_ref(), None],
                 files,
             );
@@ -77,7 +79,7 @@ impl<'a> Unmatched<'a> {
         let missing = self.missing.iter().map(|&link| {
             let name = self.reference.frames.link_name(link);
             let found = self.reference.inertials[link].as_ref();
-            let explanation = explanation((DynamicsCause::LinkMissing, name), [None, found], files);
+            let explanation = explanation(DynamicsCause::LinkMissing, name, [None, found], files);
             let there = files.expected.map_or_else(String::new, |file| {
                 let line = file.parameter(name, "mass").map(|at| line_column(&file.source().text, at.start).0);
                 let line = line.map_or_else(String::new, |line| format!(":{line}"));
@@ -99,7 +101,8 @@ impl<'a> Unmatched<'a> {
 }
 
 fn explanation(
-    (cause, name): (DynamicsCause, &str),
+    cause: DynamicsCause,
+    name: &str,
     [found, expected]: [Option<&Inertial>; 2],
     files: ModelFiles<'_>,
 ) -> DynamicsExplanation {

@@ -123,6 +123,7 @@ fn diagnose(setting: &DiagnosisInput<'_>, torque: &ReducedTorqueDifference) -> D
     let exactly = |parts| ExactExplanation::new(parts, setting.candidate, setting.reference);
     let is_possible = |exact: &ExactExplanation| !exact.is_impossible(setting.candidate, setting.reference);
     let singles = catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit]));
+    // An impossible explanation (negative armature, another gravity in a URDF) must not keep pairs from being tried.
     let mut found: Vec<ExactExplanation> = singles.filter(is_possible).collect();
     // Pairs grow with the square of the parts; they are tried only if no single cause is convincing.
     if setting.pairs && found.iter().all(|exact| exact.free_numbers() > PAIRS_ABOVE) {

@@ -135,12 +135,12 @@ impl Target<'_> {
     fn free_link(&self, link: usize, from: &Inertial, free: FreeParameters) -> Option<Effect> {
         let block = self.torque.link(link)?;
         let target = &self.torque.difference - self.effect_of_parameters(link, from)?;
-        let ends = self
-            .starts(block, &target, from, free)
-            .into_iter()
-            .map(|(free, start)| (free, self.descend(block, &target, (from, free), start)));
+        let link_fit = LinkFit { block, target: &target, from };
+        let starts = self.starts(&link_fit, free).into_iter();
+        let ends = starts.map(|(free, start)| (free, self.descend(&link_fit, free, start)));
         // Of fits that are exact those that are bodies are preferred: in the null space of the regressor there
         // are always others that are not.
+        // Inexact fits count as none: among them the residual alone decides.
         let is_no_body = |(free, end): &(FreeParameters, Descent)| {
             let is_exact = libm::hypot(end.residual_norm, self.torque.outside) <= self.exact;
             !is_exact
@@ -162,16 +162,10 @@ impl Target<'_> {
     }
 
     /// Start values of a fit; fits that are linear need only one.
-    fn starts(
-        &self,
-        block: &DMatrix<f64>,
-        target: &DVector<f64>,
-        from: &Inertial,
-        free: FreeParameters,
-    ) -> Vec<(FreeParameters, DVector<f64>)> {
+    fn starts(&self, link_fit: &LinkFit<'_>, free: FreeParameters) -> Vec<(FreeParameters, DVector<f64>)> {
+        let from = link_fit.from;
         let zeros = DVector::zeros(free.count());
-        let linear =
-            |free: FreeParameters| self.descend(block, target, (from, free), DVector::zeros(free.count()));
+        let linear = |free: FreeParameters| self.descend(link_fit, free, DVector::zeros(free.count()));
         match free {
             FreeParameters::Payload => {
                 let all = linear(FreeParameters::Inertial).unknowns;
@@ -200,6 +194,7 @@ impl Target<'_> {
             // A shift of the centre of mass is quadratic: where it is zero, its first step has no direction.
             FreeParameters::Com | FreeParameters::ComEntry(_) => {
                 let shifted = |by_m: f64| (free, DVector::repeat(free.count(), by_m));
+                // From both sides of zero, where the quadratic has two branches.
                 vec![(free, zeros), shifted(COM_START_M), shifted(-COM_START_M)]
             }
             FreeParameters::Inertia | FreeParameters::Inertial => {
@@ -211,13 +206,8 @@ impl Target<'_> {
     }
 
     /// Gauss-Newton steps; directions that are not identifiable keep their values.
-    fn descend(
-        &self,
-        block: &DMatrix<f64>,
-        target: &DVector<f64>,
-        (from, free): (&Inertial, FreeParameters),
-        start: DVector<f64>,
-    ) -> Descent {
+    fn descend(&self, link_fit: &LinkFit<'_>, free: FreeParameters, start: DVector<f64>) -> Descent {
+        let &LinkFit { block, target, from } = link_fit;
         let written = from.ten_numbers();
         let rest = |x: &DVector<f64>| {
             let numbers = free.about_origin(from, x.as_slice()).parameters();
@@ -327,6 +317,16 @@ const BALL_DENSITY: f64 = 100.0;
 
 /// Rotations about no principal axis, rad: at a start aligned with the principal axes the derivative of the moments is zero.
 const SKEW_STARTS_RAD: [[f64; 3]; 2] = [[0.5, 0.4, 0.3], [-0.4, 0.5, -0.3]];
+
+/// What the parameters of one link are fitted to.
+struct LinkFit<'a> {
+    /// Torques for each parameter of the link.
+    block: &'a DMatrix<f64>,
+    /// The torques to explain.
+    target: &'a DVector<f64>,
+    /// The parameters that the fit starts from.
+    from: &'a Inertial,
+}
 
 /// The state of a fit: free parameters, residual norm and rank.
 struct Descent {

@@ -22,7 +22,7 @@ pub enum FaultySide {
 
 /// The links, joints or gravity that a fault is at.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum FaultPlace {
+pub(crate) enum DynamicsPlace {
     /// Links by their index in the description.
     Links(Vec<usize>),
     /// Moving joints by their index among the moving joints.
@@ -35,7 +35,7 @@ pub(crate) enum FaultPlace {
     Gravity,
 }
 
-impl FaultPlace {
+impl DynamicsPlace {
     /// Size of the place, for the order of explanations: one link before two before all.
     pub(super) fn extent(&self) -> usize {
         match self {
@@ -52,7 +52,7 @@ impl FaultPlace {
 pub(crate) struct DynamicsHypothesis {
     pub(crate) cause: DynamicsCause,
     pub(crate) detail: String,
-    pub(crate) place: FaultPlace,
+    pub(crate) place: DynamicsPlace,
     pub(super) change: Change,
     /// Whether the file itself lacks the parameter, which has a complexity of its own.
     pub(super) is_missing: bool,
@@ -105,7 +105,7 @@ impl DynamicsHypothesis {
     pub(super) fn new(
         cause: DynamicsCause,
         detail: impl Into<String>,
-        place: FaultPlace,
+        place: DynamicsPlace,
         change: Change,
     ) -> Self {
         Self { cause, detail: detail.into(), place, change, is_missing: false }

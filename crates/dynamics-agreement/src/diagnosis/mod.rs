@@ -20,7 +20,7 @@ pub use cause_names::DynamicsCause;
 pub(crate) use diagnose::{DiagnosisInput, ExplanationGroup, ReferenceTorques, diagnose_in_stages};
 pub(crate) use fit::Corrected;
 pub use hypothesis::FaultySide;
-pub(crate) use hypothesis::{DynamicsHypothesis, FaultPlace};
+pub(crate) use hypothesis::{DynamicsHypothesis, DynamicsPlace};
 pub(crate) use part_by_part::part_by_part;
 pub(crate) use rank::ExactExplanation;
 pub use reason::EquivalenceReason;

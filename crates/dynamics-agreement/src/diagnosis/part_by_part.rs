@@ -9,7 +9,7 @@ use super::{
     diagnose::DiagnosisInput,
     fit::{Corrected, FittedHypothesis, Target},
     free::FreeParameters,
-    hypothesis::{Change, DynamicsHypothesis, FaultPlace},
+    hypothesis::{Change, DynamicsHypothesis, DynamicsPlace},
     rank::ExactExplanation,
 };
 use crate::{
@@ -41,7 +41,8 @@ struct LinkPart<'a> {
 /// with the right mass, then of the inertia with both. `None` if none of them has an effect on torques.
 pub(crate) fn part_by_part(
     setting: &DiagnosisInput<'_>,
-    (link, right): (usize, &Inertial),
+    link: usize,
+    right: &Inertial,
     states: &[SampledState],
 ) -> Result<Option<ExactExplanation>, DynamicsError> {
     let Some(written) = setting.candidate.inertials[link] else { return Ok(None) };
@@ -91,7 +92,7 @@ fn one_part(
         let hypothesis = DynamicsHypothesis::new(
             cause,
             "",
-            FaultPlace::Links(vec![link]),
+            DynamicsPlace::Links(vec![link]),
             Change::FreeLink { link, free },
         );
         FittedHypothesis {

@@ -13,7 +13,7 @@ use super::{
     cause_names::DynamicsCause,
     diagnose::{Diagnosed, DiagnosisInput, ExplanationGroup, ReferenceTorques, diagnose_in_stages},
     free::FreeParameters,
-    hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
+    hypothesis::{Change, DynamicsHypothesis, DynamicsPlace, FaultySide},
 };
 use crate::{
     model::{DynamicsModel, Inertial, JointTerm},
@@ -28,7 +28,7 @@ use crate::{
 struct Planted {
     cause: DynamicsCause,
     detail: String,
-    place: FaultPlace,
+    place: DynamicsPlace,
     model: DynamicsModel,
 }
 
@@ -113,7 +113,7 @@ fn shifted(parameters: &Inertial, free: FreeParameters) -> Inertial {
 /// The original with both faults of two, the second one at a link.
 fn with_both(a: &Planted, b: &Planted) -> DynamicsModel {
     let mut model = a.model.clone();
-    if let FaultPlace::Links(links) = &b.place {
+    if let DynamicsPlace::Links(links) = &b.place {
         model.inertials[links[0]] = b.model.inertials[links[0]];
     }
     model
@@ -130,7 +130,7 @@ fn is_distinguishable(planted: &Planted, faulty: FaultySide) -> bool {
             | DynamicsCause::InertiaPlaceholder
             | DynamicsCause::RpyMissing
     ) || planted.detail == "row_major_upper";
-    faulty == FaultySide::Reference || planted.place != FaultPlace::AllLinks || !loses_numbers
+    faulty == FaultySide::Reference || planted.place != DynamicsPlace::AllLinks || !loses_numbers
 }
 
 /// Whether another cause is a name of the same change of the file.
@@ -188,7 +188,7 @@ fn diagnosed(
 }
 
 /// The parts of the first explanation, its complexity, and whether it is physically impossible.
-type FirstNamed = (Vec<(DynamicsCause, FaultPlace)>, f64, bool);
+type FirstNamed = (Vec<(DynamicsCause, DynamicsPlace)>, f64, bool);
 
 fn first_named(explanations: &[ExplanationGroup]) -> Option<FirstNamed> {
     let named = &explanations.first()?.named;
@@ -280,14 +280,14 @@ fn every_cause_is_found_on_many_robots() {
 /// Two faults on links of different bodies, in the file.
 fn two_at_once(original: &DynamicsModel, faults: &[Planted]) -> Vec<[usize; 2]> {
     let body = |at: usize| match &faults[at].place {
-        FaultPlace::Links(links) if links.len() == 1 => original.frames.links[links[0]].body,
+        DynamicsPlace::Links(links) if links.len() == 1 => original.frames.links[links[0]].body,
         _ => None,
     };
     let at_links: Vec<usize> = (0..faults.len()).filter(|at| body(*at).is_some()).collect();
     let mut random = congruent_kinematics::Uniform::seeded(1);
     let count = f64::from(u32::try_from(at_links.len()).expect("some hundred"));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the count")]
-    let mut one = || at_links[random.between((0.0, count)).floor().min(count - 1.0) as usize];
+    let mut one = || at_links[random.between(0.0, count).floor().min(count - 1.0) as usize];
     let pairs = std::iter::repeat_with(|| [one(), one()]);
     pairs.filter(|[a, b]| body(*a) != body(*b)).take(PAIRS).collect()
 }

@@ -5,7 +5,7 @@ use congruent_dynamics::JointResistance;
 use super::{
     cause_names::DynamicsCause,
     fit::{Corrected, FittedHypothesis},
-    hypothesis::FaultPlace,
+    hypothesis::DynamicsPlace,
 };
 use crate::{
     model::{BodyLaw, DynamicsModel, Inertial, JointTerm},
@@ -42,6 +42,7 @@ impl ExactExplanation {
             if let Some(joints) = &part.corrected.joints {
                 let before = corrected.joints.take().unwrap_or_else(|| model.resistances.clone());
                 let changed = joints.iter().zip(&model.resistances).zip(before);
+                // Term by term: of two corrections of one joint each changes only its own terms.
                 corrected.joints =
                     Some(changed.map(|((new, old), before)| added(new, old, before)).collect());
             }
@@ -83,14 +84,14 @@ impl ExactExplanation {
     }
 
     /// Key of the order of explanations, the smallest first.
-    pub(super) fn rank(&self) -> ExplanationRank<'_> {
+    pub(super) fn rank(&self) -> GroupRank<'_> {
         let hypotheses = || self.parts.iter().map(|part| &part.hypothesis);
         let extents = hypotheses().map(|hypothesis| hypothesis.place.extent());
         #[expect(clippy::cast_possible_truncation, reason = "a few free numbers")]
         // An integer, because floats have no total order that could be derived; all complexities are multiples of
         // 0.5.
         let halves = (self.complexity * 2.0).round() as i64;
-        ExplanationRank {
+        GroupRank {
             contradicted: self.contradicted,
             no_body: self.law_broken.is_some(),
             halves,
@@ -115,6 +116,7 @@ impl ExactExplanation {
         let joints = |of: &Corrected| of.joints.clone().unwrap_or_else(|| model.resistances.clone());
         let gravity = |of: &Corrected| of.gravity.unwrap_or(model.gravity_m_s2);
         let (a, b) = (&self.corrected, &other.corrected);
+        // Relative to the larger value, and absolute below `SAME_VALUE`: two zeros with rounding are equal.
         let close = |a: f64, b: f64| (a - b).abs() <= SAME_VALUE * a.abs().max(b.abs()).max(SAME_VALUE);
         let same_joints = joints(a).iter().zip(joints(b)).all(|(a, b)| {
             close(a.damping, b.damping) && close(a.friction, b.friction) && close(a.armature, b.armature)
@@ -127,13 +129,13 @@ impl ExactExplanation {
 
 /// Key of the order of explanations: fields are compared from the first to the last.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct ExplanationRank<'a> {
+pub(super) struct GroupRank<'a> {
     contradicted: bool,
     no_body: bool,
     halves: i64,
     extent: usize,
     causes: Vec<DynamicsCause>,
-    places: Vec<&'a FaultPlace>,
+    places: Vec<&'a DynamicsPlace>,
 }
 
 impl Corrected {

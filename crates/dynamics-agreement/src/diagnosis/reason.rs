@@ -1,6 +1,6 @@
 //! Why joint torques cannot distinguish one explanation from another.
 
-use super::{hypothesis::FaultPlace, rank::ExactExplanation};
+use super::{hypothesis::DynamicsPlace, rank::ExactExplanation};
 use crate::{
     model::DynamicsModel,
     thresholds::IDENTIFIABLE,
@@ -40,7 +40,7 @@ impl EquivalenceReason {
     ) -> Self {
         let bodies = |exact: &ExactExplanation| {
             let links = exact.parts.iter().flat_map(|part| match &part.hypothesis.place {
-                FaultPlace::Links(links) => links.clone(),
+                DynamicsPlace::Links(links) => links.clone(),
                 _ => Vec::new(),
             });
             let mut bodies: Vec<usize> = links.filter_map(|link| model.frames.links[link].body).collect();

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{
     cause::{self, common_mistake::CommonMistake},
     fit::{FittedHypothesis, Target},
-    hypothesis::{DynamicsHypothesis, FaultPlace, FaultySide},
+    hypothesis::{DynamicsHypothesis, DynamicsPlace, FaultySide},
 };
 use crate::{
     model::{DynamicsModel, JointTerm},
@@ -59,14 +59,16 @@ impl<'a> Catalogue<'a> {
             overall: cause::all_links_hypotheses(model, &mistakes),
         };
         catalogue.overall.extend(cause::two_link_hypotheses(model, faulty));
+        // Only the candidate's file can lack terms that the other description has.
         let reference = reference.filter(|_| faulty == FaultySide::Candidate);
         catalogue.overall.extend(reference.and_then(|reference| cause::all_left_out(model, reference)));
         for hypothesis in cause::joint_and_gravity_hypotheses(model, faulty) {
             match &hypothesis.place {
-                FaultPlace::Joints(joints) if joints.len() == 1 => {
+                // A single joint is a part of its own and can be paired; everything else is about several.
+                DynamicsPlace::Joints(joints) if joints.len() == 1 => {
                     catalogue.of_joints[joints[0]].push(hypothesis);
                 }
-                FaultPlace::Gravity => catalogue.of_gravity.push(hypothesis),
+                DynamicsPlace::Gravity => catalogue.of_gravity.push(hypothesis),
                 _ => catalogue.overall.push(hypothesis),
             }
         }
@@ -125,6 +127,7 @@ impl<'a> Catalogue<'a> {
                 }
             }
         }
+        // Parts differ in the loop above: two terms of one joint are one part.
         pairs.extend((0..self.model.frames.dof()).flat_map(|joint| self.pairs_at_joint(target, joint)));
         pairs
     }

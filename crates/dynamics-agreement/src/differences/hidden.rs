@@ -1,7 +1,5 @@
 //! Parameters that differ between two descriptions without an effect on any joint torque.
 
-use nalgebra::Matrix3;
-
 use super::parameters::{ParameterDifference, link_differences};
 use crate::{
     model::{DynamicsModel, Inertial},
@@ -57,27 +55,26 @@ fn torque_share(torque: &ReducedTorqueDifference, pair: &LinkPair, parameter: &s
     let block = torque.link(pair.link)?;
     let [found, expected] = [pair.found, pair.expected].map(|of| of.unwrap_or_else(Inertial::nothing));
     let mut changed = found;
-    let (tensor, other) = (found.tensor_in_link(), expected.tensor_in_link());
+    let with_entry = |row: usize, column: usize| {
+        let (mut tensor, other) = (found.tensor_in_link(), expected.tensor_in_link());
+        tensor[(row, column)] = other[(row, column)];
+        tensor[(column, row)] = other[(column, row)];
+        found.with_tensor_in_link(&tensor)
+    };
     match parameter {
         "mass" => changed.mass_kg = expected.mass_kg,
         "com_x" => changed.com_m.x = expected.com_m.x,
         "com_y" => changed.com_m.y = expected.com_m.y,
         "com_z" => changed.com_m.z = expected.com_m.z,
-        "ixx" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (0, 0))),
-        "ixy" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (0, 1))),
-        "ixz" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (0, 2))),
-        "iyy" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (1, 1))),
-        "iyz" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (1, 2))),
-        _ => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (2, 2))),
+        "ixx" => changed = with_entry(0, 0),
+        "ixy" => changed = with_entry(0, 1),
+        "ixz" => changed = with_entry(0, 2),
+        "iyy" => changed = with_entry(1, 1),
+        "iyz" => changed = with_entry(1, 2),
+        _ => changed = with_entry(2, 2),
     }
     let change = changed.ten_numbers() - found.ten_numbers();
     let effect = (block * change).norm();
     let is_identifiable = effect > IDENTIFIABLE * torque.scale * change.norm();
     is_identifiable.then(|| effect / torque.torques)
-}
-
-fn with_entry(mut tensor: Matrix3<f64>, other: &Matrix3<f64>, (row, column): (usize, usize)) -> Matrix3<f64> {
-    tensor[(row, column)] = other[(row, column)];
-    tensor[(column, row)] = other[(column, row)];
-    tensor
 }

@@ -42,6 +42,7 @@ pub(crate) fn invariants(
 ) -> Result<Invariants, DynamicsError> {
     let [total, moving] = candidate.masses_kg();
     let [reference_total, reference_moving] = reference.masses_kg();
+    // Without armature and damping, which are compared by themselves: the mass matrix is that of the bodies.
     let trees = [&candidate.tree().without_resistances(), reference_in_candidate];
     let (mut gravity_n_m, mut gravity_joint) = (0.0, None);
     let mut mass_matrix_relative = Some(0.0_f64);

@@ -8,8 +8,8 @@ use super::{
 };
 use crate::{
     diagnosis::{
-        Corrected, DiagnosisInput, DynamicsCause, DynamicsHypothesis, ExactExplanation, ExplanationGroup,
-        FaultPlace, FaultySide, rounded_damping_unit, rounded_unit,
+        Corrected, DiagnosisInput, DynamicsCause, DynamicsHypothesis, DynamicsPlace, ExactExplanation,
+        ExplanationGroup, FaultySide, rounded_damping_unit, rounded_unit,
     },
     differences::parameters,
     model::{BodyLaw, DynamicsModel, Inertial, JointTerm},
@@ -132,27 +132,29 @@ impl ExplanationContext<'_> {
             return None;
         }
         match &hypothesis.place {
-            FaultPlace::Links(links) => {
+            DynamicsPlace::Links(links) => {
                 let [link] = links[..] else { return None };
                 let (_, right) = corrected.links.iter().find(|(other, _)| *other == link)?;
                 rounded_unit(self.candidate.inertials[link].as_ref()?, right)
             }
-            FaultPlace::Joints(_) | FaultPlace::AllJoints => {
+            DynamicsPlace::Joints(_) | DynamicsPlace::AllJoints => {
                 rounded_damping_unit(&self.candidate.resistances, corrected.joints.as_ref()?)
             }
-            FaultPlace::AllLinks | FaultPlace::Gravity => None,
+            DynamicsPlace::AllLinks | DynamicsPlace::Gravity => None,
         }
     }
 
-    fn place(&self, place: &FaultPlace) -> Vec<String> {
+    fn place(&self, place: &DynamicsPlace) -> Vec<String> {
         let frames = &self.candidate.frames;
         match place {
-            FaultPlace::Links(links) => links.iter().map(|&link| frames.link_name(link).to_owned()).collect(),
-            FaultPlace::Joints(joints) => {
+            DynamicsPlace::Links(links) => {
+                links.iter().map(|&link| frames.link_name(link).to_owned()).collect()
+            }
+            DynamicsPlace::Joints(joints) => {
                 joints.iter().map(|&joint| frames.joint_name(joint).to_owned()).collect()
             }
-            FaultPlace::AllLinks | FaultPlace::AllJoints => vec!["*".to_owned()],
-            FaultPlace::Gravity => vec!["gravity".to_owned()],
+            DynamicsPlace::AllLinks | DynamicsPlace::AllJoints => vec!["*".to_owned()],
+            DynamicsPlace::Gravity => vec!["gravity".to_owned()],
         }
     }
 

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::thresholds::{FREE_AND_IDENTIFIABLE, IDENTIFIABLE, ROUNDING};
 
 /// The least-squares solution of smallest norm.
-pub(crate) struct Solution {
+pub(crate) struct SvdSolution {
     pub(crate) unknowns: DVector<f64>,
     /// Number of identifiable combinations of the unknowns.
     pub(crate) rank: usize,
@@ -13,16 +13,16 @@ pub(crate) struct Solution {
 
 /// Solves `columns x = target`; `scale` is the largest effect of any parameter, whose rounding is the smallest effect that
 /// counts.
-pub(crate) fn solve(columns: &DMatrix<f64>, target: &DVector<f64>, scale: f64) -> Solution {
+pub(crate) fn solve(columns: &DMatrix<f64>, target: &DVector<f64>, scale: f64) -> SvdSolution {
     let decomposition = columns.clone().svd(true, true);
     let (Some(u), Some(v_t)) = (&decomposition.u, &decomposition.v_t) else {
-        return Solution { unknowns: DVector::zeros(columns.ncols()), rank: 0 };
+        return SvdSolution { unknowns: DVector::zeros(columns.ncols()), rank: 0 };
     };
     let values = &decomposition.singular_values;
     // The first term compares with these columns, the second with all: a single column of pure rounding would be
     // its own largest.
     let least = (FREE_AND_IDENTIFIABLE * values.max()).max(ROUNDING * scale);
-    let mut solution = Solution { unknowns: DVector::zeros(columns.ncols()), rank: 0 };
+    let mut solution = SvdSolution { unknowns: DVector::zeros(columns.ncols()), rank: 0 };
     for (at, &value) in values.iter().enumerate().filter(|(_, value)| **value > least) {
         let along = u.column(at).dot(target) / value;
         solution.unknowns += v_t.row(at).transpose() * along;

@@ -21,14 +21,14 @@ pub(crate) struct SampledState {
 
 /// A speed of either sign between `SMALLEST_SPEED` and `LARGEST_SPEED`.
 fn speed(random: &mut Uniform) -> f64 {
-    let signed = random.between((-1.0, 1.0));
+    let signed = random.between(-1.0, 1.0);
     // Sign and size from one draw: uniform over both directions, without the interval around zero.
     signed.signum() * (SMALLEST_SPEED + (LARGEST_SPEED - SMALLEST_SPEED) * signed.abs())
 }
 
 /// Random positions of all joints within their limits.
 pub(crate) fn position(random: &mut Uniform, frames: &Frames) -> RobotQ {
-    frames.joints.iter().map(|joint| random.between(joint.range)).collect()
+    frames.joints.iter().map(|joint| random.between(joint.range.0, joint.range.1)).collect()
 }
 
 /// Random states within the limits of positions: speeds are never near zero, where dry friction is undefined.
@@ -37,9 +37,7 @@ pub(crate) fn random_states(frames: &Frames, seed: u64, count: usize) -> Vec<Sam
     let mut state = || SampledState {
         q: position(&mut random, frames),
         qd: (0..frames.dof()).map(|_| speed(&mut random)).collect(),
-        qdd: (0..frames.dof())
-            .map(|_| random.between((-LARGEST_ACCELERATION, LARGEST_ACCELERATION)))
-            .collect(),
+        qdd: (0..frames.dof()).map(|_| random.between(-LARGEST_ACCELERATION, LARGEST_ACCELERATION)).collect(),
     };
     (0..count).map(|_| state()).collect()
 }

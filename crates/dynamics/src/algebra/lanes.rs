@@ -48,6 +48,7 @@ impl LaneVector {
     pub(crate) fn cross(&self, other: &Self) -> Self {
         let (a, b) = (&self.0, &other.0);
         Self::each(|entry, lane| {
+            // In cyclic order one formula serves all three entries.
             let (next, last) = ((entry + 1) % 3, (entry + 2) % 3);
             a[next][lane] * b[last][lane] - a[last][lane] * b[next][lane]
         })

@@ -107,12 +107,14 @@ impl JointFrame {
     pub(crate) fn carried(
         &self,
         parent: &BodyMotion,
-        (origin, turn): (PaddedVector, &SinCos),
+        origin: PaddedVector,
+        turn: &SinCos,
         qd: f64,
     ) -> BodyMotion {
         let BodyMotion { angular_velocity: turning, acceleration } = *parent;
         let linear =
             acceleration.linear + acceleration.angular.cross(origin) + turning.cross(turning.cross(origin));
+        // The inverse of `R_0 R_z(q)`, factor by factor.
         let to_body = |v: PaddedVector| (self.body_from_parent * v).turned_about_z(-turn.sin, turn.cos);
         let mut angular_velocity = to_body(turning);
         let mut acceleration = BodyTwist { angular: to_body(acceleration.angular), linear: to_body(linear) };

@@ -139,6 +139,7 @@ impl ArticulatedInertia {
     pub(crate) fn from_rigid(inertia: &BodyInertia) -> Self {
         Self {
             angular: inertia.tensor,
+            // f = m v - h x w, so the block that takes w to forces is -[h].
             coupling: Block::cross_matrix(-inertia.first_moment),
             linear: Block::diagonal(inertia.mass_kg),
         }

@@ -146,6 +146,7 @@ impl OrthonormalColumns {
 
     /// Solves `R x = entries` by backward substitution.
     fn solve(&self, mut entries: Vec<f64>) -> Vec<f64> {
+        // R x = entries, from the last row up.
         for at in (0..entries.len()).rev() {
             entries[at] /= self.triangle[at][at];
             let value = entries[at];

@@ -40,6 +40,7 @@ impl BodyTree {
         regressor.fill(0.0);
         for (joint, body) in self.bodies.iter().enumerate() {
             for parameter in 0..PARAMETERS {
+                // Torques are linear in the parameters: a unit parameter's torque is its column.
                 let in_body = unit(parameter).transformed_by(&body.link_from_body().inverse());
                 let wrench = BodyInertia::from(&in_body).wrench(&buffer.values[joint].motion);
                 self.project(joint, wrench, buffer, |row, torque| {
@@ -60,6 +61,7 @@ impl BodyTree {
     ) {
         let mut next = Some(body);
         while let Some(joint) = next {
+            // Only joints above a body feel it, so the columns are zero elsewhere.
             let body = &self.bodies[joint];
             each(joint, body.frame.along_axis(&wrench));
             wrench = buffer.values[joint].placement.wrench(&wrench);

@@ -115,7 +115,7 @@ pub(super) const AREAS: &[Area] = &[Area {
         (
             78,
             "scenario::faults_exclude",
-            "Two faults of a joint exclude each other at the same time. Let one end (`until_s`) before the other begins (`at_s`), or remove one of them.",
+            "Two faults of a joint cannot act at the same time. Let one end (`until_s`) before the other begins (`at_s`), or remove one of them.",
         ),
         (
             79,

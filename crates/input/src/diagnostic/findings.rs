@@ -29,7 +29,7 @@ pub struct Findings(Vec<Diagnostic>);
 
 #[expect(clippy::len_without_is_empty, reason = "it is never empty")]
 impl Findings {
-    /// The first.
+    /// The first finding; there always is one.
     pub fn first(&self) -> &Diagnostic {
         &self.0[0]
     }
@@ -39,7 +39,7 @@ impl Findings {
         self.0.swap_remove(0)
     }
 
-    /// All, in order.
+    /// All findings, in the order in which they were found.
     pub fn iter(&self) -> slice::Iter<'_, Diagnostic> {
         self.0.iter()
     }
@@ -49,7 +49,7 @@ impl Findings {
         self.0.len()
     }
 
-    /// All, in order.
+    /// All findings, in the order in which they were found; never empty.
     pub fn into_vec(self) -> Vec<Diagnostic> {
         self.0
     }

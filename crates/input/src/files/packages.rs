@@ -87,6 +87,8 @@ impl Packages {
                     )
             };
             let candidate = normalised(&candidate);
+            // By its name first, so that nothing outside is looked at; then by the real path, since a link may lead
+            // out.
             if !self.allows(&candidate) {
                 return Err(outside());
             }

@@ -6,10 +6,10 @@ use std::path::{Component, Path, PathBuf};
 /// is higher. Never `/` or the home folder of the user.
 pub(super) fn project_folder(folder: &Path, marks: &[&str], current: Option<&Path>) -> PathBuf {
     let home = std::env::var_os("HOME").and_then(|home| Path::new(&home).canonicalize().ok());
-    below_home(folder, marks, (current, home.as_deref()))
+    below_home(folder, marks, current, home.as_deref())
 }
 
-fn below_home(folder: &Path, marks: &[&str], (current, home): (Option<&Path>, Option<&Path>)) -> PathBuf {
+fn below_home(folder: &Path, marks: &[&str], current: Option<&Path>, home: Option<&Path>) -> PathBuf {
     let too_wide = |folder: &Path| folder.parent().is_none() || home == Some(folder);
     let narrow = || folder.ancestors().take_while(|folder| !too_wide(folder));
     let marked = |folder: &&Path| marks.iter().any(|mark| folder.join(mark).exists());
@@ -41,7 +41,7 @@ mod tests {
     fn the_project_folder_is_never_the_root_or_a_home() {
         let home = Some(Path::new("/home/someone"));
         let check = |folder: &str, expected: &str| {
-            assert_eq!(below_home(Path::new(folder), &[".git"], (None, home)), Path::new(expected));
+            assert_eq!(below_home(Path::new(folder), &[".git"], None, home), Path::new(expected));
         };
         check("/urdf", "/urdf");
         check("/home/someone", "/home/someone");
@@ -53,7 +53,7 @@ mod tests {
     fn without_a_mark_the_project_may_be_where_the_user_is() {
         let check = |current: &str, expected: &str| {
             let current = Some(Path::new(current));
-            let found = below_home(Path::new("/copy/scenarios/faults"), &[".git"], (current, None));
+            let found = below_home(Path::new("/copy/scenarios/faults"), &[".git"], current, None);
             assert_eq!(found, Path::new(expected), "{current:?}");
         };
         check("/copy", "/copy");

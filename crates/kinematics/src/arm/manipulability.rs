@@ -62,6 +62,7 @@ impl Arm {
         q: &ArmQ,
         metres_per_rad: f64,
     ) -> Result<Manipulability, KinematicsError> {
+        // By configurations of its own: at `q` the arm may be singular, and the zero would count as missing.
         let ranks = self.attainable_ranks();
         let [linear, angular, whole] = self.jacobians(q, metres_per_rad)?;
         Ok(Manipulability {
@@ -114,6 +115,7 @@ impl Arm {
 
 fn sorted(values: &nalgebra::DVector<f64>) -> Vec<f64> {
     let mut values: Vec<f64> = values.iter().copied().collect();
+    // nalgebra gives them in any order for a rank-deficient matrix.
     values.sort_by(|a, b| b.total_cmp(a));
     values
 }
@@ -123,6 +125,7 @@ fn dexterity(values: &[f64], rank: usize) -> Dexterity {
     let (largest, smallest) = (values.first().copied().unwrap_or(0.0), values.last().copied().unwrap_or(0.0));
     Dexterity {
         singular_values: values.to_vec(),
+        // The product of no values is 1, the measure of an arm that cannot move is 0.
         yoshikawa: if values.is_empty() { 0.0 } else { values.iter().product() },
         condition: if smallest > 0.0 { largest / smallest } else { f64::INFINITY },
         distance_to_singularity: smallest,

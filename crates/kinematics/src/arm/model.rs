@@ -33,6 +33,7 @@ pub struct ArmJoint {
 impl ArmJoint {
     /// The range from which positions are drawn: the limits, or one turn if there are none.
     pub fn sampled_range(&self) -> (f64, f64) {
+        // One turn, or 2 m about zero, where nothing is declared.
         let (low, high) = if self.turns { (-PI, PI) } else { (-1.0, 1.0) };
         match (self.lower.is_finite(), self.upper.is_finite()) {
             (true, true) => (self.lower, self.upper),
@@ -104,7 +105,7 @@ impl Arm {
     /// [`KinematicsError::NoJoint`] if nothing moves between base and tip.
     pub fn from_description(description: &RobotDescription) -> Result<Self, KinematicsError> {
         let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
-        Self::new(&description.robot, (description.base, description.tip), tip_from_tcp)
+        Self::new(&description.robot, description.base, description.tip, tip_from_tcp)
     }
 
     /// The arm from link `base` to a tool in link `tip`.
@@ -113,10 +114,11 @@ impl Arm {
     /// [`KinematicsError::NoJoint`] if nothing moves between the two.
     pub fn new(
         robot: &Robot,
-        (base, tip): (LinkIndex, LinkIndex),
+        base: LinkIndex,
+        tip: LinkIndex,
         tip_from_tcp: Pose,
     ) -> Result<Self, KinematicsError> {
-        let chain = SerialChain::from_urdf(robot, (base, tip));
+        let chain = SerialChain::from_urdf(robot, base, tip);
         let (mut joints, mut follows) = (Vec::new(), Vec::new());
         for &coordinate in chain.coordinates() {
             follow(robot, robot.movable_joints()[coordinate], &mut joints, &mut follows);
@@ -210,7 +212,8 @@ impl Arm {
     /// Draws a configuration within the limits.
     pub(crate) fn draw(&self, random: &mut Uniform, q: &mut ArmQ) {
         for (q, joint) in q.iter_mut().zip(&self.joints) {
-            *q = random.between(joint.sampled_range());
+            let (lower, upper) = joint.sampled_range();
+            *q = random.between(lower, upper);
         }
     }
 
@@ -254,6 +257,7 @@ impl Arm {
         // Root mean square of |v| / |w|, the distance of the tool from each turning axis. Without a turning joint it is 0.
         let by_turning_m = if turning > 0.0 { f64::sqrt(sum / turning) } else { 0.0 };
         match by_turning_m.max(ON_AXIS * travel_m) {
+            // 1, so that a unit remains to divide by.
             length_m if turning == 0.0 || length_m < ZERO_M => 1.0,
             _ if by_turning_m < ON_AXIS * travel_m => travel_m,
             _ => by_turning_m,
@@ -340,7 +344,8 @@ mod tests {
     fn without_a_moving_joint_there_is_no_arm() {
         let robot =
             support::robot(vec![support::Carried::fixed("tip", "base", nalgebra::Isometry3::identity())]);
-        let ends = (robot.root(), robot.find_link("tip").unwrap());
-        assert_eq!(Arm::new(&robot, ends, Pose::identity()).unwrap_err(), KinematicsError::NoJoint);
+        let tip = robot.find_link("tip").unwrap();
+        let arm = Arm::new(&robot, robot.root(), tip, Pose::identity());
+        assert_eq!(arm.unwrap_err(), KinematicsError::NoJoint);
     }
 }

@@ -26,6 +26,7 @@ pub(crate) fn maximize(joints: &[ArmJoint], q: &mut ArmQ, mut value: impl FnMut(
             let (lower, upper) = joint.sampled_range();
             let here = q[at];
             for step in [share, -share] {
+                // From `here`, not from the failed try of the other direction.
                 q[at] = (here + step * (upper - lower)).clamp(lower, upper);
                 let found = value(q);
                 if found > best {
@@ -36,6 +37,7 @@ pub(crate) fn maximize(joints: &[ArmJoint], q: &mut ArmQ, mut value: impl FnMut(
                 q[at] = here;
             }
         }
+        // Only after a sweep without gain: a step that still helps one joint is worth keeping for all.
         if !rose {
             share /= 2.0;
             if share < LAST_SHARE {

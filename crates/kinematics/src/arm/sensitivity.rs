@@ -49,7 +49,7 @@ const SEARCHES: usize = 4;
 /// # let parts = JointParts { joint, parent: "base".into(), child: "arm".into(), mimic: None };
 /// # let robot = Robot::new("r", vec![link("base"), link("arm")], vec![parts]).unwrap();
 /// let tool = Pose { translation: Vector3::new(0.5, 0., 0.), ..Pose::identity() };
-/// let arm = Arm::new(&robot, (robot.root(), robot.find_link("arm").unwrap()), tool)?;
+/// let arm = Arm::new(&robot, robot.root(), robot.find_link("arm").unwrap(), tool)?;
 /// let (mut meant, mut built) = (arm.clone(), arm.clone());
 /// let degree = 1_f64.to_radians();
 /// let found = displacement(
@@ -72,7 +72,8 @@ pub fn displacement(
     let mut worst: Vec<(f64, ArmQ)> = Vec::with_capacity(SEARCHES + 1);
     for _ in 0..sampling.samples {
         for (q, joint) in q.iter_mut().zip(joints) {
-            *q = random.between(joint.sampled_range());
+            let (lower, upper) = joint.sampled_range();
+            *q = random.between(lower, upper);
         }
         let (meant, built) = meant_and_built(&q);
         let distance_m = meant.distance_m(&built);

@@ -92,10 +92,11 @@ impl Cells {
     fn pairs_of_points(&self, mut random: Uniform) -> impl Iterator<Item = [Vector3<f64>; 2]> {
         let [columns, rows, layers] = self.counts;
         (0..columns * rows * layers).map(move |cell| {
+            // Column fastest, then row, then layer.
             let place = [cell % columns, cell / columns % rows, cell / (columns * rows)];
             [(); 2].map(|()| {
                 Vector3::from_fn(|axis, _| {
-                    let share = place[axis] as f64 + random.between((0.0, 1.0));
+                    let share = place[axis] as f64 + random.between(0.0, 1.0);
                     self.corner[axis] + self.edges[axis] * share
                 })
             })
@@ -118,6 +119,7 @@ pub(super) fn size(arm: &Arm, known: &KnownWorkspace<'_>, sampling: Sampling) ->
     // Two points in each cell (stratified sampling): cells entirely inside or outside add no variance, so only the boundary of
     // the workspace contributes to the error.
     let cells = Cells::filling(known, (points / 2).max(1));
+    // Relative to the reach, so that large and small arms are counted alike.
     let tolerance_m = REACHED_SHARE * known.reach_m[1];
     let options =
         IkOptions { tolerance_m, max_iterations: STEPS, seed: sampling.seed, ..IkOptions::default() };

@@ -71,6 +71,7 @@ impl Proof {
     /// The largest of all residuals, rad and m alike: the value that is compared with a limit.
     pub fn worst(&self) -> f64 {
         let Self { screw_rad, screw_m, home_rad, home_m, orientation_rad, position_m, .. } = *self;
+        // `larger` keeps a NaN, which `f64::max` would drop: a broken model must not prove anything.
         [screw_rad, screw_m, home_rad, home_m, orientation_rad, position_m].into_iter().fold(0.0, larger)
     }
 }

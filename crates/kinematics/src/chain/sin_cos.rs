@@ -61,6 +61,7 @@ impl SinCos {
     /// Sine and cosine of an angle in radians.
     #[inline(always)]
     pub fn from_angle(angle_rad: f64) -> Self {
+        // False for NaN, which `libm` passes on.
         if angle_rad.abs() <= LARGEST_RAD {
             Self::from_moderate_angle(angle_rad)
         } else {
@@ -129,6 +130,7 @@ impl<const N: usize> SinesCosines<N> {
     /// Of angles in radians.
     #[inline(always)]
     pub(crate) fn from_angles(angles_rad: [f64; N]) -> Self {
+        // One test for the block: a branch for each angle would keep the compiler from vectors.
         if angles_rad.iter().all(|angle_rad| angle_rad.abs() <= LARGEST_RAD) {
             Self::map_angles(angles_rad, SinCos::from_moderate_angle)
         } else {
@@ -157,13 +159,13 @@ impl SinesCosines<BLOCK> {
     /// Of a block of angles in radians, in the widest vectors that the machine has.
     #[inline]
     pub(crate) fn from_block(angles_rad: [f64; BLOCK]) -> Self {
-        Arch::new().dispatch(Block(angles_rad))
+        Arch::new().dispatch(AngleBlock(angles_rad))
     }
 }
 
-struct Block([f64; BLOCK]);
+struct AngleBlock([f64; BLOCK]);
 
-impl WithSimd for Block {
+impl WithSimd for AngleBlock {
     type Output = SinesCosines<BLOCK>;
 
     #[inline(always)]
@@ -179,6 +181,7 @@ fn kernel_sin(x: f64, lost: f64) -> f64 {
     let xx = x * x;
     let cube = xx * x;
     let tail = s2 + xx * (s3 + xx * (s4 + xx * (s5 + xx * s6)));
+    // In fdlibm's order, smallest terms first: the last bits depend on it.
     x - ((xx * (0.5 * lost - cube * tail) - lost) - cube * s1)
 }
 
@@ -190,6 +193,7 @@ fn kernel_cos(x: f64, lost: f64) -> f64 {
     let tail = xx * (c1 + xx * (c2 + xx * (c3 + xx * (c4 + xx * (c5 + xx * c6)))));
     let half = 0.5 * xx;
     let coarse = 1.0 - half;
+    // (1 - coarse) - half is the rounding error of `coarse`, which is added back.
     coarse + (((1.0 - coarse) - half) + (xx * tail - x * lost))
 }
 

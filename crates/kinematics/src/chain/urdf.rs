@@ -117,6 +117,7 @@ impl UrdfTree {
     ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
         KinematicsError::check_poses(self.parent_joints.len(), root_from_links)?;
+        // Links begin with the root, and parents come before children, so every parent's pose is there.
         root_from_links[0] = Pose::identity();
         // Sines of a block first: their computation overlaps and uses vectors, which it could not between two products of poses.
         for block in self.joints.chunks(BLOCK) {
@@ -241,7 +242,8 @@ impl UrdfTree {
     pub fn jacobian_of_frame(
         &self,
         q: &RobotQ,
-        (link, link_from_frame): (LinkIndex, &Pose),
+        link: LinkIndex,
+        link_from_frame: &Pose,
         kind: JacobianKind,
     ) -> Result<Jacobian, KinematicsError> {
         let mut columns = vec![Twist::zero(); self.dof];
@@ -271,6 +273,7 @@ impl UrdfTree {
             let angle_rad = |joint: Option<&TreeJoint>| joint.map_or(0.0, |joint| joint.motion.angle_rad(q));
             let turns = SinesCosines::from_block(block.map(angle_rad));
             for (joint, turn) in block.into_iter().flatten().zip(turns.iter()) {
+                // Before its own motion is added: the pose of the link in the joint's child.
                 each(joint, &above_from_link);
                 above_from_link = joint.parent_from_child(q, turn) * above_from_link;
             }

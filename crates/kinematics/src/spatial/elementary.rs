@@ -63,6 +63,7 @@ impl Pose {
 #[inline]
 pub(crate) fn turn(axis: usize, angle_rad: f64) -> Matrix3<f64> {
     let (sin, cos) = libm::sincos(angle_rad);
+    // In cyclic order the signs are the same for all three axes.
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut turn = Matrix3::identity();
     (turn[(next, next)], turn[(last, last)]) = (cos, cos);

@@ -195,6 +195,8 @@ impl EulerSet {
     /// The same for rotations that are less exact than rounding.
     pub fn angles_singular_below(self, rotation: &Matrix3<f64>, singular_below_rad: f64) -> EulerAngles {
         let [i, j, last] = self.axes();
+        // The third axis: 0, 1 and 2 have the sum 3. The sign is that of the permutation, for one formula in place of
+        // twelve.
         let k = 3 - i - j;
         let handed = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
         let m = |row, column| rotation[(row, column)];
@@ -212,6 +214,8 @@ impl EulerSet {
         };
         let (first, sine) = match determined {
             DeterminedAngles::Both => (angle(across, up), libm::hypot(across, up)),
+            // A sine of exactly 0 puts the middle angle exactly at the singular position; all of the turn goes to the
+            // last.
             DeterminedAngles::Sum | DeterminedAngles::Difference => (0.0, 0.0),
         };
         // Row j of what remains when the first turn is undone.

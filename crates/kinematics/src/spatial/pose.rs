@@ -173,6 +173,7 @@ impl Pose {
         /// Each step halves a large stretch: enough for one of 1e15, beyond which a matrix is singular.
         const MOST_STEPS: usize = 64;
         let mut rotation = self.rotation;
+        // Not `<= 0`, which a NaN would pass.
         if self.determinant().partial_cmp(&0.0) != Some(Ordering::Greater) {
             return None;
         }

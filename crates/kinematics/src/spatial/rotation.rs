@@ -115,6 +115,7 @@ pub(crate) fn half_versine_ratio(x: f64) -> f64 {
 /// ```
 pub fn frame_about(z: &Vector3<f64>) -> Matrix3<f64> {
     let mut least = Vector3::zeros();
+    // The unit axis that is farthest from parallel to z, so that the product is well-conditioned.
     least[z.iamin()] = 1.0;
     let y = z.cross(&least).normalize();
     Matrix3::from_columns(&[y.cross(z), y, *z])

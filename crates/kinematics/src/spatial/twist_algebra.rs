@@ -95,6 +95,7 @@ impl Twist {
         let shift_rate = dv + once_rate * versine + twice_rate * lag + by_angle * w.dot(dw);
         let turned = w.cross(dw);
         let angular = dw + turned * versine + w.cross(&turned) * lag;
+        // `shift_rate` is the velocity of the moved origin; a twist gives that of the point at the fixed one.
         Self { angular, linear: shift_rate - angular.cross(&shift) }
     }
 }

@@ -119,7 +119,7 @@ proptest! {
         let robot = support::robot(joints);
         let links: Vec<LinkIndex> = robot.link_indices().collect();
         let [base, tip] = ends.map(|end| links[end.index(links.len())]);
-        let chain = SerialChain::from_urdf(&robot, (base, tip));
+        let chain = SerialChain::from_urdf(&robot, base, tip);
         let n = chain.joint_count();
         let state = State { q: &q.of_chain(n), qd: qd.of_joints(n), qdd: qdd.of_joints(n) };
         for kind in KINDS {

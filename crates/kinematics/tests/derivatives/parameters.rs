@@ -133,9 +133,9 @@ fn case_12_derivatives_by_the_tables_of_real_robots() {
 #[test]
 fn case_12_derivatives_by_the_screws_of_real_robots() {
     for (seed, description) in (0..).zip(robots()) {
-        let (robot, ends) = (&description.robot, (description.base, description.tip));
-        let coordinates = SerialChain::from_urdf(robot, ends).coordinates().to_vec();
-        let chain = ScrewChain::from_urdf(robot, ends, &coordinates).unwrap();
+        let (robot, base, tip) = (&description.robot, description.base, description.tip);
+        let coordinates = SerialChain::from_urdf(robot, base, tip).coordinates().to_vec();
+        let chain = ScrewChain::from_urdf(robot, base, tip, &coordinates).unwrap();
         let n = coordinates.len();
         for q in [ChainQ::zeros(n), numbers(n, seed).into()] {
             hold_screws(&chain, &q);

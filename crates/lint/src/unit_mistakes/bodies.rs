@@ -13,15 +13,25 @@ use super::{
     },
 };
 
-const MASS: UnitMistake =
-    UnitMistake { code: "units::mass", words: "links have an implausible mass for their size" };
-const INERTIA: UnitMistake =
-    UnitMistake { code: INERTIA_UNIT, words: "links have an implausible inertia for their mass and size" };
-const NO_TENSOR: UnitMistake =
-    UnitMistake { code: "urdf::zero_inertia", words: "links have a mass but an inertia of zero" };
+const MASS: UnitMistake = UnitMistake {
+    code: "units::mass",
+    words: "links have an implausible mass for their size",
+    element: "mass",
+};
+const INERTIA: UnitMistake = UnitMistake {
+    code: INERTIA_UNIT,
+    words: "links have an implausible inertia for their mass and size",
+    element: "inertia",
+};
+const NO_TENSOR: UnitMistake = UnitMistake {
+    code: "urdf::zero_inertia",
+    words: "links have a mass but an inertia of zero",
+    element: "inertia",
+};
 const COM: UnitMistake = UnitMistake {
     code: CENTER_OF_MASS,
     words: "links have a centre of mass far from their shapes and joints",
+    element: "origin",
 };
 
 fn is_within([least, most]: [f64; 2], value: f64) -> bool {
@@ -40,6 +50,7 @@ impl UnusualMedians {
     fn over(bodies: &[LinkInertiaFeatures]) -> Self {
         let unusual = |values: Vec<f64>, range: [f64; 2]| {
             let middle = median(values.iter().copied()).filter(|_| values.len() >= 2);
+            // A single body has no median beside itself.
             middle.filter(|middle| !is_within(range, *middle))
         };
         let bare = bodies.iter().filter(|body| body.shapes.is_none() && !body.is_placeholder);
@@ -94,7 +105,8 @@ impl UnitCheck<'_> {
             );
             let help =
                 "steel has 7900 kg/m^3; is the mass in grams, or are the shapes in another unit?".to_owned();
-            self.warn_link(&MASS, name, &what, ("mass", help));
+            self.warn_link(&MASS, name, &what, help);
+            // The mass is the likelier mistake: an inertia that does not fit it would be a second message about it.
             return;
         }
         if belongs(body, whole) {
@@ -113,7 +125,7 @@ impl UnitCheck<'_> {
                 quantity(body.sphere_density, "kg/m^3")
             ),
         };
-        self.warn_link(&INERTIA, name, &what, ("inertia", guess(body)));
+        self.warn_link(&INERTIA, name, &what, guess(body));
     }
 
     /// Reports the placeholder tensor of 1 kg m^2 about every axis on a link that is far too small for it.
@@ -129,7 +141,7 @@ impl UnitCheck<'_> {
                 length(shapes.diagonal_m())
             );
             let help = "give the inertia of a box of the link's size".to_owned();
-            self.warn_link(&INERTIA, &self.robot.link(link).name, &what, ("inertia", help));
+            self.warn_link(&INERTIA, &self.robot.link(link).name, &what, help);
         }
     }
 
@@ -138,7 +150,7 @@ impl UnitCheck<'_> {
         if inertia.mass_kg > LEAST_MASS_KG && inertia.tensor_kg_m2.amax() == 0.0 {
             let what = format!("its inertia is zero, but its mass is {}", quantity(inertia.mass_kg, "kg"));
             let help = "if the inertia is not known, give that of a box of the link's size".to_owned();
-            self.warn_link(&NO_TENSOR, &self.robot.link(link).name, &what, ("inertia", help));
+            self.warn_link(&NO_TENSOR, &self.robot.link(link).name, &what, help);
         }
     }
 
@@ -150,6 +162,7 @@ impl UnitCheck<'_> {
         }
         let what = if let Some(shapes) = self.sizes.shapes[link.get()] {
             let joints = robot.joints().iter().filter(|joint| joint.parent == link);
+            // The link's own joint is at its origin.
             let all = joints.fold(shapes.including(nalgebra::Vector3::zeros()), |all, joint| {
                 all.including(joint.parent_from_joint.translation.vector)
             });
@@ -173,7 +186,7 @@ impl UnitCheck<'_> {
         };
         if let Some(what) = what {
             let help = "the origin is read in metres: is the value in centimetres or millimetres?".to_owned();
-            self.warn_link(&COM, &robot.link(link).name, &what, ("origin", help));
+            self.warn_link(&COM, &robot.link(link).name, &what, help);
         }
     }
 }
@@ -216,6 +229,7 @@ fn guess(body: &LinkInertiaFeatures) -> String {
         let density = body.sphere_density * mass * libm::pow(mass / inertia, 1.5);
         libm::log(density / USUAL_DENSITY).abs()
     };
+    // In the logarithm, since a factor too large is as bad as one too small.
     let best = after.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
     best.map_or_else(String::new, |(_, _, words)| (*words).to_owned())
 }

@@ -51,6 +51,7 @@ impl Sizes {
         for (joint, length) in robot.joints().iter().zip(lengths()).rev() {
             let child = below_m[joint.child.get()];
             let parent = &mut below_m[joint.parent.get()];
+            // The stretched path: an upper bound of what any configuration reaches.
             *parent = parent.max(length + child);
         }
         Self {
@@ -109,6 +110,7 @@ impl LinkInertiaFeatures {
         let sphere_density = inertia.mass_kg / (4.0 / 3.0 * std::f64::consts::PI * radius_m.powi(3));
         let tensor = &inertia.tensor_kg_m2;
         let is_ball = *tensor == nalgebra::Matrix3::from_diagonal_element(tensor[(0, 0)]);
+        // Equal moments without products, or one digit in each entry: typed in, not computed.
         let is_placeholder =
             (is_ball && !sizes.balls[link.get()]) || tensor.iter().all(|entry| has_one_digit(*entry));
         let shapes = sizes.shapes[link.get()].filter(|shapes| shapes.diagonal_m() > 0.0);
@@ -136,5 +138,6 @@ fn has_one_digit(value: f64) -> bool {
 pub(super) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
+    // The lower of two middle ones, so that it is one of the values.
     values.get(values.len().checked_sub(1)? / 2).copied()
 }

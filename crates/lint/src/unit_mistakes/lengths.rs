@@ -11,12 +11,21 @@ use super::{
     },
 };
 
-const ORIGIN: UnitMistake =
-    UnitMistake { code: "units::origin", words: "joints have an origin far from the rest of the robot" };
-const TRAVEL: UnitMistake =
-    UnitMistake { code: "units::travel", words: "prismatic joints have a range far larger than the robot" };
-const SLIDE: UnitMistake =
-    UnitMistake { code: "units::slide_speed", words: "prismatic joints have an implausible velocity limit" };
+const ORIGIN: UnitMistake = UnitMistake {
+    code: "units::origin",
+    words: "joints have an origin far from the rest of the robot",
+    element: "origin",
+};
+const TRAVEL: UnitMistake = UnitMistake {
+    code: "units::travel",
+    words: "prismatic joints have a range far larger than the robot",
+    element: "limit",
+};
+const SLIDE: UnitMistake = UnitMistake {
+    code: "units::slide_speed",
+    words: "prismatic joints have an implausible velocity limit",
+    element: "limit",
+};
 
 impl UnitCheck<'_> {
     /// Reports joint origins that are too far away. Returns whether any was reported.
@@ -26,7 +35,7 @@ impl UnitCheck<'_> {
             if let Some(what) = self.far_origin(joint) {
                 let help =
                     "the origin is read in metres: is the value in centimetres or millimetres?".to_owned();
-                self.warn_joint(&ORIGIN, &joint.name, &what, ("origin", help));
+                self.warn_joint(&ORIGIN, &joint.name, &what, help);
             }
         }
         self.found.len() > before
@@ -78,19 +87,20 @@ impl UnitCheck<'_> {
         for joint in robot.joints().iter().filter(|joint| joint.kind == JointKind::Prismatic) {
             if let Some(what) = self.far_travel(joint) {
                 let help = "the range is read in metres: is the value in millimetres?".to_owned();
-                self.warn_joint(&TRAVEL, &joint.name, &what, ("limit", help));
+                self.warn_joint(&TRAVEL, &joint.name, &what, help);
             }
             let velocity = joint.limit.and_then(|limit| limit.velocity);
             if let Some(speed) = velocity.filter(|speed| (FASTEST_SLIDE_M_S..PLACEHOLDER_M).contains(speed)) {
                 let what = format!("its velocity limit is {}", quantity(speed, "m/s"));
                 let help = "the velocity is read in m/s: is the value in mm/s?".to_owned();
-                self.warn_joint(&SLIDE, &joint.name, &what, ("limit", help));
+                self.warn_joint(&SLIDE, &joint.name, &what, help);
             }
         }
     }
 
     fn far_travel(&self, joint: &Joint) -> Option<String> {
         let (lower, upper) = joint.position_range()?;
+        // A range far from zero is as suspicious as a wide one.
         let travel_m = lower.abs().max(upper.abs()).max(upper - lower);
         if travel_m > PLACEHOLDER_M {
             return None;
@@ -138,5 +148,6 @@ const PLACEHOLDER_M: f64 = 1e5;
 /// Whether a limit is meant as a limit: files write large powers of ten for "no limit".
 pub(super) fn is_real(limit: f64) -> bool {
     let power = libm::log10(limit.abs());
+    // Powers of ten from 100 on are placeholders for "no limit".
     limit.is_finite() && (limit.abs() < 100.0 || (limit.abs() <= 1e5 && (power - power.round()).abs() > 1e-9))
 }

@@ -10,7 +10,7 @@ mod shapes;
 mod speeds;
 mod thresholds;
 
-use std::{collections::BTreeMap, ops::Range};
+use std::collections::BTreeMap;
 
 use congruent_description::{
     LargeLinks, Robot, RobotDescription,
@@ -28,6 +28,14 @@ struct UnitMistake {
     code: &'static str,
     /// The words of a joined warning, after the number of links or joints.
     words: &'static str,
+    /// The child element with the value, empty for the link itself.
+    element: &'static str,
+}
+
+impl UnitMistake {
+    fn warning(&self, name: &str, message: &str) -> Diagnostic {
+        Diagnostic::warning(self.code, message).one_of(self.words, name)
+    }
 }
 
 /// The robot with its text, and the warnings found so far.
@@ -70,21 +78,18 @@ pub fn unit_mistakes(description: &RobotDescription) -> Vec<Diagnostic> {
 }
 
 impl UnitCheck<'_> {
-    fn warn_joint(&mut self, kind: &UnitMistake, name: &str, what: &str, (child, help): (&str, String)) {
-        let at = self.joints.get(name).map_or(0..0, |node| place(*node, child));
-        self.push(kind, name, &format!("joint \"{name}\": {what}"), (at, help));
+    fn warn_joint(&mut self, kind: &UnitMistake, name: &str, what: &str, help: String) {
+        let at = self.joints.get(name).map_or(0..0, |node| place(*node, kind.element));
+        let warning = kind.warning(name, &format!("joint \"{name}\": {what}"));
+        self.found.push(warning.at(at).with_help(help));
     }
 
-    fn warn_link(&mut self, kind: &UnitMistake, name: &str, what: &str, (child, help): (&str, String)) {
+    fn warn_link(&mut self, kind: &UnitMistake, name: &str, what: &str, help: String) {
         let at = self.links.get(name).map_or(0..0, |node| match element(*node, "inertial") {
-            Some(inertial) if ["mass", "inertia", "origin"].contains(&child) => place(inertial, child),
+            Some(inertial) if !kind.element.is_empty() => place(inertial, kind.element),
             _ => tag(*node),
         });
-        self.push(kind, name, &format!("link \"{name}\": {what}"), (at, help));
-    }
-
-    fn push(&mut self, kind: &UnitMistake, name: &str, message: &str, (at, help): (Range<usize>, String)) {
-        let warning = Diagnostic::warning(kind.code, message).one_of(kind.words, name);
+        let warning = kind.warning(name, &format!("link \"{name}\": {what}"));
         self.found.push(warning.at(at).with_help(help));
     }
 }

@@ -12,9 +12,12 @@ use super::{
 };
 
 const SMALL: UnitMistake =
-    UnitMistake { code: "units::small_mesh", words: "links have a mesh that is far too small" };
-const LARGE: UnitMistake =
-    UnitMistake { code: "units::large_shape", words: "links have a shape that is far too large" };
+    UnitMistake { code: "units::small_mesh", words: "links have a mesh that is far too small", element: "" };
+const LARGE: UnitMistake = UnitMistake {
+    code: "units::large_shape",
+    words: "links have a shape that is far too large",
+    element: "",
+};
 
 /// The kind of link that a shape belongs to, by which its size is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,6 +80,7 @@ impl UnitCheck<'_> {
                 && size_m > MOST_SHAPE_TO_ORIGINS * self.sizes.origins_m;
             let is_large =
                 size_m > LEAST_LARGE_SHAPE_M && !is_reported_elsewhere && (against_shapes || against_origins);
+            // One message for a link: visuals and collisions mostly have the same mesh.
             if reported_link == shape.link {
                 continue;
             }
@@ -84,7 +88,7 @@ impl UnitCheck<'_> {
                 let what = format!("one of its meshes measures only {}", length(size_m));
                 let help =
                     "if the mesh file is in metres already, remove scale=\"0.001 0.001 0.001\"".to_owned();
-                self.warn_link(&SMALL, shape.link, &what, ("", help));
+                self.warn_link(&SMALL, shape.link, &what, help);
                 reported_link = shape.link;
             } else if is_large {
                 let what = format!(
@@ -94,7 +98,7 @@ impl UnitCheck<'_> {
                     length(self.sizes.origins_m)
                 );
                 let help = "sizes are read in metres: is the value in centimetres or millimetres?".to_owned();
-                self.warn_link(&LARGE, shape.link, &what, ("", help));
+                self.warn_link(&LARGE, shape.link, &what, help);
                 reported_link = shape.link;
             }
         }

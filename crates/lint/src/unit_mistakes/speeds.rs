@@ -13,8 +13,11 @@ use super::{
     },
 };
 
-const SPEED: UnitMistake =
-    UnitMistake { code: "units::speed", words: "joints have an implausible velocity limit" };
+const SPEED: UnitMistake = UnitMistake {
+    code: "units::speed",
+    words: "joints have an implausible velocity limit",
+    element: "limit",
+};
 
 fn speed(joint: &Joint) -> Option<f64> {
     let speed = joint.limit.filter(|_| joint.kind.is_angular())?.velocity?;
@@ -27,6 +30,7 @@ impl UnitCheck<'_> {
     pub(super) fn speeds(&mut self, fastest_tip_m_s: Option<f64>) {
         let robot = self.robot;
         let speeds = || robot.joints().iter().filter_map(speed);
+        // Of fewer joints a median says nothing.
         let middle = median(speeds()).filter(|_| speeds().count() >= 4);
         let all_are_fast = middle > Some(MEDIAN_TURN_RAD_S);
         let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
@@ -67,7 +71,7 @@ impl UnitCheck<'_> {
                 number(speed),
                 number(speed.to_radians())
             );
-            self.warn_joint(&SPEED, &joint.name, &what, ("limit", help));
+            self.warn_joint(&SPEED, &joint.name, &what, help);
         }
     }
 

@@ -32,7 +32,8 @@ const fn class(
     name: &'static str,
     codes: &'static [&'static str],
     factor: f64,
-    (of, least): (fn(&Node<'_, '_>) -> &'static [&'static str], f64),
+    of: fn(&Node<'_, '_>) -> &'static [&'static str],
+    least: f64,
 ) -> Class {
     Class { name, codes, factor, of, least }
 }
@@ -41,25 +42,25 @@ const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
 /// Origins of less than 10 mm are offsets that any unit could have; turns of less than 6.3 deg stay below a full turn.
 pub(crate) const CLASSES: &[Class] = &[
-    class("joint origin, mm", LENGTH, 1000.0, (joint_xyz, 0.01)),
-    class("joint origin, cm", LENGTH, 100.0, (joint_xyz, 0.01)),
-    class("joint origin, deg", &["urdf::degrees"], DEGREES, (joint_rpy, 0.11)),
-    class("joint limits, deg", &["urdf::degrees"], DEGREES, (turn_range, 0.11)),
-    class("joint velocity, deg/s", &["units::speed"], DEGREES, (turn_speed, 0.1)),
-    class("travel, mm", TRAVEL, 1000.0, (slide_range, 0.005)),
-    class("travel, cm", TRAVEL, 100.0, (slide_range, 0.01)),
-    class("slide velocity, mm/s", &["units::slide_speed"], 1000.0, (slide_speed, 0.02)),
-    class("mass, g", BODY, 1000.0, (mass, 0.005)),
-    class("inertia, kg mm2", BODY, 1e6, (moments, 0.0)),
-    class("inertia, g m2", BODY, 1e3, (moments, 0.0)),
-    class("inertia, 1e-6", BODY, 1e-6, (moments, 0.0)),
-    class("inertia, 1e-3", BODY, 1e-3, (moments, 0.0)),
-    class("centre of mass, mm", COM, 1000.0, (com, 0.005)),
-    class("centre of mass, cm", COM, 100.0, (com, 0.02)),
-    class("mesh scale left out", SIZE, 1000.0, (mesh_scale, 0.0)),
-    class("mesh scale twice", &["units::small_mesh", "units::mass"], 1e-3, (mesh_scale, 0.0)),
-    class("box, mm", SIZE, 1000.0, (box_size, 0.0)),
-    class("box, cm", SIZE, 100.0, (box_size, 0.0)),
+    class("joint origin, mm", LENGTH, 1000.0, joint_xyz, 0.01),
+    class("joint origin, cm", LENGTH, 100.0, joint_xyz, 0.01),
+    class("joint origin, deg", &["urdf::degrees"], DEGREES, joint_rpy, 0.11),
+    class("joint limits, deg", &["urdf::degrees"], DEGREES, turn_range, 0.11),
+    class("joint velocity, deg/s", &["units::speed"], DEGREES, turn_speed, 0.1),
+    class("travel, mm", TRAVEL, 1000.0, slide_range, 0.005),
+    class("travel, cm", TRAVEL, 100.0, slide_range, 0.01),
+    class("slide velocity, mm/s", &["units::slide_speed"], 1000.0, slide_speed, 0.02),
+    class("mass, g", BODY, 1000.0, mass, 0.005),
+    class("inertia, kg mm2", BODY, 1e6, moments, 0.0),
+    class("inertia, g m2", BODY, 1e3, moments, 0.0),
+    class("inertia, 1e-6", BODY, 1e-6, moments, 0.0),
+    class("inertia, 1e-3", BODY, 1e-3, moments, 0.0),
+    class("centre of mass, mm", COM, 1000.0, com, 0.005),
+    class("centre of mass, cm", COM, 100.0, com, 0.02),
+    class("mesh scale left out", SIZE, 1000.0, mesh_scale, 0.0),
+    class("mesh scale twice", &["units::small_mesh", "units::mass"], 1e-3, mesh_scale, 0.0),
+    class("box, mm", SIZE, 1000.0, box_size, 0.0),
+    class("box, cm", SIZE, 100.0, box_size, 0.0),
 ];
 
 fn in_joint(node: &Node<'_, '_>, child: &str, types: &[&str]) -> bool {

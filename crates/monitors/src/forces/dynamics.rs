@@ -105,8 +105,10 @@ impl<'a> DynamicsMonitor<'a> {
         // A mimic joint has no drive: by virtual work its torque acts at its master, multiplied by the ratio.
         for row in (0..dof).filter(|&row| self.drivers[row].0 == joint) {
             let (friction, ratio) = (self.frictions[row], self.drivers[row].1);
+            // The speed that friction can take away within one step: a joint that is slower ends at rest somewhere
+            // inside it.
             let stopped = (friction * step_s / self.mass_matrix[(row, row)]).min(STOPPED_IN_A_STEP);
-            if sticks(friction, (self.before.qd[row], truth.qd[row]), at_rest.max(stopped)) {
+            if sticks(friction, self.before.qd[row], truth.qd[row], at_rest.max(stopped)) {
                 held.add(friction, ratio, truth.qd[row]);
             }
             let torque: f64 = (0..dof).map(|other| self.mass_matrix[(row, other)] * self.qdd[other]).sum();
@@ -139,6 +141,7 @@ impl<'a> DynamicsMonitor<'a> {
             *difference = (after - before) / step_s - *difference;
         }
         let speeds = truth.qd.iter().chain(&self.before.qd);
+        // Coupling passes a share of the fastest joint's motion on to joints that friction holds.
         let at_rest = speeds.map(|qd| qd.abs() * CREEP_OF_FASTEST).fold(AT_REST, f64::max);
         for joint in (0..self.qdd.len()).filter(|&joint| self.drivers[joint].0 == joint) {
             self.torque.observe(self.relative(joint, sample, at_rest), joint, sample);
@@ -148,7 +151,7 @@ impl<'a> DynamicsMonitor<'a> {
 }
 
 /// Whether a joint with dry friction is at rest in the step, or turns round in it.
-fn sticks(friction: f64, (before, after): (f64, f64), at_rest: f64) -> bool {
+fn sticks(friction: f64, before: f64, after: f64, at_rest: f64) -> bool {
     friction > 0.0 && (before * after <= 0.0 || before.abs().min(after.abs()) < at_rest)
 }
 
@@ -163,6 +166,7 @@ struct StuckFriction {
 
 impl StuckFriction {
     fn add(&mut self, friction: f64, ratio: f64, qd: f64) {
+        // At exactly 0 the analysis assumes no friction, and `signum` of 0 would be 1.
         let direction = if qd == 0.0 { 0.0 } else { qd.signum() };
         self.assumed += ratio * friction * direction;
         self.largest += ratio.abs() * friction;

@@ -56,7 +56,7 @@ struct EnergyState {
     gravity: Vec<f64>,
 }
 
-/// The previous sample.
+/// The sample at the beginning of the step, with its energies.
 struct PreviousSample {
     time_s: f64,
     qd: Vec<f64>,
@@ -104,6 +104,7 @@ impl<'a> PowerMonitor<'a> {
     fn balance(&mut self, sample: &Sample<'_>) {
         let (truth, before) = (sample.joints.truth, &self.before);
         let step_s = sample.time_s - before.time_s;
+        // A step carries what was fixed at its beginning.
         let (tree, _) = self.dynamics.at(before.time_s);
         let (mut work_j, mut lifted_j, mut lost_j) = (0.0, 0.0, 0.0);
         for (joint, resistance) in tree.resistances().iter().enumerate() {
@@ -116,6 +117,8 @@ impl<'a> PowerMonitor<'a> {
             let holding = truth.effort[joint] - gravity;
             lost_j += resistance.damping * mean_qd * displacement;
             lost_j += friction(resistance.friction, mean_qd, holding) * displacement;
+            // At such speeds friction may hold the joint or oppose it, with any torque up to its largest: its work is
+            // known only within that.
             if (AT_REST..CREEPING).contains(&mean_qd.abs()) {
                 self.unknown_j += resistance.friction * displacement.abs();
             }
@@ -133,6 +136,8 @@ impl<'a> PowerMonitor<'a> {
     fn remember(&mut self, sample: &Sample<'_>) -> Option<()> {
         let (before_s, now_s) = (self.before.time_s, sample.time_s);
         let mut payloads = self.payloads.iter();
+        // The state just computed has the load of the step that ends here; the next step begins with another, and so
+        // do its energies.
         if payloads.any(|load| load.is_carried_at(before_s) != load.is_carried_at(now_s)) {
             self.take(now_s, sample)?;
         }
@@ -159,6 +164,7 @@ impl Monitor for PowerMonitor<'_> {
         let truth = sample.joints.truth;
         let has_all = truth.qd.len() == truth.q.len() && truth.effort.len() == truth.q.len();
         let is_step = self.before.is_set;
+        // At the first sample there is no step before, only one to come.
         let carried_s = if is_step { self.before.time_s } else { sample.time_s };
         let state = if has_all { self.take(carried_s, sample) } else { None };
         match (is_step, state, sample.forces) {

@@ -110,6 +110,7 @@ impl Monitor for CycleTimeMonitor {
             }
         }
         if sample.is_last {
+            // Infinite if a joint is not at its goal at the end: worse than every limit.
             self.time.observe(
                 self.since_s.unwrap_or(f64::INFINITY),
                 unfinished.unwrap_or(self.kinds.len()),

@@ -145,6 +145,8 @@ impl LimitsMonitor {
         let [margin, tolerance] =
             [self.margins, self.tolerances].map(|of| of[usize::from(!kind.is_angular())]);
         let setpoint = sample.joints.setpoint.map(|setpoint| outside(setpoint.q[coordinate]));
+        // A joint that rests on its stop is held by it. One that goes deeper at every sample is pushed, whatever its
+        // setpoint.
         let grows = limits.beyond_before > 0.0 && beyond > limits.beyond_before;
         let is_commanded_inside = setpoint.is_some_and(|outside| outside <= tolerance.min(AT_THE_LIMIT));
         let rests = margin == 0.0 && is_commanded_inside && !grows && beyond <= ON_THE_STOP;

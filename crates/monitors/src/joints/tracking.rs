@@ -150,6 +150,7 @@ impl TrackingMonitor {
             if let Some(watch) =
                 self.overshoot.of(kind).filter(|_| self.rest_detector.direction[joint] != 0.0)
             {
+                // `max` drops a NaN; the term `0 * beyond` brings it back.
                 watch.observe(beyond.max(0.0) + 0.0 * beyond, joint, sample);
             }
             let band = bands[usize::from(kind.is_angular())];
@@ -177,20 +178,17 @@ impl Errors {
         if kind.is_angular() { self.turning.as_mut() } else { self.sliding.as_mut() }
     }
 
-    fn observe(
-        &mut self,
-        kinds: &[JointKind],
-        (q, tcp_error_m): (&RobotQ, f64),
-        tip: LinkIndex,
-        sample: &Sample<'_>,
-    ) {
+    fn observe_joints(&mut self, kinds: &[JointKind], q: &RobotQ, sample: &Sample<'_>) {
         for (joint, (reference, true_q)) in q.iter().zip(sample.joints.truth.q).enumerate() {
             if let Some(watch) = self.of(kinds[joint]) {
                 watch.observe((true_q - reference).abs(), joint, sample);
             }
         }
+    }
+
+    fn observe_tcp(&mut self, error_m: f64, tip: LinkIndex, sample: &Sample<'_>) {
         if let Some(watch) = &mut self.tcp {
-            watch.observe(tcp_error_m, tip.get(), sample);
+            watch.observe(error_m, tip.get(), sample);
         }
     }
 }
@@ -211,6 +209,7 @@ impl RestDetector {
     fn take(&mut self, q: &RobotQ, time_s: f64) -> Option<f64> {
         let is_still = !self.has_begun || self.q == *q;
         if !is_still {
+            // A new motion: a joint that it does not move must not keep the direction of the motion before.
             if self.since_s.is_some() {
                 self.direction.fill(0.0);
             }
@@ -237,7 +236,8 @@ impl Monitor for TrackingMonitor {
         self.samples += 1;
         let needs_tcp = self.path.tcp.is_some() || self.goal.tcp.is_some();
         let tcp_error_m = if needs_tcp { self.tcp.error_m(setpoint.q, sample) } else { 0.0 };
-        self.path.observe(&self.kinds, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
+        self.path.observe_joints(&self.kinds, setpoint.q, sample);
+        self.path.observe_tcp(tcp_error_m, self.tcp.tip, sample);
         let since_s = self.rest_detector.take(setpoint.q, sample.time_s);
         if let Some(since_s) = since_s {
             self.observe_rest(since_s, setpoint.q, sample);
@@ -249,7 +249,8 @@ impl Monitor for TrackingMonitor {
             watch.observe(f64::INFINITY, setpoint.q.len(), sample);
         }
         if sample.is_last {
-            self.goal.observe(&self.kinds, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
+            self.goal.observe_joints(&self.kinds, setpoint.q, sample);
+            self.goal.observe_tcp(tcp_error_m, self.tcp.tip, sample);
         }
     }
 

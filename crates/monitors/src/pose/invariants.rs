@@ -81,6 +81,7 @@ impl Monitor for InvariantsMonitor {
         self.samples += 1;
         for (link, (model, twin)) in sample.model.iter().zip(sample.twin).enumerate() {
             self.observe_rotation(model, link, sample);
+            // Quaternions that the physics integrates may drift from norm 1, and then describe no rotation.
             self.observe_rotation(&written_out(twin), link, sample);
         }
         for constraint in &self.constraints {

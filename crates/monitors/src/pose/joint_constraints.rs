@@ -30,6 +30,7 @@ impl JointConstraint {
         let joint_from_child = parent_from_joint.inv_mul(&parent_from_child);
         let (shift, turn) = (joint_from_child.translation.vector, joint_from_child.rotation);
         let along = match kind {
+            // The shift along its own axis is the joint's coordinate, which no constraint limits.
             JointKind::Prismatic => axis_in_joint.dot(&shift),
             _ => 0.0,
         };

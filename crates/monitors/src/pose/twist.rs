@@ -148,6 +148,8 @@ impl Monitor for TwistMonitor {
             [(moved.linear - by_jacobian.linear).norm(), (moved.angular - by_jacobian.angular).norm()]
         };
         let errors = [of_the_step, of_the_step_before, of_two_instants].map(error);
+        // Sources differ in the instant of their velocities: that of the position, or the mean of a step. Any of them
+        // is consistent; a wrong Jacobian is near none.
         let [linear, angular] = nearest(errors, [self.linear.limit(), self.angular.limit()]);
         self.samples += 1;
         self.linear.observe(linear, self.tip.get(), sample);

@@ -55,15 +55,16 @@ pub(crate) fn examine_minimum(check: &ClearanceCheck, place: FilePlace<'_>) -> R
 
 /// Whether the pairs that a check names are those of the robot and of its obstacles.
 pub(crate) fn examine_pairs(
-    (pairs, ignore): (&[[String; 2]], &[[String; 2]]),
+    names: &PairNames,
     place: FilePlace<'_>,
-    (description, obstacles, mobility): (&RobotDescription, &[ObstacleSettings], &[ObstacleMobility]),
+    description: &RobotDescription,
+    obstacles: &[ObstacleSettings],
+    mobility: &[ObstacleMobility],
 ) -> Result<(), Diagnostic> {
     let links = description.robot.links().iter().map(|link| link.name.as_str());
     let subjects: Vec<&str> = links.chain(obstacles.iter().map(|obstacle| obstacle.name.as_str())).collect();
     let all = measured_pairs(description, mobility, PairChoice::Usual);
-    let measured: Vec<(&str, &str)> = all.iter().map(|pair| (subjects[pair.a], subjects[pair.b])).collect();
-    let names = PairNames { pairs: pairs.to_vec(), ignore: ignore.to_vec() };
+    let measured: Vec<[&str; 2]> = all.iter().map(|pair| [subjects[pair.a], subjects[pair.b]]).collect();
     let refused = names.examine(&subjects, &measured);
     refused.map_err(|fault| place.key(fault.key).item(fault.entry).mark(fault.diagnostic))
 }
@@ -89,7 +90,7 @@ impl ClearanceMonitor {
     /// Makes room for every pair, so that no sample after the first allocates.
     fn choose(&mut self, clearance: &Clearance, dof: usize) {
         let all = 0..clearance.pairs().len();
-        self.measured = all.clone().map(|pair| owned(clearance.names(pair))).collect();
+        self.measured = all.clone().map(|pair| clearance.names(pair).map(str::to_owned)).collect();
         let pairs = all.filter(|&pair| self.names.is_evaluated(clearance.names(pair)));
         self.pairs = pairs.map(|pair| EvaluatedPair { pair, below: watch(self.minimum_m, dof) }).collect();
         self.places = vec![None; self.measured.len()];
@@ -103,6 +104,7 @@ impl ClearanceMonitor {
     fn begin(&mut self, sample: &mut Sample<'_>) {
         self.choose(sample.clearance, sample.joints.truth.q.len());
         let places = &self.places;
+        // Once with an infinite threshold: a run in which all pairs stay far apart has a least distance, too.
         let nearest = sample.clearance.nearest_of(f64::INFINITY, |pair, _| places[pair].is_some());
         if let Some(Nearest { distance_m, pair }) = nearest {
             self.distance.observe(distance_m, pair, sample);
@@ -112,6 +114,8 @@ impl ClearanceMonitor {
     /// Only a smaller distance than this changes the report: touching is reported although no distance is below
     /// zero.
     fn threshold_m(&self) -> f64 {
+        // As long as nothing is violated, only what is nearer than the nearest so far changes the result. Then every
+        // pair below the limit gets an own measure.
         let worst_m = self.distance.worst().unwrap_or(f64::INFINITY);
         if self.distance.is_violated() { self.minimum_m } else { worst_m.max(self.minimum_m) }
     }
@@ -119,10 +123,10 @@ impl ClearanceMonitor {
 
 /// Remarks on pairs that are ignored or chosen by name.
 pub(super) fn notes_on(names: &PairNames, measured: &[[String; 2]]) -> Vec<String> {
-    let all: Vec<(&str, &str)> = measured.iter().map(|[a, b]| (a.as_str(), b.as_str())).collect();
-    let listed = |chosen: &dyn Fn((&str, &str)) -> bool| {
+    let all: Vec<[&str; 2]> = measured.iter().map(|pair| pair.each_ref().map(String::as_str)).collect();
+    let listed = |chosen: &dyn Fn([&str; 2]) -> bool| {
         let chosen = all.iter().filter(|&&pair| chosen(pair));
-        chosen.map(|(a, b)| format!("{a}--{b}")).collect::<Vec<_>>().join(", ")
+        chosen.map(|pair| pair.join("--")).collect::<Vec<_>>().join(", ")
     };
     let mut notes = Vec::new();
     if all.is_empty() {
@@ -143,10 +147,6 @@ pub(super) fn notes_on(names: &PairNames, measured: &[[String; 2]]) -> Vec<Strin
     notes
 }
 
-pub(super) fn owned((a, b): (&str, &str)) -> [String; 2] {
-    [a.to_owned(), b.to_owned()]
-}
-
 fn watch(minimum_m: f64, dof: usize) -> Watch {
     Watch::new(Quantity::Distance, SiUnit::Metre, BOUND, minimum_m, dof)
 }
@@ -161,6 +161,7 @@ impl Monitor for ClearanceMonitor {
         let limit_m = |pair: usize| {
             let Some(place) = self.places[pair] else { return f64::NEG_INFINITY };
             let worst_m = self.pairs[place].below.worst();
+            // After a violation a pair matters only if it becomes worse than its own worst.
             worst_m.filter(|_| is_violated).unwrap_or(threshold_m)
         };
         self.found.clear();
@@ -173,6 +174,7 @@ impl Monitor for ClearanceMonitor {
                 self.pairs[place].below.observe(distance_m, pair, sample);
             }
         }
+        // Of pairs at the same distance the first counts, so that the reported name does not depend on the search.
         let by_distance = |a: &&Nearest, b: &&Nearest| a.distance_m.total_cmp(&b.distance_m);
         if let Some(nearest) = self.found.iter().min_by(by_distance) {
             self.distance.observe(nearest.distance_m, nearest.pair, sample);

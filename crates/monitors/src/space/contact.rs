@@ -5,7 +5,7 @@ use congruent_input::{Quantity, SiUnit};
 use congruent_proximity::{Clearance, PairNames};
 use congruent_scenario::ContactCheck;
 
-use super::clearance::{notes_on, owned};
+use super::clearance::notes_on;
 use crate::{
     CheckContext, Names,
     monitor::{Monitor, Observed},
@@ -72,7 +72,7 @@ impl ContactMonitor {
 
     fn choose(&mut self, clearance: &Clearance) {
         let all = 0..clearance.pairs().len();
-        self.measured = all.clone().map(|pair| owned(clearance.names(pair))).collect();
+        self.measured = all.clone().map(|pair| clearance.names(pair).map(str::to_owned)).collect();
         let chosen = all.filter(|&pair| self.names.is_evaluated(clearance.names(pair)));
         self.pairs = chosen.map(|pair| EvaluatedPair { pair, touch: TouchNow::None }).collect();
     }
@@ -124,6 +124,7 @@ impl Monitor for ContactMonitor {
                 self.pairs[at].touch = TouchNow::None;
                 continue;
             };
+            // The depth is costly, and only shapes that overlap have one.
             let signed_m = if distance_m > 0.0 { distance_m } else { sample.clearance.measure_signed(pair) };
             self.distance.observe(signed_m, pair, sample);
             threshold_m = threshold_m.min(distance_m.max(f64::MIN_POSITIVE));

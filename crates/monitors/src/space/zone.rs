@@ -36,6 +36,8 @@ impl ZoneMonitor {
     /// Remembers the pairs that touch now for the first time: no distance is below 0, so nothing can be worse.
     fn observe_touching(&mut self, sample: &mut Sample<'_>) {
         let (pairs, found) = (&self.pairs, &mut self.found);
+        // `next_up`: touching, a distance of exactly 0, is to be found by a search for what is below. A pair that has
+        // touched is known.
         let limit_m =
             |pair: usize| if pairs[pair].is_violated() { f64::NEG_INFINITY } else { OUTSIDE_M.next_up() };
         found.clear();
@@ -59,6 +61,8 @@ impl Monitor for ZoneMonitor {
             self.found.reserve(self.pairs.len());
         }
         self.samples += 1;
+        // The first contact decides. Afterwards no distance can be less than 0, and only pairs that have not touched
+        // are new.
         if !self.distance.is_violated() {
             let threshold_m = self.distance.worst().unwrap_or(f64::INFINITY);
             if let Some(nearest) = sample.zones.nearest_below(threshold_m) {

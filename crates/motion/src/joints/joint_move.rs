@@ -21,8 +21,9 @@ pub(crate) fn plan(settings: &JointMotion, planning: &mut Planning<'_>) -> Resul
         }
         target.put(robot, &mut to);
     }
+    // After all targets, which may name a master later than its follower.
     robot.apply_mimic(&mut to);
-    match straight(to, (settings.profile, settings.duration_s), planning) {
+    match straight(to, settings.profile, settings.duration_s, planning) {
         Ok(motion) => {
             planning.warnings.extend(beyond);
             Ok(motion)
@@ -35,7 +36,8 @@ pub(crate) fn plan(settings: &JointMotion, planning: &mut Planning<'_>) -> Resul
 /// A straight line in joint space from the start of the motion to `to`, over a duration or in the least time.
 pub(crate) fn straight(
     to: RobotQ,
-    (profile, duration_s): (Profile, Option<f64>),
+    profile: Profile,
+    duration_s: Option<f64>,
     planning: &mut Planning<'_>,
 ) -> Result<Motion, Diagnostic> {
     let time_scaling = if let Some(duration_s) = duration_s {

@@ -21,9 +21,12 @@ pub(crate) fn plan(settings: &JointPathMotion, planning: &mut Planning<'_>) -> R
     let total_s = times_s[times_s.len() - 1];
     let knots: Vec<f64> = times_s.iter().map(|time_s| time_s / total_s).collect();
     let spline = JointSpline::new(&knots, &points, SplineEnds::Rest);
+    // Times in proportion are enough for the shape; the duration follows from it below.
     let is_given = settings.duration_s.is_some() || !settings.at_s.is_empty();
     let duration_s = if is_given { total_s } else { least_s(&spline, planning) };
+    // Before the limits of speed: a path that leaves the range is wrong at any duration.
     check_positions(&spline, duration_s, planning, |_, _| String::new())?;
+    // Linear, since the spline over the share is itself at rest at both ends.
     let time_scaling = TimeScaling::Shape { profile: Profile::Linear, duration_s };
     let to = points[points.len() - 1].clone();
     let planned =
@@ -43,6 +46,7 @@ fn points(settings: &JointPathMotion, planning: &mut Planning<'_>) -> Result<Vec
     ];
     let given: Vec<usize> = groups.iter().map(|group| group.len()).filter(|&count| count > 0).collect();
     let count = given.first().copied().unwrap_or(0);
+    // Each group has all points: entries of one point are at the same place in each list.
     if count == 0 || given.iter().any(|&other| other != count) {
         let error =
             Diagnostic::error("scenario::path_points", "the path has no points, or lists of unequal length");
@@ -51,6 +55,7 @@ fn points(settings: &JointPathMotion, planning: &mut Planning<'_>) -> Result<Vec
     }
     let (mut points, none) = (vec![planning.from.clone()], BTreeMap::new());
     for point in 0..count {
+        // Joints that a point does not name stay where the point before has them.
         let mut q = points[point].clone();
         for target in JointTargets::of_point(settings, point, &none).resolve(robot, planning.place)? {
             if let Some(message) = target.beyond_limits(robot, "target") {
@@ -77,7 +82,9 @@ fn times(
     let place = planning.place.key("at_s");
     let refused = |message: String| place.mark(Diagnostic::error("scenario::path_times", message));
     if settings.duration_s.is_some() {
-        return Err(refused("`at_s` and `duration_s` exclude each other: remove one of them".to_owned()));
+        return Err(refused(
+            "`at_s` and `duration_s` cannot be given together: remove one of them".to_owned(),
+        ));
     }
     let (times, count) = (settings.at_s.len(), points.len() - 1);
     if times != count {
@@ -86,8 +93,11 @@ fn times(
     let mut all = vec![0.0];
     for (index, &time_s) in settings.at_s.iter().enumerate() {
         if !(time_s.is_finite() && time_s > all[index]) {
-            let message =
-                format!("time {} is {time_s} s, limit > {} s, the time before", index + 1, all[index]);
+            let message = format!(
+                "time {} is {time_s} s, but must be later than {} s, the time before",
+                index + 1,
+                all[index]
+            );
             let error = Diagnostic::error("scenario::path_times", message);
             let help = "times count from the start of the motion, and each must be later than the one before";
             return Err(place.item(index).mark(error.with_help(help)));
@@ -117,6 +127,7 @@ fn spaced(
             Some(_) => changes().fold(0.0, f64::max),
             None => changes().zip(velocity).map(|(change, limit)| change / limit).fold(0.0, f64::max),
         };
+        // The path has one point only, so the message of a move applies.
         if longest == 0.0 && duration_s.is_none() && points.len() == 2 {
             return Err(nothing_moves(planning));
         }
@@ -161,6 +172,7 @@ pub(super) fn check_positions(
     let mut outside = None;
     // Points beyond the limits have a warning of their own, so that only overshoot between points is refused here.
     let is_outside = |joint: usize, q: f64| {
+        // 1e-9: rounding of the spline at a point that lies on the limit.
         joints[joint].position_range().is_some_and(|(lower, upper)| q < lower - 1e-9 || q > upper + 1e-9)
     };
     let points_inside = |joint: usize| {

@@ -26,7 +26,7 @@ pub(crate) fn plan(settings: &PlaybackMotion, planning: &mut Planning<'_>) -> Re
     let robot = &planning.description.robot;
     let path = planning.folder.path.join(&settings.play_csv);
     let source = read_table(planning.folder.access, &path, MOST_BYTES);
-    let table = source.and_then(|source| JointTable::read(&source, (robot, planning.limits), planning.from));
+    let table = source.and_then(|source| JointTable::read(&source, planning));
     let JointTable { times_s, mut points, places } =
         table.map_err(|fault| if fault.source.is_none() { place.mark(fault) } else { fault })?;
     for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
@@ -44,6 +44,7 @@ pub(crate) fn plan(settings: &PlaybackMotion, planning: &mut Planning<'_>) -> Re
             return Err(place.mark(error.with_help(help)));
         }
     }
+    // Within `SAME_PLACE`, so the setpoint starts without even that jump.
     points[0].clone_from(planning.from);
     let duration_s = times_s[times_s.len() - 1];
     let shares: Vec<f64> = times_s.iter().map(|time_s| time_s / duration_s).collect();

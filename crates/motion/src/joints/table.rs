@@ -16,7 +16,7 @@ use congruent_tables::{
     run_columns::{POSITION, TIME, is_other_quantity},
 };
 
-use crate::MotionLimits;
+use crate::planning::Planning;
 
 /// Largest table that is read.
 pub(super) const MOST_BYTES: u64 = 256 << 20;
@@ -49,6 +49,7 @@ impl TablePlaces {
     /// The end of a message: the lines before and after an instant, and the column of a joint.
     pub(super) fn between(&self, joint: usize, next: usize) -> String {
         let column = self.column(joint);
+        // A time before the first or after the last row is between the two nearest ones.
         let next = next.clamp(1, self.lines.len().max(2) - 1);
         match self.lines.get(next - 1..=next) {
             Some([before, after]) => format!(" (between lines {before} and {after}{column})"),
@@ -70,30 +71,24 @@ struct PositionColumn {
 }
 
 impl JointTable {
-    /// Reads a table; joints without a column stay where `from` has them.
+    /// Reads a table; joints without a column stay where the motion before has left them.
     ///
     /// # Errors
     /// A column or a number is wrong, times do not increase, or a joint would have to move
     /// faster than its limit from one row to the next.
-    pub(super) fn read(
-        source: &Arc<SourceFile>,
-        (robot, limits): (&Robot, &MotionLimits),
-        from: &RobotQ,
-    ) -> Result<Self, Diagnostic> {
-        Self::parse(source, (robot, limits), from).map_err(|fault| fault.in_file(source))
+    pub(super) fn read(source: &Arc<SourceFile>, planning: &Planning<'_>) -> Result<Self, Diagnostic> {
+        Self::parse(source, planning).map_err(|fault| fault.in_file(source))
     }
 
-    fn parse(
-        source: &SourceFile,
-        (robot, limits): (&Robot, &MotionLimits),
-        from: &RobotQ,
-    ) -> Result<Self, Diagnostic> {
+    fn parse(source: &SourceFile, planning: &Planning<'_>) -> Result<Self, Diagnostic> {
+        let robot = &planning.description.robot;
         let no_header = || Diagnostic::error(CODE, "the table has no header").at(0..0);
         let Table { header, rows } = Table::read(&source.text, CODE).ok_or_else(no_header)?;
         let time = header.names().position(|name| name == TIME);
         let time = time.ok_or_else(|| fault(&header, format!("the table has no column {TIME}")))?;
         let columns = columns(&header, robot)?;
         let names = |coordinate: usize| {
+            // A follower's own column is ignored: messages name that of its master.
             let master = robot.joint(robot.movable_joints()[coordinate]).mimic.map(|mimic| mimic.master);
             let coordinate = master.and_then(|master| robot.coordinate(master)).unwrap_or(coordinate);
             let column = columns.iter().find(|column| column.coordinate == coordinate)?;
@@ -104,13 +99,15 @@ impl JointTable {
         for row in rows {
             let row = row?;
             let time_s = header.needed_number(CODE, &row, time)?;
-            let mut q = from.clone();
+            // Joints without a column stay where the motion begins.
+            let mut q = planning.from.clone();
             for column in &columns {
                 q[column.coordinate] = column.unit.to_si(header.needed_number(CODE, &row, column.cell)?);
             }
+            // Columns of followers are read and ignored: runs write them.
             robot.apply_mimic(&mut q);
             table.places.check_range(&row, &q, robot)?;
-            table.follow(&row, (time_s, &q), (robot, limits))?;
+            table.follow(&row, time_s, &q, planning)?;
             table.times_s.push(time_s);
             table.points.push(q);
             table.places.lines.push(row.line);
@@ -118,18 +115,15 @@ impl JointTable {
         if table.points.len() < 2 {
             return Err(fault(&header, "the table has fewer than two rows of positions".to_owned()));
         }
+        // Tables may begin at any time, as parts of a recording do.
         let first_s = table.times_s[0];
         table.times_s.iter_mut().for_each(|time_s| *time_s -= first_s);
         Ok(table)
     }
 
     /// Refuses a row that does not follow on the one before.
-    fn follow(
-        &self,
-        row: &Row,
-        (time_s, q): (f64, &RobotQ),
-        (robot, limits): (&Robot, &MotionLimits),
-    ) -> Result<(), Diagnostic> {
+    fn follow(&self, row: &Row, time_s: f64, q: &RobotQ, planning: &Planning<'_>) -> Result<(), Diagnostic> {
+        let (robot, limits) = (&planning.description.robot, planning.limits);
         let (Some(&before_s), Some(before)) = (self.times_s.last(), self.points.last()) else {
             return Ok(());
         };
@@ -208,6 +202,7 @@ fn columns(header: &Header, robot: &Robot) -> Result<Vec<PositionColumn>, Diagno
         if columns.iter().any(|known| known.coordinate == coordinate) {
             return Err(fault(header, format!("joint \"{}\" has two columns", joint.name)));
         }
+        // After the checks of its name and unit, which apply to a follower's column as well.
         if joint.mimic.is_none() {
             columns.push(PositionColumn { cell, coordinate, unit });
         }

@@ -17,12 +17,19 @@ pub(super) enum LegTiming {
     Duration { duration_s: f64, profile: Profile },
 }
 
+/// The keys of a line or an arc that are about its timing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WrittenTiming {
+    pub(super) speed_m_s: Option<f64>,
+    pub(super) duration_s: Option<f64>,
+    pub(super) profile: Option<Profile>,
+    pub(super) acceleration_m_s2: Option<f64>,
+    pub(super) jerk_m_s3: Option<f64>,
+}
+
 /// The timing by the speed or by the duration, whichever is given, with the keys that belong to it.
-pub(super) fn drive(
-    (speed_m_s, duration_s, profile): (Option<f64>, Option<f64>, Option<Profile>),
-    (acceleration_m_s2, jerk_m_s3): (Option<f64>, Option<f64>),
-    place: FilePlace<'_>,
-) -> Result<LegTiming, Diagnostic> {
+pub(super) fn drive(written: WrittenTiming, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
+    let WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 } = written;
     let refused = |key: &str, message: &str, help: &str| {
         let error = Diagnostic::error("scenario::path_speed", message).with_help(help);
         Err(place.key(key).mark(error))
@@ -48,7 +55,7 @@ pub(super) fn drive(
         }
         (None, None) => refused("", "the motion has no speed", "give `speed_m_s`, or `duration_s`"),
         (Some(_), Some(_)) => {
-            let message = "`speed_m_s` and `duration_s` exclude each other";
+            let message = "`speed_m_s` and `duration_s` cannot be given together";
             refused("duration_s", message, "remove one of them")
         }
     }
@@ -71,6 +78,7 @@ pub(super) fn blend_rates(before: &RateLimits, after: &RateLimits, corner_per_m:
     // The blend is p'' = a''(u) (t2 - t1) with u = s / (2 r) and a'' = 12 r (u - u^2), which is largest, 3 r, in the middle:
     // 3 r / (2 r)^2 = 3 / (4 r).
     let acceleration = before.acceleration.min(after.acceleration);
+    // Infinite for a straight junction.
     let fastest = (acceleration / (0.75 * corner_per_m)).sqrt();
     RateLimits {
         velocity: before.velocity.min(after.velocity).min(fastest),

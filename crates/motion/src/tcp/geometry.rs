@@ -48,6 +48,7 @@ impl TcpPath {
 
     /// The segment at a length of the path.
     pub(super) fn segment_at(&self, length_m: f64) -> usize {
+        // A length behind the last end, by rounding, is on the last segment.
         self.ends_m.partition_point(|&end_m| end_m < length_m).min(self.ends_m.len() - 1)
     }
 
@@ -73,6 +74,7 @@ impl TcpPath {
     fn blended(&self, index: usize, from_corner_m: f64) -> Isometry3<f64> {
         let (first, second, radius_m) =
             (&self.segments[index], &self.segments[index + 1], self.blends_m[index]);
+        // From 0 to 1 over the blend, 1/2 at the corner.
         let t = ((from_corner_m + radius_m) / (2.0 * radius_m)).clamp(0.0, 1.0);
         let along_m = |t: f64| radius_m * t * t * t * (2.0 - t);
         let corner = second.at(0.0);

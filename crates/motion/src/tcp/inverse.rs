@@ -56,7 +56,8 @@ impl From<KinematicsError> for PathFailure {
 pub(super) fn along(
     path: &TcpPath,
     description: &RobotDescription,
-    (base_from_world, from): (&Isometry3<f64>, &RobotQ),
+    base_from_world: &Isometry3<f64>,
+    from: &RobotQ,
     part: TargetPart,
 ) -> Result<JointSpline, PathFailure> {
     let mut path_solver = PathSolver {
@@ -103,7 +104,8 @@ impl PathSolver<'_> {
     fn orientation_off(
         &mut self,
         share: f64,
-        (before, options): (&ArmQ, &IkOptions),
+        before: &ArmQ,
+        options: &IkOptions,
     ) -> Result<Option<(f64, Vector3<f64>)>, KinematicsError> {
         let target = IkTarget { part: TargetPart::Position, ..self.target(share) };
         let found = self.solver.solve(&target, before, options, || true)?;
@@ -141,7 +143,7 @@ impl PathSolver<'_> {
             }
             let intervals = (self.intervals(first, end) * denser).ceil();
             let until = self.path.ends_m()[end - 1] / self.path.length_m();
-            let (knots, points) = self.solve((start.0, until), intervals, &start.1)?;
+            let (knots, points) = self.solve(start.0, until, intervals, &start.1)?;
             start = (until, points[points.len() - 1].clone());
             parts.push(JointSpline::new(&knots, &points, SplineEnds::Parabola));
             first = end;
@@ -152,7 +154,8 @@ impl PathSolver<'_> {
     /// Configurations at equal distances from one share of the path to another.
     fn solve(
         &mut self,
-        (start, until): (f64, f64),
+        start: f64,
+        until: f64,
         intervals: f64,
         from: &RobotQ,
     ) -> Result<(Vec<f64>, Vec<RobotQ>), PathFailure> {
@@ -183,7 +186,7 @@ impl PathSolver<'_> {
                     length_and_angle(found.residual_position_m, found.residual_orientation_rad);
                 let held = found.limits_held.to_vec();
                 let limits_held = held.into_iter().map(|joint| self.name(joint)).collect();
-                let off = self.orientation_off(share, (&before, &options))?;
+                let off = self.orientation_off(share, &before, &options)?;
                 return Err(PathFailure::OutOfReach { at_m, smallest_error, limits_held, off });
             }
             let now = found.q.clone();

@@ -14,7 +14,7 @@ use congruent_scenario::{
 use nalgebra::{Isometry3, Vector3};
 
 use super::{
-    drive::{LegTiming, blend_rates, drive, rates},
+    drive::{LegTiming, WrittenTiming, blend_rates, drive, rates},
     geometry::TcpPath,
     inverse::{PathFailure, along},
     segment::Segment,
@@ -68,7 +68,7 @@ pub(crate) fn plan(
     let places = planning.place;
     planning.place = places.item(first);
     let world_from_base = world_from_base(planning)?;
-    let legs = legs(motions, (places, first), (planning, &world_from_base))?;
+    let legs = legs(motions, places, first, planning, &world_from_base)?;
     check(&legs)?;
     let part = part(motions, planning.place)?;
     planning.warnings.extend(legs.iter().filter_map(Leg::slower_on_arc));
@@ -77,7 +77,7 @@ pub(crate) fn plan(
     let ends: Vec<usize> = legs.iter().map(|leg| leg.motion).collect();
     let places_of_legs: Vec<FilePlace<'_>> = legs.iter().map(|leg| leg.place).collect();
     let path = TcpPath::new(legs.into_iter().map(|leg| (leg.segment, leg.blend_m)).collect());
-    let spline = along(&path, planning.description, (&world_from_base.inverse(), planning.from), part);
+    let spline = along(&path, planning.description, &world_from_base.inverse(), planning.from, part);
     let spline = Arc::new(spline.map_err(|stop| refused(stop, &path, &places_of_legs))?);
     let whole = PlannedMove {
         to: end_of(&spline, 1.0, planning.from.len()),
@@ -96,7 +96,7 @@ pub(crate) fn plan(
             error.with_help(format!("{help}; joints are fast if the tool is fast or near a singularity"))
         })?;
     planning.place = places;
-    Ok(split(&whole, &spline, (&path, &ends)))
+    Ok(split(&whole, &spline, &path, &ends))
 }
 
 /// Whether the orientation is controlled as well: the same for motions that blend, and without a rotation if it is free.
@@ -127,15 +127,12 @@ fn part(motions: &[MotionSettings], place: FilePlace<'_>) -> Result<TargetPart, 
 }
 
 /// The motions of one path, each from the end of the one before: all share the path and its time scaling.
-fn split(
-    whole: &PlannedMove,
-    spline: &JointSpline,
-    (path, motion_of_leg): (&TcpPath, &[usize]),
-) -> Vec<Motion> {
+fn split(whole: &PlannedMove, spline: &JointSpline, path: &TcpPath, motion_of_leg: &[usize]) -> Vec<Motion> {
     let count = motion_of_leg.last().map_or(0, |last| last + 1);
     let mut begins_s = 0.0;
     let mut motions = Vec::with_capacity(count);
     for motion in 0..count {
+        // A `path_tcp` has several legs, and ends with the last of them.
         let last_leg = motion_of_leg.iter().rposition(|&of| of == motion).unwrap_or(0);
         let share = path.ends_m()[last_leg] / path.length_m();
         let is_last = motion + 1 == count;
@@ -168,8 +165,10 @@ fn world_from_base(planning: &Planning<'_>) -> Result<Isometry3<f64>, Diagnostic
 /// All lines and arcs of a group.
 fn legs<'a>(
     motions: &[MotionSettings],
-    (places, first): (FilePlace<'a>, usize),
-    (planning, world_from_base): (&Planning<'_>, &Isometry3<f64>),
+    places: FilePlace<'a>,
+    first: usize,
+    planning: &Planning<'_>,
+    world_from_base: &Isometry3<f64>,
 ) -> Result<Vec<Leg<'a>>, Diagnostic> {
     let model = |error: congruent_kinematics::KinematicsError| {
         planning.place.mark(Diagnostic::error("scenario::path", error.to_string()))
@@ -246,12 +245,12 @@ fn arc_of(arc: &ArcMotion, before: &Isometry3<f64>, place: FilePlace<'_>) -> Res
 
 fn line_drive(line: &LineMotion, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
     let LineMotion { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3, .. } = *line;
-    drive((speed_m_s, duration_s, profile), (acceleration_m_s2, jerk_m_s3), place)
+    drive(WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 }, place)
 }
 
 fn arc_drive(arc: &ArcMotion, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
     let ArcMotion { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3, .. } = *arc;
-    drive((speed_m_s, duration_s, profile), (acceleration_m_s2, jerk_m_s3), place)
+    drive(WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 }, place)
 }
 
 fn path_drive(path: &TcpPathMotion) -> LegTiming {
@@ -305,6 +304,7 @@ fn time_scaling(legs: &[Leg<'_>]) -> TimeScaling {
     }
     let path = TcpPath::new(legs.iter().map(|leg| (leg.segment.clone(), leg.blend_m)).collect());
     let rates: Vec<RateLimits> = legs.iter().filter_map(Leg::rates).collect();
+    // Segments without their blends, and each blend as a stretch of its own with lower limits.
     let mut stretches = Vec::with_capacity(2 * legs.len());
     let mut blended_m = 0.0;
     for (index, (leg, limits)) in legs.iter().zip(&rates).enumerate() {

@@ -14,11 +14,11 @@ pub(super) struct Segment {
     /// The rotation from its start to its end, as axis times angle in the frame of the start.
     turn: Vector3<f64>,
     length_m: f64,
-    curve: Curve,
+    curve: SegmentCurve,
 }
 
 #[derive(Debug, Clone)]
-enum Curve {
+enum SegmentCurve {
     Line { direction: Vector3<f64> },
     Arc { centre: Point3<f64>, normal: Unit<Vector3<f64>>, radius_m: f64 },
 }
@@ -34,7 +34,7 @@ impl Segment {
         } else {
             (turn.norm(), Vector3::zeros())
         };
-        Self { from, turn, length_m, curve: Curve::Line { direction } }
+        Self { from, turn, length_m, curve: SegmentCurve::Line { direction } }
     }
 
     /// The arc of the circle through `via`; `None` if the three points are on a line.
@@ -57,7 +57,11 @@ impl Segment {
             libm::atan2(out.cross(&back).dot(&normal), out.dot(&back)).rem_euclid(std::f64::consts::TAU);
         let radius_m = from_start.norm();
         let line = Self::line(from, to);
-        Some(Self { length_m: radius_m * angle_rad, curve: Curve::Arc { centre, normal, radius_m }, ..line })
+        Some(Self {
+            length_m: radius_m * angle_rad,
+            curve: SegmentCurve::Arc { centre, normal, radius_m },
+            ..line
+        })
     }
 
     pub(super) fn length_m(&self) -> f64 {
@@ -71,14 +75,14 @@ impl Segment {
     /// Radius of curvature; infinity for a line.
     pub(super) fn radius_m(&self) -> f64 {
         match self.curve {
-            Curve::Line { .. } => f64::INFINITY,
-            Curve::Arc { radius_m, .. } => radius_m,
+            SegmentCurve::Line { .. } => f64::INFINITY,
+            SegmentCurve::Arc { radius_m, .. } => radius_m,
         }
     }
 
     /// Whether the segment is a pure rotation.
     pub(super) fn is_turn_alone(&self) -> bool {
-        matches!(self.curve, Curve::Line { direction } if direction == Vector3::zeros())
+        matches!(self.curve, SegmentCurve::Line { direction } if direction == Vector3::zeros())
     }
 
     /// Pose of the tool at a length along the segment; the rotation is in proportion to the length.
@@ -86,8 +90,8 @@ impl Segment {
         let share = if self.length_m > 0.0 { length_m / self.length_m } else { 1.0 };
         let rotation = self.from.rotation * UnitQuaternion::from_scaled_axis(self.turn * share);
         let position = match &self.curve {
-            Curve::Line { direction } => self.from.translation.vector + direction * length_m,
-            Curve::Arc { centre, normal, radius_m } => {
+            SegmentCurve::Line { direction } => self.from.translation.vector + direction * length_m,
+            SegmentCurve::Arc { centre, normal, radius_m } => {
                 let turn = UnitQuaternion::from_axis_angle(normal, length_m / radius_m);
                 centre.coords + turn * (self.from.translation.vector - centre.coords)
             }
@@ -98,8 +102,8 @@ impl Segment {
     /// Unit tangent at a length along the segment; zero for a pure rotation.
     pub(super) fn direction_at(&self, length_m: f64) -> Vector3<f64> {
         match &self.curve {
-            Curve::Line { direction } => *direction,
-            Curve::Arc { centre, normal, radius_m } => {
+            SegmentCurve::Line { direction } => *direction,
+            SegmentCurve::Arc { centre, normal, radius_m } => {
                 normal.cross(&(self.at(length_m).translation.vector - centre.coords)) / *radius_m
             }
         }

@@ -13,12 +13,13 @@ const ATTEMPTS: usize = 64;
 
 pub(crate) fn plan(settings: &TcpMotion, planning: &mut Planning<'_>) -> Result<Motion, Diagnostic> {
     let to = reach(&settings.move_tcp, planning)?;
-    straight(to, (settings.profile, settings.duration_s), planning)
+    straight(to, settings.profile, settings.duration_s, planning)
 }
 
 /// The arm that moves the tool, and the target in its base frame: a pose, or a position if no rotation is given.
 pub(super) fn target(
-    (pose, place): (&PoseSettings, FilePlace<'_>),
+    pose: &PoseSettings,
+    place: FilePlace<'_>,
     planning: &Planning<'_>,
 ) -> Result<(Arm, IkTarget), Diagnostic> {
     let part = if pose.has_rotation() { TargetPart::Pose } else { TargetPart::Position };
@@ -26,6 +27,7 @@ pub(super) fn target(
     let no_arm = |error| no_arm(&error, place);
     let description = planning.description;
     let tree = UrdfTree::new(&description.robot);
+    // At the start of the motion: joints before the base do not move with it.
     let world_from_base = tree.root_from_link(planning.from, description.base).map_err(no_arm)?;
     let arm = Arm::from_description(description).map_err(no_arm)?;
     Ok((arm, IkTarget { base_from_tcp: world_from_base.inverse() * world_from_tcp, part }))
@@ -34,9 +36,10 @@ pub(super) fn target(
 /// The solution of inverse kinematics that is nearest to the start of the motion.
 fn reach(pose: &PoseSettings, planning: &Planning<'_>) -> Result<RobotQ, Diagnostic> {
     let place = planning.place.key("move_tcp");
-    let (arm, target) = target((pose, place), planning)?;
+    let (arm, target) = target(pose, place, planning)?;
     let start = arm.from_robot(planning.from);
     let mut solver = IkSolver::new(arm);
+    // Nearest of several solutions: the first one found may turn a wrist by a whole turn.
     let found = solver.solve_nearest(&target, &start, &IkOptions::default(), ATTEMPTS);
     let found = found.map_err(|error| no_arm(&error, place))?;
     if !found.converged {
@@ -51,6 +54,7 @@ fn reach(pose: &PoseSettings, planning: &Planning<'_>) -> Result<RobotQ, Diagnos
         return Err(place.mark(Diagnostic::error("scenario::out_of_reach", message).with_help(help)));
     }
     let q = found.q.clone();
+    // Joints outside the arm keep their positions.
     let mut to = planning.from.clone();
     solver.arm().write_to_robot(&q, &mut to);
     planning.description.robot.apply_mimic(&mut to);

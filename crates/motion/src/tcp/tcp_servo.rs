@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::tcp_move;
-use crate::{Motion, MotionLimits, MotionPlan, TcpServo, planning::Planning};
+use crate::{Motion, MotionLimits, MotionPlan, TcpServo, motion_plan::SetpointMut, planning::Planning};
 
 /// Default gain, 1/s: an error falls to 1/e in 0.2 s.
 pub const DEFAULT_GAIN_PER_S: f64 = 5.0;
@@ -37,7 +37,7 @@ pub struct ServoResult {
 
 pub(crate) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -> Result<Motion, Diagnostic> {
     let place = planning.place.key("servo_tcp");
-    let (_, target) = tcp_move::target((&settings.servo_tcp, place), planning)?;
+    let (_, target) = tcp_move::target(&settings.servo_tcp, place, planning)?;
     let servo = TcpServo {
         target,
         method: settings.method,
@@ -93,15 +93,17 @@ impl<'a> ServoController<'a> {
         servo: &TcpServo,
         measured_q: &RobotQ,
         StepInterval { step_s, moved_s }: StepInterval,
-        (q, qd): (&mut RobotQ, &mut [f64]),
+        SetpointMut { q, qd, .. }: SetpointMut<'_>,
     ) -> Result<(), KinematicsError> {
+        // The motion is over: its last step may end after it, with the setpoint at rest.
         if moved_s <= 0.0 {
             qd.fill(0.0);
             return Ok(());
         }
         self.copy_arm(measured_q, q);
-        let (arm_q, method) = ((&self.measured, &self.commanded), differential_method(servo.method));
-        self.change.copy_from_slice(self.solver.change_towards(&servo.target, arm_q, method)?.change);
+        let method = differential_method(servo.method);
+        let step = self.solver.change_towards(&servo.target, &self.measured, &self.commanded, method)?;
+        self.change.copy_from_slice(step.change);
         // The solution of de/dt = -gain e over this time: no overshoot, whatever the gain.
         let share = -libm::expm1(-servo.gain_per_s * moved_s);
         let joints = self.solver.arm().joints();
@@ -112,6 +114,7 @@ impl<'a> ServoController<'a> {
             let at = joint.coordinate;
             share * change.abs() / (velocity[at].min(declared_acceleration[at] / servo.gain_per_s) * moved_s)
         };
+        // One factor for all joints keeps the direction of the tool.
         let slower = joints.iter().zip(&self.change).map(times_too_fast).fold(1.0, f64::max);
         for change in &mut self.change {
             *change = share * *change / slower;
@@ -131,6 +134,7 @@ impl<'a> ServoController<'a> {
         self.robot.apply_mimic(q);
         // From the positions, after clamping and mimic joints, so that velocity and position of the setpoint agree.
         for ((qd, q), before) in qd.iter_mut().zip(q.iter()).zip(&self.before) {
+            // By the whole step, in which a motion that ends early stands still for the rest.
             *qd = (q - before) / step_s;
         }
         Ok(())
@@ -145,8 +149,8 @@ impl<'a> ServoController<'a> {
         q: &RobotQ,
     ) -> Result<ServoResult, KinematicsError> {
         self.copy_arm(measured_q, q);
-        let (arm_q, method) = ((&self.measured, &self.commanded), differential_method(servo.method));
-        let step = self.solver.change_towards(&servo.target, arm_q, method)?;
+        let method = differential_method(servo.method);
+        let step = self.solver.change_towards(&servo.target, &self.measured, &self.commanded, method)?;
         let (position_m, orientation_rad) = (step.residual_position_m, step.residual_orientation_rad);
         let held = step.limits_held.to_vec();
         let joints = self.solver.arm().joints();

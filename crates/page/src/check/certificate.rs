@@ -14,7 +14,7 @@ use nalgebra::Isometry3;
 use super::checked_robot::CheckedRobot;
 use crate::{
     parts::{Pointer, value},
-    picture::{Arm, Figure, PictureBody, Skeleton, TwoArms, shapes},
+    picture::{DrawnArm, Figure, PictureBody, Skeleton, TwoArms, shapes},
 };
 
 /// The section on certificates: attained difference and certified bound, with a picture of the arm there.
@@ -41,8 +41,8 @@ fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
                         th scope="row" { (certificate.title) }
                         @match &certificate.brackets {
                             Some(brackets) => {
-                                td data-label="largest found" { (both(brackets, &at, (|of| of.attained, "attained"))) }
-                                td data-label="certified" { (both(brackets, &at, (|of| of.certified, "certified"))) }
+                                td data-label="largest found" { (both(brackets, &at, "attained", |of| of.attained)) }
+                                td data-label="certified" { (both(brackets, &at, "certified", |of| of.certified)) }
                             }
                             None => { td colspan="2" { "no bound: a joint has no limits, or its motion is not a pure screw motion" } }
                         }
@@ -60,7 +60,7 @@ fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
 }
 
 /// A value of both brackets, by its name in the report.
-fn both(brackets: &Brackets, at: &Pointer, (of, key): (fn(&ReportedBracket) -> f64, &str)) -> Markup {
+fn both(brackets: &Brackets, at: &Pointer, key: &str, of: fn(&ReportedBracket) -> f64) -> Markup {
     let (metres, radians) = (of(&brackets.position_m), of(&brackets.orientation_rad));
     html! {
         (value(&at.keys(&["position_m", key]), metres, &length(metres))) " and "
@@ -95,6 +95,7 @@ fn drawn_at(robot: &CheckedRobot<'_>) -> Option<DrawnAt> {
     for (joint, value) in worst.at.iter() {
         q[structure.coordinate(structure.find_joint(joint)?)?] = value;
     }
+    // Zero may be outside the limits of a joint that the worst does not name.
     move_inside_limits(&mut q, structure);
     let pair = comparisons.iter().find(|of| of.worst == *worst).map_or(SourcePair::ModelUrdf, |of| of.name);
     Some(DrawnAt { q, pair, what: "Where the largest difference was found" })
@@ -105,7 +106,7 @@ fn picture(robot: &CheckedRobot<'_>) -> Markup {
     let DrawnAt { q, pair, what } = &drawn;
     let description = robot.description;
     let Some(urdf) = poses_by_urdf(description, q) else { return html! {} };
-    let arm = |class: &'static str, name: &str, of: &RobotDescription, poses: &[Isometry3<f64>]| Arm {
+    let arm = |class: &'static str, name: &str, of: &RobotDescription, poses: &[Isometry3<f64>]| DrawnArm {
         class,
         name: name.to_owned(),
         skeleton: Skeleton::new(&of.robot, poses, of.tip),
@@ -123,6 +124,7 @@ fn picture(robot: &CheckedRobot<'_>) -> Markup {
         _ => {}
     }
     let tips: Vec<_> = arms.iter().map(|arm| arm.skeleton.tip.translation.vector).collect();
+    // With one arm there is no window, and the distance is 0.
     let tips_apart_m = tips.windows(2).map(|tips| (tips[0] - tips[1]).norm()).fold(0.0, f64::max);
     let bodies = shapes(&description.robot, &urdf).into_iter();
     let bodies = bodies.map(|(_, points)| PictureBody::shape(points)).collect();

@@ -6,7 +6,7 @@ use congruent_input::display::{angle, length};
 use congruent_kinematics::PoseError;
 use maud::{Markup, html};
 
-use crate::parts::{Outcome, Pointer, badge, value};
+use crate::parts::{BadgeKind, Pointer, badge, value};
 
 /// The section on poses; `at` is the place of the report in the document.
 pub(super) fn comparisons(report: &CheckReport, at: &Pointer) -> Markup {
@@ -34,7 +34,7 @@ pub(super) fn comparisons(report: &CheckReport, at: &Pointer) -> Markup {
 
 fn row(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup {
     let agrees = comparison.verdict == Agreement::Agree;
-    let (outcome, word) = if agrees { (Outcome::Good, "agree") } else { (Outcome::Bad, "disagree") };
+    let (outcome, word) = if agrees { (BadgeKind::Good, "agree") } else { (BadgeKind::Bad, "disagree") };
     html! {
         tr {
             th scope="row" { (comparison.title) }

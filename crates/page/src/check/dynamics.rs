@@ -5,7 +5,7 @@ use congruent_input::display::number;
 use maud::{Markup, html};
 
 use super::checked_robot::CheckedRobot;
-use crate::parts::{Outcome, Pointer, badge, changed, value};
+use crate::parts::{BadgeKind, Pointer, badge, changed, value};
 
 /// Values of a cause that are shown; the report has all.
 const SHOWN: usize = 10;
@@ -29,7 +29,8 @@ pub(super) fn dynamics(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
 }
 
 fn compared(report: &DynamicsReport, at: &Pointer) -> Markup {
-    let (outcome, word) = if report.agrees() { (Outcome::Good, "agree") } else { (Outcome::Bad, "disagree") };
+    let (outcome, word) =
+        if report.agrees() { (BadgeKind::Good, "agree") } else { (BadgeKind::Bad, "disagree") };
     let percent = format!("{} %", number(100.0 * report.difference_relative));
     html! {
         div.card.(outcome.class()) {

@@ -10,7 +10,7 @@ use maud::{Markup, html};
 use super::{
     certificate::certificate, checked_robot::CheckedRobot, comparisons::comparisons, dynamics::dynamics,
 };
-use crate::parts::{Outcome, Pointer, badge, count, diagnosis, document, value, warnings};
+use crate::parts::{BadgeKind, Pointer, badge, count, diagnosis, document, value, warnings};
 
 /// One input of a check with its result.
 #[derive(Debug, Clone)]
@@ -23,22 +23,24 @@ pub struct CheckEntry<'a> {
 
 /// The page over all inputs, the worst first.
 pub fn check_page(entries: &[CheckEntry<'_>]) -> String {
+    // A single robot needs no table, and its values are at the root of the report.
     if let [CheckEntry { result: Ok(robot), .. }] = entries {
         let body = one(robot, &Pointer::root());
         let title = format!("{}: {}", robot.geometry.robot, outcome(robot.geometry).1);
         return document(&title, &body, None);
     }
     let mut order: Vec<usize> = (0..entries.len()).collect();
+    // Inputs without a report first, since `false` comes before `true`; then by outcome, from bad to good.
     order.sort_by_key(|&entry| (entries[entry].result.is_ok(), entry_outcome(&entries[entry]).0));
-    let disagree = entries.iter().filter(|entry| entry_outcome(entry).0 != Outcome::Good).count();
+    let disagree = entries.iter().filter(|entry| entry_outcome(entry).0 != BadgeKind::Good).count();
     let title = format!("{} robots checked", entries.len());
     let body = html! {
         header {
             p.kind { "Do the descriptions agree?" }
             h1 { (title) }
             p.verdict {
-                @if disagree == 0 { (badge(Outcome::Good, "ALL AGREE")) }
-                @else { (badge(Outcome::Bad, &format!("{disagree} OF {} DO NOT AGREE", entries.len()))) }
+                @if disagree == 0 { (badge(BadgeKind::Good, "ALL AGREE")) }
+                @else { (badge(BadgeKind::Bad, &format!("{disagree} OF {} DO NOT AGREE", entries.len()))) }
             }
         }
         (table(entries, &order))
@@ -84,15 +86,15 @@ fn largest(report: &CheckReport) -> String {
     length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad)
 }
 
-fn entry_outcome(entry: &CheckEntry<'_>) -> (Outcome, &'static str) {
-    entry.result.as_ref().map_or((Outcome::Bad, "NOT CHECKED"), |robot| outcome(robot.geometry))
+fn entry_outcome(entry: &CheckEntry<'_>) -> (BadgeKind, &'static str) {
+    entry.result.as_ref().map_or((BadgeKind::Bad, "NOT CHECKED"), |robot| outcome(robot.geometry))
 }
 
-fn outcome(report: &CheckReport) -> (Outcome, &'static str) {
+fn outcome(report: &CheckReport) -> (BadgeKind, &'static str) {
     match report.verdict {
-        Agreement::Agree => (Outcome::Good, "AGREE"),
-        Agreement::Disagree => (Outcome::Bad, "DISAGREE"),
-        Agreement::NothingCompared => (Outcome::Unclear, "NOTHING COMPARED"),
+        Agreement::Agree => (BadgeKind::Good, "AGREE"),
+        Agreement::Disagree => (BadgeKind::Bad, "DISAGREE"),
+        Agreement::NothingCompared => (BadgeKind::Unclear, "NOTHING COMPARED"),
     }
 }
 

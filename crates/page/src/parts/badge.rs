@@ -4,13 +4,13 @@ use maud::{Markup, html};
 
 /// Result of a check or a run, which chooses sign and colour of its badge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Outcome {
+pub(crate) enum BadgeKind {
     Bad,
     Unclear,
     Good,
 }
 
-impl Outcome {
+impl BadgeKind {
     /// The class in the style sheet.
     pub(crate) fn class(self) -> &'static str {
         match self {
@@ -30,7 +30,7 @@ impl Outcome {
 }
 
 /// The word with its sign.
-pub(crate) fn badge(outcome: Outcome, word: &str) -> Markup {
+pub(crate) fn badge(outcome: BadgeKind, word: &str) -> Markup {
     html! {
         span.badge.(outcome.class()) { span.sign aria-hidden="true" { (outcome.sign()) } " " (word) }
     }

@@ -17,6 +17,7 @@ pub(crate) fn marked(finding: &Diagnostic) -> Markup {
     else {
         return html! {};
     };
+    // A finding may end with the line break before the next line, which is not meant.
     let marked = source.text.get(span.clone()).map_or(1, |text| text.trim_end().lines().count().max(1));
     let last = first + marked.min(MOST_LINES) - 1;
     let shown = (first.saturating_sub(AROUND).max(1))..=(last + AROUND);

@@ -8,7 +8,7 @@ mod plot;
 mod value;
 mod warnings;
 
-pub(crate) use badge::{Outcome, badge};
+pub(crate) use badge::{BadgeKind, badge};
 pub(crate) use diagnosis::diagnosis;
 pub(crate) use document::document;
 pub(crate) use lines::changed;

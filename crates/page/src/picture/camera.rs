@@ -9,12 +9,12 @@ const DIRECTIONS: u32 = 24;
 
 /// A parallel projection from the root link's frame (m) to the plane of the picture (m).
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Camera {
+pub(crate) struct FigureCamera {
     right: Vector3<f64>,
     up: Vector3<f64>,
 }
 
-impl Camera {
+impl FigureCamera {
     fn from_azimuth(azimuth_rad: f64) -> Self {
         let (sin, cos) = libm::sincos(azimuth_rad);
         let (sin_up, cos_up) = libm::sincos(ELEVATION_RAD);
@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn a_line_is_drawn_in_side_view() {
         let line = [Point3::origin(), Point3::new(0.0, 2.0, 0.0)];
-        let camera = Camera::showing(&[line]);
+        let camera = FigureCamera::showing(&[line]);
         let projected = camera.project(&line[1]) - camera.project(&line[0]);
         assert!((projected.norm() - 2.0).abs() < 1e-12, "{projected}");
         let up = camera.project(&Point3::new(0.0, 0.0, 1.0));

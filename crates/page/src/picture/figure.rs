@@ -5,14 +5,14 @@ use maud::{Markup, html};
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
 use super::{
-    camera::Camera,
+    camera::FigureCamera,
     skeleton::Skeleton,
     svg::{self, Canvas, Style},
 };
 
 /// An arm, with its name in the legend.
 #[derive(Debug, Clone)]
-pub(crate) struct Arm {
+pub(crate) struct DrawnArm {
     /// Class in the style sheet: `twin` or `model`.
     pub(crate) class: &'static str,
     pub(crate) name: String,
@@ -45,7 +45,7 @@ impl PictureBody {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Figure {
     pub(crate) bodies: Vec<PictureBody>,
-    pub(crate) arms: Vec<Arm>,
+    pub(crate) arms: Vec<DrawnArm>,
     /// Path of the tool centre point, in the root link's frame. Unit: m.
     pub(crate) path: Vec<Point3<f64>>,
 }
@@ -96,7 +96,7 @@ impl Figure {
         Some(self.drawn(&camera, &canvas, title))
     }
 
-    fn camera(&self) -> Camera {
+    fn camera(&self) -> FigureCamera {
         let lines = self.arms.iter().flat_map(|arm| arm.skeleton.links.iter().copied());
         // The difference of two tips counts as much as a link, unless it is rounding.
         let tips: Vec<Point3<f64>> =
@@ -104,9 +104,10 @@ impl Figure {
         let path_segments = self.path.windows(2).map(|points| [points[0], points[1]]);
         let apart = tips.windows(2).filter_map(|tips| {
             let direction = (tips[1] - tips[0]).try_normalize(DRAWN_M)?;
+            // A fixed length: the difference itself may be far too short to influence the view.
             Some([tips[0], tips[0] + direction * 0.3])
         });
-        Camera::showing(&lines.chain(path_segments).chain(apart).collect::<Vec<_>>())
+        FigureCamera::showing(&lines.chain(path_segments).chain(apart).collect::<Vec<_>>())
     }
 
     /// Points that the picture must contain, in the root link's frame. Unit: m.
@@ -116,10 +117,11 @@ impl Figure {
         arms.chain(shapes.flat_map(|body| body.points.iter().copied())).chain(self.path.iter().copied())
     }
 
-    fn drawn(&self, camera: &Camera, canvas: &Canvas, title: &str) -> Markup {
+    fn drawn(&self, camera: &FigureCamera, canvas: &Canvas, title: &str) -> Markup {
         let at = |point: &Point3<f64>| canvas.at(&camera.project(point));
         let outline =
             |points: &[Point3<f64>]| canvas.outline(points.iter().map(|point| camera.project(point)));
+        // Axes and frames have a size of the picture, not of the robot.
         let unit = canvas.width_m();
         let content = html! {
             @for body in &self.bodies {

@@ -5,5 +5,5 @@ mod figure;
 mod skeleton;
 mod svg;
 
-pub(crate) use figure::{Arm, Figure, PictureBody, TwoArms};
+pub(crate) use figure::{DrawnArm, Figure, PictureBody, TwoArms};
 pub(crate) use skeleton::{Skeleton, corners, shapes};

@@ -69,6 +69,7 @@ impl Canvas {
             points.iter().copied().max_by(|a, b| a.coords.dot(&along).total_cmp(&b.coords.dot(&along)))
         };
         let mut corners: Vec<Point2<f64>> = directions.filter_map(farthest).collect();
+        // Neighbouring directions often find the same corner.
         corners.dedup();
         corners
     }

@@ -5,7 +5,7 @@ use congruent_monitors::verdict::{Bound, CheckResult, Measure, Moment, Status};
 use congruent_results::report::{RunReport, limit_words, margin_words, quantity_words, worst_moment};
 use maud::{Markup, html};
 
-use crate::parts::{Outcome, Pointer, badge, value};
+use crate::parts::{BadgeKind, Pointer, badge, value};
 
 /// Quantities of a check that are in the table; the report has all, as of every pair below a clearance.
 const MOST_MEASURES: usize = 12;
@@ -56,9 +56,9 @@ fn rows(check: &CheckResult, at: &Pointer) -> Markup {
 
 fn name(check: &CheckResult) -> Markup {
     let outcome = match check.status {
-        Status::Pass => Outcome::Good,
-        Status::Fail | Status::Error => Outcome::Bad,
-        Status::Skipped => Outcome::Unclear,
+        Status::Pass => BadgeKind::Good,
+        Status::Fail | Status::Error => BadgeKind::Bad,
+        Status::Skipped => BadgeKind::Unclear,
     };
     html! {
         th scope="row" { (check.check) @if check.is_default { span.small { " (default)" } } @if let Some(line) = check.line { span.small { " line " (line) } } }

@@ -8,7 +8,7 @@ use congruent_results::report::RunReport;
 use congruent_scenario::Expectation;
 use maud::{Markup, html};
 
-use crate::parts::{Outcome, Pointer, badge, count, value};
+use crate::parts::{BadgeKind, Pointer, badge, count, value};
 
 /// Files of the results that may be there, with what they are. The first two are written before the page.
 const FILES: [(&str, &str); 6] = [
@@ -23,13 +23,13 @@ const FILES: [(&str, &str); 6] = [
 const LATER: [&str; 2] = ["report.json", "junit.xml"];
 
 /// Whether a run went well, in a word.
-pub(crate) fn outcome(report: &RunReport) -> (Outcome, &'static str) {
+pub(crate) fn outcome(report: &RunReport) -> (BadgeKind, &'static str) {
     match (report.verdict, &report.expected) {
-        (Verdict::AsExpected, Expectation::Pass) => (Outcome::Good, "PASS"),
-        (Verdict::AsExpected, Expectation::Fail { .. }) => (Outcome::Good, "PASS (expected failure)"),
-        (Verdict::NotAsExpected, _) => (Outcome::Bad, "FAIL"),
-        (Verdict::NothingChecked, _) => (Outcome::Unclear, "NOTHING CHECKED"),
-        (Verdict::Broken, _) => (Outcome::Bad, "BROKEN"),
+        (Verdict::AsExpected, Expectation::Pass) => (BadgeKind::Good, "PASS"),
+        (Verdict::AsExpected, Expectation::Fail { .. }) => (BadgeKind::Good, "PASS (expected failure)"),
+        (Verdict::NotAsExpected, _) => (BadgeKind::Bad, "FAIL"),
+        (Verdict::NothingChecked, _) => (BadgeKind::Unclear, "NOTHING CHECKED"),
+        (Verdict::Broken, _) => (BadgeKind::Bad, "BROKEN"),
     }
 }
 
@@ -37,6 +37,7 @@ pub(crate) fn outcome(report: &RunReport) -> (Outcome, &'static str) {
 pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
     let (outcome, word) = outcome(report);
     let (clock, at) = (report.simulation, Pointer::root().key("simulation"));
+    // Those files do not exist yet, but will when the page is read.
     let is_there = |name: &str| LATER.contains(&name) || folder.join(name).exists();
     html! {
         header {

@@ -22,8 +22,8 @@ pub(super) fn charts(report: &RunReport, run: &RunContent) -> Plots {
         errors(Quantity::Position, report, run),
         errors(Quantity::Orientation, report, run),
         distances(report, run),
-        tracking("tracking_angle", ("deg", 1_f64.to_degrees()), report, run),
-        tracking("tracking_shift", ("mm", 1e3), report, run),
+        tracking("tracking_angle", "deg", 1_f64.to_degrees(), report, run),
+        tracking("tracking_shift", "mm", 1e3, report, run),
     ];
     charts.extend(joints::charts(run));
     charts.retain(|chart| !chart.lines.is_empty());
@@ -69,7 +69,7 @@ fn errors(quantity: Quantity, report: &RunReport, run: &RunContent) -> Chart {
         let hidden = largest == 0.0 || (is_urdf && has_table && !is_worst(name));
         lines.push((largest, PlotLine { name: name.clone(), values, hidden, ..PlotLine::default() }));
     }
-    // The largest first; of equal ones in the order of the robot.
+    // Those shown come first, then the largest; of equal ones in the order of the robot.
     lines.sort_by(|(a, x), (b, y)| x.hidden.cmp(&y.hidden).then(b.total_cmp(a)));
     let mut lines: Vec<PlotLine> = lines.into_iter().map(|(_, line)| line).collect();
     lines.iter_mut().skip(SHOWN).for_each(|line| line.hidden = true);
@@ -93,7 +93,7 @@ fn distances(report: &RunReport, run: &RunContent) -> Chart {
 }
 
 /// Tracking errors of the joints with this unit.
-fn tracking(id: &str, (unit, scale): (&'static str, f64), report: &RunReport, run: &RunContent) -> Chart {
+fn tracking(id: &str, unit: &'static str, scale: f64, report: &RunReport, run: &RunContent) -> Chart {
     let robot = &run.description.robot;
     let kinds = robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind);
     let of_unit = kinds.enumerate().filter(|(_, kind)| kind.is_angular() == (unit == "deg"));
@@ -104,6 +104,7 @@ fn tracking(id: &str, (unit, scale): (&'static str, f64), report: &RunReport, ru
         Some((high.max(-low), PlotLine { name, values, ..PlotLine::default() }))
     };
     let mut lines: Vec<(f32, PlotLine)> = of_unit.filter_map(|(joint, _)| line(joint)).collect();
+    // The largest first: only the first ones are shown before others are chosen.
     lines.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     let mut lines: Vec<PlotLine> = lines.into_iter().map(|(_, line)| line).collect();
     lines.iter_mut().skip(SHOWN).for_each(|line| line.hidden = true);

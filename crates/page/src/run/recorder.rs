@@ -6,7 +6,7 @@ use std::{
 };
 
 use congruent_description::Tolerance;
-use congruent_monitors::{Recorder, RecordingError, Sample};
+use congruent_monitors::{Recorder, RecordingError, RunClock, Sample};
 use congruent_results::{IfIncomplete, Recording, RecordingFormat, report::RunReport};
 use congruent_scenario::Check;
 use congruent_twin::{Run, RunSetup};
@@ -29,7 +29,7 @@ impl RecordingFormat for PageFormat {
 
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
         let setup = run.setup();
-        let clock = (setup.clock.step_s, setup.clock.steps);
+        let RunClock { step_s, steps, .. } = setup.clock;
         Ok(Box::new(PageRecorder {
             path: path.to_owned(),
             run: RunContent {
@@ -38,7 +38,7 @@ impl RecordingFormat for PageFormat {
                 obstacles: setup.obstacles.clone(),
                 obstacles_move: !setup.bodies.is_empty(),
                 zones: setup.zones.iter().map(|zone| zone.space.clone()).collect(),
-                series: RunSeries::new(&setup.description, tolerance(setup), clock),
+                series: RunSeries::new(&setup.description, tolerance(setup), step_s, steps),
             },
         }))
     }

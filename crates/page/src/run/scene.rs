@@ -11,10 +11,11 @@ use maud::{Markup, html};
 use nalgebra::Isometry3;
 
 use super::content::RunContent;
-use crate::picture::{Arm, Figure, PictureBody, Skeleton, TwoArms, corners, shapes};
+use crate::picture::{DrawnArm, Figure, PictureBody, Skeleton, TwoArms, corners, shapes};
 
 /// The section with the picture of the arm, its caption and its legend.
 pub(super) fn scene(report: &RunReport, run: &RunContent) -> Markup {
+    // Without poses of that moment there is still the picture of model and twin.
     let violated = violation(report).and_then(|found| Some((found, poses(run, found.2)?)));
     let picture = match violated {
         Some(((check, measure, moment), poses)) => at_violation(check, measure, moment, &poses, run),
@@ -69,6 +70,7 @@ fn at_violation(
 fn subjects<'a>(subject: &'a str, robot: &'a Robot) -> Vec<&'a str> {
     let joint_values =
         robot.find_joint(subject).map(|joint| robot.link(robot.joint(joint).child).name.as_str());
+    // The name of a pair is that of both of its subjects, joined by `--`.
     subject.split("--").chain(joint_values).collect()
 }
 
@@ -91,10 +93,10 @@ fn moving(run: &RunContent) -> &'static str {
     if run.obstacles_move { " Obstacles are where they are at the start." } else { "" }
 }
 
-fn arm(class: &'static str, name: &str, poses: &[Isometry3<f64>], run: &RunContent) -> Arm {
+fn arm(class: &'static str, name: &str, poses: &[Isometry3<f64>], run: &RunContent) -> DrawnArm {
     let description = &run.description;
     let skeleton = Skeleton::new(&description.robot, poses, description.tip);
-    Arm { class, name: name.to_owned(), skeleton }
+    DrawnArm { class, name: name.to_owned(), skeleton }
 }
 
 /// Obstacles, zones, and the shapes of the arm; those that a check found are marked.

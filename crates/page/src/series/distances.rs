@@ -1,5 +1,6 @@
 //! The smallest distances over time. They are measured now and then: an exact distance costs more than a physics step.
 
+use congruent_monitors::Sample;
 use congruent_proximity::{Clearance, Nearest};
 
 use super::{
@@ -17,13 +18,13 @@ const ROOM: usize = 1000;
 
 /// The smallest distance at some instants, and between which two.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Distances {
+pub(crate) struct NearestSeries {
     times_s: Vec<f32>,
     values_m: Vec<f32>,
     pairs: Vec<usize>,
 }
 
-impl Distances {
+impl NearestSeries {
     fn with_capacity(rows: usize) -> Self {
         Self {
             times_s: Vec::with_capacity(rows),
@@ -66,8 +67,8 @@ impl Distances {
 pub(crate) struct NearestOverTime {
     /// Steps between two measurements.
     stride: u64,
-    pub(crate) clearance: Distances,
-    pub(crate) zones: Distances,
+    pub(crate) clearance: NearestSeries,
+    pub(crate) zones: NearestSeries,
 }
 
 impl NearestOverTime {
@@ -75,21 +76,16 @@ impl NearestOverTime {
     pub(crate) fn new(step_s: f64, steps: u64) -> Self {
         Self {
             stride: stride(step_s, steps),
-            clearance: Distances::with_capacity(ROOM),
-            zones: Distances::with_capacity(ROOM),
+            clearance: NearestSeries::with_capacity(ROOM),
+            zones: NearestSeries::with_capacity(ROOM),
         }
     }
 
     /// Measures at this instant, if the stride has come to it.
-    pub(crate) fn observe(
-        &mut self,
-        (step, is_last, time_s): (u64, bool, f64),
-        clearance: &mut Clearance,
-        zones: &mut Clearance,
-    ) {
-        if step.is_multiple_of(self.stride) || is_last {
-            self.clearance.look(time_s, clearance);
-            self.zones.look(time_s, zones);
+    pub(crate) fn observe(&mut self, sample: &mut Sample<'_>) {
+        if sample.step.is_multiple_of(self.stride) || sample.is_last {
+            self.clearance.look(sample.time_s, sample.clearance);
+            self.zones.look(sample.time_s, sample.zones);
         }
     }
 }

@@ -75,17 +75,13 @@ pub(crate) struct RunSeries {
     tip_from_tcp: Isometry3<f64>,
     buckets: Buckets,
     pub(crate) nearest: NearestOverTime,
-    pub(crate) tcp_path: ThinnedPath,
+    pub(crate) tcp_path: DrawnPath,
     pub(crate) largest: LargestDifference,
 }
 
 impl RunSeries {
     /// Series before the first sample of a run of this number of steps.
-    pub(crate) fn new(
-        description: &RobotDescription,
-        tolerance: Tolerance,
-        (step_s, steps): (f64, u64),
-    ) -> Self {
+    pub(crate) fn new(description: &RobotDescription, tolerance: Tolerance, step_s: f64, steps: u64) -> Self {
         let robot = &description.robot;
         let (links, joints) = (robot.links().len(), robot.dof());
         let series = 2 * links + JOINT_QUANTITIES.len() * joints;
@@ -97,7 +93,7 @@ impl RunSeries {
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             buckets: Buckets::new(series, MOST_BUCKETS.min(MOST_VALUES / (2 * series))),
             nearest: NearestOverTime::new(step_s, steps),
-            tcp_path: ThinnedPath::default(),
+            tcp_path: DrawnPath::default(),
             largest: LargestDifference {
                 rank: [f64::NEG_INFINITY; 2],
                 time_s: 0.0,
@@ -124,7 +120,7 @@ impl RunSeries {
         let root_from_tcp = sample.twin[self.tip.get()] * self.tip_from_tcp;
         self.tcp_path.push(root_from_tcp.translation.vector.into());
         self.keep_largest(sample);
-        self.nearest.observe((sample.step, sample.is_last, time_s), sample.clearance, sample.zones);
+        self.nearest.observe(sample);
     }
 
     fn keep_largest(&mut self, sample: &Sample<'_>) {
@@ -189,20 +185,20 @@ impl RunSeries {
 
 /// A path of which every `stride`-th point is kept.
 #[derive(Debug)]
-pub(crate) struct ThinnedPath {
+pub(crate) struct DrawnPath {
     points: Vec<Point3<f64>>,
     stride: u64,
     pushed: u64,
     last: Point3<f64>,
 }
 
-impl Default for ThinnedPath {
+impl Default for DrawnPath {
     fn default() -> Self {
         Self { points: Vec::with_capacity(MOST_POINTS), stride: 1, pushed: 0, last: Point3::origin() }
     }
 }
 
-impl ThinnedPath {
+impl DrawnPath {
     fn push(&mut self, point: Point3<f64>) {
         self.last = point;
         if self.pushed.is_multiple_of(self.stride) {

@@ -67,10 +67,13 @@ impl MovingBodyState {
         if let Some((grasp, link_from_obstacle)) = self.held {
             self.world_from_obstacle = root_from_link(grasp.link) * link_from_obstacle;
         }
+        // Half open: at the instant of a handover only the next link holds it.
         let now = grasps.iter().find(|grasp| (grasp.from_s..grasp.until_s).contains(&time_s));
         match (now, self.held) {
             (Some(now), Some((held, _))) if *now == held => {}
             (Some(now), _) => {
+                // From the pose at this instant, which includes the motion under the grasp before: a handover has no
+                // jump.
                 let link_from_obstacle = root_from_link(now.link).inv_mul(&self.world_from_obstacle);
                 self.held = Some((*now, link_from_obstacle));
             }

@@ -44,12 +44,14 @@ pub struct Grasp {
 
 /// The pose on a path at a time.
 pub(super) fn on_path(path: &[PathPose], time_s: f64) -> Isometry3<f64> {
+    // Before the first pose `next` is 0, after the last one there is no next: both ends hold.
     let next = path.partition_point(|pose| pose.at_s <= time_s);
     let before = path[next.saturating_sub(1)];
     let Some(after) = path.get(next).filter(|_| next > 0) else { return before.world_from_obstacle };
     let share = (time_s - before.at_s) / (after.at_s - before.at_s);
     let (from, to) = (before.world_from_obstacle, after.world_from_obstacle);
     let position = from.translation.vector.lerp(&to.translation.vector, share);
+    // The shortest turn at constant speed; a blend of the quaternions would turn faster in the middle.
     let turn = from.rotation.rotation_to(&to.rotation).powf(share);
     Isometry3::from_parts(position.into(), turn * from.rotation)
 }

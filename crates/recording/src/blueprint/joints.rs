@@ -1,7 +1,7 @@
 //! Plots of the joints: positions beside the commanded ones, what lies between both, speeds and efforts beside their
 //! limits. Many joints are shown in groups, without those that do not move.
 
-use JointQuantity::{Deviation, Effort, Position, Velocity};
+use PlottedQuantity::{Deviation, Effort, Position, Velocity};
 use congruent_description::Robot;
 use congruent_input::SiUnit;
 use congruent_monitors::Names;
@@ -13,7 +13,7 @@ use super::{
 use crate::{
     outcome::joint_limits::NearLimit,
     rrd::paths,
-    series::extents::{JointExtents, width},
+    series::extents::{JointExtents, ValueRange},
 };
 
 /// From this number of joints on, those that do not move are left out.
@@ -36,7 +36,7 @@ pub(super) struct JointPlots<'a> {
 
 /// A kind of plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum JointQuantity {
+enum PlottedQuantity {
     /// Beside the commanded ones.
     Position,
     /// True minus commanded positions.
@@ -70,7 +70,7 @@ impl JointPlots<'_> {
     /// The joints of one unit, in the order of the tree: those that move, of an arm after those of another.
     fn groups(&self, unit: SiUnit) -> Vec<Vec<usize>> {
         let is_shown =
-            |joint: &usize| self.names.joints.len() < MANY || width(self.extents[*joint].position) > AT_REST;
+            |joint: &usize| self.names.joints.len() < MANY || self.extents[*joint].position.width() > AT_REST;
         let of_unit = (0..self.names.joints.len()).filter(|&joint| self.unit(joint) == unit);
         let shown: Vec<usize> = of_unit.filter(is_shown).collect();
         // Groups of nearly equal size: 8 joints are 4 and 4, not 7 and 1.
@@ -78,7 +78,7 @@ impl JointPlots<'_> {
         shown.chunks(shown.len().div_ceil(count).max(1)).map(<[usize]>::to_vec).collect()
     }
 
-    fn plot(&self, quantity: JointQuantity, group: &[usize], groups: usize) -> LayoutNode {
+    fn plot(&self, quantity: PlottedQuantity, group: &[usize], groups: usize) -> LayoutNode {
         let unit = group.first().map_or(SiUnit::Radian, |&joint| self.unit(joint));
         let title = match (quantity, unit) {
             (Position, _) => format!("Positions and commands (thin) [{unit}]"),
@@ -99,26 +99,26 @@ impl JointPlots<'_> {
         };
         let mut shown = entities(word(quantity), &mut group.iter().copied());
         // Positions go where they go; other values are held against 0 and against their limits.
-        let mut range = (-ROUNDING, ROUNDING);
+        let mut range = ValueRange { low: -ROUNDING, high: ROUNDING };
         if quantity == Position {
-            let is_commanded = |joint: &usize| self.extents[*joint].deviation.0.is_finite();
+            let is_commanded = |joint: &usize| self.extents[*joint].deviation.low.is_finite();
             shown.extend(entities("reference_position", &mut group.iter().copied().filter(is_commanded)));
             let is_misread = |joint: &usize| self.extents[*joint].is_misread;
             shown.extend(entities("measured_position", &mut group.iter().copied().filter(is_misread)));
         }
         for &joint in group {
-            range = union(range, extent_of(quantity, &self.extents[joint]));
+            range = range.union(extent_of(quantity, &self.extents[joint]));
         }
         for limit in self.limits(quantity, group) {
-            range = union(range, (limit.value, limit.value));
+            range = range.union(ValueRange { low: limit.value, high: limit.value });
             shown.push(paths::joint_limit(limit.quantity, &self.names.joints[limit.joint], limit.side));
         }
         let view = View::new("TimeSeries", title, paths::path(&[])).only(shown);
-        self.frame.plot(view, (quantity != Position).then_some(range))
+        self.frame.plot(view, (quantity != Position).then_some((range.low, range.high)))
     }
 
     /// The limits that are in the picture, each value once.
-    fn limits(&self, quantity: JointQuantity, group: &[usize]) -> Vec<NearLimit> {
+    fn limits(&self, quantity: PlottedQuantity, group: &[usize]) -> Vec<NearLimit> {
         let mut limits: Vec<NearLimit> = Vec::new();
         for limit in self.limits.iter().filter(|limit| limit.quantity == word(quantity)) {
             #[expect(clippy::float_cmp, reason = "one value of a file")]
@@ -132,7 +132,7 @@ impl JointPlots<'_> {
 }
 
 /// The word of a quantity in paths.
-fn word(quantity: JointQuantity) -> &'static str {
+fn word(quantity: PlottedQuantity) -> &'static str {
     match quantity {
         Position => "position",
         Deviation => "deviation",
@@ -141,7 +141,7 @@ fn word(quantity: JointQuantity) -> &'static str {
     }
 }
 
-fn extent_of(quantity: JointQuantity, extents: &JointExtents) -> (f64, f64) {
+fn extent_of(quantity: PlottedQuantity, extents: &JointExtents) -> ValueRange {
     match quantity {
         Position => extents.position,
         Deviation => extents.deviation,
@@ -151,11 +151,7 @@ fn extent_of(quantity: JointQuantity, extents: &JointExtents) -> (f64, f64) {
 }
 
 /// Positions always; of the others what is more than rounding.
-fn is_worth_a_plot(quantity: JointQuantity, extents: &JointExtents) -> bool {
-    let (low, high) = extent_of(quantity, extents);
+fn is_worth_a_plot(quantity: PlottedQuantity, extents: &JointExtents) -> bool {
+    let ValueRange { low, high } = extent_of(quantity, extents);
     quantity == Position || high.max(-low) > ROUNDING
-}
-
-fn union((low, high): (f64, f64), (other_low, other_high): (f64, f64)) -> (f64, f64) {
-    (low.min(other_low), high.max(other_high))
 }

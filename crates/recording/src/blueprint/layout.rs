@@ -314,7 +314,7 @@ impl ViewerLayout<'_> {
         violated.dedup_by_key(|&mut (_, number, _, measure)| (number, measure.quantity));
         let frame = self.frame();
         let plot = |(_, number, kind, measure): (f64, usize, CheckKind, &Measure)| {
-            let parts = path_parts(number, kind, (measure.quantity, measure.unit));
+            let parts = path_parts(number, kind, measure.quantity, measure.unit);
             // A quantity that is known only at the end of the run has no series to plot.
             if !self.recorded.contains(&parts) {
                 return None;

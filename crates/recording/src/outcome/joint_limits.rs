@@ -4,11 +4,11 @@ use congruent_description::{Joint, Robot};
 use congruent_input::{SiUnit, display::quantity};
 use congruent_monitors::{Names, RecordingError};
 
-use super::limit_lines::LimitLines;
+use super::limit_lines::{LimitLines, style};
 use crate::{
     rrd::{paths, writer::RrdWriter},
     scene::palette,
-    series::extents::JointExtents,
+    series::extents::{JointExtents, ValueRange},
 };
 
 /// A limit is in the picture if the values reach this part of it: a far one would press the curves flat.
@@ -31,7 +31,9 @@ pub(crate) struct NearLimit {
 pub(crate) fn near_limits(robot: &Robot, extents: &[JointExtents]) -> Vec<NearLimit> {
     let mut near = Vec::new();
     for (joint, (&index, extents)) in robot.movable_joints().iter().zip(extents).enumerate() {
-        for (quantity, (low, high)) in [("velocity", extents.velocity), ("effort", extents.effort)] {
+        for (quantity, ValueRange { low, high }) in
+            [("velocity", extents.velocity), ("effort", extents.effort)]
+        {
             let Some(limit) = limit_of(robot.joint(index), quantity) else { continue };
             // `low` is negative if the joint goes in the other direction: its distance from 0 is compared with the same
             // limit.
@@ -56,7 +58,8 @@ fn limit_of(joint: &Joint, quantity: &str) -> Option<f64> {
 pub(crate) fn write(
     writer: &mut RrdWriter,
     lines: &LimitLines,
-    (robot, names): (&Robot, &Names),
+    robot: &Robot,
+    names: &Names,
     limits: &[NearLimit],
 ) -> Result<(), RecordingError> {
     for limit in limits {
@@ -69,7 +72,7 @@ pub(crate) fn write(
         };
         let path = paths::joint_limit(limit.quantity, &names.joints[limit.joint], limit.side);
         let label = format!("limit {}", quantity(limit.value, unit.symbol()));
-        lines.write(writer, &path, (&label, palette::LIMIT, limit.value))?;
+        lines.write(writer, &path, &style(&label, palette::LIMIT), limit.value)?;
     }
     Ok(())
 }

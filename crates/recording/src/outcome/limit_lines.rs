@@ -16,7 +16,7 @@ use crate::{
         times::{SampleTime, SampleTimes},
         writer::RrdWriter,
     },
-    scene::palette,
+    scene::{palette, styles::line},
     series::{
         checks::path_parts,
         scalars::{log10, write_scalars},
@@ -25,6 +25,11 @@ use crate::{
 
 /// Width of a line at a limit on the screen.
 const WIDTH_UI_POINTS: f32 = 1.5;
+
+/// The style of a line at a limit.
+pub(super) fn style(name: &str, color: Color) -> SeriesLines {
+    line(name, color, WIDTH_UI_POINTS)
+}
 
 /// The times at which every line begins and ends.
 #[derive(Debug, Clone, Copy)]
@@ -38,15 +43,15 @@ impl LimitLines {
         Self { ends: [SampleTime::new(0.0, 0), end] }
     }
 
-    /// Writes a line with its name, its colour and its value.
+    /// Writes a line with its value.
     pub(crate) fn write(
         &self,
         writer: &mut RrdWriter,
         path: &EntityPath,
-        (name, color, value): (&str, Color, f64),
+        style: &SeriesLines,
+        value: f64,
     ) -> Result<(), RecordingError> {
-        let style = SeriesLines::new().with_names([name]).with_colors([color]).with_widths([WIDTH_UI_POINTS]);
-        writer.log_static(path, &style)?;
+        writer.log_static(path, style)?;
         let mut times = SampleTimes::default();
         self.ends.into_iter().for_each(|time| times.push(time));
         write_scalars(writer, path, &times.columns(), [value; 2].into_iter())
@@ -63,7 +68,7 @@ impl LimitLines {
                 // Further pairs of a check have the same limit.
                 let is_same = |before: &Measure| before.quantity == measure.quantity;
                 if !check.measures[..at].iter().any(is_same) {
-                    self.write_limit(writer, (number, check), measure)?;
+                    self.write_limit(writer, number, check, measure)?;
                 }
             }
         }
@@ -73,7 +78,8 @@ impl LimitLines {
     fn write_limit(
         &self,
         writer: &mut RrdWriter,
-        (number, check): (usize, &CheckResult),
+        number: usize,
+        check: &CheckResult,
         measure: &Measure,
     ) -> Result<(), RecordingError> {
         let Measure { quantity, unit, limit, .. } = *measure;
@@ -89,14 +95,14 @@ impl LimitLines {
             (CheckKind::Zone, _) => (paths::zone_limit(), "limit", palette::LIMIT),
             _ if measure.first_violation.is_none() => return Ok(()),
             _ => {
-                let [check, quantity] = path_parts(number, check.check, (quantity, unit));
+                let [check, quantity] = path_parts(number, check.check, quantity, unit);
                 (paths::check_limit(&check, &quantity), "limit", palette::LIMIT)
             }
         };
-        self.write(writer, &path, (name, color, limit))?;
+        self.write(writer, &path, &style(name, color), limit)?;
         if check.check == CheckKind::Agreement {
             let name = format!("{quantity} tolerance");
-            self.write(writer, &paths::worst_of_links(&name), (&name, color, log10(limit)))?;
+            self.write(writer, &paths::worst_of_links(&name), &style(&name, color), log10(limit))?;
         }
         Ok(())
     }

@@ -89,6 +89,8 @@ impl RecordingContent {
     pub(super) fn add_store(&mut self, store: &StoreId) {
         if store.is_blueprint() {
             self.has_layout = true;
+        // The first recording of the file is the one that counts. Files put together hold more; mixing their samples
+        // would show a run that never was.
         } else if self.recording.as_ref().is_none_or(|known| known == store) {
             self.recording = Some(store.clone());
         } else {

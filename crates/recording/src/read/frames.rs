@@ -24,14 +24,14 @@ pub(super) enum FileEnd {
 
 /// The frames of a file: headers, messages and footers.
 #[derive(Debug)]
-pub(super) struct Frames<F> {
+pub(super) struct FileFrames<F> {
     file: F,
     length: u64,
     position: u64,
     is_finished: bool,
 }
 
-impl<F: Read> Frames<F> {
+impl<F: Read> FileFrames<F> {
     /// Begins with a file of `length` bytes. The inner error says why it is not a recording.
     pub(super) fn begin(file: F, length: u64) -> io::Result<Result<Self, String>> {
         let mut frames = Self { file, length, position: 0, is_finished: false };
@@ -122,8 +122,8 @@ impl<F: Read> Frames<F> {
 mod tests {
     use super::*;
 
-    fn frames(bytes: &[u8]) -> Result<Frames<&[u8]>, String> {
-        Frames::begin(bytes, bytes.len() as u64).unwrap()
+    fn frames(bytes: &[u8]) -> Result<FileFrames<&[u8]>, String> {
+        FileFrames::begin(bytes, bytes.len() as u64).unwrap()
     }
 
     #[test]

@@ -26,7 +26,7 @@ use re_protos::log_msg::v1alpha1::log_msg::Msg;
 
 use self::{
     content::RecordingContent,
-    frames::{FileEnd, Frames},
+    frames::{FileEnd, FileFrames},
 };
 use crate::rrd::times::seconds;
 
@@ -115,7 +115,7 @@ fn read(path: &Path, content: &mut RecordingContent) -> Result<RecordingSummary,
         return Err(InspectError::Empty { path: path.to_owned() });
     }
     let file = BufReader::new(File::open(path).map_err(refused)?);
-    let mut frames = Frames::begin(file, metadata.len())
+    let mut frames = FileFrames::begin(file, metadata.len())
         .map_err(refused)?
         .map_err(|reason| InspectError::NotARecording { path: path.to_owned(), reason })?;
     let (position, end) = read_messages(&mut frames, content).map_err(refused)?;
@@ -132,7 +132,7 @@ fn read(path: &Path, content: &mut RecordingContent) -> Result<RecordingSummary,
 /// Adds the messages up to the end of the file or the first one that cannot be read. Returns why it is the last one, and
 /// its first byte.
 fn read_messages(
-    frames: &mut Frames<impl Read>,
+    frames: &mut FileFrames<impl Read>,
     content: &mut RecordingContent,
 ) -> io::Result<(u64, FileEnd)> {
     let mut applications = CachingApplicationIdInjector::default();

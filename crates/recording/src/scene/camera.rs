@@ -65,6 +65,7 @@ impl BoundingBox {
 
     /// Extends the box to the corners of another box at a pose.
     pub(crate) fn include_box(&mut self, other: &Self, world_from_other: &Isometry3<f64>) {
+        // An empty box has infinite corners, whose middle is NaN.
         if other.low.x > other.high.x {
             return;
         }
@@ -133,12 +134,14 @@ impl Camera {
     /// A camera that shows the robot's box, from the candidate azimuth from which obstacles hide the fewest
     /// points of the tool's path.
     pub(crate) fn framing(robot: BoundingBox, obstacles: &[Obstacle], path_in_world: &[Point3<f64>]) -> Self {
+        // A robot without shapes has no box to frame: an eye at arm's length shows the frames of its links.
         if robot.low.x > robot.high.x {
             let eye_in_world = Point3::new(1.5, -1.5, 1.0);
             return Self { eye_in_world, target_in_world: Point3::origin() };
         }
         let all = robot.with_obstacles(obstacles);
         let target_in_world = nalgebra::center(&all.low, &all.high);
+        // The sum has the direction of the mean. The robot's front is where its tool works.
         let sum = path_in_world.iter().fold(Vector3::zeros(), |sum: Vector3<f64>, point| sum + point.coords);
         let path_rad = if sum.xy().norm() > 0.0 { libm::atan2(sum.y, sum.x) } else { 0.0 };
         let (up, level) = libm::sincos(ELEVATION_RAD);
@@ -213,6 +216,8 @@ impl ThinnedPath {
             return;
         }
         self.skipped = 0;
+        // Every second one goes, and from now on half as many come: the points remain evenly spaced however long the
+        // run.
         if self.points.len() == MAX_POINTS {
             let mut is_kept = false;
             self.points.retain(|_| {

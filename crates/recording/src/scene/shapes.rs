@@ -68,6 +68,7 @@ fn link_visuals(robot: &Robot, inset_m: f64) -> impl Iterator<Item = VisualBody>
 /// An obstacle at its pose; at the origin if it moves, since its pose is recorded over time.
 fn placed(setup: &RunSetup, index: usize) -> Obstacle {
     let obstacle = setup.obstacles[index].clone();
+    // Its recorded poses place it, so that the shape is given in its own frame.
     if setup.bodies.iter().any(|body| body.obstacle == index) {
         return Obstacle { world_from_obstacle: Isometry3::identity(), ..obstacle };
     }
@@ -107,7 +108,8 @@ fn space_visual(space: &Obstacle, color: Color) -> VisualBody {
 /// Writes the names of obstacles and zones into the picture, each on top of the part that is in view.
 pub(crate) fn write_names(
     writer: &mut RrdWriter,
-    (obstacles, moving): (&[Obstacle], &[String]),
+    obstacles: &[Obstacle],
+    moving: &[String],
     zones: &[Obstacle],
     robot: BoundingBox,
 ) -> Result<(), RecordingError> {
@@ -119,10 +121,10 @@ pub(crate) fn write_names(
         } else {
             framed.top_of(obstacle)
         };
-        write_name(writer, &path, (&obstacle.name, top))?;
+        write_name(writer, &path, &obstacle.name, top)?;
     }
     for zone in zones {
-        write_name(writer, &paths::zone(&zone.name), (&zone.name, framed.top_of(zone)))?;
+        write_name(writer, &paths::zone(&zone.name), &zone.name, framed.top_of(zone))?;
     }
     Ok(())
 }
@@ -130,7 +132,8 @@ pub(crate) fn write_names(
 fn write_name(
     writer: &mut RrdWriter,
     path: &EntityPath,
-    (name, at): (&str, Point3<f64>),
+    name: &str,
+    at: Point3<f64>,
 ) -> Result<(), RecordingError> {
     let label = Points3D::new([vector(&at.coords)])
         .with_radii([Radius::new_ui_points(0.0)])
@@ -163,6 +166,7 @@ fn write_body(
     path: &EntityPath,
     coloring: Option<Coloring>,
 ) -> Result<(), RecordingError> {
+    // Shapes and colours have the same parts in the same order.
     let mut colors = coloring.map_or_else(Vec::new, |coloring| body.colors(path, coloring)).into_iter();
     for (path, mut parts) in body.shapes(path) {
         parts.extend(colors.next().into_iter().flat_map(|(_, colors)| colors));

@@ -56,13 +56,15 @@ pub(crate) fn write(
 pub(crate) fn write_measured(
     writer: &mut RrdWriter,
     robot: &Robot,
-    (number, name): (usize, &str),
+    number: usize,
+    name: &str,
 ) -> Result<(), RecordingError> {
     let index = robot.joint(robot.movable_joints()[number]).child.get();
     let style = line(&format!("{name}, measured"), palette::dim(index), WIDTH_UI_POINTS);
     writer.log_static(&paths::joint_value("measured_position", name), &style)
 }
 
-fn line(name: &str, color: Color, width: f32) -> SeriesLines {
+/// The style of a line of a plot, `width` in points of the screen.
+pub(crate) fn line(name: &str, color: Color, width: f32) -> SeriesLines {
     SeriesLines::new().with_names([name]).with_colors([color]).with_widths([width])
 }

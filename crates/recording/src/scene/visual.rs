@@ -76,6 +76,7 @@ impl VisualBody {
         for shape in shapes {
             let color = shape.color_rgba.map_or(default, color);
             let body_from_shape = &shape.link_from_shape;
+            // At most a tenth of it, so that a thin plate keeps some thickness.
             let inner = |half: f64| single(half - inset_m.min(half * MAX_INSET_FRACTION));
             match &shape.geometry {
                 Geometry::Box { size_m } => {
@@ -177,6 +178,7 @@ fn triangles(mesh: &Mesh, body_from_mesh: &Isometry3<f64>, inset_m: f64) -> Mesh
         }
     }
     for normal in &mut normals {
+        // A vertex of no triangle has no normal, and nothing shows which one it gets.
         *normal = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
     }
     let surface = vertices.iter().zip(&normals).map(|(vertex, normal)| vertex.coords - normal * inset_m);

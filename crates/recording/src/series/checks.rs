@@ -65,7 +65,7 @@ pub(crate) fn violating_link(value: &CheckValue, robot: &Robot) -> Option<usize>
 
 /// The two parts of a path that identify a quantity of a check, by its number from 0: kind with number, quantity with
 /// unit.
-pub(crate) fn path_parts(check: usize, kind: CheckKind, (quantity, unit): (Quantity, SiUnit)) -> [String; 2] {
+pub(crate) fn path_parts(check: usize, kind: CheckKind, quantity: Quantity, unit: SiUnit) -> [String; 2] {
     let unit = unit.symbol().replace([' ', '/'], "_");
     let quantity = if unit.is_empty() { quantity.name().to_owned() } else { format!("{quantity}_{unit}") };
     [format!("{}_{}", check + 1, kind.word()), quantity]
@@ -126,7 +126,7 @@ impl QuantityLine {
             is_new: true,
             times: SampleTimes::default(),
             values: Vec::new(),
-            path: path_parts(value.check, value.kind, (value.of.quantity, value.of.unit)),
+            path: path_parts(value.check, value.kind, value.of.quantity, value.of.unit),
             has_name: false,
             last: value.of.value,
         }

@@ -9,7 +9,7 @@ use congruent_proximity::Clearance;
 use super::{distance_line::DistanceLine, pairs::NEAR_M};
 use crate::{
     rrd::{paths, times::SampleTime, writer::RrdWriter},
-    scene::palette,
+    scene::{palette, styles::line},
 };
 
 /// The most pairs with a line of their own, so that the plot stays readable.
@@ -45,6 +45,7 @@ impl ClearanceSeries {
     /// Gives a pair a line of its own from this time on.
     fn follow(&mut self, pair: usize) {
         let number = self.pairs.len();
+        // The first that come near keep their lines: replacing them would break curves in the middle of the plot.
         if number < MAX_PAIRS {
             self.pairs.entry(pair).or_insert_with(|| DistanceLine::numbered(number));
         }
@@ -58,10 +59,11 @@ impl ClearanceSeries {
 
     /// Writes all rows and removes them.
     pub(crate) fn write(&mut self, writer: &mut RrdWriter, pairs: &[String]) -> Result<(), RecordingError> {
-        self.minimum.write(writer, &paths::clearance("minimum"), ("minimum", palette::NEUTRAL, 2.5))?;
-        for (&pair, line) in &mut self.pairs {
-            let (name, color) = (pairs[pair].as_str(), palette::link(line.number));
-            line.write(writer, &paths::clearance(name), (name, color, 1.2))?;
+        let style = line("minimum", palette::NEUTRAL, 2.5);
+        self.minimum.write(writer, &paths::clearance("minimum"), &style)?;
+        for (&pair, values) in &mut self.pairs {
+            let (name, color) = (pairs[pair].as_str(), palette::link(values.number));
+            values.write(writer, &paths::clearance(name), &line(name, color, 1.2))?;
         }
         Ok(())
     }

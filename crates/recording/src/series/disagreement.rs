@@ -54,6 +54,7 @@ impl AgreementLimits {
 
     /// Whether an error is outside the limits; NaN is.
     fn excludes(&self, error: &PoseError) -> bool {
+        // Both comparisons are false for NaN, so that its negation marks the link.
         let is_within = error.position_m <= self.position_m && error.orientation_rad <= self.orientation_rad;
         !is_within
     }

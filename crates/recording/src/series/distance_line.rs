@@ -2,7 +2,7 @@
 
 use congruent_monitors::RecordingError;
 use re_log_types::EntityPath;
-use re_sdk_types::{archetypes::SeriesLines, components::Color};
+use re_sdk_types::archetypes::SeriesLines;
 
 use super::scalars::write_scalars;
 use crate::rrd::{
@@ -32,19 +32,18 @@ impl DistanceLine {
         self.values.push(value);
     }
 
-    /// Writes the values and removes them; the first time also colour and width of the line.
+    /// Writes the values and removes them; the first time also the style of the line.
     pub(super) fn write(
         &mut self,
         writer: &mut RrdWriter,
         path: &EntityPath,
-        (name, color, width): (&str, Color, f32),
+        style: &SeriesLines,
     ) -> Result<(), RecordingError> {
         if self.times.is_empty() {
             return Ok(());
         }
         if !self.has_style {
-            let style = SeriesLines::new().with_names([name]).with_colors([color]).with_widths([width]);
-            writer.log_static(path, &style)?;
+            writer.log_static(path, style)?;
             self.has_style = true;
         }
         write_scalars(writer, path, &self.times.columns(), self.values.iter().copied())?;

@@ -4,23 +4,48 @@
 use congruent_kinematics::PoseError;
 use congruent_monitors::Sample;
 
+/// The smallest and the largest of some values.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ValueRange {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
+impl ValueRange {
+    /// Without a value: any value replaces both ends.
+    const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+
+    fn include(&mut self, value: Option<f64>) {
+        if let Some(value) = value.filter(|value| value.is_finite()) {
+            *self = self.union(Self { low: value, high: value });
+        }
+    }
+
+    /// The extent of both.
+    pub(crate) fn union(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// The distance between the ends; 0 if there is no value.
+    pub(crate) fn width(self) -> f64 {
+        (self.high - self.low).max(0.0)
+    }
+}
+
 /// The extents of one joint, rad or m.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct JointExtents {
     /// The smallest and the largest position.
-    pub(crate) position: (f64, f64),
+    pub(crate) position: ValueRange,
     /// The smallest and the largest velocity.
-    pub(crate) velocity: (f64, f64),
+    pub(crate) velocity: ValueRange,
     /// The smallest and the largest effort.
-    pub(crate) effort: (f64, f64),
+    pub(crate) effort: ValueRange,
     /// The smallest and the largest difference of the true position from the commanded one.
-    pub(crate) deviation: (f64, f64),
+    pub(crate) deviation: ValueRange,
     /// Whether the measured position was another than the true one.
     pub(crate) is_misread: bool,
 }
-
-/// Range without a value: any value replaces both ends.
-const NONE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 /// The extents of all joints and links.
 #[derive(Debug)]
@@ -34,8 +59,8 @@ pub(crate) struct Extents {
 impl Extents {
     /// Extents before the first sample.
     pub(crate) fn new(joints: usize, links: usize) -> Self {
-        let joint =
-            JointExtents { position: NONE, velocity: NONE, effort: NONE, deviation: NONE, is_misread: false };
+        let [position, velocity, effort, deviation] = [ValueRange::NONE; 4];
+        let joint = JointExtents { position, velocity, effort, deviation, is_misread: false };
         Self { joints: vec![joint; joints], links: vec![PoseError::default(); links] }
     }
 
@@ -46,10 +71,10 @@ impl Extents {
             (sample.joints.measured.q, sample.joints.setpoint.map_or(&[][..], |setpoint| &setpoint.q[..]));
         for (index, joint) in self.joints.iter_mut().enumerate() {
             let q = truth.q[index];
-            widen(&mut joint.position, Some(q));
-            widen(&mut joint.velocity, truth.qd.get(index).copied());
-            widen(&mut joint.effort, truth.effort.get(index).copied());
-            widen(&mut joint.deviation, commanded.get(index).map(|commanded| q - commanded));
+            joint.position.include(Some(q));
+            joint.velocity.include(truth.qd.get(index).copied());
+            joint.effort.include(truth.effort.get(index).copied());
+            joint.deviation.include(commanded.get(index).map(|commanded| q - commanded));
             // Any difference: an encoder without a fault reports the true position bit for bit.
             joint.is_misread |= (measured[index] - q).abs() > 0.0;
         }
@@ -58,15 +83,4 @@ impl Extents {
             largest.orientation_rad = largest.orientation_rad.max(error.orientation_rad);
         }
     }
-}
-
-fn widen((low, high): &mut (f64, f64), value: Option<f64>) {
-    if let Some(value) = value.filter(|value| value.is_finite()) {
-        (*low, *high) = (low.min(value), high.max(value));
-    }
-}
-
-/// The distance between the ends of a range; 0 if it is empty.
-pub(crate) fn width((low, high): (f64, f64)) -> f64 {
-    (high - low).max(0.0)
 }

@@ -44,7 +44,8 @@ impl JointSeries {
         &mut self,
         writer: &mut RrdWriter,
         times: &[TimeColumn],
-        (rows, joints): (usize, &[String]),
+        rows: usize,
+        joints: &[String],
     ) -> Result<(), RecordingError> {
         for (quantity, values) in QUANTITIES.into_iter().zip(&mut self.values) {
             if values.len() == rows * joints.len() {

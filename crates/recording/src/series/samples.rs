@@ -99,6 +99,7 @@ impl SampleBatch {
         }
         let times = self.times.columns();
         let links = names.links.len();
+        // Samples one after another, each with all links: every `links`-th entry is of this one.
         for (index, link) in names.links.iter().enumerate() {
             let twin = self.twin.iter().skip(index).step_by(links);
             writer.columns(&paths::twin(link), &times, transforms(twin)?)?;
@@ -119,7 +120,7 @@ impl SampleBatch {
             let q = self.q.iter().skip(index).step_by(names.joints.len()).copied();
             write_scalars(writer, &paths::joint_position(joint), &times, q)?;
         }
-        self.joints.write(writer, &times, (self.times.len(), &names.joints))?;
+        self.joints.write(writer, &times, self.times.len(), &names.joints)?;
         self.tcp.write(writer, &times)?;
         self.write_trail(writer, &times)?;
         self.clear();

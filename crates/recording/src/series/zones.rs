@@ -6,7 +6,7 @@ use congruent_proximity::Clearance;
 use super::distance_line::DistanceLine;
 use crate::{
     rrd::{paths, times::SampleTime, writer::RrdWriter},
-    scene::palette,
+    scene::{palette, styles::line},
 };
 
 /// Width of a line on the screen.
@@ -45,9 +45,9 @@ impl ZoneSeries {
         writer: &mut RrdWriter,
         names: impl Iterator<Item = impl AsRef<str>>,
     ) -> Result<(), RecordingError> {
-        for (line, name) in self.lines.iter_mut().zip(names) {
-            let (name, color) = (name.as_ref(), palette::link(line.number));
-            line.write(writer, &paths::zone_distance(name), (name, color, WIDTH_UI_POINTS))?;
+        for (values, name) in self.lines.iter_mut().zip(names) {
+            let (name, color) = (name.as_ref(), palette::link(values.number));
+            values.write(writer, &paths::zone_distance(name), &line(name, color, WIDTH_UI_POINTS))?;
         }
         Ok(())
     }

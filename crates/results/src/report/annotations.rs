@@ -14,14 +14,14 @@ pub fn github_annotations(suites: &[TestSuite]) -> String {
         for case in &suite.cases {
             if let Some(reason) = case.result.reason() {
                 let title = format!("{}: {}", suite.name, case.name);
-                annotate(&mut text, (case.place.as_ref(), &title), reason);
+                annotate(&mut text, case.place.as_ref(), &title, reason);
             }
         }
     }
     text
 }
 
-fn annotate(text: &mut String, (place, title): (Option<&CasePlace>, &str), reason: &Reason) {
+fn annotate(text: &mut String, place: Option<&CasePlace>, title: &str, reason: &Reason) {
     text.push_str("::error ");
     if let Some(CasePlace { file, line }) = place {
         let _ = write!(text, "file={},line={line},", property(file));

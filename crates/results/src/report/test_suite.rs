@@ -82,15 +82,17 @@ impl RunVerdict {
             }
             _ => output.clone(),
         };
-        let result = judged((check.check, check.status), &self.expected, self.verdict, message);
+        let result = judged(check.check, check.status, &self.expected, self.verdict, message);
         let place = CasePlace::if_known(self.scenario_file.as_deref(), check.line);
-        TestCase { name: case_name(index, (check.check, check.is_default)), result, output, place }
+        let added = if check.is_default { BY_DEFAULT } else { "" };
+        TestCase { name: case_name(index, check.check, added), result, output, place }
     }
 }
 
 /// The result of a check by what the scenario expects of it, in a run of this verdict.
 pub fn judged(
-    (check, status): (CheckKind, Status),
+    check: CheckKind,
+    status: Status,
     expected: &Expectation,
     verdict: Verdict,
     message: String,
@@ -117,8 +119,9 @@ pub fn planned_suite(setup: &RunSetup) -> TestSuite {
     let file = setup.path.as_ref().map(|path| path.display().to_string());
     let cases = setup.checks().into_iter().enumerate().map(|(index, check)| {
         let message = "not finished: the program ended before this check".to_owned();
+        let added = if check.is_default { BY_DEFAULT } else { "" };
         TestCase {
-            name: case_name(index, (check.kind, check.is_default)),
+            name: case_name(index, check.kind, added),
             result: TestResult::Error(Reason { kind: "unfinished".to_owned(), message }),
             output: String::new(),
             place: CasePlace::if_known(file.as_deref(), check.line),
@@ -133,8 +136,10 @@ pub fn planned_suite(setup: &RunSetup) -> TestSuite {
     TestSuite { name: setup.scenario.name.clone(), cases, time_s: 0.0, clock: Clock::Wall }
 }
 
+/// Added to the name of a check that the scenario does not give.
+const BY_DEFAULT: &str = "_default";
+
 /// The name of a case: the number of the check in the scenario, from 1, and its kind.
-fn case_name(index: usize, (kind, is_default): (CheckKind, bool)) -> String {
-    let by_default = if is_default { "_default" } else { "" };
-    format!("{}_{kind}{by_default}", index + 1)
+fn case_name(index: usize, kind: CheckKind, added: &str) -> String {
+    format!("{}_{kind}{added}", index + 1)
 }

@@ -88,12 +88,13 @@ impl Override {
             .map(|(_, value)| value.into_inner())
             .ok_or_else(|| self.refused("the value is not TOML"))?;
         let place = document.span();
-        self.put((document.get_mut(), &place), &self.path, value)
+        self.put(document.get_mut(), &place, &self.path, value)
     }
 
     fn put<'a>(
         &self,
-        (table, table_place): (&mut DeTable<'a>, &Range<usize>),
+        table: &mut DeTable<'a>,
+        table_place: &Range<usize>,
         path: &'a [String],
         value: DeValue<'a>,
     ) -> Result<Range<usize>, Diagnostic> {
@@ -101,13 +102,14 @@ impl Override {
         let entry = table
             .entry(Spanned::new(table_place.clone(), key.as_str().into()))
             .or_insert_with(|| Spanned::new(table_place.clone(), DeValue::Table(DeTable::new())));
-        self.replace((key, entry), rest, value)
+        self.replace(key, entry, rest, value)
     }
 
     /// Replaces a value or something in it.
     fn replace<'a>(
         &self,
-        (name, found): (&str, &mut Spanned<DeValue<'a>>),
+        name: &str,
+        found: &mut Spanned<DeValue<'a>>,
         path: &'a [String],
         value: DeValue<'a>,
     ) -> Result<Range<usize>, Diagnostic> {
@@ -120,12 +122,12 @@ impl Override {
             DeValue::Table(table) if table.is_empty() && number.parse::<usize>().is_ok() => {
                 Err(self.refused(&format!("\"{name}\" has no entry {number} in the file")))
             }
-            DeValue::Table(table) => self.put((table, &place), path, value),
+            DeValue::Table(table) => self.put(table, &place, path, value),
             DeValue::Array(items) => {
                 let count = items.len();
                 let index = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
                 match index.and_then(|index| items.get_mut(index)) {
-                    Some(item) => self.replace((name, item), rest, value),
+                    Some(item) => self.replace(name, item, rest, value),
                     None => Err(self.refused(&format!("\"{name}\" has entries 1 to {count}"))),
                 }
             }

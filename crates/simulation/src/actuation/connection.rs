@@ -20,6 +20,13 @@ impl DriveConnection {
     }
 }
 
+/// The state of the joints themselves, whatever their sensors say.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TrueState<'a> {
+    pub(crate) q: &'a [f64],
+    pub(crate) qd: &'a [f64],
+}
+
 /// The connections of all drives.
 #[derive(Debug, Clone)]
 pub(crate) struct Connections {
@@ -51,11 +58,12 @@ impl Connections {
         &self,
         commands: &mut Commands,
         scratch: &mut Commands,
-        (q, qd): (&[f64], &[f64]),
+        TrueState { q, qd }: TrueState<'_>,
         measured: &MeasuredState<'_>,
     ) {
         if self.are_usual() {
             for (coordinate, motor) in commands.motors.iter_mut().enumerate() {
+                // q_target - measured + true: the error that acts is the one that the controller knows.
                 if let Some(motor) = motor {
                     motor.q += q[coordinate] - measured.q[coordinate];
                     motor.qd += qd[coordinate] - measured.qd[coordinate];
@@ -63,6 +71,7 @@ impl Connections {
             }
             return;
         }
+        // A copy, since exchanged drives read commands that the loop has already overwritten.
         scratch.copy_from(commands);
         for (drive, connection) in self.of_drives.iter().enumerate() {
             let (from, direction) = (connection.commanded_as, connection.direction());

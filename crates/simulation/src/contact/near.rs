@@ -79,10 +79,12 @@ impl NearShapes {
                 continue;
             }
             let distances = self.obstacles.iter().map(|bounds| {
+                // Distance to the box around the obstacle, a lower bound of that to the obstacle.
                 let nearest = center.max(bounds.mins).min(bounds.maxs);
                 center.distance(nearest) - shape.radius_m
             });
             let free_m = distances.fold(f64::INFINITY, f64::min) - MARGIN_M;
+            // Nearer than `LOOK_M` a ball could not move far before the next look: the real shape stays.
             let is_far = center.is_finite() && free_m > LOOK_M;
             (shape.center_then, shape.path_m) = (center, if is_far { free_m } else { LOOK_M });
             if shape.is_far != is_far {

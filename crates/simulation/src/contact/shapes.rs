@@ -47,6 +47,7 @@ pub(crate) fn obstacle_collider(obstacle: &Obstacle) -> Result<Option<Collider>,
 }
 
 fn groups(member: Group, meets: Group) -> InteractionGroups {
+    // Both groups must agree: links meet obstacles, never each other, and obstacles never meet.
     InteractionGroups::new(member, meets, InteractionTestMode::And)
 }
 
@@ -75,5 +76,6 @@ fn shaped(
             (hull.ok_or_else(|| SimulationError::Shape { owner: owner() })?, pose)
         }
     };
+    // Without density: masses are those of the description, not of shapes.
     Ok(Some(ColliderBuilder::new(shape).position(pose).density(0.0)))
 }

@@ -33,6 +33,8 @@ impl<'a> ComputedTorque<'a> {
             *qdd = setpoint.qdd[joint] + gains.stiffness * error.position + gains.damping * error.velocity;
         }
         efforts.fill(0.0);
-        self.model.add_inverse(joints.time_s(), (joints.q(), joints.qd(), &mut self.qdd), efforts);
+        // Feedback is part of the acceleration, so M(q) scales it: each joint's error decays alike in every
+        // configuration.
+        self.model.add_inverse(joints, &mut self.qdd, efforts);
     }
 }

@@ -1,18 +1,18 @@
 //! The clock of a digital controller: when it computes, and when its torques act.
 
-use crate::setup::Sampling;
+use crate::setup::ControlPeriod;
 
 /// Holds torques between the instants of a controller, and delays them.
 #[derive(Debug, Clone)]
 pub(super) struct Hold {
-    sampling: Sampling,
+    sampling: ControlPeriod,
     step: u64,
     /// The torques of this step and of those that are delayed: `delay + 1` rows, a ring.
     torques: Vec<Vec<f64>>,
 }
 
 impl Hold {
-    pub(super) fn new(sampling: Sampling, dof: usize) -> Self {
+    pub(super) fn new(sampling: ControlPeriod, dof: usize) -> Self {
         Self { sampling, step: 0, torques: vec![vec![0.0; dof]; sampling.delay + 1] }
     }
 
@@ -26,6 +26,8 @@ impl Hold {
     pub(super) fn next(&mut self, compute: impl FnOnce(&mut [f64])) -> &[f64] {
         let rows = self.torques.len() as u64;
         #[expect(clippy::cast_possible_truncation, reason = "below the number of rows")]
+        // Row `step % rows` is this step's; the row after it in the ring was written `delay` steps ago. With a single
+        // row all three are the same.
         let [now, before, oldest] = [rows, rows - 1, 1].map(|ahead| ((self.step + ahead) % rows) as usize);
         if self.step.is_multiple_of(self.sampling.period) {
             compute(&mut self.torques[now]);
@@ -48,7 +50,7 @@ mod tests {
 
     #[track_caller]
     fn torques(period: u64, delay: usize, expected: &[f64]) {
-        let mut hold = Hold::new(Sampling { period, delay }, 1);
+        let mut hold = Hold::new(ControlPeriod { period, delay }, 1);
         let found: Vec<f64> = (0..expected.len())
             .map(|step| hold.next(|torque| torque[0] = f64::from(u8::try_from(step).unwrap()))[0])
             .collect();

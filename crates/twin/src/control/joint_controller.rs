@@ -49,9 +49,12 @@ impl Controller for JointController<'_> {
             None => self.law.command(joints, setpoint, commands),
             Some(hold) => {
                 #[expect(clippy::cast_precision_loss, reason = "a period is at most 1e5 steps")]
+                // Integrals advance once per period, by all of it.
                 let period_s = hold.period() as f64 * joints.step_s();
                 let law = &mut self.law;
-                let torques = hold.next(|torques| law.efforts_into(joints, setpoint, (period_s, torques)));
+                // Efforts, not motors: between two readings a digital drive exerts a constant torque and knows no
+                // state.
+                let torques = hold.next(|torques| law.efforts_into(joints, setpoint, period_s, torques));
                 commands.torque_mut().copy_from_slice(torques);
             }
         }
@@ -66,7 +69,7 @@ impl Law<'_> {
             Law::Kinematic => Kinematic.command(joints, setpoint, commands),
             Law::Servos(servos) => servos.command(joints, setpoint, commands),
             Law::Torque(_) | Law::ComputedTorque(_) => {
-                self.efforts_into(joints, setpoint, (joints.step_s(), commands.torque_mut()));
+                self.efforts_into(joints, setpoint, joints.step_s(), commands.torque_mut());
             }
         }
     }
@@ -76,11 +79,12 @@ impl Law<'_> {
         &mut self,
         joints: &JointsView<'_>,
         setpoint: &Setpoint<'_>,
-        (period_s, efforts): (f64, &mut [f64]),
+        period_s: f64,
+        efforts: &mut [f64],
     ) {
         match self {
             Law::Passive | Law::Kinematic => efforts.fill(0.0),
-            Law::Servos(servos) => servos.efforts_into(joints, setpoint, (period_s, efforts)),
+            Law::Servos(servos) => servos.efforts_into(joints, setpoint, period_s, efforts),
             Law::ComputedTorque(law) => law.efforts_into(joints, setpoint, efforts),
             Law::Torque(ControllerSetup { torque, torque_table, .. }) => {
                 efforts.copy_from_slice(torque);

@@ -3,6 +3,7 @@
 use congruent_description::{Robot, RobotQ};
 use congruent_dynamics::JointMotionState;
 use congruent_monitors::RunDynamics;
+use congruent_simulation::JointsView;
 
 use crate::setup::RunSetup;
 
@@ -34,23 +35,20 @@ impl<'a> DeclaredModel<'a> {
 
     /// Adds the torques that hold the robot against gravity.
     pub(super) fn add_gravity(&mut self, time_s: f64, q: &RobotQ, torque: &mut [f64]) {
+        // The declared tree of this instant: payloads come and go.
         let (tree, buffer) = self.dynamics.at(time_s);
         tree.gravity_into(q, buffer, &mut self.torque).expect("a state of this robot");
         self.add_actuated(torque);
     }
 
     /// Adds the torques of a motion. The accelerations of mimic joints are replaced by those that they follow with.
-    pub(super) fn add_inverse(
-        &mut self,
-        time_s: f64,
-        (q, qd, qdd): (&RobotQ, &[f64], &mut [f64]),
-        torque: &mut [f64],
-    ) {
+    pub(super) fn add_inverse(&mut self, joints: &JointsView<'_>, qdd: &mut [f64], torque: &mut [f64]) {
+        // Followers have no gains, so their own entries lack the feedback of their masters.
         for follower in &self.followers {
             qdd[follower.coordinate] = follower.ratio * qdd[follower.master];
         }
-        let (tree, buffer) = self.dynamics.at(time_s);
-        let motion = JointMotionState { q, qd, qdd };
+        let (tree, buffer) = self.dynamics.at(joints.time_s());
+        let motion = JointMotionState { q: joints.q(), qd: joints.qd(), qdd };
         tree.inverse_into(&motion, buffer, &mut self.torque).expect("a state of this robot");
         self.add_actuated(torque);
     }
@@ -58,6 +56,8 @@ impl<'a> DeclaredModel<'a> {
     /// The master of a mimic joint exerts its torque as well.
     fn add_actuated(&mut self, torque: &mut [f64]) {
         for follower in &self.followers {
+            // By virtual work: the master's torque does the follower's work, `ratio` times its speed. A follower has
+            // no actuator, so its entry becomes zero.
             let own = std::mem::take(&mut self.torque[follower.coordinate]);
             self.torque[follower.master] += follower.ratio * own;
         }

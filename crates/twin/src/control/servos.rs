@@ -60,8 +60,9 @@ impl<'a> Servos<'a> {
         let Some(integrals) = &mut self.integrals else { return };
         for (joint, torque) in self.torque.iter_mut().enumerate() {
             let present = StateError::now(joint, joints, setpoint);
+            // With gravity, since the limit of the actuator is for the sum.
             let servo = *torque + present.effort(self.gains[joint]);
-            *torque += integrals.advance(joint, (servo, joints.qd()[joint]), present.position * period_s);
+            *torque += integrals.advance(joint, servo, joints.qd()[joint], present.position * period_s);
         }
     }
 
@@ -74,6 +75,8 @@ impl<'a> Servos<'a> {
     ) {
         self.update(joints, setpoint, joints.step_s());
         commands.torque_mut().copy_from_slice(&self.torque);
+        // Stiffness and damping go to the engine as motors, integrated implicitly: computed here as torques they
+        // would be unstable at high gains.
         for (joint, &gains) in self.gains.iter().enumerate() {
             commands.drive(joint, Motor { gains, q: setpoint.q[joint], qd: setpoint.qd[joint] });
         }
@@ -84,10 +87,13 @@ impl<'a> Servos<'a> {
         &mut self,
         joints: &JointsView<'_>,
         setpoint: &Setpoint<'_>,
-        (period_s, efforts): (f64, &mut [f64]),
+        period_s: f64,
+        efforts: &mut [f64],
     ) {
         self.update(joints, setpoint, period_s);
         for (joint, effort) in efforts.iter_mut().enumerate() {
+            // A digital controller has no motors: its whole effort is a torque of the last reading, with the limits
+            // of stability that this has.
             let servo = StateError::now(joint, joints, setpoint).effort(self.gains[joint]);
             *effort = self.torque[joint] + servo;
         }
@@ -98,9 +104,10 @@ impl Integrals {
     /// Adds `change`, an error times its duration, and returns the torque. While the actuator is at a limit, of effort or
     /// of speed, it does not go further in the same direction, and by itself it never asks for more than the largest
     /// effort (anti-windup by conditional integration; Astrom & Hagglund, *PID Controllers* (1995), sec. 3.5).
-    fn advance(&mut self, joint: usize, (servo, qd): (f64, f64), change: f64) -> f64 {
+    fn advance(&mut self, joint: usize, servo: f64, qd: f64, change: f64) -> f64 {
         let (limit, torque) = (self.limits[joint], &mut self.torques[joint]);
         let effort = servo + *torque;
+        // Only growth is stopped: an error of the other sign has to unwind the integral at once.
         let is_at_effort = effort.abs() >= limit.effort && effort * change >= 0.0;
         let is_at_speed = qd.abs() >= limit.speed && qd * change >= 0.0;
         if !is_at_effort && !is_at_speed {
@@ -121,6 +128,7 @@ impl StateError {
     /// At the beginning of the step: the setpoint, which is that of its end, is taken back by the step.
     pub(super) fn now(joint: usize, joints: &JointsView<'_>, setpoint: &Setpoint<'_>) -> Self {
         let (step_s, qdd) = (joints.step_s(), setpoint.qdd[joint]);
+        // Constant acceleration within the step.
         let qd = setpoint.qd[joint] - step_s * qdd;
         let q = setpoint.q[joint] - step_s * (qd + step_s * qdd / 2.0);
         Self { position: q - joints.q()[joint], velocity: qd - joints.qd()[joint] }
@@ -140,13 +148,13 @@ mod tests {
         let limits = vec![ActuatorLimits { effort: 5.0, speed: 2.0 }];
         let mut integrals = Integrals { gains: vec![100.0], torques: vec![0.0], limits };
         let mut after =
-            |servo, change, times| (0..times).fold(0.0, |_, _| integrals.advance(0, (servo, 0.0), change));
+            |servo, change, times| (0..times).fold(0.0, |_, _| integrals.advance(0, servo, 0.0, change));
         assert!((after(0.0, 0.01, 3) - 3.0).abs() < 1e-12);
         assert!((after(0.0, 0.01, 1000) - 5.0).abs() < 1e-12, "not beyond the limit");
         assert!((after(0.0, -0.01, 1) - 4.0).abs() < 1e-12, "back with the first error of the other sign");
         assert!((after(2.0, 0.01, 1000) - 4.0).abs() < 1e-12, "the actuator is at its limit");
         assert!((after(-9.0, 0.0001, 1) - 4.01).abs() < 1e-12, "the servo pulls it off the limit");
-        let mut at_speed = |qd, change| integrals.advance(0, (0.0, qd), change);
+        let mut at_speed = |qd, change| integrals.advance(0, 0.0, qd, change);
         assert!((at_speed(2.0, 0.001) - 4.01).abs() < 1e-12, "faster is not possible");
         assert!((at_speed(2.0, -0.001) - 3.91).abs() < 1e-12 && (at_speed(1.9, 0.001) - 4.01).abs() < 1e-12);
     }

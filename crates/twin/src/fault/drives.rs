@@ -29,12 +29,16 @@ pub(super) fn begin(action: &FaultAction, world: &mut World) -> Result<Replaced,
         }
         _ => return Ok(replaced),
     };
+    // Read at the beginning of the fault, not from the description: another fault or the scenario may have changed
+    // them.
     replaced = Replaced { damping: world.damping(joint), dry: world.dry_friction(joint) };
     match *action {
         FaultAction::AddedFriction { dry, viscous, .. } => {
             world.set_damping(joint, replaced.damping + viscous)?;
             world.set_dry_friction(joint, replaced.dry + dry)?;
         }
+        // Damping instead of a lock: the engine integrates it implicitly, and no constraint has to be added to a
+        // running multibody.
         _ => world.set_damping(joint, STUCK_DAMPING)?,
     }
     Ok(replaced)

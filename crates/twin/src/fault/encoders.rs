@@ -39,6 +39,7 @@ impl Wire {
     /// The wires that a fault connects when the robot is at `q`: each with the joint that it belongs to.
     pub(super) fn for_fault(action: &FaultAction, q: &[f64]) -> Vec<(usize, Self)> {
         let wire = |joint: usize, drive: usize, direction: f64| {
+            // The state at the exchange: readings continue without a jump, as those of incremental encoders.
             (joint, Self { drive, direction, reading_at: q[joint], drive_at: q[drive] })
         };
         match *action {

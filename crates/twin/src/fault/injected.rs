@@ -9,7 +9,7 @@ use super::{
     encoders::{Reading, Wire, falsify},
     planned::{FaultAction, PlannedFault},
     tool,
-    transport::{Delay, Loss},
+    transport::{Delay, ReadingLoss},
 };
 use crate::setup::RunSetup;
 
@@ -37,7 +37,7 @@ struct FaultState {
     is_active: bool,
     replaced: Replaced,
     delay: Option<Delay>,
-    loss: Option<Loss>,
+    loss: Option<ReadingLoss>,
 }
 
 impl<'a> InjectedFaults<'a> {
@@ -58,7 +58,9 @@ impl<'a> InjectedFaults<'a> {
                 _ => None,
             },
             loss: match fault.action {
-                FaultAction::DroppedSamples { share } => Some(Loss::new(share, setup.scenario.seed, stream)),
+                FaultAction::DroppedSamples { share } => {
+                    Some(ReadingLoss::new(share, setup.scenario.seed, stream))
+                }
                 _ => None,
             },
         };
@@ -74,6 +76,7 @@ impl<'a> InjectedFaults<'a> {
             truth,
             placed: (RobotQ::zeros(dof), vec![0.0; dof]),
         };
+        // A fault from 0 s on is in the first sample already.
         injected.advance(0, world)?;
         Ok(injected)
     }
@@ -111,7 +114,7 @@ impl<'a> InjectedFaults<'a> {
                 delay.take(&self.encoders);
                 late = if state.is_active { Some(&*delay) } else { late };
             }
-            is_lost |= state.is_active && state.loss.as_mut().is_some_and(Loss::is_lost);
+            is_lost |= state.is_active && state.loss.as_mut().is_some_and(ReadingLoss::is_lost);
         }
         // Before the first reading there is none that could take its place.
         if !is_lost || self.step == 0 {
@@ -134,6 +137,8 @@ impl<'a> InjectedFaults<'a> {
             }
             for (joint, wire) in Wire::for_fault(&fault.action, world.q()) {
                 self.wires[joint] = now.then_some(wire);
+                // The controller of `joint` reads `drive`, so the drive has to get the commands of `joint`: encoders
+                // alone exchanged would make the loop unstable at once.
                 let own = DriveConnection { commanded_as: wire.drive, is_reversed: false };
                 let connected = DriveConnection { commanded_as: joint, is_reversed: wire.is_reversed() };
                 world.set_connection(wire.drive, if now { connected } else { own });
@@ -142,6 +147,8 @@ impl<'a> InjectedFaults<'a> {
                 self.held[joint] = now.then_some(world.q()[joint]);
             }
         }
+        // All loads anew, since `set_carried_unknown` replaces them; and only at a change, since inertias are then
+        // summed again.
         if has_changed {
             let active = self.faults.iter().zip(&self.states).filter(|(_, state)| state.is_active);
             let loads: Vec<_> = active.filter_map(|(fault, _)| drives::load(&fault.action)).collect();
@@ -153,10 +160,12 @@ impl<'a> InjectedFaults<'a> {
     fn read_encoders(&mut self) {
         self.encoders.copy_from(&self.truth);
         for (joint, wire) in self.wires.iter().enumerate() {
+            // From the truth, not from `encoders`: of two exchanged joints the first would otherwise be read twice.
             if let Some(wire) = wire {
                 wire.read(joint, &self.truth, &mut self.encoders);
             }
         }
+        // Offsets after the wires: they belong to the reading of a joint, whichever drive it comes from.
         for (fault, state) in self.faults.iter().zip(&self.states) {
             if state.is_active {
                 #[expect(clippy::cast_precision_loss, reason = "steps of a run are far below 2^52")]
@@ -199,6 +208,7 @@ impl<'a> InjectedFaults<'a> {
                 (q[wire.drive], qd[wire.drive]) = wire.driven(setpoint.q[joint], setpoint.qd[joint]);
             }
         }
+        // Last: a stuck joint stays wherever a wire would send it.
         for (joint, held) in self.held.iter().enumerate() {
             if let Some(held) = held {
                 (q[joint], qd[joint]) = (*held, 0.0);

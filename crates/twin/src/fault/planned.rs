@@ -1,5 +1,7 @@
 //! A fault that was checked against its robot: names are coordinates, values are in SI units, times are steps.
 
+use std::ops::Range;
+
 use congruent_description::{CarriedBody, Robot};
 use congruent_monitors::RunClock;
 use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
@@ -114,7 +116,9 @@ impl FaultAction {
             Self::EncoderOffset { joint, .. } => vec![Slot::Offset(joint)],
             Self::EncoderDrift { joint, .. } => vec![Slot::Drift(joint)],
             Self::FlippedAxis { joint } => vec![Slot::Wires(joint)],
+            // As for a reversed axis: a joint has one wire, which cannot be exchanged twice.
             Self::SwappedJoints { joints } => joints.map(Slot::Wires).to_vec(),
+            // Both replace the joint's resistance and put it back, so they cannot be interleaved.
             Self::StuckJoint { joint } | Self::AddedFriction { joint, .. } => vec![Slot::Resistance(joint)],
             Self::ScaledTorque { joint, .. } => vec![Slot::Torque(joint)],
             Self::WrongPayload { .. } => vec![Slot::RunPayload],
@@ -147,7 +151,8 @@ pub(super) fn describe(
     kind: FaultKind,
     action: &FaultAction,
     robot: &Robot,
-    (clock, steps): (&RunClock, (u64, u64)),
+    clock: &RunClock,
+    steps: Range<u64>,
 ) -> RunFault {
     let joint = |coordinate: usize| robot.joint(robot.movable_joints()[coordinate]);
     let unit = |coordinate: usize| joint(coordinate).kind.si_unit();
@@ -171,6 +176,7 @@ pub(super) fn describe(
         }
         FaultAction::ScaledTorque { joint, share } => {
             joints.push(*joint);
+            // The share of a lost torque is 0 by definition.
             if kind == FaultKind::LostTorque { Vec::new() } else { vec![FaultQuantity::share(*share)] }
         }
         FaultAction::AddedFriction { joint, dry, viscous } => {
@@ -198,7 +204,8 @@ pub(super) fn describe(
         joints: joints.into_iter().map(|coordinate| joint(coordinate).name.clone()).collect(),
         link: link.map(|link| robot.links()[link].name.clone()),
         values,
-        from_s: clock.time_s(steps.0),
-        until_s: (steps.1 <= clock.steps).then(|| clock.time_s(steps.1)),
+        from_s: clock.time_s(steps.start),
+        // A fault without an end has `u64::MAX`.
+        until_s: (steps.end <= clock.steps).then(|| clock.time_s(steps.end)),
     }
 }

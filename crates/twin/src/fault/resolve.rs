@@ -33,7 +33,8 @@ const MOST_DELAYED: f64 = 1e5;
 
 /// All faults of a scenario, or every finding.
 pub(crate) fn resolve(
-    (settings, place): (&[FaultSettings], FilePlace<'_>),
+    settings: &[FaultSettings],
+    place: FilePlace<'_>,
     description: &RobotDescription,
     clock: &RunClock,
     controller: ControllerKind,
@@ -43,6 +44,7 @@ pub(crate) fn resolve(
         let place = place.item(index);
         let resolver = Resolver { description, clock, place };
         match resolver.planned(fault, controller) {
+            // Against the faults before it alone: each conflict is reported once, at the later section.
             Ok(fault) => match excluded(&fault, &planned) {
                 Some(error) => errors.push(place.mark(error)),
                 None => planned.push(fault),
@@ -61,7 +63,7 @@ fn excluded(fault: &PlannedFault, before: &[PlannedFault]) -> Option<Diagnostic>
     })?;
     let line = other.line.map_or(String::new(), |line| format!(" of line {line}"));
     let (kind, known) = (fault.described.kind, other.described.kind);
-    let message = format!("{kind} and {known}{line} exclude each other at the same time");
+    let message = format!("{kind} and {known}{line} cannot act at the same time");
     let help = "let one end (`until_s`) before the other begins (`at_s`), or remove one of them";
     Some(Diagnostic::error("scenario::faults_exclude", message).with_help(help))
 }
@@ -77,9 +79,10 @@ impl Resolver<'_> {
         let kind = fault.kind();
         let (from_step, until_step) = self.steps(fault.time())?;
         let action = self.action(fault)?;
+        // Last: a wrong name or value is the more useful message.
         self.has_effect(kind, controller)?;
         let robot = &self.description.robot;
-        let described = describe(kind, &action, robot, (self.clock, (from_step, until_step)));
+        let described = describe(kind, &action, robot, self.clock, from_step..until_step);
         Ok(PlannedFault { action, from_step, until_step, line: self.place.line(), described })
     }
 
@@ -94,11 +97,13 @@ impl Resolver<'_> {
         if !(at_s.is_finite() && at_s >= 0.0 && at_s < duration_s) {
             return refused("at_s", format!("at_s = {at_s} is outside [0, {duration_s})"));
         }
+        // The conditions are positive, so that NaN is refused as well.
         if let Some(until_s) = until_s.filter(|until_s| !(*until_s > at_s && *until_s <= duration_s)) {
             return refused("until_s", format!("until_s = {until_s} is outside ({at_s}, {duration_s}]"));
         }
         let step = |time_s: f64| nearest_step(time_s, self.clock.step_s);
         let (from, until) = (step(at_s), until_s.map_or(u64::MAX, step));
+        // Both times may be rounded to the same sample.
         if from >= until {
             return refused("until_s", "the fault is shorter than a step".to_owned());
         }
@@ -131,7 +136,7 @@ impl Resolver<'_> {
                 let joint = self.joint(&fault.joint)?;
                 let is_sound =
                     |share: f64| (LEAST..=LARGEST_SHARE).contains(&share) && (share - 1.0).abs() >= LEAST;
-                let range = "a share above 0 and at most 10 that is not 1 (`lost_torque` is 0)";
+                let range = "a factor above 0 and at most 10, not 1 (for 0 use the fault `lost_torque`)";
                 self.within("share", fault.share, is_sound, range)?;
                 FaultAction::ScaledTorque { joint, share: fault.share }
             }
@@ -158,6 +163,7 @@ impl Resolver<'_> {
             let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
             Err(self.place.key("time_s").mark(error))
         };
+        // Below half a step the nearest whole number is 0, which delays nothing.
         if (steps - steps.round()).abs() > WHOLE_STEPS || steps < 0.5 {
             let message =
                 format!("time_s = {time_s} is {} steps of {step_s} s, not a whole number", number(steps));
@@ -197,9 +203,10 @@ impl Resolver<'_> {
             let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
             return Err(self.place.mark(error));
         };
+        // Keys are in the order rad, deg, m, mm.
         if (index >= 2) != self.is_prismatic(joint) {
             let help = format!("give `{}` or `{}`", fitting[0], fitting[1]);
-            let message = format!("`{key}` does not fit the kind of the joint");
+            let message = format!("`{key}` has the wrong unit for this joint");
             let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
             return Err(self.place.key(key).mark(error));
         }
@@ -211,6 +218,7 @@ impl Resolver<'_> {
         let unit = if index >= 2 { "m" } else { "rad" };
         let range =
             format!("a value between {} and {LARGEST_M} {unit}, of either sign", quantity(LEAST, unit));
+        // The message quotes the number as written, the range is checked in SI.
         self.within(key, value, |_| (LEAST..=LARGEST_M).contains(&in_si.abs()), &range)?;
         Ok(in_si)
     }
@@ -236,7 +244,7 @@ impl Resolver<'_> {
         let (fitting, others) = if self.is_prismatic(joint) { (linear, angular) } else { (angular, linear) };
         let help = format!("give `{}`, `{}` or both", fitting[0].0, fitting[1].0);
         if let Some((key, _)) = others.into_iter().find(|(_, value)| value.is_some()) {
-            let message = format!("`{key}` does not fit the kind of the joint");
+            let message = format!("`{key}` has the wrong unit for this joint");
             let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
             return Err(self.place.key(key).mark(error));
         }
@@ -246,6 +254,7 @@ impl Resolver<'_> {
             self.within(key, value, is_sound, "a number between 0 and 1e9")?;
         }
         let [dry, viscous] = fitting.map(|(_, value)| value.unwrap_or(0.0));
+        // A sum of different units only as a test for zero.
         if dry + viscous < LEAST {
             let error = Diagnostic::error("scenario::fault_value", "no friction is added").with_help(help);
             return Err(self.place.mark(error));
@@ -275,11 +284,13 @@ impl Resolver<'_> {
             let range = format!("three lengths of at most {LARGEST_M} m");
             self.within("com_m", value, |value| value.abs() <= LARGEST_M, &range)?;
         }
+        // A load on the root's body loads no joint.
         if robot.body(*tip) == robot.root() {
             let error = Diagnostic::error("scenario::fault_no_effect", "no effect: no joint moves the tool");
             return Err(self.place.mark(error.with_help("choose another `tip` in the robot file")));
         }
         let tip_from_tcp = tip_from_tcp.unwrap_or_else(Isometry3::identity);
+        // A point mass: the fault has no key for an inertia.
         let com_in_tip = tip_from_tcp * nalgebra::Point3::from(com_in_tcp);
         let inertia = Inertia {
             mass_kg: fault.mass_kg,
@@ -294,6 +305,7 @@ impl Resolver<'_> {
         let pose = PoseSettings { xyz_m, xyz_mm, rpy_rad, rpy_deg, ..PoseSettings::default() };
         let tip_from_shifted = pose.isometry(self.place)?;
         let shift_m = tip_from_shifted.translation.vector.norm();
+        // A sum of metres and radians only as a test for zero.
         if shift_m + tip_from_shifted.rotation.angle() < LEAST {
             let error = Diagnostic::error(
                 "scenario::fault_value",
@@ -360,6 +372,7 @@ impl Resolver<'_> {
 
 /// Whether a link is `tip` or hangs below it.
 fn hangs_below(robot: &Robot, mut link: LinkIndex, tip: LinkIndex) -> bool {
+    // From the link up: each link has one parent, but `tip` may have many children.
     while link != tip {
         match robot.parent_joint(link) {
             Some(joint) => link = robot.joint(joint).parent,

@@ -18,6 +18,7 @@ pub(super) struct Delay {
 impl Delay {
     /// A delay by a number of steps, without a reading so far.
     pub(super) fn new(steps: usize, dof: usize) -> Self {
+        // One more than the delay: the ring holds the present reading as well.
         Self { last: vec![Reading::new(dof); steps + 1], next: 0, is_empty: true }
     }
 
@@ -33,18 +34,19 @@ impl Delay {
 
     /// The reading that arrives now.
     pub(super) fn late(&self) -> &Reading {
+        // `take` has moved on, so this is the oldest: that of `steps` ago.
         &self.last[self.next]
     }
 }
 
 /// Decides which readings get lost.
 #[derive(Debug, Clone)]
-pub(super) struct Loss {
+pub(super) struct ReadingLoss {
     share: f64,
     generator: ChaCha8Rng,
 }
 
-impl Loss {
+impl ReadingLoss {
     /// `stream` distinguishes the faults of one scenario.
     pub(super) fn new(share: f64, seed: u64, stream: u64) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
@@ -56,6 +58,7 @@ impl Loss {
     #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
     pub(super) fn is_lost(&mut self) -> bool {
         const BITS: u32 = f64::MANTISSA_DIGITS;
+        // All 53 bits of the mantissa: uniform in [0, 1), the same on every machine.
         let uniform = (self.generator.next_u64() >> (u64::BITS - BITS)) as f64 / (1_u64 << BITS) as f64;
         uniform < self.share
     }

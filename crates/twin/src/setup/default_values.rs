@@ -9,10 +9,13 @@ use congruent_scenario::{MotionSettings, Scenario, ScenarioFolder, StartSettings
 pub(super) fn write_out(
     scenario: &mut Scenario,
     description: &RobotDescription,
-    (clock, start, folder): (&RunClock, &RobotQ, ScenarioFolder<'_>),
+    clock: &RunClock,
+    start: &RobotQ,
+    folder: ScenarioFolder<'_>,
 ) {
     write_out_paths(scenario, folder);
     let path = &description.path;
+    // A robot that was made in code may have a path that does not exist.
     let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
     scenario.robot = whole.unwrap_or_else(|_| path.clone()).display().to_string();
     scenario.simulation.duration_s = Some(clock.duration_s());
@@ -31,6 +34,7 @@ pub(super) fn write_out(
                 (&mut arc.acceleration_m_s2, &mut arc.jerk_m_s3)
             }
             MotionSettings::TcpPath(path) => (&mut path.acceleration_m_s2, &mut path.jerk_m_s3),
+            // Lines and arcs with a duration have a profile instead.
             _ => continue,
         };
         let acceleration_m_s2 = *rates.0.get_or_insert(ACCELERATION_M_S2);
@@ -76,6 +80,7 @@ fn written_start(robot: &Robot, q: &RobotQ) -> StartSettings {
     let mut start = StartSettings::default();
     for (&joint, &position) in robot.movable_joints().iter().zip(q) {
         let joint = robot.joint(joint);
+        // A position of a follower would be refused when the written scenario is read again.
         if joint.mimic.is_none() {
             let group = match joint.kind {
                 JointKind::Prismatic => &mut start.joints_m,

@@ -7,8 +7,9 @@ mod default_values;
 mod output;
 mod run_setup;
 mod surroundings;
+mod written_at;
 
-pub(crate) use actuation::Sampling;
+pub(crate) use actuation::ControlPeriod;
 pub use actuation::{ControllerSetup, SensorSetup, TorqueTable};
 pub use run_setup::RunSetup;
 pub(crate) use surroundings::LARGEST_M;

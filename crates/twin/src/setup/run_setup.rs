@@ -25,6 +25,7 @@ use super::{
     default_values::write_out,
     output,
     surroundings::{FirstStep, Surroundings, mobility},
+    written_at::WrittenAt,
 };
 use crate::{
     fault::{PlannedFault, resolve},
@@ -100,6 +101,7 @@ impl RunSetup {
     /// The same; `access` notes what is read.
     fn load_noting(path: &Path, overrides: &[Override], access: &FileAccess) -> Result<Self, Findings> {
         let file = ScenarioFile::read_with(path, overrides, access)?;
+        // Only now is it known which project the scenario belongs to.
         let access = access.inside_project_of(path)?;
         let in_file = |findings: Vec<Diagnostic>| findings.into_iter().map(|finding| file.mark(finding));
         let robot = file.robot_path();
@@ -112,14 +114,17 @@ impl RunSetup {
             Err(mut findings) => {
                 findings.extend([file.mark(robot_refused(&file))]);
                 findings.extend(file.findings().iter().cloned());
+                // Without a robot nothing else can be checked; findings of the file itself are kept.
                 return Err(findings);
             }
         };
         let folder = file.folder();
         let folder = ScenarioFolder { path: &folder, access: &access };
-        let built = Self::build(file.scenario.clone(), description, (file.place(), folder));
+        let written = WrittenAt { place: file.place(), folder };
+        let built = Self::build(file.scenario.clone(), description, written);
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
+            // The file has errors that the plain data does not show, such as unknown keys.
             Ok(_) => return Err(file.findings().to_vec().into()),
             Err(findings) => {
                 let mut all = Diagnostics::default();
@@ -131,6 +136,7 @@ impl RunSetup {
         warnings.extend(in_file(std::mem::take(&mut setup.warnings)));
         setup.warnings = warnings.into_vec();
         setup.inputs = access.files();
+        // Kept apart: another source of joint states runs in spite of them.
         setup.overlaps = in_file(std::mem::take(&mut setup.overlaps)).collect();
         setup.path = Some(path.to_owned());
         setup.overrides = overrides.iter().map(ToString::to_string).collect();
@@ -148,22 +154,25 @@ impl RunSetup {
         }
         let folder = PathBuf::from(scenario.folder.clone().unwrap_or_default());
         let folder = ScenarioFolder { path: &folder, access: &FileAccess::default() };
-        Self::build(scenario, description, (FilePlace::nowhere(), folder))
+        Self::build(scenario, description, WrittenAt { place: FilePlace::nowhere(), folder })
     }
 
     fn build(
         mut scenario: Scenario,
         description: RobotDescription,
-        (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
+        written: WrittenAt<'_>,
     ) -> Result<Self, Findings> {
+        let WrittenAt { place, folder } = written;
         let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
         let own_checks = scenario.check.len();
+        // Before anything is checked, so that default checks go through the same examination.
         scenario.check.extend(default_checks(&scenario, &description.robot));
+        // From here on errors are collected, not returned: one call reports all sections.
         let robot = &description.robot;
         found.keep(check_head(&scenario, place));
-        let written = found.keep(start(&scenario.start, place.key("start"), robot));
-        let start = inside_limits(written, robot, &mut warnings);
-        let trajectory = trajectory(&scenario, (place, folder), (&description, &start), &mut warnings);
+        let start = found.keep(start(&scenario.start, place.key("start"), robot));
+        let start = inside_limits(start, robot, &mut warnings);
+        let trajectory = trajectory(&scenario, written, &description, &start, &mut warnings);
         let trajectory = found.keep(trajectory);
         // Without a plan the duration as written stands in, so that the clock is checked in the same call.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
@@ -171,16 +180,15 @@ impl RunSetup {
         let clock = found.keep(RunClock::new(&scenario.simulation, clock, motions_s, &mut warnings));
         warnings.extend(clock.iter().flat_map(|clock| taken_too_late(&scenario, place, clock.duration_s())));
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
-        let actuation = found.keep(Actuation::new(&scenario, (place, folder), &description));
-        let planned = (&description, trajectory.as_ref());
+        let actuation = found.keep(Actuation::new(&scenario, place, folder, &description));
         let Surroundings { obstacles, moving, payloads: held } =
-            Surroundings::new(&scenario, (place, folder), planned, &mut found);
+            Surroundings::new(&scenario, written, &description, trajectory.as_ref(), &mut found);
         let mobility = mobility(&moving, scenario.obstacle.len());
         let zones = found.keep(zones(&scenario.zone, place.key("zone"), robot));
-        warnings.extend(examine_checks(&scenario, place, (&description, &mobility), &mut found));
+        warnings.extend(examine_checks(&scenario, place, &description, &mobility, &mut found));
         let faults = clock.as_ref().and_then(|clock| {
-            let written = (scenario.fault.as_slice(), place.key("fault"));
-            found.keep(resolve(written, &description, clock, scenario.controller.kind))
+            let (faults, place) = (&scenario.fault, place.key("fault"));
+            found.keep(resolve(faults, place, &description, clock, scenario.controller.kind))
         });
         let (Some(trajectory), Some(clock), Some(actuation), Some(obstacles), Some(zones), Some(faults)) =
             (trajectory, clock, actuation, obstacles, zones, faults)
@@ -190,7 +198,9 @@ impl RunSetup {
         if found.has_error() {
             return Err(found.into());
         }
-        write_out(&mut scenario, &description, (&clock, &start, folder));
+        // After all checks: messages refer to what the user has written.
+        write_out(&mut scenario, &description, &clock, &start, folder);
+        // Only the scenario's own checks have lines; default checks follow them and have none.
         let check_lines = (0..own_checks).map(|at| place.key("check").item(at).line()).collect();
         let Actuation { controller, resistances, sensors, mut payloads } = actuation;
         payloads.extend(held);
@@ -292,8 +302,9 @@ impl RunSetup {
 /// The motions, planned one after another.
 fn trajectory(
     scenario: &Scenario,
-    (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
-    (description, start): (&RobotDescription, &RobotQ),
+    WrittenAt { place, folder }: WrittenAt<'_>,
+    description: &RobotDescription,
+    start: &RobotQ,
     warnings: &mut Vec<Diagnostic>,
 ) -> Result<Trajectory, Findings> {
     let limits = motion_limits::build(&scenario.limits, place.key("limits"), description)?;
@@ -322,6 +333,7 @@ fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnosti
         Diagnostic::error("scenario::version", format!("schema_version = {schema_version} is not supported"))
     } else if name.trim().is_empty() {
         Diagnostic::error("scenario::name", "the name is empty")
+    // The scenario is written out as TOML, whose integers are signed.
     } else if i64::try_from(*seed).is_err() {
         let message = format!("seed = {seed} is above {}, the largest integer of TOML", i64::MAX);
         place.key("seed").mark(Diagnostic::error("scenario::seed", message))
@@ -357,6 +369,7 @@ fn inside_limits(written: Option<RobotQ>, robot: &Robot, warnings: &mut Vec<Diag
 fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item = Diagnostic> + 'a {
     robot.movable_joints().iter().zip(start).filter_map(|(&joint, &q)| {
         let joint = robot.joint(joint);
+        // A follower has no start of its own: its master determines where it is.
         let (lower, upper) = joint.position_range().filter(|_| joint.mimic.is_none())?;
         (!(lower..=upper).contains(&q)).then(|| {
             let [start, lower, upper] = [q.clamp(lower, upper), lower, upper].map(limit_number);

@@ -49,11 +49,11 @@ impl ActuatorUse {
 #[derive(Debug, Clone)]
 pub(super) struct ActuatorCounts {
     steps: u64,
-    joints: Vec<Count>,
+    joints: Vec<LimitCount>,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Count {
+struct LimitCount {
     largest_effort: f64,
     at_effort_limit: u64,
     at_velocity_limit: u64,
@@ -61,7 +61,7 @@ struct Count {
 
 impl ActuatorCounts {
     pub(super) fn new(dof: usize) -> Self {
-        Self { steps: 0, joints: vec![Count::default(); dof] }
+        Self { steps: 0, joints: vec![LimitCount::default(); dof] }
     }
 
     /// Counts the last step.
@@ -79,12 +79,15 @@ impl ActuatorCounts {
     /// The use of every actuator; `limits` are what they can do.
     pub(super) fn report(&self, robot: &Robot, limits: &[ActuatorLimits]) -> Vec<ActuatorUse> {
         #[expect(clippy::cast_precision_loss, reason = "steps are bounded far below 2^52")]
+        // A run that failed in its first step has none: no division by zero.
         let share = |count: u64| count as f64 / self.steps.max(1) as f64;
         let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        // A follower has no actuator.
         let rows = joints.zip(&self.joints).zip(limits).filter(|((joint, _), _)| joint.mimic.is_none());
         rows.map(|((joint, count), limits)| ActuatorUse {
             joint: joint.name.clone(),
             largest_effort: count.largest_effort,
+            // Without a limit the largest effort is `f64::MAX`.
             effort_limit: (limits.effort < f64::MAX).then_some(limits.effort),
             unit: if joint.kind.is_angular() { SiUnit::NewtonMetre } else { SiUnit::Newton },
             at_effort_limit: share(count.at_effort_limit),

@@ -45,7 +45,8 @@ pub(super) struct Braking {
 impl Braking {
     /// From a setpoint and its velocities at `began_s`.
     pub(super) fn new(
-        (q, qd): (&RobotQ, &[f64]),
+        q: &RobotQ,
+        qd: &[f64],
         began_s: f64,
         robot: &Robot,
         accelerations: &[(f64, StopLimit)],
@@ -138,7 +139,7 @@ mod tests {
     #[test]
     fn all_joints_slow_down_alike_and_none_faster_than_its_limit() {
         // Alone the first would need 0.125 s, the second 0.5 s.
-        let mut braking = Braking::new((&[0.0, 0.25].into(), &[0.5, -0.5]), 3.0, &robot(), &LIMITS);
+        let mut braking = Braking::new(&[0.0, 0.25].into(), &[0.5, -0.5], 3.0, &robot(), &LIMITS);
         braking.advance(3.25);
         assert_eq!((&braking.q()[..], braking.qd()), (&[0.09375, 0.15625][..], &[0.25, -0.25][..]));
         // v^2 / 2 a of the second, and as far of the first.
@@ -150,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_setpoint_stays_within_the_range_of_its_joint() {
-        let mut braking = Braking::new((&[0.95, 1.25].into(), &[0.5, 0.5]), 0.0, &robot(), &LIMITS);
+        let mut braking = Braking::new(&[0.95, 1.25].into(), &[0.5, 0.5], 0.0, &robot(), &LIMITS);
         braking.advance(0.25);
         assert_eq!((&braking.q()[..], braking.qd()), (&[1.0, 1.25][..], &[0.0, 0.0][..]));
         // Half of the stop is over: both lost 0.25 of 0.5 at once.
@@ -171,7 +172,7 @@ mod tests {
 
     #[test]
     fn a_setpoint_at_rest_stays() {
-        let mut braking = Braking::new((&[0.5, 0.25].into(), &[0.0, 0.0]), 1.0, &robot(), &LIMITS);
+        let mut braking = Braking::new(&[0.5, 0.25].into(), &[0.0, 0.0], 1.0, &robot(), &LIMITS);
         braking.advance(1.001);
         assert_eq!((&braking.q()[..], braking.qd()), (&[0.5, 0.25][..], &[0.0, 0.0][..]));
     }

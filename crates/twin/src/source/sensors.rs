@@ -50,6 +50,7 @@ impl JointSensors {
         self.before_q.copy_from_slice(&self.q);
         self.q.copy_from_slice(q);
         self.qd.copy_from_slice(qd);
+        // As in an encoder: noise is on the signal, counting comes after it, and differences are of what was counted.
         self.add_noise();
         self.round();
         self.differentiate();

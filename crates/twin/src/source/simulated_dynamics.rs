@@ -46,6 +46,7 @@ impl SimulatedDynamics {
     pub fn with_part_of_step(robot: &Robot, part: f64) -> Result<Self, SimulationError> {
         // Without limits: stops and clipped efforts would be part of the measured acceleration.
         let unlimited = robot.with_joints(|joint| joint.limit = None);
+        // Comparisons need the torques of each coordinate; couplings would mix those of followers into their masters.
         let independent = unlimited.with_joints(|joint| joint.mimic = None);
         Ok(Self { coupled: Stepped::new(&unlimited, part)?, independent: Stepped::new(&independent, part)? })
     }
@@ -135,12 +136,14 @@ fn at_zero(mut values: [f64; SHARES.len()]) -> f64 {
 /// A step in which damping and friction take but a small share of a joint's speed, whatever the other joints do.
 fn undamped_step_s(robot: &Robot) -> Result<f64, SimulationError> {
     let Some(inverse) = world(robot, LONGEST_STEP_S)?.mass_matrix().try_inverse() else {
+        // A singular mass matrix: the step itself reports the joint without inertia.
         return Ok(LONGEST_STEP_S);
     };
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     // A torque t changes the speed of its joint by (M^-1)_ii t h in a step h, so damping takes the share d (M^-1)_ii h of it.
     let steps_s = joints.enumerate().map(|(row, joint)| {
         let lightness = inverse[(row, row)].abs();
+        // Without damping or friction the quotient is infinite, and the longest step holds.
         (DAMPED_SHARE / (joint.damping * lightness)).min(BRAKED_SPEED / (joint.friction * lightness))
     });
     Ok(steps_s.fold(LONGEST_STEP_S, f64::min))

@@ -69,6 +69,7 @@ impl<'a> SimulationSource<'a> {
         // After state and resistances, which faults may change; before the first reading, which they falsify.
         let mut faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
         let mut sensors = JointSensors::new(setup);
+        // Also at time 0, so that the first command is computed from a reading, not from zeros.
         measure(&mut faults, &mut sensors);
         let mut payloads = CarriedPayloads::new(&setup.payloads);
         payloads.update(0.0, &mut world);
@@ -147,11 +148,13 @@ impl JointStateSource for SimulationSource<'_> {
 
     fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {
         self.world.root_from_links_into(root_from_links);
+        // The physics does not know of a tool at another pose: only what is seen of it is moved.
         self.faults.move_tool(root_from_links);
         true
     }
 
     fn step_forces(&self) -> StepForces {
+        // From the least to the most that is known of the forces.
         if self.world.was_placed() {
             StepForces::Unknown
         } else if self.world.contact_acts() {
@@ -164,9 +167,11 @@ impl JointStateSource for SimulationSource<'_> {
     }
 
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
+        // Obstacles first: the step moves them to their poses at its end.
         self.move_bodies(time_s);
         match &mut self.braking {
             Some(braking) => braking.advance(time_s),
+            // With what arrived, not with the truth: a servo is controlled through the same sensors as the drives.
             None => self.reference.advance(time_s, self.faults.measured().q).map_err(SourceError::new)?,
         }
         let mut setpoint = commanded(&self.reference, self.braking.as_ref());
@@ -200,8 +205,8 @@ impl JointStateSource for SimulationSource<'_> {
     fn begin_stop(&mut self) -> bool {
         let robot = &self.setup.description.robot;
         let accelerations = stop_accelerations(robot, self.setup.trajectory.declared_accelerations());
-        let commanded = (self.reference.q(), self.reference.qd());
-        self.braking = Some(Braking::new(commanded, self.world.time_s(), robot, &accelerations));
+        let (q, qd) = (self.reference.q(), self.reference.qd());
+        self.braking = Some(Braking::new(q, qd, self.world.time_s(), robot, &accelerations));
         true
     }
 

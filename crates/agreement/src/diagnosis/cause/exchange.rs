@@ -11,11 +11,11 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let rows = candidate.rows.len();
     let lengths = (0..rows)
         .filter(|&row| candidate.entry(row, DhEntry::A).is_some())
-        .map(|row| exchanged(FaultPlace::Rows(vec![row]), (row, DhEntry::A), (row, DhEntry::D)));
+        .map(|row| exchanged(FaultPlace::Rows(vec![row]), [row; 2], [DhEntry::A, DhEntry::D]));
     // The conventions differ by one row in where `alpha` belongs, which is the usual reason for this exchange.
     let twists = (1..rows).filter(|&row| candidate.entry(row, DhEntry::Alpha).is_some()).map(|row| {
         let place = FaultPlace::Entries(DhEntry::Alpha, vec![row - 1, row]);
-        exchanged(place, (row - 1, DhEntry::Alpha), (row, DhEntry::Alpha))
+        exchanged(place, [row - 1, row], [DhEntry::Alpha; 2])
     });
     lengths.chain(twists).chain(COLUMNS.map(columns)).collect()
 }
@@ -23,29 +23,26 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
 /// Columns that a reader may take for each other: both lengths, and both angles.
 const COLUMNS: [[DhEntry; 2]; 2] = [[DhEntry::A, DhEntry::D], [DhEntry::Alpha, DhEntry::Theta]];
 
-fn columns([first, second]: [DhEntry; 2]) -> PoseHypothesis {
-    let place = FaultPlace::Column(vec![first, second]);
+fn columns(entries: [DhEntry; 2]) -> PoseHypothesis {
+    let place = FaultPlace::Column(entries.to_vec());
     PoseHypothesis::edit(Cause::ParametersExchanged, place, move |models: &mut ModelPair| {
         for row in 0..models.candidate.rows.len() {
-            swap(&mut models.candidate, (row, first), (row, second));
+            swap(&mut models.candidate, [row; 2], entries);
         }
     })
 }
 
-fn exchanged(place: FaultPlace, first: (usize, DhEntry), second: (usize, DhEntry)) -> PoseHypothesis {
+fn exchanged(place: FaultPlace, rows: [usize; 2], entries: [DhEntry; 2]) -> PoseHypothesis {
     PoseHypothesis::edit(Cause::ParametersExchanged, place, move |models: &mut ModelPair| {
-        swap(&mut models.candidate, first, second);
+        swap(&mut models.candidate, rows, entries);
     })
 }
 
-fn swap(candidate: &mut CandidateModel, first: (usize, DhEntry), second: (usize, DhEntry)) {
-    let (Some(at_first), Some(at_second)) =
-        (candidate.entry(first.0, first.1), candidate.entry(second.0, second.1))
-    else {
-        return;
-    };
-    for ((row, entry), value) in [(first, at_second), (second, at_first)] {
-        if let Some(place) = candidate.entry_mut(row, entry) {
+/// Exchanges the first entry in the first row with the second entry in the second row.
+fn swap(candidate: &mut CandidateModel, rows: [usize; 2], entries: [DhEntry; 2]) {
+    let [Some(first), Some(second)] = [0, 1].map(|at| candidate.entry(rows[at], entries[at])) else { return };
+    for (at, value) in [second, first].into_iter().enumerate() {
+        if let Some(place) = candidate.entry_mut(rows[at], entries[at]) {
             *place = value;
         }
     }

@@ -47,6 +47,7 @@ fn rounded(reference: &ReferenceModel) -> Vec<usize> {
 
 /// The rotation that is meant: by quarter turns, or with quarter turns among its roll, pitch and yaw.
 fn exact(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    // A rotation by quarter turns first: its rpy may be singular, and the entries decide more exactly.
     quarter_turns(rotation).or_else(|| {
         let rpy = rpy_from_rotation(rotation);
         let meant = rpy.map(|angle| {

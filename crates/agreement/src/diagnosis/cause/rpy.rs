@@ -40,6 +40,7 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
             let constant = &mut models.candidate.tool;
             reread(&mut constant.pose.rotation, constant.written_rpy_rad, reading);
         }));
+        // A black box has no file in which an order could be wrong.
         for joint in (0..models.reference.joints.len()).filter(|&at| models.reference.joints[at].is_written) {
             let place = FaultPlace::ReferenceJoints(vec![joint]);
             list.push(PoseHypothesis::edit(Cause::RpyOrder, place, move |models: &mut ModelPair| {

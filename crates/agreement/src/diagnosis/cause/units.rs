@@ -34,6 +34,7 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
         for place in [FaultPlace::Base, FaultPlace::Tool] {
             list.push(constant(place, wrong_unit));
         }
+        // A length needs no such hypothesis: the factor on a sliding joint is a ratio, which has a family of its own.
         if wrong_unit.entries == &LENGTHS {
             list.push(whole(wrong_unit));
         } else {
@@ -57,6 +58,7 @@ fn table(candidate: &CandidateModel, wrong_unit: WrongUnit, list: &mut Vec<PoseH
             }
         }
     }
+    // Each column alone, and both: a reader may convert one and forget the other.
     for column in [&entries[..1], &entries[1..], &entries[..]] {
         let edit = move |models: &mut ModelPair| scale_columns(&mut models.candidate, column, factor);
         list.push(PoseHypothesis::edit(cause, FaultPlace::Column(column.to_vec()), edit));
@@ -124,6 +126,7 @@ fn rescale(constant: &mut DeclaredTransform, wrong_unit: WrongUnit) {
     } else if let Some(rpy) = constant.written_rpy_rad {
         let [roll, pitch, yaw] = rpy.map(|angle| angle * wrong_unit.factor);
         let turn = |axis, angle| rotation_exp(&Vector3::ith(axis, angle));
+        // From the angles as written: scaling the rotation itself would lose whole turns.
         constant.pose.rotation = turn(2, yaw) * turn(1, pitch) * turn(0, roll);
         constant.written_rpy_rad = Some([roll, pitch, yaw]);
     }

@@ -51,6 +51,7 @@ impl EvaluationPoint {
             numbers.extend_from_slice(((found.linear - expected.linear) / self.length_m).as_slice());
         }
         let (found, expected) = (&walk.base_from_tip, &target.base_from_tip);
+        // All nine entries rather than three angles: no singular orientation, and linear in the rotation.
         numbers.extend_from_slice((found.rotation - expected.rotation).as_slice());
         numbers.extend_from_slice(((found.translation - expected.translation) / self.length_m).as_slice());
         numbers
@@ -76,6 +77,7 @@ impl EvaluationPoint {
         for (row, twist) in candidate.rows.iter().zip(&walk.row_twists).skip(*from_row) {
             put(row.joint, generator.bracket(twist));
         }
+        // The row's own screw is proportional to its rate.
         if let Some(row) = *scales_row {
             put(candidate.rows[row].joint, walk.row_twists[row] * (1.0 / candidate.rows[row].rate));
         }

@@ -80,6 +80,7 @@ impl<'a> FitContext<'a> {
     }
 
     fn angle_starts(&self, hypothesis: usize) -> Vec<Vec<f64>> {
+        // Only a single angle: starts of several angles would multiply.
         match self.hypotheses[hypothesis].free[..] {
             [only] if only.is_angle() => ANGLE_STARTS_RAD.iter().map(|&start| vec![start]).collect(),
             _ => Vec::new(),

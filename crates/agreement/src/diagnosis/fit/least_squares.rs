@@ -1,7 +1,6 @@
 //! Least squares on screws and tip for the free parameters of a hypothesis, by Levenberg and Marquardt.
 
 use congruent_kinematics::least_squares::{Damping, NormalEquations};
-use nalgebra::DVector;
 
 use crate::diagnosis::{
     candidate::{CandidateModel, ChainWalk, ModelParameter},
@@ -51,7 +50,11 @@ impl FitTarget<'_> {
             if best.norm < PERFECT_FIT || free.is_empty() {
                 break;
             }
-            let Some(step) = self.step(&best.candidate, (&walk, &difference), free, damping) else { break };
+            let Some(columns) = self.columns(&best.candidate, &walk, free) else { break };
+            // The absolute part keeps a parameter without effect at its value.
+            let damped = Damping { relative: damping, absolute: NO_EFFECT };
+            let equations = NormalEquations::from_columns(&columns, &difference);
+            let Some(step) = equations.damped_step(damped) else { break };
             let mut moved = best.candidate.clone();
             for (&parameter, &by) in free.iter().zip(step.iter()) {
                 moved.shift(parameter, by);
@@ -80,21 +83,18 @@ impl FitTarget<'_> {
         best
     }
 
-    fn step(
+    /// Derivatives of the difference by each of these parameters.
+    fn columns(
         &self,
         candidate: &CandidateModel,
-        (walk, difference): (&ChainWalk, &[f64]),
+        walk: &ChainWalk,
         free: &[ModelParameter],
-        damping: f64,
-    ) -> Option<DVector<f64>> {
+    ) -> Option<Vec<Vec<f64>>> {
         let column = |&parameter: &ModelParameter| {
             let effect = candidate.parameter_effect(parameter, &self.evaluation_point.q, walk)?;
             Some(self.evaluation_point.derivative(candidate, walk, &effect))
         };
-        let columns: Vec<Vec<f64>> = free.iter().map(column).collect::<Option<_>>()?;
-        // The absolute part keeps a parameter without effect at its value.
-        NormalEquations::from_columns(&columns, difference)
-            .damped_step(Damping { relative: damping, absolute: NO_EFFECT })
+        free.iter().map(column).collect()
     }
 }
 

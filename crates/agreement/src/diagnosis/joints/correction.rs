@@ -39,6 +39,8 @@ fn origin(robots: &MatchedRobots<'_>, joint: &Joint, reach_m: f64) -> Option<Joi
     if !robots.is_matched(joint.child) {
         return None;
     }
+    // Its own joint there says exactly what the file has; otherwise what all joints between the two links make
+    // together.
     let expected = match robots.same_joint(joint) {
         Some(there) => there.parent_from_joint,
         None => (robots.there(joint.parent).inverse() * robots.there(joint.child)).to_isometry(),
@@ -65,17 +67,18 @@ fn at_differing_fixed_joint(
     }
     let mut before = between(robots, joint.parent);
     let named = before.find(|(_, fixed)| differs(fixed).is_some());
-    named.map_or(correction, |(index, fixed)| moved_to((index, fixed), joint, robots, correction))
+    named.map_or(correction, |(index, _)| moved_to(index, joint, robots, correction))
 }
 
 /// The same correction at a fixed joint before it.
 pub(super) fn moved_to(
-    (index, fixed): (JointIndex, &Joint),
+    index: JointIndex,
     joint: &Joint,
     robots: &MatchedRobots<'_>,
     correction: JointCorrection,
 ) -> JointCorrection {
     let JointPart::Origin(expected) = correction.expected else { return correction };
+    let fixed = robots.robot.joint(index);
     let before_fixed = robots.own(fixed.parent);
     let parent = before_fixed.inverse() * robots.own(joint.parent);
     // The correction acts behind the joint. Moved before it, it is the same displacement expressed in the frame of
@@ -119,6 +122,7 @@ fn distance_m(one: &Isometry3<f64>, other: &Isometry3<f64>, lever_m: f64) -> f64
 /// The robot with these parts of joints corrected.
 pub(super) fn corrected(robot: &Robot, corrections: &[JointCorrection]) -> Robot {
     robot.with_joints(|joint| {
+        // By name: the robot that is changed has joints of its own.
         for correction in corrections.iter().filter(|of| robot.joint(of.joint).name == joint.name) {
             match correction.expected {
                 JointPart::Origin(origin) => joint.parent_from_joint = origin,

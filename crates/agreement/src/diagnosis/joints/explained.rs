@@ -50,8 +50,9 @@ pub(crate) fn explained_by_joints(
     all.truncate(MAX_PARAMETERS);
     let every_link = |link| robots.is_matched(link);
     let mut difference = CorrectedDifference::new(robots, poses, &every_link);
+    // All corrections together first: if these do not suffice, no part of them does.
     if !difference.is_within(&corrected(robots.robot, &all), at)? {
-        return single_displacement(robots, poses, (displaced(robots, at), at));
+        return single_displacement(robots, poses, displaced(robots, at), at);
     }
     let mut worst = vec![difference.worst(robots.robot, at)?];
     for count in 1..=all.len() {
@@ -74,7 +75,7 @@ pub(crate) fn explained_by_joints(
             moves_alike(&robots.with(&corrected), at)
         };
         if let Some(only) = all.iter().find(suffices) {
-            return single_displacement(robots, poses, (vec![*only], at));
+            return single_displacement(robots, poses, vec![*only], at);
         }
     }
     let alternatives = if let [only] = all[..] { elsewhere(robots, only) } else { Vec::new() };
@@ -85,7 +86,8 @@ pub(crate) fn explained_by_joints(
 fn single_displacement(
     robots: &MatchedRobots<'_>,
     poses: &mut dyn LinkPoses,
-    (mut places, at): (Vec<JointCorrection>, &ComparedAt<'_>),
+    mut places: Vec<JointCorrection>,
+    at: &ComparedAt<'_>,
 ) -> Result<Option<ExplainedByJoints>, LinkPosesError> {
     if places.is_empty() {
         return Ok(None);
@@ -110,7 +112,7 @@ fn elsewhere(robots: &MatchedRobots<'_>, only: JointCorrection) -> Vec<JointCorr
     if !matches!(only.expected, JointPart::Origin(_)) || !robots.is_matched(joint.child) {
         return Vec::new();
     }
-    between(robots, joint.parent).map(|fixed| moved_to(fixed, joint, robots, only)).collect()
+    between(robots, joint.parent).map(|(index, _)| moved_to(index, joint, robots, only)).collect()
 }
 
 /// The difference of a corrected robot from the other description.

@@ -61,6 +61,7 @@ impl<'a> MatchedRobots<'a> {
     where
         'a: 'b,
     {
+        // Only the poses of its own side change; names and matches stay.
         let mut changed = MatchedRobots { robot, ..self.clone() };
         let zero = RobotQ::zeros(robot.dof());
         UrdfTree::new(robot)

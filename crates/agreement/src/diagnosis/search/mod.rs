@@ -78,6 +78,7 @@ pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
     let search = ExplanationSearch { context: &context, criterion };
     let (explained, others) = search.run();
     let mut found: Vec<Explanation> = explained.iter().map(|fit| search.explanation(fit)).collect();
+    // The first is the answer, the others are alternatives to it.
     let others_alike = found.split_off(found.len().min(1));
     let alike = |other: Explanation| {
         let equivalence = equivalence::equivalence(models, criterion, &found[0], &other);
@@ -113,6 +114,7 @@ impl ExplanationSearch<'_> {
             return (explained, self.next_best(&singles));
         }
         let flips = self.flips();
+        // Together, so that two flips and three compete by rank and not by which was tried first.
         let mut pairs = [self.pairs(&singles), flips.clone()].concat();
         let explained = self.explaining(&pairs);
         if !explained.is_empty() {
@@ -155,6 +157,7 @@ impl ExplanationSearch<'_> {
         let Some(best) = residuals.min_by(in_tolerances) else { return Vec::new() };
         let refuted = |fit: &HypothesisFit| is_refuted(self.context, fit, self.criterion, &best);
         let mut explaining: Vec<(bool, ExplanationRank, &HypothesisFit)> =
+            // Refuted ones last, not removed: they still show what would fit within the tolerance.
             accepted.iter().map(|fit| (refuted(fit), self.rank(fit), *fit)).collect();
         explaining.sort_by(|(a, rank_a, _), (b, rank_b, _)| (a, rank_a).cmp(&(b, rank_b)));
         // Of one fault with different free parameters only the first is kept.

@@ -55,6 +55,7 @@ impl ExplanationSearch<'_> {
     /// parameter.
     fn pair_in_both_orders(&self, first: &HypothesisFit, second: &HypothesisFit) -> Vec<HypothesisFit> {
         let [a, b] = [first, second].map(|fit| &self.context.hypotheses[fit.hypotheses[0]]);
+        // Two parameters that are one would make the normal equations singular.
         if a.free.iter().any(|parameter| b.free.contains(parameter)) {
             return Vec::new();
         }

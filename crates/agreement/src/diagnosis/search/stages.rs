@@ -160,6 +160,8 @@ impl ExplanationSearch<'_> {
             }
             let (mut fewer, mut start) = (fit.hypotheses.clone(), fit.changes.clone());
             fewer.remove(at);
+            // `changes` holds the parameters of all hypotheses one after another: those of the removed one begin
+            // behind those of the hypotheses before it.
             let first: usize = fit.hypotheses[..at].iter().map(|&before| self.free(before)).sum();
             start.drain(first..first + self.free(fit.hypotheses[at]));
             let without = self.context.fit(fewer, &[start]);
@@ -183,6 +185,7 @@ impl ExplanationSearch<'_> {
     /// and the residual after each.
     pub(super) fn in_turn(&self, fit: &HypothesisFit) -> (Vec<usize>, Vec<PoseError>) {
         let mut order = fit.hypotheses.clone();
+        // Of more than two the order is that in which they were added, the largest gain first.
         if let [first, second] = order[..] {
             let [one, other] = [first, second].map(|hypothesis| self.context.single(hypothesis).norm);
             if other < one {

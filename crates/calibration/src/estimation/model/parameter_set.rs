@@ -22,6 +22,7 @@ pub fn zero_offsets(chain: &ScrewChain, joints: &[&str]) -> Vec<CorrectionParame
         name: format!("{joint}.zero"),
         entry: CorrectionEntry::Zero,
         joint: Some(at),
+        // Behind its joint: its own screw commutes with its motion, so either side would do.
         slot: at + 1,
         generator_in_base: *twist,
     };

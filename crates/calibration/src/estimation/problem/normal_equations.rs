@@ -111,7 +111,7 @@ impl Problem<'_> {
         let mut sum = CalibrationEquations::zeros(p.len());
         let mut at_p = Linearisation::new(self.chain, p);
         for (at, measurement) in self.measurements.iter().enumerate() {
-            sum.add(&mut at_p, measurement, (weighting.row_weight(at), &weighting.noise));
+            sum.add(&mut at_p, measurement, weighting.row_weight(at), &weighting.noise);
         }
         sum
     }
@@ -171,7 +171,8 @@ impl CalibrationEquations {
         &mut self,
         at_p: &mut Linearisation<'_>,
         measurement: &Measurement,
-        (weight, noise): (f64, &Noise),
+        weight: f64,
+        noise: &Noise,
     ) {
         let Linearisation { chain, p, twists, row } = at_p;
         let pose = chain.linearise(&measurement.q, p, twists);

@@ -16,7 +16,7 @@ use crate::{
 
 /// An explanation as programs read it.
 #[derive(Serialize)]
-struct Explanation {
+struct CodeExplanation {
     id: String,
     code: &'static str,
     about: String,
@@ -39,14 +39,14 @@ pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
     Ok(0)
 }
 
-fn explained(word: &str) -> Option<Explanation> {
+fn explained(word: &str) -> Option<CodeExplanation> {
     let of_code =
-        |code: Code| Explanation { id: code.to_string(), code: code.name, about: code.about.to_owned() };
+        |code: Code| CodeExplanation { id: code.to_string(), code: code.name, about: code.about.to_owned() };
     Code::find(word).map(of_code).or_else(|| cause(cause_name(&word.to_lowercase())))
 }
 
 /// The cause of a difference in poses, in dynamics, or of both that have this name.
-fn cause(name: &str) -> Option<Explanation> {
+fn cause(name: &str) -> Option<CodeExplanation> {
     let poses = Cause::ALL.iter().find(|cause| cause_name(cause.code()) == name);
     let dynamics = DynamicsCause::ALL.iter().find(|cause| cause.name() == name);
     let of_poses = poses.map(|cause| cause.about().to_owned());
@@ -54,7 +54,7 @@ fn cause(name: &str) -> Option<Explanation> {
         dynamics.map(|cause| format!("A difference in dynamics: {}. {}", cause.text(), cause.advice()));
     let about: Vec<String> = of_poses.into_iter().chain(of_dynamics).collect();
     let code = poses.map(|cause| cause.code()).or_else(|| dynamics.map(|cause| cause.name()))?;
-    Some(Explanation { id: code.to_owned(), code, about: about.join(" ") })
+    Some(CodeExplanation { id: code.to_owned(), code, about: about.join(" ") })
 }
 
 /// The name of a cause without the `check::` of its code.
@@ -67,7 +67,7 @@ fn cause_names() -> impl Iterator<Item = &'static str> {
     of_poses.chain(DynamicsCause::ALL.iter().map(|cause| cause.name()))
 }
 
-fn text(code: &Explanation) -> String {
+fn text(code: &CodeExplanation) -> String {
     let mut lines = code.about.lines();
     // A cause has a name, and no number.
     let name = if code.id == code.code { String::new() } else { format!(" {}", code.code) };

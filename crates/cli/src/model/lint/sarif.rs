@@ -28,7 +28,7 @@ pub(super) struct Sarif {
 }
 
 /// Writes the results of a run.
-struct Results<'a> {
+struct SarifResults<'a> {
     /// The top of the repository; `None` outside of one.
     top: Option<PathBuf>,
     /// The rules, by the names of their codes.
@@ -60,8 +60,12 @@ pub(super) fn document(reports: &[(&Path, &LintReport)]) -> Sarif {
     let codes: BTreeMap<&str, Option<Code>> =
         found.map(|found| (found.code, Code::find(found.code))).collect();
     let rules: Vec<Value> = codes.iter().map(|(name, code)| rule(name, *code)).collect();
-    let mut results =
-        Results { top: top_of_repository(), codes, fingerprints: BTreeMap::new(), lines: Lines::default() };
+    let mut results = SarifResults {
+        top: top_of_repository(),
+        codes,
+        fingerprints: BTreeMap::new(),
+        lines: Lines::default(),
+    };
     let of_report = |(path, report): &(&Path, &LintReport)| {
         let fixes = results.fixes(&report.fixes);
         let found = report.diagnostics.iter();
@@ -97,7 +101,7 @@ fn id(name: &str, code: Option<Code>) -> String {
     code.map_or_else(|| name.to_owned(), |code| code.to_string())
 }
 
-impl Results<'_> {
+impl SarifResults<'_> {
     fn fixes<'f>(&mut self, fixes: &'f [LintFix]) -> FixesByLine<'f> {
         let mut by_line = FixesByLine::new();
         for fix in fixes {
@@ -266,7 +270,7 @@ mod tests {
     fn results(found: &[Diagnostic]) -> Vec<Value> {
         let codes = found.iter().map(|found| (found.code, Code::find(found.code))).collect();
         let mut results =
-            Results { top: None, codes, fingerprints: BTreeMap::new(), lines: Lines::default() };
+            SarifResults { top: None, codes, fingerprints: BTreeMap::new(), lines: Lines::default() };
         let none = FixesByLine::new();
         found.iter().flat_map(|found| results.of(found, Path::new("a.urdf"), &none)).collect()
     }

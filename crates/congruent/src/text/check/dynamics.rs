@@ -83,10 +83,10 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
         let _ = writeln!(text, "    {line}");
     }
     if let Some(worst) = report.worst_gravity() {
-        certified(text, ("gravity torque difference", worst), robot);
+        certified(text, "gravity torque difference", worst, robot);
     }
     if let (Some(worst), Some(all)) = (report.worst_in_motion(), &report.certificates) {
-        certified(text, ("torque difference in motion", worst), robot);
+        certified(text, "torque difference in motion", worst, robot);
         let _ = writeln!(text, "      {}", all.covered_sentence());
     }
 }
@@ -163,7 +163,7 @@ fn limits(differences: &[LimitDifference]) -> Vec<String> {
 }
 
 /// The largest difference of a torque, with the configuration that has it.
-fn certified(text: &mut String, (what, worst): (&str, &TorqueBracket), robot: &Robot) {
+fn certified(text: &mut String, what: &str, worst: &TorqueBracket, robot: &Robot) {
     let _ = writeln!(text, "    largest {what} {}, at", worst.sentence());
     let at = JointValues::for_movable_joints(robot, &RobotQ::from(worst.q.clone()));
     text.push_str(&wrapped(&at.for_people(robot)));

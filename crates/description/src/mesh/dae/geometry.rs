@@ -55,6 +55,7 @@ pub(super) fn read_geometry<'a, 'i>(
         }
         let vertex = input(primitive, "VERTEX")?;
         let (id, vertices) = ids.target(vertex, "source", "vertices")?;
+        // Primitives of one geometry mostly share their vertices, which are read once.
         let positions = if let Some(positions) = known.get(id) {
             *positions
         } else {
@@ -125,6 +126,8 @@ impl Corners {
         for input in children(primitive, "input") {
             last = last.max(number(input, "offset", Some(0))?);
         }
+        // Each corner has one index for every offset, whatever it is for: texture and normals are skipped by the
+        // stride.
         Ok(Self { positions, stride: last.saturating_add(1), offset: number(vertex, "offset", Some(0))? })
     }
 
@@ -182,6 +185,8 @@ fn add_triangles(
                 }
             }
             "tristrips" => {
+                // Each triangle of a strip shares an edge with the one before, so every second one runs the other way
+                // round.
                 let turned = |(at, c): (usize, &[u32])| {
                     if at % 2 == 0 { [c[0], c[1], c[2]] } else { [c[0], c[2], c[1]] }
                 };

@@ -53,11 +53,14 @@ impl<'a, 'i> SceneReader<'a, 'i> {
         let instance = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
         let scene = match instance {
             Some(instance) => Some(self.ids.target(instance, "url", "visual_scene")?.1),
+            // Without <scene> the first visual scene counts, as viewers do it.
             None => child(root, "library_visual_scenes").and_then(|library| child(library, "visual_scene")),
         };
         let Some(scene) = scene else { return Ok(()) };
         let mut open: Vec<_> = children(scene, "node").map(|node| (node, metres)).collect();
         let mut nodes = 0;
+        // A list instead of recursion: files may nest arbitrarily deep. `MOST_NODES` also ends instances that contain
+        // themselves.
         while let Some((node, scene_from_parent)) = open.pop() {
             nodes += 1;
             if nodes > MOST_NODES {
@@ -106,6 +109,7 @@ impl<'a, 'i> SceneReader<'a, 'i> {
 fn transform(node: Node<'_, '_>) -> Result<Matrix4<f64>, MeshError> {
     let mut parent_from_node = Matrix4::identity();
     for step in node.children().filter(Node::is_element) {
+        // In the order of the file, each step in the frame of the ones before (COLLADA 1.4, <node>).
         parent_from_node *= match step.tag_name().name() {
             "matrix" => Matrix4::from_row_slice(&numbers_of::<16>(step)?),
             "translate" => Matrix4::new_translation(&Vector3::from(numbers_of::<3>(step)?)),

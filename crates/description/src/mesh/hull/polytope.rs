@@ -43,6 +43,7 @@ impl Eq for QueuedFacet {}
 /// Farthest first; of equal distances the oldest facet, so that the result does not depend on the heap.
 impl Ord for QueuedFacet {
     fn cmp(&self, other: &Self) -> Ordering {
+        // The lower number first among equals, so that the hull is the same in every run.
         self.distance_m.total_cmp(&other.distance_m).then(other.facet.cmp(&self.facet))
     }
 }
@@ -82,6 +83,7 @@ impl Polytope {
         }
         let mut points = points.to_vec();
         let given = points.len();
+        // The exact predicate, not the normal: rounding would make a volume of a flat mesh.
         let height = |point: &Point3<f64>| orientation([&points[a], &points[b], &points[c]], point).abs();
         // All heights are exactly 0 only for points in one plane. A flat mesh still needs a volume, or no facet would have an
         // inside; the extra point lies one mesh size beside the plane, far from rounding.
@@ -219,6 +221,7 @@ impl Polytope {
         let areas: Vec<f64> = self.facets[first..].iter().map(|facet| self.area(facet.corners)).collect();
         for point in points {
             let height = |(number, facet): (usize, &Facet)| {
+                // `orient3d` is positive below the plane of a counterclockwise triangle.
                 let above = -orientation(self.corner_points(facet.corners), &self.points[point]);
                 (above > 0.0).then_some((above / areas[number], first + number))
             };
@@ -228,6 +231,7 @@ impl Polytope {
             let distance_m =
                 distance_from_triangle(&self.points[point], self.corner_points(self.facets[facet].corners));
             let facet = &mut self.facets[facet];
+            // The first point also if its distance rounds to 0, or the facet would never be taken up.
             if distance_m > facet.farthest.1 || facet.outside.is_empty() {
                 facet.farthest = (facet.outside.len(), distance_m);
             }
@@ -259,6 +263,7 @@ impl Polytope {
 fn in_order(mut horizon: Vec<HorizonEdge>) -> Option<Vec<HorizonEdge>> {
     for at in 1..horizon.len() {
         let end = horizon[at - 1].to;
+        // Quadratic, but a rim has some ten edges.
         let next = (at..horizon.len()).find(|&other| horizon[other].from == end)?;
         horizon.swap(at, next);
     }
@@ -284,6 +289,7 @@ fn largest(points: &[Point3<f64>], value: impl Fn(&Point3<f64>) -> f64) -> Optio
 fn farthest_pair(points: &[Point3<f64>]) -> Option<[usize; 2]> {
     let by = |axis: usize| move |a: &usize, b: &usize| points[*a][axis].total_cmp(&points[*b][axis]);
     let pairs = (0..3)
+        // Extremes along the axes: the farthest pair of all would take the square of the number of points.
         .filter_map(|axis| Some([(0..points.len()).min_by(by(axis))?, (0..points.len()).max_by(by(axis))?]));
     let apart = |[a, b]: &[usize; 2]| (points[*b] - points[*a]).norm();
     pairs.max_by(|a, b| apart(a).total_cmp(&apart(b))).filter(|pair| apart(pair) > 0.0)

@@ -90,6 +90,7 @@ impl GrammarCheck<'_> {
         let kind = format!("times {}", fault.message);
         let fault = Diagnostic { message, ..fault }.one_of(kind, &self.owner);
         self.diagnostics.push(fault.needed_by(part.needed_by).at(at));
+        // Not read: urdf-rs would refuse the whole document for one such part.
         if part.needed_by != Some(Capability::Kinematics) {
             self.unread.extend(part.ranges.iter().cloned());
         }
@@ -142,6 +143,7 @@ impl GrammarCheck<'_> {
                 self.report("urdf::missing_element", &what, tag(parent));
             }
             (_, Some(second)) if child.occurs != Occurs::AnyNumber => {
+                // All of them: which one is meant is not known.
                 let all = elements(parent, name).map(|node| node.range()).collect();
                 let fault = Diagnostic::error("urdf::repeated_element", format!("<{name}> is given twice"));
                 self.report_in(&self.part.inner(child.element.needed, all), fault, tag(second));

@@ -52,6 +52,7 @@ fn below<'a>(node: Node<'a, 'a>, rules: &Element, owner: &str, found: &mut Vec<M
             continue;
         }
         let meant = misspelt(name, rules.attributes, |known| known.name);
+        // If the right name is there as well, the wrong one is not a misspelling of it.
         if let Some(meant) = meant.filter(|meant| !node.has_attribute(meant.name)) {
             found.push(Misspelling {
                 code: "urdf::unknown_attribute",
@@ -115,6 +116,7 @@ pub(super) fn misspelt<'a, T>(
     known
         .iter()
         .map(|known| (wrong(known), known))
+        // At most a third of the letters: "xyz" is no misspelling of "rpy".
         .filter(|(wrong, known)| *wrong <= MOST_WRONG && wrong * 3 <= name_of(known).len())
         .min_by_key(|(wrong, _)| *wrong)
         .map(|(_, known)| known)

@@ -16,6 +16,7 @@ pub(super) fn fault(text: &str, count: usize) -> Option<String> {
 fn token_fault(token: &str) -> Option<String> {
     match token.parse::<f64>() {
         Ok(number) if number.is_finite() => None,
+        // 1e999 parses as infinity; "inf" and "nan" are written on purpose.
         Ok(_) if token.contains(|c: char| c.is_ascii_digit()) => {
             Some(format!("\"{token}\" is out of range: it is not finite in double precision"))
         }

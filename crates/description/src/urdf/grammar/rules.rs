@@ -107,7 +107,7 @@ const NUMBER: AttributeValue = Numbers(1);
 const JOINT_TYPES: &[&str] =
     &["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
-/// The whole document.
+/// The root element, and with it the whole document.
 pub(super) static ROBOT: Element = element(
     "robot",
     &[optional("name", Text), optional("version", Text)],

@@ -30,6 +30,7 @@ pub(in crate::urdf) fn judge(
     repairs: &Repairs,
     diagnostics: &mut Diagnostics,
 ) {
+    // Repairs before the checks, which then see the repaired tensors.
     for (name, at) in &repairs.links {
         let repair_finding = repair(robot, name).unwrap_or_else(|fault| fault).at(at.clone());
         diagnostics.push(match &repairs.source {
@@ -68,7 +69,7 @@ fn repair(robot: &mut Robot, name: &str) -> Result<Diagnostic, Diagnostic> {
     }
     if Impossible::find(&inertia).is_none() {
         let message = format!(
-            "[inertia] {name}: a rigid body can have the inertia in the URDF, so nothing is repaired"
+            "[inertia] {name}: the inertia in the URDF is physically possible, so nothing is repaired"
         );
         return Ok(Diagnostic::warning(CODE, message).with_help("remove the line"));
     }
@@ -100,6 +101,7 @@ impl LinkBodies {
                     let (body, body_from_parent) = bodies[joint.parent.get()];
                     (body, body_from_parent * joint.parent_from_joint)
                 }
+                // A body has the number of its first link.
                 _ => (link.get(), Isometry3::identity()),
             });
         }
@@ -213,6 +215,7 @@ impl InertiaCheck<'_, '_> {
             mass_kg[*body] += link.inertia.map_or(0.0, |inertia| inertia.mass_kg);
         }
         for (index, link) in self.robot.links().iter().enumerate().skip(1) {
+            // Only the first link of a body, and not one whose impossible inertia is an error already.
             if self.bodies.0[index].0 != index || mass_kg[index] > 0.0 || judged.get(&index) == Some(&false) {
                 continue;
             }

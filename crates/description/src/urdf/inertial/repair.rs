@@ -46,6 +46,9 @@ pub(super) fn nearest_possible(tensor_kg_m2: &Matrix3<f64>) -> Matrix3<f64> {
 fn nearest_moments(moments: Vector3<f64>) -> Vector3<f64> {
     const EDGES: [[f64; 3]; 3] = [[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]];
     let mut best = Vector3::zeros();
+    // The nearest point of the cone lies on one of its faces: of the projections onto the spans of all sets of edges
+    // those with positive coordinates are in the cone, and the nearest one is the answer. The empty set is the zero
+    // that `best` begins with.
     for set in 1_u8..8 {
         let edge = |index: usize| {
             if set >> index & 1 == 1 { Vector3::from(EDGES[index]) } else { Vector3::zeros() }

@@ -37,22 +37,22 @@ fn an_impossible_inertia_stops_physics_and_stays_as_it_is_written() {
         ("2", [3.0, 1.0, 1.0], "urdf::inertia", "its largest principal moment, 3 kg m2, exceeds the sum of"),
     ] {
         let text = arm(LIMIT, &inertial(mass, moments));
-        let robot = stops(&text, 8, Some(Capability::Physics), (code, message));
+        let robot = stops(&text, 8, Some(Capability::Physics), code, message);
         assert_eq!(robot.links()[1].inertia.unwrap().tensor_kg_m2[(0, 0)], moments[0]);
         // The root's body cannot move.
         let root = arm(LIMIT, INERTIAL).replace(
             "<link name=\"base\"/>",
             &format!("<link name=\"base\">{}</link>", inertial(mass, moments)),
         );
-        stops(&root, 2, None, (code, "the link cannot move, so its inertia is not used"));
+        stops(&root, 2, None, code, "the link cannot move, so its inertia is not used");
     }
 }
 
 #[test]
 fn welded_links_are_judged_as_one_body() {
     let impossible = inertial("0.1", [0.3, 0.1, 0.1]);
-    let possible = ("urdf::inertia", "together with the links fixed to it the inertia is possible");
-    stops(&welded(INERTIAL, &impossible), 10, None, possible);
+    let possible = "together with the links fixed to it the inertia is possible";
+    stops(&welded(INERTIAL, &impossible), 10, None, "urdf::inertia", possible);
     // Neither of two links without mass is a fault beside one that has some.
     good(&welded(INERTIAL, ""));
     good(&welded("", INERTIAL));

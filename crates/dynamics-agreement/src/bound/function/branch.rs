@@ -159,9 +159,9 @@ fn region(function: &Trigonometric, (ranges, speeds): Ranges, work: &mut Work) -
     let Work { array, next, computed } = work;
     // Coefficients become control values one variable after the other, as a tensor product of curves does.
     array.clone_from(&function.coefficients);
-    for (at, (variable, range)) in function.variables.iter().zip(&ranges).enumerate() {
-        let points = control_points(variable, *range);
-        along_into(array, (&mut sizes, function.values), (at, &points), next);
+    for (at, (variable, &(lower, upper))) in function.variables.iter().zip(&ranges).enumerate() {
+        let points = control_points(variable, lower, upper);
+        along_into(array, &mut sizes, at, &points, next);
         std::mem::swap(array, next);
     }
     // The effort is counted by control values, not by boxes: their number grows exponentially with the variables.
@@ -184,9 +184,9 @@ fn region(function: &Trigonometric, (ranges, speeds): Ranges, work: &mut Work) -
         }
     }
     // A variable along which the control values are straight is exact already: halving it would gain nothing.
-    let bend = |at: usize| largest_bend(array, (&sizes, function.values), (place, at));
+    let bend = |at: usize| largest_bend(array, &sizes, place, at);
     let width = |at: usize| ranges[at].1 - ranges[at].0;
-    let bends = (0..sizes.len())
+    let bends = (0..function.variables.len())
         .map(|at| (at, bend(at)))
         // Of equal bends the wider range, so that boxes stay compact.
         .max_by(|a, b| a.1.total_cmp(&b.1).then(width(a.0).total_cmp(&width(b.0))));
@@ -203,7 +203,7 @@ fn region(function: &Trigonometric, (ranges, speeds): Ranges, work: &mut Work) -
 }
 
 /// Points whose hull contains the curve over a range, as rows of features.
-fn control_points(variable: &Variable, (lower, upper): (f64, f64)) -> Vec<Vec<f64>> {
+fn control_points(variable: &Variable, lower: f64, upper: f64) -> Vec<Vec<f64>> {
     if !variable.turns {
         let [first, last] = [lower, upper].map(|q| variable.features(q));
         if variable.degree == 1 {
@@ -279,7 +279,8 @@ fn around_the_circle(degree: usize) -> Vec<Vec<f64>> {
 }
 
 /// The largest second difference of the control values along a dimension, on the line through the largest one.
-fn largest_bend(array: &[f64], (sizes, values): (&[usize], usize), (place, at): (usize, usize)) -> f64 {
+fn largest_bend(array: &[f64], sizes: &[usize], place: usize, at: usize) -> f64 {
+    let (&values, sizes) = sizes.split_last().expect("the values are the last dimension");
     // Index of the first control value on the line through `place` along dimension `at`: the array is row-major,
     // so the entry of this dimension is place / after % size.
     let after: usize = sizes[at + 1..].iter().product();
@@ -294,19 +295,19 @@ fn largest_bend(array: &[f64], (sizes, values): (&[usize], usize), (place, at): 
 
 #[cfg(test)]
 mod tests {
-    use super::{super::measure::Measure, *};
+    use super::{super::measure::ValueMeasure, *};
 
     #[test]
     fn second_degree_closes_as_well() {
         let function = |q: &[f64]| vec![q[0].cos() * q[0].sin() + q[1] * q[1] * q[0].cos(), q[1]];
-        let mut variables = vec![Variable::turning(0, (-3.0, 3.0)), Variable::sliding(1, (-0.4, 0.7))];
+        let mut variables = vec![Variable::turning(0, -3.0, 3.0), Variable::sliding(1, -0.4, 0.7)];
         for variable in &mut variables {
             variable.degree = 2;
         }
-        let found = Trigonometric::sampled(variables, (2, Measure::Sum), function);
+        let found = Trigonometric::sampled(variables, 2, ValueMeasure::Sum, function);
         let grid = (0..400).flat_map(|a| (0..100).map(move |b| [f64::from(a), f64::from(b)]));
         let values = grid.map(|[a, b]| function(&[-3.0 + 6.0 * a / 399.0, -0.4 + 1.1 * b / 99.0]));
-        let largest = values.map(|values| Measure::Sum.value(&values)).fold(0.0, f64::max);
+        let largest = values.map(|values| ValueMeasure::Sum.value(&values)).fold(0.0, f64::max);
         let stop = SearchLimits { below: largest * 1.005, boxes: 1000, control_values: 1_000_000 };
         let bound = upper_bound(&found, stop);
         assert!(bound.value >= largest && bound.value < largest * 1.01, "{bound:?} for {largest}");
@@ -316,8 +317,8 @@ mod tests {
     #[test]
     fn the_bound_closes_on_the_maximum() {
         let function = |q: &[f64]| vec![q[0].cos() + 0.7 * (q[0] + q[1]).sin()];
-        let variables = vec![Variable::turning(0, (-0.5, 2.0)), Variable::turning(1, (-3.0, 0.4))];
-        let found = Trigonometric::sampled(variables, (1, Measure::Sum), function);
+        let variables = vec![Variable::turning(0, -0.5, 2.0), Variable::turning(1, -3.0, 0.4)];
+        let found = Trigonometric::sampled(variables, 1, ValueMeasure::Sum, function);
         let largest = (0..200)
             .flat_map(|a| (0..200).map(move |b| [f64::from(a), f64::from(b)]))
             .map(|[a, b]| function(&[-0.5 + 2.5 * a / 199.0, -3.0 + 3.4 * b / 199.0])[0].abs())

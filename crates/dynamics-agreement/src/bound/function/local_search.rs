@@ -3,7 +3,7 @@
 use congruent_kinematics::Uniform;
 
 use super::{
-    measure::Measure,
+    measure::ValueMeasure,
     trigonometric::{Trigonometric, Variable},
 };
 
@@ -24,7 +24,7 @@ pub(in crate::bound) fn largest(function: &Trigonometric, seed: u64) -> (f64, Ve
     let value = |q: &[f64]| function.at(q)[0].abs();
     let mut starts: Vec<(f64, Vec<f64>)> = (0..SAMPLES)
         .map(|_| {
-            let draw = |variable: &Variable| random.between((variable.lower, variable.upper));
+            let draw = |variable: &Variable| random.between(variable.lower, variable.upper);
             let q: Vec<f64> = function.variables.iter().map(draw).collect();
             (value(&q), q)
         })
@@ -50,7 +50,7 @@ pub(in crate::bound) fn largest_of_three(function: &Trigonometric) -> f64 {
 /// A function of several values that is evaluated along one variable at a time.
 pub(in crate::bound) struct SectionedFunction<'a, F> {
     pub(in crate::bound) variables: &'a [Variable],
-    pub(in crate::bound) measure: Measure,
+    pub(in crate::bound) measure: ValueMeasure,
     /// The coefficients along one variable with the others at these positions: the values, for each feature of it.
     pub(in crate::bound) along_variable: F,
 }
@@ -63,17 +63,17 @@ pub(in crate::bound) fn largest_sampled<F: FnMut(usize, &[f64]) -> Vec<f64>>(
 ) -> (f64, Vec<f64>) {
     let mut random = Uniform::seeded(seed);
     let maxima = (0..STARTS).map(|_| {
-        let draw = |variable: &Variable| random.between((variable.lower, variable.upper));
+        let draw = |variable: &Variable| random.between(variable.lower, variable.upper);
         let mut q: Vec<f64> = sectioned.variables.iter().map(draw).collect();
         let mut best = 0.0;
         for _ in 0..ROUNDS {
             let before = best;
             for at in 0..q.len() {
                 let coefficients = (sectioned.along_variable)(at, &q);
-                let along = (&sectioned.variables[at], &coefficients[..]);
+                let variable = &sectioned.variables[at];
                 // The best of one joint includes its present position, so the value never falls, and the loop
                 // ends.
-                (best, q[at]) = best_of_one(along, sectioned.measure, q[at]);
+                (best, q[at]) = best_of_one(variable, &coefficients, sectioned.measure, q[at]);
             }
             if best - before <= LEAST_GAIN_SAMPLED * best {
                 break;
@@ -91,7 +91,7 @@ pub(in crate::bound) fn largest_from(function: &Trigonometric, mut q: Vec<f64>) 
         let before = best;
         for at in 0..q.len() {
             let coefficients = function.along_variable(at, &q);
-            (best, q[at]) = best_of_one((&function.variables[at], &coefficients), function.measure, q[at]);
+            (best, q[at]) = best_of_one(&function.variables[at], &coefficients, function.measure, q[at]);
         }
         if best - before <= LEAST_GAIN_SAMPLED * best {
             break;
@@ -111,7 +111,7 @@ const HALVINGS: usize = 14;
 const LEAST_GAIN_SAMPLED: f64 = 1e-6;
 
 /// The largest measure along one joint and its position; never less than at the present position `q`.
-fn best_of_one((variable, coefficients): (&Variable, &[f64]), measure: Measure, q: f64) -> (f64, f64) {
+fn best_of_one(variable: &Variable, coefficients: &[f64], measure: ValueMeasure, q: f64) -> (f64, f64) {
     let count = coefficients.len() / variable.size();
     let mut values = vec![0.0; count];
     let mut value = |q: f64| {

@@ -4,19 +4,19 @@ use super::speeds::{Form, FormRange, SpeedInterval, gap};
 
 /// A convex function of several values, so that its maximum over a hull is at a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::bound) enum Measure {
+pub(in crate::bound) enum ValueMeasure {
     /// The Euclidean norm of the values.
     Length,
     /// The sum of the absolute values.
     Sum,
     /// The largest torque of any motion with these coefficients.
-    Motion(Motion),
+    Motion(MotionCoefficients),
 }
 
 /// The values are the gravity torque, the torque of each joint's largest acceleration, and the coefficients of the products
 /// of speeds, which are shares of their limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::bound) struct Motion {
+pub(in crate::bound) struct MotionCoefficients {
     pub(in crate::bound) gravity: bool,
     pub(in crate::bound) accelerations: usize,
     pub(in crate::bound) speeds: usize,
@@ -41,7 +41,7 @@ pub(in crate::bound) struct LargestMotion {
     pub(in crate::bound) accelerations: Vec<f64>,
 }
 
-impl Measure {
+impl ValueMeasure {
     /// The measure of one vector of values.
     pub(in crate::bound) fn value(self, values: &[f64]) -> f64 {
         match self {
@@ -73,7 +73,7 @@ impl Measure {
     }
 }
 
-impl Motion {
+impl MotionCoefficients {
     /// Splits the values into gravity, accelerations and products of speeds.
     fn parts<'a>(&self, values: &'a [f64]) -> (f64, &'a [f64], Form<'a>) {
         let (gravity, rest) = values.split_at(usize::from(self.gravity));

@@ -147,11 +147,11 @@ impl Form<'_> {
         let [up, down] = best;
         // A corner is the maximum if all squares are positive; otherwise a speed inside its interval may be
         // better.
-        [self.local_maximum(1.0, up), self.local_maximum(-1.0, down)]
+        [self.local_maximum(1.0, up.0, up.1), self.local_maximum(-1.0, down.0, down.1)]
     }
 
     /// Coordinate search for a larger value of `sign` times the form: each speed in turn is set to its exact optimum.
-    fn local_maximum(&self, sign: f64, (mut best, mut x): (f64, Speeds)) -> (f64, Speeds) {
+    fn local_maximum(&self, sign: f64, mut best: f64, mut x: Speeds) -> (f64, Speeds) {
         for _ in 0..ROUNDS {
             let before = best;
             for j in 0..self.speeds {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::measure::Measure;
+use super::measure::ValueMeasure;
 use crate::thresholds::NO_COEFFICIENT;
 
 /// A joint that the function depends on, with its range.
@@ -19,11 +19,11 @@ pub(in crate::bound) struct Variable {
 
 impl Variable {
     /// The variable of a turning joint; a range beyond one turn is cut to one turn.
-    pub(in crate::bound) fn turning(joint: usize, (lower, upper): (f64, f64)) -> Self {
+    pub(in crate::bound) fn turning(joint: usize, lower: f64, upper: f64) -> Self {
         Self { joint, degree: 1, turns: true, lower, upper: upper.min(lower + TAU) }
     }
 
-    pub(in crate::bound) fn sliding(joint: usize, (lower, upper): (f64, f64)) -> Self {
+    pub(in crate::bound) fn sliding(joint: usize, lower: f64, upper: f64) -> Self {
         Self { joint, degree: 1, turns: false, lower, upper }
     }
 
@@ -94,7 +94,7 @@ pub(in crate::bound) struct Trigonometric {
     pub(in crate::bound) variables: Vec<Variable>,
     /// Number of values at one position.
     pub(in crate::bound) values: usize,
-    pub(in crate::bound) measure: Measure,
+    pub(in crate::bound) measure: ValueMeasure,
     /// Coefficients as a row-major array: the first variable is the slowest index, the value the fastest.
     pub(in crate::bound) coefficients: Vec<f64>,
     /// Upper bound of what left-out coefficients can add to the measure.
@@ -105,7 +105,8 @@ impl Trigonometric {
     /// Computes the coefficients from values at the sample positions of all variables; variables without effect are removed.
     pub(in crate::bound) fn sampled(
         variables: Vec<Variable>,
-        (values, measure): (usize, Measure),
+        values: usize,
+        measure: ValueMeasure,
         mut function: impl FnMut(&[f64]) -> Vec<f64>,
     ) -> Self {
         let samples: Vec<Vec<f64>> = variables.iter().map(Variable::samples).collect();
@@ -122,11 +123,11 @@ impl Trigonometric {
             }
             coefficients.extend(function(&q));
         }
-        let mut sizes: Vec<usize> = variables.iter().map(Variable::size).collect();
+        let mut sizes: Vec<usize> = variables.iter().map(Variable::size).chain([values]).collect();
         for (at, variable) in variables.iter().enumerate() {
             // The samples are a tensor product, so each variable is transformed by itself: a sum instead of a
             // system of all coefficients.
-            coefficients = along(&coefficients, (&mut sizes, values), at, &variable.coefficient_rows());
+            coefficients = along(&coefficients, &mut sizes, at, &variable.coefficient_rows());
         }
         let mut function = Self { variables, values, measure, coefficients, slack: 0.0 };
         function.reduce();
@@ -134,7 +135,7 @@ impl Trigonometric {
     }
 
     /// The function of a range of the values alone.
-    pub(in crate::bound) fn selected(&self, values: std::ops::Range<usize>, measure: Measure) -> Self {
+    pub(in crate::bound) fn selected(&self, values: std::ops::Range<usize>, measure: ValueMeasure) -> Self {
         let of_all = self.coefficients.chunks_exact(self.values);
         let coefficients = of_all.flat_map(|all| all[values.clone()].iter().copied()).collect();
         let (variables, values) = (self.variables.clone(), values.len());
@@ -143,8 +144,9 @@ impl Trigonometric {
         function
     }
 
+    /// The dimensions of the array of coefficients: one for each variable, and the values last.
     pub(in crate::bound) fn sizes(&self) -> Vec<usize> {
-        self.variables.iter().map(Variable::size).collect()
+        self.variables.iter().map(Variable::size).chain([self.values]).collect()
     }
 
     /// Removes variables whose effect is below rounding, and counts it as slack.
@@ -158,7 +160,7 @@ impl Trigonometric {
             // every wave is at most 1.
             constant[0][0] = 1.0;
             let total: f64 = self.coefficients.iter().map(|value| value.abs()).sum();
-            let reduced = along(&self.coefficients, (&mut sizes, self.values), at, &constant);
+            let reduced = along(&self.coefficients, &mut sizes, at, &constant);
             let kept: f64 = reduced.iter().map(|value| value.abs()).sum();
             if total - kept <= NO_COEFFICIENT * largest {
                 self.slack += total - kept;
@@ -202,7 +204,7 @@ impl Trigonometric {
         for (other, variable) in self.variables.iter().enumerate() {
             if other != at {
                 let features = [variable.features(q[other])];
-                coefficients = along(&coefficients, (&mut sizes, self.values), other, &features);
+                coefficients = along(&coefficients, &mut sizes, other, &features);
             }
         }
         coefficients
@@ -213,7 +215,7 @@ impl Trigonometric {
         let mut sizes = self.sizes();
         let mut coefficients = self.coefficients.clone();
         for (at, variable) in self.variables.iter().enumerate() {
-            coefficients = along(&coefficients, (&mut sizes, self.values), at, &[variable.features(q[at])]);
+            coefficients = along(&coefficients, &mut sizes, at, &[variable.features(q[at])]);
         }
         coefficients
     }
@@ -221,28 +223,24 @@ impl Trigonometric {
 
 /// Multiplies an array along one of its dimensions by a matrix, given by its rows; the size of the dimension becomes their
 /// number.
-pub(in crate::bound) fn along(
-    array: &[f64],
-    (sizes, values): (&mut [usize], usize),
-    at: usize,
-    rows: &[Vec<f64>],
-) -> Vec<f64> {
+pub(in crate::bound) fn along(array: &[f64], sizes: &mut [usize], at: usize, rows: &[Vec<f64>]) -> Vec<f64> {
     let mut result = Vec::new();
-    along_into(array, (sizes, values), (at, rows), &mut result);
+    along_into(array, sizes, at, rows, &mut result);
     result
 }
 
 /// The same as [`along`], into a vector that the caller reuses.
 pub(in crate::bound) fn along_into(
     array: &[f64],
-    (sizes, values): (&mut [usize], usize),
-    (at, rows): (usize, &[Vec<f64>]),
+    sizes: &mut [usize],
+    at: usize,
+    rows: &[Vec<f64>],
     result: &mut Vec<f64>,
 ) {
     // The array is row-major: `before` outer blocks, then the dimension, then `after` contiguous values, which
     // the inner loop runs through without a stride.
     let before: usize = sizes[..at].iter().product();
-    let after: usize = sizes[at + 1..].iter().product::<usize>() * values;
+    let after: usize = sizes[at + 1..].iter().product();
     let size = sizes[at];
     result.clear();
     result.resize(before * rows.len() * after, 0.0);
@@ -265,11 +263,11 @@ mod tests {
     #[test]
     fn squares_are_of_second_degree() {
         let function = |q: &[f64]| vec![q[0].cos() * q[0].sin() * (1.0 + q[1] * q[1]) - q[0].sin()];
-        let mut variables = vec![Variable::turning(0, (-1.0, 2.0)), Variable::sliding(1, (-0.2, 0.7))];
+        let mut variables = vec![Variable::turning(0, -1.0, 2.0), Variable::sliding(1, -0.2, 0.7)];
         for variable in &mut variables {
             variable.degree = 2;
         }
-        let found = Trigonometric::sampled(variables, (1, Measure::Sum), function);
+        let found = Trigonometric::sampled(variables, 1, ValueMeasure::Sum, function);
         let q = [0.4, 0.6];
         assert!((found.at(&q)[0] - function(&q)[0]).abs() < 1e-15);
     }
@@ -277,11 +275,11 @@ mod tests {
     #[test]
     fn amplitudes_are_above_all_values() {
         let function = |q: &[f64]| vec![q[0].cos() * q[0].sin() * (1.0 + q[1] * q[1]) - q[0].sin() * q[1]];
-        let mut variables = vec![Variable::turning(0, (-3.0, 3.0)), Variable::sliding(1, (-1.0, 1.0))];
+        let mut variables = vec![Variable::turning(0, -3.0, 3.0), Variable::sliding(1, -1.0, 1.0)];
         for variable in &mut variables {
             variable.degree = 2;
         }
-        let found = Trigonometric::sampled(variables, (1, Measure::Sum), function);
+        let found = Trigonometric::sampled(variables, 1, ValueMeasure::Sum, function);
         // sin(2 a) / 2 and b^2 sin(2 a) / 2 and b sin(a).
         assert!((found.sum_of_amplitudes() - 2.0).abs() < 1e-12);
     }
@@ -290,11 +288,11 @@ mod tests {
     fn coefficients_give_the_function_back() {
         let function = |q: &[f64]| vec![2.0 + q[0].cos() * (q[2] - 0.3) - 0.5 * q[2] * q[0].sin()];
         let variables = vec![
-            Variable::turning(0, (-1.0, 9.0)),
-            Variable::turning(1, (-1.0, 1.0)),
-            Variable::sliding(2, (0.1, 0.7)),
+            Variable::turning(0, -1.0, 9.0),
+            Variable::turning(1, -1.0, 1.0),
+            Variable::sliding(2, 0.1, 0.7),
         ];
-        let found = Trigonometric::sampled(variables, (1, Measure::Sum), function);
+        let found = Trigonometric::sampled(variables, 1, ValueMeasure::Sum, function);
         assert_eq!(found.variables.len(), 2, "the second has no effect");
         let q = [0.4, 0.6];
         assert!((found.at(&q)[0] - function(&[0.4, 0.0, 0.6])[0]).abs() < 1e-15);

@@ -7,7 +7,7 @@ use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
         free::{ENTRIES, FreeParameters},
-        hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
+        hypothesis::{Change, DynamicsHypothesis, DynamicsPlace, FaultySide},
     },
     model::{DynamicsModel, Inertial},
     thresholds::ZERO_VALUE,
@@ -23,7 +23,12 @@ pub(super) fn link_hypotheses(
 ) -> Vec<DynamicsHypothesis> {
     let Some(parameters) = &model.inertials[link] else { return Vec::new() };
     let free = |cause, detail: &str, free| {
-        DynamicsHypothesis::new(cause, detail, FaultPlace::Links(vec![link]), Change::FreeLink { link, free })
+        DynamicsHypothesis::new(
+            cause,
+            detail,
+            DynamicsPlace::Links(vec![link]),
+            Change::FreeLink { link, free },
+        )
     };
     let mut hypotheses = vec![
         free(DynamicsCause::Mass, "", FreeParameters::Mass),
@@ -49,6 +54,7 @@ pub(super) fn link_hypotheses(
     hypotheses.push(free(DynamicsCause::InertiaRotation, "", rotation));
     // Only a file can lack the axes: what was built from it would have to be known to be principal in other axes.
     if faulty == FaultySide::Candidate && is_principal(parameters) {
+        // The same fit as the rotation above, under the name that a diagonal tensor gives evidence for.
         hypotheses.push(free(DynamicsCause::PrincipalAxesMissing, "", rotation));
     }
     if faulty == FaultySide::Candidate && could_be_by_rows(parameters) {
@@ -74,7 +80,7 @@ fn by_rows(link: usize, parameters: &Inertial) -> DynamicsHypothesis {
     DynamicsHypothesis::new(
         DynamicsCause::InertiaOrder,
         "row_major_upper",
-        FaultPlace::Links(vec![link]),
+        DynamicsPlace::Links(vec![link]),
         change,
     )
 }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
-        hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
+        hypothesis::{Change, DynamicsHypothesis, DynamicsPlace, FaultySide},
     },
     model::DynamicsModel,
 };
@@ -18,10 +18,10 @@ pub(super) fn hypotheses(model: &DynamicsModel, faulty: FaultySide) -> Vec<Dynam
     let gravity = model.gravity_m_s2;
     let size = gravity.norm();
     let mistake = |cause, detail: &str, gravity| {
-        DynamicsHypothesis::new(cause, detail, FaultPlace::Gravity, Change::Gravity(gravity))
+        DynamicsHypothesis::new(cause, detail, DynamicsPlace::Gravity, Change::Gravity(gravity))
     };
     let free = |cause, detail: &str, along| {
-        DynamicsHypothesis::new(cause, detail, FaultPlace::Gravity, Change::FreeGravity(along))
+        DynamicsHypothesis::new(cause, detail, DynamicsPlace::Gravity, Change::FreeGravity(along))
     };
     let every_axis = (0..3).map(|axis| Vector3::ith(axis, 1.0)).collect();
     // Without a magnitude there is neither a sign nor a direction that could be wrong.

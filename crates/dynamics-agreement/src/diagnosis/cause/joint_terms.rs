@@ -5,7 +5,7 @@ use congruent_dynamics::JointResistance;
 use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
-        hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
+        hypothesis::{Change, DynamicsHypothesis, DynamicsPlace, FaultySide},
     },
     model::{DynamicsModel, JointTerm},
     thresholds::SAME_VALUE,
@@ -26,11 +26,11 @@ pub(super) fn hypotheses(model: &DynamicsModel, faulty: FaultySide) -> Vec<Dynam
             DynamicsHypothesis::new(cause, detail, place, Change::FreeJoints { term, groups })
         };
         for joint in 0..n {
-            all.push(free("", FaultPlace::Joints(vec![joint]), vec![vec![joint]]));
+            all.push(free("", DynamicsPlace::Joints(vec![joint]), vec![vec![joint]]));
         }
         if n > 1 {
-            all.push(free("same", FaultPlace::AllJoints, vec![(0..n).collect()]));
-            all.push(free("each", FaultPlace::AllJoints, (0..n).map(|joint| vec![joint]).collect()));
+            all.push(free("same", DynamicsPlace::AllJoints, vec![(0..n).collect()]));
+            all.push(free("each", DynamicsPlace::AllJoints, (0..n).map(|joint| vec![joint]).collect()));
         }
     }
     all
@@ -44,7 +44,12 @@ fn mistakes(model: &DynamicsModel, faulty: FaultySide) -> Vec<DynamicsHypothesis
             (0..n).map(|joint| change(joint, model.resistances[joint])).collect();
         // A change that changes nothing, as of zeros, would explain nothing and only cost time.
         if changed != model.resistances {
-            all.push(DynamicsHypothesis::new(cause, detail, FaultPlace::AllJoints, Change::Joints(changed)));
+            all.push(DynamicsHypothesis::new(
+                cause,
+                detail,
+                DynamicsPlace::AllJoints,
+                Change::Joints(changed),
+            ));
         }
     };
     everywhere(DynamicsCause::DampingFrictionSwapped, "", &|_, of| JointResistance {
@@ -86,6 +91,7 @@ fn mistakes(model: &DynamicsModel, faulty: FaultySide) -> Vec<DynamicsHypothesis
                 ..of
             });
             everywhere(DynamicsCause::DampingDefault, "0.1", &|joint, of| JointResistance {
+                // The engine's default is for angular joints alone.
                 damping: if model.frames.joints[joint].is_angular { DEFAULT_DAMPING } else { of.damping },
                 ..of
             });
@@ -105,7 +111,7 @@ fn exchanged(model: &DynamicsModel) -> Vec<DynamicsHypothesis> {
             if model.resistances[first] != model.resistances[second] {
                 let mut changed = model.resistances.clone();
                 changed.swap(first, second);
-                let place = FaultPlace::Joints(vec![first, second]);
+                let place = DynamicsPlace::Joints(vec![first, second]);
                 all.push(DynamicsHypothesis::new(
                     DynamicsCause::JointsSwapped,
                     "",
@@ -136,7 +142,7 @@ fn left_out(model: &DynamicsModel) -> Vec<DynamicsHypothesis> {
     let groups: Vec<Vec<usize>> = (0..n).map(|joint| vec![joint]).collect();
     let hypothesis = |(cause, detail, term)| {
         let change = Change::FreeJoints { term, groups: groups.clone() };
-        DynamicsHypothesis::new(cause, detail, FaultPlace::AllJoints, change)
+        DynamicsHypothesis::new(cause, detail, DynamicsPlace::AllJoints, change)
     };
     names.into_iter().map(hypothesis).collect()
 }
@@ -153,7 +159,7 @@ pub(in crate::diagnosis) fn all_left_out(
         && has(|of| of.friction);
     let change = || Change::Joints(reference.resistances.clone());
     is_left_out.then(|| {
-        DynamicsHypothesis::new(DynamicsCause::JointTermsMissing, "", FaultPlace::AllJoints, change())
+        DynamicsHypothesis::new(DynamicsCause::JointTermsMissing, "", DynamicsPlace::AllJoints, change())
     })
 }
 

@@ -8,7 +8,7 @@ use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
         free::FreeParameters,
-        hypothesis::{Change, DynamicsHypothesis, FaultPlace},
+        hypothesis::{Change, DynamicsHypothesis, DynamicsPlace},
     },
     model::{DynamicsModel, Inertial},
     thresholds::{PLACEHOLDER, ZERO_VALUE},
@@ -52,7 +52,12 @@ pub(super) fn link_hypotheses(
     link: usize,
 ) -> Vec<DynamicsHypothesis> {
     let free = |cause, detail: &str, free| {
-        DynamicsHypothesis::new(cause, detail, FaultPlace::Links(vec![link]), Change::FreeLink { link, free })
+        DynamicsHypothesis::new(
+            cause,
+            detail,
+            DynamicsPlace::Links(vec![link]),
+            Change::FreeLink { link, free },
+        )
     };
     let Some(parameters) = &model.inertials[link] else {
         let missing = free(DynamicsCause::InertialMissing, "", FreeParameters::Inertial).missing();
@@ -100,6 +105,7 @@ fn could_have_inertial(model: &DynamicsModel, reference: Option<&DynamicsModel>,
 fn is_placeholder(tensor: &Matrix3<f64>) -> bool {
     let moment = tensor[(0, 0)];
     let is_even = (tensor - Matrix3::from_diagonal_element(moment)).amax() <= PLACEHOLDER * moment;
+    // By powers of ten only: an even tensor of another value may be that of a ball.
     is_even && moment > 0.0 && (-12..=3).any(|exponent| is_near(moment, 10_f64.powi(exponent)))
 }
 

@@ -16,7 +16,7 @@ pub(super) use self::joint_terms::all_left_out;
 pub(crate) use self::units::{rounded_damping_unit, rounded_unit};
 use super::{
     cause_names::DynamicsCause,
-    hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide, Scale},
+    hypothesis::{Change, DynamicsHypothesis, DynamicsPlace, FaultySide, Scale},
 };
 use crate::model::{DynamicsModel, Frames};
 
@@ -26,6 +26,8 @@ pub(super) fn mistakes(frames: &Frames, faulty: FaultySide) -> Vec<CommonMistake
     mistakes.extend(com::mistakes(faulty));
     mistakes.extend(other_frames::mistakes(frames, faulty));
     mistakes.extend(tensor::mistakes(faulty));
+    // An importer drops values on its side; a file that lacks them is `missing::link_hypotheses`, whose values are
+    // free.
     if faulty == FaultySide::Reference {
         mistakes.extend(missing::importer_mistakes());
     }
@@ -46,7 +48,8 @@ pub(super) fn link_hypotheses(
             // A mistake that has no effect on these values, as a swap of equal moments, is no hypothesis.
             if let Some(changed) = (mistake.change)(link, parameters).filter(|changed| changed != parameters)
             {
-                let (place, change) = (FaultPlace::Links(vec![link]), Change::Links(vec![(link, changed)]));
+                let (place, change) =
+                    (DynamicsPlace::Links(vec![link]), Change::Links(vec![(link, changed)]));
                 hypotheses.push(DynamicsHypothesis::new(
                     mistake.cause,
                     mistake.detail_at(link),
@@ -79,7 +82,7 @@ pub(super) fn all_links_hypotheses(
     let mistakes = mistakes.iter().filter_map(|mistake| two_links::everywhere(model, mistake));
     mistakes
         .chain(SCALES.map(|(cause, scale)| {
-            DynamicsHypothesis::new(cause, "", FaultPlace::AllLinks, Change::FreeScale(scale))
+            DynamicsHypothesis::new(cause, "", DynamicsPlace::AllLinks, Change::FreeScale(scale))
         }))
         .collect()
 }

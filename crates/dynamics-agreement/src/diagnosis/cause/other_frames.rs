@@ -7,7 +7,7 @@ use super::common_mistake::CommonMistake;
 use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
-        hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
+        hypothesis::{Change, DynamicsHypothesis, DynamicsPlace, FaultySide},
     },
     model::{DynamicsModel, Frames, Inertial},
     thresholds::ZERO_VALUE,
@@ -105,7 +105,7 @@ pub(super) fn rotation_of_reference(
     Some(DynamicsHypothesis::new(
         cause,
         "",
-        FaultPlace::Links(vec![link]),
+        DynamicsPlace::Links(vec![link]),
         Change::Links(vec![(link, turned)]),
     ))
 }

@@ -47,6 +47,7 @@ pub(super) fn mistakes<'a>(faulty: FaultySide) -> Vec<CommonMistake<'a>> {
             changed
         }));
     }
+    // Only what a file says can be negative: an importer would have to invent it.
     if faulty == FaultySide::Candidate {
         mistakes.extend(MOMENTS.map(|(name, at)| negative_moment(name, at)));
     }
@@ -65,6 +66,7 @@ pub(super) fn mistakes<'a>(faulty: FaultySide) -> Vec<CommonMistake<'a>> {
             reordered(faulty, order, tensor)
         }));
     }
+    // Undone it would need the lost moment: for the candidate `put_back_from_rows` makes it a free parameter.
     if faulty == FaultySide::Reference {
         mistakes.push(tensor_mistake(DynamicsCause::InertiaOrder, "row_major_upper", |tensor| {
             reordered(FaultySide::Reference, BY_ROWS, tensor)

@@ -4,7 +4,7 @@ use super::common_mistake::CommonMistake;
 use crate::{
     diagnosis::{
         cause_names::DynamicsCause,
-        hypothesis::{Change, DynamicsHypothesis, FaultPlace, FaultySide},
+        hypothesis::{Change, DynamicsHypothesis, DynamicsPlace, FaultySide},
     },
     model::{DynamicsModel, Frames, Inertial},
 };
@@ -25,7 +25,7 @@ pub(super) fn pairs(model: &DynamicsModel, faulty: FaultySide) -> Vec<DynamicsHy
                 DynamicsHypothesis::new(
                     cause,
                     "",
-                    FaultPlace::Links(vec![first, second]),
+                    DynamicsPlace::Links(vec![first, second]),
                     Change::Links(changed),
                 )
             };
@@ -77,7 +77,7 @@ pub(super) fn everywhere(model: &DynamicsModel, mistake: &CommonMistake<'_>) -> 
         DynamicsHypothesis::new(
             mistake.cause,
             mistake.detail.clone(),
-            FaultPlace::AllLinks,
+            DynamicsPlace::AllLinks,
             Change::Links(changed),
         )
     })

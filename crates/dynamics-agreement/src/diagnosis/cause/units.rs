@@ -98,6 +98,7 @@ pub(crate) fn rounded_unit(written: &Inertial, right: &Inertial) -> Option<(Dyna
     let find = |units: &[(&'static str, f64)], is: &dyn Fn(f64) -> bool| {
         units.iter().find(|(_, count)| is(*count)).map(|(unit, _)| *unit)
     };
+    // One part off alone: its unit is the cause only if the other two are right.
     match equal {
         [false, true, true] => named(DynamicsCause::MassUnit, find(&MASSES, &mass)),
         [true, false, true] => named(DynamicsCause::ComUnit, find(&LENGTHS, &com)),

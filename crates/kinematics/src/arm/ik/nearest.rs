@@ -5,6 +5,13 @@ use congruent_description::ArmQ;
 use super::{options::IkOptions, residual::IkTarget, result::IkResult, solver::IkSolver};
 use crate::{error::KinematicsError, uniform::Uniform};
 
+/// The nearest solution found so far.
+struct NearestSolution {
+    /// Its distance from the start; infinite as long as there is none.
+    distance: f64,
+    q: ArmQ,
+}
+
 impl IkSolver {
     /// The solution that moves the joints least: of the one found from `start` and those found from
     /// `attempts` random configurations.
@@ -25,20 +32,21 @@ impl IkSolver {
         // The first attempt starts from `start` itself, so that no random attempt is needed to find a solution near it.
         let mut random = Uniform::seeded(options.seed);
         let mut from = start.clone();
-        let mut nearest = (f64::INFINITY, start.clone());
+        let mut nearest = NearestSolution { distance: f64::INFINITY, q: start.clone() };
         for _ in 0..=attempts {
             let converged = self.solve(target, &from, options, || true)?.converged;
             // Whole turns are taken out before distances are compared: they change no pose.
             if converged {
                 let distance = self.turn_towards(start);
-                if distance < nearest.0 {
-                    nearest = (distance, self.solution().clone());
+                if distance < nearest.distance {
+                    nearest = NearestSolution { distance, q: self.solution().clone() };
                 }
             }
+            // After the try, so that the first one starts from `start`.
             self.arm().draw(&mut random, &mut from);
         }
-        self.pull_towards(start, (target, options), &mut nearest)?;
-        let from = if nearest.0.is_finite() { &nearest.1 } else { start };
+        self.pull_towards(start, target, options, &mut nearest)?;
+        let from = if nearest.distance.is_finite() { &nearest.q } else { start };
         // From a solution this converges at once and only fills the result; without one it gives the best residual.
         self.solve(target, from, options, || true)
     }
@@ -48,8 +56,9 @@ impl IkSolver {
     fn pull_towards(
         &mut self,
         start: &ArmQ,
-        (target, options): (&IkTarget, &IkOptions),
-        nearest: &mut (f64, ArmQ),
+        target: &IkTarget,
+        options: &IkOptions,
+        nearest: &mut NearestSolution,
     ) -> Result<(), KinematicsError> {
         /// First share of the path to `start`; halved whenever it leads to no nearer solution.
         const PART: f64 = 0.5;
@@ -59,18 +68,18 @@ impl IkSolver {
         const MOST_ROUNDS: usize = 64;
         let (mut part, mut from) = (PART, start.clone());
         for _ in 0..MOST_ROUNDS {
-            if part < LEAST_PART || !nearest.0.is_finite() {
+            if part < LEAST_PART || !nearest.distance.is_finite() {
                 break;
             }
             // A redundant arm has a manifold of solutions. Moving towards `start` departs from it, and solving returns to it at a nearby
             // point: a projected descent of the distance.
-            for ((from, start), found) in from.iter_mut().zip(start).zip(&nearest.1) {
+            for ((from, start), found) in from.iter_mut().zip(start).zip(&nearest.q) {
                 *from = found + part * (start - found);
             }
             let converged = self.solve(target, &from, options, || true)?.converged;
             let distance = self.turn_towards(start);
-            if converged && distance < nearest.0 * (1.0 - NEARER) {
-                *nearest = (distance, self.solution().clone());
+            if converged && distance < nearest.distance * (1.0 - NEARER) {
+                *nearest = NearestSolution { distance, q: self.solution().clone() };
             } else {
                 part /= 2.0;
             }

@@ -88,6 +88,7 @@ impl TaskFrame {
     /// A column of the geometric Jacobian as one of the task.
     #[inline]
     pub(super) fn column(&self, column: &Twist, base_from_tcp: &Pose, part: TargetPart) -> Vector6<f64> {
+        // Turned only: the geometric column has its velocity at the tool already, so only the axes change.
         if self.in_body {
             let body_from_base = base_from_tcp.rotation.transpose();
             let Twist { angular, linear } = *column;

@@ -90,8 +90,8 @@ impl IkSolver {
     /// #     parts("shoulder", JointKind::Continuous, "base", "upper", 0.),
     /// #     parts("elbow", JointKind::Continuous, "upper", "lower", 0.6),
     /// #     parts("flange", JointKind::Fixed, "lower", "tip", 0.4)]).unwrap();
-    /// let ends = (robot.root(), robot.find_link("tip").unwrap());
-    /// let mut solver = IkSolver::new(Arm::new(&robot, ends, Pose::identity())?);
+    /// let tip = robot.find_link("tip").unwrap();
+    /// let mut solver = IkSolver::new(Arm::new(&robot, robot.root(), tip, Pose::identity())?);
     /// let to = |x, y| IkTarget {
     ///     base_from_tcp: Pose::from_parts(Matrix3::identity(), Vector3::new(x, y, 0.)),
     ///     part: TargetPart::Position,
@@ -166,17 +166,17 @@ impl IkSolver {
     /// # };
     /// # let parts = JointParts { joint: slide, parent: "base".into(), child: "tip".into(), mimic: None };
     /// # let robot = Robot::new("1p", vec![link("base"), link("tip")], vec![parts]).unwrap();
-    /// let ends = (robot.root(), robot.find_link("tip").unwrap());
-    /// let mut solver = IkSolver::new(Arm::new(&robot, ends, Pose::identity())?); // goes from 0 to 0.5 m
+    /// let tip = robot.find_link("tip").unwrap();
+    /// let mut solver = IkSolver::new(Arm::new(&robot, robot.root(), tip, Pose::identity())?); // goes from 0 to 0.5 m
     /// let target = IkTarget {
     ///     base_from_tcp: Pose::from_parts(Matrix3::identity(), Vector3::new(0.7, 0., 0.)),
     ///     part: TargetPart::Position,
     /// };
     /// let (inside, at_limit) = (ArmQ::from([0.4]), ArmQ::from([0.5]));
     /// for method in [DifferentialMethod::PseudoInverse, DifferentialMethod::Transpose] {
-    ///     let step = solver.change_towards(&target, (&inside, &inside), method)?;
+    ///     let step = solver.change_towards(&target, &inside, &inside, method)?;
     ///     assert!((step.change[0] - 0.3).abs() < 1e-15 && step.limits_held.is_empty());
-    ///     let step = solver.change_towards(&target, (&inside, &at_limit), method)?;
+    ///     let step = solver.change_towards(&target, &inside, &at_limit, method)?;
     ///     assert_eq!((step.change, step.limits_held), ([0.0].as_slice(), [0].as_slice()));
     /// }
     /// # Ok::<(), congruent_kinematics::KinematicsError>(())
@@ -184,7 +184,8 @@ impl IkSolver {
     pub fn change_towards(
         &mut self,
         target: &IkTarget,
-        (q, commanded): (&ArmQ, &ArmQ),
+        q: &ArmQ,
+        commanded: &ArmQ,
         method: DifferentialMethod,
     ) -> Result<IkChange<'_>, KinematicsError> {
         KinematicsError::check_joints(self.q.len(), q)?;

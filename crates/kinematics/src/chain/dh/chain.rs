@@ -184,6 +184,8 @@ impl DhChain {
         if last > self.rows.len() {
             return Err(KinematicsError::FrameIndex { index: last, last: self.rows.len() });
         }
+        // Along the chain in its order, whichever direction is asked for: an inverse is cheaper than a second form of
+        // the product.
         let first_from_last =
             self.visit(Axes::from_pose(&Pose::identity()), &self.rows[first..last], q, |_, _| {}).pose();
         Ok(if frames.transformed_by <= frames.of { first_from_last } else { first_from_last.inverse() })

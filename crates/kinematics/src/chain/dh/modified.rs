@@ -74,6 +74,8 @@ impl ModifiedDh {
     /// # Ok::<(), congruent_kinematics::NotADhTransform>(())
     /// ```
     pub fn from_transform(dh0_from_dh1: &Pose) -> Result<Self, NotADhTransform> {
+        // The inverse of a modified row, Tz(-d) Rz(-theta) Tx(-a) Rx(-alpha), has the form of a standard row: its x
+        // axis and origin are those that the conditions speak of.
         let Pose { rotation, translation } = dh0_from_dh1.inverse();
         let x = rotation.column(0).into_owned();
         NotADhTransform::check(DhConvention::Modified, &x, &translation)?;

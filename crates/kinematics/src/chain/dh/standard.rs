@@ -82,6 +82,7 @@ impl StandardDh {
         let x = rotation.column(0).into_owned();
         NotADhTransform::check(DhConvention::Standard, &x, translation)?;
         Ok(Self {
+            // Along x1: (a cos theta, a sin theta) projected on it keeps the sign of `a`, which a norm would lose.
             a_m: translation.x * x.x + translation.y * x.y,
             alpha_rad: libm::atan2(rotation[(2, 1)], rotation[(2, 2)]),
             d_m: translation.z,

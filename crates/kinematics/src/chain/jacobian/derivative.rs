@@ -49,6 +49,8 @@ impl JacobianKind {
             .ok_or(KinematicsError::ColumnIndex { index: coordinate, count: columns.len() })?;
         for (at, (derivative, column)) in derivative.iter_mut().zip(columns).enumerate() {
             *derivative = match self {
+                // In the root's axes joint k carries the axes behind it along; in the link's axes those before it
+                // move the other direction. A column of its own joint never changes.
                 Self::Space if coordinate < at => by.bracket(column),
                 Self::Body if at < coordinate => column.bracket(by),
                 Self::Space | Self::Body => Twist::zero(),
@@ -56,6 +58,7 @@ impl JacobianKind {
                     angular: by.angular.cross(&column.angular),
                     linear: by.angular.cross(&column.linear),
                 },
+                // Axes before k stay. The reference point moves with the link, by k's linear column.
                 Self::Geometric => Twist::shift(column.angular.cross(&by.linear)),
             };
         }

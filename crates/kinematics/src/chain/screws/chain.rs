@@ -99,7 +99,8 @@ impl ScrewChain {
     /// [`KinematicsError`] never comes for a link of the robot.
     pub fn from_urdf(
         robot: &Robot,
-        (base, tip): (LinkIndex, LinkIndex),
+        base: LinkIndex,
+        tip: LinkIndex,
         coordinates: &[usize],
     ) -> Result<Self, KinematicsError> {
         let tree = UrdfTree::new(robot);
@@ -138,7 +139,7 @@ impl ScrewChain {
         Self { twists_in_base: twists_in_tip.iter().map(in_base).collect(), base_from_tip_at_zero }
     }
 
-    /// Number of joints.
+    /// Number of joints, each with one screw.
     pub fn joint_count(&self) -> usize {
         self.twists_in_base.len()
     }

@@ -75,10 +75,13 @@ impl ScrewChain {
         by_screws.clear();
         let mut before = Pose::identity();
         for (twist, &q) in self.twists_in_base.iter().zip(q) {
+            // The exponent is the screw times q, and so is its change. Its motion happens after that of the joints
+            // before, which carry it.
             let by = |unit: Twist| (*twist * q).dexp(&(unit * q)).transformed_by(&before);
             by_screws.push(Twist::units().map(by));
             before = before * twist.exp(q);
         }
+        // A twist on the left of the home pose moves with all joints.
         *by_home = Twist::units().map(|unit| unit.transformed_by(&before));
         *base_from_tip = before * self.base_from_tip_at_zero;
         Ok(())

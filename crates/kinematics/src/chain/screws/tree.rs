@@ -165,6 +165,7 @@ impl ScrewTree {
         KinematicsError::check_joints(self.dof, q)?;
         let mut pose = self.homes[link.get()];
         let mut above = link.get();
+        // From the link upwards: screws in the root's frame multiply from the left, the nearest to the link first.
         while let Some(joint) = self.parent_joints[above] {
             let joint = &self.joints[joint];
             if let Some((coordinate, screw)) = &joint.motion {

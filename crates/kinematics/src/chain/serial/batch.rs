@@ -21,7 +21,7 @@ use crate::{
 const LANES: usize = 8;
 
 /// One number of each configuration.
-type Lanes = [f64; LANES];
+type LaneValues = [f64; LANES];
 
 impl SerialChain {
     /// Poses of the tip in the base at many configurations, bit for bit those of
@@ -59,6 +59,7 @@ impl SerialChain {
         // Full groups of lanes in vectors; the rest one by one, with the same sums in the same order.
         let (groups, rest) = base_from_tips.as_chunks_mut::<LANES>();
         let (together, alone) = configurations.split_at(n * LANES * groups.len());
+        // Chosen at run time by what the processor has, so that one build serves all.
         Arch::new().dispatch(Groups { chain: self, configurations: together, base_from_tips: groups });
         for (at, base_from_tip) in rest.iter_mut().enumerate() {
             *base_from_tip = self.base_from_tip_at(&alone[n * at..][..n]);
@@ -96,10 +97,10 @@ impl WithSimd for Groups<'_> {
 
 /// [`Axes`] of each configuration, entry by entry.
 struct LaneAxes {
-    x: [Lanes; 3],
-    y: [Lanes; 3],
-    z: [Lanes; 3],
-    origin: [Lanes; 3],
+    x: [LaneValues; 3],
+    y: [LaneValues; 3],
+    z: [LaneValues; 3],
+    origin: [LaneValues; 3],
 }
 
 impl LaneAxes {
@@ -111,17 +112,19 @@ impl LaneAxes {
 
     #[inline(always)]
     fn lane(&self, lane: usize) -> Axes {
-        let of = |v: &[Lanes; 3]| Vector3::new(v[0][lane], v[1][lane], v[2][lane]);
+        let of = |v: &[LaneValues; 3]| Vector3::new(v[0][lane], v[1][lane], v[2][lane]);
         Axes { x: of(&self.x), y: of(&self.y), z: of(&self.z), origin: of(&self.origin) }
     }
 
     /// Times `Rz(theta) T(shift) Rx(alpha)` of the row at the joint's positions.
     #[inline(always)]
-    fn step(&mut self, row: &SerialRow, q: &Lanes) {
+    fn step(&mut self, row: &SerialRow, q: &LaneValues) {
         let SinesCosines { sin, cos } =
             SinesCosines::from_angles(q.map(|q| row.theta_rad + row.theta_per_q * q));
         let d_m = q.map(|q| row.shift.z + row.d_per_q * q);
         let SinCos { sin: sin_alpha, cos: cos_alpha } = row.alpha;
+        // The products and sums of `Axes` in the same order, without fused ones: each lane then has the bits of a
+        // single evaluation.
         for entry in 0..3 {
             for lane in 0..LANES {
                 let (x, y, z) = (self.x[entry][lane], self.y[entry][lane], self.z[entry][lane]);
@@ -169,7 +172,7 @@ mod tests {
     #[test]
     fn a_chain_without_joints_and_a_wrong_length() {
         let robot = support::robot(Vec::new());
-        let chain = SerialChain::from_urdf(&robot, (robot.root(), robot.root()));
+        let chain = SerialChain::from_urdf(&robot, robot.root(), robot.root());
         let mut base_from_tips = [Pose::from_parts(nalgebra::Matrix3::zeros(), Vector3::zeros()); LANES + 1];
         chain.base_from_tips_into(&[], &mut base_from_tips).unwrap();
         assert_eq!(base_from_tips, [Pose::identity(); LANES + 1]);

@@ -44,7 +44,7 @@ use crate::{
 /// #     parts("shoulder", JointKind::Continuous, "base", "upper", 0.),
 /// #     parts("elbow", JointKind::Continuous, "upper", "lower", 0.6),
 /// #     parts("flange", JointKind::Fixed, "lower", "tip", 0.4)]).unwrap();
-/// let chain = SerialChain::from_urdf(&robot, (robot.root(), robot.find_link("tip").unwrap()));
+/// let chain = SerialChain::from_urdf(&robot, robot.root(), robot.find_link("tip").unwrap());
 /// let mut columns = vec![Twist::zero(); chain.joint_count()];
 /// let q = ChainQ::zeros(2);
 /// let base_from_tip = chain.pose_and_jacobian_into(&q, JacobianKind::Geometric, &mut columns)?;
@@ -78,7 +78,7 @@ impl SerialChain {
     ///
     /// # Panics
     /// When a link is none of the robot's.
-    pub fn from_urdf(robot: &Robot, (base, tip): (LinkIndex, LinkIndex)) -> Self {
+    pub fn from_urdf(robot: &Robot, base: LinkIndex, tip: LinkIndex) -> Self {
         Self::from_path(&ChainPath::from_urdf(robot, base, tip))
     }
 
@@ -170,6 +170,7 @@ impl SerialChain {
         // In the first pass `columns` holds the direction and a point of each axis, in the base frame; the velocity needs the
         // position of the tip, which is known only at its end.
         let tip = self.visit(q, |at, axes| columns[at] = Twist { angular: axes.z, linear: axes.origin });
+        // The linear part is the velocity of this point of the link.
         let point_of_twist = if kind == JacobianKind::Space { Vector3::zeros() } else { tip.origin };
         for (column, row) in columns.iter_mut().zip(&self.rows) {
             let Twist { angular: z, linear: point } = *column;
@@ -178,6 +179,7 @@ impl SerialChain {
         }
         let base_from_tip = tip.pose();
         if kind == JacobianKind::Body {
+            // Body and geometric twists have the same reference point and differ in their axes alone.
             let turn = base_from_tip.rotation.transpose();
             for column in columns {
                 *column = Twist { angular: turn * column.angular, linear: turn * column.linear };

@@ -96,6 +96,8 @@ impl ChainPath {
                 DhConvention::Standard => {
                     (Pose::identity(), StandardDh { a_m, alpha_rad, d_m, theta_rad }.transform())
                 }
+                // `Rx(alpha) Tx(a)` comes before the joint's motion; `Rz(theta) Tz(d)` commutes with it and may
+                // follow.
                 DhConvention::Modified => (
                     ModifiedDh { a_m, alpha_rad, d_m: 0.0, theta_rad: 0.0 }.transform(),
                     ModifiedDh { a_m: 0.0, alpha_rad: 0.0, d_m, theta_rad }.transform(),
@@ -121,6 +123,7 @@ impl ChainPath {
             let motion = if rate > 0.0 {
                 // The point of the axis nearest to the origin, w x v / w^2 (Lynch & Park, sec. 3.3.2).
                 let point_in_base = twist.angular.cross(&twist.linear) / (rate * rate);
+                // At position zero all frames of the path have the base's axes: only their origins differ.
                 path.constant(Pose::from_parts(Matrix3::identity(), point_in_base - here_in_base));
                 here_in_base = point_in_base;
                 AxisMotion { axis: twist.angular / rate, turns: true, per_q: rate }
@@ -132,6 +135,7 @@ impl ChainPath {
             };
             path.joint(coordinate, motion);
         }
+        // Back to the base's origin, in which the home pose is given.
         path.constant(Pose::from_parts(Matrix3::identity(), -here_in_base));
         path.constant(chain.base_from_tip_at_zero);
         path

@@ -78,7 +78,7 @@ pub fn recheck(
     let recorded: Vec<&Value> = report["checks"].as_array().into_iter().flatten().collect();
     // Checks are matched by their position below: another list would compare the values of different checks.
     is_of_scenario(&recorded, &setup)?;
-    is_of_robot((report, scalars), &setup)?;
+    is_of_robot(report, scalars, &setup)?;
     let is_broken = report["error"].is_string();
     if let Some(steps) = report["simulation"]["steps"].as_u64() {
         // A motion that was slowed down in the run made it longer; one that ended early has no last step.
@@ -134,7 +134,7 @@ fn is_of_scenario(recorded: &[&Value], setup: &RunSetup) -> Result<(), RecheckEr
 const JOINT_POSITIONS: &str = "/joint/position/";
 
 /// Whether the robot has the links of the run, and the joints whose positions are recorded.
-fn is_of_robot((report, scalars): (&Value, &Scalars), setup: &RunSetup) -> Result<(), RecheckError> {
+fn is_of_robot(report: &Value, scalars: &Scalars, setup: &RunSetup) -> Result<(), RecheckError> {
     let links = report["links"].as_array().into_iter().flatten().filter_map(|link| link["link"].as_str());
     let robot = &setup.description.robot;
     let joints: BTreeSet<String> =
@@ -256,14 +256,14 @@ impl Context<'_> {
         let LimitedQuantity { name, unit, .. } = reported.of;
         let limit = self.replay.limit(at, name, unit).unwrap_or(reported.of.limit);
         let of = LimitedQuantity { limit, ..reported.of };
-        let [kind_part, quantity_part] = path_parts(at, kind, (name, unit));
+        let [kind_part, quantity_part] = path_parts(at, kind, name, unit);
         let series = self.scalars.get(&paths::check(&kind_part, &quantity_part).to_string());
         // A row of the series is the worst value since the row before, so that no step is missing; but the run
         // measured it.
         let every_step = series.and_then(|values| Evidence::from_values(of, values));
         let sampled = self.replay.found[at].iter().find(|evidence| evidence.of.is(name, unit));
         let line = self.lines[at];
-        if let Some((at, evidence, problem)) = self.problem(kind, reported, (every_step.as_ref(), sampled)) {
+        if let Some((at, evidence, problem)) = self.problem(kind, reported, every_step.as_ref(), sampled) {
             disagreements.push(Disagreement::new(kind, line, evidence, at, problem));
         }
         let slack = self.slack(kind, unit);
@@ -305,7 +305,8 @@ impl Context<'_> {
         &self,
         kind: CheckKind,
         reported: &'e Evidence,
-        (every_step, sampled): (Option<&'e Evidence>, Option<&'e Evidence>),
+        every_step: Option<&'e Evidence>,
+        sampled: Option<&'e Evidence>,
     ) -> Option<(TimedValue, &'e Evidence, String)> {
         // Infinity is `null` in the report.
         let is_same = |a: f64, b: f64| a.to_bits() == b.to_bits() || !a.is_finite() && b.is_nan();

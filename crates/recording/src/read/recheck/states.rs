@@ -11,7 +11,7 @@ use crate::{rrd::paths, series::joints::COORDINATES};
 
 /// All joints at one recorded instant.
 #[derive(Debug, Clone)]
-struct Instant {
+struct RecordedInstant {
     step: u64,
     truth: RobotQ,
     /// Empty if it is not recorded; likewise the efforts.
@@ -25,7 +25,7 @@ struct Instant {
 /// The recorded instants, one after another.
 #[derive(Debug)]
 pub(super) struct RecordedStates {
-    instants: Vec<Instant>,
+    instants: Vec<RecordedInstant>,
     at: usize,
     tree: UrdfTree,
     /// The poses of the links at this instant, by the URDF.
@@ -71,7 +71,7 @@ impl RecordedStates {
                 .filter_map(|coordinate| scalars.get(&paths::tcp("twin", coordinate).to_string()))
                 .collect(),
         );
-        let instant = |(at, truth): (usize, Vec<f64>)| Instant {
+        let instant = |(at, truth): (usize, Vec<f64>)| RecordedInstant {
             step: steps(times[at], step_s),
             qd: row(&qd, at).unwrap_or_default(),
             effort: row(&effort, at).unwrap_or_default(),
@@ -80,7 +80,7 @@ impl RecordedStates {
             root_from_tcp: tcp.as_ref().and_then(|rows| pose(&rows[at])),
             truth: truth.into(),
         };
-        let instants: Vec<Instant> = truth.into_iter().enumerate().map(instant).collect();
+        let instants: Vec<RecordedInstant> = truth.into_iter().enumerate().map(instant).collect();
         let mut states = Self {
             instants,
             at: 0,

@@ -23,12 +23,13 @@ impl Actuation {
     /// Every fault of every section.
     pub(in crate::setup) fn new(
         scenario: &Scenario,
-        (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
+        place: FilePlace<'_>,
+        folder: ScenarioFolder<'_>,
         description: &RobotDescription,
     ) -> Result<Self, Findings> {
         let (robot, step_s) = (&description.robot, scenario.simulation.step_s);
-        let written = (place.key("controller"), folder);
-        let controller = ControllerSetup::new(&scenario.controller, written, robot, step_s);
+        let controller =
+            ControllerSetup::new(&scenario.controller, place.key("controller"), folder, robot, step_s);
         let resistances = resistances(&scenario.joints, place.key("joints"), robot);
         let sensors = SensorSetup::new(&scenario.sensors, place.key("sensors"), robot);
         let payloads = payloads(&scenario.payload, place.key("payload"), description);

@@ -26,12 +26,12 @@ pub struct ControllerSetup {
     /// Torques over time, added to the constant ones.
     pub(crate) torque_table: Option<TorqueTable>,
     /// `None` for a controller that is continuous in time.
-    pub(crate) sampling: Option<Sampling>,
+    pub(crate) sampling: Option<ControlPeriod>,
 }
 
 /// The clock of a digital controller, in steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Sampling {
+pub(crate) struct ControlPeriod {
     /// From one reading of the sensors to the next.
     pub(crate) period: u64,
     /// From a reading to the torques that follow from it.
@@ -53,7 +53,8 @@ impl ControllerSetup {
 
     pub(in crate::setup) fn new(
         settings: &ControllerSettings,
-        (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
+        place: FilePlace<'_>,
+        folder: ScenarioFolder<'_>,
         robot: &Robot,
         step_s: f64,
     ) -> Result<Self, Findings> {
@@ -69,8 +70,9 @@ impl ControllerSetup {
         let integral = numbers(&settings.integral, "integral", (Range::NonNegative, Unnamed::Refused));
         let torque = numbers(&settings.torque, "torque", (Range::Finite, Unnamed::Zero));
         let mut keep = |result: Result<_, Diagnostic>| result.map_err(|error| errors.push(error)).ok();
+        // The pairs give both calls of `keep` one type.
         let sampling = keep(sampling(settings, place, step_s).map(|sampling| (sampling, None)));
-        let torque_table = keep(torque_table(settings, (place, folder), robot).map(|table| (None, table)));
+        let torque_table = keep(torque_table(settings, place, folder, robot).map(|table| (None, table)));
         let (Some((sampling, _)), Some((_, torque_table)), true) =
             (sampling, torque_table, errors.is_empty())
         else {
@@ -113,7 +115,7 @@ fn sampling(
     settings: &ControllerSettings,
     place: FilePlace<'_>,
     step_s: f64,
-) -> Result<Option<Sampling>, Diagnostic> {
+) -> Result<Option<ControlPeriod>, Diagnostic> {
     if settings.rate_hz.is_none() && settings.delay_s.is_none() {
         return Ok(None);
     }
@@ -139,12 +141,13 @@ fn sampling(
         .map_or(Ok(1), |rate_hz| whole(1.0 / rate_hz / step_s, "rate_hz", format!("{rate_hz}")))?;
     let delay =
         settings.delay_s.map_or(Ok(0), |delay_s| whole(delay_s / step_s, "delay_s", format!("{delay_s}")))?;
-    Ok(Some(Sampling { period: period as u64, delay }))
+    Ok(Some(ControlPeriod { period: period as u64, delay }))
 }
 
 fn torque_table(
     settings: &ControllerSettings,
-    (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
+    place: FilePlace<'_>,
+    folder: ScenarioFolder<'_>,
     robot: &Robot,
 ) -> Result<Option<TorqueTable>, Diagnostic> {
     let Some(path) = &settings.torque_file else { return Ok(None) };

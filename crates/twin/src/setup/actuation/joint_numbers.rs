@@ -58,8 +58,10 @@ pub(super) fn resolve(
     let mut resolved = Vec::with_capacity(robot.dof());
     for (coordinate, joint) in joints().enumerate() {
         let number = match numbers {
+            // Checked first: `others` and a single number are for the joints that can have the key.
             _ if !rule.applies_to(joint) => None,
             JointNumbers::All(number) => Some(*number),
+            // A joint's own number wins over `others`.
             JointNumbers::ByJoint(by_joint) => by_joint.get(&joint.name).or(by_joint.get(OTHERS)).copied(),
         };
         if number.is_none() && rule.applies_to(joint) && matches!(rule.unnamed, Unnamed::Refused) {

@@ -9,7 +9,7 @@ mod sensors;
 mod torque_table;
 
 pub(super) use all::Actuation;
+pub(crate) use controller::ControlPeriod;
 pub use controller::ControllerSetup;
-pub(crate) use controller::Sampling;
 pub use sensors::SensorSetup;
 pub use torque_table::TorqueTable;

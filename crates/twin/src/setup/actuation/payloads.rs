@@ -51,13 +51,14 @@ fn payload(
     }
     let until_s = settings.until_s.unwrap_or(f64::INFINITY);
     if until_s <= settings.from_s {
-        let message = format!("until_s = {until_s} s, limit > {} s, which is from_s", settings.from_s);
+        let message = format!("until_s = {until_s} s must be later than from_s = {} s", settings.from_s);
         return Err(wrong("until_s", message));
     }
     let (link, link_from_frame) = carrier(settings, place, description)?;
     let com_in_frame = centre_of_mass(settings).map_err(|message| wrong("com_mm", message))?;
     let tensor_kg_m2 = settings.inertia_kg_m2.map_or(Ok(Matrix3::zeros()), tensor);
     let tensor_kg_m2 = tensor_kg_m2.map_err(|message| wrong("inertia_kg_m2", message))?;
+    // The tensor is given in the axes of that frame, so the inertial frame is only shifted.
     let frame_from_com = Isometry3::from_parts(Translation3::from(com_in_frame), UnitQuaternion::identity());
     let link_from_inertial = link_from_frame * frame_from_com;
     let inertia = Inertia { mass_kg: settings.mass_kg, link_from_inertial, tensor_kg_m2 };

@@ -42,6 +42,7 @@ fn keys(settings: &SensorSettings) -> [EncoderKey<'_>; 11] {
     let angle: fn(f64) -> f64 = |value| Unit::Angle.convert(value);
     let length: fn(f64) -> f64 = |value| Unit::Length.convert(value);
     let si: fn(f64) -> f64 = |value| value;
+    // 0 counts are no resolution: the quotient would be infinite.
     let of_turn: fn(f64) -> f64 = |counts| if counts > 0.0 { std::f64::consts::TAU / counts } else { 0.0 };
     let all = [
         (&settings.counts_per_turn, "counts_per_turn", true, of_turn, resolution),
@@ -77,6 +78,7 @@ impl EncoderKey<'_> {
         let mut is_first = true;
         for (encoder, &number) in given {
             let value = (self.field)(encoder);
+            // Zero means none: two keys conflict only at a joint to which both give something.
             is_first &= *value <= 0.0;
             *value = (self.to_si)(number);
         }

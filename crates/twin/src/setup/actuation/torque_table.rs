@@ -49,6 +49,8 @@ impl TorqueTable {
 
     /// Adds the torques at a time.
     pub(crate) fn add_at(&self, time_s: f64, torque: &mut [f64]) {
+        // The row after the instant, or the last one; at both ends `before` and `share` then give the first and the
+        // last row.
         let after = self.times_s.partition_point(|&row_s| row_s <= time_s).min(self.times_s.len() - 1);
         let before = after.saturating_sub(1);
         let gap_s = self.times_s[after] - self.times_s[before];
@@ -65,6 +67,7 @@ impl TorqueTable {
 fn columns(header: &Header, robot: &Robot) -> Result<Vec<Option<usize>>, Diagnostic> {
     let mut columns = Vec::new();
     for (at, name) in header.names().enumerate() {
+        // A mimic joint has no actuator that could exert a torque.
         let coordinate = robot.find_joint(name).filter(|&joint| robot.joint(joint).mimic.is_none());
         let column = match coordinate.and_then(|joint| robot.coordinate(joint)) {
             Some(coordinate) => Some(coordinate),

@@ -16,6 +16,7 @@ pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Ve
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let turns = joints().any(|joint| joint.kind.is_angular());
     let slides = joints().any(|joint| !joint.kind.is_angular());
+    // Without motions the arm has nothing to follow; a scenario that drops an arm is legitimate.
     let follows = !scenario.motion.is_empty() && (turns || slides) && !has(CheckKind::Tracking);
     let tracking = follows.then(|| {
         Check::Tracking(TrackingCheck {

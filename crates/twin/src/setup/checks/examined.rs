@@ -13,19 +13,20 @@ use crate::setup::surroundings::paired_with_checks;
 pub(in crate::setup) fn examine_checks(
     scenario: &Scenario,
     place: FilePlace<'_>,
-    (description, mobility): (&RobotDescription, &[ObstacleMobility]),
+    description: &RobotDescription,
+    mobility: &[ObstacleMobility],
     found: &mut Diagnostics,
 ) -> Vec<Diagnostic> {
     found.keep(paired_with_checks(&scenario.zone, &scenario.check, place));
     for (index, check) in scenario.check.iter().enumerate() {
-        let around = (description, scenario.obstacle.as_slice(), mobility);
-        found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
+        let place = place.key("check").item(index);
+        found.keep(RunningCheck::examine(check, place, description, &scenario.obstacle, mobility));
     }
     let scale = description.tolerance_scale();
     let mut warnings = Vec::new();
     for (index, check) in scenario.check.iter().enumerate() {
         let place = place.key("check").item(index);
-        let (wrong, wide) = tolerances(check, place, (&description.robot, scale));
+        let (wrong, wide) = tolerances(check, place, &description.robot, scale);
         found.extend(wrong);
         warnings.extend(wide);
     }
@@ -42,6 +43,7 @@ fn unwatched<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<
     let looks = |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact);
     let is_watched = scenario.check.iter().any(looks);
     let obstacles = scenario.obstacle.iter().enumerate().filter(move |(_, obstacle)| {
+        // A carried object is approached on purpose.
         !is_watched && scenario.grasp.iter().all(|grasp| grasp.body != obstacle.name)
     });
     obstacles.map(move |(index, obstacle)| {

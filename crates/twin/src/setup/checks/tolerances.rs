@@ -18,7 +18,8 @@ const FASTEST: f64 = 1000.0;
 pub(super) fn tolerances(
     check: &Check,
     place: FilePlace<'_>,
-    (robot, scale): (&Robot, ToleranceScale),
+    robot: &Robot,
+    scale: ToleranceScale,
 ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let examined = check.unit_keys().into_iter().filter(|keys| is_tolerance(check, keys));
     examined
@@ -26,7 +27,7 @@ pub(super) fn tolerances(
             let key = keys.written_key();
             Some(place.key(key).mark(scale.examine(keys.unit, key, keys.value()?)?))
         })
-        .chain(beyond_meaning(check, place, (robot, scale)))
+        .chain(beyond_meaning(check, place, robot, scale))
         .partition(|found| found.severity == Severity::Error)
 }
 
@@ -34,7 +35,8 @@ pub(super) fn tolerances(
 fn beyond_meaning(
     check: &Check,
     place: FilePlace<'_>,
-    (robot, scale): (&Robot, ToleranceScale),
+    robot: &Robot,
+    scale: ToleranceScale,
 ) -> Vec<Diagnostic> {
     let share = |key: &'static str, value: Option<f64>, of: &str| {
         let value = value.filter(|&value| value > WIDE * WHOLE)?;
@@ -57,7 +59,7 @@ fn beyond_meaning(
         Check::Twist(check) => {
             let most = fastest(robot, scale);
             let limits = check.unit_keys().into_iter().zip(most.into_iter().zip(["m/s", "rad/s"]));
-            return limits.filter_map(|(keys, (most, unit))| too_fast(&keys, place, (most, unit))).collect();
+            return limits.filter_map(|(keys, (most, unit))| too_fast(&keys, place, most, unit)).collect();
         }
         _ => None,
     }
@@ -65,7 +67,7 @@ fn beyond_meaning(
     .collect()
 }
 
-fn too_fast(keys: &UnitKeys, place: FilePlace<'_>, (most, unit): (f64, &str)) -> Option<Diagnostic> {
+fn too_fast(keys: &UnitKeys, place: FilePlace<'_>, most: f64, unit: &str) -> Option<Diagnostic> {
     let value = keys.value().filter(|&value| value > WIDE * most)?;
     let is_meaningless = value > most;
     let key = keys.written_key();
@@ -90,6 +92,7 @@ fn fastest(robot: &Robot, scale: ToleranceScale) -> [f64; 2] {
     let (mut slides, mut turns) = (0.0, 0.0);
     for joint in joints {
         let speed = joint.limit.and_then(|limit| limit.velocity).unwrap_or(f64::INFINITY);
+        // A sum over all joints, as if each moved the frame at the same time in the same direction.
         *(if joint.kind.is_angular() { &mut turns } else { &mut slides }) += speed;
     }
     let linear = if turns > 0.0 { slides + turns * scale.reach_m().unwrap_or(f64::INFINITY) } else { slides };

@@ -6,12 +6,11 @@ use congruent_kinematics::UrdfTree;
 use congruent_monitors::{HEAVIEST_KG, RunPayload, too_heavy};
 use congruent_motion::Trajectory;
 use congruent_proximity::{BodyTrack, Grasp, MovingBody, ObstacleMobility, PathPose};
-use congruent_scenario::{
-    FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario, ScenarioFolder,
-};
+use congruent_scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario};
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
 use super::spaces;
+use crate::setup::written_at::WrittenAt;
 
 /// The bodies around the robot.
 pub(in crate::setup) struct Surroundings {
@@ -27,23 +26,26 @@ impl Surroundings {
     /// Builds all; their faults are kept in `found`.
     pub(in crate::setup) fn new(
         scenario: &Scenario,
-        (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
-        (description, trajectory): (&RobotDescription, Option<&Trajectory>),
+        written: WrittenAt<'_>,
+        description: &RobotDescription,
+        trajectory: Option<&Trajectory>,
         found: &mut Diagnostics,
     ) -> Self {
+        let WrittenAt { place, folder } = written;
         let places = place.key("obstacle");
-        let kind = (&spaces::OBSTACLE, folder);
         let (mut moving, mut payloads) = (Vec::new(), Vec::new());
-        let built = spaces::build(&scenario.obstacle, places, kind, &description.robot);
+        let built = spaces::build(&scenario.obstacle, places, &spaces::OBSTACLE, folder, &description.robot);
         let mut obstacles = built.map_err(|errors| found.extend(errors)).ok();
+        // Paths before grasps, since an obstacle with a path cannot be grasped.
         if let Some(obstacles) = &mut obstacles {
             let paths = paths(&scenario.obstacle, places, obstacles);
             moving = paths.map_err(|errors| found.extend(errors)).unwrap_or_default();
         }
+        // The mass in the link follows from the planned pose at the grasp.
         if let (Some(obstacles), Some(trajectory)) = (&obstacles, trajectory) {
-            let planned = (description, trajectory);
-            let held = grasps(scenario, place.key("grasp"), planned, (obstacles.as_slice(), &mut moving));
-            payloads = held.map_err(|errors| found.extend(errors)).unwrap_or_default();
+            let held = grasps(scenario, place.key("grasp"), description, obstacles, &moving);
+            let carried = held.and_then(|held| follow(held, description, trajectory, obstacles, &mut moving));
+            payloads = carried.map_err(|errors| found.extend(errors)).unwrap_or_default();
         }
         Self { obstacles, moving, payloads }
     }
@@ -73,6 +75,7 @@ fn paths(
     for (index, settings) in all.iter().enumerate().filter(|(_, settings)| !settings.path.is_empty()) {
         match path(settings, places.item(index)) {
             Ok(path) => {
+                // Not empty, by the filter above. Until its first time the obstacle stays at the first pose.
                 obstacles[index].world_from_obstacle = path[0].world_from_obstacle;
                 bodies.push(MovingBody { obstacle: index, track: BodyTrack::Path(path) });
             }
@@ -126,18 +129,19 @@ fn path(settings: &ObstacleSettings, place: FilePlace<'_>) -> Result<Vec<PathPos
     Ok(path)
 }
 
-/// Builds the grasps of obstacles and their payloads; an obstacle with a path cannot be grasped.
-fn grasps(
-    scenario: &Scenario,
-    places: FilePlace<'_>,
-    (description, trajectory): (&RobotDescription, &Trajectory),
-    (obstacles, bodies): (&[Obstacle], &mut Vec<MovingBody>),
-) -> Result<Vec<RunPayload>, Findings> {
-    let (mut payloads, mut errors) = (Vec::new(), Vec::new());
-    let mut held: Vec<GraspedBody<'_>> = Vec::new();
+/// The grasps of obstacles; an obstacle with a path cannot be grasped.
+fn grasps<'a>(
+    scenario: &'a Scenario,
+    places: FilePlace<'a>,
+    description: &RobotDescription,
+    obstacles: &[Obstacle],
+    bodies: &[MovingBody],
+) -> Result<Vec<GraspedBody<'a>>, Findings> {
+    let (mut held, mut errors) = (Vec::new(), Vec::new());
     for (index, settings) in scenario.grasp.iter().enumerate() {
         let place = places.item(index);
-        match grasp(settings, place, (description, obstacles)) {
+        match grasp(settings, place, description, obstacles) {
+            // Only bodies with paths are in the list so far.
             Ok((obstacle, _)) if bodies.iter().any(|body| body.obstacle == obstacle) => {
                 let message = format!(
                     "obstacle \"{}\" moves along a path, so that no link can carry it",
@@ -149,12 +153,22 @@ fn grasps(
             Err(error) => errors.push(error),
         }
     }
-    if !errors.is_empty() {
-        return Err(errors.into());
-    }
+    if errors.is_empty() { Ok(held) } else { Err(errors.into()) }
+}
+
+/// Adds the grasped obstacles to the moving bodies; returns their payloads.
+fn follow(
+    mut held: Vec<GraspedBody<'_>>,
+    description: &RobotDescription,
+    trajectory: &Trajectory,
+    obstacles: &[Obstacle],
+    bodies: &mut Vec<MovingBody>,
+) -> Result<Vec<RunPayload>, Findings> {
+    let (mut payloads, mut errors) = (Vec::new(), Vec::new());
+    // By body and time: `chunk_by` joins neighbours only, and the poses of one body follow from its grasp before.
     held.sort_by(|a, b| a.obstacle.cmp(&b.obstacle).then(a.grasp.from_s.total_cmp(&b.grasp.from_s)));
     for of_body in held.chunk_by(|a, b| a.obstacle == b.obstacle) {
-        match of_one_body(of_body, (description, trajectory), &obstacles[of_body[0].obstacle]) {
+        match of_one_body(of_body, description, trajectory, &obstacles[of_body[0].obstacle]) {
             Ok(found) => payloads.extend(found),
             Err(error) => errors.push(error),
         }
@@ -175,7 +189,8 @@ struct GraspedBody<'a> {
 fn grasp(
     settings: &GraspSettings,
     place: FilePlace<'_>,
-    (description, obstacles): (&RobotDescription, &[Obstacle]),
+    description: &RobotDescription,
+    obstacles: &[Obstacle],
 ) -> Result<(usize, Grasp), Diagnostic> {
     let unknown = |key: &str, message: String, known: String| {
         place.key(key).mark(Diagnostic::error("scenario::grasp", message).with_help(known))
@@ -209,7 +224,7 @@ fn grasp(
     let (from_s, until_s) = (settings.from_s, settings.until_s.unwrap_or(f64::INFINITY));
     if until_s <= from_s {
         let message =
-            format!("\"{}\": until_s = {until_s} s, limit > {from_s} s, which is from_s", settings.body);
+            format!("\"{}\": until_s = {until_s} s must be later than from_s = {from_s} s", settings.body);
         return Err(place.key("until_s").mark(Diagnostic::error("scenario::grasp", message)));
     }
     Ok((obstacle, Grasp { link, from_s, until_s }))
@@ -219,9 +234,11 @@ fn grasp(
 /// setpoint. Clearance and recording use the pose at which the arm really takes the body.
 fn of_one_body(
     held: &[GraspedBody<'_>],
-    (description, trajectory): (&RobotDescription, &Trajectory),
+    description: &RobotDescription,
+    trajectory: &Trajectory,
     obstacle: &Obstacle,
 ) -> Result<Vec<RunPayload>, Diagnostic> {
+    // In the order of time, so that neighbours suffice.
     let overlap = held.windows(2).find(|pair| pair[1].grasp.from_s < pair[0].grasp.until_s);
     if let Some(pair) = overlap {
         let message = format!(
@@ -233,6 +250,7 @@ fn of_one_body(
         );
         return Err(pair[1].place.key("from_s").mark(error));
     }
+    // Without a mass nothing loads the robot, so the plan is not needed: a body may be taken after a servo.
     if held.iter().all(|held| held.settings.mass_kg.is_none()) {
         return Ok(Vec::new());
     }
@@ -264,6 +282,7 @@ fn of_one_body(
             let (from_s, until_s) = (grasp.from_s, grasp.until_s);
             payloads.push(RunPayload { name: obstacle.name.clone(), carried, from_s, until_s });
         }
+        // Where it is put down matters only if it is taken again; the time may be infinite for the last grasp.
         if index + 1 < held.len() {
             world_from_obstacle = link_at(grasp.link, grasp.until_s, *place)? * link_from_obstacle;
         }
@@ -278,6 +297,7 @@ fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Resul
     };
     let diagonal = if let Some(given) = settings.inertia_kg_m2 {
         let sum: f64 = given.iter().sum();
+        // 1e-9: rounding of a plate, whose largest moment is the sum of the others.
         if given.iter().any(|&moment| 2.0 * moment > sum * (1.0 + 1e-9)) {
             let help = "each of the three moments must be at most the sum of the other two";
             return refused("no body has this `inertia_kg_m2`", help);
@@ -286,9 +306,11 @@ fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Resul
     } else {
         match geometry {
             Geometry::Box { size_m } => {
+                // Ixx = m (y^2 + z^2) / 12.
                 let squares = size_m.component_mul(size_m);
                 (Vector3::repeat(squares.sum()) - squares) * (mass_kg / 12.0)
             }
+            // Solid bodies of constant density.
             Geometry::Sphere { radius_m } => Vector3::repeat(0.4 * mass_kg * radius_m * radius_m),
             Geometry::Cylinder { radius_m, length_m } => {
                 let across = mass_kg * (3.0 * radius_m * radius_m + length_m * length_m) / 12.0;

@@ -39,11 +39,12 @@ pub(in crate::setup) fn overlaps(
     let Some(links) = moving_links(robot, start.q) else { return Vec::new() };
     let overlapping = |(index, obstacle): (usize, &Obstacle)| {
         let track = start.moving.iter().find(|body| body.obstacle == index).map(|body| &body.track);
+        // At the end of the first step, for which the physics finds its first contacts.
         if is_carried(track, start.step_s) {
             return None;
         }
         let (link, depth_m) = deepest(obstacle, &links)?;
-        Some(refused(obstacle, (link, depth_m), track, places.item(index)))
+        Some(refused(obstacle, link, depth_m, track, places.item(index)))
     };
     start.obstacles.iter().enumerate().filter_map(overlapping).collect()
 }
@@ -92,7 +93,8 @@ fn is_carried(track: Option<&BodyTrack>, time_s: f64) -> bool {
 
 fn refused(
     obstacle: &Obstacle,
-    (link, depth_m): (&Link, f64),
+    link: &Link,
+    depth_m: f64,
     track: Option<&BodyTrack>,
     place: FilePlace<'_>,
 ) -> Diagnostic {

@@ -47,18 +47,20 @@ pub(super) const ZONE: SpaceKind = SpaceKind {
 pub(super) fn build(
     all: &[ObstacleSettings],
     places: FilePlace<'_>,
-    (kind, folder): (&SpaceKind, ScenarioFolder<'_>),
+    kind: &SpaceKind,
+    folder: ScenarioFolder<'_>,
     robot: &Robot,
 ) -> Result<Vec<Obstacle>, Findings> {
     let mut obstacles: Vec<Obstacle> = Vec::new();
     let mut errors = Vec::new();
     for (index, settings) in all.iter().enumerate() {
         let place = places.item(index);
-        match obstacle(settings, place, (kind, folder)) {
+        match obstacle(settings, place, kind, folder) {
             Ok(obstacle) if obstacles.iter().any(|known| known.name == obstacle.name) => {
                 let message = format!("two {}s are named \"{}\"", kind.word, obstacle.name);
                 errors.push(place.mark(Diagnostic::error(kind.twice, message)));
             }
+            // Checks and reports name both kinds in one list: the same name twice would be ambiguous.
             Ok(obstacle) if robot.find_link(&obstacle.name).is_some() => {
                 let message =
                     format!("{} \"{}\" has the name of a link of the robot", kind.word, obstacle.name);
@@ -74,7 +76,8 @@ pub(super) fn build(
 fn obstacle(
     settings: &ObstacleSettings,
     place: FilePlace<'_>,
-    (kind, folder): (&SpaceKind, ScenarioFolder<'_>),
+    kind: &SpaceKind,
+    folder: ScenarioFolder<'_>,
 ) -> Result<Obstacle, Diagnostic> {
     if settings.name.trim().is_empty() {
         return Err(place.key("name").mark(
@@ -94,6 +97,7 @@ fn obstacle(
         }
         (None, None, None, Some(mesh)) => {
             let scale = Vector3::from(settings.scale.unwrap_or([1.0; 3]));
+            // A fault inside the mesh has its place in that file; one of its path belongs to the key.
             let read = read_mesh(folder.path, mesh, scale, folder.access);
             let mesh =
                 read.map_err(
@@ -109,6 +113,7 @@ fn obstacle(
     let ObstacleSettings { xyz_m, xyz_mm, rpy_deg, rpy_rad, .. } = *settings;
     let pose = PoseSettings { xyz_m, xyz_mm, rpy_rad, rpy_deg, ..PoseSettings::default() };
     let world_from_obstacle = pose.isometry(place)?;
+    // Written lengths were checked to be finite before, so that `max` drops no NaN.
     let furthest_m = world_from_obstacle.translation.vector.amax().max(largest_size_m(&geometry));
     if furthest_m > LARGEST_M {
         let message = format!(

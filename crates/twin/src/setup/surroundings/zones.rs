@@ -32,7 +32,8 @@ pub(in crate::setup) fn build(
     // No zone has a mesh.
     let folder = ScenarioFolder { path: Path::new(""), access: &FileAccess::default() };
     let spaces =
-        spaces::build(&spaces, places, (&spaces::ZONE, folder), robot).map_err(|found| errors.extend(found));
+        spaces::build(&spaces, places, &spaces::ZONE, folder, robot).map_err(|found| errors.extend(found));
+    // With an error in either list the two differ in length, and links would go to the wrong zones.
     match spaces {
         Ok(spaces) if errors.is_empty() => {
             Ok(spaces.into_iter().zip(links).map(|(space, links)| Zone { space, links }).collect())
@@ -89,6 +90,7 @@ fn forbidden_links(
             Err(error) => errors.push(place.key("links").item(index).mark(error)),
         }
     }
+    // Patterns may overlap; a link twice would be two pairs with one zone.
     links.sort_unstable();
     links.dedup();
     if errors.is_empty() { Ok(links) } else { Err(errors.into()) }

@@ -108,6 +108,7 @@ pub fn derive_dh(
     let assignment =
         FrameAssignment { axes, tip, parallel_rad: accuracy * PARALLEL_PART, tidy: accuracy * TIDY_PART };
     let derivation = assignment.derive();
+    // A modified table has the same factors, grouped otherwise: one derivation serves both.
     Ok(DhDerivation { dh: derivation.dh.to_convention(convention), ..derivation })
 }
 

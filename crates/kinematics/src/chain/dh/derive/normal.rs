@@ -56,6 +56,7 @@ pub(super) fn between(base_from_here: &Pose, next: &AxisLine, parallel_rad: f64)
     let point = here_from_base.rotation * next.point + here_from_base.translation;
     let across = Vector3::z().cross(&direction);
     let sine = across.norm();
+    // First, since all below divides by the sine.
     if sine <= parallel_rad {
         return parallel(&direction, &point, parallel_rad);
     }

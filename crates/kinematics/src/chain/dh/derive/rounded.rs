@@ -56,11 +56,14 @@ pub fn without_rounding(
     let (mut twists, mut pairs) = (chain.twists_in_base.clone(), Vec::new());
     for joint in 1..axes.len() {
         if let (MotionAxis::Turn(line), Some(origin)) = (&mut axes[joint], origins_in_base.get(joint)) {
+            // About a point far from its joint even a small turn would displace the axis where the robot is.
             line.point = line.nearest_to(origin);
         }
         let found = Deviation::between(&axes[joint - 1], &axes[joint]);
         let smallest = accuracy * PARALLEL_PART;
         if found.angle_rad > smallest || found.distance_m > smallest.max(NOISE_M) {
+            // The next axis is compared with this one as corrected: of three nearly parallel axes all become
+            // parallel.
             axes[joint] = found.corrected;
             twists[joint] = twist(&found.corrected);
             let Deviation { relation, angle_rad, distance_m, .. } = found;
@@ -90,6 +93,7 @@ impl Deviation {
         let by_sense = if cosine > 0.0 { AxisRelation::Parallel } else { AxisRelation::AntiParallel };
         let relation = if is_parallel { by_sense } else { AxisRelation::Skew };
         let angle_rad = if is_parallel { angle_rad } else { 0.0 };
+        // Of a shift only the direction counts: there is no distance to measure.
         let (MotionAxis::Turn(first), MotionAxis::Turn(second)) = (before, axis) else {
             let corrected = match axis {
                 MotionAxis::Turn(line) => MotionAxis::Turn(AxisLine { direction, ..*line }),
@@ -105,6 +109,7 @@ impl Deviation {
             across * (apart.dot(&across) / across.norm_squared())
         };
         let distance_m = offset.norm();
+        // Two lines apart: only the direction was rounded.
         if distance_m > ROUNDED_M {
             let corrected = MotionAxis::Turn(AxisLine { point, direction });
             return Self { relation, angle_rad, distance_m: 0.0, corrected };

@@ -18,6 +18,7 @@ pub(super) fn number(value: f64, tolerance: f64) -> f64 {
 
 /// The same for an angle, in degrees first; in `-pi < angle <= pi`, the half turn always positive.
 pub(super) fn angle(value_rad: f64, tolerance: f64) -> f64 {
+    // Degrees first, since that is what the angle was written in: 30 degrees have no short form in radians.
     let degrees = ((value_rad.to_degrees() * STEPS).round() / STEPS).to_radians();
     let is_short = (degrees - value_rad).abs() <= tolerance;
     let tidied = if is_short { degrees + 0.0 } else { number(value_rad, tolerance) };
@@ -27,6 +28,7 @@ pub(super) fn angle(value_rad: f64, tolerance: f64) -> f64 {
 /// The same for a pose: lengths, and entries of the rotation that are nearly 0, 1 or -1.
 pub(super) fn pose(value: &Pose, tolerance: f64) -> Pose {
     let entry = |entry: f64| {
+        // Only these entries: any other, shortened alone, would spoil the orthonormality of the matrix.
         let whole = entry.round();
         (if (whole - entry).abs() <= tolerance { whole } else { entry }) + 0.0
     };

@@ -1,0 +1,56 @@
+//! What `congruent ik` prints.
+
+use std::fmt::Write;
+
+use crate::{
+    analysis::inverse::{InverseReport, InverseSolution},
+    description::{Joint, Robot},
+    input::display::{length, length_and_angle, position},
+    text::{TextOptions, layout::Table},
+};
+
+/// What `congruent ik` prints: for each target whether it is reached within the tolerance (in m), and the joint positions.
+pub fn inverse_text(
+    report: &InverseReport,
+    robot: &Robot,
+    tolerance_m: f64,
+    options: &TextOptions,
+) -> String {
+    let mut text = format!("{}\n", report.chain);
+    if report.results.is_empty() {
+        text += "the file has no target\n";
+    }
+    for (index, result) in report.results.iter().enumerate() {
+        let _ = writeln!(
+            text,
+            "target {}: {} after {} steps, residual {}, tolerance {}",
+            index + 1,
+            if result.converged { "reached" } else { "NOT REACHED" },
+            result.iterations,
+            length_and_angle(result.residual_position_m, result.residual_orientation_rad),
+            length(tolerance_m)
+        );
+        joints(&mut text, result, robot, options);
+    }
+    text
+}
+
+/// Each joint with its position, its margin to the nearer limit, and its range.
+fn joints(text: &mut String, result: &InverseSolution, robot: &Robot, options: &TextOptions) {
+    let mut table = Table::headed(["joint", "position", "margin", "range"]);
+    for (name, value) in result.q.iter() {
+        let joint = robot.find_joint(name).map(|joint| robot.joint(joint));
+        let unit = joint.map_or("", |joint| joint.kind.unit());
+        let [margin, range] = match joint.and_then(Joint::position_range) {
+            None => ["no limit".to_owned(), String::new()],
+            Some((lower, upper)) => {
+                let is_held = result.limits_held.iter().any(|held| held == name);
+                let margin = position((value - lower).min(upper - value), unit);
+                let ends = format!("{} to {}", position(lower, unit), position(upper, unit));
+                [if is_held { "at its limit".to_owned() } else { margin }, ends]
+            }
+        };
+        table.row([name.to_owned(), position(value, unit), margin, range]);
+    }
+    table.write(text, options.columns);
+}
