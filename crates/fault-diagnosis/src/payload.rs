@@ -107,7 +107,7 @@ fn point_mass(columns: &[Vec<f64>], needed: &[f64]) -> Option<(SpatialInertia, f
         }
         load = SpatialInertia::point_mass(mass_kg, Vector3::new(x, y, z) / mass_kg);
         let rest: f64 = without_tensor.iter().map(|value| value * value).sum();
-        // The solver's residual is relative to what is left after the inertia; the fault's is relative to all that is
+        // The solver's residual is relative to the rest after the inertia; the fault's is relative to all that is
         // missing.
         remaining = solution.remaining * (rest / whole).sqrt();
     }

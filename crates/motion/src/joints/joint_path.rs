@@ -24,7 +24,7 @@ pub(crate) fn plan(settings: &JointPathMotion, planning: &mut Planning<'_>) -> R
     // Times in proportion are enough for the shape; the duration follows from it below.
     let is_given = settings.duration_s.is_some() || !settings.at_s.is_empty();
     let duration_s = if is_given { total_s } else { least_s(&spline, planning) };
-    // Before the limits of speed: a path that leaves the range is wrong at any duration.
+    // Before the limits of speed: a path beyond the range is wrong at any duration.
     check_positions(&spline, duration_s, planning, |_, _| String::new())?;
     // Linear, since the spline over the share is itself at rest at both ends.
     let time_scaling = TimeScaling::Shape { profile: Profile::Linear, duration_s };

@@ -134,7 +134,7 @@ impl<'a> ServoController<'a> {
         self.robot.apply_mimic(q);
         // From the positions, after clamping and mimic joints, so that velocity and position of the setpoint agree.
         for ((qd, q), before) in qd.iter_mut().zip(q.iter()).zip(&self.before) {
-            // By the whole step, in which a motion that ends early stands still for the rest.
+            // By the whole step, in which a motion that ends early is at rest until its end.
             *qd = (q - before) / step_s;
         }
         Ok(())

@@ -165,7 +165,6 @@ impl RrdWriter {
         footer.manifests.sort_by_cached_key(|manifest| format!("{:?}", manifest.store_id));
         let mut bytes = Vec::new();
         footer.to_rrd_bytes(&mut bytes).map_err(failed)?;
-        // As in `message`: the stated length includes the check sum after the data.
         self.put(&MessageHeader { kind: MessageKind::End, len: bytes.len() as u64 })?;
         // After the header: the end of the stream points to the footer's data.
         let start = self.written;
