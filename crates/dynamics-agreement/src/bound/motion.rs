@@ -117,8 +117,7 @@ impl Motions<'_> {
     /// Zero, or the nearest limit, of each joint; at rest.
     fn somewhere(&self) -> AttainedAt {
         let ranges = self.rows.covered.iter().map(|covered| (covered.lower, covered.upper));
-        // Joints that do not matter stay at zero, or at the limit nearest to it: any position would do, this one
-        // is readable.
+        // Joints that do not matter stay at zero, or at the limit nearest to it: a position that is easy to read.
         let mut at = AttainedAt::rest(ranges.map(|(lower, upper)| 0.0_f64.clamp(lower, upper)).collect());
         self.rows.dependency.coupling.follow(&mut at);
         at
