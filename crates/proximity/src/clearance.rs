@@ -113,8 +113,7 @@ impl Clearance {
             Self::of_links(self.subjects[..self.links].to_vec(), self.hulls[..self.links].to_vec());
         for zone in zones {
             let a = clearance.add(&zone.space)?;
-            // Links are second: a rotation lowers the bound in proportion to the size of the second subject, and
-            // zones are large.
+            // Links are second: rotations lower the bound by the size of the second subject, and zones are large.
             let pairs = zone.links.iter().map(|link| Pair { a, b: link.get() });
             clearance.watch(pairs.map(WatchedPair::new));
         }

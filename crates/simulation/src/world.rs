@@ -276,7 +276,6 @@ impl World {
     }
 
     fn apply(&mut self, setpoint: &Setpoint<'_>) -> Result<(), SimulationError> {
-        // Before the test for masses: a robot without them can still be placed.
         if self.commands.placed {
             self.state.step_count += 1;
             return self.set_state(setpoint.q, setpoint.qd);
@@ -285,7 +284,6 @@ impl World {
             return Err(SimulationError::Massless { link: link.clone() });
         }
         self.check_commands()?;
-        // What drives are asked for, before they deliver a share of it.
         self.asked.copy_from(&self.commands);
         self.commands.deliver(&self.state.delivered);
         self.engine.step(&self.commands, &self.state.q, &self.state.qd);
@@ -385,7 +383,6 @@ fn is_number(value: f64) -> bool {
 
 fn check(settings: &WorldSettings) -> Result<(), SimulationError> {
     let WorldSettings { step_s, gravity_in_world, .. } = settings;
-    // Negated, so that NaN is refused as well.
     if !(step_s.is_finite() && *step_s > 0.0) {
         return Err(SimulationError::Step { step_s: *step_s });
     }
