@@ -274,7 +274,7 @@ mod tests {
         assert_eq!(found("{\"a\": 1} {\"a\": 1}\n"), [("entry 1: trailing characters".to_owned(), (1, 10))]);
         assert_eq!(found("{\"a\": 1}\n{\"a\": }\n")[0].1, (2, 7));
         for (text, place) in
-            [("[", (1, 1)), ("[{\"a\":1},]", (1, 10)), ("[{\"a\":1}] x", (1, 12)), (" ", (1, 1))]
+            [("[", (1, 1)), ("[{\"a\":1},]", (1, 10)), ("[{\"a\":1}] x", (1, 11)), (" ", (1, 1))]
         {
             assert_eq!(found(text)[0].1, place, "{text}");
         }

@@ -1,5 +1,5 @@
-//! Colours of the words that say how something ended, where answers have them: the second word of a row, the first of a row
-//! that has no name, and what follows the name in a heading.
+//! Colours of the words that say how something ended, where answers have them: behind the name of a row, at the beginning of a
+//! row that has no name, and behind the name of a heading.
 
 use std::{fmt::Write, ops::Range};
 
@@ -8,7 +8,7 @@ const RED: u8 = 31;
 const YELLOW: u8 = 33;
 
 /// Words with their colours; of two with the same beginning the longer is first.
-const WORDS: [(&str, u8); 19] = [
+const WORDS: [(&str, u8); 20] = [
     ("same robot", GREEN),
     ("same geometry, different dynamics", RED),
     ("different dynamics", RED),
@@ -19,14 +19,15 @@ const WORDS: [(&str, u8); 19] = [
     ("pass", GREEN),
     ("agree", GREEN),
     ("certified", GREEN),
-    ("failed", RED),
     ("fail", RED),
+    ("FAIL", RED),
     ("FAILED", RED),
     ("disagree", RED),
     ("error", RED),
     ("BAD INPUT", RED),
     ("BROKEN", RED),
     ("skipped", YELLOW),
+    ("NOTHING CHECKED", YELLOW),
     ("NOT CHECKED", YELLOW),
 ];
 
@@ -56,14 +57,11 @@ pub fn with_coloured_status(text: &str) -> String {
 /// The place of the word in a line, and its colour.
 fn status(line: &str) -> Option<(Range<usize>, u8)> {
     places(line).into_iter().flatten().find_map(|start| {
-        let is_here = |word: &str| {
-            let rest = line[start..].strip_prefix(word);
-            rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
-        };
-        WORDS
-            .iter()
-            .find(|(word, _)| is_here(word))
-            .map(|&(word, colour)| (start..start + word.len(), colour))
+        let rest = line.get(start..).filter(|_| line[..start].ends_with(' '))?;
+        let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        let is_here = |word: &str| rest.strip_prefix(word).is_some_and(ends);
+        let &(word, colour) = WORDS.iter().find(|(word, _)| is_here(word))?;
+        Some((start..start + word.len(), colour))
     })
 }
 
@@ -71,14 +69,11 @@ fn status(line: &str) -> Option<(Range<usize>, u8)> {
 fn places(line: &str) -> [Option<usize>; 2] {
     /// Rows have this indent; what is deeper continues one.
     const ROW: usize = 2;
-    let words = line.trim_start_matches(' ');
-    match line.len() - words.len() {
+    /// The column of a row behind the name of its check.
+    const BEHIND_NAME: usize = 13;
+    match line.len() - line.trim_start_matches(' ').len() {
         0 => [line.find(": ").map(|at| at + 2), None],
-        ROW => {
-            let name = words.find(' ').unwrap_or(words.len());
-            let gap = words[name..].len() - words[name..].trim_start_matches(' ').len();
-            [Some(ROW), Some(ROW + name + gap)]
-        }
+        ROW => [Some(ROW), Some(BEHIND_NAME)],
         _ => [None, None],
     }
 }
@@ -96,9 +91,18 @@ mod tests {
         check("ur5e_pick: pass (ur5e, 4 s)", Some("pass"));
         check("a.toml: BAD INPUT\n", Some("BAD INPUT"));
         check("robot.toml: not the same robot. URDF and physics", Some("not the same robot"));
-        check("  limits     pass    61.1 deg left", Some("pass"));
+        check("  limits     pass    61.1 deg of margin", Some("pass"));
         check("  disagree  DH table against URDF chain", Some("disagree"));
-        check("  passive   passenger", None);
+        check("ur5e_pick: FAIL (ur5e, 4 s)", Some("FAIL"));
+        check("ur5e_pick: NOTHING CHECKED: add a [[check]]", Some("NOTHING CHECKED"));
+        check("  cycle_time pass    4 s", Some("pass"));
+        check("  tracking   skipped", Some("skipped"));
+        check("  passive    passenger", None);
+        // Neither names of a file nor words of a sentence.
+        check("  largest error at link tool0, at", None);
+        check("  fail_joint pass", Some("pass"));
+        check("  joint fail", None);
+        check("  gelenk_äöü fail", None);
         check("                     fail", None);
         check("fail: 3", None);
         check("", None);
