@@ -113,7 +113,7 @@ fn a_wrong_length_is_noticed() {
 fn no_change_ends_in_a_panic() {
     let bench = Bench::new();
     let (whole, mut random) = (&bench.whole, Random(5));
-    for round in 0..150 {
+    for round in 0..80 {
         let length = 1 + random.below([4, 64, 1000, 20_000][round % 4]);
         let (at, to) = (random.below(whole.len() - length), random.below(whole.len() - length));
         let (block, rest) = (&whole[at..at + length], [&whole[..at], &whole[at + length..]].concat());
@@ -139,7 +139,7 @@ fn the_first_damage_is_reported_and_what_is_before_it_is_read() {
     let whole = bench.inspect(&bench.whole).unwrap();
     let messages = bench.messages();
     let rows_of = |of: &RecordingSummary| of.entities.iter().map(|entity| entity.rows).sum::<u64>();
-    let mut rows = 0;
+    let mut rows = Vec::new();
     for &(start, length) in messages.iter().skip(messages.len() / 4).step_by(messages.len() / 8) {
         let mut bytes = bench.whole.clone();
         bytes[start + 16..start + length].fill(0);
@@ -148,9 +148,7 @@ fn the_first_damage_is_reported_and_what_is_before_it_is_read() {
         let problem = &summary.problems[0];
         assert!(problem.starts_with(&format!("the file is damaged at byte {start}: ")), "{problem}");
         assert!(problem.contains(", after /") && problem.ends_with("or repeat its run"), "{problem}");
-        let read = rows_of(&summary);
-        assert!(read >= rows && read > 0, "{read} rows");
-        rows = read;
+        rows.push(rows_of(&summary));
     }
-    assert!(rows < rows_of(&whole), "{rows}");
+    assert!(rows.is_sorted() && rows[0] > 0 && rows[0] < rows_of(&whole), "{rows:?}");
 }
