@@ -12,7 +12,7 @@ use congruent::{
         Configurations, JointState, JointStateList, Robot, RobotDescription, RobotQList, configuration,
         load_robot_with, outside_limits, outside_limits_warning, read_configurations, read_states,
     },
-    input::{Capability, Diagnostic, FileAccess, RosPackages, units::Unit},
+    input::{Capability, Diagnostic, FileAccess, RosPackages, units::WrittenUnit},
 };
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
@@ -281,22 +281,6 @@ pub(crate) fn with_warning<List>(
     read.entries
 }
 
-/// A unit in which a position may be given.
-struct WrittenUnit {
-    name: &'static str,
-    /// The unit of coordinates that it belongs to.
-    of: &'static str,
-    convert: fn(f64) -> f64,
-}
-
-/// A longer name comes before one that it ends with.
-const UNITS: [WrittenUnit; 4] = [
-    WrittenUnit { name: "deg", of: "rad", convert: |value| Unit::Angle.convert(value) },
-    WrittenUnit { name: "rad", of: "rad", convert: |value| value },
-    WrittenUnit { name: "mm", of: "m", convert: |value| Unit::Length.convert(value) },
-    WrittenUnit { name: "m", of: "m", convert: |value| value },
-];
-
 /// `JOINT=VALUE` as a name and a position in rad or m.
 fn position(assignment: &str, robot: &Robot) -> Result<(String, f64), Diagnostic> {
     let refused = |why: &str| {
@@ -306,21 +290,22 @@ fn position(assignment: &str, robot: &Robot) -> Result<(String, f64), Diagnostic
     };
     let (joint, written) = assignment.split_once('=').ok_or_else(|| refused("is not JOINT=VALUE"))?;
     let (joint, written) = (joint.trim(), written.trim());
-    // In the order of `UNITS`: a value in mm also ends with m.
-    let unit = UNITS.iter().find(|unit| written.ends_with(unit.name));
-    let number = unit.map_or(written, |unit| written.strip_suffix(unit.name).unwrap_or(written).trim_end());
+    let (number, unit) = match WrittenUnit::at_end(written) {
+        Some((number, unit)) => (number.trim_end(), Some(unit)),
+        None => (written, None),
+    };
     let value: f64 = number.parse().map_err(|_| refused("is not JOINT=VALUE"))?;
-    let value = unit.map_or(value, |unit| (unit.convert)(value));
+    let value = unit.map_or(value, |unit| unit.to_si(value));
     if !value.is_finite() {
         return Err(refused("is not a finite number"));
     }
     // An unknown joint is reported with the known ones, by whoever uses the name.
     let coordinate = robot.find_joint(joint).map_or("", |joint| robot.joint(joint).kind.unit());
-    if let Some(WrittenUnit { name, of, .. }) = unit
+    if let Some(unit) = unit
         && !coordinate.is_empty()
-        && *of != coordinate
+        && unit.unit.names()[0] != coordinate
     {
-        return Err(refused(&format!("is in {name}, but the joint's position is in {coordinate}")));
+        return Err(refused(&format!("is in {}, but the joint's position is in {coordinate}", unit.name())));
     }
     Ok((joint.to_owned(), value))
 }

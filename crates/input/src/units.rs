@@ -35,24 +35,49 @@ impl UnitSystem {
     }
 }
 
-/// The unit that the last part of a name says: `_m`, `_mm`, `_rad` or `_deg`.
+/// The unit of a value in a file or an argument, as the end of its key, its column or its text says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct UnitSuffix {
+pub struct WrittenUnit {
     /// The quantity.
     pub unit: Unit,
     /// Whether values are as in memory.
     pub system: UnitSystem,
 }
 
-impl UnitSuffix {
-    /// The name without its suffix, and the unit: `elbow` and degrees for `elbow_deg`.
+impl WrittenUnit {
+    /// All of them: deg, rad, m, mm.
+    pub const ALL: [Self; 4] = [
+        Self { unit: Unit::Angle, system: UnitSystem::Engineering },
+        Self { unit: Unit::Angle, system: UnitSystem::Si },
+        Self { unit: Unit::Length, system: UnitSystem::Si },
+        Self { unit: Unit::Length, system: UnitSystem::Engineering },
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        let [si, engineering] = self.unit.names();
+        if self.system == UnitSystem::Si { si } else { engineering }
+    }
+
+    /// A text without the unit at its end: `90` for `90deg`.
+    pub fn at_end(text: &str) -> Option<(&str, Self)> {
+        // From the last on, as a text in mm also ends with m.
+        Self::ALL.into_iter().rev().find_map(|unit| Some((text.strip_suffix(unit.name())?, unit)))
+    }
+
+    /// The quantity and the unit of a column: `elbow` for `elbow_deg`.
     pub fn split(name: &str) -> Option<(&str, Self)> {
-        let (stem, suffix) = name.rsplit_once('_')?;
-        [Unit::Length, Unit::Angle].into_iter().find_map(|unit| {
-            let at = unit.suffixes().iter().position(|known| *known == suffix)?;
-            let system = [UnitSystem::Si, UnitSystem::Engineering][at];
-            Some((stem, Self { unit, system }))
-        })
+        let (quantity, unit) = Self::at_end(name)?;
+        Some((quantity.strip_suffix('_')?, unit))
+    }
+
+    /// The unit of a key of ours, also per time: of `velocity_deg_s` degrees.
+    ///
+    /// # Panics
+    /// The key has no unit.
+    pub fn of_key(key: &'static str) -> Self {
+        let unit = key.rsplit('_').find_map(|part| Self::ALL.into_iter().find(|unit| unit.name() == part));
+        unit.unwrap_or_else(|| panic!("{key} has no unit"))
     }
 
     /// A value in m or rad.
@@ -61,14 +86,20 @@ impl UnitSuffix {
     }
 }
 
+/// The fault of a quantity that two keys give, in SI units and in engineering units.
+pub fn both_given([si, engineering]: [&str; 2]) -> Diagnostic {
+    let message = format!("{si} and {engineering} are both given");
+    Diagnostic::error("toml::both_units", message).with_help("keep exactly one of the two")
+}
+
 impl Unit {
     /// The keys that may give `quantity`: in SI units, then in engineering units.
     pub fn keys(self, quantity: &str) -> [String; 2] {
-        self.suffixes().map(|suffix| format!("{quantity}_{suffix}"))
+        self.names().map(|unit| format!("{quantity}_{unit}"))
     }
 
-    /// The ends of keys and columns: for SI units, then for engineering units.
-    fn suffixes(self) -> [&'static str; 2] {
+    /// The units: of SI, then the engineering unit.
+    pub fn names(self) -> [&'static str; 2] {
         match self {
             Self::Length => ["m", "mm"],
             Self::Angle => ["rad", "deg"],
@@ -116,12 +147,7 @@ impl Unit {
             (None, Some(values)) => {
                 Ok(Some(finite(&engineering_key, values)?.map(|value| self.convert(value))))
             }
-            (Some(_), Some(second)) => Err(Diagnostic::error(
-                "toml::both_units",
-                format!("{si_key} and {engineering_key} are both given"),
-            )
-            .at(second.span())
-            .with_help("keep exactly one of the two")),
+            (Some(_), Some(second)) => Err(both_given([&si_key, &engineering_key]).at(second.span())),
         }
     }
 }
@@ -168,6 +194,21 @@ mod tests {
         check(Unit::Length, None, Some(162.5), Ok(Some(0.1625)));
         check(Unit::Angle, None, Some(90.0), Ok(Some(FRAC_PI_2)));
         check(Unit::Angle, Some(FRAC_PI_2), None, Ok(Some(FRAC_PI_2)));
+    }
+
+    #[test]
+    fn names_end_with_units() {
+        let found =
+            |split: Option<(&str, WrittenUnit)>| split.map(|(rest, unit)| (rest.to_owned(), unit.name()));
+        for (name, rest, unit) in
+            [("a_deg", "a", "deg"), ("a_b_rad", "a_b", "rad"), ("x_m", "x", "m"), ("x_mm", "x", "mm")]
+        {
+            assert_eq!(found(WrittenUnit::split(name)), Some((rest.to_owned(), unit)));
+        }
+        assert_eq!(["arm", "mm", "a_m_s", "a_radm"].map(WrittenUnit::split), [None; 4]);
+        assert_eq!(found(WrittenUnit::at_end("100 mm")), Some(("100 ".to_owned(), "mm")));
+        let keys = ["velocity_deg_s", "rate_mm_per_s", "jerk_m_s3", "path_tcp_m", "value_rad"];
+        assert_eq!(keys.map(|key| WrittenUnit::of_key(key).name()), ["deg", "mm", "m", "m", "rad"]);
     }
 
     #[test]

@@ -3,14 +3,16 @@
 use std::{collections::BTreeMap, ops::Range};
 
 use congruent_description::{Joint, JointIndex, JointKind, Robot, RobotQ};
-use congruent_input::{Diagnostic, Findings, display::limit_number, known_names, units::Unit};
+use congruent_input::{
+    Diagnostic, Findings,
+    display::limit_number,
+    known_names,
+    units::{Unit, WrittenUnit},
+};
 use congruent_scenario::{FilePlace, JointMotion, JointPathMotion, StartSettings};
 
 /// Positions under one key, as written.
 type ByName = BTreeMap<String, f64>;
-
-/// A value of a file in the unit of the program.
-type ToSi = fn(Unit, f64) -> f64;
 
 /// The four keys under which positions may be given: angles for revolute joints, lengths for prismatic ones.
 #[derive(Debug, Clone, Copy)]
@@ -19,16 +21,14 @@ pub struct JointTargets<'a> {
     prefix: &'static str,
     /// Of a list of points under each key, the number of one, from 0.
     point: Option<usize>,
-    deg: &'a ByName,
-    rad: &'a ByName,
-    m: &'a ByName,
-    mm: &'a ByName,
+    /// In the order of [`WrittenUnit::ALL`].
+    written: [&'a ByName; 4],
 }
 
 impl<'a> From<&'a StartSettings> for JointTargets<'a> {
     fn from(start: &'a StartSettings) -> Self {
-        let StartSettings { joints_deg: deg, joints_rad: rad, joints_m: m, joints_mm: mm } = start;
-        Self { prefix: "joints", point: None, deg, rad, m, mm }
+        let StartSettings { joints_deg, joints_rad, joints_m, joints_mm } = start;
+        Self { prefix: "joints", point: None, written: [joints_deg, joints_rad, joints_m, joints_mm] }
     }
 }
 
@@ -36,22 +36,17 @@ impl<'a> From<&'a JointMotion> for JointTargets<'a> {
     fn from(motion: &'a JointMotion) -> Self {
         let JointMotion { move_joints_deg: deg, move_joints_rad: rad, .. } = motion;
         let JointMotion { move_joints_m: m, move_joints_mm: mm, .. } = motion;
-        Self { prefix: "move_joints", point: None, deg, rad, m, mm }
+        Self { prefix: "move_joints", point: None, written: [deg, rad, m, mm] }
     }
 }
 
 impl<'a> JointTargets<'a> {
     /// One point of a path, from 0; `none` stands for a key that is not given.
     pub(crate) fn of_point(motion: &'a JointPathMotion, point: usize, none: &'a ByName) -> Self {
-        let of = |points: &'a [ByName]| points.get(point).unwrap_or(none);
-        Self {
-            prefix: "path_joints",
-            point: Some(point),
-            deg: of(&motion.path_joints_deg),
-            rad: of(&motion.path_joints_rad),
-            m: of(&motion.path_joints_m),
-            mm: of(&motion.path_joints_mm),
-        }
+        let JointPathMotion { path_joints_deg: deg, path_joints_rad: rad, .. } = motion;
+        let JointPathMotion { path_joints_m: m, path_joints_mm: mm, .. } = motion;
+        let written = [deg, rad, m, mm].map(|points| points.get(point).unwrap_or(none));
+        Self { prefix: "path_joints", point: Some(point), written }
     }
 }
 
@@ -91,19 +86,12 @@ impl JointTargets<'_> {
     pub fn resolve(self, robot: &Robot, place: FilePlace<'_>) -> Result<Vec<JointTarget>, Findings> {
         let mut targets: Vec<JointTarget> = Vec::new();
         let mut errors = Vec::new();
-        // Degrees and radians share `Unit::Angle`: the kind of the joint is checked by the quantity, not by the key.
-        let groups: [(&ByName, &str, Unit, ToSi); 4] = [
-            (self.deg, "deg", Unit::Angle, Unit::convert),
-            (self.rad, "rad", Unit::Angle, |_, rad| rad),
-            (self.m, "m", Unit::Length, |_, m| m),
-            (self.mm, "mm", Unit::Length, Unit::convert),
-        ];
-        for (written, suffix, unit, to_si) in groups {
-            let place = place.key(&format!("{}_{suffix}", self.prefix));
+        for (unit, written) in WrittenUnit::ALL.into_iter().zip(self.written) {
+            let place = place.key(&format!("{}_{}", self.prefix, unit.name()));
             let place = self.point.map_or(place, |point| place.item(point));
             for (name, &value) in written {
                 let at_name = |error: Diagnostic| congruent_scenario::mark(error, place.key_span(name));
-                match joint_named(robot, name, unit) {
+                match joint_named(robot, name, unit.unit) {
                     // Before the search for a repeated joint, as a value that is not finite is never stored.
                     Ok(_) if !value.is_finite() => {
                         let message = format!("expected a finite number, found {value}");
@@ -113,7 +101,7 @@ impl JointTargets<'_> {
                         errors.push(at_name(repeated(name)));
                     }
                     Ok(joint) => {
-                        let value = to_si(unit, value);
+                        let value = unit.to_si(value);
                         targets.push(JointTarget { joint, value, span: place.entry_span(name) });
                     }
                     Err(error) => errors.push(at_name(error)),
@@ -131,7 +119,7 @@ fn repeated(name: &str) -> Diagnostic {
 fn joint_named(robot: &Robot, name: &str, unit: Unit) -> Result<JointIndex, Diagnostic> {
     let index = moving_joint(robot, name)?;
     let joint = robot.joint(index);
-    if joint.kind.is_angular() != matches!(unit, Unit::Angle) {
+    if joint.kind.is_angular() != (unit == Unit::Angle) {
         return Err(wrong_unit(joint));
     }
     Ok(index)

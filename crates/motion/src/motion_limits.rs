@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 
 use congruent_description::{Joint, Robot, RobotDescription};
-use congruent_input::{Diagnostic, Findings, known_names, units::Unit};
+use congruent_input::{
+    Diagnostic, Findings, known_names,
+    units::{Unit, WrittenUnit},
+};
 use congruent_scenario::{FilePlace, LimitSettings};
 
 use crate::MotionLimits;
@@ -12,9 +15,6 @@ use crate::MotionLimits;
 const TO_VELOCITY_S: f64 = 0.25;
 /// Time in which a joint reaches its acceleration limit if no jerk limit is given. Kind: engineering.
 const TO_ACCELERATION_S: f64 = 0.1;
-
-/// A value of a file in the unit of the program.
-type ToSi = fn(Unit, f64) -> f64;
 
 /// The name that means every joint of a kind.
 const EVERY: &str = "*";
@@ -84,8 +84,6 @@ struct WrittenLimit<'a> {
     name: &'a str,
     /// In the unit of the key.
     value: f64,
-    unit: Unit,
-    to_si: ToSi,
 }
 
 struct Reader<'a> {
@@ -98,22 +96,15 @@ impl Reader<'_> {
     /// One quantity under its four keys: in degrees, radians, metres and millimetres. Infinity if no limit is given.
     fn given(&mut self, keys: [(&'static str, &BTreeMap<String, f64>); 4]) -> Vec<f64> {
         let mut values = vec![f64::INFINITY; self.robot.dof()];
-        let as_it_is: ToSi = |_, value| value;
-        let units: [(Unit, ToSi); 4] = [
-            (Unit::Angle, Unit::convert),
-            (Unit::Angle, as_it_is),
-            (Unit::Length, as_it_is),
-            (Unit::Length, Unit::convert),
-        ];
         // Named joints come after all others, so that they keep their own value.
         for is_every in [true, false] {
             // Anew for both rounds: a joint's own limit beside `*` is an exception to it, not a repetition.
             let mut given_by = vec![None; self.robot.dof()];
-            for ((key, by_joint), (unit, to_si)) in keys.into_iter().zip(units) {
+            for (key, by_joint) in keys {
                 let chosen = by_joint.iter().filter(|(name, _)| (*name == EVERY) == is_every);
                 let place = self.place.key(key);
                 let set = chosen.filter_map(|(name, &value)| {
-                    let limit = WrittenLimit { key, name, value, unit, to_si };
+                    let limit = WrittenLimit { key, name, value };
                     let found = self.set(&mut values, &limit, &mut given_by);
                     found.map_err(|error| congruent_scenario::mark(error, place.key_span(name))).err()
                 });
@@ -130,16 +121,17 @@ impl Reader<'_> {
         limit: &WrittenLimit<'_>,
         given_by: &mut [Option<&'static str>],
     ) -> Result<(), Diagnostic> {
-        let &WrittenLimit { key, name, value, unit, to_si } = limit;
+        let &WrittenLimit { key, name, value } = limit;
+        let unit = WrittenUnit::of_key(key);
         if !(value.is_finite() && value > 0.0) {
             let message = format!("limit of \"{name}\": expected a finite number above 0");
             return Err(Diagnostic::error("scenario::number", message));
         }
-        for coordinate in self.coordinates(name, unit)? {
+        for coordinate in self.coordinates(name, unit.unit)? {
             if let Some(first) = given_by[coordinate].replace(key) {
                 return Err(self.twice(name, first));
             }
-            values[coordinate] = to_si(unit, value);
+            values[coordinate] = unit.to_si(value);
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use congruent_description::{JointKind, Robot};
 use congruent_input::{
     Diagnostic, known_names,
-    units::{Unit, UnitSuffix},
+    units::{Unit, WrittenUnit},
 };
 
 /// The quantity in a column.
@@ -24,7 +24,7 @@ pub(super) enum MeasuredQuantity {
 pub(super) struct MeasurementColumn {
     pub(super) quantity: MeasuredQuantity,
     /// The unit in the column's name; a component of a quaternion has none.
-    unit: Option<UnitSuffix>,
+    unit: Option<WrittenUnit>,
 }
 
 impl MeasurementColumn {
@@ -41,7 +41,7 @@ impl MeasurementColumn {
         if let Some(at) = ["qw", "qx", "qy", "qz"].iter().position(|known| *known == name) {
             return Ok(Self { quantity: MeasuredQuantity::Quaternion(at), unit: None });
         }
-        let Some((stem, suffix)) = UnitSuffix::split(name) else { return Err(without_unit(name, robot)) };
+        let Some((stem, suffix)) = WrittenUnit::split(name) else { return Err(without_unit(name, robot)) };
         let (unit, written) = (suffix.unit, Some(suffix));
         let joint = robot.find_joint(stem).and_then(|joint| Some((joint, robot.coordinate(joint)?)));
         let measured = match unit {

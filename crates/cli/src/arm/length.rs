@@ -1,15 +1,13 @@
 //! Lengths on the command line.
 
-use congruent::input::units::Unit;
+use congruent::input::units::{Unit, WrittenUnit};
 
 /// A positive length: `20mm`, `0.02m`, or in m without a unit.
 pub(super) fn positive_length(text: &str) -> Result<f64, String> {
-    let (number, in_si): (&str, fn(f64) -> f64) = match text.strip_suffix("mm") {
-        Some(number) => (number, |millimetres| Unit::Length.convert(millimetres)),
-        None => (text.strip_suffix('m').unwrap_or(text), |metres| metres),
-    };
+    let written = WrittenUnit::at_end(text).filter(|(_, unit)| unit.unit == Unit::Length);
+    let (number, unit) = written.map_or((text, None), |(number, unit)| (number, Some(unit)));
     match number.trim().parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(in_si(value)),
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(unit.map_or(value, |unit| unit.to_si(value))),
         Ok(_) => Err("a length must be above 0".to_owned()),
         Err(_) => Err("expected a length such as 20mm or 0.02m".to_owned()),
     }

@@ -6,7 +6,7 @@ use congruent_input::{
     Diagnostic, Diagnostics,
     display::number,
     known_names,
-    units::{Unit, UnitSystem, check_finite},
+    units::{Unit, UnitSystem, WrittenUnit, check_finite},
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -60,13 +60,13 @@ pub(super) fn accelerations(
         let mut given_by: Vec<Option<&str>> = vec![None; robot.dof()];
         for (key, by_joint) in written.keys() {
             for (name, value) in by_joint.iter().filter(|(name, _)| (name.get_ref() == EVERY) == is_every) {
-                diagnostics.extend(in_degrees(&key, name, value));
-                let Some((joints, acceleration)) = diagnostics.keep(read(&key, name, value, robot)) else {
+                diagnostics.extend(in_degrees(key, name, value));
+                let Some((joints, acceleration)) = diagnostics.keep(read(key, name, value, robot)) else {
                     continue;
                 };
                 for joint in joints {
                     accelerations[joint] = Some(acceleration);
-                    let twice = given_by[joint].replace(key.name).map(|first| twice(first, name));
+                    let twice = given_by[joint].replace(key).map(|first| twice(first, name));
                     diagnostics.extend(twice);
                 }
             }
@@ -75,21 +75,13 @@ pub(super) fn accelerations(
     accelerations
 }
 
-/// A key of `[limits]` with the unit of its values.
-struct AccelerationKey {
-    name: &'static str,
-    unit: Unit,
-    system: UnitSystem,
-}
-
 impl WrittenLimits {
-    fn keys(&self) -> [(AccelerationKey, &SpannedByJoint); 4] {
-        let key = |name, unit, system| AccelerationKey { name, unit, system };
+    fn keys(&self) -> [(&'static str, &SpannedByJoint); 4] {
         [
-            (key("acceleration_rad_s2", Unit::Angle, UnitSystem::Si), &self.acceleration_rad_s2),
-            (key("acceleration_deg_s2", Unit::Angle, UnitSystem::Engineering), &self.acceleration_deg_s2),
-            (key("acceleration_m_s2", Unit::Length, UnitSystem::Si), &self.acceleration_m_s2),
-            (key("acceleration_mm_s2", Unit::Length, UnitSystem::Engineering), &self.acceleration_mm_s2),
+            ("acceleration_rad_s2", &self.acceleration_rad_s2),
+            ("acceleration_deg_s2", &self.acceleration_deg_s2),
+            ("acceleration_m_s2", &self.acceleration_m_s2),
+            ("acceleration_mm_s2", &self.acceleration_mm_s2),
         ]
     }
 }
@@ -100,13 +92,12 @@ fn twice(first: &str, name: &Spanned<String>) -> Diagnostic {
 }
 
 /// A warning of an acceleration in radians that is plausible only in degrees.
-fn in_degrees(key: &AccelerationKey, name: &Spanned<String>, value: &Spanned<f64>) -> Option<Diagnostic> {
-    let is_in_rad = matches!((key.unit, key.system), (Unit::Angle, UnitSystem::Si));
+fn in_degrees(key: &'static str, name: &Spanned<String>, value: &Spanned<f64>) -> Option<Diagnostic> {
+    let is_in_rad = WrittenUnit::of_key(key) == WrittenUnit { unit: Unit::Angle, system: UnitSystem::Si };
     let is_fast = value.get_ref().is_finite() && *value.get_ref() > FASTEST_RAD_S2;
     (is_in_rad && is_fast).then(|| {
         let message = format!(
-            "{} of \"{}\" is {}, which is implausible in rad/s^2",
-            key.name,
+            "{key} of \"{}\" is {}, which is implausible in rad/s^2",
             name.get_ref(),
             number(*value.get_ref())
         );
@@ -118,14 +109,14 @@ fn in_degrees(key: &AccelerationKey, name: &Spanned<String>, value: &Spanned<f64
 
 /// The joints of an entry, as indices in `Robot::movable_joints` order, and its value in SI units.
 fn read(
-    key: &AccelerationKey,
+    key: &'static str,
     name: &Spanned<String>,
     value: &Spanned<f64>,
     robot: &Robot,
 ) -> Result<(Vec<usize>, f64), Diagnostic> {
-    let value = positive(key.name, name.get_ref(), value)?;
-    let joints = named(key.name, name, key.unit, robot)?;
-    Ok((joints, if key.system == UnitSystem::Si { value } else { key.unit.convert(value) }))
+    let value = positive(key, name.get_ref(), value)?;
+    let unit = WrittenUnit::of_key(key);
+    Ok((named(key, name, unit.unit, robot)?, unit.to_si(value)))
 }
 
 fn positive(key: &str, name: &str, value: &Spanned<f64>) -> Result<f64, Diagnostic> {

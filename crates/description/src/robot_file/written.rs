@@ -3,10 +3,7 @@
 
 use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
-use congruent_input::{
-    Diagnostic, SourceFile, WrittenTransform,
-    units::{Unit, UnitSystem},
-};
+use congruent_input::{Diagnostic, SourceFile, WrittenTransform, units::WrittenUnit};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
@@ -211,18 +208,14 @@ impl WrittenTolerance {
     /// The findings about tolerances that are too wide for a robot of this scale, each at its value.
     pub(crate) fn examine(&self, scale: ToleranceScale) -> Vec<Diagnostic> {
         let written = [
-            (Unit::Length, "position_m", UnitSystem::Si, &self.position_m),
-            (Unit::Length, "position_mm", UnitSystem::Engineering, &self.position_mm),
-            (Unit::Angle, "orientation_rad", UnitSystem::Si, &self.orientation_rad),
-            (Unit::Angle, "orientation_deg", UnitSystem::Engineering, &self.orientation_deg),
+            ("position_m", &self.position_m),
+            ("position_mm", &self.position_mm),
+            ("orientation_rad", &self.orientation_rad),
+            ("orientation_deg", &self.orientation_deg),
         ];
-        let examined = written.into_iter().filter_map(|(unit, key, system, value)| {
-            let written = value.as_ref()?;
-            let value = match system {
-                UnitSystem::Si => *written.get_ref(),
-                UnitSystem::Engineering => unit.convert(*written.get_ref()),
-            };
-            Some(scale.examine(unit, key, value)?.at(written.span()))
+        let examined = written.into_iter().filter_map(|(key, value)| {
+            let (unit, written) = (WrittenUnit::of_key(key), value.as_ref()?);
+            Some(scale.examine(unit.unit, key, unit.to_si(*written.get_ref()))?.at(written.span()))
         });
         examined.collect()
     }

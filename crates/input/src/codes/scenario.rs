@@ -30,7 +30,7 @@ pub(super) const AREAS: &[Area] = &[Area {
         (
             7,
             "scenario::two_units",
-            "A quantity is given twice, in two units. The two may contradict each other. Remove one of them.",
+            "Two keys of `[sensors]` give one value of a joint. The two may contradict each other. Remove one of them.",
         ),
         (
             8,

@@ -8,7 +8,7 @@ use congruent_input::{
     Diagnostic, SourceFile,
     display::quantity,
     known_names,
-    units::{Unit, UnitSuffix},
+    units::{Unit, WrittenUnit},
 };
 use congruent_scenario::OverLimit;
 use congruent_tables::{
@@ -67,7 +67,7 @@ impl TablePlaces {
 struct PositionColumn {
     cell: usize,
     coordinate: usize,
-    unit: UnitSuffix,
+    unit: WrittenUnit,
 }
 
 impl JointTable {
@@ -182,7 +182,7 @@ impl TablePlaces {
 fn columns(header: &Header, robot: &Robot) -> Result<Vec<PositionColumn>, Diagnostic> {
     let mut columns: Vec<PositionColumn> = Vec::new();
     for (cell, name) in header.names().enumerate().filter(|(_, name)| *name != TIME) {
-        let column = UnitSuffix::split(name).and_then(|(quantity, unit)| {
+        let column = WrittenUnit::split(name).and_then(|(quantity, unit)| {
             let stem = quantity.rsplit_once('.').filter(|(_, quantity)| *quantity == POSITION);
             let joint = robot.find_joint(stem.map_or(quantity, |(joint, _)| joint))?;
             Some((robot.joint(joint), robot.coordinate(joint)?, unit))

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     on_violation::OnViolation,
-    unit_keys::{UnitKeys, angle, length},
+    unit_keys::{UnitKeys, in_two_units},
 };
 use crate::{
     number::{optional_non_negative, optional_positive, positive},
@@ -140,10 +140,10 @@ impl LimitsCheck {
     /// slide.
     pub fn unit_keys(&self) -> [UnitKeys; 4] {
         [
-            angle(["tolerance_rad", "tolerance_deg"], [self.tolerance_rad, self.tolerance_deg]),
-            angle(["margin_rad", "margin_deg"], [self.margin_rad, self.margin_deg]),
-            length(["tolerance_m", "tolerance_mm"], [self.tolerance_m, self.tolerance_mm]),
-            length(["margin_m", "margin_mm"], [self.margin_m, self.margin_mm]),
+            in_two_units!(self, tolerance_rad, tolerance_deg),
+            in_two_units!(self, margin_rad, margin_deg),
+            in_two_units!(self, tolerance_m, tolerance_mm),
+            in_two_units!(self, margin_m, margin_mm),
         ]
     }
 }
@@ -153,14 +153,14 @@ impl TrackingCheck {
     /// slide and of the TCP, which has no overshoot.
     pub fn unit_keys(&self) -> [UnitKeys; 8] {
         [
-            angle(["path_rad", "path_deg"], [self.path_rad, self.path_deg]),
-            length(["path_m", "path_mm"], [self.path_m, self.path_mm]),
-            length(["path_tcp_m", "path_tcp_mm"], [self.path_tcp_m, self.path_tcp_mm]),
-            angle(["goal_rad", "goal_deg"], [self.goal_rad, self.goal_deg]),
-            length(["goal_m", "goal_mm"], [self.goal_m, self.goal_mm]),
-            length(["goal_tcp_m", "goal_tcp_mm"], [self.goal_tcp_m, self.goal_tcp_mm]),
-            angle(["overshoot_rad", "overshoot_deg"], [self.overshoot_rad, self.overshoot_deg]),
-            length(["overshoot_m", "overshoot_mm"], [self.overshoot_m, self.overshoot_mm]),
+            in_two_units!(self, path_rad, path_deg),
+            in_two_units!(self, path_m, path_mm),
+            in_two_units!(self, path_tcp_m, path_tcp_mm),
+            in_two_units!(self, goal_rad, goal_deg),
+            in_two_units!(self, goal_m, goal_mm),
+            in_two_units!(self, goal_tcp_m, goal_tcp_mm),
+            in_two_units!(self, overshoot_rad, overshoot_deg),
+            in_two_units!(self, overshoot_m, overshoot_mm),
         ]
     }
 }
@@ -168,9 +168,6 @@ impl TrackingCheck {
 impl CycleTimeCheck {
     /// The tolerances: of joints that turn, and of joints that slide.
     pub fn unit_keys(&self) -> [UnitKeys; 2] {
-        [
-            angle(["tolerance_rad", "tolerance_deg"], [self.tolerance_rad, self.tolerance_deg]),
-            length(["tolerance_m", "tolerance_mm"], [self.tolerance_m, self.tolerance_mm]),
-        ]
+        [in_two_units!(self, tolerance_rad, tolerance_deg), in_two_units!(self, tolerance_m, tolerance_mm)]
     }
 }

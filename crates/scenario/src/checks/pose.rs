@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     on_violation::OnViolation,
-    unit_keys::{UnitKeys, angle, angular_speed, length, linear_speed},
+    unit_keys::{UnitKeys, in_two_units},
 };
 use crate::{
     PoseSettings,
@@ -92,14 +92,6 @@ pub struct InvariantsCheck {
     pub on_violation: OnViolation,
 }
 
-/// A distance and an angle between poses, each in one of two units.
-fn of_a_pose(position: [Option<f64>; 2], orientation: [Option<f64>; 2]) -> [UnitKeys; 2] {
-    [
-        length(["position_m", "position_mm"], position),
-        angle(["orientation_rad", "orientation_deg"], orientation),
-    ]
-}
-
 impl AgreementCheck {
     /// Position and orientation in SI units.
     pub fn limits(&self) -> [Option<f64>; 2] {
@@ -108,23 +100,20 @@ impl AgreementCheck {
 
     /// The values that a file may give in one of two units: position, orientation.
     pub(crate) fn unit_keys(&self) -> [UnitKeys; 2] {
-        of_a_pose([self.position_m, self.position_mm], [self.orientation_rad, self.orientation_deg])
+        [in_two_units!(self, position_m, position_mm), in_two_units!(self, orientation_rad, orientation_deg)]
     }
 }
 
 impl GoalCheck {
     /// The values that a file may give in one of two units: position, orientation.
     pub fn unit_keys(&self) -> [UnitKeys; 2] {
-        of_a_pose([self.position_m, self.position_mm], [self.orientation_rad, self.orientation_deg])
+        [in_two_units!(self, position_m, position_mm), in_two_units!(self, orientation_rad, orientation_deg)]
     }
 }
 
 impl TwistCheck {
     /// The values that a file may give in one of two units: linear, angular.
     pub fn unit_keys(&self) -> [UnitKeys; 2] {
-        [
-            linear_speed(["linear_m_s", "linear_mm_s"], [self.linear_m_s, self.linear_mm_s]),
-            angular_speed(["angular_rad_s", "angular_deg_s"], [self.angular_rad_s, self.angular_deg_s]),
-        ]
+        [in_two_units!(self, linear_m_s, linear_mm_s), in_two_units!(self, angular_rad_s, angular_deg_s)]
     }
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     on_violation::OnViolation,
-    unit_keys::{UnitKeys, length},
+    unit_keys::{UnitKeys, in_two_units},
 };
 use crate::{number::optional_non_negative, text::variant};
 
@@ -70,7 +70,7 @@ impl ClearanceCheck {
 
     /// The minimum distance, which a file may give in one of two units.
     pub fn unit_keys(&self) -> UnitKeys {
-        length(["minimum_m", "minimum_mm"], [self.minimum_m, self.minimum_mm])
+        in_two_units!(self, minimum_m, minimum_mm)
     }
 }
 
@@ -82,6 +82,6 @@ impl ContactCheck {
 
     /// The largest depth, which a file may give in one of two units.
     pub fn unit_keys(&self) -> UnitKeys {
-        length(["depth_m", "depth_mm"], [self.depth_m, self.depth_mm])
+        in_two_units!(self, depth_m, depth_mm)
     }
 }

@@ -1,6 +1,9 @@
 //! Values of a check that a file gives in one of two units.
 
-use congruent_input::{Diagnostic, units::Unit};
+use congruent_input::{
+    Diagnostic,
+    units::{Unit, WrittenUnit, both_given},
+};
 
 use crate::FilePlace;
 
@@ -15,27 +18,19 @@ pub struct UnitKeys {
     pub unit: Unit,
 }
 
-/// A length, in m or mm.
-pub(crate) fn length(keys: [&'static str; 2], written: [Option<f64>; 2]) -> UnitKeys {
-    UnitKeys { keys, written, unit: Unit::Length }
+/// Two fields of a check that give one value.
+macro_rules! in_two_units {
+    ($check:expr, $si:ident, $engineering:ident) => {
+        UnitKeys::new([stringify!($si), stringify!($engineering)], [$check.$si, $check.$engineering])
+    };
 }
-
-/// An angle, in rad or deg.
-pub(crate) fn angle(keys: [&'static str; 2], written: [Option<f64>; 2]) -> UnitKeys {
-    UnitKeys { keys, written, unit: Unit::Angle }
-}
-
-/// A speed, in m/s or mm/s: seconds have one unit, so that it converts as a length does.
-pub(crate) fn linear_speed(keys: [&'static str; 2], written: [Option<f64>; 2]) -> UnitKeys {
-    length(keys, written)
-}
-
-/// An angular speed, in rad/s or deg/s, likewise.
-pub(crate) fn angular_speed(keys: [&'static str; 2], written: [Option<f64>; 2]) -> UnitKeys {
-    angle(keys, written)
-}
+pub(crate) use in_two_units;
 
 impl UnitKeys {
+    pub(crate) fn new(keys: [&'static str; 2], written: [Option<f64>; 2]) -> Self {
+        Self { keys, written, unit: WrittenUnit::of_key(keys[0]).unit }
+    }
+
     /// The value in SI units.
     pub fn value(&self) -> Option<f64> {
         let [si, engineering] = self.written;
@@ -68,10 +63,6 @@ impl UnitKeys {
     /// Both keys have a value.
     pub fn examine(&self, place: FilePlace<'_>) -> Result<(), Diagnostic> {
         let [Some(_), Some(_)] = self.written else { return Ok(()) };
-        let [si, engineering] = self.keys;
-        let (quantity, _) = si.split_once('_').unwrap_or((si, ""));
-        let message = format!("the {quantity} is given twice, as {si} and as {engineering}");
-        let error = Diagnostic::error("scenario::two_units", message).with_help("remove one of them");
-        Err(place.key(engineering).mark(error))
+        Err(place.key(self.keys[1]).mark(both_given(self.keys)))
     }
 }

@@ -4,7 +4,7 @@ use congruent_description::{CarriedBody, Inertia, JointKind, LinkIndex, Robot, R
 use congruent_input::{
     Diagnostic, Findings,
     display::{number, quantity, quantity_in_full},
-    units::Unit,
+    units::{Unit, WrittenUnit},
 };
 use congruent_monitors::RunClock;
 use congruent_motion::moving_joint;
@@ -192,30 +192,30 @@ impl Resolver<'_> {
     }
 
     /// The one value that is given, of keys in rad, deg, m and mm; not zero.
-    fn value(&self, joint: usize, keys: [&str; 4], written: [Option<f64>; 4]) -> Result<f64, Diagnostic> {
-        let given = keys.into_iter().zip(written).enumerate();
-        let given: Vec<(usize, (&str, f64))> =
-            given.filter_map(|(index, (key, value))| Some((index, (key, value?)))).collect();
+    fn value(
+        &self,
+        joint: usize,
+        keys: [&'static str; 4],
+        written: [Option<f64>; 4],
+    ) -> Result<f64, Diagnostic> {
+        let given = keys.into_iter().zip(written);
+        let given: Vec<(&'static str, f64)> = given.filter_map(|(key, value)| Some((key, value?))).collect();
         let fitting = if self.is_prismatic(joint) { [keys[2], keys[3]] } else { [keys[0], keys[1]] };
-        let [(index, (key, value))] = given[..] else {
+        let [(key, value)] = given[..] else {
             let message = format!("the fault has {} values, but needs exactly one", given.len());
             let help = format!("give `{}` or `{}`", fitting[0], fitting[1]);
             let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
             return Err(self.place.mark(error));
         };
-        // Keys are in the order rad, deg, m, mm.
-        if (index >= 2) != self.is_prismatic(joint) {
+        let unit = WrittenUnit::of_key(key);
+        if (unit.unit == Unit::Length) != self.is_prismatic(joint) {
             let help = format!("give `{}` or `{}`", fitting[0], fitting[1]);
             let message = format!("`{key}` has the wrong unit for this joint");
             let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
             return Err(self.place.key(key).mark(error));
         }
-        let in_si = match index {
-            1 => Unit::Angle.convert(value),
-            3 => Unit::Length.convert(value),
-            _ => value,
-        };
-        let unit = if index >= 2 { "m" } else { "rad" };
+        let in_si = unit.to_si(value);
+        let [unit, _] = unit.unit.names();
         let range =
             format!("a value between {} and {LARGEST_M} {unit}, of either sign", quantity(LEAST, unit));
         // The message quotes the number as written, the range is checked in SI.

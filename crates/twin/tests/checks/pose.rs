@@ -68,10 +68,7 @@ fn a_velocity_with_the_wrong_sign_is_seen() {
 fn limits_of_the_twist_are_given_in_one_unit() {
     let check = TwistCheck { angular_rad_s: Some(1.0), angular_deg_s: Some(1.0), ..TwistCheck::default() };
     let found = refused(Check::Twist(check));
-    assert_eq!(
-        found,
-        "scenario::two_units: the angular is given twice, as angular_rad_s and as angular_deg_s"
-    );
+    assert_eq!(found, "toml::both_units: angular_rad_s and angular_deg_s are both given");
 }
 
 #[test]
@@ -146,7 +143,7 @@ fn limits_are_given_in_either_unit() {
     };
     assert_eq!(limits(goal(None, Some(2.0))), [0.002]);
     assert_eq!(refused(goal(None, None)), "scenario::no_limit: the check has no `position_m`");
-    assert!(refused(goal(Some(1.0), Some(2.0))).starts_with("scenario::two_units"));
+    assert!(refused(goal(Some(1.0), Some(2.0))).starts_with("toml::both_units"));
     let clearance = |minimum_m, minimum_mm| {
         Check::Clearance(ClearanceCheck {
             minimum_m,
@@ -157,5 +154,5 @@ fn limits_are_given_in_either_unit() {
         })
     };
     assert_eq!(refused(clearance(None, None)), "scenario::no_limit: the check has no `minimum_m`");
-    assert!(refused(clearance(Some(0.1), Some(2.0))).starts_with("scenario::two_units"));
+    assert!(refused(clearance(Some(0.1), Some(2.0))).starts_with("toml::both_units"));
 }

@@ -1,7 +1,10 @@
 //! `[[payload]]` checked against its robot.
 
 use congruent_description::{CarriedBody, Inertia, LinkIndex, RobotDescription};
-use congruent_input::{Diagnostic, Findings, known_names, units::Unit};
+use congruent_input::{
+    Diagnostic, Findings, known_names,
+    units::{Unit, both_given},
+};
 use congruent_monitors::{HEAVIEST_KG, RunPayload, too_heavy};
 use congruent_scenario::{FilePlace, PayloadInertia, PayloadSettings};
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
@@ -55,6 +58,9 @@ fn payload(
         return Err(wrong("until_s", message));
     }
     let (link, link_from_frame) = carrier(settings, place, description)?;
+    if settings.com_m.is_some() && settings.com_mm.is_some() {
+        return Err(place.key("com_mm").mark(both_given(["com_m", "com_mm"])));
+    }
     let com_in_frame = centre_of_mass(settings).map_err(|message| wrong("com_mm", message))?;
     let tensor_kg_m2 = settings.inertia_kg_m2.map_or(Ok(Matrix3::zeros()), tensor);
     let tensor_kg_m2 = tensor_kg_m2.map_err(|message| wrong("inertia_kg_m2", message))?;
@@ -87,13 +93,8 @@ fn carrier(
 }
 
 fn centre_of_mass(settings: &PayloadSettings) -> Result<Vector3<f64>, String> {
-    let com_m = match (settings.com_m, settings.com_mm) {
-        (Some(_), Some(_)) => {
-            return Err("the centre of mass is given twice, as com_m and as com_mm".to_owned());
-        }
-        (None, Some(com_mm)) => com_mm.map(|value| Unit::Length.convert(value)),
-        (com_m, None) => com_m.unwrap_or_default(),
-    };
+    let from_mm = |com_mm: [f64; 3]| com_mm.map(|value| Unit::Length.convert(value));
+    let com_m = settings.com_m.or(settings.com_mm.map(from_mm)).unwrap_or_default();
     if com_m.iter().all(|value| value.abs() <= LARGEST_M) {
         Ok(com_m.into())
     } else {

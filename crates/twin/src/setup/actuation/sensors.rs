@@ -1,7 +1,10 @@
 //! `[sensors]` checked against its robot.
 
 use congruent_description::Robot;
-use congruent_input::{Diagnostic, Findings, units::Unit};
+use congruent_input::{
+    Diagnostic, Findings,
+    units::{Unit, WrittenUnit},
+};
 use congruent_scenario::{FilePlace, JointNumbers, Range, SensorSettings, VelocitySensor};
 
 use super::joint_numbers::{NumberRule, Unnamed, resolve};
@@ -30,38 +33,35 @@ pub(crate) struct Encoder {
 struct EncoderKey<'a> {
     numbers: Option<&'a JointNumbers>,
     name: &'static str,
-    of_angles: bool,
-    to_si: fn(f64) -> f64,
+    /// `None` if it counts the steps of a turn.
+    unit: Option<WrittenUnit>,
     field: fn(&mut Encoder) -> &mut f64,
 }
+
+/// The key that counts the steps of a turn.
+const COUNTS: &str = "counts_per_turn";
 
 fn keys(settings: &SensorSettings) -> [EncoderKey<'_>; 11] {
     let resolution: fn(&mut Encoder) -> &mut f64 = |encoder| &mut encoder.resolution;
     let noise: fn(&mut Encoder) -> &mut f64 = |encoder| &mut encoder.noise;
     let velocity_noise: fn(&mut Encoder) -> &mut f64 = |encoder| &mut encoder.velocity_noise;
-    let angle: fn(f64) -> f64 = |value| Unit::Angle.convert(value);
-    let length: fn(f64) -> f64 = |value| Unit::Length.convert(value);
-    let si: fn(f64) -> f64 = |value| value;
-    // 0 counts are no resolution: the quotient would be infinite.
-    let of_turn: fn(f64) -> f64 = |counts| if counts > 0.0 { std::f64::consts::TAU / counts } else { 0.0 };
     let all = [
-        (&settings.counts_per_turn, "counts_per_turn", true, of_turn, resolution),
-        (&settings.resolution_deg, "resolution_deg", true, angle, resolution),
-        (&settings.resolution_rad, "resolution_rad", true, si, resolution),
-        (&settings.resolution_m, "resolution_m", false, si, resolution),
-        (&settings.resolution_mm, "resolution_mm", false, length, resolution),
-        (&settings.noise_deg, "noise_deg", true, angle, noise),
-        (&settings.noise_rad, "noise_rad", true, si, noise),
-        (&settings.noise_m, "noise_m", false, si, noise),
-        (&settings.noise_mm, "noise_mm", false, length, noise),
-        (&settings.velocity_noise_rad_s, "velocity_noise_rad_s", true, si, velocity_noise),
-        (&settings.velocity_noise_m_s, "velocity_noise_m_s", false, si, velocity_noise),
+        (&settings.counts_per_turn, COUNTS, resolution),
+        (&settings.resolution_deg, "resolution_deg", resolution),
+        (&settings.resolution_rad, "resolution_rad", resolution),
+        (&settings.resolution_m, "resolution_m", resolution),
+        (&settings.resolution_mm, "resolution_mm", resolution),
+        (&settings.noise_deg, "noise_deg", noise),
+        (&settings.noise_rad, "noise_rad", noise),
+        (&settings.noise_m, "noise_m", noise),
+        (&settings.noise_mm, "noise_mm", noise),
+        (&settings.velocity_noise_rad_s, "velocity_noise_rad_s", velocity_noise),
+        (&settings.velocity_noise_m_s, "velocity_noise_m_s", velocity_noise),
     ];
-    all.map(|(numbers, name, of_angles, to_si, field)| EncoderKey {
+    all.map(|(numbers, name, field)| EncoderKey {
         numbers: numbers.as_ref(),
         name,
-        of_angles,
-        to_si,
+        unit: (name != COUNTS).then(|| WrittenUnit::of_key(name)),
         field,
     })
 }
@@ -69,7 +69,8 @@ fn keys(settings: &SensorSettings) -> [EncoderKey<'_>; 11] {
 impl EncoderKey<'_> {
     fn rule(&self) -> NumberRule<'static> {
         let (range, unnamed) = (Range::NonNegative, Unnamed::Zero);
-        NumberRule { what: self.name, range, unnamed, of_angles: Some(self.of_angles) }
+        let of_angles = self.unit.is_none_or(|unit| unit.unit == Unit::Angle);
+        NumberRule { what: self.name, range, unnamed, of_angles: Some(of_angles) }
     }
 
     /// Puts the values into the encoders; returns whether each of them had none before.
@@ -80,7 +81,7 @@ impl EncoderKey<'_> {
             let value = (self.field)(encoder);
             // Zero means none: two keys conflict only at a joint to which both give something.
             is_first &= *value <= 0.0;
-            *value = (self.to_si)(number);
+            *value = self.unit.map_or(std::f64::consts::TAU / number, |unit| unit.to_si(number));
         }
         is_first
     }
