@@ -1,6 +1,6 @@
 //! Tables in CSV and Parquet: measurements, positions and torques over time, and what a run has written.
 //!
-//! [`Table`] gives rows whose cells know their lines and columns, for messages; [`open`] goes through a file of any
+//! [`WrittenTable`] gives rows whose cells know their lines and columns, for messages; [`open`] goes through a file of any
 //! length without keeping it in memory. Both skip lines that begin with `#`.
 
 mod parquet;
@@ -11,4 +11,4 @@ mod table;
 
 pub use read::read_table;
 pub use stream::{RowReader, TableError, Value, open};
-pub use table::{Cell, Header, Row, Rows, Table};
+pub use table::{Cell, Header, Row, TableRows, WrittenTable};

@@ -74,20 +74,20 @@ impl Header {
 }
 
 /// A table: its header, and the rows below.
-pub struct Table<'a> {
+pub struct WrittenTable<'a> {
     /// The first row.
     pub header: Header,
     /// The other rows.
-    pub rows: Rows<'a>,
+    pub rows: TableRows<'a>,
 }
 
-impl<'a> Table<'a> {
+impl<'a> WrittenTable<'a> {
     /// The table in a text, `None` if it has no row at all. A row with another number of cells than the header is an error
     /// with this code.
     pub fn read(text: &'a str, code: &'static str) -> Option<Self> {
         let reader = reader_builder().has_headers(false).flexible(true).from_reader(text.as_bytes());
         let (record, lines) = (StringRecord::new(), LineCounter::new(text));
-        let mut rows = Rows { text, reader, record, lines, columns: 0, code };
+        let mut rows = TableRows { text, reader, record, lines, columns: 0, code };
         let row = rows.next_row()?;
         rows.columns = row.cells.len();
         Some(Self { header: Header { row }, rows })
@@ -102,7 +102,7 @@ pub(crate) fn reader_builder() -> ReaderBuilder {
 }
 
 /// The rows below a header.
-pub struct Rows<'a> {
+pub struct TableRows<'a> {
     text: &'a str,
     reader: Reader<&'a [u8]>,
     record: StringRecord,
@@ -112,7 +112,7 @@ pub struct Rows<'a> {
     code: &'static str,
 }
 
-impl Iterator for Rows<'_> {
+impl Iterator for TableRows<'_> {
     type Item = Result<Row, Diagnostic>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -123,7 +123,7 @@ impl Iterator for Rows<'_> {
     }
 }
 
-impl Rows<'_> {
+impl TableRows<'_> {
     fn next_row(&mut self) -> Option<Row> {
         loop {
             // Text in memory cannot fail to be read, and rows may have any number of cells.

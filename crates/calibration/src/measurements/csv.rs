@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use congruent_description::{Robot, RobotQ};
 use congruent_input::{Diagnostic, Findings};
-use congruent_tables::{Header, Row, Table};
+use congruent_tables::{Header, Row, WrittenTable};
 
 use super::{
     checks::{missing_joints, no_rows, plausible},
@@ -18,7 +18,8 @@ const MOST_FAULTS: usize = 20;
 
 /// Parses a whole file.
 pub(super) fn parse(text: &str, robot: &Robot, needed: &[usize]) -> Result<Vec<MeasuredRow>, Findings> {
-    let Table { header, rows: records } = Table::read(text, "measurements::cells").ok_or_else(no_rows)?;
+    let WrittenTable { header, rows: records } =
+        WrittenTable::read(text, "measurements::cells").ok_or_else(no_rows)?;
     let columns = columns(&header, robot, needed)?;
     let (mut rows, mut faults) = (Vec::new(), Vec::new());
     for record in records {

@@ -99,8 +99,7 @@ impl Motions<'_> {
         for (variable, (_, degree)) in variables.iter_mut().zip(&variable_group.positions) {
             variable.degree = *degree;
         }
-        let mut memory = self.rows.memory();
-        let mut error = Ok(());
+        let (mut memory, mut error) = (self.rows.memory(), Ok(()));
         let mut q = RobotQ::zeros(self.rows.covered.len());
         let count = variable_group.joints.len() * variable_group.values();
         let function = Trigonometric::sampled(variables, count, ValueMeasure::Sum, |positions| {
@@ -251,9 +250,8 @@ impl OneJoint<'_> {
     /// Positions with the largest torque that a coordinate search finds.
     fn local_maximum(&self, part: TorquePart, function: &Trigonometric) -> Result<Vec<f64>, DynamicsError> {
         let (motions, variable_group) = (self.motions, self.variable_group);
-        let mut memory = motions.rows.memory();
+        let (mut memory, mut error) = (motions.rows.memory(), Ok(()));
         let mut at_q = motions.somewhere().q;
-        let mut error = Ok(());
         let values = variable_group.values_of(part, 0);
         let along_variable = |at: usize, q: &[f64]| {
             for (variable, position) in function.variables.iter().zip(q) {

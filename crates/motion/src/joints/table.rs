@@ -12,7 +12,7 @@ use congruent_input::{
 };
 use congruent_scenario::OverLimit;
 use congruent_tables::{
-    Header, Row, Table,
+    Header, Row, WrittenTable,
     run_columns::{POSITION, TIME, is_other_quantity},
 };
 
@@ -83,7 +83,7 @@ impl JointTable {
     fn parse(source: &SourceFile, planning: &Planning<'_>) -> Result<Self, Diagnostic> {
         let robot = &planning.description.robot;
         let no_header = || Diagnostic::error(CODE, "the table has no header").at(0..0);
-        let Table { header, rows } = Table::read(&source.text, CODE).ok_or_else(no_header)?;
+        let WrittenTable { header, rows } = WrittenTable::read(&source.text, CODE).ok_or_else(no_header)?;
         let time = header.names().position(|name| name == TIME);
         let time = time.ok_or_else(|| fault(&header, format!("the table has no column {TIME}")))?;
         let columns = columns(&header, robot)?;

@@ -6,7 +6,7 @@ use congruent_monitors::{Names, Sample};
 use congruent_tables::run_columns::{POSITION, STEP, TIME, WORST};
 use nalgebra::Isometry3;
 
-use super::table::{Cell, ColumnKind, TableWriter, TrajectoryColumn};
+use super::table::{ColumnKind, TableWriter, TrajectoryCell, TrajectoryColumn};
 
 /// The columns of a robot, in the order of [`SampleCells::write`].
 pub(super) fn header(description: &RobotDescription) -> Vec<TrajectoryColumn> {
@@ -53,16 +53,20 @@ impl SampleCells {
 
     /// The cells of one sample.
     pub(super) fn write(&self, sample: &mut Sample<'_>, table: &mut dyn TableWriter) {
-        table.cell(Cell::Number(sample.time_s));
-        table.cell(Cell::Count(sample.step));
+        table.cell(TrajectoryCell::Number(sample.time_s));
+        table.cell(TrajectoryCell::Count(sample.step));
         let joints = &sample.joints;
         for at in 0..joints.truth.q.len() {
-            table.cell(Cell::Number(joints.truth.q[at]));
+            table.cell(TrajectoryCell::Number(joints.truth.q[at]));
             table.cell(entry(joints.truth.qd, at));
             table.cell(entry(joints.truth.effort, at));
-            table.cell(joints.setpoint.map_or(Cell::Missing, |setpoint| Cell::Number(setpoint.q[at])));
-            table.cell(joints.setpoint.map_or(Cell::Missing, |setpoint| entry(setpoint.qd, at)));
-            table.cell(Cell::Number(joints.measured.q[at]));
+            table.cell(
+                joints
+                    .setpoint
+                    .map_or(TrajectoryCell::Missing, |setpoint| TrajectoryCell::Number(setpoint.q[at])),
+            );
+            table.cell(joints.setpoint.map_or(TrajectoryCell::Missing, |setpoint| entry(setpoint.qd, at)));
+            table.cell(TrajectoryCell::Number(joints.measured.q[at]));
         }
         let tip = self.tip.get();
         self.pose(&sample.twin[tip], table);
@@ -71,17 +75,19 @@ impl SampleCells {
         self.worst(sample.errors, |error| error.orientation_rad, table);
         match sample.clearance.nearest() {
             Some(nearest) => {
-                table.cell(Cell::Number(nearest.distance_m));
-                table.cell(Cell::Name(&self.names.pairs[nearest.pair]));
+                table.cell(TrajectoryCell::Number(nearest.distance_m));
+                table.cell(TrajectoryCell::Name(&self.names.pairs[nearest.pair]));
             }
-            None => [Cell::Missing; 2].into_iter().for_each(|cell| table.cell(cell)),
+            None => [TrajectoryCell::Missing; 2].into_iter().for_each(|cell| table.cell(cell)),
         }
     }
 
     fn pose(&self, root_from_tip: &Isometry3<f64>, table: &mut dyn TableWriter) {
         let root_from_tcp = Pose::from(root_from_tip * self.tip_from_tcp);
         let position = root_from_tcp.translation.iter().copied();
-        position.chain(root_from_tcp.quaternion_wxyz()).for_each(|value| table.cell(Cell::Number(value)));
+        position
+            .chain(root_from_tcp.quaternion_wxyz())
+            .for_each(|value| table.cell(TrajectoryCell::Number(value)));
     }
 
     /// The largest error of all links with its link; NaN is the largest.
@@ -89,10 +95,10 @@ impl SampleCells {
         let by_size = |(_, a): &(usize, f64), (_, b): &(usize, f64)| a.abs().total_cmp(&b.abs());
         match errors.iter().map(value).enumerate().max_by(by_size) {
             Some((link, error)) => {
-                table.cell(Cell::Number(error));
-                table.cell(Cell::Name(&self.names.links[link]));
+                table.cell(TrajectoryCell::Number(error));
+                table.cell(TrajectoryCell::Name(&self.names.links[link]));
             }
-            None => [Cell::Missing; 2].into_iter().for_each(|cell| table.cell(cell)),
+            None => [TrajectoryCell::Missing; 2].into_iter().for_each(|cell| table.cell(cell)),
         }
     }
 }
@@ -101,6 +107,6 @@ fn number(name: &str) -> TrajectoryColumn {
     TrajectoryColumn { name: name.to_owned(), kind: ColumnKind::Number }
 }
 
-fn entry(values: &[f64], at: usize) -> Cell<'static> {
-    values.get(at).map_or(Cell::Missing, |&value| Cell::Number(value))
+fn entry(values: &[f64], at: usize) -> TrajectoryCell<'static> {
+    values.get(at).map_or(TrajectoryCell::Missing, |&value| TrajectoryCell::Number(value))
 }

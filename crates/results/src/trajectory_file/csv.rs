@@ -5,7 +5,7 @@ use std::{fmt::Write, fs::File, io, path::Path};
 use congruent_monitors::RecordingError;
 use csv::Writer;
 
-use super::table::{Cell, TableWriter, TrajectoryColumn, failed};
+use super::table::{TableWriter, TrajectoryCell, TrajectoryColumn, failed};
 
 /// Rows between two writes to the file: a run that is killed has written all but the last of them.
 const ROWS_A_FLUSH: u32 = 1000;
@@ -27,14 +27,14 @@ impl CsvTable {
 }
 
 impl TableWriter for CsvTable {
-    fn cell(&mut self, cell: Cell<'_>) {
+    fn cell(&mut self, cell: TrajectoryCell<'_>) {
         self.text.clear();
         let written = match cell {
-            Cell::Count(count) => write!(self.text, "{count}"),
-            Cell::Number(number) => write!(self.text, "{number:?}"),
-            Cell::Name(_) | Cell::Missing => Ok(()),
+            TrajectoryCell::Count(count) => write!(self.text, "{count}"),
+            TrajectoryCell::Number(number) => write!(self.text, "{number:?}"),
+            TrajectoryCell::Name(_) | TrajectoryCell::Missing => Ok(()),
         };
-        let text = if let Cell::Name(name) = cell { name } else { &self.text };
+        let text = if let TrajectoryCell::Name(name) = cell { name } else { &self.text };
         let written = written.map_err(|error| io::Error::other(error).into());
         self.error = self.error.take().or(written.and_then(|()| self.file.write_field(text)).err());
     }

@@ -12,7 +12,7 @@ use parquet::{
     schema::types::Type,
 };
 
-use super::table::{Cell, ColumnKind, TableWriter, TrajectoryColumn, failed};
+use super::table::{ColumnKind, TableWriter, TrajectoryCell, TrajectoryColumn, failed};
 
 /// Rows that are gathered: 5 MB for an arm with seven joints.
 const ROWS_A_GROUP: usize = 8192;
@@ -91,20 +91,22 @@ impl Gathered {
         }
     }
 
-    fn push(&mut self, cell: Cell<'_>) {
+    fn push(&mut self, cell: TrajectoryCell<'_>) {
         match (self, cell) {
-            (Self::Counts(values), Cell::Count(count)) => {
+            (Self::Counts(values), TrajectoryCell::Count(count)) => {
                 values.push(i64::try_from(count).unwrap_or(i64::MAX));
             }
-            (Self::Numbers { values, levels }, Cell::Number(number)) => {
+            (Self::Numbers { values, levels }, TrajectoryCell::Number(number)) => {
                 values.push(number);
                 levels.push(1);
             }
-            (Self::Names { values, levels }, Cell::Name(name)) => {
+            (Self::Names { values, levels }, TrajectoryCell::Name(name)) => {
                 values.push(ByteArray::from(name));
                 levels.push(1);
             }
-            (Self::Numbers { levels, .. } | Self::Names { levels, .. }, Cell::Missing) => levels.push(0),
+            (Self::Numbers { levels, .. } | Self::Names { levels, .. }, TrajectoryCell::Missing) => {
+                levels.push(0)
+            }
             (_, cell) => panic!("{cell:?} is none of this column's kind"),
         }
     }
@@ -125,7 +127,7 @@ impl Gathered {
 }
 
 impl TableWriter for ParquetTable {
-    fn cell(&mut self, cell: Cell<'_>) {
+    fn cell(&mut self, cell: TrajectoryCell<'_>) {
         self.columns[self.at].push(cell);
         self.at += 1;
     }

@@ -22,7 +22,7 @@ pub(super) struct TrajectoryColumn {
 
 /// One cell as it is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Cell<'a> {
+pub(super) enum TrajectoryCell<'a> {
     Count(u64),
     Number(f64),
     Name(&'a str),
@@ -33,7 +33,7 @@ pub(super) enum Cell<'a> {
 /// A table that is written cell by cell, each row from its first column to its last.
 pub(super) trait TableWriter {
     /// The next cell of the row.
-    fn cell(&mut self, cell: Cell<'_>);
+    fn cell(&mut self, cell: TrajectoryCell<'_>);
 
     /// Writes the end of the present row.
     fn end_row(&mut self) -> Result<(), RecordingError>;

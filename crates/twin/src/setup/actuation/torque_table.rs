@@ -2,7 +2,7 @@
 
 use congruent_description::Robot;
 use congruent_input::{Diagnostic, SourceFile, known_names};
-use congruent_tables::{Header, Table, run_columns::TIME};
+use congruent_tables::{Header, WrittenTable, run_columns::TIME};
 
 /// Torques of all joints over time: interpolated between the rows, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,8 +22,8 @@ impl TorqueTable {
     /// The first thing that is wrong.
     pub(super) fn read(file: &SourceFile, robot: &Robot) -> Result<Self, Diagnostic> {
         let empty = |message: &str| Diagnostic::error(CODE, message.to_owned()).at(0..0);
-        let table = Table::read(&file.text, CODE).ok_or_else(|| empty("the file has no header"))?;
-        let Table { header, rows } = table;
+        let table = WrittenTable::read(&file.text, CODE).ok_or_else(|| empty("the file has no header"))?;
+        let WrittenTable { header, rows } = table;
         let columns = columns(&header, robot)?;
         let mut table = Self { times_s: Vec::new(), torques: Vec::new() };
         for row in rows {
