@@ -105,7 +105,7 @@ impl Gathered {
                 levels.push(1);
             }
             (Self::Numbers { levels, .. } | Self::Names { levels, .. }, TrajectoryCell::Missing) => {
-                levels.push(0)
+                levels.push(0);
             }
             (_, cell) => panic!("{cell:?} is none of this column's kind"),
         }
