@@ -95,12 +95,11 @@ impl Clearance {
             clearance.can_move[subject] = *mobility != ObstacleMobility::Still;
         }
         let is_solid = |subject: usize| !clearance.hulls[subject].is_empty();
-        let pairs = pairs(description, mobility, is_solid, choice);
         let watched = |pair: Pair| WatchedPair {
             while_carried: while_carried(robot, mobility, &pair),
             ..WatchedPair::new(pair)
         };
-        clearance.watch(pairs.into_iter().map(watched));
+        clearance.watch(pairs(description, mobility, is_solid, choice).into_iter().map(watched));
         Ok(clearance)
     }
 

@@ -4,10 +4,7 @@ use congruent_description::{CarriedBody, Inertia, LinkIndex, Robot, RobotQ};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
-    actuation::{
-        Controller,
-        connection::{Connections, TrueState},
-    },
+    actuation::{Controller, connection},
     build,
     commands::{Commands, Motor},
     drive::Saturation,
@@ -91,7 +88,7 @@ pub(crate) struct WorldState {
     pub(crate) delivered: Vec<f64>,
     /// The effort that each actuator would have exerted if it delivered all of it.
     asked: Vec<f64>,
-    pub(crate) connections: Connections,
+    pub(crate) connections: connection::Connections,
     /// What links carry that controllers know of, and what they do not.
     pub(crate) carried: [Vec<CarriedBody>; 2],
     step_count: u64,
@@ -134,7 +131,7 @@ impl World {
                 saturations: vec![Saturation::default(); dof],
                 delivered: vec![1.0; dof],
                 asked: vec![0.0; dof],
-                connections: Connections::new(dof),
+                connections: connection::Connections::new(dof),
                 carried: [Vec::new(), Vec::new()],
                 step_count: 0,
             },
@@ -271,7 +268,7 @@ impl World {
         let joints = JointsView { q, qd, time_s, engine: &self.engine };
         controller.command(&joints, setpoint, &mut self.commands);
         let WorldState { q, qd, connections, .. } = &self.state;
-        connections.connect(&mut self.commands, &mut self.asked, TrueState { q, qd }, measured);
+        connections.connect(&mut self.commands, &mut self.asked, connection::TrueState { q, qd }, measured);
         self.apply(setpoint)
     }
 
