@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Point3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::stream::Stream;
+use crate::{codes, stream::Stream};
 
 /// A source of joint torques and accelerations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -142,7 +142,7 @@ pub fn robot_with_options(
     // NaN is not above zero either; the sum with the link itself may still be impossible.
     let inertia = Some(mass_kg).filter(|mass| *mass > 0.0).and_then(|_| (own + carried).to_link());
     let inertia = inertia.ok_or_else(|| {
-        Diagnostic::error("dynamics::payload", format!("payload mass must be > 0, but is {mass_kg} kg"))
+        Diagnostic::error(codes::dynamics::PAYLOAD, format!("payload mass must be > 0, but is {mass_kg} kg"))
     })?;
     Ok(robot.with_inertia(description.tip, inertia))
 }
@@ -178,7 +178,7 @@ pub fn dynamics<'a>(
 
 /// The diagnostic of a source that refuses a state or a robot.
 pub fn refused(error: &dyn std::error::Error) -> Diagnostic {
-    Diagnostic::error("dynamics::source", error.to_string())
+    Diagnostic::error(codes::dynamics::SOURCE, error.to_string())
 }
 
 /// A warning if joints are at rest that dry friction may hold, and the source does not model this.
@@ -199,5 +199,5 @@ pub fn stiction(robot: &Robot, options: &DynamicsOptions, states: &JointStateLis
     );
     let help =
         "their accelerations are computed without dry friction: give speeds, or use --source simulation";
-    (!held.is_empty()).then(|| Diagnostic::warning("dynamics::at_rest", message).with_help(help))
+    (!held.is_empty()).then(|| Diagnostic::warning(codes::dynamics::AT_REST, message).with_help(help))
 }

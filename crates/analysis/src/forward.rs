@@ -10,7 +10,7 @@ use congruent_kinematics::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::stream::Stream;
+use crate::{codes, stream::Stream};
 
 /// A source of link poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -80,7 +80,7 @@ pub enum ForwardError {
 
 impl From<ForwardError> for Diagnostic {
     fn from(error: ForwardError) -> Self {
-        let found = Diagnostic::error("fk::source", error.to_string());
+        let found = Diagnostic::error(codes::fk::SOURCE, error.to_string());
         match error {
             ForwardError::NoTable { .. } => {
                 found.with_help("use --source urdf, poe or simulation, or add [dh] to robot.toml")
@@ -145,7 +145,7 @@ impl ReportedLinkPoses {
 fn unknown_frame(name: &str, source: Source, links: &[(String, ReportedPose)]) -> Diagnostic {
     let known = links.iter().map(|(link, _)| link.as_str());
     let message = format!("source {} has no frame \"{name}\"", serde_name(&source));
-    Diagnostic::error("fk::frame", message).with_help(known_names(name, "frames", known))
+    Diagnostic::error(codes::fk::FRAME, message).with_help(known_names(name, "frames", known))
 }
 
 /// Poses of all links and of the declared TCP at each configuration, by a source of link poses.

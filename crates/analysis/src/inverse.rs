@@ -11,14 +11,14 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::arm_joints::joint_names;
+use crate::{arm_joints::joint_names, codes};
 
 pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
 
 /// A file of targets as a list.
 const LIST: JsonList = JsonList {
     entry: "target",
-    code: "targets::json",
+    code: codes::targets::JSON,
     help: r#"expected [{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint": 0.1}}]"#,
 };
 /// Largest coordinate of a target: the square of a larger one would make all others insignificant.
@@ -105,7 +105,7 @@ pub fn read_targets(path: &Path, robot: &Robot) -> Result<InverseTargets, Findin
         let target = checked(written, robot)?;
         let outside = target.start.iter().filter_map(|(name, &value)| outside(robot, name, value));
         warnings.extend(outside.map(|what| {
-            Diagnostic::warning("targets::start", format!("target {index}: {what}"))
+            Diagnostic::warning(codes::targets::START, format!("target {index}: {what}"))
                 .with_help("the search begins at the nearest position within the limits")
                 .at(place.clone())
         }));
@@ -140,7 +140,7 @@ fn checked(written: WrittenTarget, robot: &Robot) -> Result<InverseTarget, Diagn
     configuration(&written.start, robot)?;
     if let Some(far) = written.translation_m.iter().find(|coordinate| coordinate.abs() > MOST_M) {
         let message = format!("translation_m has {far}, which is beyond {MOST_M:e} m");
-        return Err(Diagnostic::error("targets::translation", message));
+        return Err(Diagnostic::error(codes::targets::TRANSLATION, message));
     }
     let (part, rotation) = match written.quaternion_wxyz {
         Some(wxyz) => (TargetPart::Pose, unit_quaternion(wxyz)?),
@@ -158,7 +158,7 @@ fn unit_quaternion([w, x, y, z]: [f64; 4]) -> Result<UnitQuaternion<f64>, Diagno
         return Ok(UnitQuaternion::from_quaternion(quaternion));
     }
     let message = format!("quaternion_wxyz has norm {norm:.7}, it must be 1 within {QUATERNION_NORM}");
-    Err(Diagnostic::error("targets::quaternion_norm", message).with_help(
+    Err(Diagnostic::error(codes::targets::QUATERNION_NORM, message).with_help(
         "write the quaternion with more digits, in the order w, x, y, z: it is not normalised for you",
     ))
 }

@@ -7,7 +7,7 @@ use nalgebra::Matrix3xX;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::stream::Stream;
+use crate::{codes, stream::Stream};
 
 pub use congruent_kinematics::JacobianKind;
 
@@ -104,14 +104,15 @@ impl JacobianFrame {
                     "robot \"{}\" declares no tool centre point at the end of this chain",
                     robot.name()
                 );
-                Err(Diagnostic::error("jacobian::no_tcp", message)
+                Err(Diagnostic::error(codes::jacobian::NO_TCP, message)
                     .with_help("declare it under [tcp] in robot.toml, or name a link"))
             }
             (None, declared) => {
                 let links = robot.links().iter().map(|link| link.name.as_str());
                 let known: Vec<&str> = links.chain(declared.map(|_| description.robot.tcp_name())).collect();
                 let message = format!("robot \"{}\" has no link \"{name}\"", robot.name());
-                Err(Diagnostic::error("jacobian::link", message).with_help(known_names(name, "links", known)))
+                Err(Diagnostic::error(codes::jacobian::LINK, message)
+                    .with_help(known_names(name, "links", known)))
             }
         }
     }
@@ -173,7 +174,8 @@ fn report<'a>(
     kind: JacobianKind,
     results: impl Iterator<Item = Result<JacobianResult, KinematicsError>> + 'a,
 ) -> Result<JacobianReport<JacobianStream<'a>>, Diagnostic> {
-    let refused = |error: KinematicsError| Diagnostic::error("jacobian::configuration", error.to_string());
+    let refused =
+        |error: KinematicsError| Diagnostic::error(codes::jacobian::CONFIGURATION, error.to_string());
     let robot = &description.robot;
     let name = |link| robot.link(link).name.clone();
     let (link, tcp) = match frame {

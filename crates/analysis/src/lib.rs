@@ -4,6 +4,7 @@
 
 mod arm_joints;
 pub mod base_parameters;
+pub mod codes;
 pub mod conversion;
 pub mod description_summary;
 pub mod dynamics;

@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use crate::{
     arm_joints::joint_names,
+    codes,
     plot::{AXES, Curve, PLANES, PlaneView, PlotError, views},
     stream::Stream,
 };
@@ -112,7 +113,7 @@ pub fn manipulability<'a>(
     configurations: impl Iterator<Item = RobotQ> + 'a,
     metres_per_rad: Option<f64>,
 ) -> Result<ManipulabilityReport<DexterityStream<'a>>, Diagnostic> {
-    let refused = |error: KinematicsError| Diagnostic::error("manipulability::robot", error.to_string());
+    let refused = |error: KinematicsError| Diagnostic::error(codes::manipulability::ROBOT, error.to_string());
     let mut arm = Arm::from_description(description).map_err(refused)?;
     let metres_per_rad = metres_per_rad.unwrap_or(arm.metres_per_rad());
     let joints = joint_names(description, &arm);

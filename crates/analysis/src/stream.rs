@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     fn fault() -> Diagnostic {
-        Diagnostic::error("a::fault", "this is wrong")
+        Diagnostic::error(crate::codes::targets::JSON, "this is wrong")
     }
 
     #[test]

@@ -6,6 +6,7 @@ use congruent_kinematics::random_configurations;
 
 use crate::{
     chain::NominalChain,
+    codes,
     computed::{Computed, measurement},
     estimation::{
         CorrectedChain, Measurement, Noise, Problem, fit, fit_robustly, fit_with_estimated_noise, held_out,
@@ -44,7 +45,7 @@ pub fn calibrate(
 ) -> Result<CalibrationReport, Diagnostic> {
     if options.suggestions > CANDIDATES {
         let message = format!("cannot suggest {} configurations to measure next", options.suggestions);
-        return Err(Diagnostic::error("calibrate::next", message).with_help(format!(
+        return Err(Diagnostic::error(codes::calibrate::NEXT, message).with_help(format!(
             "ask for at most {CANDIDATES}: they are chosen from that many random configurations"
         )));
     }

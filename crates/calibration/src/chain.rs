@@ -4,6 +4,8 @@ use congruent_description::{ChainQ, DhTable, LinkIndex, Robot, RobotDescription,
 use congruent_input::Diagnostic;
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain};
 
+use crate::codes;
+
 /// The kind of motion of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum JointMotionKind {
@@ -28,7 +30,7 @@ impl<'a> NominalChain<'a> {
     /// # Errors
     /// The tip does not hang below the base, or no joint moves between them.
     pub(super) fn new(description: &'a RobotDescription) -> Result<Self, Diagnostic> {
-        let refused = |error: KinematicsError| Diagnostic::error("calibrate::robot", error.to_string());
+        let refused = |error: KinematicsError| Diagnostic::error(codes::calibrate::ROBOT, error.to_string());
         let robot = &description.robot;
         let table = description.dh.as_ref().map(|table| (table, DhChain::new(table, robot)));
         let (mut chain, coordinates) = if let Some((_, dh)) = &table {
@@ -38,7 +40,7 @@ impl<'a> NominalChain<'a> {
             let coordinates = moving(robot, base, tip).ok_or_else(|| {
                 let message =
                     format!("robot \"{}\": no joint moves the tip relative to the base", robot.name());
-                Diagnostic::error("calibrate::robot", message)
+                Diagnostic::error(codes::calibrate::ROBOT, message)
             })?;
             (ScrewChain::from_urdf(robot, base, tip, &coordinates).map_err(refused)?, coordinates)
         };

@@ -4,6 +4,7 @@ use congruent_input::{Diagnostic, known_names};
 
 use crate::{
     chain::NominalChain,
+    codes,
     estimation::{CorrectionParameter, base_pose, dh_entries, joint_axes, tool_pose, zero_offsets},
 };
 
@@ -34,7 +35,7 @@ pub(super) fn parameters(
         if has_table { &["base", "dh", "tool"] } else { &["base", "zero-offsets", "axes", "tool"] };
     if !has_table && free.iter().any(|word| word == "dh") {
         let message = format!("robot \"{}\" has no [dh] table, so dh cannot be free", nominal.robot.name());
-        return Err(Diagnostic::error("calibrate::no_table", message)
+        return Err(Diagnostic::error(codes::calibrate::NO_TABLE, message)
             .with_help("free zero-offsets, axes, base or tool instead"));
     }
     for word in free.iter().chain(hold) {
@@ -51,7 +52,7 @@ pub(super) fn parameters(
         .map(|(_, each)| each.clone())
         .collect();
     if chosen.is_empty() {
-        return Err(Diagnostic::error("calibrate::nothing_free", "no correction is free")
+        return Err(Diagnostic::error(codes::calibrate::NOTHING_FREE, "no correction is free")
             .with_help(format!("--free accepts {}, or single corrections by name", GROUPS.join(", "))));
     }
     Ok(chosen)
@@ -60,7 +61,7 @@ pub(super) fn parameters(
 fn dh(nominal: &NominalChain<'_>, names: &[&str]) -> Result<Vec<CorrectionParameter>, Diagnostic> {
     let Some((table, chain)) = &nominal.table else { return Ok(Vec::new()) };
     dh_entries(table, chain, names, nominal.robot.dof())
-        .map_err(|error| Diagnostic::error("calibrate::robot", error.to_string()))
+        .map_err(|error| Diagnostic::error(codes::calibrate::ROBOT, error.to_string()))
 }
 
 fn known(word: &str, groups: &[(&str, Vec<CorrectionParameter>)]) -> Result<(), Diagnostic> {
@@ -71,7 +72,7 @@ fn known(word: &str, groups: &[(&str, Vec<CorrectionParameter>)]) -> Result<(), 
     }
     let all: Vec<&str> = all.by_ref().collect();
     Err(Diagnostic::error(
-        "calibrate::unknown_correction",
+        codes::calibrate::UNKNOWN_CORRECTION,
         format!("\"{word}\" is neither a group of corrections nor a correction"),
     )
     .with_help(known_names(word, "groups and corrections", all.iter().copied())))

@@ -5,6 +5,7 @@
 
 mod calibrate;
 mod chain;
+pub mod codes;
 mod computed;
 pub mod estimation;
 mod free;

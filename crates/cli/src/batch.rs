@@ -348,7 +348,7 @@ fn reason(failure: &Failure) -> Reason {
                 lines.push(format!("and {} more", findings.len() - MOST_FINDINGS));
             }
             // The code of the first finding: CI groups failures by it.
-            let kind = findings.first().code.to_owned();
+            let kind = findings.first().code.name.to_owned();
             Reason { kind, message: lines.join("\n") }
         }
     }

@@ -13,6 +13,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::{Failure, unwritable},
     output::file::{refuse_inputs, refuse_same},
     terminal::print::Printer,
@@ -77,7 +78,7 @@ impl CiArguments {
         if let Some(path) = &self.summary {
             append_to(path, "").map_err(|error| {
                 let message = format!("cannot write {}: {error}", path.display());
-                Diagnostic::error("run::output", message).with_help("choose another file with --summary")
+                Diagnostic::error(codes::run::OUTPUT, message).with_help("choose another file with --summary")
             })?;
         }
         Ok(())
@@ -158,5 +159,6 @@ fn is_junit(path: &Path) -> Result<(), Diagnostic> {
         return Ok(());
     }
     let message = format!("--junit {} exists and is not a JUnit file", path.display());
-    Err(Diagnostic::error("output::refused", message).with_help("choose another name, or remove the file"))
+    Err(Diagnostic::error(codes::output::REFUSED, message)
+        .with_help("choose another name, or remove the file"))
 }

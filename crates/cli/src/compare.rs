@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use congruent::{compare_runs, input::Diagnostic, text::comparison_text};
 
 use crate::{
+    codes,
     failure::Failure,
     terminal::print::{Printer, text_options},
 };
@@ -28,7 +29,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let comparison = compare_runs(&arguments.a, &arguments.b, arguments.tolerance).map_err(|error| {
-        Diagnostic::error("compare::not_comparable", error.to_string())
+        Diagnostic::error(codes::compare::NOT_COMPARABLE, error.to_string())
             .with_help("compare two reports, two trajectories, two recordings, or two folders of results")
     })?;
     printer.result(&comparison, |comparison| comparison_text(comparison, &text_options()))?;

@@ -5,6 +5,8 @@ use congruent::{
     results::files::OutputError,
 };
 
+use crate::codes;
+
 /// Exit code: the input could be read and compared, and a check failed.
 pub(crate) const FAILED: u8 = 1;
 /// The input is wrong: a file, an argument, or a place where nothing may be written.
@@ -28,7 +30,7 @@ pub(crate) fn unwritable(error: &OutputError, help: &str) -> Failure {
     if error.is_full() {
         return Failure::Machine(error.to_string());
     }
-    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
+    Diagnostic::error(codes::run::OUTPUT, error.to_string()).with_help(help).into()
 }
 
 /// Why a command has no result.

@@ -14,6 +14,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::{BROKEN, FAILED, Failure, worse},
     input::AccessArguments,
     output::file::replace,
@@ -82,7 +83,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 fn report(setup: &RunSetup, progress: &RunProgress) -> Result<RunReport, Failure> {
     let refused = |error: &dyn std::fmt::Display| {
         let message = format!("scenario \"{}\" cannot run: {error}", setup.scenario.name);
-        Diagnostic::error("run::cannot_run", message)
+        Diagnostic::error(codes::run::CANNOT_RUN, message)
     };
     let mut run = Run::new(setup).map_err(|error| refused(&error))?;
     let sources = run.model().sources().to_vec();
@@ -101,7 +102,7 @@ struct MarkdownDocument<'a> {
 impl<'a> MarkdownDocument<'a> {
     fn read(path: &'a Path) -> Result<Self, Diagnostic> {
         let refused = |message: String| {
-            Diagnostic::error("faults::markdown", message).with_help(format!(
+            Diagnostic::error(codes::faults::MARKDOWN, message).with_help(format!(
                 "the file needs a line `{}` and after it a line `{END}`",
                 BEGIN.trim_end()
             ))

@@ -17,7 +17,7 @@ use congruent::{
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
 
-use crate::{failure::Failure, terminal::print::Printer};
+use crate::{codes, failure::Failure, terminal::print::Printer};
 
 /// Refuses arguments with control characters or separators of lines: paths and names go into every output.
 pub(crate) fn shown_arguments(arguments: &[OsString]) -> Result<(), Failure> {
@@ -26,7 +26,7 @@ pub(crate) fn shown_arguments(arguments: &[OsString]) -> Result<(), Failure> {
     match arguments.skip(1).find(|argument| argument.contains(is_refused)) {
         None => Ok(()),
         Some(argument) => Err(Diagnostic::error(
-            "cli::hidden_character",
+            codes::cli::HIDDEN_CHARACTER,
             format!("the argument \"{argument}\" has a control character or a line break"),
         )
         .with_help("type the argument again without it; rename a file that has one in its name")
@@ -119,7 +119,7 @@ pub(crate) fn needs_to_be_allowed(file: &Path, named: &Path) -> Option<Diagnosti
     FileAccess::default().inside_project_of(file).ok()?.check(named).err()?;
     let folder = named.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let message = format!("{} is outside of the project of {}", named.display(), file.display());
-    Some(Diagnostic::warning("new::outside", message).with_help(format!(
+    Some(Diagnostic::warning(codes::new::OUTSIDE, message).with_help(format!(
         "add --allow {} to every other command that reads the new file",
         folder.display()
     )))
@@ -220,7 +220,7 @@ impl ConfigurationArguments {
             let (joint, value) = position(assignment, robot)?;
             if let Some(before) = values.insert(joint, value) {
                 let message = format!("--at {assignment}: the joint is given as {before} already");
-                return Err(Diagnostic::error("cli::at", message).into());
+                return Err(Diagnostic::error(codes::cli::AT, message).into());
             }
         }
         let q = configuration(&values, robot)?;
@@ -258,7 +258,7 @@ impl ConfigurationArguments {
     ) -> Result<JointStateList, Failure> {
         let Some(path) = &self.configurations else {
             let message = "joint velocities are needed, and only a file of configurations can give them: --configurations is missing";
-            return Err(Diagnostic::error("cli::velocities", message)
+            return Err(Diagnostic::error(codes::cli::VELOCITIES, message)
                 .with_help(
                     r#"--configurations FILE with {"q": {"joint": 0.1}, "v": {"joint": 0.2}} on each line"#,
                 )
@@ -284,7 +284,7 @@ pub(crate) fn with_warning<List>(
 /// `JOINT=VALUE` as a name and a position in rad or m.
 fn position(assignment: &str, robot: &Robot) -> Result<(String, f64), Diagnostic> {
     let refused = |why: &str| {
-        Diagnostic::error("cli::at", format!("--at \"{assignment}\" {why}")).with_help(
+        Diagnostic::error(codes::cli::AT, format!("--at \"{assignment}\" {why}")).with_help(
             "for example --at elbow_joint=1.57 or --at elbow_joint=90deg, --at lift=0.1 or --at lift=100mm",
         )
     };

@@ -4,6 +4,7 @@
 mod arm;
 mod batch;
 mod ci;
+mod codes;
 mod compare;
 mod completions;
 mod failure;
@@ -130,7 +131,7 @@ pub fn run<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> u8 {
     arguments.color.apply();
     let printer = Printer::new(arguments.format, arguments.verbosity());
     if arguments.format == Format::Sarif && !matches!(arguments.command, Command::Lint(_)) {
-        let only = Diagnostic::error("cli::format", "--format sarif works with `lint` only");
+        let only = Diagnostic::error(codes::cli::FORMAT, "--format sarif works with `lint` only");
         Printer::explain(None, &Failure::from(only.with_help("use --format json")));
         return BAD_INPUT;
     }

@@ -6,7 +6,7 @@ use clap_mangen::Man;
 use congruent::input::Diagnostic;
 use serde::Serialize;
 
-use crate::{failure::Failure, output::file::replace, terminal::print::Printer};
+use crate::{codes, failure::Failure, output::file::replace, terminal::print::Printer};
 
 /// Manual pages: that of `congruent` on standard output, or one for each command in a folder.
 ///
@@ -47,7 +47,7 @@ pub(crate) fn run(
         return Ok(0);
     };
     fs::create_dir_all(folder).map_err(|error| {
-        Diagnostic::error("man::out", format!("cannot create the folder {}: {error}", folder.display()))
+        Diagnostic::error(codes::man::OUT, format!("cannot create the folder {}: {error}", folder.display()))
             .with_help("choose another folder with --out")
     })?;
     let mut files = Vec::new();

@@ -7,7 +7,7 @@ use congruent::{
     schema::Document,
 };
 
-use crate::{failure::Failure, terminal::print::Printer};
+use crate::{codes, failure::Failure, terminal::print::Printer};
 
 /// The JSON schema (draft 2020-12) of a file that is read or of a document that is printed.
 #[derive(Debug, clap::Args)]
@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     };
     let document = Document::find(name).ok_or_else(|| {
         let known = Document::ALL.iter().map(|document| document.name);
-        Diagnostic::error("schema::document", format!("no schema is named \"{name}\""))
+        Diagnostic::error(codes::schema::DOCUMENT, format!("no schema is named \"{name}\""))
             .with_help(known_names(name, "schemas", known))
     })?;
     let schema = document.schema();

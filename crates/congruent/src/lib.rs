@@ -27,6 +27,7 @@ pub use congruent_twin as twin;
 pub use nalgebra;
 
 mod check;
+pub mod codes;
 #[cfg(feature = "recording")]
 mod joint_sweep;
 mod lint;

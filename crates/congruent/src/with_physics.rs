@@ -15,6 +15,8 @@ use congruent_input::{Capability, Diagnostic, Findings};
 use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};
 use congruent_twin::source::{SimulatedDynamics, SimulatedPoses};
 
+use crate::codes;
+
 /// Poses of all links at each configuration, by a chosen source; each is computed when the iterator reaches it.
 ///
 /// # Errors
@@ -38,7 +40,7 @@ pub fn forward<'a>(
 pub(crate) fn simulated_poses(description: &RobotDescription) -> Result<SimulatedPoses, Findings> {
     description.check_capability(Capability::Physics)?;
     SimulatedPoses::new(&description.robot)
-        .map_err(|error| Diagnostic::error("simulation::robot", error.to_string()).into())
+        .map_err(|error| Diagnostic::error(codes::simulation::ROBOT, error.to_string()).into())
 }
 
 /// Torques and accelerations at each state, by the equations of motion or by the physics; each is computed when it is asked
@@ -84,7 +86,7 @@ const LARGEST_VALUE: f64 = 1e100;
 fn beyond_numbers(description: &RobotDescription, robot: &Robot, states: &JointStateList) -> Diagnostic {
     let (what, value, span) = largest_value(description, robot, states);
     let message = format!("{what} = {value:e} is too large: the computed torques are not finite");
-    let found = Diagnostic::error("dynamics::overflow", message);
+    let found = Diagnostic::error(codes::dynamics::OVERFLOW, message);
     match (span, description.places.urdf.as_ref()) {
         (Some(span), Some(places)) => found.at(span).in_file(places.source()),
         _ => found,

@@ -11,6 +11,7 @@ use nalgebra::Isometry3;
 
 use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
+    codes,
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance, ToleranceScale},
     robot_file::{DynamicsTable, InertialPlaces, RobotFilePlaces},
     urdf::UrdfPlaces,
@@ -26,12 +27,6 @@ pub struct Places {
     /// The URDF; `None` if the robot was made without one.
     pub urdf: Option<UrdfPlaces>,
 }
-
-/// The code of the warning that a table is not used because it describes another chain.
-pub const TABLE_DROPPED: &str = "chain::table_dropped";
-
-/// The code of the warning that several tips are equally likely.
-pub const SEVERAL_TIPS: &str = "chain::several_tips";
 
 /// Files and folders that a robot file names in addition to the URDF.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -122,7 +117,7 @@ impl RobotDescription {
                 self.name_of(self.tip),
                 self.name_of(self.base)
             );
-            return Err(Diagnostic::error("chain::broken", message)
+            return Err(Diagnostic::error(codes::chain::BROKEN, message)
                 .with_help("the tip must be a link below the base: choose another --tip or --base, or other keys tip and base"));
         }
         if before != (self.base, self.tip) {
@@ -147,7 +142,7 @@ impl RobotDescription {
                 self.name_of(self.base),
                 self.name_of(self.tip)
             );
-            self.warnings.push(Diagnostic::warning(TABLE_DROPPED, message));
+            self.warnings.push(Diagnostic::warning(codes::chain::TABLE_DROPPED, message));
         }
         // The frames of the declared dynamics are those of the table or of its base; the tool is declared in the old tip.
         self.places.inertials = None;
@@ -159,7 +154,7 @@ impl RobotDescription {
     #[must_use]
     pub(crate) fn with_tip_warning(mut self) -> Self {
         const MOST_NAMED: usize = 10;
-        self.warnings.retain(|warning| warning.code != SEVERAL_TIPS);
+        self.warnings.retain(|warning| warning.code != codes::chain::SEVERAL_TIPS);
         if self.chain_ends.tip != ChainEnd::Chosen {
             return self;
         }
@@ -175,7 +170,7 @@ impl RobotDescription {
                 if more == 0 { String::new() } else { format!(" and {more} more") }
             );
             self.warnings.push(
-                Diagnostic::warning(SEVERAL_TIPS, message)
+                Diagnostic::warning(codes::chain::SEVERAL_TIPS, message)
                     .with_help("choose with --tip, or with the keys base and tip of a robot file"),
             );
         }
@@ -219,8 +214,11 @@ impl RobotDescription {
     fn link(&self, role: &str, name: &str) -> Result<LinkIndex, Diagnostic> {
         self.robot.find_link(name).ok_or_else(|| {
             let links = self.robot.links().iter().map(|link| link.name.as_str());
-            Diagnostic::error("chain::unknown_link", format!("{role} \"{name}\": the robot has no such link"))
-                .with_help(known_names(name, "links", links))
+            Diagnostic::error(
+                codes::chain::UNKNOWN_LINK,
+                format!("{role} \"{name}\": the robot has no such link"),
+            )
+            .with_help(known_names(name, "links", links))
         })
     }
 }

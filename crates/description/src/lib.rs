@@ -4,6 +4,7 @@
 //! Parsers take text and give a value or diagnostics; only `files/` of crate `input` opens files.
 
 mod chain;
+pub mod codes;
 mod configuration_file;
 mod description;
 mod load;
@@ -20,7 +21,7 @@ pub use configuration_file::{
     Configurations, JointState, JointStateList, JsonList, RobotQList, configuration, configurations_schema,
     outside_limits, outside_limits_warning, read_configurations, read_states, unique_names,
 };
-pub use description::{NamedFiles, Places, RobotDescription, SEVERAL_TIPS, TABLE_DROPPED};
+pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{file_of_robot, load_opened_robot, load_robot, load_robot_with, open, parse_robot};
 pub use mesh::{HullPoints, read_mesh};
 pub use model::{
@@ -30,12 +31,11 @@ pub use model::{
 };
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint,
-    RobotFilePlaces, RowKey, UNUSABLE_INERTIAL, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot,
-    robot_file_schema,
+    RobotFilePlaces, RowKey, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, robot_file_schema,
 };
 pub use robot_file_text::{dh_section, relative_path, robot_file_text, robot_file_values};
 pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{
-    CENTER_OF_MASS, INERTIA_SIZE, LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LargeLinks, MASSLESS, Misspelling,
-    Misspelt, TOO_FAR, URDF_BYTES, UrdfPlaces, misspellings, node, parse_urdf, urdf_text,
+    LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES, UrdfPlaces,
+    misspellings, node, parse_urdf, urdf_text,
 };

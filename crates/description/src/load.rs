@@ -8,13 +8,14 @@ use std::{
 };
 
 use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, NOT_FOUND, Packages, SourceFile, folder_of,
-    not_found, toml_text::parse_toml,
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, folder_of, not_found,
+    toml_text::parse_toml,
 };
 use toml::Spanned;
 
 use crate::{
     chain::{ChainEnds, choose_tip},
+    codes,
     description::{NamedFiles, Places, RobotDescription},
     mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
@@ -99,7 +100,7 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
         return Ok(robot_file);
     }
     let message = format!("{} is a directory without a {ROBOT_FILE}", path.display());
-    Err(Diagnostic::error("load::no_robot_file", message).with_help(ACCEPTED))
+    Err(Diagnostic::error(codes::load::NO_ROBOT_FILE, message).with_help(ACCEPTED))
 }
 
 /// Opens a file that a person gives as a robot. If it does not exist and no similar name does, the help lists what is accepted.
@@ -108,7 +109,7 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
 /// The file cannot be read, may not be opened, or is longer than `most_bytes`.
 pub fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
     access.read_named_text(path, most_bytes).map_err(|fault| {
-        let is_helpless = fault.code == NOT_FOUND && fault.help.is_none();
+        let is_helpless = fault.code == congruent_input::codes::file::NOT_FOUND && fault.help.is_none();
         if is_helpless { fault.with_help(ACCEPTED) } else { fault }
     })
 }
@@ -194,7 +195,7 @@ fn load_urdf(
     let path = &source.path;
     let mut packages = Packages::new(folder_of(path), declared, access).map_err(|error| {
         let message = format!("{}: its folder cannot be read: {error}", path.display());
-        Diagnostic::error("file::unreadable", message)
+        Diagnostic::error(congruent_input::codes::file::UNREADABLE, message)
     })?;
     // One store for the whole URDF: a mesh that several links use is read and checked once.
     let mut meshes = MeshStore::new(&mut packages, access);
@@ -349,7 +350,7 @@ fn written_robot(
 ) -> Option<(WrittenRobot, PathBuf)> {
     let written: WrittenRobot = parse_toml(&robot_file.text, diagnostics)?;
     let urdf = diagnostics.keep(written.urdf.as_ref().ok_or_else(|| {
-        Diagnostic::error("robot_file::urdf", "the robot file has no key \"urdf\"")
+        Diagnostic::error(codes::robot_file::URDF, "the robot file has no key \"urdf\"")
             .at(0..0)
             .with_help("urdf = \"robot.urdf\", relative to the robot file")
     }))?;
@@ -379,7 +380,7 @@ fn declared_packages(
         let canonical = path.canonicalize().ok().filter(|path| path.is_dir());
         let folder = diagnostics.keep(canonical.ok_or_else(|| {
             let message = format!("package \"{name}\": {} is not a folder", path.display());
-            Diagnostic::error("robot_file::package", message).at(written.span())
+            Diagnostic::error(codes::robot_file::PACKAGE, message).at(written.span())
         }))?;
         Some((name.clone(), folder))
     };
@@ -431,7 +432,7 @@ mod tests {
     fn warnings_and_errors_say_which_file() {
         let folder = folder(&[("robot.toml", "urdf = 'r.urdf'\ntip = 'c'"), ("r.urdf", URDF)]);
         let found = load_robot(folder.path()).unwrap_err();
-        let place = |found: &Diagnostic| (found.source.as_ref().unwrap().path.clone(), found.code);
+        let place = |found: &Diagnostic| (found.source.as_ref().unwrap().path.clone(), found.code.name);
         let file = |name| folder.path().join(name);
         assert_eq!(
             found.iter().map(place).collect::<Vec<_>>(),
@@ -453,7 +454,7 @@ mod tests {
         let bare = folder(&[("r.urdf", &impossible())]);
         let description = load_robot(&bare.path().join("r.urdf")).unwrap();
         let refused = description.check_capability(Capability::Physics).unwrap_err();
-        assert_eq!((refused[0].code, refused[0].severity), ("urdf::inertia", Severity::Error));
+        assert_eq!((refused[0].code.name, refused[0].severity), ("urdf::inertia", Severity::Error));
         assert!(refused[0].help.as_ref().unwrap().contains("[inertia]\nb = \"repair\""), "{refused:#?}");
         assert_eq!(refused[0].line_column().map(|(line, _)| line), Some(2));
         assert_eq!(description.check_capability(Capability::Clearance), Ok(()));
@@ -518,7 +519,7 @@ mod tests {
             ("r.urdf", URDF),
         ]);
         let found = load_robot(folder.path()).unwrap_err();
-        let codes: Vec<&str> = found.iter().map(|found| found.code).collect();
+        let codes: Vec<&str> = found.iter().map(|found| found.code.name).collect();
         assert_eq!(codes, ["file::not_found", "robot_file::package", "urdf::massless"]);
     }
 }

@@ -7,7 +7,10 @@ use std::{
 
 use congruent_input::{Capability, Diagnostic, SourceFile, known_names, xml};
 
-use crate::model::{LinkIndex, Robot};
+use crate::{
+    codes,
+    model::{LinkIndex, Robot},
+};
 
 /// Size limit of an SRDF, bytes.
 pub(crate) const SRDF_BYTES: u64 = 16 << 20;
@@ -30,7 +33,7 @@ pub(crate) fn parse(
             let name = node.attribute(key).unwrap_or_default();
             links.get(name).copied().or_else(|| {
                 let message = format!("<disable_collisions>: {key} \"{name}\" is not a link of the robot");
-                let diagnostic = Diagnostic::warning("srdf::unknown_link", message)
+                let diagnostic = Diagnostic::warning(codes::srdf::UNKNOWN_LINK, message)
                     .one_of("names in <disable_collisions> are not links of the robot", name)
                     .at(node.range())
                     .with_help(known_names(name, "links", links.keys().copied()));

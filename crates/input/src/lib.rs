@@ -4,7 +4,8 @@
 //! Parsers take text and give a value or diagnostics; only `files/` opens files.
 
 mod catch_panic;
-mod codes;
+mod code;
+pub mod codes;
 mod diagnostic;
 pub mod display;
 mod edits;
@@ -16,15 +17,15 @@ mod written;
 pub mod xml;
 
 pub use catch_panic::catch_panic;
-pub use codes::Code;
+pub use code::Code;
 pub use diagnostic::{
     Capability, Diagnostic, Diagnostics, Finding, FindingPlace, Findings, Grouping, LineCounter, Occurrence,
     Severity, SourceFile, known_names, line_column, nearest,
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines, edited, line_end};
 pub use files::{
-    FileAccess, InputFile, MESH_OUTSIDE, NOT_FOUND, OUTSIDE, Packages, Resolved, RosPackages, TextLines,
-    folder_of, head_of, is_standard_input, not_found, read_text,
+    FileAccess, InputFile, Packages, Resolved, RosPackages, TextLines, folder_of, head_of, is_standard_input,
+    not_found, read_text,
 };
 pub use quantity::{Quantity, SiUnit};
 pub use visible::{hidden_character, is_hidden, visible, visible_lines};

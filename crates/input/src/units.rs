@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::diagnostic::Diagnostic;
+use crate::{codes, diagnostic::Diagnostic};
 
 /// The physical quantity of a value, which decides the unit suffixes of its keys in files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,7 +89,7 @@ impl WrittenUnit {
 /// The fault of a quantity that two keys give, in SI units and in engineering units.
 pub fn both_given([si, engineering]: [&str; 2]) -> Diagnostic {
     let message = format!("{si} and {engineering} are both given");
-    Diagnostic::error("toml::both_units", message).with_help("keep exactly one of the two")
+    Diagnostic::error(codes::toml::BOTH_UNITS, message).with_help("keep exactly one of the two")
 }
 
 impl Unit {
@@ -167,7 +167,7 @@ pub fn check_finite(key: &str, value: f64, span: Range<usize>) -> Result<(), Dia
     }
     let message = format!("{key} is {value}, which is not a finite number");
     let help = "give a finite number: a check that compares with NaN could never fail";
-    Err(Diagnostic::error("toml::not_finite", message).at(span).with_help(help))
+    Err(Diagnostic::error(codes::toml::NOT_FINITE, message).at(span).with_help(help))
 }
 
 #[cfg(test)]

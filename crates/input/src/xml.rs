@@ -8,10 +8,10 @@ use std::ops::Range;
 use roxmltree::Document;
 use xmlparser::{ElementEnd, Token, Tokenizer};
 
-use crate::diagnostic::{Diagnostic, line_column};
-
-/// The code of an element whose prefix is not declared.
-pub const UNKNOWN_PREFIX: &str = "xml::prefix";
+use crate::{
+    codes,
+    diagnostic::{Diagnostic, line_column},
+};
 
 /// The beginning of a Git LFS pointer, the small file that takes the place of a large one.
 pub const LFS_POINTER: &str = "version https://git-lfs";
@@ -53,13 +53,13 @@ fn unbuilt(error: &roxmltree::Error, text: &str) -> Diagnostic {
     let at = offset(text, position.row, position.col);
     let (code, message) = match error {
         Error::DuplicatedAttribute(name, _) => {
-            ("xml::malformed", format!("attribute \"{name}\" is given twice"))
+            (codes::xml::MALFORMED, format!("attribute \"{name}\" is given twice"))
         }
         Error::UnknownNamespace(prefix, _) => {
-            (UNKNOWN_PREFIX, format!("the prefix \"{prefix}:\" is not declared"))
+            (codes::xml::PREFIX, format!("the prefix \"{prefix}:\" is not declared"))
         }
-        Error::NoRootNode => ("xml::malformed", "the file holds no XML element".to_owned()),
-        _ => ("xml::malformed", format!("XML is not well-formed: {error}")),
+        Error::NoRootNode => (codes::xml::MALFORMED, "the file holds no XML element".to_owned()),
+        _ => (codes::xml::MALFORMED, format!("XML is not well-formed: {error}")),
     };
     Diagnostic::error(code, message).at(at..at)
 }
@@ -80,7 +80,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
         match token {
             Token::DtdStart { span, .. } | Token::EmptyDtd { span, .. } => {
                 let message = "DTD (<!DOCTYPE ...>) and entity declarations are refused";
-                return Err(Diagnostic::error("xml::dtd", message)
+                return Err(Diagnostic::error(codes::xml::DTD, message)
                     .at(span.range())
                     .with_help("write the values out; no entity is ever expanded or fetched"));
             }
@@ -94,7 +94,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
                 });
                 if open.len() > DEEPEST {
                     let message = format!("XML is nested deeper than {DEEPEST} elements");
-                    return Err(Diagnostic::error("xml::depth", message).at(span.range()));
+                    return Err(Diagnostic::error(codes::xml::DEPTH, message).at(span.range()));
                 }
             }
             Token::Attribute { local, value, span, .. } => {
@@ -102,7 +102,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
                     element.attributes += 1;
                     if element.attributes > MOST_ATTRIBUTES {
                         let message = format!("<{}> has more than {MOST_ATTRIBUTES} attributes", element.tag);
-                        return Err(Diagnostic::error("xml::attributes", message).at(span.range()));
+                        return Err(Diagnostic::error(codes::xml::ATTRIBUTES, message).at(span.range()));
                     }
                     if local.as_str() == "name" {
                         element.name = Some(value.as_str());
@@ -130,7 +130,7 @@ fn no_xml(text: &str) -> Result<(), Diagnostic> {
     let at = text.len() - begin.len();
     if begin.starts_with(LFS_POINTER) {
         return Err(Diagnostic::error(
-            "xml::malformed",
+            codes::xml::MALFORMED,
             "the file is a Git LFS pointer, not the file itself",
         )
         .at(at..at)
@@ -139,7 +139,7 @@ fn no_xml(text: &str) -> Result<(), Diagnostic> {
     let starts_with =
         |word: &str| begin.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
     if starts_with("<!doctype html") || starts_with("<html") {
-        return Err(Diagnostic::error("xml::malformed", "the file is a web page (HTML)")
+        return Err(Diagnostic::error(codes::xml::MALFORMED, "the file is a web page (HTML)")
             .at(at..at)
             .with_help("download the file itself: code hosts show it inside a page, which has a link to the raw file"));
     }
@@ -148,7 +148,7 @@ fn no_xml(text: &str) -> Result<(), Diagnostic> {
     }
     let first: String = begin.lines().next().unwrap_or_default().chars().take(40).collect();
     let message = format!("the file is not XML: it begins with \"{first}\"");
-    Err(Diagnostic::error("xml::malformed", message).at(at..at))
+    Err(Diagnostic::error(codes::xml::MALFORMED, message).at(at..at))
 }
 
 /// The fault of content after the root element.
@@ -163,7 +163,7 @@ fn after_root(error: &xmlparser::Error, text: &str) -> Diagnostic {
     } else {
         "text after the end of the root element"
     };
-    Diagnostic::error("xml::malformed", message)
+    Diagnostic::error(codes::xml::MALFORMED, message)
         .at(at..at)
         .with_help("the file ends with the closing tag of its first element; a second robot is another file")
 }
@@ -174,7 +174,7 @@ fn conflict(text: &str) -> Option<Diagnostic> {
     let at = if text.starts_with(marker) { 0 } else { text.find(&format!("\n{marker}"))? + 1 };
     let message = "the file has the marks of a merge conflict: it contains both versions";
     Some(
-        Diagnostic::error("xml::malformed", message)
+        Diagnostic::error(codes::xml::MALFORMED, message)
             .at(at..at + marker.len() - 1)
             .with_help("resolve the conflict, and remove the lines <<<<<<<, ======= and >>>>>>>"),
     )
@@ -187,7 +187,7 @@ fn malformed(error: &xmlparser::Error, text: &str, open: &[OpenElement<'_>]) -> 
     let at = offset(text, error.pos().row, error.pos().col);
     if text[at..].starts_with("<?xml") {
         let message = "the XML declaration <?xml ...?> is not the first thing in the file";
-        return Diagnostic::error("xml::malformed", message)
+        return Diagnostic::error(codes::xml::MALFORMED, message)
             .at(at..at)
             .with_help("remove everything before it, also an empty line");
     }
@@ -196,7 +196,7 @@ fn malformed(error: &xmlparser::Error, text: &str, open: &[OpenElement<'_>]) -> 
     }
     // The library's text ends in a position of its own, which the span already gives.
     let what = error.to_string();
-    Diagnostic::error("xml::malformed", format!("XML is not well-formed: {what}")).at(at..at)
+    Diagnostic::error(codes::xml::MALFORMED, format!("XML is not well-formed: {what}")).at(at..at)
 }
 
 /// The fault of a closing tag that does not match the innermost open element.
@@ -205,7 +205,7 @@ fn not_closed(element: &OpenElement<'_>, found: &str, text: &str) -> Diagnostic 
     let (tag, line) = (element.tag, line_column(text, element.start).0);
     let message =
         format!("</{found}> where </{tag}> is expected: <{tag}>{named} of line {line} is not closed");
-    Diagnostic::error("xml::malformed", message)
+    Diagnostic::error(codes::xml::MALFORMED, message)
         .related_to(element.opening(), format!("<{tag}> is opened here"))
         .with_help(format!("close <{tag}> before, or correct the name of one of the two tags"))
 }
@@ -223,7 +223,7 @@ fn unclosed(open: &[OpenElement<'_>], text: &str) -> Diagnostic {
     let (tag, line) = (last.tag, line_column(text, last.start).0);
     let message = format!("unexpected end of file: <{tag}>{inside}, opened in line {line}, is not closed");
     let end = text.trim_end().len();
-    Diagnostic::error("xml::truncated", message)
+    Diagnostic::error(codes::xml::TRUNCATED, message)
         .at(end..end)
         .related_to(last.opening(), format!("<{tag}> is opened here"))
         .with_help("the file is cut off or a closing tag is missing")
@@ -247,7 +247,7 @@ mod tests {
     #[track_caller]
     fn refused(text: &str, code: &str, message: &str) {
         let fault = check(text).unwrap_err();
-        assert_eq!(fault.code, code);
+        assert_eq!(fault.code.name, code);
         assert!(fault.message.contains(message), "{}", fault.message);
         assert!(fault.span.is_some());
     }

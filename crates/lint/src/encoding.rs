@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use congruent_input::{Diagnostic, SourceFile};
 
+use crate::codes;
+
 /// Prefixes of the names of encodings that write ASCII text with the same bytes as UTF-8.
 const EXTENDED_ASCII: [&str; 9] =
     ["ascii", "us-ascii", "iso-8859", "iso8859", "latin", "windows-", "cp12", "koi8", "macroman"];
@@ -20,7 +22,7 @@ pub fn declared_encoding(source: &Arc<SourceFile>) -> Option<Diagnostic> {
         return None;
     }
     let message = format!("the file declares the encoding \"{declared}\", but its text is UTF-8");
-    let warning = Diagnostic::warning("xml::encoding", message).at(at..at + declared.len());
+    let warning = Diagnostic::warning(codes::xml::ENCODING, message).at(at..at + declared.len());
     Some(warning.with_help("write encoding=\"UTF-8\", or leave it out").in_file(source))
 }
 

@@ -7,7 +7,7 @@ use congruent_description::{
     Misspelt, misspellings,
     node::{element, elements, label},
 };
-use congruent_input::{TextEdit, xml};
+use congruent_input::{Code, TextEdit, xml};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
@@ -15,7 +15,7 @@ use roxmltree::Node;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SafeFix {
     /// The code of the finding that it corrects.
-    pub code: &'static str,
+    pub code: &'static Code,
     /// What the correction does, as one line for people.
     pub about: String,
     /// The changes of the text, as byte ranges that do not overlap.
@@ -90,7 +90,7 @@ fn unit_axis(joint: Node<'_, '_>) -> Option<SafeFix> {
     // `+ 0.0` turns -0 into 0; the shortest digits that read back as the same number.
     let text = unit.iter().map(|entry| (entry + 0.0).to_string()).collect::<Vec<_>>().join(" ");
     Some(SafeFix {
-        code: "urdf::axis",
+        code: congruent_description::codes::urdf::AXIS,
         about: format!("{}: normalise the axis to length 1", label(joint)),
         edits: vec![TextEdit { span: written.range_value(), text }],
     })
@@ -111,7 +111,7 @@ fn no_range(text: &str, joint: Node<'_, '_>) -> Option<SafeFix> {
         TextEdit { span: before..range.end, text: String::new() }
     };
     Some(SafeFix {
-        code: "urdf::limit",
+        code: congruent_description::codes::urdf::LIMIT,
         about: format!("{}: remove lower and upper, which a continuous joint ignores", label(joint)),
         edits: range.map(|attribute| with_space(attribute.range())).collect(),
     })

@@ -3,7 +3,7 @@
 use congruent_description::WrittenRobot;
 use congruent_input::{
     TextEdit, edited,
-    toml_text::{UNKNOWN_KEY_CODE, UnknownKey, unknown_keys},
+    toml_text::{UnknownKey, unknown_keys},
 };
 
 use super::fix::SafeFix;
@@ -26,7 +26,7 @@ pub fn safe_robot_file_fixes(text: &str) -> Vec<SafeFix> {
         // Reading the corrected text again proves that the key is accepted and takes the value: a key that is given twice,
         // or one of another type, raises another fault.
         (after.len() < unknown.len() && others_after <= others).then(|| SafeFix {
-            code: UNKNOWN_KEY_CODE,
+            code: congruent_input::codes::toml::UNKNOWN_KEY,
             about: format!("rename the key \"{}\" to \"{meant}\"", key.name),
             edits: vec![edit],
         })

@@ -7,6 +7,8 @@ use congruent_input::{Code, Diagnostic, Severity, SourceFile};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::codes;
+
 /// The entries of `[[lint.ignore]]` of a robot file.
 #[derive(Debug, Clone, Default)]
 pub struct Ignores {
@@ -47,11 +49,15 @@ impl Ignores {
         self.source.as_ref().map(|source| source.path.clone())
     }
 
-    /// Removes the ignored findings from `found`, and adds the faults of the entries themselves.
-    pub fn apply(&self, mut found: Vec<Diagnostic>) -> (Vec<Diagnostic>, Vec<IgnoredFinding>) {
+    /// Removes the ignored findings from `found`, and adds the faults of the entries themselves, which name `known` codes.
+    pub fn apply(
+        &self,
+        mut found: Vec<Diagnostic>,
+        known: &[&'static Code],
+    ) -> (Vec<Diagnostic>, Vec<IgnoredFinding>) {
         let (mut wrong, mut ignored) = (Vec::new(), Vec::new());
         for entry in &self.written.ignore {
-            match apply_one(entry.get_ref(), &mut found) {
+            match apply_one(entry.get_ref(), &mut found, known) {
                 Ok(done) => ignored.push(done),
                 Err(fault) => wrong.push(match &self.source {
                     Some(source) => fault.at(entry.get_ref().code.span()).in_file(source),
@@ -64,24 +70,29 @@ impl Ignores {
     }
 }
 
-fn apply_one(entry: &WrittenIgnore, found: &mut Vec<Diagnostic>) -> Result<IgnoredFinding, Diagnostic> {
+fn apply_one(
+    entry: &WrittenIgnore,
+    found: &mut Vec<Diagnostic>,
+    known: &[&'static Code],
+) -> Result<IgnoredFinding, Diagnostic> {
     let written = entry.code.get_ref();
-    let refused = |what: String| Diagnostic::error("lint::ignore", format!("\"{written}\" {what}"));
-    let Some(code) = Code::find(written) else {
-        let nearest = Code::nearest(written);
-        let help = nearest.map_or_else(String::new, |near| format!("did you mean {near}, {}?", near.name));
+    let refused = |what: String| Diagnostic::error(codes::lint::IGNORE, format!("\"{written}\" {what}"));
+    let Some(code) = Code::find(written, known) else {
+        let nearest = Code::nearest(written, known);
+        let help = nearest
+            .map_or_else(String::new, |near| format!("did you mean {}, {}?", near.id_or_name(), near.name));
         return Err(refused("is not the code of a finding".to_owned()).with_help(help));
     };
     if entry.reason.trim().is_empty() {
         return Err(refused("is ignored without a reason".to_owned())
             .with_help("add reason = \"...\", so that later readers of the file know why"));
     }
-    if found.iter().any(|found| found.code == code.name && found.severity == Severity::Error) {
+    if found.iter().any(|found| found.code == code && found.severity == Severity::Error) {
         return Err(refused("is an error here, and errors cannot be ignored".to_owned())
             .with_help("correct what is wrong, and remove the entry"));
     }
     let places = |found: &[Diagnostic]| -> usize {
-        let of_code = found.iter().filter(|found| found.code == code.name);
+        let of_code = found.iter().filter(|found| found.code == code);
         of_code.map(|found| found.kind.occurrences.len().max(1)).sum()
     };
     // Counted before and after, since one finding may list several links, of which only the named one is removed.
@@ -89,19 +100,20 @@ fn apply_one(entry: &WrittenIgnore, found: &mut Vec<Diagnostic>) -> Result<Ignor
     *found = std::mem::take(found)
         .into_iter()
         .filter_map(|found| match &entry.name {
-            _ if found.code != code.name => Some(found),
+            _ if found.code != code => Some(found),
             None => None,
             Some(name) => found.without(name),
         })
         .collect();
     let places = before - places(found);
+    let id = code.id_or_name();
     if places == 0 {
         let of = entry.name.as_ref().map_or_else(String::new, |name| format!(" of \"{name}\""));
-        let message = format!("no finding {code} ({}){of} occurs, so this entry ignores nothing", code.name);
-        return Err(Diagnostic::warning("lint::ignored_nothing", message)
+        let message = format!("no finding {id} ({}){of} occurs, so this entry ignores nothing", code.name);
+        return Err(Diagnostic::warning(codes::lint::IGNORED_NOTHING, message)
             .with_help("remove the entry, so that it does not hide a finding later"));
     }
-    Ok(IgnoredFinding { id: code.to_string(), code: code.name, reason: entry.reason.clone(), places })
+    Ok(IgnoredFinding { id: id.to_owned(), code: code.name, reason: entry.reason.clone(), places })
 }
 
 #[cfg(test)]
@@ -113,7 +125,10 @@ mod tests {
         let source = Arc::new(SourceFile { path: "r.urdf".into(), text: "abc".to_owned() });
         let mut found = Diagnostics::default();
         for (at, name) in names.iter().enumerate() {
-            let warning = Diagnostic::warning("urdf::massless", format!("link {name} has no mass"));
+            let warning = Diagnostic::warning(
+                congruent_description::codes::urdf::MASSLESS,
+                format!("link {name} has no mass"),
+            );
             found.push(warning.one_of("links have no mass", *name).at(at..at));
         }
         found.in_file(&source)
@@ -122,7 +137,7 @@ mod tests {
     fn applied(entries: &str, found: Vec<Diagnostic>) -> (Vec<String>, Vec<IgnoredFinding>) {
         let text = format!("urdf = 'r.urdf'\n{entries}");
         let ignores = Ignores::from_robot_file(&Arc::new(SourceFile { path: "robot.toml".into(), text }));
-        let (kept, ignored) = ignores.apply(found);
+        let (kept, ignored) = ignores.apply(found, congruent_description::codes::ALL);
         (kept.into_iter().map(|found| found.message).collect(), ignored)
     }
 
@@ -157,7 +172,7 @@ mod tests {
 
     #[test]
     fn an_error_is_not_ignored() {
-        let error = vec![Diagnostic::error("urdf::mass", "mass -1 is negative")];
+        let error = vec![Diagnostic::error(congruent_description::codes::urdf::MASS, "mass -1 is negative")];
         let (kept, ignored) = applied("[[lint.ignore]]\ncode = 'urdf::mass'\nreason = 'x'", error);
         assert!(kept[0].contains("negative") && kept[1].contains("cannot be ignored") && ignored.is_empty());
     }

@@ -7,6 +7,8 @@ use congruent_input::{Diagnostic, FileAccess, SourceFile, head_of, xml};
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::codes;
+
 /// A kind of file that can be linted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -69,7 +71,7 @@ impl FileToLint {
         // By the extension, before the file is opened: logs may have gigabytes.
         if let Some((_, what, now)) = ELSEWHERE.iter().find(|(end, ..)| *end == extension) {
             let message = format!("{} is {what}, not a file that can be linted", path.display());
-            return Err(Diagnostic::error("lint::kind", message).with_help(*now));
+            return Err(Diagnostic::error(codes::lint::KIND, message).with_help(*now));
         }
         if ["json", "jsonl", "csv"].contains(&extension.as_str()) && file.is_file() {
             // Tables may be large; their first keys decide.
@@ -95,7 +97,7 @@ fn no_kind(path: &Path, why: &str) -> Diagnostic {
         "{} is not a URDF, SRDF, robot file, scenario or table of configurations: {why}",
         path.display()
     );
-    Diagnostic::error("lint::kind", message).with_help(
+    Diagnostic::error(codes::lint::KIND, message).with_help(
         "give a .urdf, .srdf or .toml, a folder with robot.toml, or a .json, .jsonl or .csv that `fk`, `ik` or `calibrate` reads",
     )
 }
@@ -117,7 +119,8 @@ fn table(path: &Path, head: &str) -> Result<FileKind, Diagnostic> {
         Some(_) if header.split(',').any(|cell| cell.trim() == TIME) => {
             let message =
                 format!("{} is a table over time, which is checked with its scenario", path.display());
-            Err(Diagnostic::error("lint::kind", message).with_help("lint the scenario that names this file"))
+            Err(Diagnostic::error(codes::lint::KIND, message)
+                .with_help("lint the scenario that names this file"))
         }
         Some(_) => Ok(FileKind::Measurements),
     }
@@ -169,7 +172,9 @@ mod tests {
         let kind = |name: &str, text: &str| {
             let path = folder.path().join(name);
             std::fs::write(&path, text).unwrap();
-            FileToLint::open(&path, &FileAccess::default()).map(|file| file.kind).map_err(|fault| fault.code)
+            FileToLint::open(&path, &FileAccess::default())
+                .map(|file| file.kind)
+                .map_err(|fault| fault.code.name)
         };
         assert_eq!(kind("a.toml", "urdf = 'a.urdf'\n[[dh.row]]\n"), Ok(FileKind::RobotFile));
         assert_eq!(kind("b.toml", "schema_version = 1\nrobot = '..'\n[[motion]]"), Ok(FileKind::Scenario));
@@ -180,12 +185,12 @@ mod tests {
         assert_eq!(kind("g.txt", "a,b\n1,2\n"), Err("lint::kind"));
         assert_eq!(kind("h.mcap", "\u{89}MCAP0"), Err("lint::kind"));
         let folder = FileToLint::open(folder.path(), &FileAccess::default());
-        assert_eq!(folder.unwrap_err().code, "load::no_robot_file");
+        assert_eq!(folder.unwrap_err().code.name, "load::no_robot_file");
     }
 
     #[test]
     fn a_table_is_what_its_first_rows_are() {
-        let kind = |head: &str| table(Path::new("t"), head).map_err(|fault| fault.code);
+        let kind = |head: &str| table(Path::new("t"), head).map_err(|fault| fault.code.name);
         assert_eq!(kind("[{\"q\": {\"a\": 1}}]"), Ok(FileKind::Configurations));
         assert_eq!(kind("{\"q\": {\"a\": 1}}\n{}\n"), Ok(FileKind::Configurations));
         assert_eq!(kind("[{\"translation_m\": [0, 0, 1]}]"), Ok(FileKind::Targets));

@@ -1,6 +1,7 @@
 //! What is suspicious in files that can be read, as `lint` reports it; findings that a robot file ignores; and corrections
 //! that do not change the meaning of a file. What a reader refuses is reported by the reader; crate `congruent` joins both.
 
+pub mod codes;
 mod encoding;
 mod fix;
 mod fix_misspelt_keys;
@@ -25,4 +26,4 @@ pub use materials::undefined_materials;
 pub use mimics::still_mimics;
 pub use references::unknown_references;
 pub use srdf::{examine_srdf, robot_name};
-pub use unit_mistakes::{INERTIA_UNIT, unit_mistakes};
+pub use unit_mistakes::unit_mistakes;

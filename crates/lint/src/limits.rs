@@ -8,6 +8,8 @@ use congruent_description::{
 };
 use congruent_input::{Diagnostic, Diagnostics, xml};
 
+use crate::codes;
+
 /// A limit of a joint by its attribute, and the texts of the warning if it is 0.
 struct ZeroLimitRule {
     key: &'static str,
@@ -57,7 +59,7 @@ pub fn zero_limits(description: &RobotDescription) -> Vec<Diagnostic> {
                 "joint \"{}\": its {} limit is 0, which is taken as not given",
                 joint.name, limit.key
             );
-            let warning = Diagnostic::warning("urdf::zero_limit", message)
+            let warning = Diagnostic::warning(codes::urdf::ZERO_LIMIT, message)
                 .one_of(limit.words, joint.name.as_str())
                 .with_help(limit.help);
             let node = joints.get(joint.name.as_str());
@@ -95,9 +97,8 @@ mod tests {
         let text = format!("<robot name='r'><link name='l0'/>\n{joints}</robot>");
         let source = Arc::new(SourceFile { path: "r.urdf".into(), text });
         let found = zero_limits(&parse_robot(None, &source).unwrap());
-        assert!(found.iter().all(
-            |found| found.code == "urdf::zero_limit" && found.severity < congruent_input::Severity::Error
-        ));
+        assert!(found.iter().all(|found| found.code.name == "urdf::zero_limit"
+            && found.severity < congruent_input::Severity::Error));
         found.into_iter().map(|found| found.message).collect()
     }
 

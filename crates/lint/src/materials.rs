@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use congruent_description::{RobotDescription, node::tag};
 use congruent_input::{Diagnostic, Diagnostics, known_names, xml};
 
+use crate::codes;
+
 /// Warnings of materials that have neither a colour nor a texture anywhere in the file: every viewer then chooses a colour of
 /// its own.
 pub fn undefined_materials(description: &RobotDescription) -> Vec<Diagnostic> {
@@ -19,9 +21,10 @@ pub fn undefined_materials(description: &RobotDescription) -> Vec<Diagnostic> {
     let defined: BTreeSet<&str> = defined.into_iter().map(|(_, name)| name).collect();
     let mut found = Diagnostics::default();
     for (node, name) in named.into_iter().filter(|(_, name)| !defined.contains(name)) {
-        let warning = Diagnostic::warning("urdf::material", format!("material \"{name}\" is not defined"))
-            .one_of("materials are named that are not defined", name)
-            .with_help(known_names(name, "materials", defined.iter().copied()));
+        let warning =
+            Diagnostic::warning(codes::urdf::MATERIAL, format!("material \"{name}\" is not defined"))
+                .one_of("materials are named that are not defined", name)
+                .with_help(known_names(name, "materials", defined.iter().copied()));
         found.push(warning.at(tag(node)));
     }
     found.in_file(places.source())

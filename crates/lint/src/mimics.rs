@@ -3,6 +3,8 @@
 use congruent_description::RobotDescription;
 use congruent_input::{Diagnostic, Diagnostics};
 
+use crate::codes;
+
 /// Warnings of mimic joints whose multiplier is 0: they never move, whatever the mimicked joint does.
 pub fn still_mimics(description: &RobotDescription) -> Vec<Diagnostic> {
     let Some(places) = &description.places.urdf else { return Vec::new() };
@@ -13,7 +15,7 @@ pub fn still_mimics(description: &RobotDescription) -> Vec<Diagnostic> {
         let master = &robot.joint(mimic.master).name;
         let message =
             format!("joint \"{}\" mimics \"{master}\" with a multiplier of 0: it never moves", joint.name);
-        let warning = Diagnostic::warning("urdf::still_mimic", message)
+        let warning = Diagnostic::warning(codes::urdf::STILL_MIMIC, message)
             .one_of("joints mimic another with a multiplier of 0: they never move", joint.name.as_str())
             .with_help("give another multiplier (the default is 1), or make the joint fixed");
         let place = places.joint_mimic(&joint.name);

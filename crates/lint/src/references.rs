@@ -7,6 +7,8 @@ use congruent_description::{
 use congruent_input::{Diagnostic, Diagnostics, known_names, xml};
 use roxmltree::Node;
 
+use crate::codes;
+
 /// Warnings of joints and links that sections for other programs name and the robot does not have: these programs ignore the
 /// section, or do not start.
 pub fn unknown_references(description: &RobotDescription) -> Vec<Diagnostic> {
@@ -46,7 +48,7 @@ fn unknown_reference(section: Node<'_, '_>, robot: &Robot) -> Option<Diagnostic>
 }
 
 fn warning(message: String, name: &str, node: Node<'_, '_>) -> Diagnostic {
-    Diagnostic::warning("urdf::unknown_reference", message)
+    Diagnostic::warning(codes::urdf::UNKNOWN_REFERENCE, message)
         .one_of("names in <transmission>, <ros2_control> or <gazebo> are not in the robot", name)
         .at(tag(node))
 }

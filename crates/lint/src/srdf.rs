@@ -10,10 +10,11 @@ use congruent_description::{
     Robot,
     node::{elements, label, tag},
 };
-use congruent_input::{Diagnostic, Diagnostics, SourceFile, known_names, xml};
+use congruent_input::{Code, Diagnostic, Diagnostics, SourceFile, known_names, xml};
 use roxmltree::Node;
 
 use super::{encoding::declared_encoding, srdf_elements::examine_elements, srdf_groups::examine_groups};
+use crate::codes;
 
 /// The kind of thing that an attribute refers to by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,11 +25,11 @@ enum ReferenceKind {
 }
 
 impl ReferenceKind {
-    const fn code(self) -> &'static str {
+    const fn code(self) -> &'static Code {
         match self {
-            Self::Link => "srdf::unknown_link",
-            Self::Joint => "srdf::unknown_joint",
-            Self::Group => "srdf::unknown_group",
+            Self::Link => congruent_description::codes::srdf::UNKNOWN_LINK,
+            Self::Joint => codes::srdf::UNKNOWN_JOINT,
+            Self::Group => codes::srdf::UNKNOWN_GROUP,
         }
     }
 
@@ -84,7 +85,7 @@ pub fn examine_srdf(source: &Arc<SourceFile>, robot: Option<&Robot>) -> Vec<Diag
     if root.tag_name().name() != "robot" {
         let message =
             format!("the root element is <{}>: an SRDF begins with <robot>", root.tag_name().name());
-        found.push(Diagnostic::error("srdf::root", message).at(tag(root)));
+        found.push(Diagnostic::error(codes::srdf::ROOT, message).at(tag(root)));
     }
     found.extend(robot.and_then(|robot| other_robot(root, robot)));
     found.extend(document.descendants().filter_map(pair));
@@ -103,7 +104,7 @@ fn other_robot(root: Node<'_, '_>, robot: &Robot) -> Option<Diagnostic> {
     (name != robot.name()).then(|| {
         let message =
             format!("the SRDF is for robot \"{name}\", but the URDF is of robot \"{}\"", robot.name());
-        Diagnostic::warning("srdf::robot_name", message)
+        Diagnostic::warning(codes::srdf::ROBOT_NAME, message)
             .at(tag(root))
             .with_help("motion planners refuse the two together: give both the same name")
     })
@@ -123,7 +124,7 @@ fn pair(node: Node<'_, '_>) -> Option<Diagnostic> {
         (_, None) => without(node, "link2"),
     };
     let verb = if element == "disable_collisions" { "disables" } else { "enables" };
-    let warning = Diagnostic::warning("srdf::pair", format!("<{element}> has {what}"));
+    let warning = Diagnostic::warning(codes::srdf::PAIR, format!("<{element}> has {what}"));
     Some(warning.at(tag(node)).with_help(format!("it {verb} nothing: name two links")))
 }
 
@@ -172,7 +173,7 @@ impl<'a> KnownNames<'a> {
             Some(name) => self.unknown(node, attribute, name, named),
             None if is_needed => {
                 let message = format!("{} has no {attribute}", described(node));
-                Some(Diagnostic::warning("srdf::missing_name", message).at(tag(node)))
+                Some(Diagnostic::warning(codes::srdf::MISSING_NAME, message).at(tag(node)))
             }
             None => None,
         };

@@ -4,6 +4,8 @@ use congruent_description::node::tag;
 use congruent_input::{Diagnostic, known_names};
 use roxmltree::Node;
 
+use crate::codes;
+
 /// The elements of an SRDF, and of the extensions that are in use.
 const ELEMENTS: [&str; 16] = [
     "chain",
@@ -30,7 +32,7 @@ const VIRTUAL: [&str; 3] = ["fixed", "planar", "floating"];
 /// is similar to a known one.
 pub(super) fn examine_elements(root: Node<'_, '_>) -> Vec<Diagnostic> {
     if let Some(link) = root.children().find(|node| is_of_urdf(*node)) {
-        let error = Diagnostic::error("srdf::root", "this is a URDF, not an SRDF").at(tag(link));
+        let error = Diagnostic::error(codes::srdf::ROOT, "this is a URDF, not an SRDF").at(tag(link));
         return vec![error.with_help("an SRDF has groups and pairs of links whose collisions are disabled")];
     }
     let elements = root.descendants().filter(Node::is_element);
@@ -56,7 +58,7 @@ fn misspelt(node: Node<'_, '_>) -> Option<Diagnostic> {
     let most = if name.len() < 8 { 1 } else { 2 };
     let near = ELEMENTS.into_iter().find(|known| strsim::osa_distance(name, known) <= most)?;
     let message = format!("<{name}> is unknown, so readers ignore it");
-    let warning = Diagnostic::warning("srdf::unknown_element", message).at(tag(node));
+    let warning = Diagnostic::warning(codes::srdf::UNKNOWN_ELEMENT, message).at(tag(node));
     Some(warning.with_help(format!("did you mean <{near}>?")))
 }
 
@@ -66,7 +68,7 @@ fn virtual_type(node: Node<'_, '_>) -> Option<Diagnostic> {
         return None;
     }
     let message = format!("unknown type \"{kind}\" of a virtual joint");
-    let warning = Diagnostic::warning("srdf::virtual_joint", message).at(tag(node));
+    let warning = Diagnostic::warning(codes::srdf::VIRTUAL_JOINT, message).at(tag(node));
     Some(warning.with_help(known_names(kind, "types", VIRTUAL)))
 }
 

@@ -9,6 +9,8 @@ use congruent_description::{
 use congruent_input::{Diagnostic, display::quantity};
 use roxmltree::Node;
 
+use crate::codes;
+
 /// The findings about groups and states; positions are compared with the limits of the robot, if the robot is known.
 pub(super) fn examine_groups(root: Node<'_, '_>, robot: Option<&Robot>) -> Vec<Diagnostic> {
     let mut found = defined_twice(root);
@@ -30,7 +32,7 @@ fn defined_twice(root: Node<'_, '_>) -> Vec<Diagnostic> {
         }
         if let Some(before) = first.get(&key) {
             let message = format!("{} is defined twice", label(node));
-            let warning = Diagnostic::warning("srdf::twice", message).at(tag(node));
+            let warning = Diagnostic::warning(codes::srdf::TWICE, message).at(tag(node));
             let help = "motion planners use only one of the two: remove or rename the other";
             found.push(warning.related_to(tag(*before), "the first is here").with_help(help));
         } else {
@@ -44,7 +46,7 @@ fn without_members(group: Node<'_, '_>) -> Option<Diagnostic> {
     if group.children().any(|node| node.is_element()) {
         return None;
     }
-    let warning = Diagnostic::warning("srdf::empty_group", format!("{} has no members", label(group)));
+    let warning = Diagnostic::warning(codes::srdf::EMPTY_GROUP, format!("{} has no members", label(group)));
     let help = "add <joint>, <link>, <chain> or <group> elements: nothing can be planned for an empty group";
     Some(warning.at(tag(group)).with_help(help))
 }
@@ -57,12 +59,12 @@ fn value(joint: Node<'_, '_>, robot: Option<&Robot>) -> Option<Diagnostic> {
         Some(Diagnostic::warning(code, format!("{state}: joint \"{name}\" {what}")).at(tag(joint)))
     };
     let Some(text) = joint.attribute("value").filter(|text| !text.trim().is_empty()) else {
-        return warning("srdf::value", "has no value".to_owned());
+        return warning(codes::srdf::VALUE, "has no value".to_owned());
     };
     // A joint with several degrees of freedom, such as a virtual one, has several values.
     let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse::<f64>).collect();
     let Some(values) = values.ok().filter(|values| values.iter().all(|value| value.is_finite())) else {
-        return warning("srdf::value", format!("has the value \"{text}\", which is not a number"));
+        return warning(codes::srdf::VALUE, format!("has the value \"{text}\", which is not a number"));
     };
     let robot = robot?;
     let of_robot = robot.joint(robot.find_joint(name)?);
@@ -75,8 +77,10 @@ fn value(joint: Node<'_, '_>, robot: Option<&Robot>) -> Option<Diagnostic> {
     }
     let [at, lower, upper] = [position, limit.lower, limit.upper].map(|value| quantity(value, unit));
     let by = quantity((position - limit.upper).max(limit.lower - position), unit);
-    let found =
-        warning("srdf::beyond_limit", format!("is at {at}, {by} beyond its limits from {lower} to {upper}"))?;
+    let found = warning(
+        codes::srdf::BEYOND_LIMIT,
+        format!("is at {at}, {by} beyond its limits from {lower} to {upper}"),
+    )?;
     Some(
         found.with_help(format!(
             "positions of a state are in {unit}; planners refuse a goal beyond the limits"

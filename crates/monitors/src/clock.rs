@@ -4,6 +4,8 @@ use congruent_input::{Diagnostic, display::quantity};
 use congruent_scenario::{FilePlace, SimulationSettings};
 use nalgebra::Vector3;
 
+use crate::codes;
+
 /// Longest step: beyond it no arm in `robots/` is stable.
 const LONGEST_STEP_S: f64 = 0.01;
 /// Most steps of one run: about an hour of computing.
@@ -64,16 +66,16 @@ impl RunClock {
         };
         if step_s > LONGEST_STEP_S {
             let message = format!("step_s = {step_s} is outside (0, {LONGEST_STEP_S}]");
-            let error = Diagnostic::error("scenario::step", message);
+            let error = Diagnostic::error(codes::scenario::STEP, message);
             return Err(at_step(error.with_help("0.001 suits every robot in robots/")));
         }
         if duration_s <= 0.0 {
-            return Err(Diagnostic::error("scenario::duration", "the run has no duration")
+            return Err(Diagnostic::error(codes::scenario::DURATION, "the run has no duration")
                 .with_help("give `duration_s` under [simulation], or a [[motion]]"));
         }
         if step_s > duration_s {
             let message = format!("step_s = {step_s:?} s is longer than the run of {duration_s:?} s");
-            return Err(at_step(Diagnostic::error("scenario::step", message)));
+            return Err(at_step(Diagnostic::error(codes::scenario::STEP, message)));
         }
         let steps = duration_s / step_s;
         // A run without a duration does not end before its motions.
@@ -86,7 +88,7 @@ impl RunClock {
                 format!("duration_s = {duration_s:?} is not a whole number of steps of {step_s:?} s");
             let taken =
                 format!("the duration is rounded to {whole} steps, {}", quantity(whole * step_s, "s"));
-            let warning = Diagnostic::warning("scenario::duration_rounded", message);
+            let warning = Diagnostic::warning(codes::scenario::DURATION_ROUNDED, message);
             warnings.push(place.key("duration_s").mark(warning.with_help(taken)));
         }
         let steps = whole;
@@ -94,13 +96,13 @@ impl RunClock {
             let message = format!(
                 "{duration_s:?} s in steps of {step_s:?} s are {steps:e} steps, limit <= {MOST_STEPS:e}"
             );
-            let error = Diagnostic::error("scenario::steps", message);
+            let error = Diagnostic::error(codes::scenario::STEPS, message);
             return Err(at_step(error.with_help("give a longer `step_s` or a shorter `duration_s`")));
         }
         if duration_s < motions_s - step_s / 2.0 {
             let message =
                 format!("the run ends at {duration_s} s, before the end of its motions at {motions_s} s");
-            let warning = Diagnostic::warning("scenario::cut_short", message)
+            let warning = Diagnostic::warning(codes::scenario::CUT_SHORT, message)
                 .with_help("remove `duration_s` to run to the end of the motions");
             warnings.push(place.key("duration_s").mark(warning));
         }

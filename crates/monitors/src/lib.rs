@@ -5,6 +5,7 @@
 
 mod actuator_limits;
 mod clock;
+pub mod codes;
 mod context;
 mod forces;
 mod joint_sample;

@@ -4,6 +4,8 @@ use congruent_description::{CarriedBody, Inertia};
 use congruent_input::Diagnostic;
 use congruent_scenario::{FilePlace, Scenario};
 
+use crate::codes;
+
 /// A body that a link carries from one time to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunPayload {
@@ -46,7 +48,7 @@ pub fn taken_too_late(scenario: &Scenario, place: FilePlace<'_>, run_s: f64) -> 
         (from_s >= run_s).then(|| {
             let message =
                 format!("\"{name}\" is never carried: from_s = {from_s} s, but the run ends at {run_s} s");
-            let warning = Diagnostic::warning("scenario::taken_too_late", message);
+            let warning = Diagnostic::warning(codes::scenario::TAKEN_TOO_LATE, message);
             place.mark(
                 warning.with_help("give an earlier `from_s`, or a longer `duration_s` under [simulation]"),
             )

@@ -11,6 +11,8 @@ use congruent_input::{
 };
 use congruent_scenario::{FilePlace, JointMotion, JointPathMotion, StartSettings};
 
+use crate::codes;
+
 /// Positions under one key, as written.
 type ByName = BTreeMap<String, f64>;
 
@@ -95,7 +97,11 @@ impl JointTargets<'_> {
                     // Before the search for a repeated joint, as a value that is not finite is never stored.
                     Ok(_) if !value.is_finite() => {
                         let message = format!("expected a finite number, found {value}");
-                        errors.push(place.key(name).mark(Diagnostic::error("toml::invalid", message)));
+                        errors.push(
+                            place
+                                .key(name)
+                                .mark(Diagnostic::error(congruent_input::codes::toml::INVALID, message)),
+                        );
                     }
                     Ok(joint) if targets.iter().any(|known| known.joint == joint) => {
                         errors.push(at_name(repeated(name)));
@@ -113,7 +119,7 @@ impl JointTargets<'_> {
 }
 
 fn repeated(name: &str) -> Diagnostic {
-    Diagnostic::error("scenario::joint_twice", format!("joint \"{name}\" is given twice"))
+    Diagnostic::error(codes::scenario::JOINT_TWICE, format!("joint \"{name}\" is given twice"))
 }
 
 fn joint_named(robot: &Robot, name: &str, unit: Unit) -> Result<JointIndex, Diagnostic> {
@@ -132,7 +138,7 @@ fn joint_named(robot: &Robot, name: &str, unit: Unit) -> Result<JointIndex, Diag
 pub fn moving_joint(robot: &Robot, name: &str) -> Result<JointIndex, Diagnostic> {
     let Some(index) = robot.find_joint(name).filter(|&joint| robot.coordinate(joint).is_some()) else {
         let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
-        return Err(Diagnostic::error("scenario::unknown_joint", message).with_help(known_names(
+        return Err(Diagnostic::error(codes::scenario::UNKNOWN_JOINT, message).with_help(known_names(
             name,
             "joints",
             robot.movable_joint_names(),
@@ -141,7 +147,7 @@ pub fn moving_joint(robot: &Robot, name: &str) -> Result<JointIndex, Diagnostic>
     let joint = robot.joint(index);
     if let Some(mimic) = joint.mimic {
         let message = format!("joint \"{name}\" mimics \"{}\"", robot.joint(mimic.master).name);
-        return Err(Diagnostic::error("scenario::mimic_joint", message)
+        return Err(Diagnostic::error(codes::scenario::MIMIC_JOINT, message)
             .with_help("give the position of the joint that it mimics"));
     }
     Ok(index)
@@ -152,6 +158,6 @@ fn wrong_unit(joint: &Joint) -> Diagnostic {
         JointKind::Prismatic => ("prismatic", "`_m` or `_mm`"),
         _ => ("revolute", "`_deg` or `_rad`"),
     };
-    Diagnostic::error("scenario::joint_unit", format!("joint \"{}\" is {kind}", joint.name))
+    Diagnostic::error(codes::scenario::JOINT_UNIT, format!("joint \"{}\" is {kind}", joint.name))
         .with_help(format!("give its position under a key that ends in {keys}"))
 }

@@ -1,6 +1,7 @@
 //! Motions: planned moves, servos, and the setpoints of the joints that follow from them. Only kinematics is known here, not
 //! the physics: what a servo needs of it, the measured positions, is handed in.
 
+pub mod codes;
 mod joint_targets;
 mod joints;
 pub mod motion_limits;

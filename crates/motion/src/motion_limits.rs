@@ -9,7 +9,7 @@ use congruent_input::{
 };
 use congruent_scenario::{FilePlace, LimitSettings};
 
-use crate::MotionLimits;
+use crate::{MotionLimits, codes};
 
 /// Time in which a joint reaches its velocity limit if no acceleration limit is given. Kind: engineering.
 const TO_VELOCITY_S: f64 = 0.25;
@@ -125,7 +125,7 @@ impl Reader<'_> {
         let unit = WrittenUnit::of_key(key);
         if !(value.is_finite() && value > 0.0) {
             let message = format!("limit of \"{name}\": expected a finite number above 0");
-            return Err(Diagnostic::error("scenario::number", message));
+            return Err(Diagnostic::error(congruent_scenario::codes::scenario::NUMBER, message));
         }
         for coordinate in self.coordinates(name, unit.unit)? {
             if let Some(first) = given_by[coordinate].replace(key) {
@@ -142,7 +142,7 @@ impl Reader<'_> {
         let written = place.has(name).then(|| place.key(name).line()).flatten();
         let line = written.map_or_else(String::new, |line| format!(" in line {line}"));
         let message = format!("the limit of \"{name}\" is given twice, first by {first}{line}");
-        Diagnostic::error("scenario::limit_twice", message).with_help("remove one of the two")
+        Diagnostic::error(codes::scenario::LIMIT_TWICE, message).with_help("remove one of the two")
     }
 
     /// The coordinates that a name means, of joints that turn or of joints that slide.
@@ -160,12 +160,12 @@ impl Reader<'_> {
                     if turning { ("slides", "`_m_` or `_mm_`") } else { ("turns", "`_deg_` or `_rad_`") };
                 let message = format!("joint \"{}\" {kind}", joint.name);
                 let help = format!("give its limit under a key with {keys}");
-                Err(Diagnostic::error("scenario::joint_unit", message).with_help(help))
+                Err(Diagnostic::error(codes::scenario::JOINT_UNIT, message).with_help(help))
             }
             None => {
                 let message = format!("robot \"{}\" has no moving joint \"{name}\"", self.robot.name());
                 let known = known_names(name, "joints", self.robot.movable_joint_names());
-                Err(Diagnostic::error("scenario::unknown_joint", message).with_help(known))
+                Err(Diagnostic::error(codes::scenario::UNKNOWN_JOINT, message).with_help(known))
             }
         }
     }

@@ -12,9 +12,8 @@ use super::{
     timing::MotionLimits,
     violation::{LimitViolation, worst_violation},
 };
+use crate::codes;
 
-/// Code of the warning that a motion takes longer than the scenario says.
-pub(super) const SLOWED: &str = "scenario::slowed";
 /// In units of the fourth digit: a duration that exceeds a value of four digits by rounding alone is not rounded up. Kind:
 /// rounding.
 const ROUNDING: f64 = 1e-9;
@@ -71,7 +70,7 @@ impl Planning<'_> {
         let [least, given] = [quantity_in_full(least_s, "s"), quantity(duration_s, "s")];
         match self.limits.over_limit {
             OverLimit::Refuse => {
-                let error = Diagnostic::error("scenario::over_limit", message);
+                let error = Diagnostic::error(codes::scenario::OVER_LIMIT, message);
                 let help = format!(
                     "the shortest duration within the limits is {least} instead of {given}; or write \
                      over_limit = \"slow\" under [limits]"
@@ -80,7 +79,7 @@ impl Planning<'_> {
             }
             OverLimit::Slow => {
                 let help = format!("the motion takes {least} instead of {given}");
-                let warning = Diagnostic::warning(SLOWED, message).with_help(help);
+                let warning = Diagnostic::warning(codes::scenario::SLOWED, message).with_help(help);
                 self.warnings.push(self.place.mark(warning));
                 // By the rounded duration, so that the motion takes what the warning says.
                 planned.time_scaling = planned.time_scaling.slowed(least_s / duration_s);
@@ -90,7 +89,7 @@ impl Planning<'_> {
                 let help = format!(
                     "the motion is not changed; it would keep this limit with a duration of {least} instead of {given}"
                 );
-                let warning = Diagnostic::warning("scenario::over_limit", message).with_help(help);
+                let warning = Diagnostic::warning(codes::scenario::OVER_LIMIT, message).with_help(help);
                 self.warnings.push(self.place.mark(warning));
                 Ok(planned)
             }
@@ -125,13 +124,13 @@ pub(super) fn no_velocity_limit(planning: &Planning<'_>, coordinate: usize) -> D
     let name = &robot.joint(robot.movable_joints()[coordinate]).name;
     let message = format!("the shortest duration cannot be computed: joint \"{name}\" has no velocity limit");
     let help = "give `duration_s`, or a velocity under [limits]";
-    planning.place.mark(Diagnostic::error("scenario::no_velocity_limit", message).with_help(help))
+    planning.place.mark(Diagnostic::error(codes::scenario::NO_VELOCITY_LIMIT, message).with_help(help))
 }
 
 /// The error if a move without a duration ends where it starts.
 pub(super) fn nothing_moves(planning: &Planning<'_>) -> Diagnostic {
     let error = Diagnostic::error(
-        "scenario::nothing_moves",
+        codes::scenario::NOTHING_MOVES,
         "the motion ends where it starts and has no `duration_s`",
     );
     planning.place.mark(error.with_help("give `duration_s`, or remove the motion"))

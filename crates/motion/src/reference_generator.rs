@@ -9,10 +9,11 @@ use congruent_scenario::{FilePlace, MotionSettings, ScenarioFolder};
 
 use super::{
     motion_plan::{Motion, MotionPlan, PlannedMove, SetpointMut},
-    planning::{Planning, SLOWED},
+    planning::Planning,
     tcp::tcp_servo::{ServoController, ServoResult, StepInterval},
     trajectory::{Trajectory, plan},
 };
+use crate::codes;
 
 /// Why a setpoint cannot be computed.
 #[derive(Debug, thiserror::Error)]
@@ -228,7 +229,7 @@ impl<'a> ReferenceGenerator<'a> {
         let Motion { duration_s, motion_plan } = planned.swap_remove(0);
         let longer_s = duration_s - self.trajectory.motions[index].duration_s;
         // Rounding may change the duration without a warning; only a motion that was slowed shifts the others.
-        if let Some(warning) = warnings.into_iter().find(|warning| warning.code == SLOWED) {
+        if let Some(warning) = warnings.into_iter().find(|warning| warning.code == codes::scenario::SLOWED) {
             self.later_s += longer_s;
             self.slowed.push(SlowedMotion { motion: index, longer_s, warning });
         }

@@ -12,6 +12,7 @@ use super::{
     tcp::{path, tcp_move, tcp_servo},
     timing::MotionLimits,
 };
+use crate::codes;
 
 /// The motions of a scenario, with their places in the file and the limits that they keep.
 #[derive(Debug, Clone, Copy)]
@@ -176,7 +177,7 @@ pub(super) fn plan(
 /// A motion that is planned during the run: it starts at the end of a servo.
 fn open(settings: &MotionSettings, place: FilePlace<'_>) -> Result<Motion, Diagnostic> {
     let refused = |message: &str, help: &str| {
-        place.mark(Diagnostic::error("scenario::after_servo", message).with_help(help.to_owned()))
+        place.mark(Diagnostic::error(codes::scenario::AFTER_SERVO, message).with_help(help.to_owned()))
     };
     let blends = match settings {
         MotionSettings::Line(line) => line.blend_m > 0.0,

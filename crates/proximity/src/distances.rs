@@ -3,7 +3,7 @@
 use std::{cell::RefCell, fmt};
 
 use congruent_description::{Obstacle, RobotDescription, RobotQ, RobotQList};
-use congruent_input::Finding;
+use congruent_input::{Diagnostic, Finding};
 use congruent_kinematics::{KinematicsError, Pose, UrdfTree};
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
@@ -51,6 +51,9 @@ pub struct DistanceReport<'a> {
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
+    /// Those of them that are about hulls with fewer points, for printing.
+    #[serde(skip)]
+    pub hull_warnings: Vec<Diagnostic>,
 }
 
 /// A pair of links that comes nearer than the limit.
@@ -147,6 +150,7 @@ pub fn distances<'a>(
     let results = DistanceList::new(configurations, measuring)?;
     // Only for a limit: it goes through all configurations, which are measured again when they are written.
     let least = options.limit_m.map_or_else(Vec::new, |_| least(&pairs, &results));
+    let hull_warnings = simplified_hulls(description, obstacles);
     Ok(DistanceReport {
         robot: robot.name().to_owned(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
@@ -159,12 +163,8 @@ pub fn distances<'a>(
         ignored,
         results,
         limit_m: options.limit_m,
-        warnings: description
-            .warnings
-            .iter()
-            .chain(&simplified_hulls(description, obstacles))
-            .map(Finding::from)
-            .collect(),
+        warnings: description.warnings.iter().chain(&hull_warnings).map(Finding::from).collect(),
+        hull_warnings,
     })
 }
 

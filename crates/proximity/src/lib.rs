@@ -3,6 +3,7 @@
 
 mod bodies;
 mod clearance;
+pub mod codes;
 mod disabled_pairs;
 mod disabled_srdf;
 mod distances;

@@ -2,6 +2,8 @@
 
 use congruent_input::{Diagnostic, known_names};
 
+use crate::codes;
+
 /// Pairs by names of links and obstacles. `*` matches any characters; the order of the two names does not matter.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct PairNames {
@@ -50,7 +52,8 @@ impl PairNames {
                 if let Some(name) = unknown {
                     let message = format!("no link or obstacle is named \"{name}\"");
                     let help = known_names(name, "links and obstacles", subjects.iter().copied());
-                    let diagnostic = Diagnostic::error("clearance::unknown_name", message).with_help(help);
+                    let diagnostic =
+                        Diagnostic::error(codes::clearance::UNKNOWN_NAME, message).with_help(help);
                     return Err(Box::new(PairFault { key, entry, diagnostic }));
                 }
             }
@@ -59,12 +62,13 @@ impl PairNames {
             // Only equal names in either order; overlapping patterns are meant as "all of these, except those".
             let fault = if self.ignore.iter().any(|[c, d]| (a, b) == (c, d) || (a, b) == (d, c)) {
                 let message = format!("the pair of \"{a}\" and \"{b}\" is in `pairs` and in `ignore`");
-                Diagnostic::error("clearance::pair_in_both", message).with_help("remove it from one of them")
+                Diagnostic::error(codes::clearance::PAIR_IN_BOTH, message)
+                    .with_help("remove it from one of them")
             } else if measured.iter().any(|&pair| is_named(&[a.clone(), b.clone()], pair)) {
                 continue;
             } else {
                 let message = format!("the distance of \"{a}\" and \"{b}\" is not measured");
-                Diagnostic::error("clearance::pair_not_measured", message).with_help(
+                Diagnostic::error(codes::clearance::PAIR_NOT_MEASURED, message).with_help(
                     "pairs that are not measured: links without a collision shape, links on the same or on \
                      neighbouring moving bodies, and pairs that the SRDF disables",
                 )
@@ -76,10 +80,11 @@ impl PairNames {
             && !measured.is_empty()
             && !measured.iter().any(|&pair| self.is_evaluated(pair))
         {
-            let diagnostic = Diagnostic::error("clearance::no_pair", "`ignore` excludes every measured pair")
-                .with_help(
-                    "a check without a pair would always pass: ignore fewer pairs, or remove the check",
-                );
+            let diagnostic =
+                Diagnostic::error(codes::clearance::NO_PAIR, "`ignore` excludes every measured pair")
+                    .with_help(
+                        "a check without a pair would always pass: ignore fewer pairs, or remove the check",
+                    );
             return Err(Box::new(PairFault { key: "ignore", entry, diagnostic }));
         }
         Ok(())
@@ -166,10 +171,10 @@ mod tests {
             (names(&[["wrist", "base"]], &[]), "pairs", 0, "clearance::pair_not_measured"),
         ] {
             let fault = found.examine(&subjects, &measured).unwrap_err();
-            assert_eq!((fault.key, fault.entry, fault.diagnostic.code), (key, entry, code));
+            assert_eq!((fault.key, fault.entry, fault.diagnostic.code.name), (key, entry, code));
         }
         let nothing = names(&[], &[["*", "*"]]).examine(&subjects, &measured).unwrap_err();
-        assert_eq!((nothing.key, nothing.diagnostic.code), ("ignore", "clearance::no_pair"));
+        assert_eq!((nothing.key, nothing.diagnostic.code.name), ("ignore", "clearance::no_pair"));
         let fault = names(&[], &[["wirst", "table"]]).examine(&subjects, &measured).unwrap_err();
         assert!(fault.diagnostic.help.unwrap().contains("did you mean \"wrist\""));
         assert_eq!(names(&[["*", "table"]], &[["base", "table"]]).examine(&subjects, &measured), Ok(()));

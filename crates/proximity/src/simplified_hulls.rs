@@ -3,6 +3,8 @@
 use congruent_description::{Geometry, HullPoints, Obstacle, RobotDescription};
 use congruent_input::{Diagnostic, display::length};
 
+use crate::codes;
+
 /// Smaller errors are not reported: a clearance is printed to a tenth of a millimetre at best. Unit: m; kind: choice.
 const WORTH_A_WORD_M: f64 = 1e-5;
 
@@ -21,7 +23,7 @@ pub fn simplified_hulls(description: &RobotDescription, obstacles: &[Obstacle]) 
                  reduced by that",
                 length(hull_error_m)
             );
-            Diagnostic::warning("mesh::cut_hull", message)
+            Diagnostic::warning(codes::mesh::CUT_HULL, message)
                 .one_of("meshes have simplified convex hulls", name)
                 .with_help("a mesh with fewer vertices is measured exactly, and faster")
         })

@@ -3,6 +3,7 @@
 
 mod bodies;
 mod checks;
+pub mod codes;
 mod data;
 mod faults;
 mod folder;

@@ -2,7 +2,9 @@
 
 use congruent_input::Diagnostic;
 
-use crate::{ArcMotion, Check, LineMotion, MotionSettings, ObstacleSettings, Range, Scenario, ZoneSettings};
+use crate::{
+    ArcMotion, Check, LineMotion, MotionSettings, ObstacleSettings, Range, Scenario, ZoneSettings, codes,
+};
 
 /// All numbers that are out of range.
 pub fn check(scenario: &Scenario) -> Vec<Diagnostic> {
@@ -62,7 +64,7 @@ impl Numbers {
     fn one(&mut self, key: &str, value: f64, range: Range) {
         if !range.contains(value) {
             let message = format!("{key}: expected {}, found {value}", range.words());
-            self.0.push(Diagnostic::error("scenario::number", message));
+            self.0.push(Diagnostic::error(codes::scenario::NUMBER, message));
         }
     }
 

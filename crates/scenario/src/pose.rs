@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error};
 use toml::Spanned;
 
 use super::{number::optional_array, place::FilePlace};
+use crate::codes;
 
 /// A pose; identity if nothing is given.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -64,7 +65,7 @@ impl PoseSettings {
         }
         let message = "the target has no position: `xyz_m` (or `xyz_mm`) is missing";
         let help = "give the position of the tool centre point in the world; for a pure rotation, its present position";
-        Err(place.mark(Diagnostic::error("scenario::target_position", message).with_help(help)))
+        Err(place.mark(Diagnostic::error(codes::scenario::TARGET_POSITION, message).with_help(help)))
     }
 
     /// The pose; `place` is its place in the file.

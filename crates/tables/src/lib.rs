@@ -3,6 +3,7 @@
 //! [`WrittenTable`] gives rows whose cells know their lines and columns, for messages; [`open`] goes through a file of any
 //! length without keeping it in memory. Both skip lines that begin with `#`.
 
+pub mod codes;
 mod parquet;
 mod read;
 pub mod run_columns;

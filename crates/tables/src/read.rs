@@ -5,6 +5,7 @@ use std::{path::Path, sync::Arc};
 use congruent_input::{Diagnostic, FileAccess, SourceFile};
 
 use crate::{
+    codes,
     parquet::ParquetRows,
     stream::{RowReader, is_parquet},
 };
@@ -21,7 +22,7 @@ pub fn read_table(access: &FileAccess, path: &Path, most_bytes: u64) -> Result<A
     let text = ParquetRows::new(bytes::Bytes::from(bytes)).and_then(|rows| csv_text(rows, most_bytes));
     let refused = |message| {
         let message = format!("{} cannot be read as a Parquet table: {message}", path.display());
-        Diagnostic::error("table::parquet", message)
+        Diagnostic::error(codes::table::PARQUET, message)
     };
     Ok(Arc::new(SourceFile { path: path.to_owned(), text: text.map_err(refused)? }))
 }

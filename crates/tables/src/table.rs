@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use congruent_input::{Diagnostic, LineCounter};
+use congruent_input::{Code, Diagnostic, LineCounter};
 use csv::{Reader, ReaderBuilder, StringRecord};
 
 /// A cell with its place in the text.
@@ -27,7 +27,7 @@ pub struct Row {
 
 impl Row {
     /// An error of the whole row.
-    pub fn fault(&self, code: &'static str, message: &str) -> Diagnostic {
+    pub fn fault(&self, code: &'static Code, message: &str) -> Diagnostic {
         Diagnostic::error(code, format!("line {}: {message}", self.line)).at(self.span.clone())
     }
 }
@@ -46,7 +46,7 @@ impl Header {
     }
 
     /// An error of the cell in column `at`.
-    pub fn fault(&self, code: &'static str, row: &Row, at: usize, message: &str) -> Diagnostic {
+    pub fn fault(&self, code: &'static Code, row: &Row, at: usize, message: &str) -> Diagnostic {
         let message = format!("line {}, column \"{}\": {message}", row.line, self.row.cells[at].text);
         Diagnostic::error(code, message).at(row.cells[at].span.clone())
     }
@@ -55,7 +55,7 @@ impl Header {
     ///
     /// # Errors
     /// The cell is not a finite number.
-    pub fn number(&self, code: &'static str, row: &Row, at: usize) -> Result<Option<f64>, Diagnostic> {
+    pub fn number(&self, code: &'static Code, row: &Row, at: usize) -> Result<Option<f64>, Diagnostic> {
         let written = &row.cells[at].text;
         match written.parse() {
             _ if written.is_empty() => Ok(None),
@@ -68,7 +68,7 @@ impl Header {
     ///
     /// # Errors
     /// The cell is empty, or is not a finite number.
-    pub fn needed_number(&self, code: &'static str, row: &Row, at: usize) -> Result<f64, Diagnostic> {
+    pub fn needed_number(&self, code: &'static Code, row: &Row, at: usize) -> Result<f64, Diagnostic> {
         self.number(code, row, at)?.ok_or_else(|| self.fault(code, row, at, "the cell is empty"))
     }
 }
@@ -84,7 +84,7 @@ pub struct WrittenTable<'a> {
 impl<'a> WrittenTable<'a> {
     /// The table in a text, `None` if it has no row at all. A row with another number of cells than the header is an error
     /// with this code.
-    pub fn read(text: &'a str, code: &'static str) -> Option<Self> {
+    pub fn read(text: &'a str, code: &'static Code) -> Option<Self> {
         let reader = reader_builder().has_headers(false).flexible(true).from_reader(text.as_bytes());
         let (record, lines) = (StringRecord::new(), LineCounter::new(text));
         let mut rows = TableRows { text, reader, record, lines, columns: 0, code };
@@ -109,7 +109,7 @@ pub struct TableRows<'a> {
     lines: LineCounter<'a>,
     /// Number of cells in the header.
     columns: usize,
-    code: &'static str,
+    code: &'static Code,
 }
 
 impl Iterator for TableRows<'_> {

@@ -4,7 +4,7 @@
 use std::fs;
 
 use congruent_input::{Diagnostic, FileAccess};
-use congruent_tables::{Cell, WrittenTable, read_table};
+use congruent_tables::{Cell, WrittenTable, codes::table::PARQUET, read_table};
 
 /// The table of a file with these bytes.
 fn cells(name: &str, bytes: &[u8]) -> Result<Vec<Vec<(String, String)>>, Diagnostic> {
@@ -12,7 +12,7 @@ fn cells(name: &str, bytes: &[u8]) -> Result<Vec<Vec<(String, String)>>, Diagnos
     let path = folder.path().join(name);
     fs::write(&path, bytes).unwrap();
     let source = read_table(&FileAccess::default(), &path, 1000)?;
-    let table = WrittenTable::read(&source.text, "scenario::playback").unwrap();
+    let table = WrittenTable::read(&source.text, PARQUET).unwrap();
     let rows = std::iter::once(Ok(table.header.row)).chain(table.rows);
     rows.map(|row| {
         let row = row.map_err(|fault| fault.in_file(&source))?;
@@ -58,9 +58,9 @@ fn cells_come_with_their_places_whatever_wrote_the_file() {
 #[test]
 fn faults_name_line_column_and_value() {
     let text = "# from a log\r\n\r\na,b\r\n1,\"2\"\r\n3, nan\r\n,1\r\n";
-    let WrittenTable { header, rows } = WrittenTable::read(text, "scenario::playback").unwrap();
+    let WrittenTable { header, rows } = WrittenTable::read(text, PARQUET).unwrap();
     let rows: Vec<_> = rows.map(Result::unwrap).collect();
-    let number = |row: usize, at| header.needed_number("scenario::playback", &rows[row], at);
+    let number = |row: usize, at| header.needed_number(PARQUET, &rows[row], at);
     assert_eq!(number(0, 1), Ok(2.0));
     let fault = number(1, 1).unwrap_err();
     assert_eq!(fault.message, "line 5, column \"b\": \"nan\" is not a finite number");
@@ -69,10 +69,10 @@ fn faults_name_line_column_and_value() {
     let fault = cells("table.csv", b"a,b\n1,2,3\n").unwrap_err();
     assert_eq!(fault.message, "line 2: 3 cells, the header has 2");
     assert_eq!(fault.line_column(), Some((2, 1)));
-    assert!(WrittenTable::read("# nothing\n\n", "scenario::playback").is_none());
+    assert!(WrittenTable::read("# nothing\n\n", PARQUET).is_none());
 }
 
 #[test]
 fn what_is_only_named_parquet_is_refused() {
-    assert_eq!(cells("table.parquet", b"a,b\n1,2\n").unwrap_err().code, "table::parquet");
+    assert_eq!(cells("table.parquet", b"a,b\n1,2\n").unwrap_err().code.name, "table::parquet");
 }

@@ -2,6 +2,7 @@
 //!
 //! [`RunSetup`] is a scenario checked against its robot, [`Run`] the loop over a [`source`] of joint states.
 
+pub mod codes;
 mod control;
 pub mod fault;
 mod run;

@@ -111,7 +111,7 @@ fn watched(setup: &RunSetup) -> Seen {
 fn refused(scenario: Scenario, code: &str, words: &str) {
     let (_folder, description) = lift();
     let found = RunSetup::new(scenario, description).map(|_| ()).unwrap_err();
-    assert!(found[0].code == code && found[0].message.contains(words), "{found:#?}");
+    assert!(found[0].code.name == code && found[0].message.contains(words), "{found:#?}");
 }
 
 /// Rounding of distances of spheres, and the slack of parry; worst seen 1e-15.
@@ -132,7 +132,7 @@ fn of_physics(kind: &str, obstacle: ObstacleSettings, grasp: Vec<GraspSettings>)
 #[test]
 fn what_overlaps_a_link_at_the_start_is_refused_if_the_physics_acts_on_it() {
     let found = of_physics("pd", beside(0.02), Vec::new()).unwrap_err();
-    assert_eq!(found[0].code, "scenario::obstacle_overlap");
+    assert_eq!(found[0].code.name, "scenario::obstacle_overlap");
     for words in ["obstacle \"part\"", "link \"ball\"", "by 20 mm at the start"] {
         assert!(found[0].message.contains(words), "{found:#?}");
     }
@@ -293,7 +293,7 @@ fn files_beside_the_scenario_are_found_and_others_are_not() {
         write("scenario.toml", &scenario(mesh));
         let found = RunSetup::load(&path, &[]).map(|_| ()).unwrap_err();
         assert!(
-            found[0].code == code && found[0].line_column().is_some_and(|(line, _)| line == 11),
+            found[0].code.name == code && found[0].line_column().is_some_and(|(line, _)| line == 11),
             "{found:#?}"
         );
     }

@@ -25,17 +25,17 @@ macro_rules! causes {
             /// All causes.
             pub const ALL: &[Self] = &[$(Self::$variant),*];
 
-            /// What is wrong, why, and what to try.
-            pub fn about(self) -> &'static str {
+            /// The stable code of a finding with this cause: what is wrong, why, and what to try.
+            pub fn code(self) -> &'static congruent_input::Code {
                 match self {
-                    $(Self::$variant => $about,)*
-                }
-            }
-
-            /// The stable code of a finding with this cause.
-            pub fn code(self) -> &'static str {
-                match self {
-                    $(Self::$variant => concat!("check::", $name),)*
+                    $(Self::$variant => const {
+                        &congruent_input::Code {
+                            id: None,
+                            name: concat!("check::", $name),
+                            about: $about,
+                            is_unreadable: false,
+                        }
+                    },)*
                 }
             }
         }

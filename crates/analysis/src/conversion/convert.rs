@@ -19,6 +19,7 @@ use super::{
     report::{ConversionReport, PoeReport, ProofReport, RoundedReport, TableReport},
     tree,
 };
+use crate::codes;
 
 /// Random configurations of a proof, in addition to zero, single axes and limits.
 const RANDOM_CONFIGURATIONS: usize = 100;
@@ -186,7 +187,7 @@ fn no_table(error: &DeriveError, model: &ConvertedModel<'_>) -> Diagnostic {
     });
     let (base, tip) = (&robot.link(model.description.base).name, &robot.link(model.description.tip).name);
     let message = format!("from \"{base}\" to \"{tip}\": {error}{joint}");
-    Diagnostic::error("convert::no_table", message).with_help("choose a chain with --base and --tip")
+    Diagnostic::error(codes::convert::NO_TABLE, message).with_help("choose a chain with --base and --tip")
 }
 
 fn unproved(report: &ConversionReport, proof: &Proof) -> Diagnostic {
@@ -209,6 +210,6 @@ fn unproved(report: &ConversionReport, proof: &Proof) -> Diagnostic {
         proof.worst(),
         report.proof.limit
     );
-    Diagnostic::error("convert::unproved", message)
+    Diagnostic::error(codes::convert::UNPROVED, message)
         .with_help("a coarser --accuracy, such as 1e-9, treats these axes as parallel, and reports the error")
 }

@@ -6,6 +6,7 @@ use congruent_kinematics::{DhChain, Pose, ScrewChain, SerialDh, UrdfTree};
 use nalgebra::Vector3;
 
 use super::options::ConversionSource;
+use crate::codes;
 
 /// One model of a chain.
 pub(super) struct ConvertedModel<'a> {
@@ -28,7 +29,7 @@ impl<'a> ConvertedModel<'a> {
             }
             (Some(ConversionSource::Dh), None) => {
                 let message = format!("robot \"{}\" has no [dh] table", description.name);
-                return Err(Diagnostic::error("convert::no_dh", message)
+                return Err(Diagnostic::error(codes::convert::NO_DH, message)
                     .with_help("leave --from out to convert the chain of the URDF"));
             }
             _ => description.moving_chain(),

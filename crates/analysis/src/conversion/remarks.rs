@@ -8,6 +8,7 @@ use congruent_input::{
 use congruent_kinematics::Proof;
 
 use super::report::{AxisReport, ConversionReport, RoundedReport};
+use crate::codes;
 
 /// A length of a table above this multiple of the reach gives a warning. No unit; kind: plausibility.
 const FAR_REACHES: f64 = 100.0;
@@ -32,7 +33,7 @@ pub(super) fn rounded(pairs: &[RoundedReport], against_source: &Proof) -> Option
         length_and_angle(position_m, orientation_rad)
     );
     (!pairs.is_empty()).then(|| {
-        Diagnostic::warning("convert::rounded_axes", message).with_help(
+        Diagnostic::warning(codes::convert::ROUNDED_AXES, message).with_help(
             "write quarter turns with all digits (1.5707963267948966), or keep the axes with --exact",
         )
     })
@@ -67,7 +68,7 @@ pub(super) fn far(report: &ConversionReport, reach_m: f64) -> Option<Diagnostic>
         pairs.collect::<String>()
     );
     (!far.is_empty()).then(|| {
-        Diagnostic::warning("convert::far_normal", message).with_help(
+        Diagnostic::warning(codes::convert::FAR_NORMAL, message).with_help(
             "two nearly parallel axes have a common normal that is far away. The table is correct; a coarser --accuracy, such as 1e-9, treats such axes as parallel",
         )
     })

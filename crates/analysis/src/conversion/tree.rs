@@ -6,6 +6,7 @@ use congruent_kinematics::Twist;
 use nalgebra::{Isometry3, Unit, Vector3};
 
 use super::converted_model::ConvertedModel;
+use crate::codes;
 
 /// Components below this are written as 0. Kind: rounding of a dozen products within 2 m.
 const NOISE: f64 = 1e-15;
@@ -41,7 +42,7 @@ pub(super) fn tree(model: &ConvertedModel<'_>) -> Result<Robot, Diagnostic> {
     links.push(link(&tip));
     parts.push(fixed(&parent, &tip, last, model.description.base));
     Robot::new(source.name(), links, parts)
-        .map_err(|error| Diagnostic::error("convert::tree", error.to_string()))
+        .map_err(|error| Diagnostic::error(codes::convert::TREE, error.to_string()))
 }
 
 /// A joint whose frame is parallel to the base.
@@ -55,7 +56,7 @@ fn placed(written: &Joint, twist: &Twist, here_in_base: &Vector3<f64>) -> Result
     if is_revolute != written.kind.is_angular() {
         let message =
             format!("joint \"{}\" is revolute in one model and prismatic in the other", written.name);
-        return Err(Diagnostic::error("convert::kind", message).with_help(
+        return Err(Diagnostic::error(codes::convert::KIND, message).with_help(
             "a URDF joint needs limits, and an angle limit cannot become a length limit, or the reverse",
         ));
     }

@@ -3,12 +3,14 @@
 use congruent_description::Robot;
 use congruent_input::Diagnostic;
 
+use crate::codes;
+
 /// Largest joint position or coordinate of the tip, rad and m. Kind: plausibility.
 const MOST: f64 = 1e6;
 
 /// The fault of a file without measurements.
 pub(super) fn no_rows() -> Diagnostic {
-    Diagnostic::error("measurements::none", "the file has no measurement").at(0..0)
+    Diagnostic::error(codes::measurements::NONE, "the file has no measurement").at(0..0)
 }
 
 /// The needed joints whose positions are not given.

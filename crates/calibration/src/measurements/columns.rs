@@ -6,6 +6,8 @@ use congruent_input::{
     units::{Unit, WrittenUnit},
 };
 
+use crate::codes;
+
 /// The quantity in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum MeasuredQuantity {
@@ -63,7 +65,7 @@ impl MeasurementColumn {
         if expected != unit {
             let [plain, engineering_unit] = expected.keys(stem);
             let message = format!("column \"{name}\" has the wrong unit for its joint");
-            return Err(Diagnostic::error("measurements::unit", message)
+            return Err(Diagnostic::error(codes::measurements::UNIT, message)
                 .with_help(format!("write {plain} or {engineering_unit}")));
         }
         Ok(Self { quantity: MeasuredQuantity::Joint(coordinate), unit: written })
@@ -76,21 +78,21 @@ fn without_unit(name: &str, robot: &Robot) -> Diagnostic {
     if !is_known {
         return unknown(name, name, robot);
     }
-    Diagnostic::error("measurements::unit", format!("column \"{name}\" has no unit in its name"))
+    Diagnostic::error(codes::measurements::UNIT, format!("column \"{name}\" has no unit in its name"))
         .with_help("add _rad or _deg for an angle, _m or _mm for a length")
 }
 
 fn unknown(name: &str, stem: &str, robot: &Robot) -> Diagnostic {
     if name.contains([';', '\t']) {
         let message = format!("column name \"{name}\" contains a semicolon or a tab");
-        return Diagnostic::error("measurements::unknown_column", message)
+        return Diagnostic::error(codes::measurements::UNKNOWN_COLUMN, message)
             .with_help("separate columns with commas, and write decimals with a point");
     }
     let joints: Vec<&str> = robot.movable_joint_names().collect();
     let known = joints.into_iter().chain(["x", "y", "z", "qw", "qx", "qy", "qz", "roll", "pitch", "yaw"]);
     let message =
         format!("column \"{name}\" is neither a joint of robot \"{}\" nor a measured quantity", robot.name());
-    Diagnostic::error("measurements::unknown_column", message).with_help(known_names(
+    Diagnostic::error(codes::measurements::UNKNOWN_COLUMN, message).with_help(known_names(
         stem,
         "columns (with _rad, _deg, _m or _mm)",
         known.collect::<Vec<_>>(),

@@ -12,6 +12,7 @@ use super::{
     columns::{MeasuredQuantity, MeasurementColumn},
     measured_row::{MeasuredRow, WrittenOrientation},
 };
+use crate::codes;
 
 /// Most faults that are listed: one wrong column gives a fault in every row, one wrong header in every column.
 const MOST_FAULTS: usize = 20;
@@ -19,7 +20,7 @@ const MOST_FAULTS: usize = 20;
 /// Parses a whole file.
 pub(super) fn parse(text: &str, robot: &Robot, needed: &[usize]) -> Result<Vec<MeasuredRow>, Findings> {
     let WrittenTable { header, rows: records } =
-        WrittenTable::read(text, "measurements::cells").ok_or_else(no_rows)?;
+        WrittenTable::read(text, codes::measurements::CELLS).ok_or_else(no_rows)?;
     let columns = columns(&header, robot, needed)?;
     let (mut rows, mut faults) = (Vec::new(), Vec::new());
     for record in records {
@@ -55,7 +56,8 @@ fn columns(header: &Header, robot: &Robot, needed: &[usize]) -> Result<Vec<Measu
             Ok(column) => {
                 if let Some(first) = places.insert(column.quantity, at) {
                     let message = format!("columns {} and {} give the same quantity", first + 1, at + 1);
-                    let fault = Diagnostic::error("measurements::repeated_column", message).at(span.clone());
+                    let fault =
+                        Diagnostic::error(codes::measurements::REPEATED_COLUMN, message).at(span.clone());
                     faults.push(fault.with_help(repeated_help(robot, name)));
                 }
                 columns.push(column);
@@ -75,7 +77,7 @@ fn columns(header: &Header, robot: &Robot, needed: &[usize]) -> Result<Vec<Measu
     {
         let message = format!("no column for {missing}");
         faults
-            .push(Diagnostic::error("measurements::missing_joint", message).with_help(
+            .push(Diagnostic::error(codes::measurements::MISSING_JOINT, message).with_help(
                 "every joint of the chain needs a column, <joint>_rad or <joint>_deg (_m or _mm)",
             ));
     }
@@ -85,7 +87,7 @@ fn columns(header: &Header, robot: &Robot, needed: &[usize]) -> Result<Vec<Measu
     if positions == 0 && quaternion == 0 && rpy == 0 {
         faults.push(
             Diagnostic::error(
-                "measurements::nothing_measured",
+                codes::measurements::NOTHING_MEASURED,
                 "no column gives the measured position or orientation of the tip",
             )
             .with_help("add x_m, y_m, z_m (or _mm), and qw, qx, qy, qz if the orientation was measured"),
@@ -93,8 +95,11 @@ fn columns(header: &Header, robot: &Robot, needed: &[usize]) -> Result<Vec<Measu
     }
     if ![0, 4].contains(&quaternion) || ![0, 3].contains(&rpy) || (quaternion > 0 && rpy > 0) {
         faults.push(
-            Diagnostic::error("measurements::orientation", "the orientation is incomplete or given twice")
-                .with_help("give all of qw, qx, qy, qz, or all of roll, pitch, yaw, or none of them"),
+            Diagnostic::error(
+                codes::measurements::ORIENTATION,
+                "the orientation is incomplete or given twice",
+            )
+            .with_help("give all of qw, qx, qy, qz, or all of roll, pitch, yaw, or none of them"),
         );
     }
     let placed = |fault: Diagnostic| fault.at(header.row.span.clone());
@@ -115,16 +120,17 @@ fn row(
     };
     let (mut quaternion, mut rpy) = ([None; 4], [None; 3]);
     for (at, (column, cell)) in columns.iter().zip(&record.cells).enumerate() {
-        let beyond =
-            |what| header.fault("measurements::number", record, at, &format!("\"{}\" {what}", cell.text));
+        let beyond = |what| {
+            header.fault(codes::measurements::NUMBER, record, at, &format!("\"{}\" {what}", cell.text))
+        };
         let value = header
-            .number("measurements::number", record, at)?
+            .number(codes::measurements::NUMBER, record, at)?
             .map(|value| plausible(column.to_si(value)).map_err(beyond))
             .transpose()?;
         match column.quantity {
             MeasuredQuantity::Joint(coordinate) => {
                 row.q[coordinate] = value.ok_or_else(|| {
-                    header.fault("measurements::empty_cell", record, at, "the joint position is missing")
+                    header.fault(codes::measurements::EMPTY_CELL, record, at, "the joint position is missing")
                 })?;
             }
             MeasuredQuantity::Position(at) => row.tip_in_base_m[at] = value,
@@ -134,7 +140,7 @@ fn row(
     }
     // Mimic joints need no column: they follow from their masters.
     robot.apply_mimic(&mut row.q);
-    let fault = |message: String| record.fault("measurements::orientation", &message);
+    let fault = |message: String| record.fault(codes::measurements::ORIENTATION, &message);
     row.orientation = match (complete(quaternion), complete(rpy)) {
         (Some(Ok(quaternion)), _) => {
             Some(WrittenOrientation::from_quaternion_wxyz(quaternion).map_err(fault)?)

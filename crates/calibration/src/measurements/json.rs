@@ -10,11 +10,12 @@ use super::{
     checks::{missing_joints, plausible},
     measured_row::{MeasuredRow, WrittenOrientation},
 };
+use crate::codes;
 
 /// A file of measurements as a list.
 const LIST: JsonList = JsonList {
     entry: "measurement",
-    code: "measurements::json",
+    code: codes::measurements::JSON,
     help: r#"expected [{"q": {"joint": 0.1}, "translation_m": [0.5, 0, 0.3], "quaternion_wxyz": [1, 0, 0, 0]}]"#,
 };
 
@@ -44,15 +45,14 @@ fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<
     let given =
         |coordinate: usize| written.q.contains_key(&robot.joint(robot.movable_joints()[coordinate]).name);
     if let Some(missing) = missing_joints(robot, needed, given) {
-        return Err(Diagnostic::error("measurements::missing_joint", format!("no position for {missing}"))
+        let message = format!("no position for {missing}");
+        return Err(Diagnostic::error(codes::measurements::MISSING_JOINT, message)
             .with_help("every joint of the chain needs its position in \"q\", in rad or m"));
     }
     let translation = match (&written.translation_m, &written.translation_mm) {
         (Some(_), Some(_)) => {
-            return Err(Diagnostic::error(
-                "measurements::repeated",
-                "both translation_m and translation_mm are given",
-            ));
+            let message = "both translation_m and translation_mm are given";
+            return Err(Diagnostic::error(codes::measurements::REPEATED, message));
         }
         (Some(metres), None) => metres.clone(),
         (None, Some(millimetres)) => millimetres.iter().map(|&value| Unit::Length.convert(value)).collect(),
@@ -60,11 +60,11 @@ fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<
     };
     if ![0, 2, 3].contains(&translation.len()) {
         let message = format!("the translation has {} coordinates, expected 3 or 2", translation.len());
-        return Err(Diagnostic::error("measurements::translation", message)
+        return Err(Diagnostic::error(codes::measurements::TRANSLATION, message)
             .with_help("give x, y, z, or x, y for a planar measurement"));
     }
     for &value in q.iter().chain(&translation) {
-        let refused = |what| Diagnostic::error("measurements::number", format!("{value} {what}"));
+        let refused = |what| Diagnostic::error(codes::measurements::NUMBER, format!("{value} {what}"));
         plausible(value).map_err(refused)?;
     }
     let mut tip_in_base_m = [None; 3];
@@ -74,18 +74,23 @@ fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<
     let orientation = match (written.quaternion_wxyz, written.rpy_deg, written.rpy_rad) {
         (None, None, None) => None,
         (Some(wxyz), None, None) => {
-            let refused = |message| Diagnostic::error("measurements::orientation", message);
+            let refused = |message| Diagnostic::error(codes::measurements::ORIENTATION, message);
             Some(WrittenOrientation::from_quaternion_wxyz(wxyz).map_err(refused)?)
         }
         (None, Some(degrees), None) => {
             Some(WrittenOrientation::RpyRad(degrees.map(|value| Unit::Angle.convert(value))))
         }
         (None, None, Some(radians)) => Some(WrittenOrientation::RpyRad(radians)),
-        _ => return Err(Diagnostic::error("measurements::orientation", "the orientation is given twice")),
+        _ => {
+            return Err(Diagnostic::error(
+                codes::measurements::ORIENTATION,
+                "the orientation is given twice",
+            ));
+        }
     };
     if translation.is_empty() && orientation.is_none() {
         return Err(Diagnostic::error(
-            "measurements::nothing_measured",
+            codes::measurements::NOTHING_MEASURED,
             "this measurement has neither a position nor an orientation",
         )
         .with_help(

@@ -10,6 +10,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::{Failure, NOTHING},
     input::{RobotArgument, files_of},
     output::file::{NewFile, folder_of},
@@ -63,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     }
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
     let pairs = waiting(printer, "measuring pairs", || suggest_disabled(&description, sampling))
-        .map_err(|error| Diagnostic::error("acm::shape", error.to_string()))?;
+        .map_err(|error| Diagnostic::error(codes::acm::SHAPE, error.to_string()))?;
     let srdf = srdf_text(&pairs);
     if pairs.pairs == 0 {
         printer.result(&pairs, disabled_pairs_text)?;

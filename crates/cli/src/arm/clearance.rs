@@ -8,6 +8,7 @@ use congruent::{
 
 use super::length::positive_length;
 use crate::{
+    codes,
     failure::{FAILED, Failure, NOTHING},
     input::{ConfigurationArguments, RobotArgument},
     terminal::print::{Printer, text_options},
@@ -57,15 +58,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     };
     let report = distances(&description, &[], &options, &configurations).map_err(|error| match error {
         DistanceError::Pair(fault) => fault.diagnostic,
-        error => Diagnostic::error("clearance::shape", error.to_string()),
+        error => Diagnostic::error(codes::clearance::SHAPE, error.to_string()),
     })?;
     // Those of the description were printed when it was loaded.
-    let of_hulls = report.warnings.iter().skip(description.warnings.len());
-    let of_hulls = of_hulls.map(|found| {
-        let warning = Diagnostic::warning(found.code, found.message.clone());
-        warning.with_help(found.help.clone().unwrap_or_default())
-    });
-    printer.warnings(None, &of_hulls.collect::<Vec<_>>());
+    printer.warnings(None, &report.hull_warnings);
     let options = text_options();
     printer.parts(&report, |report| clearance_text_parts(report, &description.robot, &options))?;
     let is_nothing = report.pairs.is_empty() || report.results.is_empty();

@@ -9,6 +9,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, named},
     terminal::print::{Printer, text_options},
@@ -65,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         seed: arguments.seed,
     };
     let report = inverse(&description, &targets, &options)
-        .map_err(|error| Diagnostic::error("ik::robot", error.to_string()))?;
+        .map_err(|error| Diagnostic::error(codes::ik::ROBOT, error.to_string()))?;
     printer.result(&report, |report| {
         inverse_text(report, &description.robot, arguments.tolerance, &text_options())
     })?;

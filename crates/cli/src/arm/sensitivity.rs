@@ -8,6 +8,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::Failure,
     input::{ArmArguments, files_of},
     output::plot::PlotArgument,
@@ -49,7 +50,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
     let compute = || sensitivity(&description, &arguments.length_factors, sampling);
     let report = waiting(printer, "computing sensitivities", compute)
-        .map_err(|error| Diagnostic::error("sensitivity::robot", error.to_string()))?;
+        .map_err(|error| Diagnostic::error(codes::sensitivity::ROBOT, error.to_string()))?;
     printer.result(&report, |report| sensitivity_text(report, &description.robot, &text_options()))?;
     arguments.plot.write(|| plot(&report), &inputs)?;
     Ok(0)

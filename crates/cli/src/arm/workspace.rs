@@ -8,6 +8,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::Failure,
     input::{ArmArguments, files_of},
     output::plot::PlotArgument,
@@ -41,7 +42,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     arguments.plot.is_none_of(&inputs)?;
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
     let (report, found) = waiting(printer, "computing the workspace", || workspace(&description, sampling))
-        .map_err(|error| Diagnostic::error("workspace::robot", error.to_string()))?;
+        .map_err(|error| Diagnostic::error(codes::workspace::ROBOT, error.to_string()))?;
     printer.result(&report, |report| workspace_text(report, &description.robot, &text_options()))?;
     arguments.plot.write(|| plot(&report, &found), &inputs)?;
     Ok(0)

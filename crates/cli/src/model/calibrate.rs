@@ -17,6 +17,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, files_of, named},
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
@@ -105,7 +106,7 @@ impl Arguments {
             if value.is_finite() && value > 0.0 {
                 return Ok(value);
             }
-            Err(Diagnostic::error("cli::value", format!("--{name} {value} is not a positive number")))
+            Err(Diagnostic::error(codes::cli::VALUE, format!("--{name} {value} is not a positive number")))
         };
         let noise = match (self.noise_mm, self.noise_deg) {
             (None, None) => None,
@@ -117,7 +118,7 @@ impl Arguments {
             }
             _ => {
                 return Err(Diagnostic::error(
-                    "cli::noise",
+                    codes::cli::NOISE,
                     "only one of --noise-mm and --noise-deg is given",
                 )
                 .with_help("give both --noise-mm and --noise-deg, or neither"));

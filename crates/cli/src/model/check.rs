@@ -7,7 +7,7 @@ use congruent::{
     agreement::compare::{Agreement, CheckOptions},
     analysis::plot::errors,
     check_suite, checked_robot,
-    description::{RobotDescription, RobotQList, UNUSABLE_INERTIAL, load_robot_with, read_configurations},
+    description::{RobotDescription, RobotQList, load_robot_with, read_configurations},
     input::{Diagnostic, Findings, Severity},
     page::{CheckEntry, check_page},
     results::report::TestSuite,
@@ -19,6 +19,7 @@ use super::{errors_at::chart, tolerance::ToleranceArgument};
 use crate::{
     batch::{Answer, Batch, BatchReport, TextParts},
     ci::CiArguments,
+    codes,
     failure::{FAILED, Failure, NOTHING},
     input::{AccessArguments, ChainArguments, files_of},
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
@@ -119,7 +120,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     one_plot(arguments)?;
     refuse_same(arguments.ci.outputs().chain(arguments.page.output()).chain(arguments.plot.output()))?;
     if arguments.table && arguments.configurations.is_none() {
-        let error = Diagnostic::error("check::table", "--table needs --configurations, which is missing");
+        let error =
+            Diagnostic::error(codes::check::TABLE, "--table needs --configurations, which is missing");
         return Err(error.with_help("give --configurations FILE: the joint positions of each row").into());
     }
     let batch = Batch::begin(&arguments.robots, &arguments.ci, printer)?;
@@ -150,7 +152,8 @@ fn entry(answer: &Answer<Checked>) -> CheckEntry<'_> {
 
 /// A plot is of one robot, at configurations.
 fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
-    let refused = |message: &str, help: &str| Err(Diagnostic::error("check::plot", message).with_help(help));
+    let refused =
+        |message: &str, help: &str| Err(Diagnostic::error(codes::check::PLOT, message).with_help(help));
     if !arguments.plot.is_given() {
         return Ok(());
     }
@@ -202,7 +205,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     }
     let compared = waiting(batch.printer(), &format!("checking {}", visible_path(path)), compare);
     let mut report = compared
-        .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
+        .map_err(|error| Diagnostic::error(codes::check::ROBOT, format!("{}: {error}", path.display())))?;
     let unusable = unusable_inertials(&description);
     if report.geometry.verdict == Agreement::Agree && !unusable.is_empty() {
         return Err(Findings::from(unusable).into());
@@ -215,6 +218,9 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
 /// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the
 /// comparison of poses decides.
 fn unusable_inertials(description: &RobotDescription) -> Vec<Diagnostic> {
-    let of_inertials = description.warnings.iter().filter(|warning| warning.code == UNUSABLE_INERTIAL);
+    let of_inertials = description
+        .warnings
+        .iter()
+        .filter(|warning| warning.code == congruent::description::codes::robot_file::INERTIAL);
     of_inertials.map(|warning| Diagnostic { severity: Severity::Error, ..warning.clone() }).collect()
 }

@@ -2,7 +2,6 @@
 
 use congruent::{
     analysis::conversion::{Conversion, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes},
-    description::TABLE_DROPPED,
     input::Diagnostic,
 };
 
@@ -64,9 +63,12 @@ fn accuracy(text: &str) -> Result<f64, String> {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
-    let dropped = description.warnings.iter().find(|warning| warning.code == TABLE_DROPPED);
+    let dropped = description
+        .warnings
+        .iter()
+        .find(|warning| warning.code == congruent::description::codes::chain::TABLE_DROPPED);
     if let (Some(dropped), Some(ConversionSource::Dh)) = (dropped, arguments.from) {
-        return Err(Diagnostic::error("convert::no_dh", dropped.message.clone())
+        return Err(Diagnostic::error(congruent::analysis::codes::convert::NO_DH, dropped.message.clone())
             .with_help("leave --base and --tip out, or convert the chain of the URDF there with --from urdf")
             .into());
     }

@@ -12,6 +12,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::Failure,
     input::ArmArguments,
     model::{convert::AccuracyArguments, written_model::answer},
@@ -68,10 +69,10 @@ fn base_parameters(description: &RobotDescription, printer: &Printer) -> Result<
     if description.robot.dof() == 0 {
         let message =
             format!("{}: no joint moves, so there are no joint torques", description.urdf_path.display());
-        return Err(Diagnostic::error("derive::no_joint", message).into());
+        return Err(Diagnostic::error(codes::derive::NO_JOINT, message).into());
     }
     let report = derived(description, SEED)
-        .map_err(|error| Diagnostic::error("derive::base_parameters", error.to_string()))?;
+        .map_err(|error| Diagnostic::error(codes::derive::BASE_PARAMETERS, error.to_string()))?;
     printer.result(&report, base_parameters_text)?;
     Ok(0)
 }

@@ -10,6 +10,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::Failure,
     input::{allowing_inputs, files_of},
     output::file::{OutputArgument, folder_of},
@@ -37,7 +38,7 @@ pub(super) fn answer(
     if let Some(section) = &report.robot_toml {
         if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
             let message = format!("--out {}: the name of a robot file must end in .toml", path.display());
-            return Err(Diagnostic::error("output::name", message).into());
+            return Err(Diagnostic::error(codes::output::NAME, message).into());
         }
         let text =
             conversion_comments(&report) + &robot_file(description, &report, section, &folder_of(path)?)?;
@@ -63,7 +64,7 @@ fn robot_file(
 ) -> Result<String, Diagnostic> {
     if is_standard_input(&description.urdf_path) {
         let message = "the URDF came from standard input, but a robot file must name its URDF by a path";
-        return Err(Diagnostic::error("output::urdf", message).with_help("give the URDF as a file"));
+        return Err(Diagnostic::error(codes::output::URDF, message).with_help("give the URDF as a file"));
     }
     let absolute = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
     let mut from_root = description.clone();

@@ -17,6 +17,7 @@ use congruent::{
 };
 
 use crate::{
+    codes,
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, allowing_inputs, files_of, needs_to_be_allowed},
     output::file::{NewFile, unwritable},
@@ -105,7 +106,7 @@ impl Folders {
         if path.exists() && !path.is_dir() {
             let message = format!("--out {} is not a folder", path.display());
             return Err(
-                Diagnostic::error("output::refused", message).with_help("give a folder, or a new name")
+                Diagnostic::error(codes::output::REFUSED, message).with_help("give a folder, or a new name")
             );
         }
         // Only folders that do not exist are made, and so only these are removed if the file is refused.
@@ -127,7 +128,7 @@ impl Folders {
 /// A robot file names a URDF that is a file.
 fn is_urdf(path: &Path) -> Result<(), Diagnostic> {
     let refused = |why: &str, help: &str| {
-        Err(Diagnostic::error("new::urdf", format!("{} {why}", path.display())).with_help(help))
+        Err(Diagnostic::error(codes::new::URDF, format!("{} {why}", path.display())).with_help(help))
     };
     if is_standard_input(path) {
         return refused(
@@ -159,13 +160,13 @@ fn checked(written: &Path, before: &RobotDescription, arguments: &Arguments) -> 
                 "a robot.toml in {} would make that folder the project, and files outside of it could not be opened",
                 arguments.out.display()
             );
-            lost.extend([Diagnostic::error("new::project", message)
+            lost.extend([Diagnostic::error(codes::new::PROJECT, message)
                 .with_help("choose --out in a folder that contains both the URDF and its meshes")]);
             return Err(lost.into());
         }
     }
     congruent::check(&description, &CheckOptions::default())
-        .map_err(|error| Diagnostic::error("check::robot", error.to_string()).into())
+        .map_err(|error| Diagnostic::error(codes::check::ROBOT, error.to_string()).into())
 }
 
 fn report(

@@ -39,7 +39,9 @@ pub(crate) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let out = &arguments.out;
-    let refused = |message: String, help: &str| Diagnostic::error("new::scenario", message).with_help(help);
+    let refused = |message: String, help: &str| {
+        Diagnostic::error(congruent::codes::new::SCENARIO, message).with_help(help)
+    };
     if is_standard_input(&arguments.robot.robot) {
         let message =
             "the robot came from standard input, but a scenario must name its robot by a path".to_owned();

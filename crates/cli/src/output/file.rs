@@ -11,7 +11,10 @@ use congruent::{
     results::files::{OutputError, is_same_file, write_whole},
 };
 
-use crate::failure::{self, Failure};
+use crate::{
+    codes,
+    failure::{self, Failure},
+};
 
 /// Where a model is written.
 #[derive(Debug, clap::Args)]
@@ -74,7 +77,7 @@ impl NewFile<'_> {
     pub(crate) fn may_be_written(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
         let Self { option, path, .. } = self;
         let refused = |why: &str, help: &str| {
-            Err(Diagnostic::error("output::refused", format!("{option} {} {why}", path.display()))
+            Err(Diagnostic::error(codes::output::REFUSED, format!("{option} {} {why}", path.display()))
                 .with_help(help))
         };
         if path.is_dir() {
@@ -95,7 +98,7 @@ pub(crate) fn folder_of(path: &Path) -> Result<PathBuf, Diagnostic> {
 }
 
 pub(crate) fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
-    Diagnostic::error("output::unwritable", format!("cannot write {}: {error}", path.display()))
+    Diagnostic::error(codes::output::UNWRITABLE, format!("cannot write {}: {error}", path.display()))
         .with_help(FOLDER)
 }
 
@@ -114,7 +117,7 @@ pub(crate) fn refuse_same<'a>(
         if let Some((other, _)) = outputs[..at].iter().find(|(_, before)| is_same(before, path)) {
             let message = format!("{other} and {option} name the same file, {}", path.display());
             return Err(
-                Diagnostic::error("output::refused", message).with_help("give each a file of its own")
+                Diagnostic::error(codes::output::REFUSED, message).with_help("give each a file of its own")
             );
         }
     }
@@ -127,7 +130,7 @@ pub(crate) fn refuse_inputs(option: &str, path: &Path, inputs: &[PathBuf]) -> Re
         return Ok(());
     }
     let message = format!("{option} {} is an input file", path.display());
-    Err(Diagnostic::error("output::refused", message)
+    Err(Diagnostic::error(codes::output::REFUSED, message)
         .with_help("inputs are not overwritten: choose another name"))
 }
 

@@ -8,6 +8,7 @@ use std::{
 use congruent::input::Diagnostic;
 
 use crate::{
+    codes,
     failure::Failure,
     output::file::{refuse_inputs, replace},
 };
@@ -40,7 +41,7 @@ impl PlotArgument {
             let message =
                 format!("--plot {}: a plot is an SVG file, so its name must end in .svg", path.display());
             return Err(
-                Diagnostic::error("output::refused", message).with_help("give a file that ends in .svg")
+                Diagnostic::error(codes::output::REFUSED, message).with_help("give a file that ends in .svg")
             );
         }
         Ok(())

@@ -18,6 +18,7 @@ use super::{
 use crate::{
     batch::{Batch, BatchReport},
     ci::CiArguments,
+    codes,
     failure::{BAD_INPUT, BROKEN, Failure, worse},
     input::AccessArguments,
     output::file::{refuse_inputs, refuse_same, replace},
@@ -84,7 +85,7 @@ fn examine(arguments: &Arguments) -> Result<(), Diagnostic> {
     arguments.ci.is_none_of(&inputs)?;
     let Some(file) = &arguments.csv else { return Ok(()) };
     let refused =
-        |message: String, help: &str| Err(Diagnostic::error("inspect::csv", message).with_help(help));
+        |message: String, help: &str| Err(Diagnostic::error(codes::inspect::CSV, message).with_help(help));
     if arguments.recordings.len() > 1 {
         let message = format!("--csv {} is a table of one recording", file.display());
         return refused(message, "give one recording");
@@ -94,7 +95,7 @@ fn examine(arguments: &Arguments) -> Result<(), Diagnostic> {
 
 fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<RecordingSummary, Failure> {
     let unreadable = |error: congruent::recording::InspectError| {
-        Diagnostic::error("inspect::recording", error.to_string())
+        Diagnostic::error(codes::inspect::RECORDING, error.to_string())
     };
     let in_folder = path.join(RerunFormat.file_name());
     let path = if path.is_dir() { in_folder.as_path() } else { path };
@@ -126,7 +127,7 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
     let setup = setup?;
     batch.warn(path, &setup.warnings);
     let result = recheck(&summary, &scalars, setup)
-        .map_err(|error| Diagnostic::error("inspect::check", error.to_string()))?;
+        .map_err(|error| Diagnostic::error(codes::inspect::CHECK, error.to_string()))?;
     take(&mut summary, result);
     Ok(summary)
 }

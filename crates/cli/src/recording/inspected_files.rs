@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use congruent::{
-    input::{Diagnostic, FileAccess, Findings, InputFile, MESH_OUTSIDE, OUTSIDE},
+    input::{Diagnostic, FileAccess, Findings, InputFile},
     recording::{RecordingSummary, RerunFormat},
     results::{
         RecordingFormat,
@@ -87,7 +87,12 @@ fn changed_inputs(report: &Value, access: &FileAccess) -> Option<Vec<String>> {
     Some(match setup {
         Ok(setup) => differences(&before, &setup.inputs),
         // What may not be opened here need not have changed.
-        Err(findings) if findings.iter().any(|finding| [OUTSIDE, MESH_OUTSIDE].contains(&finding.code)) => {
+        Err(findings)
+            if findings.iter().any(|finding| {
+                [congruent::input::codes::file::OUTSIDE, congruent::input::codes::mesh::OUTSIDE]
+                    .contains(&finding.code)
+            }) =>
+        {
             return None;
         }
         Err(findings) => {

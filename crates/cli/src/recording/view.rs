@@ -20,6 +20,7 @@ use congruent::{
 use super::viewer::Viewer;
 use crate::{
     batch::BatchReport,
+    codes,
     failure::Failure,
     input::AccessArguments,
     run::{no_folder, run_one},
@@ -65,7 +66,7 @@ impl Input {
             Some("toml") => Ok(if is_robot_file(path) { Self::Robot } else { Self::Scenario }),
             _ => {
                 let message = format!("{} is not a recording, a robot or a scenario", path.display());
-                Err(Diagnostic::error("view::input", message)
+                Err(Diagnostic::error(codes::view::INPUT, message)
                     .with_help("give a file that ends in .rrd, .urdf or .toml, or the folder of a robot"))
             }
         }
@@ -85,7 +86,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         Input::Recording => {
             // The viewer would open an empty window.
             let summary = congruent::recording::inspect(&arguments.input)
-                .map_err(|error| Diagnostic::error("view::recording", error.to_string()))?;
+                .map_err(|error| Diagnostic::error(codes::view::RECORDING, error.to_string()))?;
             printer.notes(summary.problems.iter().map(String::as_str));
             open(&arguments.input, arguments, printer)?;
             Ok(0)
@@ -108,7 +109,7 @@ fn refused(error: SweepError) -> Failure {
         SweepError::Folder(error) => no_folder(error),
         SweepError::Output(error) => no_folder(error.into()),
         SweepError::Recording(error) => Failure::Machine(error.to_string()),
-        error => Diagnostic::error("view::robot", error.to_string()).into(),
+        error => Diagnostic::error(codes::view::ROBOT, error.to_string()).into(),
     }
 }
 

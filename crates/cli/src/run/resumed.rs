@@ -20,6 +20,7 @@ use congruent::{
 use super::{arguments::Arguments, index::remove_index, run_answer::no_folder};
 use crate::{
     batch::{Answer, Batch},
+    codes,
     failure::Failure,
 };
 
@@ -100,5 +101,5 @@ fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
         first.display(),
         folder.display()
     );
-    Diagnostic::error("run::same_output", message).with_help("give the scenarios different names")
+    Diagnostic::error(codes::run::SAME_OUTPUT, message).with_help("give the scenarios different names")
 }

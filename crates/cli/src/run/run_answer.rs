@@ -16,6 +16,7 @@ use serde::{Serialize, Serializer};
 
 use crate::{
     batch::BatchReport,
+    codes,
     failure::{BROKEN, Failure, unwritable},
     terminal::{print::Printer, progress::ProgressLines},
 };
@@ -85,7 +86,7 @@ pub(crate) fn run_one(
         Err(ExecuteError::Folder(error)) => Err(no_folder(error)),
         Err(ExecuteError::Output(error)) => Err(no_folder(error.into())),
         Err(ExecuteError::Recording(error)) => Err(Failure::Machine(error.to_string())),
-        Err(error) => Err(Diagnostic::error("run::cannot_run", error.to_string()).into()),
+        Err(error) => Err(Diagnostic::error(codes::run::CANNOT_RUN, error.to_string()).into()),
     }
 }
 
@@ -98,5 +99,5 @@ pub(crate) fn no_folder(error: FolderError) -> Failure {
         FolderError::InUse { .. } => "wait for it, or give another folder with --out",
         _ => "give another folder with --out",
     };
-    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
+    Diagnostic::error(codes::run::OUTPUT, error.to_string()).with_help(help).into()
 }

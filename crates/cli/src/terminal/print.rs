@@ -307,7 +307,7 @@ mod tests {
 
     #[test]
     fn findings_beyond_the_limit_are_counted() {
-        let finding = Diagnostic::error("a::fault", "this is wrong");
+        let finding = Diagnostic::error(crate::codes::cli::VALUE, "this is wrong");
         let failure = Failure::Input(vec![finding; MOST_FINDINGS + 7].into());
         let refusal = Refusal::from(&failure);
         assert_eq!((refusal.findings.len(), refusal.left_out), (MOST_FINDINGS, 7));

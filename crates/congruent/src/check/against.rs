@@ -15,6 +15,7 @@ use super::{
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::PosesOfOther,
 };
+use crate::codes;
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
@@ -91,7 +92,7 @@ pub(super) fn compared(
         Ok(report) => Ok((against, Some(report))),
         // No difference of the two: the poses agree.
         Err(error @ CompareError::NoJoint) => {
-            let finding = Diagnostic::error("check::other_dynamics", error.to_string());
+            let finding = Diagnostic::error(codes::check::OTHER_DYNAMICS, error.to_string());
             geometry.not_asked.push(NotCompared::because(ComparedSource::OtherDynamics, &finding));
             Ok((against, None))
         }

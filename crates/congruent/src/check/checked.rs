@@ -13,7 +13,7 @@ use super::{
     against, declared, model_frames::unreadable_value, physics, poses_of_other::PosesOfOther,
     robot_check::RobotCheck,
 };
-use crate::with_physics::simulated_poses;
+use crate::{codes, with_physics::simulated_poses};
 
 /// Compares table, URDF chain, screws and the physics twin of a robot, first their poses and then their dynamics. A robot
 /// that cannot be simulated is compared without the physics, and the report says why.
@@ -71,7 +71,7 @@ fn checked(
                 compared.push(report);
             }
             Err(why) => {
-                let finding = Diagnostic::error("check::declared_dynamics", why);
+                let finding = Diagnostic::error(codes::check::DECLARED_DYNAMICS, why);
                 geometry.not_asked.push(NotCompared::because(ComparedSource::DeclaredDynamics, &finding));
             }
         }

@@ -52,15 +52,12 @@ fn unreadable_joint_term(description: &RobotDescription) -> Option<String> {
     let of_dynamics = |found: &&Diagnostic| {
         let at = found.span.as_ref().map(|span| span.start);
         let is_there = at.is_some_and(|at| elements.iter().any(|element| element.contains(&at)));
-        found.code == NO_NUMBER && found.stops.is_some() && is_there
+        found.code == congruent_description::codes::urdf::NUMBER && found.stops.is_some() && is_there
     };
     let found = description.warnings.iter().find(of_dynamics)?;
     let (line, _) = line_column(text, found.span.as_ref()?.start);
     Some(format!("{}:{line}: {}", description.urdf_path.display(), found.message))
 }
-
-/// Code of the finding on a value that is not a finite number.
-const NO_NUMBER: &str = "urdf::number";
 
 /// The first link whose `<inertial>` cannot be read, such as a mass that is not a number: without it there is nothing
 /// to compare. With its file, line and value.

@@ -1,7 +1,7 @@
 //! The dynamics of a URDF against the physics that was built from it. Its parameters are identified as those of a
 //! black box, from the accelerations that follow from torques.
 
-use congruent_description::{MASSLESS, RobotDescription};
+use congruent_description::RobotDescription;
 use congruent_dynamics::{DrivenState, JointDynamics};
 use congruent_dynamics_agreement::{
     AccelerationSource, DynamicsReport, IdentificationOptions, NamedModel, compare_with_source,
@@ -10,17 +10,19 @@ use congruent_input::{Diagnostic, display::number};
 use congruent_twin::source::SimulatedDynamics;
 
 use super::model_frames::{urdf_model, urdf_places};
-
-/// Code of the finding that the parameters of the physics could not be identified.
-const CODE: &str = "check::simulated_dynamics";
+use crate::codes;
 
 /// Compares masses, inertias, joint terms and gravity of a URDF with those of the physics.
 pub(super) fn compared(description: &RobotDescription, seed: u64) -> Result<DynamicsReport, Diagnostic> {
-    if let Some(massless) = description.warnings.iter().find(|found| found.code == MASSLESS) {
+    if let Some(massless) =
+        description.warnings.iter().find(|found| found.code == congruent_description::codes::urdf::MASSLESS)
+    {
         let message = format!("a moving body without mass has no defined acceleration: {}", massless.message);
-        return Err(Diagnostic::error(CODE, message));
+        return Err(Diagnostic::error(codes::check::SIMULATED_DYNAMICS, message));
     }
-    let refused = |error: &dyn std::error::Error| Diagnostic::error(CODE, error.to_string());
+    let refused = |error: &dyn std::error::Error| {
+        Diagnostic::error(codes::check::SIMULATED_DYNAMICS, error.to_string())
+    };
     let urdf = urdf_model(description);
     let name = description.urdf_path.display().to_string();
     let candidate = NamedModel { name: &name, model: &urdf, places: urdf_places(description) };
@@ -43,7 +45,7 @@ pub(super) fn compared(description: &RobotDescription, seed: u64) -> Result<Dyna
             "damping or dry friction stops a light link so fast that the torques of the physics are known only to {} %",
             number(100.0 * whole.max(half))
         );
-        return Err(Diagnostic::error(CODE, message));
+        return Err(Diagnostic::error(codes::check::SIMULATED_DYNAMICS, message));
     }
     Ok(report)
 }

@@ -4,7 +4,6 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport, Comparison, NotCompared, ReportedCertificate},
     report::{ReportedDiagnosis, foremost},
 };
-use congruent_description::TABLE_DROPPED;
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{display::length_and_angle, serde_name};
 use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
@@ -27,7 +26,10 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
     }));
     cases.extend(report.all_dynamics().map(dynamics_case));
     cases.extend(geometry.not_asked.iter().map(not_asked_case));
-    let dropped = geometry.warnings.iter().filter(|found| found.code == TABLE_DROPPED);
+    let dropped = geometry
+        .warnings
+        .iter()
+        .filter(|found| found.code == congruent_description::codes::chain::TABLE_DROPPED.name);
     cases.extend(dropped.map(|found| skipped("table", found.message.clone())));
     // Nothing moves, so that no time passes but the machine's.
     TestSuite { name: name.to_owned(), cases, time_s: 0.0, clock: Clock::Wall }

@@ -9,6 +9,8 @@ use congruent_description::{Robot, RobotDescription, load_robot_with};
 use congruent_input::{Diagnostic, FileAccess, SourceFile, read_text};
 use congruent_lint::{FileKind, FileToLint, robot_name};
 
+use crate::codes;
+
 /// Most URDFs of a folder that are searched. Kind: choice; a folder with more is not that of one robot.
 const MOST_LOOKED_AT: usize = 100;
 /// Largest URDF of a folder that is searched, in bytes.
@@ -56,7 +58,7 @@ pub(super) fn robot_of_srdf(
     let message = format!(
         "the names of links and joints are not checked: there is no readable URDF of robot \"{name}\" beside the SRDF"
     );
-    Err(Diagnostic::warning("lint::no_robot", message).at(0..0).with_help(
+    Err(Diagnostic::warning(codes::lint::NO_ROBOT, message).at(0..0).with_help(
         "give both in one call, `congruent lint robot.urdf robot.srdf`, or lint the robot file that names the SRDF",
     ))
 }
@@ -89,7 +91,7 @@ pub(super) fn robot_of_table(
         _ => {
             let how_many = if given.is_empty() { "no robot is" } else { "several robots are" };
             let message = format!("{how_many} given for {}, so its joints are not known", path.display());
-            return Err(Diagnostic::error("lint::no_robot", message).with_help(
+            return Err(Diagnostic::error(codes::lint::NO_ROBOT, message).with_help(
                 "give its robot in the same call: `congruent lint robot.toml table.json`; `fk`, `ik` and `calibrate` \
                  check their tables as they read them",
             ));
@@ -98,6 +100,6 @@ pub(super) fn robot_of_table(
     load_robot_with(robot, &access.fresh()).map_err(|_| {
         let message =
             format!("{} is not checked: its robot {} cannot be read", path.display(), robot.display());
-        Diagnostic::error("lint::no_robot", message).with_help("lint the robot first")
+        Diagnostic::error(codes::lint::NO_ROBOT, message).with_help("lint the robot first")
     })
 }

@@ -11,15 +11,17 @@ use std::{
 
 use congruent_analysis::inverse::read_targets;
 use congruent_calibration::{measurements::read_measurements, needed_coordinates};
-use congruent_description::{INERTIA_SIZE, RobotDescription, SEVERAL_TIPS, load_opened_robot, read_states};
+use congruent_description::{RobotDescription, load_opened_robot, read_states};
 use congruent_input::{
     Capability, Diagnostic, FileAccess, Finding, Findings, Severity, SourceFile, read_text,
 };
 use congruent_lint::{
-    FileKind, FileToLint, INERTIA_UNIT, Ignores, SafeFix, declared_encoding, examine_srdf, safe_fixes,
+    FileKind, FileToLint, Ignores, SafeFix, declared_encoding, examine_srdf, safe_fixes,
     safe_robot_file_fixes, still_mimics, undefined_materials, unit_mistakes, unknown_references, zero_limits,
 };
 use congruent_twin::RunSetup;
+
+use crate::codes;
 
 pub use self::report::{LintFinding, LintFix, LintReport, LintVerdict};
 
@@ -60,8 +62,8 @@ pub fn lint(path: &Path, access: &FileAccess) -> LintReport {
 /// configurations, targets or measurements.
 pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintReport {
     let Examined { kind, found, ignores } = examined(path, files, access);
-    let is_unreadable = found.iter().any(|found| found.source.is_none() && is_about_the_file(found));
-    let (kept, ignored) = ignores.apply(found);
+    let is_unreadable = found.iter().any(|found| found.source.is_none() && found.code.is_unreadable);
+    let (kept, ignored) = ignores.apply(found, &codes::all_codes());
     let diagnostics: Vec<Diagnostic> = kept.into_iter().map(judged).collect();
     let of = |severity| diagnostics.iter().filter(|found| found.severity == severity).count();
     let (errors, warnings) = (of(Severity::Error), of(Severity::Warning));
@@ -124,11 +126,6 @@ fn stopped_uses(found: &Diagnostic, kind: Option<FileKind>) -> Vec<Capability> {
     }
 }
 
-/// Whether a finding says that the file itself could not be read.
-fn is_about_the_file(found: &Diagnostic) -> bool {
-    ["file::", "load::", "lint::kind", "lint::no_robot"].iter().any(|area| found.code.starts_with(area))
-}
-
 fn examined(path: &Path, others: &[PathBuf], access: &FileAccess) -> Examined {
     let (kind, source) = match FileToLint::open(path, access) {
         Ok(FileToLint { kind, source }) => (kind, source),
@@ -159,7 +156,7 @@ fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
     let mut found = description.warnings.clone();
     if description.places.robot_file.is_none() {
         // A URDF has no place to choose a tip; commands that need one report the others.
-        found.retain(|found| found.code != SEVERAL_TIPS);
+        found.retain(|found| found.code != congruent_description::codes::chain::SEVERAL_TIPS);
     }
     let unit_mistakes = unit_mistakes(description);
     // Mass and shapes say which unit an inertia is in, so `units::inertia` replaces the reader's finding of its size.
@@ -188,10 +185,12 @@ fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
 
 /// The reader's finding on tensors that are too large, without the links for which `units::inertia` names the unit.
 fn without_inertias(found: Diagnostic, unit_mistakes: &[Diagnostic]) -> Option<Diagnostic> {
-    if found.code != INERTIA_SIZE {
+    if found.code != congruent_description::codes::urdf::INERTIA_SIZE {
         return Some(found);
     }
-    let of_inertia = unit_mistakes.iter().filter(|unit_mistake| unit_mistake.code == INERTIA_UNIT);
+    let of_inertia = unit_mistakes
+        .iter()
+        .filter(|unit_mistake| unit_mistake.code == congruent_lint::codes::units::INERTIA);
     let own = |unit_mistake: &Diagnostic| {
         unit_mistake.kind.plural_and_name.iter().map(|(_, name)| name.clone()).collect::<Vec<_>>()
     };

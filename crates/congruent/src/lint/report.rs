@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use congruent_input::{
-    Capability, ChangedLines, Code, Diagnostic, Finding, SourceFile, TextEdit, changed_lines,
-};
+use congruent_input::{Capability, ChangedLines, Diagnostic, Finding, SourceFile, TextEdit, changed_lines};
 use congruent_lint::{FileKind, IgnoredFinding, SafeFix};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -83,8 +81,8 @@ pub struct LintFinding {
 impl LintFix {
     pub(super) fn from_safe_fix(fix: SafeFix, source: &Arc<SourceFile>) -> Self {
         Self {
-            id: Code::find(fix.code).map_or_else(String::new, |code| code.to_string()),
-            code: fix.code,
+            id: fix.code.id_or_name().to_owned(),
+            code: fix.code.name,
             about: fix.about,
             file: source.path.display().to_string(),
             changed: changed_lines(&source.text, &fix.edits),

@@ -8,6 +8,8 @@ use congruent_description::{Robot, RobotDescription, outside_limits};
 use congruent_input::{Diagnostic, Diagnostics, SourceFile, display::length};
 use congruent_kinematics::Pose;
 
+use crate::codes;
+
 /// From the middle of all measured points, in reaches of the robot: two points that it can reach are at most two
 /// reaches apart, and a wrong unit is a factor of ten or more.
 const FARTHEST_MEASURED: f64 = 5.0;
@@ -32,7 +34,7 @@ pub(super) fn measured(
         let at = || lines.get(row.line.saturating_sub(1)).cloned().unwrap_or_default();
         for what in outside_limits(&positions(row, &description.robot), &description.robot) {
             let message = format!("line {} is outside the joint limits: {what}", row.line);
-            let warning = Diagnostic::warning("measurements::outside_limits", message)
+            let warning = Diagnostic::warning(codes::measurements::OUTSIDE_LIMITS, message)
                 .one_of("measurements are outside the joint limits", format!("line {}", row.line))
                 .with_help("the ending of a column's name is its unit (_rad, _deg, _m, _mm): do the values have that unit?");
             found.push(warning.at(at()));
@@ -45,7 +47,7 @@ pub(super) fn measured(
                 length(away_m),
                 length(reach_m)
             );
-            let warning = Diagnostic::warning("units::measured_point", message)
+            let warning = Diagnostic::warning(codes::units::MEASURED_POINT, message)
                 .one_of(
                     "measured points are farther apart than the robot reaches",
                     format!("line {}", row.line),
@@ -70,7 +72,7 @@ pub(super) fn targets(targets: &InverseTargets, description: &RobotDescription) 
                 length(away_m),
                 length(reach_m)
             );
-            let warning = Diagnostic::warning("units::target", message)
+            let warning = Diagnostic::warning(codes::units::TARGET, message)
                 .one_of("targets are far beyond the reach of the robot", format!("target {}", index + 1))
                 .with_help("translation_m is in metres: is it in millimetres?");
             found.push(warning);

@@ -23,6 +23,7 @@ use super::{
     touching::{FarthestMove, PairDistances},
     written::absolute,
 };
+use crate::codes;
 
 /// Distance that links must keep at least, or half of the smallest distance of the motion if that is less. Unit: m.
 const MOST_MINIMUM_M: f64 = 0.02;
@@ -115,7 +116,7 @@ pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioD
         }
     }
     let message = format!("no motion of this robot was found that passes: {last}");
-    Err(Diagnostic::error("new::scenario", message).into())
+    Err(Diagnostic::error(codes::new::SCENARIO, message).into())
 }
 
 /// Runs a scenario without recording it.
@@ -123,7 +124,7 @@ pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioD
 /// # Errors
 /// What is wrong with it, or what has broken the run.
 pub fn try_scenario(setup: &RunSetup) -> Result<Outcome, Findings> {
-    let broken = |error: &dyn std::error::Error| Diagnostic::error("new::run", error.to_string());
+    let broken = |error: &dyn std::error::Error| Diagnostic::error(codes::new::RUN, error.to_string());
     let mut checks = setup.checks();
     let mut run = Run::new(setup).map_err(|error| broken(&error))?;
     let (outcome, result) = run.finish(&mut checks, &mut NoRecorder, |_| {});
@@ -176,7 +177,7 @@ fn leave_out(content: &mut ScenarioContent, results: &[CheckResult]) {
 
 fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
     let message = format!("the model and the twin of \"{}\" are not the same robot: {why}", description.name);
-    Diagnostic::error("new::agreement", message)
+    Diagnostic::error(codes::new::AGREEMENT, message)
         .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
 }
 
@@ -189,7 +190,7 @@ fn content(description: &RobotDescription, file: &Path) -> Result<(ScenarioConte
             description.robot.link(description.base).name,
             description.robot.link(description.tip).name
         );
-        return Err(Diagnostic::error("new::no_joint", message)
+        return Err(Diagnostic::error(codes::new::NO_JOINT, message)
             .with_help("choose a chain in the robot file: base and tip")
             .into());
     };
@@ -216,7 +217,7 @@ fn add_distance_checks(
         return Ok(None);
     }
     let distances = PairDistances::new(description)
-        .map_err(|error| Diagnostic::error("new::shape", error.to_string()))?
+        .map_err(|error| Diagnostic::error(codes::new::SHAPE, error.to_string()))?
         .farthest(description, moves);
     let Some(FarthestMove { motion, least_m, ignored, touching }) = distances else { return Ok(None) };
     if !ignored.is_empty() {

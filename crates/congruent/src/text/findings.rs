@@ -39,7 +39,7 @@ pub fn listed_findings<'a>(
 /// ```
 /// use congruent::{input::Diagnostic, text::{TextOptions, finding_text}};
 ///
-/// let found = Diagnostic::error("urdf::tree", "link \"tool\" has no parent");
+/// let found = Diagnostic::error(congruent::description::codes::urdf::TREE, "link \"tool\" has no parent");
 /// assert!(finding_text(&found, &TextOptions::default()).contains("error: link \"tool\" has no parent"));
 /// ```
 pub fn finding_text(finding: &Diagnostic, options: &TextOptions) -> String {
@@ -56,7 +56,7 @@ pub fn finding_text(finding: &Diagnostic, options: &TextOptions) -> String {
     }
     if handler.render_report(&mut text, finding).is_err() {
         // The renderer rejects spans outside the text; the message is still printed.
-        let _ = writeln!(text, "{}: {finding}", finding.code);
+        let _ = writeln!(text, "{}: {finding}", finding.code.name);
     }
     text.push('\n');
     text
@@ -121,7 +121,7 @@ mod tests {
 
     fn finding(text: &str, span: std::ops::Range<usize>) -> Diagnostic {
         let source = Arc::new(SourceFile { path: "some.toml".into(), text: text.to_owned() });
-        Diagnostic::error("a::fault", "this is wrong").at(span).in_file(&source)
+        Diagnostic::error(crate::codes::new::SHAPE, "this is wrong").at(span).in_file(&source)
     }
 
     #[test]

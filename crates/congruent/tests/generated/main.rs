@@ -102,7 +102,7 @@ fn converted(
     };
     match convert(description, &conversion) {
         Ok(report) => Ok(Some(report)),
-        Err(found) if REFUSED.contains(&found.code) => Ok(None),
+        Err(found) if REFUSED.contains(&found.code.name) => Ok(None),
         Err(found) => Err(failed(&found.into(), "")),
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use congruent_input::{Diagnostic, display::quantity};
 
-use crate::model::Robot;
+use crate::{codes, model::Robot};
 
 /// Values that one finding lists.
 const MOST_LISTED: usize = 10;
@@ -53,7 +53,7 @@ impl OutsideLimits {
         };
         let message = format!("outside the joint limits: {}{more}", self.listed.join(", "));
         (self.count > 0).then(|| {
-            Diagnostic::warning("configurations::outside_limits", message)
+            Diagnostic::warning(codes::configurations::OUTSIDE_LIMITS, message)
                 .with_help("the result is computed, but the robot cannot reach these positions")
         })
     }

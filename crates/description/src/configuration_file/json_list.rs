@@ -2,7 +2,7 @@
 
 use std::{fmt, ops::Range, sync::Arc};
 
-use congruent_input::{Diagnostic, Findings, InputFile, SourceFile, TextLines};
+use congruent_input::{Code, Diagnostic, Findings, InputFile, SourceFile, TextLines};
 use serde::{
     Deserializer as _,
     de::{DeserializeOwned, Error, SeqAccess, Visitor},
@@ -20,7 +20,7 @@ pub struct JsonList {
     /// The word for an entry in messages, such as `configuration`.
     pub entry: &'static str,
     /// Code of the error about a text that is not such a list.
-    pub code: &'static str,
+    pub code: &'static Code,
     /// Help for such a text: what was expected.
     pub help: &'static str,
 }
@@ -200,7 +200,7 @@ impl EntryFaults {
         }
     }
 
-    fn end(mut self, code: &'static str) -> Result<(), Findings> {
+    fn end(mut self, code: &'static Code) -> Result<(), Findings> {
         if self.count > MOST_FAULTS {
             self.listed.truncate(MOST_FAULTS - 1);
             let more = format!("{} more entries of the list have errors", self.count - self.listed.len());
@@ -218,7 +218,8 @@ mod tests {
 
     use super::*;
 
-    const LIST: JsonList = JsonList { entry: "entry", code: "some::json", help: "expected a list" };
+    const LIST: JsonList =
+        JsonList { entry: "entry", code: crate::codes::configurations::JSON, help: "expected a list" };
 
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -232,7 +233,7 @@ mod tests {
         let mut read = Vec::new();
         let check = |written: Written, _: &mut dyn FnMut() -> Range<usize>| {
             if written.a < 0.0 {
-                return Err(Diagnostic::error("some::sign", "is negative"));
+                return Err(Diagnostic::error(crate::codes::configurations::JSON, "is negative"));
             }
             read.push(written.a);
             Ok(())

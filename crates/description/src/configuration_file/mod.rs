@@ -15,6 +15,8 @@ use serde::Deserialize;
 use self::beyond_limits::OutsideLimits;
 use crate::model::{Robot, RobotQ};
 
+use crate::codes;
+
 pub use self::{
     beyond_limits::{outside_limits, outside_limits_warning},
     json_list::JsonList,
@@ -29,7 +31,7 @@ const MIMIC_DIGITS: f64 = 1e-9;
 /// The words and codes of messages about files of configurations.
 const LIST: JsonList = JsonList {
     entry: "configuration",
-    code: "configurations::json",
+    code: codes::configurations::JSON,
     help: r#"expected one configuration per line (JSON Lines), {"q": {"joint name": 0.1}}, or an array of them in [ ]"#,
 };
 /// Size limit of a file of configurations, bytes.
@@ -134,7 +136,7 @@ fn read(
 }
 
 fn no_entry() -> Diagnostic {
-    Diagnostic::error("configurations::none", "the list has no configurations")
+    Diagnostic::error(codes::configurations::NONE, "the list has no configurations")
         .at(0..0)
         .with_help(r#"one configuration with all joints at 0 is [{"q": {}}]"#)
 }
@@ -163,7 +165,7 @@ fn followed(
             let message = format!(
                 "joint \"{name}\" is given as {given}, but the joint that it mimics implies {implied}"
             );
-            return Err(Diagnostic::error("configurations::mimic", message).with_help(
+            return Err(Diagnostic::error(codes::configurations::MIMIC, message).with_help(
                 "leave mimic joints out, or give the value that follows from the mimicked joint",
             ));
         }
@@ -178,7 +180,7 @@ fn place(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<RobotQ, Diagno
         let Some(coordinate) = coordinate else {
             let joints = robot.movable_joint_names();
             let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
-            return Err(Diagnostic::error("configurations::unknown_joint", message)
+            return Err(Diagnostic::error(codes::configurations::UNKNOWN_JOINT, message)
                 .with_help(known_names(name, "joints", joints)));
         };
         vector[coordinate] = value;

@@ -6,14 +6,14 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Diagnostic, FileAccess, MESH_OUTSIDE, Packages, Resolved};
+use congruent_input::{Diagnostic, FileAccess, Packages, Resolved};
 use nalgebra::{Point3, Vector3};
 
 use super::{
     format::MeshFormat,
     mesh_file::{FURTHEST_M, MeshError, MeshFile},
 };
-use crate::model::Mesh;
+use crate::{codes, model::Mesh};
 
 /// Size limit of a mesh file, bytes.
 const MESH_BYTES: u64 = 256 << 20;
@@ -51,7 +51,7 @@ impl<'a> MeshStore<'a> {
         }
         let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
         let refused = |error: MeshError| {
-            Diagnostic::error("mesh::invalid", format!("mesh \"{uri}\": {error}"))
+            Diagnostic::error(codes::mesh::INVALID, format!("mesh \"{uri}\": {error}"))
                 .one_of("mesh files cannot be used", uri)
         };
         // The format is checked by the extension first, so that a file of an unsupported format is never opened.
@@ -69,7 +69,7 @@ impl<'a> MeshStore<'a> {
         let outside = |library: &&String| !self.packages.allows(&folder.join(library));
         let outside_project = |library: &String| {
             let message = format!("mesh \"{uri}\": mtllib \"{library}\" is outside of the project folder");
-            Diagnostic::warning("mesh::material_outside", message)
+            Diagnostic::warning(codes::mesh::MATERIAL_OUTSIDE, message)
                 .with_help("material libraries are never read; remove the line")
         };
         let mut warnings: Vec<_> =
@@ -77,7 +77,7 @@ impl<'a> MeshStore<'a> {
         if mesh.triangles.is_empty() {
             let message = format!("mesh \"{uri}\": the scene is empty, so the link gets no shape from it");
             warnings.push(
-                Diagnostic::warning("mesh::empty", message)
+                Diagnostic::warning(codes::mesh::EMPTY, message)
                     .one_of("meshes are empty scenes, so their links get no shape from them", uri),
             );
         }
@@ -98,14 +98,19 @@ pub fn read_mesh(
 ) -> Result<Arc<Mesh>, Diagnostic> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let mut packages = Packages::new(folder, BTreeMap::new(), access).map_err(|error| {
-        Diagnostic::error("file::unreadable", format!("{} cannot be read: {error}", folder.display()))
+        Diagnostic::error(
+            congruent_input::codes::file::UNREADABLE,
+            format!("{} cannot be read: {error}", folder.display()),
+        )
     })?;
-    let found = MeshStore::new(&mut packages, access).find(uri, scale).map_err(|fault| match fault.code {
-        MESH_OUTSIDE => fault.with_help("put the mesh into the project folder, the only folder that is read"),
-        _ => fault,
+    let found = MeshStore::new(&mut packages, access).find(uri, scale).map_err(|fault| {
+        if fault.code != congruent_input::codes::mesh::OUTSIDE {
+            return fault;
+        }
+        fault.with_help("put the mesh into the project folder, the only folder that is read")
     })?;
     if found.mesh.triangles.is_empty() {
-        return Err(Diagnostic::error("mesh::empty", format!("mesh \"{uri}\": the scene is empty")));
+        return Err(Diagnostic::error(codes::mesh::EMPTY, format!("mesh \"{uri}\": the scene is empty")));
     }
     Ok(found.mesh)
 }

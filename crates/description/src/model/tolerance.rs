@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{joint::JointKind, link::LinkIndex, robot::Robot};
+use crate::codes;
 
 /// How far two poses may be apart and still count as the same.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
@@ -84,12 +85,12 @@ impl ToleranceScale {
         Some(if value > largest {
             let message =
                 format!("`{key}` = {allowed} exceeds {of_what}, {whole}, so every pose would agree");
-            Diagnostic::error("tolerance::meaningless", message).with_help(format!(
+            Diagnostic::error(codes::tolerance::MEANINGLESS, message).with_help(format!(
                 "give less than {whole}, usually far less than {tenth}; is the minus sign of an exponent missing?"
             ))
         } else {
             let message = format!("`{key}` = {allowed} is more than a tenth of {of_what}, {whole}");
-            Diagnostic::warning("tolerance::wide", message)
+            Diagnostic::warning(codes::tolerance::WIDE, message)
                 .with_help(format!("give at most {tenth}, unless such a wide tolerance is intended"))
         })
     }

@@ -15,6 +15,7 @@ use super::{
 };
 use crate::{
     chain::{ChainEnd, ChainEnds, choose_tip},
+    codes,
     model::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance},
 };
 
@@ -72,7 +73,7 @@ fn tcp_is_a_link(at: Range<usize>, robot: &Robot, tip: LinkIndex) -> Option<Diag
         robot.link(tip).name
     );
     let help = format!("`--to tcp` means the link, `--to {name}` the declared tool centre point");
-    Some(Diagnostic::warning("robot_file::tcp_name", message).at(at).with_help(help))
+    Some(Diagnostic::warning(codes::robot_file::TCP_NAME, message).at(at).with_help(help))
 }
 
 fn chain(
@@ -84,11 +85,9 @@ fn chain(
         diagnostics.keep(robot.find_link(name.get_ref()).ok_or_else(|| {
             let message = format!("{key} = \"{}\": the robot has no such link", name.get_ref());
             let links = robot.links().iter().map(|link| link.name.as_str());
-            Diagnostic::error("robot_file::unknown_link", message).at(name.span()).with_help(known_names(
-                name.get_ref(),
-                "links",
-                links,
-            ))
+            Diagnostic::error(codes::robot_file::UNKNOWN_LINK, message)
+                .at(name.span())
+                .with_help(known_names(name.get_ref(), "links", links))
         }))
     };
     // Both are looked up before either's absence ends the check.
@@ -101,7 +100,7 @@ fn chain(
         let message = format!("tip \"{tip}\" is not a descendant of base \"{base}\"");
         let at = written.tip.as_ref().or(written.base.as_ref()).map_or(0..0, Spanned::span);
         diagnostics.push(
-            Diagnostic::error("robot_file::chain", message)
+            Diagnostic::error(codes::robot_file::CHAIN, message)
                 .at(at)
                 .with_help("the tip must be a link below the base: choose another --tip or --base, or other keys tip and base"),
         );
@@ -127,7 +126,7 @@ fn table(
     let rows = rows::check(written, context, diagnostics);
     let convention =
         diagnostics.keep(dh.convention.as_ref().map(|written| *written.get_ref()).ok_or_else(|| {
-            Diagnostic::error("robot_file::convention", "[dh] has no convention")
+            Diagnostic::error(codes::robot_file::CONVENTION, "[dh] has no convention")
                 .at(first_line(written.span(), context.text))
                 .with_help(format!(
                     "convention = \"standard\" is {}; \"modified\" (Craig) is {}; the same values describe a different robot in the other convention",
@@ -154,7 +153,7 @@ fn tolerance(written: Option<&WrittenTolerance>, diagnostics: &mut Diagnostics) 
             let span = si.as_ref().or(engineering.as_ref()).map_or(0..0, Spanned::span);
             if value <= 0.0 {
                 let message = format!("tolerance {quantity} must be greater than 0, it is {value}");
-                diagnostics.push(Diagnostic::error("robot_file::tolerance", message).at(span));
+                diagnostics.push(Diagnostic::error(codes::robot_file::TOLERANCE, message).at(span));
             }
             Some(value)
         };

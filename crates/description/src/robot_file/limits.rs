@@ -12,7 +12,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::model::{Joint, Robot};
+use crate::{
+    codes,
+    model::{Joint, Robot},
+};
 
 /// Values by joint name; `*` means every joint of this kind (revolute or prismatic) that is not named.
 type SpannedByJoint = BTreeMap<Spanned<String>, Spanned<f64>>;
@@ -88,7 +91,9 @@ impl WrittenLimits {
 
 fn twice(first: &str, name: &Spanned<String>) -> Diagnostic {
     let message = format!("the acceleration of \"{}\" is already given by {first}", name.get_ref());
-    Diagnostic::error("robot_file::limits", message).at(name.span()).with_help("keep exactly one of the two")
+    Diagnostic::error(codes::robot_file::LIMITS, message)
+        .at(name.span())
+        .with_help("keep exactly one of the two")
 }
 
 /// A warning of an acceleration in radians that is plausible only in degrees.
@@ -101,7 +106,7 @@ fn in_degrees(key: &'static str, name: &Spanned<String>, value: &Spanned<f64>) -
             name.get_ref(),
             number(*value.get_ref())
         );
-        Diagnostic::warning("robot_file::fast", message)
+        Diagnostic::warning(codes::robot_file::FAST, message)
             .at(value.span())
             .with_help("if the value is in degrees, the key is acceleration_deg_s2")
     })
@@ -126,7 +131,7 @@ fn positive(key: &str, name: &str, value: &Spanned<f64>) -> Result<f64, Diagnost
         return Ok(*value.get_ref());
     }
     let message = format!("{quantity} must be greater than 0, it is {}", value.get_ref());
-    Err(Diagnostic::error("robot_file::limits", message).at(value.span()))
+    Err(Diagnostic::error(codes::robot_file::LIMITS, message).at(value.span()))
 }
 
 /// The moving joints that a name means, as indices in `Robot::movable_joints` order.
@@ -140,14 +145,16 @@ fn named(key: &str, name: &Spanned<String>, unit: Unit, robot: &Robot) -> Result
     let Some((at, joint)) = moving().find(|(_, joint)| joint.name == *name.get_ref()) else {
         let message = format!("{key}: the robot has no moving joint \"{}\"", name.get_ref());
         let known = known_names(name.get_ref(), "moving joints", robot.movable_joint_names());
-        return Err(Diagnostic::error("robot_file::unknown_joint", message).at(name.span()).with_help(known));
+        return Err(Diagnostic::error(codes::robot_file::UNKNOWN_JOINT, message)
+            .at(name.span())
+            .with_help(known));
     };
     if of_kind(joint) {
         return Ok(vec![at]);
     }
     let (moves, right) = if turns { ("slides", "m_s2") } else { ("turns", "rad_s2") };
     let message = format!("{key} does not fit joint \"{}\", which {moves}", joint.name);
-    let refused = Diagnostic::error("robot_file::limits", message).at(name.span());
+    let refused = Diagnostic::error(codes::robot_file::LIMITS, message).at(name.span());
     Err(refused.with_help(format!("the key for this joint is acceleration_{right}")))
 }
 

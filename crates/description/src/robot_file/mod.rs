@@ -11,9 +11,7 @@ mod written;
 mod written_lint;
 
 pub(crate) use check::{Declared, check};
-pub use inertials::{
-    DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, UNUSABLE_INERTIAL,
-};
+pub use inertials::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub use written::{WrittenRobot, robot_file_schema};
 pub use written_lint::{WrittenIgnore, WrittenLint};

@@ -6,7 +6,10 @@ use congruent_input::{Diagnostic, Diagnostics, display::counted, known_names, li
 use toml::Spanned;
 
 use super::written::{WrittenDh, WrittenRow};
-use crate::model::{DhRow, DhRowKind, JointIndex, Robot};
+use crate::{
+    codes,
+    model::{DhRow, DhRowKind, JointIndex, Robot},
+};
 
 /// The chain and the text against which the rows of a table are checked.
 pub(super) struct ChainContext<'a> {
@@ -50,7 +53,7 @@ fn row(
             let [si, engineering] = unit.keys(quantity);
             let message =
                 format!("row of joint \"{}\" has neither {si} nor {engineering}", row.joint.get_ref());
-            Diagnostic::error("robot_file::missing_figure", message).at(at())
+            Diagnostic::error(codes::robot_file::MISSING_FIGURE, message).at(at())
         }))
     };
     let a_m = needed("a", Unit::Length, a_m);
@@ -66,7 +69,7 @@ fn row(
         {
             let message = format!("{quantity}_rad = {value} is more than a full turn");
             diagnostics.push(
-                Diagnostic::warning("robot_file::degrees", message)
+                Diagnostic::warning(codes::robot_file::DEGREES, message)
                     .at(span)
                     .with_help(format!("if the value is in degrees, the key is {quantity}_deg")),
             );
@@ -92,7 +95,7 @@ fn sign(row: &WrittenRow, diagnostics: &mut Diagnostics) -> Option<f64> {
         value @ (1.0 | -1.0) => Some(value),
         value => {
             let message = format!("sign must be 1 or -1, it is {value}");
-            diagnostics.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
+            diagnostics.push(Diagnostic::error(codes::robot_file::SIGN, message).at(sign.span()));
             None
         }
     }
@@ -112,7 +115,7 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnos
         let message = format!("joint \"{name}\" {what}");
         let help = known_names(name, "moving joints of the chain", names().collect::<Vec<_>>());
         diagnostics.push(
-            Diagnostic::error("robot_file::unknown_joint", message).at(row.joint.span()).with_help(help),
+            Diagnostic::error(codes::robot_file::UNKNOWN_JOINT, message).at(row.joint.span()).with_help(help),
         );
         return None;
     };
@@ -121,7 +124,7 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnos
     if is_angular != (kind == DhRowKind::Revolute) {
         let unit = if is_angular { "radians" } else { "metres" };
         let message = format!("the row is {}, but joint \"{name}\" of the URDF moves in {unit}", kind.name());
-        diagnostics.push(Diagnostic::warning("robot_file::row_kind", message).at(row.kind.span()));
+        diagnostics.push(Diagnostic::warning(codes::robot_file::ROW_KIND, message).at(row.kind.span()));
     }
     Some(joint)
 }
@@ -131,7 +134,7 @@ fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], diagnostics: 
         if let Some(first) = rows[..index].iter().find(|first| first.joint == row.joint) {
             let name = &written[index].get_ref().joint;
             let message = format!("joint \"{}\" has a row already, at line {}", name.get_ref(), first.line);
-            diagnostics.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
+            diagnostics.push(Diagnostic::error(codes::robot_file::JOINT_TWICE, message).at(name.span()));
         }
     }
 }
@@ -160,8 +163,9 @@ fn every_joint_has_a_row(
         counted(context.chain.len(), "moving joint"),
         if missing.is_empty() { "any".to_owned() } else { missing.join(", ") }
     );
-    diagnostics
-        .push(Diagnostic::error("robot_file::missing_row", message).at(first_line(dh.span(), context.text)));
+    diagnostics.push(
+        Diagnostic::error(codes::robot_file::MISSING_ROW, message).at(first_line(dh.span(), context.text)),
+    );
 }
 
 fn order(
@@ -177,7 +181,7 @@ fn order(
             "the row of joint \"{}\" is not in the order of the chain from base to tip",
             name.get_ref()
         );
-        diagnostics.push(Diagnostic::warning("robot_file::row_order", message).at(name.span()));
+        diagnostics.push(Diagnostic::warning(codes::robot_file::ROW_ORDER, message).at(name.span()));
     }
 }
 

@@ -13,7 +13,10 @@ use congruent_input::{
 use toml::Spanned;
 
 use super::written::{WrittenDh, WrittenRow};
-use crate::model::{JointKind, Robot};
+use crate::{
+    codes,
+    model::{JointKind, Robot},
+};
 
 /// Lengths up to this multiple of the robot's size are plausible; a tool that is as long as its arm is rare.
 const MOST_SIZES: f64 = 1.5;
@@ -117,7 +120,7 @@ fn too_long(what: &str, length_m: f64, size_m: f64, at: Range<usize>, key: Lengt
             length(length_m),
             length(size_m)
         );
-        let warning = Diagnostic::warning("robot_file::length", message).at(at);
+        let warning = Diagnostic::warning(codes::robot_file::LENGTH, message).at(at);
         warning.with_help(match key {
             LengthKey::Metres(key) => format!("if the value is in millimetres, the key is {key}_mm"),
             LengthKey::Millimetres(key) => {
@@ -131,15 +134,18 @@ fn too_long(what: &str, length_m: f64, size_m: f64, at: Range<usize>, key: Lengt
 }
 
 fn degrees(what: &str, key: &str, at: Range<usize>) -> Diagnostic {
-    Diagnostic::warning("robot_file::degrees", format!("{what}, which is more than a full turn"))
+    Diagnostic::warning(codes::robot_file::DEGREES, format!("{what}, which is more than a full turn"))
         .at(at)
         .with_help(format!("if the value is in degrees, the key is {key}_deg"))
 }
 
 fn radians(what: &str, key: &str, at: Range<usize>) -> Diagnostic {
-    Diagnostic::warning("robot_file::radians", format!("{what}, a multiple of a quarter turn in radians"))
-        .at(at)
-        .with_help(format!("if the value is in radians, the key is {key}_rad"))
+    Diagnostic::warning(
+        codes::robot_file::RADIANS,
+        format!("{what}, a multiple of a quarter turn in radians"),
+    )
+    .at(at)
+    .with_help(format!("if the value is in radians, the key is {key}_rad"))
 }
 
 fn is_quarter_turn_in_rad(degrees: f64) -> bool {
@@ -162,7 +168,7 @@ mod tests {
         let source =
             |name: &str, text: &str| Arc::new(SourceFile { path: name.into(), text: text.to_owned() });
         let description = parse_robot(Some(&source("robot.toml", robot_file)), &source("r.urdf", URDF));
-        description.unwrap().warnings.iter().map(|found| found.code).collect()
+        description.unwrap().warnings.iter().map(|found| found.code.name).collect()
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Files that are not URDF: SDF, other robot formats, xacro that has not been expanded.
 
-use congruent_input::{Diagnostic, xml};
+use congruent_input::Diagnostic;
 use roxmltree::{Document, Node};
 
 use super::node::{label, tag};
+use crate::codes;
 
 /// xacro runs code, so it is never run here.
 const RUN_XACRO: &str =
@@ -14,9 +15,9 @@ const XACRO: &str = "xacro";
 
 /// Names the cause of an XML fault that is typical for a URDF: an undeclared `xacro:` prefix is unexpanded xacro.
 pub(super) fn explain(fault: Diagnostic) -> Diagnostic {
-    if fault.code == xml::UNKNOWN_PREFIX && fault.message.contains(XACRO) {
+    if fault.code == congruent_input::codes::xml::PREFIX && fault.message.contains(XACRO) {
         let message = "unexpanded xacro".to_owned();
-        return Diagnostic { code: "urdf::xacro", message, ..fault }.with_help(RUN_XACRO);
+        return Diagnostic { code: codes::urdf::XACRO, message, ..fault }.with_help(RUN_XACRO);
     }
     fault
 }
@@ -32,7 +33,7 @@ pub(super) fn check(root: Node<'_, '_>) -> Result<(), Diagnostic> {
             _ => "",
         };
         let message = format!("the root element is <{name}>: {what}a URDF begins with <robot>");
-        return Err(Diagnostic::error("urdf::root", message)
+        return Err(Diagnostic::error(codes::urdf::ROOT, message)
             .at(tag(root))
             .with_help("export or convert the robot to URDF"));
     }
@@ -43,7 +44,7 @@ pub(super) fn check(root: Node<'_, '_>) -> Result<(), Diagnostic> {
 ///
 /// Vendor blocks are skipped: Gazebo plugins use `$(find ...)` legitimately.
 fn unexpanded(document: &Document<'_>) -> Option<Diagnostic> {
-    let refused = |message: String| Diagnostic::error("urdf::xacro", message).with_help(RUN_XACRO);
+    let refused = |message: String| Diagnostic::error(codes::urdf::XACRO, message).with_help(RUN_XACRO);
     let robot = document.root_element();
     let ours = |node: &Node<'_, '_>| ["link", "joint", "material"].contains(&node.tag_name().name());
     for owner in robot.children().filter(ours) {

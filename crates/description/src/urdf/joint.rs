@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use congruent_input::{Capability, Diagnostic, Diagnostics};
+use congruent_input::{Capability, Code, Diagnostic, Diagnostics};
 use nalgebra::{Unit, Vector3};
 use roxmltree::Node;
 use urdf_rs::JointType;
@@ -11,7 +11,10 @@ use super::{
     node::{element, label, place, tag},
     pose,
 };
-use crate::model::{Joint, JointKind, JointLimit, JointParts, LinkIndex};
+use crate::{
+    codes,
+    model::{Joint, JointKind, JointLimit, JointParts, LinkIndex},
+};
 
 /// How far the length of an axis may be from 1 without a warning. Kind: six digits in the file.
 const AXIS_LENGTH: f64 = 1e-6;
@@ -62,15 +65,15 @@ impl JointReader<'_, '_> {
     }
 
     /// Reports a fault of a value that only the simulation needs.
-    fn physics(&mut self, code: &'static str, what: String, child: &str) {
+    fn physics(&mut self, code: &'static Code, what: String, child: &str) {
         self.report(Diagnostic::error(code, what).needed_by(Some(Capability::Physics)), child);
     }
 
-    fn error(&mut self, code: &'static str, what: impl Into<String>, child: &str) {
+    fn error(&mut self, code: &'static Code, what: impl Into<String>, child: &str) {
         self.report(Diagnostic::error(code, what), child);
     }
 
-    fn warn(&mut self, code: &'static str, what: impl Into<String>, child: &str) {
+    fn warn(&mut self, code: &'static Code, what: impl Into<String>, child: &str) {
         self.report(Diagnostic::warning(code, what), child);
     }
 
@@ -83,7 +86,7 @@ impl JointReader<'_, '_> {
             JointType::Floating | JointType::Planar | JointType::Spherical => {
                 let written = self.node.attribute("type").unwrap_or_default();
                 let fault = Diagnostic::error(
-                    "urdf::joint_type",
+                    codes::urdf::JOINT_TYPE,
                     format!("type \"{written}\" is not supported"),
                 )
                 .with_help(
@@ -107,12 +110,12 @@ impl JointReader<'_, '_> {
             return Vector3::z_axis();
         }
         if largest == 0.0 {
-            self.error("urdf::axis", "axis is the zero vector", "axis");
+            self.error(codes::urdf::AXIS, "axis is the zero vector", "axis");
             return Vector3::z_axis();
         }
         if !length.is_finite() {
             self.error(
-                "urdf::axis",
+                codes::urdf::AXIS,
                 "the numbers of the axis are so large that its length overflows",
                 "axis",
             );
@@ -122,7 +125,7 @@ impl JointReader<'_, '_> {
             // 1e300 without an exponent has 301 digits.
             let is_short = (1e-6..1e6).contains(&length);
             let length = if is_short { length.to_string() } else { format!("{length:e}") };
-            self.warn("urdf::axis", format!("axis has length {length} and is normalised to 1"), "axis");
+            self.warn(codes::urdf::AXIS, format!("axis has length {length} and is normalised to 1"), "axis");
         }
         Unit::new_normalize(scaled)
     }
@@ -131,7 +134,7 @@ impl JointReader<'_, '_> {
         let written = element(self.node, "limit");
         if written.is_none() && matches!(kind, JointKind::Revolute | JointKind::Prismatic) {
             let or = if kind == JointKind::Revolute { " (or type \"continuous\")" } else { "" };
-            self.error("urdf::limit", format!("a {} joint needs <limit>{or}", kind.name()), "limit");
+            self.error(codes::urdf::LIMIT, format!("a {} joint needs <limit>{or}", kind.name()), "limit");
         }
         let limit = &self.joint.limit;
         // Limits of fixed joints mean nothing.
@@ -143,7 +146,11 @@ impl JointReader<'_, '_> {
             if (limit.lower.is_finite() && limit.lower != 0.0)
                 || (limit.upper.is_finite() && limit.upper != 0.0)
             {
-                self.warn("urdf::limit", "a continuous joint ignores the limits lower and upper", "limit");
+                self.warn(
+                    codes::urdf::LIMIT,
+                    "a continuous joint ignores the limits lower and upper",
+                    "limit",
+                );
             }
             return Some(JointLimit { lower: f64::NEG_INFINITY, upper: f64::INFINITY, velocity, effort });
         }
@@ -154,7 +161,7 @@ impl JointReader<'_, '_> {
     /// The largest effort or velocity; `None` if the file gives none.
     fn capability(&mut self, key: &str, value: f64, written: Node<'_, '_>) -> Option<f64> {
         if value < 0.0 {
-            self.physics("urdf::limit", format!("limit {key} {value} is negative"), "limit");
+            self.physics(codes::urdf::LIMIT, format!("limit {key} {value} is negative"), "limit");
         }
         // `urdf-rs` has 0 for one that is missing, which is another statement.
         written.has_attribute(key).then_some(value)
@@ -166,16 +173,20 @@ impl JointReader<'_, '_> {
             ["lower", "upper"].into_iter().filter(|key| !written.has_attribute(*key)).collect();
         // The most serious first: each range gets one message.
         if lower > upper {
-            self.error("urdf::limit", format!("lower limit {lower} is above upper limit {upper}"), "limit");
+            self.error(
+                codes::urdf::LIMIT,
+                format!("lower limit {lower} is above upper limit {upper}"),
+                "limit",
+            );
         } else if !missing.is_empty() && lower.is_finite() && upper.is_finite() {
             let what = format!(
                 "<limit> has no {}, which counts as 0: the range is [{lower}, {upper}]",
                 missing.join(" and ")
             );
-            self.warn("urdf::limit", what, "limit");
+            self.warn(codes::urdf::LIMIT, what, "limit");
         } else if upper <= lower {
             self.warn(
-                "urdf::limit",
+                codes::urdf::LIMIT,
                 format!("lower and upper limit are both {lower}: the joint cannot move"),
                 "limit",
             );
@@ -183,11 +194,11 @@ impl JointReader<'_, '_> {
         let furthest = lower.abs().max(upper.abs());
         if furthest.is_finite() && furthest > LARGEST_LIMIT {
             let what = format!("limit {furthest:e} is too large: poses are computed up to {LARGEST_LIMIT:e}");
-            self.error("urdf::limit", what, "limit");
+            self.error(codes::urdf::LIMIT, what, "limit");
         } else if kind.is_angular() && furthest.is_finite() && furthest > LARGEST_PLAUSIBLE_RAD {
             let what =
                 format!("limits [{lower}, {upper}] are more than four turns: degrees instead of radians?");
-            self.warn("urdf::degrees", what, "limit");
+            self.warn(codes::urdf::DEGREES, what, "limit");
         }
     }
 
@@ -195,7 +206,7 @@ impl JointReader<'_, '_> {
     fn loss(&mut self, key: &str, value: Option<f64>) -> f64 {
         let value = value.unwrap_or(0.0);
         if value < 0.0 {
-            self.physics("urdf::dynamics", format!("{key} {value} is negative"), "dynamics");
+            self.physics(codes::urdf::DYNAMICS, format!("{key} {value} is negative"), "dynamics");
         }
         value
     }

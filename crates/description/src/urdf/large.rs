@@ -2,8 +2,10 @@
 
 use congruent_input::{Diagnostic, Severity};
 
-use super::pose::{CENTER_OF_MASS, TOO_FAR};
-use crate::model::{Extent, Link, LinkIndex, Robot};
+use crate::{
+    codes,
+    model::{Extent, Link, LinkIndex, Robot},
+};
 
 /// Diagonal of the shapes, m; smaller links are treated as those of arms.
 const LEAST_LARGE_M: f64 = 4.0;
@@ -14,8 +16,6 @@ const DENSITY: [f64; 2] = [2.0, 2e4];
 const MOST_GYRATION: f64 = 0.7;
 /// Largest distance of a centre of mass or a joint origin from the shapes of a large link, in diagonals.
 const FARTHEST: f64 = 0.3;
-/// The code of the warning of a tensor that is too large for its mass.
-pub const INERTIA_SIZE: &str = "urdf::inertia_size";
 
 /// The links whose shapes, mass, centre of mass and inertia are all consistent with a large size; for each the box around its
 /// shapes.
@@ -55,7 +55,9 @@ fn large(link: &Link) -> Option<Extent> {
 /// The findings of the reader without the warnings of sizes that are plausible for large links.
 pub(crate) fn without_large_links(robot: &Robot, found: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let of_sizes = |found: &Diagnostic| {
-        [TOO_FAR, CENTER_OF_MASS, INERTIA_SIZE].contains(&found.code) && found.severity == Severity::Warning
+        [codes::urdf::MILLIMETRES, codes::urdf::CENTER_OF_MASS, codes::urdf::INERTIA_SIZE]
+            .contains(&found.code)
+            && found.severity == Severity::Warning
     };
     // Bounds of all shapes cost a pass over all vertices: only if a warning depends on them.
     if !found.iter().any(of_sizes) {

@@ -36,6 +36,7 @@ use roxmltree::Node;
 
 use self::node::{elements, last, place, tag};
 use crate::{
+    codes,
     mesh::{FindMesh, FoundMesh},
     model::{Link, Robot, RobotError},
 };
@@ -71,7 +72,7 @@ pub(crate) fn parse(
     let links = elements(root, "link").count();
     if links > MOST_LINKS {
         let message = format!("too many links: {links}, the limit is {MOST_LINKS}");
-        diagnostics.push(Diagnostic::error("urdf::too_many_links", message).at(tag(root)));
+        diagnostics.push(Diagnostic::error(codes::urdf::TOO_MANY_LINKS, message).at(tag(root)));
     }
     if diagnostics.has_error() {
         return None;
@@ -101,7 +102,7 @@ fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
 fn read(root: Node<'_, '_>, inputs: &mut UrdfInputs<'_, '_>, diagnostics: &mut Diagnostics) -> Option<Robot> {
     let urdf = diagnostics.keep(urdf_rs::read_from_string(&for_urdf_rs(root)).map_err(|error| {
         // Faults that the grammar check does not find and urdf-rs does.
-        Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
+        Diagnostic::error(codes::urdf::STRUCTURE, format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
     let mut robot = build(&urdf, root, inputs.find_mesh, diagnostics)?;
     if diagnostics.has_error() {
@@ -131,7 +132,7 @@ pub fn parse_urdf(text: &str) -> Result<Robot, Findings> {
 /// Refuses every mesh: for texts without a folder.
 pub(crate) fn no_mesh(uri: &str, _: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
     let message = format!("mesh \"{uri}\" cannot be opened: the URDF was given as text, without a folder");
-    Err(Diagnostic::error("mesh::no_folder", message))
+    Err(Diagnostic::error(codes::mesh::NO_FOLDER, message))
 }
 
 /// The document as `urdf-rs` takes it. Every text between elements is left out: it means nothing in a URDF, real
@@ -193,8 +194,8 @@ fn tree_fault(error: &RobotError, root: Node<'_, '_>) -> Diagnostic {
     };
     let joint = error.joint().and_then(|name| last(root, "joint", name)).map(|node| place(node, part));
     let link = error.link().and_then(|name| last(root, "link", name)).map(tag);
-    let fault =
-        Diagnostic::error("urdf::tree", error.to_string()).at(joint.or(link).unwrap_or_else(|| tag(root)));
+    let fault = Diagnostic::error(codes::urdf::TREE, error.to_string())
+        .at(joint.or(link).unwrap_or_else(|| tag(root)));
     match error {
         RobotError::UnknownLink { link, known, .. } => {
             fault.with_help(known_names(link, "links", known.iter().map(String::as_str)))
@@ -223,6 +224,6 @@ fn first_at(fault: Diagnostic, root: Node<'_, '_>, tag_name: &str, name: &str) -
 #[cfg(test)]
 mod tests;
 pub use grammar::{Misspelling, Misspelt, misspellings};
-pub use inertial::{LARGEST_GYRATION_M, MASSLESS};
-pub use large::{INERTIA_SIZE, LargeLinks};
-pub use pose::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M, TOO_FAR};
+pub use inertial::LARGEST_GYRATION_M;
+pub use large::LargeLinks;
+pub use pose::LARGEST_PLAUSIBLE_M;

@@ -7,14 +7,10 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 use super::node::{element, label, place, tag};
+use crate::codes;
 
 /// Longer offsets between the parts of one robot are taken for millimetres.
 pub const LARGEST_PLAUSIBLE_M: f64 = 10.0;
-
-/// The code of lengths beyond that bound.
-pub const TOO_FAR: &str = "urdf::millimetres";
-/// The code of centres of mass beyond it.
-pub const CENTER_OF_MASS: &str = "urdf::center_of_mass";
 
 /// The place of an `<origin>` in the document.
 #[derive(Clone, Copy)]
@@ -40,7 +36,7 @@ pub(super) fn read(
     if let Some(quaternion) = origin.and_then(|origin| origin.attribute("quat_xyzw")) {
         let rotation = from_quaternion(quaternion).unwrap_or_else(|| {
             let message = format!("{}: quat_xyzw = \"{quaternion}\" is zero", label(owner));
-            let fault = Diagnostic::error("urdf::quaternion", message).needed_by(needed_by);
+            let fault = Diagnostic::error(codes::urdf::QUATERNION, message).needed_by(needed_by);
             diagnostics.push(fault.at(origin.map_or(0..0, tag)));
             UnitQuaternion::identity()
         });
@@ -49,7 +45,7 @@ pub(super) fn read(
     if let Some(angle) = rpy.into_iter().find(|angle| angle.abs() > TAU) {
         let message = format!("{}: rpy {angle} is more than a full turn in radians", label(owner));
         diagnostics.push(
-            Diagnostic::warning("urdf::degrees", message)
+            Diagnostic::warning(codes::urdf::DEGREES, message)
                 .one_of("origins have an rpy of more than a full turn in radians", label(owner))
                 .at(place(parent, "origin"))
                 .with_help("degrees instead of radians?"),
@@ -70,10 +66,10 @@ fn far_away(xyz: Vector3<f64>, place: OriginPlace<'_, '_>, diagnostics: &mut Dia
     let is_com = place.parent.has_tag_name("inertial");
     let (code, what, kind) = if is_com {
         let what = format!("its centre of mass is {far} away from its origin");
-        (CENTER_OF_MASS, what, "links have a centre of mass far from their origin")
+        (codes::urdf::CENTER_OF_MASS, what, "links have a centre of mass far from their origin")
     } else {
         let what = format!("origin {} m is more than {LARGEST_PLAUSIBLE_M} m away", display::number(largest));
-        (TOO_FAR, what, "origins are more than 10 m away")
+        (codes::urdf::MILLIMETRES, what, "origins are more than 10 m away")
     };
     let owner = label(place.owner);
     let found = if (far_m * far_m).is_finite() {

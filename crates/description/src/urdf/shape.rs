@@ -8,9 +8,10 @@ use roxmltree::Node;
 
 use super::{
     node::{element, label, tag},
-    pose::{self, LARGEST_PLAUSIBLE_M, TOO_FAR},
+    pose::{self, LARGEST_PLAUSIBLE_M},
 };
 use crate::{
+    codes,
     mesh::FindMesh,
     model::{Geometry, Mesh, Shape},
 };
@@ -95,7 +96,7 @@ impl ShapeReader<'_, '_> {
             Written::Capsule { .. } => {
                 let message = "shape <capsule> is not supported";
                 let help = "use a cylinder and two spheres, each in an element of its own";
-                return Err(Diagnostic::error("urdf::geometry", message).with_help(help));
+                return Err(Diagnostic::error(codes::urdf::GEOMETRY, message).with_help(help));
             }
             Written::Mesh { ref filename, scale } => {
                 return self.mesh(filename, scale.map_or(Vector3::repeat(1.0), |scale| scale.0.into()));
@@ -111,7 +112,7 @@ impl ShapeReader<'_, '_> {
         if scale.iter().any(|factor| *factor == 0.0) {
             let [x, y, z] = scale.into();
             let message = format!("mesh \"{uri}\": scale \"{x} {y} {z}\" flattens it to zero volume");
-            return Err(Diagnostic::error("urdf::scale", message));
+            return Err(Diagnostic::error(codes::urdf::SCALE, message));
         }
         let found = (self.find_mesh)(uri, scale)?;
         let mut warnings = found.warnings;
@@ -123,7 +124,7 @@ impl ShapeReader<'_, '_> {
 fn placed(diagnostic: Diagnostic, owner: Node<'_, '_>, place: Node<'_, '_>) -> Diagnostic {
     let message = format!("{}: {}", label(owner), diagnostic.message);
     let placed = Diagnostic { message, ..diagnostic }.at(tag(place));
-    if placed.code == TOO_FAR {
+    if placed.code == codes::urdf::MILLIMETRES {
         placed.one_of("shapes are more than 10 m large", label(owner))
     } else {
         placed
@@ -135,7 +136,7 @@ fn check_sizes(shape: &str, sizes: &[(&str, f64)]) -> Result<f64, Diagnostic> {
     match sizes.iter().find(|(_, size)| *size <= 0.0) {
         Some((key, size)) => {
             let message = format!("{shape} {key} {size} must be positive");
-            Err(Diagnostic::error("urdf::geometry", message))
+            Err(Diagnostic::error(codes::urdf::GEOMETRY, message))
         }
         None => Ok(sizes.iter().fold(f64::INFINITY, |least, (_, size)| least.min(*size))),
     }
@@ -143,7 +144,7 @@ fn check_sizes(shape: &str, sizes: &[(&str, f64)]) -> Result<f64, Diagnostic> {
 
 fn too_large(what: &str, size_m: f64) -> Option<Diagnostic> {
     (size_m > LARGEST_PLAUSIBLE_M).then(|| {
-        Diagnostic::warning(TOO_FAR, format!("{what} is {size_m:.1} m large"))
+        Diagnostic::warning(codes::urdf::MILLIMETRES, format!("{what} is {size_m:.1} m large"))
             .with_help("millimetres instead of metres? a mesh takes scale=\"0.001 0.001 0.001\"")
     })
 }

@@ -32,7 +32,7 @@ pub(super) const INERTIAL: &str =
 
 pub(super) fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
     let mut diagnostics = Diagnostics::default();
-    let mut no_mesh = |uri: &str, _| Err(Diagnostic::error("mesh::none", format!("no mesh {uri}")));
+    let mut no_mesh = |uri: &str, _| Err(Diagnostic::error(codes::mesh::EMPTY, format!("no mesh {uri}")));
     let inputs = UrdfInputs { find_mesh: &mut no_mesh, repairs: &Repairs::default() };
     let robot = parse(text, inputs, &mut diagnostics);
     (robot, diagnostics.into_vec())
@@ -50,7 +50,7 @@ pub(super) fn good(text: &str) -> Robot {
 fn one(text: &str, severity: Severity, line: usize, code: &str, message: &str) {
     let (robot, diagnostics) = read(text);
     let [found] = &diagnostics[..] else { panic!("{diagnostics:#?}") };
-    assert_eq!((found.severity, found.code), (severity, code), "{}", found.message);
+    assert_eq!((found.severity, found.code.name), (severity, code), "{}", found.message);
     assert!(found.message.contains(message), "{}", found.message);
     assert_eq!(line_column(text, found.span.as_ref().unwrap().start).0, line);
     assert_eq!(robot.is_some(), severity == Severity::Warning);
@@ -255,7 +255,7 @@ fn shapes_are_checked() {
         (shape("<capsule radius='1' length='1'/>"), "urdf::geometry", "<capsule> is not supported"),
         (shape("<sphere radius='1'/><box size='1 1 1'/>"), "urdf::geometry", "more than one shape"),
         (shape("<mesh filename='a.stl' scale='0 1 1'/>"), "urdf::scale", "flattens"),
-        (shape("<mesh filename='a.stl'/>"), "mesh::none", "link \"tip\": no mesh a.stl"),
+        (shape("<mesh filename='a.stl'/>"), "mesh::empty", "link \"tip\": no mesh a.stl"),
         ("<colision/>".to_owned(), "urdf::unknown_element", "did you mean <collision>?"),
         ("<collision/>".to_owned(), "urdf::missing_element", "<collision> has no <geometry>"),
     ] {
@@ -319,7 +319,8 @@ fn an_inertial_that_cannot_be_read_is_none() {
         (format!("{INERTIAL}{INERTIAL}"), "urdf::repeated_element", "<inertial> is given twice"),
     ] {
         let (robot, found) = read(&arm(LIMIT, &inertial));
-        let found = found.iter().find(|found| found.code == code).unwrap_or_else(|| panic!("{found:#?}"));
+        let found =
+            found.iter().find(|found| found.code.name == code).unwrap_or_else(|| panic!("{found:#?}"));
         assert!(found.stops == Some(Capability::Physics) && found.message.contains(message), "{found:#?}");
         assert_eq!(robot.unwrap().links()[1].inertia, None);
     }
@@ -365,12 +366,15 @@ fn names_are_shown_as_they_are() {
     for (hidden, said) in [("&#10;", r"\n"), ("\u{202e}", r"\u{202e}"), ("\u{9b}", r"\u{9b}")] {
         let (robot, found) = read(&good.replace(name, &format!("<link name=\"a{hidden}b\"")));
         let first = &found[0];
-        assert_eq!((robot, first.severity, first.code), (None, Severity::Error, "urdf::hidden_character"));
+        assert_eq!(
+            (robot, first.severity, first.code.name),
+            (None, Severity::Error, "urdf::hidden_character")
+        );
         assert!(first.message.contains(&format!(r#"link "a{said}b": <link> name = "a{said}b""#)), "{first}");
     }
     // What kinematics can do without stops what needs it.
     let mesh =
         "<visual><geometry><mesh filename=\"a&#27;.stl\"/></geometry></visual>".replace("&#27;", "\u{85}");
     let (robot, found) = read(&arm(LIMIT, &format!("{mesh}{INERTIAL}")));
-    assert!(robot.is_some() && found[0].code == "urdf::hidden_character", "{found:#?}");
+    assert!(robot.is_some() && found[0].code.name == "urdf::hidden_character", "{found:#?}");
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::line_counter::LineCounter;
 use crate::{
-    codes::Code,
+    code::Code,
     visible::{visible, visible_lines},
 };
 
@@ -93,8 +93,8 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// Of a warning: the use of the robot that it blocks.
     pub stops: Option<Capability>,
-    /// Stable name, `area::fault`, that tools may match on.
-    pub code: &'static str,
+    /// What kind of fault it is, with the stable name and number that tools may match on.
+    pub code: &'static Code,
     /// What is wrong: a lowercase fragment that names the thing and the value.
     pub message: String,
     /// The words by which it is joined with others; boxed to keep errors small.
@@ -110,7 +110,7 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// A diagnostic that stops the work. Its message is one line in which every character is shown, whatever names and
     /// values of files it quotes.
-    pub fn error(code: &'static str, message: impl Into<String>) -> Self {
+    pub fn error(code: &'static Code, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Error,
             stops: None,
@@ -124,7 +124,7 @@ impl Diagnostic {
     }
 
     /// A diagnostic that does not stop the work.
-    pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
+    pub fn warning(code: &'static Code, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
@@ -198,9 +198,10 @@ impl std::error::Error for Diagnostic {}
 
 impl miette::Diagnostic for Diagnostic {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(match Code::find(self.code) {
-            Some(code) => Box::new(format!("{code} {}", self.code)),
-            None => Box::new(self.code),
+        let name = self.code.name;
+        Some(match self.code.id {
+            Some(id) => Box::new(format!("{id} {name}")),
+            None => Box::new(name),
         })
     }
 

@@ -143,7 +143,7 @@ fn file(diagnostic: &Diagnostic) -> Option<&Path> {
 /// The properties that warnings must share to be joined.
 fn kind(found: &Diagnostic) -> (Option<PathBuf>, &'static str, Option<Capability>, Option<String>) {
     let words = found.kind.plural_and_name.as_ref().map(|(words, _)| words.clone());
-    (file(found).map(Path::to_owned), found.code, found.stops, words)
+    (file(found).map(Path::to_owned), found.code.name, found.stops, words)
 }
 
 fn join(first: &mut Diagnostic, other: Diagnostic) {
@@ -201,12 +201,16 @@ mod tests {
     #[test]
     fn warnings_of_one_kind_are_one() {
         let massless = |name: &str, at| {
-            Diagnostic::warning("a::massless", format!("link {name} has no mass"))
+            Diagnostic::warning(crate::codes::file::EMPTY, format!("link {name} has no mass"))
                 .one_of("links have no mass", name)
                 .at(at..at + 1)
         };
         let mut found = Diagnostics::default();
-        found.extend([massless("c", 4), massless("a", 0), Diagnostic::warning("a::other", "other").at(2..3)]);
+        found.extend([
+            massless("c", 4),
+            massless("a", 0),
+            Diagnostic::warning(crate::codes::toml::UNKNOWN_KEY, "other").at(2..3),
+        ]);
         let once = found.in_file(&source());
         let messages: Vec<&str> = once.iter().map(|found| found.message.as_str()).collect();
         assert_eq!(messages, ["2 links have no mass: a, c", "other"]);
@@ -225,8 +229,8 @@ mod tests {
     fn without_names_the_lines_are_listed_and_errors_stay_apart() {
         let mut found = Diagnostics::default();
         for at in [0, 4, 6] {
-            found.push(Diagnostic::warning("a::b", format!("odd {at}")).at(at..at));
-            found.push(Diagnostic::error("a::c", format!("wrong {at}")).at(at..at));
+            found.push(Diagnostic::warning(crate::codes::toml::NOT_FINITE, format!("odd {at}")).at(at..at));
+            found.push(Diagnostic::error(crate::codes::toml::UNKNOWN_KEY, format!("wrong {at}")).at(at..at));
         }
         let found = found.in_file(&source());
         let messages: Vec<&str> = found.iter().map(|found| found.message.as_str()).collect();
@@ -239,9 +243,15 @@ mod tests {
     #[test]
     fn what_stops_one_use_is_not_joined_with_what_stops_none() {
         let mut found = Diagnostics::default();
-        found.push(Diagnostic::error("a::b", "drawn").needed_by(None));
-        found.push(Diagnostic::error("a::b", "touched").needed_by(Some(Capability::Clearance)));
-        found.push(Diagnostic::error("a::b", "moved").needed_by(Some(Capability::Kinematics)));
+        found.push(Diagnostic::error(crate::codes::toml::NOT_FINITE, "drawn").needed_by(None));
+        found.push(
+            Diagnostic::error(crate::codes::toml::NOT_FINITE, "touched")
+                .needed_by(Some(Capability::Clearance)),
+        );
+        found.push(
+            Diagnostic::error(crate::codes::toml::NOT_FINITE, "moved")
+                .needed_by(Some(Capability::Kinematics)),
+        );
         let found = found.into_vec();
         let grades: Vec<_> = found.iter().map(|found| (found.severity, found.stops)).collect();
         assert_eq!(

@@ -5,7 +5,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::{codes::Code, visible::visible};
+use crate::visible::visible;
 
 use super::{
     diagnostic::{Capability, Diagnostic, Occurrence, Severity},
@@ -74,8 +74,8 @@ impl From<&Diagnostic> for Finding {
         Self {
             severity: diagnostic.severity,
             stops: diagnostic.stops,
-            code: diagnostic.code,
-            id: Code::find(diagnostic.code).map(|code| code.to_string()),
+            code: diagnostic.code.name,
+            id: diagnostic.code.id.map(str::to_owned),
             message: diagnostic.message.clone(),
             file: diagnostic.source.as_ref().map(|source| source.path.display().to_string()),
             line: place.map(|(line, _)| line),
@@ -129,7 +129,10 @@ mod tests {
     fn a_finding_has_so_many_places_and_the_number_of_the_others() {
         let found = |count: usize| {
             let mut all = Diagnostics::default();
-            let one = |at: usize| Diagnostic::warning("a::b", "odd").one_of("odd things", at.to_string());
+            let one = |at: usize| {
+                Diagnostic::warning(crate::codes::toml::NOT_FINITE, "odd")
+                    .one_of("odd things", at.to_string())
+            };
             all.extend((0..count).map(one));
             Finding::from(&all.into_vec()[0])
         };

@@ -13,16 +13,16 @@ use super::diagnostic::Diagnostic;
 ///
 /// # Examples
 /// ```
-/// use congruent_input::{Diagnostic, Findings};
+/// use congruent_input::{Diagnostic, Findings, codes::toml::NOT_FINITE};
 /// fn positive(value: f64) -> Result<f64, Diagnostic> {
-///     if value > 0.0 { Ok(value) } else { Err(Diagnostic::error("scenario::number", format!("{value} is not positive"))) }
+///     if value > 0.0 { Ok(value) } else { Err(Diagnostic::error(NOT_FINITE, format!("{value} is not positive"))) }
 /// }
 /// fn ratio(a: f64, b: f64) -> Result<f64, Findings> {
 ///     Ok(positive(a)? / positive(b)?)
 /// }
 /// let refused = ratio(1.0, -2.0).unwrap_err();
 /// assert_eq!(refused.to_string(), "-2 is not positive");
-/// assert!(refused.into_iter().all(|finding| finding.code == "scenario::number"));
+/// assert!(refused.into_iter().all(|finding| finding.code == NOT_FINITE));
 /// ```
 #[derive(Clone, PartialEq)]
 pub struct Findings(Vec<Diagnostic>);
@@ -134,9 +134,9 @@ mod tests {
 
     #[test]
     fn each_finding_is_a_line() {
-        let mut found = Findings::from(Diagnostic::error("a::b", "wrong"));
+        let mut found = Findings::from(Diagnostic::error(crate::codes::toml::NOT_FINITE, "wrong"));
         assert_eq!(found.to_string(), "wrong");
-        found.extend([Diagnostic::warning("a::c", "odd")]);
+        found.extend([Diagnostic::warning(crate::codes::toml::UNKNOWN_KEY, "odd")]);
         assert_eq!((found.len(), found.to_string()), (2, "wrong\nodd".to_owned()));
         assert_eq!(format!("{found:?}"), found.to_string());
     }

@@ -15,13 +15,13 @@ use super::{
     project::{normalised, project_folder},
     ros_packages::RosPackages,
 };
-use crate::diagnostic::{Diagnostic, SourceFile};
+use crate::{
+    codes,
+    diagnostic::{Diagnostic, SourceFile},
+};
 
 /// Names that mark the top folder of a project of scenarios and robot files.
 const MARKS: [&str; 2] = ["package.xml", ".git"];
-
-/// The code of a file outside the folders that may be read.
-pub const OUTSIDE: &str = "file::outside";
 
 /// Permission to open files, and the record of the files that were read.
 ///
@@ -60,7 +60,7 @@ impl FileAccess {
             let real = folder.canonicalize().ok().filter(|real| real.is_dir());
             real.ok_or_else(|| {
                 let message = format!("--allow {}: not a folder", folder.display());
-                Diagnostic::error("file::allow", message)
+                Diagnostic::error(codes::file::ALLOW, message)
                     .with_help("give a folder that exists, whose files may be opened")
             })
         };
@@ -157,7 +157,7 @@ impl FileAccess {
             project.display()
         );
         let folder = real.parent().unwrap_or(&real).display();
-        Err(Diagnostic::error(OUTSIDE, message).with_help(format!(
+        Err(Diagnostic::error(codes::file::OUTSIDE, message).with_help(format!(
             "move it into the project, whose top is marked by package.xml or .git, or allow its folder: --allow {folder}"
         )))
     }
@@ -201,7 +201,7 @@ impl FileAccess {
 fn real_folder(file: &Path) -> Result<PathBuf, Diagnostic> {
     let folder = folder_of(file);
     folder.canonicalize().map_err(|error| {
-        Diagnostic::error("file::unreadable", format!("{} cannot be read: {error}", folder.display()))
+        Diagnostic::error(codes::file::UNREADABLE, format!("{} cannot be read: {error}", folder.display()))
     })
 }
 
@@ -237,7 +237,7 @@ mod tests {
     }
 
     fn code(access: &FileAccess, path: &Path) -> Option<&'static str> {
-        access.read_text(path, 99).err().map(|fault| fault.code)
+        access.read_text(path, 99).err().map(|fault| fault.code.name)
     }
 
     #[test]

@@ -14,7 +14,10 @@ use std::{
     time::Duration,
 };
 
-use crate::diagnostic::{Diagnostic, SourceFile, line_column, nearest};
+use crate::{
+    codes,
+    diagnostic::{Diagnostic, SourceFile, line_column, nearest},
+};
 
 /// The names of standard input.
 const STANDARD_INPUT: [&str; 2] = ["-", "/dev/stdin"];
@@ -86,7 +89,7 @@ fn standard_input(path: &Path) -> Result<io::Stdin, Diagnostic> {
     static IS_TAKEN: AtomicBool = AtomicBool::new(false);
     if IS_TAKEN.swap(true, Ordering::Relaxed) {
         let message = format!("{}: another argument has already read standard input", path.display());
-        return Err(Diagnostic::error("file::standard_input", message)
+        return Err(Diagnostic::error(codes::file::STANDARD_INPUT, message)
             .with_help("give one of the arguments as a file"));
     }
     Ok(io::stdin())
@@ -110,7 +113,7 @@ fn open_pipe(path: &Path) -> Result<File, Diagnostic> {
     std::thread::spawn(move || sender.send(File::open(pipe)));
     let opened = receiver.recv_timeout(WRITER_WAIT).map_err(|_| {
         let message = format!("{} is a named pipe, and no program writes to it", path.display());
-        Diagnostic::error("file::no_writer", message)
+        Diagnostic::error(codes::file::NO_WRITER, message)
     })?;
     opened.map_err(|error| unreadable(path, &error))
 }
@@ -119,7 +122,7 @@ fn metadata(path: &Path) -> Result<Metadata, Diagnostic> {
     let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
     if metadata.is_dir() {
         let message = format!("{} is a directory, not a file", path.display());
-        return Err(Diagnostic::error("file::directory", message));
+        return Err(Diagnostic::error(codes::file::DIRECTORY, message));
     }
     Ok(metadata)
 }
@@ -133,12 +136,12 @@ fn read_at_most(from: impl Read, path: &Path, most_bytes: u64) -> Result<Vec<u8>
 
 fn not_regular(path: &Path) -> Diagnostic {
     let message = format!("{} is not a regular file but a pipe, socket or device", path.display());
-    Diagnostic::error("file::not_regular", message)
+    Diagnostic::error(codes::file::NOT_REGULAR, message)
 }
 
 pub(super) fn too_large(path: &Path, length: u64, most_bytes: u64) -> Diagnostic {
     let message = format!("{} is too large: {length} bytes, the limit is {most_bytes}", path.display());
-    Diagnostic::error("file::too_large", message)
+    Diagnostic::error(codes::file::TOO_LARGE, message)
 }
 
 pub(super) fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
@@ -146,18 +149,15 @@ pub(super) fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
     match error.kind() {
         io::ErrorKind::NotFound => not_found(path, format!("{name} does not exist")),
         io::ErrorKind::PermissionDenied => {
-            Diagnostic::error("file::permission", format!("{name}: permission denied"))
+            Diagnostic::error(codes::file::PERMISSION, format!("{name}: permission denied"))
         }
-        _ => Diagnostic::error("file::unreadable", format!("{name} cannot be read: {error}")),
+        _ => Diagnostic::error(codes::file::UNREADABLE, format!("{name} cannot be read: {error}")),
     }
 }
 
-/// The code of a missing file.
-pub const NOT_FOUND: &str = "file::not_found";
-
 /// A missing file, with the name in its folder that is most like it as help.
 pub fn not_found(path: &Path, message: String) -> Diagnostic {
-    let fault = Diagnostic::error(NOT_FOUND, message);
+    let fault = Diagnostic::error(codes::file::NOT_FOUND, message);
     match similar(path) {
         Some(similar) => fault.with_help(format!("did you mean {}?", similar.display())),
         None => fault,
@@ -229,22 +229,22 @@ const AS_UTF8: &str = "save the file as UTF-8";
 /// The bytes of a text without its byte order mark; refuses an empty file and one that begins with a UTF-16 mark.
 fn without_mark(bytes: &[u8]) -> Result<&[u8], Diagnostic> {
     if bytes.is_empty() {
-        return Err(Diagnostic::error("file::empty", "the file is empty"));
+        return Err(Diagnostic::error(codes::file::EMPTY, "the file is empty"));
     }
     if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
-        let fault = Diagnostic::error("file::utf16", "the file is UTF-16, UTF-8 is expected");
+        let fault = Diagnostic::error(codes::file::UTF16, "the file is UTF-16, UTF-8 is expected");
         return Err(fault.with_help(AS_UTF8));
     }
     Ok(bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes))
 }
 
 fn nul(line: usize) -> Diagnostic {
-    Diagnostic::error("file::nul", format!("NUL byte at line {line}: the file is not text"))
+    Diagnostic::error(codes::file::NUL, format!("NUL byte at line {line}: the file is not text"))
 }
 
 fn not_utf8(byte: u8, line: usize) -> Diagnostic {
     let message = format!("byte 0x{byte:02X} at line {line} is not UTF-8");
-    Diagnostic::error("file::not_utf8", message).with_help(AS_UTF8)
+    Diagnostic::error(codes::file::NOT_UTF8, message).with_help(AS_UTF8)
 }
 
 #[cfg(test)]
@@ -271,7 +271,7 @@ mod tests {
     #[test]
     fn kind_and_size_come_first() {
         let folder = tempfile::tempdir().unwrap();
-        let code = |path: &Path, most| read_regular_bytes(path, most).unwrap_err().code;
+        let code = |path: &Path, most| read_regular_bytes(path, most).unwrap_err().code.name;
         assert_eq!(code(folder.path(), 9), "file::directory");
         assert_eq!(code(&folder.path().join("none"), 9), "file::not_found");
         let file = folder.path().join("file");
@@ -283,7 +283,7 @@ mod tests {
     #[test]
     #[cfg(unix)]
     fn a_device_is_not_opened() {
-        assert_eq!(read_text(Path::new("/dev/zero"), 9).unwrap_err().code, "file::not_regular");
+        assert_eq!(read_text(Path::new("/dev/zero"), 9).unwrap_err().code.name, "file::not_regular");
     }
 
     #[test]
@@ -296,8 +296,8 @@ mod tests {
             pipe
         };
         let (silent, pipe) = (make("silent"), make("pipe"));
-        assert_eq!(read_text(&silent, 9).unwrap_err().code, "file::no_writer");
-        assert_eq!(read_regular_bytes(&pipe, 9).unwrap_err().code, "file::not_regular");
+        assert_eq!(read_text(&silent, 9).unwrap_err().code.name, "file::no_writer");
+        assert_eq!(read_regular_bytes(&pipe, 9).unwrap_err().code.name, "file::not_regular");
         let to = pipe.clone();
         let writer = std::thread::spawn(move || std::fs::write(to, "written"));
         assert_eq!(read_text(&pipe, 9).unwrap().text, "written");

@@ -18,13 +18,10 @@ use super::{
     project::{normalised, project_folder},
     ros_packages::RosPackages,
 };
-use crate::diagnostic::Diagnostic;
+use crate::{codes, diagnostic::Diagnostic};
 
 /// Names that mark the top folder of a project.
 const MARKS: [&str; 3] = ["package.xml", "robot.toml", ".git"];
-
-/// The code of a mesh outside the folders that may be read.
-pub const MESH_OUTSIDE: &str = "mesh::outside";
 
 /// The folders in which the meshes of one URDF may be; all canonical.
 #[derive(Debug)]
@@ -80,7 +77,7 @@ impl Packages {
                     "mesh \"{uri}\" is outside of the project folder {}, so it is not opened",
                     self.project_folder.display()
                 );
-                Diagnostic::error(MESH_OUTSIDE, message)
+                Diagnostic::error(codes::mesh::OUTSIDE, message)
                     .one_of("meshes are outside of the project folder, so they are not opened", uri)
                     .with_help(
                         "mesh paths must stay inside the project; allow another folder with --allow DIR",
@@ -99,7 +96,8 @@ impl Packages {
             }
         }
         let message = format!("mesh file \"{uri}\" not found");
-        let fault = Diagnostic::error("mesh::not_found", message).one_of("mesh files are not found", uri);
+        let fault =
+            Diagnostic::error(codes::mesh::NOT_FOUND, message).one_of("mesh files are not found", uri);
         let tried = tried.join(", ");
         Err(fault.with_help(match package_of(uri) {
             Some((package, _)) => format!(
@@ -138,13 +136,13 @@ impl Packages {
             "http" | "https" => {
                 let message =
                     format!("mesh \"{uri}\": network paths are not allowed, no connection was made");
-                Err(Diagnostic::error("mesh::network", message)
+                Err(Diagnostic::error(codes::mesh::NETWORK, message)
                     .one_of("meshes are on the network, which is never used", uri)
                     .with_help("put meshes beside the URDF and name them by relative paths"))
             }
             _ => {
                 let message = format!("mesh \"{uri}\": unknown scheme {scheme}://");
-                Err(Diagnostic::error("mesh::scheme", message)
+                Err(Diagnostic::error(codes::mesh::SCHEME, message)
                     .one_of("mesh addresses have an unknown scheme (known: package://, file://)", uri)
                     .with_help("use package://, file:// or a path relative to the URDF"))
             }
@@ -194,7 +192,7 @@ fn three_slashes(uri: &str, found: &Path) -> Option<Diagnostic> {
         found.display()
     );
     Some(
-        Diagnostic::warning("mesh::package_slashes", message)
+        Diagnostic::warning(codes::mesh::PACKAGE_SLASHES, message)
             .one_of("mesh addresses have three slashes, so they name no package; the files were found", uri)
             .with_help("write package://NAME/... with two slashes, or a path relative to the URDF"),
     )
@@ -231,7 +229,7 @@ mod tests {
 
     #[track_caller]
     fn refused(packages: &mut Packages, uri: &str, code: &str) {
-        assert_eq!(packages.resolve(uri).err().map(|fault| fault.code), Some(code), "{uri}");
+        assert_eq!(packages.resolve(uri).err().map(|fault| fault.code.name), Some(code), "{uri}");
     }
 
     #[test]
@@ -298,7 +296,7 @@ mod tests {
         let (_top, mut packages) = project(None);
         assert_eq!(packages.resolve("package://pkg/b.stl").ok().and_then(|found| found.warning), None);
         let warning = packages.resolve("package:///pkg/b.stl").ok().and_then(|found| found.warning);
-        assert_eq!(warning.map(|warning| warning.code), Some("mesh::package_slashes"));
+        assert_eq!(warning.map(|warning| warning.code.name), Some("mesh::package_slashes"));
         // Without a package: beside the URDF, or in its project.
         found(&mut packages, "package:///pkg/b.stl", "urdf/pkg/b.stl");
         found(&mut packages, "package:///robot/meshes/a.stl", "robot/meshes/a.stl");

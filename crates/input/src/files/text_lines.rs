@@ -139,7 +139,7 @@ mod tests {
     fn a_text_that_is_refused_is_refused_with_its_place() {
         let fault = |bytes: &[u8]| {
             let fault = read(bytes).unwrap_err();
-            (fault.code, fault.line_column())
+            (fault.code.name, fault.line_column())
         };
         assert_eq!(fault(b""), ("file::empty", Some((1, 1))));
         assert_eq!(fault(b"\xFF\xFEa"), ("file::utf16", Some((1, 1))));

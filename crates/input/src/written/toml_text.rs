@@ -12,6 +12,7 @@ use toml::{
 };
 
 use crate::{
+    codes,
     diagnostic::{Diagnostic, Diagnostics, known_names},
     visible::hidden_character,
 };
@@ -54,7 +55,7 @@ fn check_value_visible(value: &Spanned<DeValue<'_>>) -> Result<(), Diagnostic> {
 fn check_visible(what: &str, text: &str, at: Range<usize>) -> Result<(), Diagnostic> {
     let Some(hidden) = hidden_character(text) else { return Ok(()) };
     let message = format!("{what} \"{text}\" has an invisible character: {hidden}");
-    Err(Diagnostic::error("toml::hidden_character", message).at(at).with_help("remove this character"))
+    Err(Diagnostic::error(codes::toml::HIDDEN_CHARACTER, message).at(at).with_help("remove this character"))
 }
 
 /// The same for a table that is parsed already.
@@ -110,9 +111,6 @@ pub fn unknown_keys<T: DeserializeOwned>(text: &str) -> Option<(Vec<UnknownKey>,
 /// Most unknown keys that are named in one run: each costs another pass over the text.
 const MOST_UNKNOWN_KEYS: usize = 100;
 
-/// The code of a diagnostic about an unknown key.
-pub const UNKNOWN_KEY_CODE: &str = "toml::unknown_key";
-
 /// The beginning of serde's message about an unknown key.
 const UNKNOWN_KEY: &str = "unknown field ";
 
@@ -140,14 +138,15 @@ pub fn diagnostic(error: &Error) -> Diagnostic {
     let known: Vec<&str> = names.collect();
     let known_help = |what: &str| known_names(first, what, known.iter().copied());
     let found = if text.starts_with(UNKNOWN_KEY) {
-        Diagnostic::error(UNKNOWN_KEY_CODE, format!("unknown key \"{first}\"")).with_help(known_help("keys"))
+        Diagnostic::error(codes::toml::UNKNOWN_KEY, format!("unknown key \"{first}\""))
+            .with_help(known_help("keys"))
     } else if text.starts_with("unknown variant ") {
-        Diagnostic::error("toml::unknown_value", format!("unknown value \"{first}\""))
+        Diagnostic::error(codes::toml::UNKNOWN_VALUE, format!("unknown value \"{first}\""))
             .with_help(known_help("values"))
     } else if text.starts_with("missing field ") {
-        Diagnostic::error("toml::missing_key", format!("missing key \"{first}\""))
+        Diagnostic::error(codes::toml::MISSING_KEY, format!("missing key \"{first}\""))
     } else {
-        Diagnostic::error("toml::invalid", text.replace('\n', ", "))
+        Diagnostic::error(codes::toml::INVALID, text.replace('\n', ", "))
     };
     found.at(error.span().unwrap_or(0..0))
 }

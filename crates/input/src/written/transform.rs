@@ -12,6 +12,7 @@ use super::{
     rpy::{fitted_rpy_fixed_xyz_rad, rotation_from_rpy_fixed_xyz},
 };
 use crate::{
+    codes,
     diagnostic::Diagnostic,
     units::{Unit, UnitSystem, check_finite},
 };
@@ -149,7 +150,7 @@ pub fn fitted_transform(pose: &Isometry3<f64>, slack: Slack) -> String {
 }
 
 fn conflict(message: &str, span: std::ops::Range<usize>) -> Diagnostic {
-    Diagnostic::error("transform::conflict", message).at(span).with_help("keep exactly one of them")
+    Diagnostic::error(codes::transform::CONFLICT, message).at(span).with_help("keep exactly one of them")
 }
 
 fn from_quaternion(written: &Spanned<[f64; 4]>) -> Result<UnitQuaternion<f64>, Diagnostic> {
@@ -161,7 +162,7 @@ fn from_quaternion(written: &Spanned<[f64; 4]>) -> Result<UnitQuaternion<f64>, D
     let norm = quaternion.norm();
     if (norm - 1.0).abs() > QUATERNION_NORM {
         let message = format!("quaternion_wxyz has norm {norm:.7}, it must be 1 within {QUATERNION_NORM}");
-        return Err(Diagnostic::error("transform::quaternion_norm", message)
+        return Err(Diagnostic::error(codes::transform::QUATERNION_NORM, message)
             .at(written.span())
             .with_help("write it with more digits, in the order w, x, y, z: it is not normalised for you"));
     }
@@ -174,7 +175,7 @@ fn from_matrix(written: &Spanned<[[f64; 4]; 4]>) -> Result<Isometry3<f64>, Diagn
         check_finite("matrix", value, written.span())?;
     }
     let refused = |message: String| {
-        Err(Diagnostic::error("transform::matrix", message)
+        Err(Diagnostic::error(codes::transform::MATRIX, message)
             .at(written.span())
             .with_help("rows of [R | t] with R^T R = 1 and det R = 1, then [0, 0, 0, 1]; t in metres"))
     };

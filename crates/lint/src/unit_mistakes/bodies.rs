@@ -1,35 +1,36 @@
 //! Compares masses, inertia tensors and centres of mass with each other and with the shapes of their links.
 
-use congruent_description::{CENTER_OF_MASS, Inertia, LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LinkIndex};
+use congruent_description::{Inertia, LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LinkIndex};
 use congruent_input::display::{length, quantity};
 
 use super::{
     UnitCheck, UnitMistake,
     features::{LinkInertiaFeatures, median},
     thresholds::{
-        FARTHEST_COM, FARTHEST_COM_IN_ORIGINS, GYRATION_TO_DIAGONAL, INERTIA_UNIT, LEAST_COM_M,
-        LEAST_MASS_KG, MEDIAN_BOX_DENSITY, MOST_BOX_DENSITY, PLACEHOLDER_GYRATION_TO_DIAGONAL,
-        PLACEHOLDER_SPHERE_DENSITY, SPHERE_DENSITY,
+        FARTHEST_COM, FARTHEST_COM_IN_ORIGINS, GYRATION_TO_DIAGONAL, LEAST_COM_M, LEAST_MASS_KG,
+        MEDIAN_BOX_DENSITY, MOST_BOX_DENSITY, PLACEHOLDER_GYRATION_TO_DIAGONAL, PLACEHOLDER_SPHERE_DENSITY,
+        SPHERE_DENSITY,
     },
 };
+use crate::codes;
 
 const MASS: UnitMistake = UnitMistake {
-    code: "units::mass",
+    code: codes::units::MASS,
     words: "links have an implausible mass for their size",
     element: "mass",
 };
 const INERTIA: UnitMistake = UnitMistake {
-    code: INERTIA_UNIT,
+    code: codes::units::INERTIA,
     words: "links have an implausible inertia for their mass and size",
     element: "inertia",
 };
 const NO_TENSOR: UnitMistake = UnitMistake {
-    code: "urdf::zero_inertia",
+    code: codes::urdf::ZERO_INERTIA,
     words: "links have a mass but an inertia of zero",
     element: "inertia",
 };
 const COM: UnitMistake = UnitMistake {
-    code: CENTER_OF_MASS,
+    code: congruent_description::codes::urdf::CENTER_OF_MASS,
     words: "links have a centre of mass far from their shapes and joints",
     element: "origin",
 };

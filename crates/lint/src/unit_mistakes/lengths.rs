@@ -10,19 +10,20 @@ use super::{
         LONGEST_TRAVEL_M, TRACK_TO_SIZE, TRAVEL_TO_SHAPES, TRAVEL_TO_SIZE,
     },
 };
+use crate::codes;
 
 const ORIGIN: UnitMistake = UnitMistake {
-    code: "units::origin",
+    code: codes::units::ORIGIN,
     words: "joints have an origin far from the rest of the robot",
     element: "origin",
 };
 const TRAVEL: UnitMistake = UnitMistake {
-    code: "units::travel",
+    code: codes::units::TRAVEL,
     words: "prismatic joints have a range far larger than the robot",
     element: "limit",
 };
 const SLIDE: UnitMistake = UnitMistake {
-    code: "units::slide_speed",
+    code: codes::units::SLIDE_SPEED,
     words: "prismatic joints have an implausible velocity limit",
     element: "limit",
 };

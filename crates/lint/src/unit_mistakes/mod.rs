@@ -16,16 +16,14 @@ use congruent_description::{
     LargeLinks, Robot, RobotDescription,
     node::{element, elements, place, tag},
 };
-use congruent_input::{Diagnostic, Diagnostics, xml};
+use congruent_input::{Code, Diagnostic, Diagnostics, xml};
 use roxmltree::Node;
-
-pub use thresholds::INERTIA_UNIT;
 
 use self::{features::Sizes, thresholds::FASTEST_TIP_M_S};
 
 /// Code and words of the warnings about one kind of unit mistake.
 struct UnitMistake {
-    code: &'static str,
+    code: &'static Code,
     /// The words of a joined warning, after the number of links or joints.
     words: &'static str,
     /// The child element with the value, empty for the link itself.
@@ -69,7 +67,10 @@ pub fn unit_mistakes(description: &RobotDescription) -> Vec<Diagnostic> {
     // Origins come first: if lengths are in a wrong unit, so is the speed of carried parts, and the mistake would be reported
     // twice.
     let lengths_are_reported = unit_check.origins()
-        || description.warnings.iter().any(|warning| warning.code == congruent_description::TOO_FAR);
+        || description
+            .warnings
+            .iter()
+            .any(|warning| warning.code == congruent_description::codes::urdf::MILLIMETRES);
     unit_check.travels();
     unit_check.shapes();
     unit_check.bodies();

@@ -10,11 +10,15 @@ use super::{
         LEAST_LARGE_SHAPE_M, LEAST_MESH_M, LEAST_MESH_TO_MEDIAN, MOST_SHAPE_TO_MEDIAN, MOST_SHAPE_TO_ORIGINS,
     },
 };
+use crate::codes;
 
-const SMALL: UnitMistake =
-    UnitMistake { code: "units::small_mesh", words: "links have a mesh that is far too small", element: "" };
+const SMALL: UnitMistake = UnitMistake {
+    code: codes::units::SMALL_MESH,
+    words: "links have a mesh that is far too small",
+    element: "",
+};
 const LARGE: UnitMistake = UnitMistake {
-    code: "units::large_shape",
+    code: codes::units::LARGE_SHAPE,
     words: "links have a shape that is far too large",
     element: "",
 };

@@ -12,9 +12,10 @@ use super::{
         MEDIAN_TURN_RAD_S, MOST_POWER_W_KG, MOST_SPEED_TO_MEDIAN,
     },
 };
+use crate::codes;
 
 const SPEED: UnitMistake = UnitMistake {
-    code: "units::speed",
+    code: codes::units::SPEED,
     words: "joints have an implausible velocity limit",
     element: "limit",
 };

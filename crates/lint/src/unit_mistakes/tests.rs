@@ -30,7 +30,7 @@ const ARM: &str = "<robot name='arm'>
 fn findings(urdf: &str) -> Vec<(&'static str, String)> {
     let source = Arc::new(SourceFile { path: "arm.urdf".into(), text: urdf.to_owned() });
     let description = parse_robot(None, &source).unwrap();
-    unit_mistakes(&description).into_iter().map(|found| (found.code, found.message)).collect()
+    unit_mistakes(&description).into_iter().map(|found| (found.code.name, found.message)).collect()
 }
 
 #[track_caller]
@@ -93,4 +93,4 @@ fn a_track_may_be_long_but_not_in_millimetres() {
     }
 }
 
-const CENTER: &str = congruent_description::CENTER_OF_MASS;
+const CENTER: &str = congruent_description::codes::urdf::CENTER_OF_MASS.name;

@@ -84,6 +84,3 @@ pub(super) const MOST_SHAPE_TO_MEDIAN: f64 = 20.0;
 pub(super) const MOST_SHAPE_TO_ORIGINS: f64 = 8.0;
 /// Shapes smaller than this, m, are never reported as too large.
 pub(super) const LEAST_LARGE_SHAPE_M: f64 = 2.0;
-
-/// The code of the warning that an inertia is probably in another unit.
-pub const INERTIA_UNIT: &str = "units::inertia";

@@ -61,7 +61,7 @@ fn unit_warnings(path: &Path, access: &FileAccess) -> Option<Vec<Diagnostic>> {
     let description = load_robot_with(path, access).ok()?;
     let mut found = unit_mistakes(&description);
     found.extend(description.warnings);
-    found.retain(|found| is_unit_warning(found.code));
+    found.retain(|found| is_unit_warning(found.code.name));
     Some(found)
 }
 
@@ -84,7 +84,7 @@ fn no_published_robot_is_reported() {
     for path in robots(&corpus) {
         let Some(found) = unit_warnings(&path, &access) else { continue };
         judged += 1;
-        alarms.extend(found.iter().map(|found| format!("{}: {}: {found}", path.display(), found.code)));
+        alarms.extend(found.iter().map(|found| format!("{}: {}: {found}", path.display(), found.code.name)));
     }
     eprintln!("{judged} robots, {} false alarms", alarms.len());
     assert!(judged >= 25 || is_unseen(), "only {judged} robots were checked");
@@ -99,7 +99,7 @@ fn is_reported(found: &[Diagnostic], class: &Class, planted: &Planted) -> bool {
         let listed = found.kind.occurrences.iter().map(|each| &each.message);
         listed.chain([&found.message]).any(|message| message.contains(&quoted))
     };
-    found.iter().any(|found| class.codes.contains(&found.code) && names(found))
+    found.iter().any(|found| class.codes.contains(&found.code.name) && names(found))
 }
 
 /// A folder with links to what is in the folder of a robot, where its URDF can be another.
@@ -119,7 +119,7 @@ fn planted_mistakes_are_reported() {
     let mut missed = Vec::new();
     for robot in robots(&corpus) {
         let Ok(description) = load_robot_with(&robot, &access) else { continue };
-        let has_meshes = description.warnings.iter().all(|warning| !warning.code.starts_with("mesh::"));
+        let has_meshes = description.warnings.iter().all(|warning| !warning.code.name.starts_with("mesh::"));
         let text = fs::read_to_string(&robot).unwrap();
         let folder = beside(&robot);
         let path = folder.path().join("planted.urdf");
@@ -182,7 +182,8 @@ fn mistakes_in_robot_files_are_reported() {
             let found =
                 load_robot_with(&path, &access).map_or_else(Findings::into_vec, |robot| robot.warnings);
             let is_of_units = |found: &&Diagnostic| {
-                ["robot_file::length", "robot_file::degrees", "robot_file::radians"].contains(&found.code)
+                ["robot_file::length", "robot_file::degrees", "robot_file::radians"]
+                    .contains(&found.code.name)
             };
             found.iter().any(|found| is_of_units(&found))
         };

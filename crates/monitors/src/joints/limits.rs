@@ -8,7 +8,7 @@ use congruent_input::{Diagnostic, Quantity, SiUnit, display::quantity};
 use congruent_scenario::{FilePlace, LimitsCheck};
 
 use crate::{
-    CheckContext, Names, StepForces,
+    CheckContext, Names, StepForces, codes,
     monitor::{Monitor, Observed},
     sample::Sample,
     verdict::{Bound, InstantValue},
@@ -90,7 +90,7 @@ pub(crate) fn examine(check: &LimitsCheck, place: FilePlace<'_>) -> Result<(), D
         None => Ok(()),
         Some((key, share, largest)) => {
             let message = format!("`{key}` = {}, limit <= {largest}", share.unwrap_or_default());
-            let error = Diagnostic::error("scenario::share", message);
+            let error = Diagnostic::error(codes::scenario::SHARE, message);
             let help = format!(
                 "a larger share would allow more than the limit of the joint; the default is {largest}"
             );

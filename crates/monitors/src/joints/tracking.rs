@@ -8,7 +8,7 @@ use congruent_scenario::{FilePlace, TrackingCheck};
 use nalgebra::{Isometry3, Vector3};
 
 use crate::{
-    CheckContext, Names,
+    CheckContext, Names, codes,
     monitor::{Monitor, Observed},
     sample::Sample,
     verdict::{Bound, InstantValue},
@@ -58,7 +58,7 @@ struct TcpOfSetpoint {
 pub(crate) fn examine(check: &TrackingCheck, place: FilePlace<'_>, robot: &Robot) -> Result<(), Diagnostic> {
     let limits = check.unit_keys();
     let refused = |message: String, help: &str| {
-        Diagnostic::error("scenario::tracking", message).with_help(help.to_owned())
+        Diagnostic::error(codes::scenario::TRACKING, message).with_help(help.to_owned())
     };
     if limits.iter().all(|keys| keys.value().is_none()) {
         let help = "give for example path_deg, path_tcp_mm, goal_deg or overshoot_deg";

@@ -8,7 +8,7 @@ use congruent_scenario::{FilePlace, GoalCheck};
 use nalgebra::Isometry3;
 
 use crate::{
-    Names,
+    Names, codes,
     monitor::{Monitor, Observed},
     sample::Sample,
     verdict::Bound,
@@ -39,7 +39,7 @@ pub(crate) fn examine(check: &GoalCheck, place: FilePlace<'_>) -> Result<Isometr
     } else {
         "`orientation_rad` (or `orientation_deg`) is the tolerance of a rotation, but the goal has no rotation"
     };
-    let error = Diagnostic::error("scenario::goal", message);
+    let error = Diagnostic::error(codes::scenario::GOAL, message);
     Err(place.mark(error.with_help("give both for a pose, neither for a position")))
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn examine_minimum(check: &ClearanceCheck, place: FilePlace<'_>) -> R
     }
     let key = minimum.written_key();
     let message = format!("`{key}` = 0 is never violated: overlapping shapes have the distance 0");
-    let error = Diagnostic::error("scenario::no_limit", message);
+    let error = Diagnostic::error(congruent_scenario::codes::scenario::NO_LIMIT, message);
     Err(place.key(key).mark(
         error.with_help("give a distance above 0, or `kind = \"contact\"`, which fails if shapes touch"),
     ))

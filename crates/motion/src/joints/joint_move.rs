@@ -5,7 +5,7 @@ use congruent_input::{Diagnostic, Findings};
 use congruent_scenario::{JointMotion, Profile, mark};
 
 use crate::{
-    JointSpacePath, JointTargets, Motion, MotionPlan, PlannedMove, TimeScaling,
+    JointSpacePath, JointTargets, Motion, MotionPlan, PlannedMove, TimeScaling, codes,
     planning::{Planning, no_velocity_limit, nothing_moves},
     timing::least_time,
 };
@@ -16,7 +16,7 @@ pub(crate) fn plan(settings: &JointMotion, planning: &mut Planning<'_>) -> Resul
     let mut beyond = Vec::new();
     for target in JointTargets::from(settings).resolve(robot, planning.place)? {
         if let Some(message) = target.beyond_limits(robot, "target") {
-            let warning = Diagnostic::warning("scenario::target_limit", message);
+            let warning = Diagnostic::warning(codes::scenario::TARGET_LIMIT, message);
             beyond.push(mark(warning, target.span.clone()));
         }
         target.put(robot, &mut to);

@@ -7,7 +7,7 @@ use congruent_input::{Diagnostic, Findings, display::quantity};
 use congruent_scenario::{JointPathMotion, Profile, mark};
 
 use crate::{
-    JointSpacePath, JointTargets, Motion, MotionPlan, PlannedMove, TimeScaling,
+    JointSpacePath, JointTargets, Motion, MotionPlan, PlannedMove, TimeScaling, codes,
     planning::{Planning, no_velocity_limit, nothing_moves},
     spline::{JointSpline, SplineEnds, SplineValues},
 };
@@ -48,8 +48,10 @@ fn points(settings: &JointPathMotion, planning: &mut Planning<'_>) -> Result<Vec
     let count = given.first().copied().unwrap_or(0);
     // Each group has all points: entries of one point are at the same place in each list.
     if count == 0 || given.iter().any(|&other| other != count) {
-        let error =
-            Diagnostic::error("scenario::path_points", "the path has no points, or lists of unequal length");
+        let error = Diagnostic::error(
+            codes::scenario::PATH_POINTS,
+            "the path has no points, or lists of unequal length",
+        );
         let help = "give a list of points, [{ joint = 10 }, { joint = 20 }], of the same length under each path_joints_* key";
         return Err(planning.place.mark(error.with_help(help)).into());
     }
@@ -59,7 +61,7 @@ fn points(settings: &JointPathMotion, planning: &mut Planning<'_>) -> Result<Vec
         let mut q = points[point].clone();
         for target in JointTargets::of_point(settings, point, &none).resolve(robot, planning.place)? {
             if let Some(message) = target.beyond_limits(robot, "target") {
-                let warning = Diagnostic::warning("scenario::target_limit", message);
+                let warning = Diagnostic::warning(codes::scenario::TARGET_LIMIT, message);
                 planning.warnings.push(mark(warning, target.span.clone()));
             }
             target.put(robot, &mut q);
@@ -80,7 +82,7 @@ fn times(
         return spaced(points, settings.duration_s, planning);
     }
     let place = planning.place.key("at_s");
-    let refused = |message: String| place.mark(Diagnostic::error("scenario::path_times", message));
+    let refused = |message: String| place.mark(Diagnostic::error(codes::scenario::PATH_TIMES, message));
     if settings.duration_s.is_some() {
         return Err(refused(
             "`at_s` and `duration_s` cannot be given together: remove one of them".to_owned(),
@@ -98,7 +100,7 @@ fn times(
                 index + 1,
                 all[index]
             );
-            let error = Diagnostic::error("scenario::path_times", message);
+            let error = Diagnostic::error(codes::scenario::PATH_TIMES, message);
             let help = "times count from the start of the motion, and each must be later than the one before";
             return Err(place.item(index).mark(error.with_help(help)));
         }
@@ -133,7 +135,7 @@ fn spaced(
         }
         if longest == 0.0 {
             let message = format!("point {} equals the point before it", index + 1);
-            let error = Diagnostic::error("scenario::path_points", message);
+            let error = Diagnostic::error(codes::scenario::PATH_POINTS, message);
             return Err(planning.place.mark(error.with_help("remove it, or give `at_s` to wait there")));
         }
         times_s.push(times_s[index] + longest);
@@ -200,7 +202,7 @@ pub(super) fn check_positions(
     let message = format!(
         "joint \"{name}\" would leave its range of {lower} to {upper} between points: {q} at {time}{where_}"
     );
-    let error = Diagnostic::error("scenario::path_limit", message);
+    let error = Diagnostic::error(codes::scenario::PATH_LIMIT, message);
     Err(planning.place.mark(error.with_help("add a point where the spline overshoots, or change the times")))
 }
 

@@ -12,7 +12,7 @@ use super::{
     table::{JointTable, MOST_BYTES, SAME_PLACE},
 };
 use crate::{
-    JointSpacePath, Motion, MotionPlan, PlannedMove, TimeScaling,
+    JointSpacePath, Motion, MotionPlan, PlannedMove, TimeScaling, codes,
     planning::Planning,
     spline::{JointSpline, SplineEnds},
 };
@@ -38,7 +38,7 @@ pub(crate) fn plan(settings: &PlaybackMotion, planning: &mut Planning<'_>) -> Re
                 "joint \"{}\" is at {present} when the playback begins, but the table begins at {begins}",
                 joint.name
             );
-            let error = Diagnostic::error("scenario::playback_start", message);
+            let error = Diagnostic::error(codes::scenario::PLAYBACK_START, message);
             let help =
                 "start the robot at the first row of the table, or move the joints there before the playback";
             return Err(place.mark(error.with_help(help)));

@@ -16,15 +16,12 @@ use congruent_tables::{
     run_columns::{POSITION, TIME, is_other_quantity},
 };
 
-use crate::planning::Planning;
+use crate::{codes, planning::Planning};
 
 /// Largest table that is read.
 pub(super) const MOST_BYTES: u64 = 256 << 20;
 /// How far positions of a table may be from where they should be, rad or m. Kind: digits of a table.
 pub(super) const SAME_PLACE: f64 = 1e-4;
-/// The code of tables that are not positions over time.
-const CODE: &str = "scenario::playback";
-
 /// Joint positions over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointTable {
@@ -82,8 +79,9 @@ impl JointTable {
 
     fn parse(source: &SourceFile, planning: &Planning<'_>) -> Result<Self, Diagnostic> {
         let robot = &planning.description.robot;
-        let no_header = || Diagnostic::error(CODE, "the table has no header").at(0..0);
-        let WrittenTable { header, rows } = WrittenTable::read(&source.text, CODE).ok_or_else(no_header)?;
+        let no_header = || Diagnostic::error(codes::scenario::PLAYBACK, "the table has no header").at(0..0);
+        let WrittenTable { header, rows } =
+            WrittenTable::read(&source.text, codes::scenario::PLAYBACK).ok_or_else(no_header)?;
         let time = header.names().position(|name| name == TIME);
         let time = time.ok_or_else(|| fault(&header, format!("the table has no column {TIME}")))?;
         let columns = columns(&header, robot)?;
@@ -98,11 +96,12 @@ impl JointTable {
         let mut table = Self { times_s: Vec::new(), points: Vec::new(), places };
         for row in rows {
             let row = row?;
-            let time_s = header.needed_number(CODE, &row, time)?;
+            let time_s = header.needed_number(codes::scenario::PLAYBACK, &row, time)?;
             // Joints without a column stay where the motion begins.
             let mut q = planning.from.clone();
             for column in &columns {
-                q[column.coordinate] = column.unit.to_si(header.needed_number(CODE, &row, column.cell)?);
+                q[column.coordinate] =
+                    column.unit.to_si(header.needed_number(codes::scenario::PLAYBACK, &row, column.cell)?);
             }
             // Columns of followers are read and ignored: runs write them.
             robot.apply_mimic(&mut q);
@@ -128,7 +127,9 @@ impl JointTable {
             return Ok(());
         };
         if time_s <= before_s {
-            return Err(row.fault(CODE, &format!("time {time_s} s is not after {before_s} s")));
+            return Err(
+                row.fault(codes::scenario::PLAYBACK, &format!("time {time_s} s is not after {before_s} s"))
+            );
         }
         // With "slow" or "warn" the whole move is compared with the limits later: a single row would be refused too early.
         if limits.over_limit != OverLimit::Refuse {
@@ -150,7 +151,7 @@ impl JointTable {
             self.places.column(joint),
             described.name
         );
-        let error = Diagnostic::error("scenario::playback_jump", message).at(row.span.clone());
+        let error = Diagnostic::error(codes::scenario::PLAYBACK_JUMP, message).at(row.span.clone());
         Err(error
             .with_help("give the row more time, or write over_limit = \"slow\" or \"warn\" under [limits]"))
     }
@@ -171,7 +172,7 @@ impl TablePlaces {
                     self.column(coordinate),
                     joint.name
                 );
-                return Err(Diagnostic::error("scenario::playback_range", message).at(row.span.clone()));
+                return Err(Diagnostic::error(codes::scenario::PLAYBACK_RANGE, message).at(row.span.clone()));
             }
         }
         Ok(())
@@ -220,5 +221,5 @@ fn unknown(name: &str, header: &Header, robot: &Robot) -> Diagnostic {
 }
 
 fn fault(header: &Header, message: String) -> Diagnostic {
-    Diagnostic::error(CODE, message).at(header.row.span.clone())
+    Diagnostic::error(codes::scenario::PLAYBACK, message).at(header.row.span.clone())
 }

@@ -3,7 +3,7 @@
 use congruent_input::Diagnostic;
 use congruent_scenario::{FilePlace, Profile};
 
-use crate::RateLimits;
+use crate::{RateLimits, codes};
 
 /// Default acceleration of the tool, as industrial arms have it.
 pub const ACCELERATION_M_S2: f64 = 1.2;
@@ -31,7 +31,7 @@ pub(super) struct WrittenTiming {
 pub(super) fn drive(written: WrittenTiming, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
     let WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 } = written;
     let refused = |key: &str, message: &str, help: &str| {
-        let error = Diagnostic::error("scenario::path_speed", message).with_help(help);
+        let error = Diagnostic::error(codes::scenario::PATH_SPEED, message).with_help(help);
         Err(place.key(key).mark(error))
     };
     match (speed_m_s, duration_s) {

@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     JointSpacePath, JointSpline, Motion, MotionPlan, PlannedMove, RateLimits, SpeedProfile, Stretch,
-    TimeScaling, planning::Planning, spline::SplineValues,
+    TimeScaling, codes, planning::Planning, spline::SplineValues,
 };
 
 /// A tool that is nearer to its target than this, m and rad, has reached it.
@@ -110,7 +110,7 @@ fn part(motions: &[MotionSettings], place: FilePlace<'_>) -> Result<TargetPart, 
         _ => (ToolOrientation::Led, false),
     };
     let refused = |message: &str, help: &str| {
-        Err(place.mark(Diagnostic::error("scenario::orientation", message).with_help(help)))
+        Err(place.mark(Diagnostic::error(codes::scenario::ORIENTATION, message).with_help(help)))
     };
     let free = motions.iter().map(of).filter(|(orientation, _)| *orientation == ToolOrientation::Free);
     match free.clone().count() {
@@ -157,8 +157,9 @@ fn end_of(spline: &JointSpline, share: f64, dof: usize) -> RobotQ {
 fn world_from_base(planning: &Planning<'_>) -> Result<Isometry3<f64>, Diagnostic> {
     let tree = UrdfTree::new(&planning.description.robot);
     let found = tree.root_from_link(planning.from, planning.description.base);
-    let refused =
-        |error: congruent_kinematics::KinematicsError| Diagnostic::error("scenario::path", error.to_string());
+    let refused = |error: congruent_kinematics::KinematicsError| {
+        Diagnostic::error(codes::scenario::PATH, error.to_string())
+    };
     found.map(|pose| pose.to_isometry()).map_err(|error| planning.place.mark(refused(error)))
 }
 
@@ -171,7 +172,7 @@ fn legs<'a>(
     world_from_base: &Isometry3<f64>,
 ) -> Result<Vec<Leg<'a>>, Diagnostic> {
     let model = |error: congruent_kinematics::KinematicsError| {
-        planning.place.mark(Diagnostic::error("scenario::path", error.to_string()))
+        planning.place.mark(Diagnostic::error(codes::scenario::PATH, error.to_string()))
     };
     let mut arm = Arm::from_description(planning.description).map_err(model)?;
     let from = arm.from_robot(planning.from);
@@ -201,7 +202,7 @@ fn legs<'a>(
                     legs.push(Leg { segment, motion, blend_m, drive: path_drive(path), place });
                 }
                 if path.path_tcp.is_empty() {
-                    let error = Diagnostic::error("scenario::path_points", "the path has no points");
+                    let error = Diagnostic::error(codes::scenario::PATH_POINTS, "the path has no points");
                     return Err(place.mark(error));
                 }
             }
@@ -229,7 +230,8 @@ fn arc_of(arc: &ArcMotion, before: &Isometry3<f64>, place: FilePlace<'_>) -> Res
     let place = place.key("arc_tcp");
     let via_place = place.key("via");
     if arc.arc_tcp.via.has_rotation() {
-        let error = Diagnostic::error("scenario::arc", "`via` has a rotation, but only its position is used");
+        let error =
+            Diagnostic::error(codes::scenario::ARC, "`via` has a rotation, but only its position is used");
         return Err(
             via_place.mark(error.with_help("remove it: the tool rotates evenly from the start to `to`"))
         );
@@ -237,8 +239,10 @@ fn arc_of(arc: &ArcMotion, before: &Isometry3<f64>, place: FilePlace<'_>) -> Res
     let via = arc.arc_tcp.via.target(via_place)?.translation.vector;
     let to = pose_of(&arc.arc_tcp.to, before, place.key("to"))?;
     Segment::arc(*before, via, to).ok_or_else(|| {
-        let error =
-            Diagnostic::error("scenario::arc", "no circle: start, `via` and `to` are on a straight line");
+        let error = Diagnostic::error(
+            codes::scenario::ARC,
+            "no circle: start, `via` and `to` are on a straight line",
+        );
         place.mark(error.with_help("move `via` off the line, or use line_tcp; a full circle is two arcs"))
     })
 }
@@ -262,7 +266,7 @@ fn check(legs: &[Leg<'_>]) -> Result<(), Diagnostic> {
     for (index, leg) in legs.iter().enumerate() {
         let is_last = index + 1 == legs.len();
         let refused = |message: String, help: &'static str| {
-            Err(leg.place.mark(Diagnostic::error("scenario::path", message).with_help(help)))
+            Err(leg.place.mark(Diagnostic::error(codes::scenario::PATH, message).with_help(help)))
         };
         if leg.segment.is_turn_alone() && leg.segment.length_m() < REACHED {
             return refused("the motion ends where it starts".to_owned(), "remove the motion");
@@ -351,7 +355,7 @@ impl Leg<'_> {
             "a higher speed would exceed the limit of {} by centripetal acceleration",
             quantity(rates.acceleration, "m/s^2")
         );
-        Some(self.place.mark(Diagnostic::warning("scenario::arc_speed", message).with_help(help)))
+        Some(self.place.mark(Diagnostic::warning(codes::scenario::ARC_SPEED, message).with_help(help)))
     }
 }
 
@@ -385,14 +389,16 @@ fn refused(stop: PathFailure, path: &TcpPath, places: &[FilePlace<'_>]) -> Diagn
                 Some((angle_rad, axis)) => format!("{help}; {}", position_alone(angle_rad, &axis)),
                 None => help,
             };
-            place(at_m).mark(Diagnostic::error("scenario::path_reach", message).with_help(help))
+            place(at_m).mark(Diagnostic::error(codes::scenario::PATH_REACH, message).with_help(help))
         }
         PathFailure::Singular { at_m, joint } => {
             let message = format!("joint \"{joint}\" would jump {}", at(at_m));
             let help =
                 "the path passes a singularity: move the path, or start in another configuration of the arm";
-            place(at_m).mark(Diagnostic::error("scenario::path_singular", message).with_help(help))
+            place(at_m).mark(Diagnostic::error(codes::scenario::PATH_SINGULAR, message).with_help(help))
         }
-        PathFailure::Model(error) => places[0].mark(Diagnostic::error("scenario::path", error.to_string())),
+        PathFailure::Model(error) => {
+            places[0].mark(Diagnostic::error(codes::scenario::PATH, error.to_string()))
+        }
     }
 }

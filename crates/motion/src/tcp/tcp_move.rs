@@ -6,7 +6,7 @@ use congruent_input::{Diagnostic, display::length_and_angle};
 use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, KinematicsError, Pose, TargetPart, UrdfTree};
 use congruent_scenario::{FilePlace, PoseSettings, TcpMotion};
 
-use crate::{Motion, joints::joint_move::straight, planning::Planning};
+use crate::{Motion, codes, joints::joint_move::straight, planning::Planning};
 
 /// Random start configurations of the search for other solutions: arms of six joints have up to 16.
 const ATTEMPTS: usize = 64;
@@ -51,7 +51,7 @@ fn reach(pose: &PoseSettings, planning: &Planning<'_>) -> Result<RobotQ, Diagnos
         } else {
             "the target is the position of the tool centre point in the world"
         };
-        return Err(place.mark(Diagnostic::error("scenario::out_of_reach", message).with_help(help)));
+        return Err(place.mark(Diagnostic::error(codes::scenario::OUT_OF_REACH, message).with_help(help)));
     }
     let q = found.q.clone();
     // Joints outside the arm keep their positions.
@@ -62,5 +62,5 @@ fn reach(pose: &PoseSettings, planning: &Planning<'_>) -> Result<RobotQ, Diagnos
 }
 
 fn no_arm(error: &KinematicsError, place: FilePlace<'_>) -> Diagnostic {
-    place.mark(Diagnostic::error("scenario::move_tcp", error.to_string()))
+    place.mark(Diagnostic::error(codes::scenario::MOVE_TCP, error.to_string()))
 }

@@ -5,7 +5,7 @@ use congruent_input::{
     units::{Unit, WrittenUnit, both_given},
 };
 
-use crate::FilePlace;
+use crate::{FilePlace, codes};
 
 /// One value under two keys: in SI units, and in engineering units.
 #[derive(Debug, Clone, Copy)]
@@ -47,7 +47,7 @@ impl UnitKeys {
         }
         let [si, engineering] = self.keys;
         let message = format!("the check has no `{si}`");
-        let error = Diagnostic::error("scenario::no_limit", message);
+        let error = Diagnostic::error(codes::scenario::NO_LIMIT, message);
         Err(place.mark(error.with_help(format!("give `{si}` or `{engineering}`"))))
     }
 

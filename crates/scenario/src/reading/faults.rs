@@ -1,6 +1,6 @@
 //! One `[[fault]]` of a scenario file.
 
-use congruent_input::{Diagnostic, Diagnostics, toml_text};
+use congruent_input::{Diagnostic, Diagnostics};
 
 use super::section::Section;
 use crate::{FaultKind, FaultSettings as Settings};
@@ -28,7 +28,7 @@ pub(super) fn read_fault(mut section: Section<'_>, findings: &mut Diagnostics) -
 }
 
 fn with_kind(finding: Diagnostic, kind: FaultKind) -> Diagnostic {
-    if finding.code != toml_text::UNKNOWN_KEY_CODE {
+    if finding.code != congruent_input::codes::toml::UNKNOWN_KEY {
         return finding;
     }
     let help = finding.help.clone().unwrap_or_default();

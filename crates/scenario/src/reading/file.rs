@@ -16,7 +16,7 @@ use super::{faults::read_fault, overrides::Override, section::Section};
 use crate::{
     ArcMotion, Check, CheckKind, ControllerKind, ControllerSettings, Expectation, FilePlace, JointMotion,
     JointPathMotion, LineMotion, MotionSettings, PlaybackMotion, SCHEMA_VERSION, Scenario, ServoMotion,
-    TcpMotion, TcpPathMotion,
+    TcpMotion, TcpPathMotion, codes,
     motions::{
         ARC_KEY, JOINT_KEYS, JOINT_PATH_KEYS, LINE_KEY, PLAYBACK_KEY, SERVO_KEY, TCP_KEY, TCP_PATH_KEY,
     },
@@ -135,7 +135,7 @@ impl ScenarioFile {
 }
 
 fn is_unknown_key(finding: &Diagnostic) -> bool {
-    finding.code == toml_text::UNKNOWN_KEY_CODE
+    finding.code == congruent_input::codes::toml::UNKNOWN_KEY
 }
 
 /// Refuses a key that is set twice: which of the values is meant is not known.
@@ -274,7 +274,7 @@ fn read_motion(section: Section<'_>, findings: &mut Diagnostics) -> Option<Motio
         let one_key = [TCP_KEY, LINE_KEY, ARC_KEY, TCP_PATH_KEY, PLAYBACK_KEY, SERVO_KEY];
         let known: Vec<&str> = JOINT_KEYS.into_iter().chain(JOINT_PATH_KEYS).chain(one_key).collect();
         findings.push(
-            Diagnostic::error("scenario::unknown_motion", "the motion has no target")
+            Diagnostic::error(codes::scenario::UNKNOWN_MOTION, "the motion has no target")
                 .with_help(format!("give one of these keys: {}", known.join(", ")))
                 .at(section.span()),
         );
@@ -306,7 +306,7 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
 fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Findings> {
     let known = ControllerKind::names();
     let Some(section) = section else {
-        return Err(Diagnostic::error("scenario::no_controller", "the scenario has no [controller]")
+        return Err(Diagnostic::error(codes::scenario::NO_CONTROLLER, "the scenario has no [controller]")
             .with_help(format!("add one with kind = {}", known.join(" | ")))
             .into());
     };
@@ -330,7 +330,7 @@ fn read_expect(mut section: Section<'_>) -> Result<Expectation, Findings> {
     match (verdict, checks.is_empty()) {
         ("fail", _) => Ok(Expectation::Fail { checks }),
         (_, true) => Ok(Expectation::Pass),
-        (_, false) => Err(Diagnostic::error("scenario::expect", "`checks` needs verdict = \"fail\"")
+        (_, false) => Err(Diagnostic::error(codes::scenario::EXPECT, "`checks` needs verdict = \"fail\"")
             .with_help("`checks` names the checks that must fail: change the verdict, or remove `checks`")
             .at(span)
             .into()),
@@ -350,12 +350,12 @@ fn check_top(top: &Top) -> Result<(), Diagnostic> {
     let version = *top.schema_version.get_ref();
     if version != SCHEMA_VERSION {
         let message = format!("schema_version = {version} is not supported");
-        return Err(Diagnostic::error("scenario::version", message)
+        return Err(Diagnostic::error(codes::scenario::VERSION, message)
             .with_help(format!("this program reads version {SCHEMA_VERSION}"))
             .at(top.schema_version.span()));
     }
     if top.name.get_ref().trim().is_empty() {
-        return Err(Diagnostic::error("scenario::name", "the name is empty")
+        return Err(Diagnostic::error(codes::scenario::NAME, "the name is empty")
             .with_help("results go to a folder of this name")
             .at(top.name.span()));
     }
@@ -365,7 +365,7 @@ fn check_top(top: &Top) -> Result<(), Diagnostic> {
 /// A kind of check by its name, with the nearest known one if there is none.
 fn check_kind(name: &str) -> Result<CheckKind, Diagnostic> {
     CheckKind::ALL.into_iter().find(|kind| kind.word() == name).ok_or_else(|| {
-        Diagnostic::error("scenario::unknown_kind", format!("unknown kind of check \"{name}\""))
+        Diagnostic::error(codes::scenario::UNKNOWN_KIND, format!("unknown kind of check \"{name}\""))
             .with_help(known_names(name, "kinds", CheckKind::ALL.map(CheckKind::word)))
     })
 }

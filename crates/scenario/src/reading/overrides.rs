@@ -8,6 +8,8 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
+use crate::codes;
+
 /// Characters that a value without quotes does not have: with one of these it was meant as TOML.
 const NOT_IN_WORDS: [char; 9] = ['"', '\'', '[', ']', '{', '}', '=', '#', '\n'];
 
@@ -37,7 +39,7 @@ impl std::str::FromStr for Override {
 
     fn from_str(text: &str) -> Result<Self, Diagnostic> {
         let malformed = || {
-            Diagnostic::error("cli::set", format!("--set \"{text}\" is not KEY=VALUE"))
+            Diagnostic::error(codes::cli::SET, format!("--set \"{text}\" is not KEY=VALUE"))
                 .with_help("for example --set controller.stiffness=500 or --set check.1.position_m=1e-6")
         };
         let (path, value) = text.split_once('=').ok_or_else(malformed)?;
@@ -50,12 +52,13 @@ impl std::str::FromStr for Override {
             Ok(table) if table.get_ref().len() == 1 => as_toml,
             _ if value.contains(NOT_IN_WORDS) => {
                 let message = format!("--set \"{text}\": the value is neither TOML nor a word");
-                return Err(Diagnostic::error("cli::set", message));
+                return Err(Diagnostic::error(codes::cli::SET, message));
             }
             _ => format!("value = {}", toml::Value::String(value.trim().to_owned())),
         };
-        toml_text::parse_document(&document)
-            .map_err(|fault| Diagnostic::error("cli::set", format!("--set \"{text}\": {}", fault.message)))?;
+        toml_text::parse_document(&document).map_err(|fault| {
+            Diagnostic::error(codes::cli::SET, format!("--set \"{text}\": {}", fault.message))
+        })?;
         Ok(Self { path, written: text.to_owned(), document })
     }
 }
@@ -141,7 +144,7 @@ impl Override {
     }
 
     pub(super) fn refused(&self, why: &str) -> Diagnostic {
-        Diagnostic::error("cli::set", format!("--set {}: {why}", self.written)).with_help(
+        Diagnostic::error(codes::cli::SET, format!("--set {}: {why}", self.written)).with_help(
             "KEY is the keys of the file joined by dots, entries of lists by their number from 1: \
              check.1.position_m=1e-6",
         )

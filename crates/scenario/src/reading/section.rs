@@ -7,6 +7,8 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
+use crate::codes;
+
 /// A table with its place in the text.
 #[derive(Debug, Clone)]
 pub(super) struct Section<'a> {
@@ -76,7 +78,7 @@ impl<'a> Section<'a> {
     ) -> Result<&'k T, Diagnostic> {
         let names = || known.iter().map(&name).collect::<Vec<_>>();
         let Some(value) = self.table.get_mut().remove(key) else {
-            return Err(Diagnostic::error("scenario::no_kind", format!("the {what} has no `{key}`"))
+            return Err(Diagnostic::error(codes::scenario::NO_KIND, format!("the {what} has no `{key}`"))
                 .with_help(known_names("", "ones", names()))
                 .at(self.span()));
         };
@@ -86,7 +88,7 @@ impl<'a> Section<'a> {
                 .at(value.span()));
         };
         known.iter().find(|known| name(known) == found).ok_or_else(|| {
-            Diagnostic::error("scenario::unknown_kind", format!("unknown {what} \"{found}\""))
+            Diagnostic::error(codes::scenario::UNKNOWN_KIND, format!("unknown {what} \"{found}\""))
                 .with_help(known_names(found, "ones", names()))
                 .at(value.span())
         })
@@ -119,5 +121,5 @@ impl<'a> Section<'a> {
 }
 
 fn wrong_type(key: &str, expected: &str, found: &str) -> Diagnostic {
-    Diagnostic::error("scenario::type", format!("`{key}` is {expected}, found {found}"))
+    Diagnostic::error(codes::scenario::TYPE, format!("`{key}` is {expected}, found {found}"))
 }

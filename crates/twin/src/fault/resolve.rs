@@ -15,7 +15,7 @@ use congruent_scenario::{
 use nalgebra::{Isometry3, Matrix3, Translation3};
 
 use super::planned::{FaultAction, PlannedFault, describe};
-use crate::setup::LARGEST_M;
+use crate::{codes, setup::LARGEST_M};
 
 /// Smaller values have no effect, in SI units: checks of agreement allow 1 nm and 1 nrad.
 const LEAST: f64 = 1e-9;
@@ -65,7 +65,7 @@ fn excluded(fault: &PlannedFault, before: &[PlannedFault]) -> Option<Diagnostic>
     let (kind, known) = (fault.described.kind, other.described.kind);
     let message = format!("{kind} and {known}{line} cannot act at the same time");
     let help = "let one end (`until_s`) before the other begins (`at_s`), or remove one of them";
-    Some(Diagnostic::error("scenario::faults_exclude", message).with_help(help))
+    Some(Diagnostic::error(codes::scenario::FAULTS_EXCLUDE, message).with_help(help))
 }
 
 struct Resolver<'a> {
@@ -92,7 +92,10 @@ impl Resolver<'_> {
         let duration_s = self.clock.duration_s();
         let refused = |key: &str, message: String| {
             let help = format!("a fault must begin before the end of the run at {duration_s} s");
-            Err(self.place.key(key).mark(Diagnostic::error("scenario::fault_time", message).with_help(help)))
+            Err(self
+                .place
+                .key(key)
+                .mark(Diagnostic::error(codes::scenario::FAULT_TIME, message).with_help(help)))
         };
         if !(at_s.is_finite() && at_s >= 0.0 && at_s < duration_s) {
             return refused("at_s", format!("at_s = {at_s} is outside [0, {duration_s})"));
@@ -160,7 +163,7 @@ impl Resolver<'_> {
         self.within("time_s", time_s, is_sound, "a time above 0 and below the duration of the run")?;
         let steps = time_s / step_s;
         let refused = |message: String, help: String| {
-            let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
+            let error = Diagnostic::error(codes::scenario::FAULT_VALUE, message).with_help(help);
             Err(self.place.key("time_s").mark(error))
         };
         // Below half a step the nearest whole number is 0, which delays nothing.
@@ -204,14 +207,15 @@ impl Resolver<'_> {
         let [(key, value)] = given[..] else {
             let message = format!("the fault has {} values, but needs exactly one", given.len());
             let help = format!("give `{}` or `{}`", fitting[0], fitting[1]);
-            let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
+            let error = Diagnostic::error(codes::scenario::FAULT_VALUE, message).with_help(help);
             return Err(self.place.mark(error));
         };
         let unit = WrittenUnit::of_key(key);
         if (unit.unit == Unit::Length) != self.is_prismatic(joint) {
             let help = format!("give `{}` or `{}`", fitting[0], fitting[1]);
             let message = format!("`{key}` has the wrong unit for this joint");
-            let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
+            let error =
+                Diagnostic::error(congruent_motion::codes::scenario::JOINT_UNIT, message).with_help(help);
             return Err(self.place.key(key).mark(error));
         }
         let in_si = unit.to_si(value);
@@ -234,7 +238,7 @@ impl Resolver<'_> {
             return Ok(());
         }
         let message = format!("{key} = {value}: expected {range}");
-        Err(self.place.key(key).mark(Diagnostic::error("scenario::fault_value", message)))
+        Err(self.place.key(key).mark(Diagnostic::error(codes::scenario::FAULT_VALUE, message)))
     }
 
     fn friction(&self, fault: &AddedFrictionFault) -> Result<FaultAction, Diagnostic> {
@@ -245,7 +249,8 @@ impl Resolver<'_> {
         let help = format!("give `{}`, `{}` or both", fitting[0].0, fitting[1].0);
         if let Some((key, _)) = others.into_iter().find(|(_, value)| value.is_some()) {
             let message = format!("`{key}` has the wrong unit for this joint");
-            let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
+            let error =
+                Diagnostic::error(congruent_motion::codes::scenario::JOINT_UNIT, message).with_help(help);
             return Err(self.place.key(key).mark(error));
         }
         for (key, value) in fitting {
@@ -256,7 +261,8 @@ impl Resolver<'_> {
         let [dry, viscous] = fitting.map(|(_, value)| value.unwrap_or(0.0));
         // A sum of different units only as a test for zero.
         if dry + viscous < LEAST {
-            let error = Diagnostic::error("scenario::fault_value", "no friction is added").with_help(help);
+            let error =
+                Diagnostic::error(codes::scenario::FAULT_VALUE, "no friction is added").with_help(help);
             return Err(self.place.mark(error));
         }
         Ok(FaultAction::AddedFriction { joint, dry, viscous })
@@ -273,7 +279,7 @@ impl Resolver<'_> {
             let message = format!(
                 "mass_kg = {mass}, limit <= {limit}, which is {HEAVIEST_PART} times the mass of the robot"
             );
-            let error = Diagnostic::error("scenario::fault_value", message);
+            let error = Diagnostic::error(codes::scenario::FAULT_VALUE, message);
             return Err(self
                 .place
                 .key("mass_kg")
@@ -286,7 +292,8 @@ impl Resolver<'_> {
         }
         // A load on the root's body loads no joint.
         if robot.body(*tip) == robot.root() {
-            let error = Diagnostic::error("scenario::fault_no_effect", "no effect: no joint moves the tool");
+            let error =
+                Diagnostic::error(codes::scenario::FAULT_NO_EFFECT, "no effect: no joint moves the tool");
             return Err(self.place.mark(error.with_help("choose another `tip` in the robot file")));
         }
         let tip_from_tcp = tip_from_tcp.unwrap_or_else(Isometry3::identity);
@@ -308,7 +315,7 @@ impl Resolver<'_> {
         // A sum of metres and radians only as a test for zero.
         if shift_m + tip_from_shifted.rotation.angle() < LEAST {
             let error = Diagnostic::error(
-                "scenario::fault_value",
+                codes::scenario::FAULT_VALUE,
                 "fault `shifted_tool` has no effect: its shift is 0",
             );
             let help = "give `xyz_m` or `xyz_mm`, `rpy_deg` or `rpy_rad`, not all 0; a full turn does not change the pose";
@@ -317,7 +324,7 @@ impl Resolver<'_> {
         if shift_m > LARGEST_M {
             let message =
                 format!("the tool is shifted by {}, limit <= {LARGEST_M} m", quantity(shift_m, "m"));
-            return Err(self.place.mark(Diagnostic::error("scenario::fault_value", message)));
+            return Err(self.place.mark(Diagnostic::error(codes::scenario::FAULT_VALUE, message)));
         }
         let (robot, tip) = (&self.description.robot, self.description.tip);
         let links = robot.link_indices().filter(|&link| hangs_below(robot, link, tip));
@@ -343,7 +350,8 @@ impl Resolver<'_> {
         } else {
             return Ok(FaultAction::SwappedJoints { joints });
         };
-        Err(place.mark(Diagnostic::error("scenario::fault_value", message).with_help("choose another joint")))
+        Err(place
+            .mark(Diagnostic::error(codes::scenario::FAULT_VALUE, message).with_help("choose another joint")))
     }
 
     /// A fault that cannot have an effect is an error: the run would test nothing.
@@ -364,7 +372,7 @@ impl Resolver<'_> {
             _ => return Ok(()),
         };
         let message = format!("{kind} has no effect: {why}");
-        let error = Diagnostic::error("scenario::fault_no_effect", message)
+        let error = Diagnostic::error(codes::scenario::FAULT_NO_EFFECT, message)
             .with_help("choose another controller, for example kind = \"pd\" with stiffness and damping");
         Err(self.place.key("kind").mark(error))
     }

@@ -3,6 +3,8 @@
 use congruent_input::{Diagnostic, display::number};
 use congruent_monitors::RunClock;
 
+use crate::codes;
+
 /// Time of a physics step for each joint's square and cube, s: the engine factors the mass matrix in every step. Kind:
 /// fitted to chains within a third; 100 joints 14 ms, 200 joints 70 ms, 300 joints 240 ms, 500 joints 580 ms.
 const STEP_S: [f64; 2] = [5e-7, 5e-9];
@@ -22,7 +24,7 @@ pub(super) fn long_run(joints: usize, clock: &RunClock) -> Option<Diagnostic> {
             clock.steps,
             number((run_s / 60.0).ceil())
         );
-        Diagnostic::warning("scenario::long_run", message)
+        Diagnostic::warning(codes::scenario::LONG_RUN, message)
             .with_help("give a longer step_s or a shorter duration_s, or use a robot with fewer moving joints")
     })
 }

@@ -3,6 +3,8 @@
 use congruent_input::Diagnostic;
 use congruent_scenario::{FilePlace, OutputSettings};
 
+use crate::codes;
+
 /// Largest deviation of a period from a multiple of the step, in steps: the rounding of decimal fractions.
 const BESIDE_A_MULTIPLE: f64 = 1e-6;
 
@@ -13,7 +15,7 @@ pub(super) fn check(settings: &OutputSettings, place: FilePlace<'_>, step_s: f64
     if settings.trajectory.is_none() {
         let message = "trajectory_period_s is given, but no trajectory is written";
         return Err(mark(
-            Diagnostic::error("scenario::output", message)
+            Diagnostic::error(codes::scenario::OUTPUT, message)
                 .with_help("add trajectory = \"csv\" or \"parquet\", or remove the period"),
         ));
     }
@@ -22,7 +24,7 @@ pub(super) fn check(settings: &OutputSettings, place: FilePlace<'_>, step_s: f64
         let message = format!("trajectory_period_s = {period_s:?} is not a multiple of step_s = {step_s:?}");
         let near_s = steps.round().max(1.0) * step_s;
         return Err(mark(
-            Diagnostic::error("scenario::output", message)
+            Diagnostic::error(codes::scenario::OUTPUT, message)
                 .with_help(format!("the nearest multiple is {near_s:?}")),
         ));
     }

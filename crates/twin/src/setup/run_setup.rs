@@ -28,6 +28,7 @@ use super::{
     written_at::WrittenAt,
 };
 use crate::{
+    codes,
     fault::{PlannedFault, resolve},
     setup::surroundings::{overlaps, zones},
 };
@@ -320,7 +321,7 @@ fn written_s(scenario: &Scenario) -> f64 {
 
 fn robot_refused(file: &ScenarioFile) -> Diagnostic {
     let message = format!("robot \"{}\" cannot be used", file.scenario.robot);
-    let refused = Diagnostic::error("scenario::robot", message).with_help(
+    let refused = Diagnostic::error(codes::scenario::ROBOT, message).with_help(
         "`robot` is a folder with robot.toml, a robot file or a .urdf, relative to the scenario file",
     );
     file.place().key("robot").mark(refused)
@@ -330,13 +331,16 @@ fn robot_refused(file: &ScenarioFile) -> Diagnostic {
 fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnostic> {
     let Scenario { schema_version, name, seed, .. } = scenario;
     let error = if *schema_version != SCHEMA_VERSION {
-        Diagnostic::error("scenario::version", format!("schema_version = {schema_version} is not supported"))
+        Diagnostic::error(
+            congruent_scenario::codes::scenario::VERSION,
+            format!("schema_version = {schema_version} is not supported"),
+        )
     } else if name.trim().is_empty() {
-        Diagnostic::error("scenario::name", "the name is empty")
+        Diagnostic::error(congruent_scenario::codes::scenario::NAME, "the name is empty")
     // The scenario is written out as TOML, whose integers are signed.
     } else if i64::try_from(*seed).is_err() {
         let message = format!("seed = {seed} is above {}, the largest integer of TOML", i64::MAX);
-        place.key("seed").mark(Diagnostic::error("scenario::seed", message))
+        place.key("seed").mark(Diagnostic::error(codes::scenario::SEED, message))
     } else {
         return Ok(());
     };
@@ -349,7 +353,7 @@ fn start(settings: &StartSettings, place: FilePlace<'_>, robot: &Robot) -> Resul
     let mut errors = Vec::new();
     for target in targets {
         if let Some(message) = target.beyond_limits(robot, "start") {
-            let error = Diagnostic::error("scenario::start_limit", message);
+            let error = Diagnostic::error(codes::scenario::START_LIMIT, message);
             errors.push(congruent_scenario::mark(error, target.span.clone()));
         }
         target.put(robot, &mut q);
@@ -378,7 +382,7 @@ fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item
                 joint.name,
                 joint.kind.unit()
             );
-            Diagnostic::warning("scenario::start_default", message)
+            Diagnostic::warning(codes::scenario::START_DEFAULT, message)
                 .one_of(
                     "joints have no start position, and 0 is outside their ranges: they start at a limit",
                     &joint.name,

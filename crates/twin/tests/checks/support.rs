@@ -106,7 +106,7 @@ pub(crate) fn setup(scenario: Scenario, description: &RobotDescription) -> RunSe
 pub(crate) fn refused(check: Check) -> String {
     let found = RunSetup::new(scenario(servo(), check), arm(&[])).unwrap_err();
     assert_eq!(found.len(), 1, "{found:#?}");
-    format!("{}: {}", found[0].code, found[0].message)
+    format!("{}: {}", found[0].code.name, found[0].message)
 }
 
 #[track_caller]

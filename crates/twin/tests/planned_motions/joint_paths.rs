@@ -134,7 +134,7 @@ fn a_spline_that_is_faster_than_the_limits_between_its_rows_is_refused_slowed_or
     let largest = found.iter().fold(0.0_f64, |largest, now| largest.max(now.qd[2].abs())).to_degrees();
     assert!(largest > 178.0 && largest < 180.2 && slowed.clock.duration_s() > 1.03, "{largest}");
     let setup = setup(motion, over(OverLimit::Warn)).unwrap();
-    let warning = setup.warnings.iter().find(|warning| warning.code == "scenario::over_limit").unwrap();
+    let warning = setup.warnings.iter().find(|warning| warning.code.name == "scenario::over_limit").unwrap();
     let said = warning.message.strip_prefix("joint \"elbow_joint\" would move at ").unwrap();
     assert!(said.ends_with(", its limit is 180 deg/s"), "{said}");
     // The setpoints of the run are as fast, up to three digits and the instants that are looked at.
@@ -143,7 +143,7 @@ fn a_spline_that_is_faster_than_the_limits_between_its_rows_is_refused_slowed_or
     let value: f64 = said.split(' ').next().unwrap().parse().unwrap();
     assert!(largest > 185.0 && (value - largest).abs() < 1.0, "{largest}: {said}");
     let (_folder, motion) = playback(text, Between::Linear);
-    assert!(planned(motion).warnings.iter().all(|warning| warning.code != "scenario::over_limit"));
+    assert!(planned(motion).warnings.iter().all(|warning| warning.code.name != "scenario::over_limit"));
 }
 
 /// A servo keeps the velocities that the scenario declares, all joints slower alike.
@@ -262,7 +262,7 @@ fn a_motion_after_a_servo_is_slowed() {
         }
     }
     let [slowed] = reference.slowed() else { panic!("{:#?}", reference.slowed()) };
-    assert_eq!((slowed.motion, slowed.warning.code), (1, "scenario::slowed"));
+    assert_eq!((slowed.motion, slowed.warning.code.name), (1, "scenario::slowed"));
     // 1.875 of the angle by the duration is 180 deg/s; the angle is some degrees from 120, by where the servo ends.
     let from = 120.0_f64 - largest.to_degrees() * (0.5 + slowed.longer_s) / 1.875;
     assert!((largest.to_degrees() - 180.0).abs() < 2.0 && largest.to_degrees() <= 180.0, "{largest}");

@@ -53,7 +53,7 @@ fn planned(motion: Vec<MotionSettings>) -> RunSetup {
 #[track_caller]
 fn refused(motion: Vec<MotionSettings>, code: &str, words: &[&str]) {
     let found = setup(motion, LimitSettings::default()).map(|_| ()).unwrap_err();
-    assert_eq!(found[0].code, code, "{found:#?}");
+    assert_eq!(found[0].code.name, code, "{found:#?}");
     let said = format!("{}; {}", found[0].message, found[0].help.clone().unwrap_or_default());
     for word in words {
         assert!(said.contains(word), "\"{word}\" is not in: {said}");
@@ -200,7 +200,7 @@ fn a_narrow_arc_is_slower_and_says_so() {
     let arc_tcp = Box::new(ArcSettings { via: pose(via.into()), to: pose(to.into()) });
     let arc = ArcMotion { arc_tcp, speed_m_s: Some(0.5), ..ArcMotion::default() };
     let setup = planned(vec![MotionSettings::Arc(arc)]);
-    let warning = setup.warnings.iter().find(|warning| warning.code == "scenario::arc_speed").unwrap();
+    let warning = setup.warnings.iter().find(|warning| warning.code.name == "scenario::arc_speed").unwrap();
     // sqrt(1.2 m/s2 x 10 mm).
     assert!(warning.message.contains("110 mm/s instead of 500 mm/s"), "{}", warning.message);
 }
@@ -298,7 +298,7 @@ fn a_move_above_a_velocity_limit_is_refused_or_slowed() {
     );
     let slow = LimitSettings { over_limit: OverLimit::Slow, ..LimitSettings::default() };
     let setup = setup(fast(0.5), slow).unwrap();
-    assert!(setup.warnings.iter().any(|warning| warning.code == "scenario::slowed"));
+    assert!(setup.warnings.iter().any(|warning| warning.code.name == "scenario::slowed"));
     assert!((setup.trajectory.duration_s() - 1.25).abs() < 1e-9);
     planned(fast(1.25));
 }
@@ -330,7 +330,7 @@ fn a_move_above_a_declared_acceleration_or_jerk_is_refused_or_slowed() {
         (Profile::JerkLimited, None, Some(2000.0), "would have a jerk of 3318 deg/s^3", 1.48),
     ] {
         let found = elbow((1.25, profile), (acceleration, jerk, OverLimit::Refuse)).map(|_| ()).unwrap_err();
-        assert_eq!(found[0].code, "scenario::over_limit");
+        assert_eq!(found[0].code.name, "scenario::over_limit");
         assert!(found[0].message.contains(said), "{profile:?}: {found:#?}");
         let help = found[0].help.clone().unwrap();
         assert!(help.contains(&format!("is {least_s} s instead of 1.25 s")), "{profile:?}: {help}");

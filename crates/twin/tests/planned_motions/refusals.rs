@@ -117,7 +117,7 @@ fn a_limit_in_two_units_is_refused() {
     ];
     let said = twice.map(|limits| setup(motion(), limits).map(|_| ()).unwrap_err());
     for found in &said {
-        assert_eq!((found.len(), found[0].code), (1, "scenario::limit_twice"), "{found:#?}");
+        assert_eq!((found.len(), found[0].code.name), (1, "scenario::limit_twice"), "{found:#?}");
     }
     assert_eq!(said[0][0].message, "the limit of \"elbow_joint\" is given twice, first by velocity_deg_s");
     // A named joint and all others, each in its own unit, are two different limits.

@@ -10,6 +10,7 @@ use congruent::{
 use serde::Serialize;
 
 use crate::{
+    codes,
     failure::Failure,
     terminal::{layout::paragraph, print::Printer},
 };
@@ -23,14 +24,17 @@ struct CodeExplanation {
 }
 
 pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
-    let explanation = explained(word).ok_or_else(|| {
+    let known = [congruent::codes::all_codes(), codes::ALL.to_vec()].concat();
+    let explanation = explained(word, &known).ok_or_else(|| {
         let message = format!("neither a finding nor a cause of `check` has the code \"{word}\"");
-        let unknown = Diagnostic::error("lint::code", message);
+        let unknown = Diagnostic::error(codes::lint::CODE, message);
         let name = word.to_lowercase();
         // Codes of findings have an area, `urdf::axis`; causes have none, or `check`.
         let near = Some(cause_name(&name)).filter(|name| !name.contains("::"));
         let near = near.and_then(|name| nearest(name, cause_names())).map(str::to_owned);
-        match near.or_else(|| Code::nearest(word).map(|code| format!("{code}, {}", code.name))) {
+        match near.or_else(|| {
+            Code::nearest(word, &known).map(|code| format!("{}, {}", code.id_or_name(), code.name))
+        }) {
             Some(near) => unknown.with_help(format!("did you mean {near}?")),
             None => unknown,
         }
@@ -39,21 +43,24 @@ pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
     Ok(0)
 }
 
-fn explained(word: &str) -> Option<CodeExplanation> {
-    let of_code =
-        |code: Code| CodeExplanation { id: code.to_string(), code: code.name, about: code.about.to_owned() };
-    Code::find(word).map(of_code).or_else(|| cause(cause_name(&word.to_lowercase())))
+fn explained(word: &str, known: &[&'static Code]) -> Option<CodeExplanation> {
+    let of_code = |code: &'static Code| CodeExplanation {
+        id: code.id_or_name().to_owned(),
+        code: code.name,
+        about: code.about.to_owned(),
+    };
+    Code::find(word, known).map(of_code).or_else(|| cause(cause_name(&word.to_lowercase())))
 }
 
 /// The cause of a difference in poses, in dynamics, or of both that have this name.
 fn cause(name: &str) -> Option<CodeExplanation> {
-    let poses = Cause::ALL.iter().find(|cause| cause_name(cause.code()) == name);
+    let poses = Cause::ALL.iter().find(|cause| cause_name(cause.code().name) == name);
     let dynamics = DynamicsCause::ALL.iter().find(|cause| cause.name() == name);
-    let of_poses = poses.map(|cause| cause.about().to_owned());
+    let of_poses = poses.map(|cause| cause.code().about.to_owned());
     let of_dynamics =
         dynamics.map(|cause| format!("A difference in dynamics: {}. {}", cause.text(), cause.advice()));
     let about: Vec<String> = of_poses.into_iter().chain(of_dynamics).collect();
-    let code = poses.map(|cause| cause.code()).or_else(|| dynamics.map(|cause| cause.name()))?;
+    let code = poses.map(|cause| cause.code().name).or_else(|| dynamics.map(|cause| cause.name()))?;
     Some(CodeExplanation { id: code.to_owned(), code, about: about.join(" ") })
 }
 
@@ -63,7 +70,7 @@ fn cause_name(code: &str) -> &str {
 }
 
 fn cause_names() -> impl Iterator<Item = &'static str> {
-    let of_poses = Cause::ALL.iter().map(|cause| cause_name(cause.code()));
+    let of_poses = Cause::ALL.iter().map(|cause| cause_name(cause.code().name));
     of_poses.chain(DynamicsCause::ALL.iter().map(|cause| cause.name()))
 }
 

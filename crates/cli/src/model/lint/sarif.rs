@@ -28,11 +28,11 @@ pub(super) struct Sarif {
 }
 
 /// Writes the results of a run.
-struct SarifResults<'a> {
+struct SarifResults {
     /// The top of the repository; `None` outside of one.
     top: Option<PathBuf>,
     /// The rules, by the names of their codes.
-    codes: BTreeMap<&'a str, Option<Code>>,
+    codes: BTreeMap<&'static str, &'static Code>,
     /// Number of results with the same rule, file and subject, which differ only in their lines.
     fingerprints: BTreeMap<String, usize>,
     lines: Lines,
@@ -57,9 +57,8 @@ impl<'a> From<&'a Occurrence> for ResultPlace<'a> {
 
 pub(super) fn document(reports: &[(&Path, &LintReport)]) -> Sarif {
     let found = reports.iter().flat_map(|(_, report)| &report.diagnostics);
-    let codes: BTreeMap<&str, Option<Code>> =
-        found.map(|found| (found.code, Code::find(found.code))).collect();
-    let rules: Vec<Value> = codes.iter().map(|(name, code)| rule(name, *code)).collect();
+    let codes: BTreeMap<&str, &Code> = found.map(|found| (found.code.name, found.code)).collect();
+    let rules: Vec<Value> = codes.values().map(|code| rule(code)).collect();
     let mut results = SarifResults {
         top: top_of_repository(),
         codes,
@@ -85,11 +84,11 @@ pub(super) fn document(reports: &[(&Path, &LintReport)]) -> Sarif {
     Sarif { schema: "https://json.schemastore.org/sarif-2.1.0.json", version: "2.1.0", runs: [run] }
 }
 
-fn rule(name: &str, code: Option<Code>) -> Value {
-    let about = code.map_or("", |code| code.about);
+fn rule(code: &Code) -> Value {
+    let Code { name, about, .. } = code;
     let first = about.split_inclusive(['.', ':']).next().unwrap_or(name).trim_end_matches(':');
     json!({
-        "id": id(name, code),
+        "id": code.id_or_name(),
         "name": name,
         "shortDescription": { "text": first },
         "fullDescription": { "text": about },
@@ -97,11 +96,7 @@ fn rule(name: &str, code: Option<Code>) -> Value {
     })
 }
 
-fn id(name: &str, code: Option<Code>) -> String {
-    code.map_or_else(|| name.to_owned(), |code| code.to_string())
-}
-
-impl SarifResults<'_> {
+impl SarifResults {
     fn fixes<'f>(&mut self, fixes: &'f [LintFix]) -> FixesByLine<'f> {
         let mut by_line = FixesByLine::new();
         for fix in fixes {
@@ -120,7 +115,7 @@ impl SarifResults<'_> {
             let mut result = self.result(found, linted, &place);
             if let (Some(source), Some(span)) = (&found.source, place.span) {
                 let line = self.lines.line(source, span.start);
-                if let Some(fixes) = fixes.get(&(found.code, &*source.path, line)) {
+                if let Some(fixes) = fixes.get(&(found.code.name, &*source.path, line)) {
                     result["fixes"] = fixes.iter().map(|fix| self.fix(fix)).collect();
                 }
             }
@@ -133,14 +128,14 @@ impl SarifResults<'_> {
     }
 
     fn result(&mut self, found: &Diagnostic, linted: &Path, place: &ResultPlace<'_>) -> Value {
-        let id = id(found.code, self.codes.get(found.code).copied().flatten());
+        let id = found.code.id_or_name();
         let level = match found.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
         let help = found.help.as_ref().map_or_else(String::new, |help| format!("; {help}"));
         let artifact = self.artifact(found.source.as_ref().map_or(linted, |source| &source.path));
-        let fingerprint = self.fingerprint(&id, &artifact, place);
+        let fingerprint = self.fingerprint(id, &artifact, place);
         let source = found.source.as_deref();
         let mut result = json!({
             "ruleId": id,
@@ -149,7 +144,7 @@ impl SarifResults<'_> {
             "locations": [{ "physicalLocation": self.location(&artifact, source, place.span) }],
             "partialFingerprints": { "congruentFinding/v1": fingerprint },
         });
-        if let Some(rule) = self.codes.keys().position(|known| *known == found.code) {
+        if let Some(rule) = self.codes.keys().position(|known| *known == found.code.name) {
             result["ruleIndex"] = json!(rule);
         }
         if let Some(related) = &found.kind.related {
@@ -268,7 +263,7 @@ mod tests {
     use super::*;
 
     fn results(found: &[Diagnostic]) -> Vec<Value> {
-        let codes = found.iter().map(|found| (found.code, Code::find(found.code))).collect();
+        let codes = found.iter().map(|found| (found.code.name, found.code)).collect();
         let mut results =
             SarifResults { top: None, codes, fingerprints: BTreeMap::new(), lines: Lines::default() };
         let none = FixesByLine::new();
@@ -281,7 +276,10 @@ mod tests {
             Arc::new(SourceFile { path: "my robot/a.urdf".into(), text: "ab\né<x>\n<y>\n".to_owned() });
         let mut found = Diagnostics::default();
         for (name, span) in [("x", 5..7), ("y", 9..11)] {
-            let warning = Diagnostic::warning("urdf::massless", format!("link {name} has no mass"));
+            let warning = Diagnostic::warning(
+                congruent::description::codes::urdf::MASSLESS,
+                format!("link {name} has no mass"),
+            );
             found.push(warning.one_of("links have no mass", name).at(span));
         }
         let results = results(&found.in_file(&source));
@@ -301,7 +299,9 @@ mod tests {
     fn a_fingerprint_stays_when_lines_are_added() {
         let of = |lines: &str, names: &[&str]| -> Vec<Value> {
             let source = Arc::new(SourceFile { path: "a.urdf".into(), text: format!("{lines}<x>") });
-            let fault = |name: &&str| Diagnostic::error("urdf::mass", format!("link {name}: negative"));
+            let fault = |name: &&str| {
+                Diagnostic::error(congruent::description::codes::urdf::MASS, format!("link {name}: negative"))
+            };
             let at = lines.len()..lines.len() + 2;
             let found: Vec<Diagnostic> =
                 names.iter().map(|name| fault(name).at(at.clone()).in_file(&source)).collect();

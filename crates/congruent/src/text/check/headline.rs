@@ -6,14 +6,18 @@ use crate::{
         SourcePair,
         compare::{Agreement, CheckReport, Comparison, WorstDifference},
     },
-    description::{TABLE_DROPPED, Tolerance},
+    description::Tolerance,
     input::display::{length_and_angle, listed},
 };
 
 /// The answer: whether the descriptions are the same robot, by which sources, and how far they differ; and what the
 /// robot file declares of another chain, which the answer does not cover.
 pub(super) fn headline(check: &RobotCheck) -> String {
-    let dropped = check.geometry.warnings.iter().find(|warning| warning.code == TABLE_DROPPED);
+    let dropped = check
+        .geometry
+        .warnings
+        .iter()
+        .find(|warning| warning.code == congruent_description::codes::chain::TABLE_DROPPED.name);
     let dropped = dropped.map_or_else(String::new, |warning| format!("; {}", warning.message));
     answer(check) + &dropped
 }

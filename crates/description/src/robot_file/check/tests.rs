@@ -141,7 +141,7 @@ fn the_table_must_fit_the_chain() {
         ]
     );
     let swapped = GOOD.replace("'a'", "'x'").replace("'b'", "'a'").replace("'x'", "'b'");
-    let codes: Vec<&str> = read(&swapped).1.into_iter().map(|found| found.code).collect();
+    let codes: Vec<&str> = read(&swapped).1.into_iter().map(|found| found.code.name).collect();
     // Both rows are of the wrong kind, which is one warning.
     assert_eq!(codes, ["robot_file::row_kind", "robot_file::row_order"]);
     warning("kind = 'revolute'", "kind = 'prismatic'", 10, "the row is prismatic, but joint \"a\"");

@@ -12,12 +12,10 @@ use super::{
     written::{WrittenDynamics, WrittenInertial, WrittenTensor, WrittenTerm},
 };
 use crate::{
+    codes,
     model::{DhTable, Joint, JointIndex, Robot},
     robot_file::rows::first_line,
 };
-
-/// The code of findings on `[[inertial]]` entries that cannot be used; a warning if the entry may become usable.
-pub const UNUSABLE_INERTIAL: &str = "robot_file::inertial";
 
 /// The robot, its table and the text against which entries are checked.
 pub(in crate::robot_file) struct InertialContext<'a> {
@@ -48,7 +46,7 @@ pub(in crate::robot_file) fn check(
             let line = line_column(context.text, written[first].span().start).0;
             let message =
                 format!("joint \"{}\" already has an [[inertial]] entry, at line {line}", name.get_ref());
-            diagnostics.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
+            diagnostics.push(Diagnostic::error(codes::robot_file::JOINT_TWICE, message).at(name.span()));
         }
         inertials.push(inertial);
     }
@@ -120,7 +118,7 @@ fn inertial(
 
 fn missing(key: &str, entry: &WrittenInertial) -> Diagnostic {
     let message = format!("[[inertial]] of joint \"{}\" has no {key}", entry.joint.get_ref());
-    Diagnostic::error(UNUSABLE_INERTIAL, message)
+    Diagnostic::error(codes::robot_file::INERTIAL, message)
 }
 
 fn joint(entry: &WrittenInertial, robot: &Robot) -> Result<JointIndex, Diagnostic> {
@@ -129,7 +127,7 @@ fn joint(entry: &WrittenInertial, robot: &Robot) -> Result<JointIndex, Diagnosti
     found.filter(|&joint| robot.joint(joint).kind.is_movable()).ok_or_else(|| {
         let what =
             if found.is_some() { "is fixed and carries no body of its own" } else { "is not in the robot" };
-        Diagnostic::error("robot_file::unknown_joint", format!("joint \"{name}\" {what}"))
+        Diagnostic::error(codes::robot_file::UNKNOWN_JOINT, format!("joint \"{name}\" {what}"))
             .at(entry.joint.span())
             .with_help(known_names(name, "moving joints", robot.movable_joint_names()))
     })
@@ -141,7 +139,7 @@ fn positive(key: &str, value: &Spanned<f64>) -> Result<f64, Diagnostic> {
         return Ok(*value.get_ref());
     }
     let message = format!("{key} must be greater than 0, it is {}", value.get_ref());
-    Err(Diagnostic::error(UNUSABLE_INERTIAL, message).at(value.span()))
+    Err(Diagnostic::error(codes::robot_file::INERTIAL, message).at(value.span()))
 }
 
 /// The frame of an entry by its name; a frame of the table must be the one that moves with the joint.
@@ -152,7 +150,7 @@ fn frame(
 ) -> Result<InertialFrame, Diagnostic> {
     let name = written.get_ref().as_str();
     let refused = |message: String, help: String| {
-        Err(Diagnostic::error(UNUSABLE_INERTIAL, message).at(written.span()).with_help(help))
+        Err(Diagnostic::error(codes::robot_file::INERTIAL, message).at(written.span()).with_help(help))
     };
     let joint_name = &context.robot.joint(joint).name;
     let row = context.dh.and_then(|dh| dh.rows.iter().position(|row| row.joint == joint));
@@ -169,7 +167,7 @@ fn frame(
                     let help = format!(
                         "the table's frame of this joint is \"{own}\"; until this is corrected, no [[inertial]] entry is compared"
                     );
-                    let warning = Diagnostic::warning(UNUSABLE_INERTIAL, message).with_help(help);
+                    let warning = Diagnostic::warning(codes::robot_file::INERTIAL, message).with_help(help);
                     Err(warning.at(written.span()))
                 }
                 None => refused(
@@ -202,7 +200,7 @@ fn term(entry: &WrittenInertial, term: WrittenTerm, joint: &Joint) -> Result<Opt
     if let (key, Some(value)) = other {
         let moves = if joint.kind.is_angular() { "turns" } else { "slides" };
         let message = format!("{key} does not fit joint \"{}\", which {moves}", joint.name);
-        return Err(Diagnostic::error(UNUSABLE_INERTIAL, message)
+        return Err(Diagnostic::error(codes::robot_file::INERTIAL, message)
             .at(value.span())
             .with_help(format!("the key for this joint is {}", own.0)));
     }
@@ -210,7 +208,7 @@ fn term(entry: &WrittenInertial, term: WrittenTerm, joint: &Joint) -> Result<Opt
     check_finite(key, *value.get_ref(), value.span())?;
     if *value.get_ref() < 0.0 {
         let message = format!("{key} must not be negative, it is {}", value.get_ref());
-        return Err(Diagnostic::error(UNUSABLE_INERTIAL, message).at(value.span()));
+        return Err(Diagnostic::error(codes::robot_file::INERTIAL, message).at(value.span()));
     }
     Ok(Some(*value.get_ref()))
 }

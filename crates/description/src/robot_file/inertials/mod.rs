@@ -5,7 +5,6 @@ mod declared;
 mod places;
 mod written;
 
-pub use check::UNUSABLE_INERTIAL;
 pub(super) use check::{InertialContext, check};
 pub use declared::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPoint};
 pub use places::InertialPlaces;

@@ -124,7 +124,8 @@ fn a_mass_may_stand_alone() {
 fn the_geometry_is_checked_with_a_frame_of_another_joint() {
     let description = parsed(&GOOD.replacen("'dh1'", "'dh2'", 1)).unwrap();
     assert!(description.dynamics.is_none());
-    let warning = description.warnings.iter().find(|warning| warning.code == "robot_file::inertial").unwrap();
+    let warning =
+        description.warnings.iter().find(|warning| warning.code.name == "robot_file::inertial").unwrap();
     assert!(warning.message.contains("\"dh2\" does not move with joint \"turn\""), "{warning:?}");
     assert!(warning.help.as_deref().unwrap_or_default().contains("is \"dh1\""), "{warning:?}");
 }

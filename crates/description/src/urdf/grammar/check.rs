@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use congruent_input::{Capability, Diagnostic, Diagnostics, hidden_character, known_names};
+use congruent_input::{Capability, Code, Diagnostic, Diagnostics, hidden_character, known_names};
 use roxmltree::{Attribute as XmlAttribute, Node};
 
 use super::{
@@ -13,7 +13,10 @@ use super::{
     number,
     rules::{Attribute, AttributeValue, Child, Element, Needed, Occurs, ROBOT},
 };
-use crate::urdf::node::{elements, label, tag};
+use crate::{
+    codes,
+    urdf::node::{elements, label, tag},
+};
 
 /// The longest name without a warning: what a file system allows.
 const LONGEST_NAME: usize = 255;
@@ -21,7 +24,7 @@ const LONGEST_NAME: usize = 255;
 /// Checks a whole document. Returns the byte ranges of faulty parts that kinematics does not need, which must not be read.
 pub(crate) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) -> Vec<Range<usize>> {
     if root.attribute("name").is_none_or(str::is_empty) {
-        diagnostics.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
+        diagnostics.push(Diagnostic::warning(codes::urdf::ROBOT_NAME, "the robot has no name").at(tag(root)));
     }
     let mut check = GrammarCheck {
         version: version(root),
@@ -80,7 +83,7 @@ struct GrammarCheck<'f> {
 
 impl GrammarCheck<'_> {
     /// A fault of the part that is checked.
-    fn report(&mut self, code: &'static str, what: &str, at: Range<usize>) {
+    fn report(&mut self, code: &'static Code, what: &str, at: Range<usize>) {
         let part = self.part.clone();
         self.report_in(&part, Diagnostic::error(code, what), at);
     }
@@ -111,7 +114,7 @@ impl GrammarCheck<'_> {
         let shapes = node.children().filter(Node::is_element).count();
         if rules.is_choice && shapes != 1 {
             let found = if shapes == 0 { "has no shape" } else { "has more than one shape" };
-            self.report("urdf::geometry", &format!("<{}> {found}", rules.name), tag(node));
+            self.report(codes::urdf::GEOMETRY, &format!("<{}> {found}", rules.name), tag(node));
         }
         if rules.name == "limit" && self.version < (1, 2) {
             self.limit(node);
@@ -124,7 +127,7 @@ impl GrammarCheck<'_> {
         let is_fixed = node.parent().is_some_and(|joint| joint.attribute("type") == Some("fixed"));
         for key in ["effort", "velocity"].into_iter().filter(|key| !is_fixed && !node.has_attribute(*key)) {
             let fault = Diagnostic::error(
-                "urdf::missing_attribute",
+                codes::urdf::MISSING_ATTRIBUTE,
                 format!("<limit> has no {key}: it is taken as unlimited"),
             );
             self.report_in(&DocumentPart { needed_by: None, ranges: Vec::new() }, fault, tag(node));
@@ -140,12 +143,13 @@ impl GrammarCheck<'_> {
                     "joint" | "link" => format!("missing <{name}>"),
                     inside => format!("<{inside}> has no <{name}>"),
                 };
-                self.report("urdf::missing_element", &what, tag(parent));
+                self.report(codes::urdf::MISSING_ELEMENT, &what, tag(parent));
             }
             (_, Some(second)) if child.occurs != Occurs::AnyNumber => {
                 // All of them: which one is meant is not known.
                 let all = elements(parent, name).map(|node| node.range()).collect();
-                let fault = Diagnostic::error("urdf::repeated_element", format!("<{name}> is given twice"));
+                let fault =
+                    Diagnostic::error(codes::urdf::REPEATED_ELEMENT, format!("<{name}> is given twice"));
                 self.report_in(&self.part.inner(child.element.needed, all), fault, tag(second));
             }
             _ => {}
@@ -161,7 +165,7 @@ impl GrammarCheck<'_> {
         }
         for missing in rules.attributes.iter().filter(|a| a.is_required && !node.has_attribute(a.name)) {
             let what = format!("<{}> has no {}", rules.name, missing.name);
-            self.report("urdf::missing_attribute", &what, tag(node));
+            self.report(codes::urdf::MISSING_ATTRIBUTE, &what, tag(node));
         }
     }
 
@@ -169,16 +173,17 @@ impl GrammarCheck<'_> {
         let value = attribute.value();
         let fault = match known.value {
             AttributeValue::Name if value.trim().is_empty() => {
-                Some(("urdf::empty_name", "it is empty".to_owned()))
+                Some((codes::urdf::EMPTY_NAME, "it is empty".to_owned()))
             }
             // Texts and names are copied into every output.
-            AttributeValue::Text | AttributeValue::Name => hidden_character(value)
-                .map(|hidden| ("urdf::hidden_character", format!("it has an invisible character: {hidden}"))),
+            AttributeValue::Text | AttributeValue::Name => hidden_character(value).map(|hidden| {
+                (codes::urdf::HIDDEN_CHARACTER, format!("it has an invisible character: {hidden}"))
+            }),
             AttributeValue::Numbers(count) => {
-                number::fault(value, count).map(|fault| ("urdf::number", fault))
+                number::fault(value, count).map(|fault| (codes::urdf::NUMBER, fault))
             }
             AttributeValue::Word(words) => (!words.contains(&value))
-                .then(|| ("urdf::unknown_type", known_names(value, "types", words.iter().copied()))),
+                .then(|| (codes::urdf::UNKNOWN_TYPE, known_names(value, "types", words.iter().copied()))),
         };
         let part = self.part.inner(known.needed, vec![attribute.range()]);
         if let Some((code, fault)) = fault {
@@ -189,7 +194,7 @@ impl GrammarCheck<'_> {
             self.report_in(&part, Diagnostic::error(code, what), attribute.range());
         } else if known.name == "quat_xyzw" && self.version < (1, 1) {
             let what = "unknown attribute \"quat_xyzw\": it needs <robot version=\"1.1\">";
-            self.report("urdf::quaternion", what, attribute.range());
+            self.report(codes::urdf::QUATERNION, what, attribute.range());
         }
     }
 
@@ -199,7 +204,7 @@ impl GrammarCheck<'_> {
             let what =
                 format!("<{}>: unknown attribute \"{name}\" (did you mean \"{}\"?)", rules.name, meant.name);
             let part = self.part.inner(meant.needed, vec![attribute.range()]);
-            self.report_in(&part, Diagnostic::error("urdf::unknown_attribute", what), attribute.range());
+            self.report_in(&part, Diagnostic::error(codes::urdf::UNKNOWN_ATTRIBUTE, what), attribute.range());
         }
     }
 
@@ -213,13 +218,13 @@ impl GrammarCheck<'_> {
             if let Some(meant) = misspelt(name, rules.children, |child| child.element.name) {
                 let what = format!("unknown element <{name}> (did you mean <{}>?)", meant.element.name);
                 let part = self.part.inner(meant.element.needed, vec![node.range()]);
-                self.report_in(&part, Diagnostic::error("urdf::unknown_element", what), tag(node));
+                self.report_in(&part, Diagnostic::error(codes::urdf::UNKNOWN_ELEMENT, what), tag(node));
             } else if rules.is_choice {
                 let what = format!(
                     "unknown shape <{name}>; {}",
                     known_names(name, "shapes", known().collect::<Vec<_>>())
                 );
-                self.report("urdf::geometry", &what, tag(node));
+                self.report(codes::urdf::GEOMETRY, &what, tag(node));
             }
         }
     }
@@ -236,6 +241,6 @@ impl GrammarCheck<'_> {
             return;
         };
         self.diagnostics
-            .push(Diagnostic::warning("urdf::name", format!("{}: {what}", self.owner)).at(tag(node)));
+            .push(Diagnostic::warning(codes::urdf::NAME, format!("{}: {what}", self.owner)).at(tag(node)));
     }
 }

@@ -2,16 +2,20 @@
 
 use std::ops::Range;
 
+use congruent_input::Code;
 use roxmltree::Node;
 
 use super::rules::{Element, Occurs, ROBOT};
-use crate::urdf::node::{elements, label};
+use crate::{
+    codes,
+    urdf::node::{elements, label},
+};
 
 /// A misspelt name of an element or attribute whose correct name does not occur beside it.
 #[derive(Debug, Clone)]
 pub struct Misspelling<'a> {
     /// The code of the finding that reports the name.
-    pub code: &'static str,
+    pub code: &'static Code,
     /// The link or joint that it is in.
     pub owner: String,
     /// The name in the file.
@@ -55,7 +59,7 @@ fn below<'a>(node: Node<'a, 'a>, rules: &Element, owner: &str, found: &mut Vec<M
         // If the right name is there as well, the wrong one is not a misspelling of it.
         if let Some(meant) = meant.filter(|meant| !node.has_attribute(meant.name)) {
             found.push(Misspelling {
-                code: "urdf::unknown_attribute",
+                code: codes::urdf::UNKNOWN_ATTRIBUTE,
                 owner: owner.to_owned(),
                 written: name.to_owned(),
                 meant: meant.name,
@@ -96,7 +100,7 @@ fn inside<'a>(parent: Node<'a, 'a>, rules: &Element, owner: &str, found: &mut Ve
         taken.push(meant_name);
         let owner = if rules.name == "robot" { label(node) } else { owner.to_owned() };
         found.push(Misspelling {
-            code: "urdf::unknown_element",
+            code: codes::urdf::UNKNOWN_ELEMENT,
             owner,
             written: name.to_owned(),
             meant: meant_name,

@@ -12,16 +12,11 @@ use super::{
     repair::{Repairs, nearest_possible},
 };
 use crate::{
+    codes,
     model::{Inertia, LinkIndex, Robot, principal_moments},
     toml_literal::toml_key,
-    urdf::{
-        large::INERTIA_SIZE,
-        node::{element, elements, place, tag},
-    },
+    urdf::node::{element, elements, place, tag},
 };
-
-/// The code of the warning that a moving body has no mass.
-pub const MASSLESS: &str = "urdf::massless";
 
 /// Repairs the inertias that the robot file names, then reports impossible inertias and moving bodies without mass.
 pub(in crate::urdf) fn judge(
@@ -46,8 +41,8 @@ pub(in crate::urdf) fn judge(
 
 /// Replaces the tensor of a link by the nearest possible one.
 fn repair(robot: &mut Robot, name: &str) -> Result<Diagnostic, Diagnostic> {
-    const CODE: &str = "robot_file::inertia";
-    let refused = |what: String| Diagnostic::error(CODE, format!("[inertia] {name}: {what}"));
+    let refused =
+        |what: String| Diagnostic::error(codes::robot_file::INERTIA, format!("[inertia] {name}: {what}"));
     let Some(link) = robot.find_link(name) else {
         let links = robot.links().iter().map(|link| link.name.as_str());
         return Err(
@@ -71,7 +66,7 @@ fn repair(robot: &mut Robot, name: &str) -> Result<Diagnostic, Diagnostic> {
         let message = format!(
             "[inertia] {name}: the inertia in the URDF is physically possible, so nothing is repaired"
         );
-        return Ok(Diagnostic::warning(CODE, message).with_help("remove the line"));
+        return Ok(Diagnostic::warning(codes::robot_file::INERTIA, message).with_help("remove the line"));
     }
     let tensor_kg_m2 = nearest_possible(&inertia.tensor_kg_m2);
     let listed = |tensor| principal_moments(tensor).map(|moment| quantity(moment, UNIT)).join(", ");
@@ -84,7 +79,8 @@ fn repair(robot: &mut Robot, name: &str) -> Result<Diagnostic, Diagnostic> {
     );
     robot.set_inertia(link, Inertia { tensor_kg_m2, ..inertia });
     // The name in the words keeps repairs of different links apart: each has its own values to report.
-    Ok(Diagnostic::warning(CODE, message).one_of(format!("times {name} is repaired"), name))
+    Ok(Diagnostic::warning(codes::robot_file::INERTIA, message)
+        .one_of(format!("times {name} is repaired"), name))
 }
 
 /// The body of each link and its pose in it, in the order of the links; a body has the index of its first link.
@@ -200,9 +196,10 @@ impl InertiaCheck<'_, '_> {
                 } else {
                     "is the value in kg mm^2 instead of kg m^2?"
                 };
-                let found = Diagnostic::warning(INERTIA_SIZE, format!("link \"{}\": {what}", link.name))
-                    .one_of("links have an inertia that is far too large for their mass", &link.name)
-                    .with_help(help);
+                let found =
+                    Diagnostic::warning(codes::urdf::INERTIA_SIZE, format!("link \"{}\": {what}", link.name))
+                        .one_of("links have an inertia that is far too large for their mass", &link.name)
+                        .with_help(help);
                 self.report(found, &link.name, "inertia");
             }
         }
@@ -229,7 +226,7 @@ impl InertiaCheck<'_, '_> {
                 format!("link \"{}\" moves but {what}: it cannot be simulated with forces", link.name);
             let at = node.map_or(0..0, |node| tag(*node));
             self.diagnostics.push(
-                Diagnostic::warning(MASSLESS, message)
+                Diagnostic::warning(codes::urdf::MASSLESS, message)
                     .one_of(
                         "links move but have no mass, so they cannot be simulated with forces",
                         &link.name,

@@ -9,5 +9,4 @@ pub(crate) use repair::Repairs;
 
 #[cfg(test)]
 mod tests;
-pub use bodies::MASSLESS;
 pub use possible::LARGEST_GYRATION_M;

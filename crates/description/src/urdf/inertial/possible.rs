@@ -1,8 +1,14 @@
 //! Decides whether a rigid body can have a given mass and inertia tensor.
 
-use congruent_input::display::{length, quantity};
+use congruent_input::{
+    Code,
+    display::{length, quantity},
+};
 
-use crate::model::{Inertia, principal_moments};
+use crate::{
+    codes,
+    model::{Inertia, principal_moments},
+};
 
 /// Rounding in files: principal moments may miss a bound by so much of the largest one. Real
 /// robots miss by up to 1e-4 if inertias are written with four digits.
@@ -41,10 +47,10 @@ impl Impossible {
     }
 
     /// The code of its diagnostic.
-    pub(super) fn code(self) -> &'static str {
+    pub(super) fn code(self) -> &'static Code {
         match self {
-            Self::Mass(_) => "urdf::mass",
-            Self::NotDefinite(_) | Self::Triangle(..) => "urdf::inertia",
+            Self::Mass(_) => codes::urdf::MASS,
+            Self::NotDefinite(_) | Self::Triangle(..) => codes::urdf::INERTIA,
         }
     }
 

@@ -12,6 +12,7 @@ use super::{
     joint_numbers::{NumberRule, Unnamed, resolve},
     torque_table::TorqueTable,
 };
+use crate::codes;
 
 /// The controller of a run; vectors hold one entry for each movable joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,7 +106,7 @@ fn strange_keys<'a>(
         let message = format!("controller \"{}\" has no `{key}`", kind.name());
         let with = congruent_scenario::CONTROLLER_KINDS.into_iter().filter(|kind| kind.takes(key));
         let with: Vec<&str> = with.map(ControllerKind::name).collect();
-        let error = Diagnostic::error("scenario::controller_key", message);
+        let error = Diagnostic::error(codes::scenario::CONTROLLER_KEY, message);
         place.key(key).mark(error.with_help(format!("controllers that have it: {}", with.join(", "))))
     })
 }
@@ -126,11 +127,11 @@ fn sampling(
             let help = "change the value, or `step_s` under [simulation]";
             return Err(place
                 .key(key)
-                .mark(Diagnostic::error("scenario::sampling", message).with_help(help)));
+                .mark(Diagnostic::error(codes::scenario::SAMPLING, message).with_help(help)));
         }
         if rounded > MOST_DELAYED {
             let message = format!("{key} = {written} is {rounded} steps, limit <= {MOST_DELAYED}");
-            return Err(place.key(key).mark(Diagnostic::error("scenario::sampling", message)));
+            return Err(place.key(key).mark(Diagnostic::error(codes::scenario::SAMPLING, message)));
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 <= rounded <= 1e5")]
         let steps = rounded as usize;

@@ -4,6 +4,8 @@ use congruent_description::{Joint, Robot};
 use congruent_input::{Diagnostic, Findings, known_names};
 use congruent_scenario::{FilePlace, JointNumbers, OTHERS, Range, mark};
 
+use crate::codes;
+
 /// Rules for the numbers of one key.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NumberRule<'a> {
@@ -41,7 +43,7 @@ pub(super) fn resolve(
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let in_range = |number: f64, place: FilePlace<'_>| {
         let message = format!("expected {}, found {number}", rule.range.words());
-        let refused = || place.mark(Diagnostic::error("toml::invalid", message));
+        let refused = || place.mark(Diagnostic::error(congruent_input::codes::toml::INVALID, message));
         if rule.range.contains(number) { Ok(()) } else { Err(refused()) }
     };
     let mut errors = Vec::new();
@@ -67,7 +69,9 @@ pub(super) fn resolve(
         if number.is_none() && rule.applies_to(joint) && matches!(rule.unnamed, Unnamed::Refused) {
             let message = format!("joint \"{}\" has no {}", joint.name, rule.what);
             let help = "add the joint, or `others = ...` for all joints that are not named";
-            errors.push(place.mark(Diagnostic::error("scenario::joint_left_out", message).with_help(help)));
+            errors.push(
+                place.mark(Diagnostic::error(codes::scenario::JOINT_LEFT_OUT, message).with_help(help)),
+            );
         }
         let unnamed =
             if let Unnamed::Described(described) = rule.unnamed { described[coordinate] } else { 0.0 };
@@ -88,16 +92,13 @@ fn check_name(robot: &Robot, name: &str, rule: NumberRule<'_>) -> Result<(), Dia
     let Some(joint) = joint.map(|joint| robot.joint(joint)) else {
         let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
         let names = robot.movable_joint_names();
-        return Err(Diagnostic::error("scenario::unknown_joint", message).with_help(known_names(
-            name,
-            "joints",
-            names.chain([OTHERS]),
-        )));
+        return Err(Diagnostic::error(congruent_motion::codes::scenario::UNKNOWN_JOINT, message)
+            .with_help(known_names(name, "joints", names.chain([OTHERS]))));
     };
     if let Some(mimic) = joint.mimic {
         let master = &robot.joint(mimic.master).name;
         let message = format!("joint \"{name}\" mimics \"{master}\" and has no actuator of its own");
-        return Err(Diagnostic::error("scenario::mimic_joint", message)
+        return Err(Diagnostic::error(congruent_motion::codes::scenario::MIMIC_JOINT, message)
             .with_help(format!("give the value for joint \"{master}\" instead")));
     }
     if rule.applies_to(joint) {
@@ -108,5 +109,6 @@ fn check_name(robot: &Robot, name: &str, rule: NumberRule<'_>) -> Result<(), Dia
         joint.kind.name(),
         rule.what
     );
-    Err(Diagnostic::error("scenario::joint_unit", message).with_help("use the key of the other unit"))
+    Err(Diagnostic::error(congruent_motion::codes::scenario::JOINT_UNIT, message)
+        .with_help("use the key of the other unit"))
 }

@@ -9,7 +9,7 @@ use congruent_monitors::{HEAVIEST_KG, RunPayload, too_heavy};
 use congruent_scenario::{FilePlace, PayloadInertia, PayloadSettings};
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
-use crate::setup::surroundings::LARGEST_M;
+use crate::{codes, setup::surroundings::LARGEST_M};
 
 /// The payloads of a run, in the order of the scenario.
 ///
@@ -27,7 +27,8 @@ pub(in crate::setup) fn payloads(
         match payload(settings, place, description) {
             Ok(payload) if payloads.iter().any(|known| known.name == payload.name) => {
                 let message = format!("two payloads are named \"{}\"", payload.name);
-                errors.push(place.key("name").mark(Diagnostic::error("scenario::payload_twice", message)));
+                errors
+                    .push(place.key("name").mark(Diagnostic::error(codes::scenario::PAYLOAD_TWICE, message)));
             }
             Ok(payload) => payloads.push(payload),
             Err(error) => errors.push(error),
@@ -42,9 +43,10 @@ fn payload(
     description: &RobotDescription,
 ) -> Result<RunPayload, Diagnostic> {
     let wrong = |key: &str, message: String| {
-        place
-            .key(key)
-            .mark(Diagnostic::error("scenario::payload", format!("payload \"{}\": {message}", settings.name)))
+        place.key(key).mark(Diagnostic::error(
+            codes::scenario::PAYLOAD,
+            format!("payload \"{}\": {message}", settings.name),
+        ))
     };
     if settings.name.trim().is_empty() {
         return Err(wrong("name", "the name is empty".to_owned()));
@@ -86,7 +88,7 @@ fn carrier(
     let link = robot.find_link(name).ok_or_else(|| {
         let message = format!("robot \"{}\" has no link \"{name}\"", robot.name());
         let names = robot.links().iter().map(|link| link.name.as_str());
-        let error = Diagnostic::error("scenario::unknown_link", message);
+        let error = Diagnostic::error(codes::scenario::UNKNOWN_LINK, message);
         place.key("link").mark(error.with_help(known_names(name, "links", names)))
     })?;
     Ok((link, Isometry3::identity()))

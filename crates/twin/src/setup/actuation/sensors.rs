@@ -8,6 +8,7 @@ use congruent_input::{
 use congruent_scenario::{FilePlace, JointNumbers, Range, SensorSettings, VelocitySensor};
 
 use super::joint_numbers::{NumberRule, Unnamed, resolve};
+use crate::codes;
 
 /// The encoders of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -106,7 +107,7 @@ impl SensorSetup {
         let differentiates = settings.velocity == VelocitySensor::Differentiated;
         if differentiates && encoders.iter().any(|encoder| encoder.velocity_noise > 0.0) {
             let message = "velocity = \"differentiated\" cannot have a `velocity_noise`: the noise follows from the positions";
-            let error = Diagnostic::error("scenario::sensors", message);
+            let error = Diagnostic::error(codes::scenario::SENSORS, message);
             errors
                 .push(place.key("velocity").mark(error.with_help("remove `velocity` or the velocity noise")));
         }
@@ -116,5 +117,7 @@ impl SensorSetup {
 
 fn twice(key: &str, place: FilePlace<'_>) -> Diagnostic {
     let message = format!("`{key}` and another key both give this value for the same joint");
-    place.key(key).mark(Diagnostic::error("scenario::two_units", message).with_help("remove one of them"))
+    place
+        .key(key)
+        .mark(Diagnostic::error(codes::scenario::TWO_UNITS, message).with_help("remove one of them"))
 }

@@ -4,6 +4,8 @@ use congruent_description::Robot;
 use congruent_input::{Diagnostic, SourceFile, known_names};
 use congruent_tables::{Header, WrittenTable, run_columns::TIME};
 
+use crate::codes;
+
 /// Torques of all joints over time: interpolated between the rows, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueTable {
@@ -12,17 +14,16 @@ pub struct TorqueTable {
     torques: Vec<Vec<f64>>,
 }
 
-/// The code of what is wrong.
-const CODE: &str = "scenario::torque_file";
-
 impl TorqueTable {
     /// Reads a table; joints without a column get no torque.
     ///
     /// # Errors
     /// The first thing that is wrong.
     pub(super) fn read(file: &SourceFile, robot: &Robot) -> Result<Self, Diagnostic> {
-        let empty = |message: &str| Diagnostic::error(CODE, message.to_owned()).at(0..0);
-        let table = WrittenTable::read(&file.text, CODE).ok_or_else(|| empty("the file has no header"))?;
+        let empty =
+            |message: &str| Diagnostic::error(codes::scenario::TORQUE_FILE, message.to_owned()).at(0..0);
+        let table = WrittenTable::read(&file.text, codes::scenario::TORQUE_FILE)
+            .ok_or_else(|| empty("the file has no header"))?;
         let WrittenTable { header, rows } = table;
         let columns = columns(&header, robot)?;
         let mut table = Self { times_s: Vec::new(), torques: Vec::new() };
@@ -30,7 +31,7 @@ impl TorqueTable {
             let row = row?;
             let mut torques = vec![0.0; robot.dof()];
             for (at, column) in columns.iter().enumerate() {
-                let value = header.needed_number(CODE, &row, at)?;
+                let value = header.needed_number(codes::scenario::TORQUE_FILE, &row, at)?;
                 match column {
                     Some(coordinate) => torques[*coordinate] = value,
                     None if table.times_s.last().is_none_or(|&last| last < value) => {
@@ -38,7 +39,7 @@ impl TorqueTable {
                     }
                     None => {
                         let message = format!("time {value} s is not after that of the row before");
-                        return Err(row.fault(CODE, &message));
+                        return Err(row.fault(codes::scenario::TORQUE_FILE, &message));
                     }
                 }
             }
@@ -75,19 +76,24 @@ fn columns(header: &Header, robot: &Robot) -> Result<Vec<Option<usize>>, Diagnos
             None => {
                 let message = format!("robot \"{}\" has no actuated joint \"{name}\"", robot.name());
                 let known = robot.movable_joint_names().chain([TIME]);
-                let fault = header.row.fault(CODE, &message).at(header.row.cells[at].span.clone());
+                let fault = header
+                    .row
+                    .fault(codes::scenario::TORQUE_FILE, &message)
+                    .at(header.row.cells[at].span.clone());
                 return Err(fault.with_help(known_names(name, "columns", known)));
             }
         };
         if columns.contains(&column) {
-            return Err(header.row.fault(CODE, &format!("column \"{name}\" occurs twice")));
+            return Err(header
+                .row
+                .fault(codes::scenario::TORQUE_FILE, &format!("column \"{name}\" occurs twice")));
         }
         columns.push(column);
     }
     if columns.contains(&None) {
         Ok(columns)
     } else {
-        Err(header.row.fault(CODE, &format!("the table has no column {TIME}")))
+        Err(header.row.fault(codes::scenario::TORQUE_FILE, &format!("the table has no column {TIME}")))
     }
 }
 

@@ -7,7 +7,7 @@ use congruent_proximity::ObstacleMobility;
 use congruent_scenario::{Check, CheckKind, Expectation, FilePlace, Scenario};
 
 use super::tolerances::tolerances;
-use crate::setup::surroundings::paired_with_checks;
+use crate::{codes, setup::surroundings::paired_with_checks};
 
 /// Adds the errors of the checks and of the expectation to `found`; returns warnings.
 pub(in crate::setup) fn examine_checks(
@@ -49,7 +49,7 @@ fn unwatched<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<
     obstacles.map(move |(index, obstacle)| {
         let name = &obstacle.name;
         let warning = Diagnostic::warning(
-            "scenario::unwatched",
+            codes::scenario::UNWATCHED,
             format!("no check covers obstacle \"{name}\": a run in which the arm collides with it passes"),
         )
         .one_of("obstacles are not covered by any check", name)
@@ -77,7 +77,7 @@ fn unexpected<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator
         }
         let word = kind.word();
         let message = format!("check \"{word}\" is expected to fail, but the scenario has no such check");
-        let error = Diagnostic::error("scenario::expect", message)
+        let error = Diagnostic::error(congruent_scenario::codes::scenario::EXPECT, message)
             .with_help(format!("add a [[check]] with kind = \"{word}\""));
         Some(place.key("checks").item(index).mark(error))
     })

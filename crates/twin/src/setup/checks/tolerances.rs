@@ -43,10 +43,10 @@ fn beyond_meaning(
         let finding = if value > WHOLE {
             let message =
                 format!("the check would always pass: `{key}` = {} is above 1, {of}", number(value));
-            Diagnostic::error("tolerance::meaningless", message)
+            Diagnostic::error(congruent_description::codes::tolerance::MEANINGLESS, message)
         } else {
             let message = format!("a wide tolerance: `{key}` = {} is a large part of 1, {of}", number(value));
-            Diagnostic::warning("tolerance::wide", message)
+            Diagnostic::warning(congruent_description::codes::tolerance::WIDE, message)
         };
         Some(
             place.key(key).mark(finding.with_help("give far less than 1, or remove the key for the default")),
@@ -76,12 +76,12 @@ fn too_fast(keys: &UnitKeys, place: FilePlace<'_>, most: f64, unit: &str) -> Opt
         let message = format!(
             "the check would always pass: `{key}` = {value} is above {most}, the largest possible speed"
         );
-        Diagnostic::error("tolerance::meaningless", message)
+        Diagnostic::error(congruent_description::codes::tolerance::MEANINGLESS, message)
     } else {
         let message = format!(
             "a wide tolerance: `{key}` = {value} is a large part of {most}, the largest possible speed"
         );
-        Diagnostic::warning("tolerance::wide", message)
+        Diagnostic::warning(congruent_description::codes::tolerance::WIDE, message)
     };
     Some(place.key(key).mark(finding.with_help("give far less, or remove the key for the default")))
 }

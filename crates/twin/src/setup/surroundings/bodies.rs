@@ -10,7 +10,7 @@ use congruent_scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSetting
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
 use super::spaces;
-use crate::setup::written_at::WrittenAt;
+use crate::{codes, setup::written_at::WrittenAt};
 
 /// The bodies around the robot.
 pub(in crate::setup) struct Surroundings {
@@ -87,7 +87,7 @@ fn paths(
 
 fn path(settings: &ObstacleSettings, place: FilePlace<'_>) -> Result<Vec<PathPose>, Diagnostic> {
     let refused = |place: FilePlace<'_>, message: String, help: &'static str| {
-        Err(place.mark(Diagnostic::error("scenario::obstacle_path", message).with_help(help)))
+        Err(place.mark(Diagnostic::error(codes::scenario::OBSTACLE_PATH, message).with_help(help)))
     };
     let name = &settings.name;
     let has_pose = settings.xyz_m.is_some() || settings.xyz_mm.is_some();
@@ -147,7 +147,7 @@ fn grasps<'a>(
                     "obstacle \"{}\" moves along a path, so that no link can carry it",
                     settings.body
                 );
-                errors.push(place.key("body").mark(Diagnostic::error("scenario::grasp", message)));
+                errors.push(place.key("body").mark(Diagnostic::error(codes::scenario::GRASP, message)));
             }
             Ok((obstacle, grasp)) => held.push(GraspedBody { obstacle, grasp, settings, place }),
             Err(error) => errors.push(error),
@@ -193,7 +193,7 @@ fn grasp(
     obstacles: &[Obstacle],
 ) -> Result<(usize, Grasp), Diagnostic> {
     let unknown = |key: &str, message: String, known: String| {
-        place.key(key).mark(Diagnostic::error("scenario::grasp", message).with_help(known))
+        place.key(key).mark(Diagnostic::error(codes::scenario::GRASP, message).with_help(known))
     };
     let names = || obstacles.iter().map(|obstacle| obstacle.name.as_str());
     let obstacle = names().position(|name| name == settings.body).ok_or_else(|| {
@@ -211,21 +211,21 @@ fn grasp(
     };
     if let Some(mass_kg) = settings.mass_kg.filter(|&mass_kg| mass_kg > HEAVIEST_KG) {
         let message = format!("\"{}\": {}", settings.body, too_heavy(mass_kg));
-        return Err(place.key("mass_kg").mark(Diagnostic::error("scenario::grasp", message)));
+        return Err(place.key("mass_kg").mark(Diagnostic::error(codes::scenario::GRASP, message)));
     }
     let of_the_mass = [("inertia_kg_m2", settings.inertia_kg_m2), ("com_m", settings.com_m)];
     let without_mass =
         of_the_mass.into_iter().find(|(_, given)| given.is_some() && settings.mass_kg.is_none());
     if let Some((key, _)) = without_mass {
         let message = format!("`{key}` of \"{}\" has no effect without `mass_kg`", settings.body);
-        let error = Diagnostic::error("scenario::grasp", message);
+        let error = Diagnostic::error(codes::scenario::GRASP, message);
         return Err(place.key(key).mark(error.with_help(format!("give `mass_kg`, or remove `{key}`"))));
     }
     let (from_s, until_s) = (settings.from_s, settings.until_s.unwrap_or(f64::INFINITY));
     if until_s <= from_s {
         let message =
             format!("\"{}\": until_s = {until_s} s must be later than from_s = {from_s} s", settings.body);
-        return Err(place.key("until_s").mark(Diagnostic::error("scenario::grasp", message)));
+        return Err(place.key("until_s").mark(Diagnostic::error(codes::scenario::GRASP, message)));
     }
     Ok((obstacle, Grasp { link, from_s, until_s }))
 }
@@ -245,7 +245,7 @@ fn of_one_body(
             "\"{}\": from_s = {} s is before the end of its previous grasp at {} s",
             obstacle.name, pair[1].grasp.from_s, pair[0].grasp.until_s
         );
-        let error = Diagnostic::error("scenario::grasp", message).with_help(
+        let error = Diagnostic::error(codes::scenario::GRASP, message).with_help(
             "only one link carries a body at a time: change `from_s`, or `until_s` of the previous grasp",
         );
         return Err(pair[1].place.key("from_s").mark(error));
@@ -263,11 +263,11 @@ fn of_one_body(
             let message =
                 format!("the position of the mass in the link is unknown at {time_s} s, after the start of a servo_tcp");
             let help = "take the body before the servo_tcp, or remove `mass_kg`";
-            place.key("from_s").mark(Diagnostic::error("scenario::grasp", message).with_help(help))
+            place.key("from_s").mark(Diagnostic::error(codes::scenario::GRASP, message).with_help(help))
         })?;
         let pose = tree.root_from_link(&q, link);
         pose.map(|pose| pose.to_isometry())
-            .map_err(|error| place.mark(Diagnostic::error("scenario::grasp", error.to_string())))
+            .map_err(|error| place.mark(Diagnostic::error(codes::scenario::GRASP, error.to_string())))
     };
     let mut world_from_obstacle = obstacle.world_from_obstacle;
     let mut payloads = Vec::new();
@@ -293,7 +293,7 @@ fn of_one_body(
 /// The inertia in the frame of the obstacle.
 fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Result<Inertia, Diagnostic> {
     let refused = |message: &str, help: &str| {
-        Err(Diagnostic::error("scenario::grasp_inertia", message).with_help(help.to_owned()))
+        Err(Diagnostic::error(codes::scenario::GRASP_INERTIA, message).with_help(help.to_owned()))
     };
     let diagonal = if let Some(given) = settings.inertia_kg_m2 {
         let sum: f64 = given.iter().sum();

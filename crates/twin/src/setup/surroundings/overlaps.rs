@@ -7,6 +7,8 @@ use congruent_proximity::{BodyTrack, Hulls, MovingBody};
 use congruent_scenario::FilePlace;
 use nalgebra::Isometry3;
 
+use crate::codes;
+
 /// Smaller overlaps are allowed, m: a body that a link touches is given with few digits. Kind: engineering; the physics
 /// removes such an overlap at 8 mm/s.
 const TOUCHING_M: f64 = 1e-3;
@@ -114,5 +116,5 @@ fn refused(
         "move the obstacle or change [start] (meshes are replaced by their convex hulls){carried}; or use the controller \
          \"kinematic\", which moves the robot without forces, and the check `clearance`"
     );
-    place.mark(Diagnostic::error("scenario::obstacle_overlap", message).with_help(help))
+    place.mark(Diagnostic::error(codes::scenario::OBSTACLE_OVERLAP, message).with_help(help))
 }

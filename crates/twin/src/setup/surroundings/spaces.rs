@@ -1,9 +1,11 @@
 //! `[[obstacle]]` and `[[zone]]` as bodies around the robot, in the root link's frame.
 
 use congruent_description::{Geometry, Obstacle, Robot, read_mesh};
-use congruent_input::{Diagnostic, Findings};
+use congruent_input::{Code, Diagnostic, Findings};
 use congruent_scenario::{CylinderSettings, FilePlace, ObstacleSettings, PoseSettings, ScenarioFolder};
 use nalgebra::Vector3;
+
+use crate::codes;
 
 /// Largest size and coordinate of an obstacle or zone: beyond it, rounding is no longer small against the
 /// accuracy of distances, and far beyond it products overflow.
@@ -12,11 +14,11 @@ pub(crate) const LARGEST_M: f64 = 1e5;
 /// Texts of a section: its name in messages, and the codes of its errors.
 pub(super) struct SpaceKind {
     word: &'static str,
-    twice: &'static str,
-    is_link: &'static str,
-    size: &'static str,
-    name: &'static str,
-    shape: &'static str,
+    twice: &'static Code,
+    is_link: &'static Code,
+    size: &'static Code,
+    name: &'static Code,
+    shape: &'static Code,
     /// The help if there is not exactly one shape.
     shapes: &'static str,
 }
@@ -24,22 +26,22 @@ pub(super) struct SpaceKind {
 /// Texts and codes of `[[obstacle]]` sections.
 pub(super) const OBSTACLE: SpaceKind = SpaceKind {
     word: "obstacle",
-    twice: "scenario::obstacle_twice",
-    is_link: "scenario::obstacle_is_link",
-    size: "scenario::obstacle_size",
-    name: "scenario::obstacle_name",
-    shape: "scenario::obstacle_shape",
+    twice: codes::scenario::OBSTACLE_TWICE,
+    is_link: codes::scenario::OBSTACLE_IS_LINK,
+    size: codes::scenario::OBSTACLE_SIZE,
+    name: codes::scenario::OBSTACLE_NAME,
+    shape: codes::scenario::OBSTACLE_SHAPE,
     shapes: "give one of `box_m`, `sphere_radius_m`, `cylinder`, `mesh`",
 };
 
 /// Texts and codes of `[[zone]]` sections.
 pub(super) const ZONE: SpaceKind = SpaceKind {
     word: "zone",
-    twice: "scenario::zone_twice",
-    is_link: "scenario::zone_is_link",
-    size: "scenario::zone_size",
-    name: "scenario::zone_name",
-    shape: "scenario::zone_shape",
+    twice: codes::scenario::ZONE_TWICE,
+    is_link: codes::scenario::ZONE_IS_LINK,
+    size: codes::scenario::ZONE_SIZE,
+    name: codes::scenario::ZONE_NAME,
+    shape: codes::scenario::ZONE_SHAPE,
     shapes: "give one of `box_m`, `sphere_radius_m`, `cylinder`",
 };
 

@@ -9,6 +9,7 @@ use congruent_proximity::{Zone, matches};
 use congruent_scenario::{Check, CheckKind, FilePlace, ObstacleSettings, ScenarioFolder, ZoneSettings};
 
 use super::spaces;
+use crate::codes;
 
 /// Builds all zones; the rules for names are those of obstacles.
 ///
@@ -52,13 +53,13 @@ pub(in crate::setup) fn paired_with_checks(
     let check = checks.iter().position(|check| check.kind() == CheckKind::Zone);
     match (zones.is_empty(), check) {
         (false, None) => Err(place.key("zone").item(0).mark(
-            Diagnostic::error("scenario::zone_unchecked", "no check covers the zones of this scenario")
+            Diagnostic::error(codes::scenario::ZONE_UNCHECKED, "no check covers the zones of this scenario")
                 .with_help(format!("add a [[check]] with kind = \"{word}\"")),
         )),
         (true, Some(check)) => {
             let message = format!("check \"{word}\" has nothing to check: the scenario has no zone");
             Err(place.key("check").item(check).mark(
-                Diagnostic::error("scenario::no_zone", message)
+                Diagnostic::error(codes::scenario::NO_ZONE, message)
                     .with_help("add a [[zone]] with a name, links, a shape and a position"),
             ))
         }
@@ -75,7 +76,7 @@ fn forbidden_links(
         return Err(place
             .mark(
                 Diagnostic::error(
-                    "scenario::zone_links",
+                    codes::scenario::ZONE_LINKS,
                     "the zone has no `links`: no link is forbidden to enter",
                 )
                 .with_help("give links = [\"*\"] for all moving links, or names of links"),
@@ -110,7 +111,7 @@ fn links_named(name: &str, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> 
         Some(link) if can_enter(link) => Ok(vec![link]),
         Some(_) => {
             let message = format!("link \"{name}\" has no collision shape, so that it cannot enter a zone");
-            Err(Diagnostic::error("scenario::zone_links", message).with_help(known_names(
+            Err(Diagnostic::error(codes::scenario::ZONE_LINKS, message).with_help(known_names(
                 "",
                 "links with one",
                 links_with_shape(robot),
@@ -122,7 +123,7 @@ fn links_named(name: &str, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> 
 fn no_link(name: &str, robot: &Robot) -> Diagnostic {
     let what = if name.contains('*') { "moving link with a collision shape" } else { "link" };
     Diagnostic::error(
-        "scenario::unknown_link",
+        codes::scenario::UNKNOWN_LINK,
         format!("robot \"{}\" has no {what} \"{name}\"", robot.name()),
     )
     .with_help(known_names(name, "links", links_with_shape(robot)))

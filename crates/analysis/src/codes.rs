@@ -1,0 +1,56 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them.
+
+congruent_input::codes! {
+    targets {
+        JSON = "CGR-TABLE-006", "targets::json",
+            "The file is not a JSON array of targets.\n    [{\"translation_m\": [0.4, 0.1, 0.3]}]";
+        QUATERNION_NORM = "CGR-TABLE-007", "targets::quaternion_norm",
+            "The norm of the quaternion of a target is not 1, so a digit is wrong or missing. It is not silently normalised. Write it with more digits; the order is w, x, y, z.";
+        START = "CGR-TABLE-008", "targets::start",
+            "The start of the search is outside the joint limits. The search begins at the nearest position within the limits.";
+        TRANSLATION = "CGR-TABLE-009", "targets::translation",
+            "A target is farther away than any robot reaches. The coordinates of `translation_m` are in metres.";
+    }
+    convert {
+        KIND = "CGR-COMMAND-030", "convert::kind",
+            "A joint is revolute in one model and prismatic in the other. A URDF joint needs limits, and an angle limit cannot become a length limit, or the reverse.";
+        NO_DH = "CGR-COMMAND-031", "convert::no_dh",
+            "The robot has no Denavit-Hartenberg table, or its table describes another chain. Leave --base and --tip out, so that the chain is that of the table, or convert the chain of the URDF with --from urdf.";
+        NO_TABLE = "CGR-COMMAND-032", "convert::no_table",
+            "No Denavit-Hartenberg table can describe this chain; the message has the reason. Choose another chain with --base and --tip.";
+        TREE = "CGR-COMMAND-033", "convert::tree",
+            "The converted model is not a valid robot; the message has the reason.";
+        UNPROVED = "CGR-COMMAND-034", "convert::unproved",
+            "The converted model differs from its source by more than the limit, so it is not written. A coarser --accuracy, such as 1e-9, treats nearly parallel axes as parallel, and reports the error.";
+        FAR_NORMAL = "CGR-COMMAND-035", "convert::far_normal",
+            "Two joint axes are nearly parallel, so their common normal is far away and a value of the table becomes very large.";
+        ROUNDED_AXES = "CGR-COMMAND-036", "convert::rounded_axes",
+            "Two joint axes are so nearly parallel, or so nearly intersecting, that they are treated as parallel or intersecting.";
+    }
+    dynamics {
+        AT_REST = "CGR-COMMAND-039", "dynamics::at_rest",
+            "The accelerations leave out the dry friction of joints at rest, which may hold these joints in the real robot.";
+        PAYLOAD = "CGR-COMMAND-041", "dynamics::payload",
+            "The mass of a payload is 0 or negative. Leave the payload out to compute without one.";
+        SOURCE = "CGR-COMMAND-042", "dynamics::source",
+            "This source cannot give the dynamics of the robot; the message has the reason.";
+    }
+    fk {
+        FRAME = "CGR-COMMAND-044", "fk::frame",
+            "No frame has this name. The help has the most similar name and the known ones.";
+        SOURCE = "CGR-COMMAND-045", "fk::source",
+            "This source cannot give the poses of the robot; the message has the reason.";
+    }
+    jacobian {
+        CONFIGURATION = "CGR-COMMAND-050", "jacobian::configuration",
+            "The Jacobian cannot be computed at a configuration.";
+        LINK = "CGR-COMMAND-051", "jacobian::link",
+            "No link has this name. The help has the most similar name and the known ones.";
+        NO_TCP = "CGR-COMMAND-052", "jacobian::no_tcp",
+            "The robot declares no tool centre point. Declare it under [tcp] in robot.toml, or name a link.";
+    }
+    manipulability {
+        ROBOT = "CGR-COMMAND-054", "manipulability::robot",
+            "The manipulability of the chain cannot be computed; the message has the reason.";
+    }
+}

@@ -1,0 +1,119 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them.
+
+congruent::input::codes! {
+    cli {
+        AT = "CGR-COMMAND-001", "cli::at",
+            "--at is not of the form JOINT=VALUE, or a joint is given twice.\n    --at elbow_joint=90deg";
+        HIDDEN_CHARACTER = "CGR-COMMAND-002", "cli::hidden_character",
+            "An argument has a control character or a line break. Terminals do not show it, and it would be copied into the outputs. Type the argument again.";
+        NOISE = "CGR-COMMAND-003", "cli::noise",
+            "Only one of the two noises of a measurement (--noise-mm and --noise-deg) is given. Give both or neither.";
+        VALUE = "CGR-COMMAND-005", "cli::value",
+            "The option takes a positive number, and another value was given. The message names the option and the value.";
+        VELOCITIES = "CGR-COMMAND-006", "cli::velocities",
+            "The result needs joint velocities, which are read from a file of configurations (key `v`), and no such file was given.";
+        FORMAT = "CGR-COMMAND-007", "cli::format",
+            "SARIF output is available from `lint` only.";
+    }
+    lint {
+        CODE = "CGR-COMMAND-008", "lint::code",
+            "The word after --explain is no code of a finding. The help names the most similar code.";
+    }
+    run {
+        CANNOT_RUN = "CGR-COMMAND-010", "run::cannot_run",
+            "The scenario cannot be run; the message has the reason.";
+        OUTPUT = "CGR-COMMAND-011", "run::output",
+            "A result cannot be written to its file. For example its folder is in use by another run, or may not be written. Give another folder or file.";
+        SAME_OUTPUT = "CGR-COMMAND-012", "run::same_output",
+            "Two scenarios would write their results to the same folder, and one would overwrite the results of the other. Give the scenarios different names.";
+        VIEW = "CGR-COMMAND-013", "run::view",
+            "--view shows one run, but several scenarios are given. Give one scenario, or leave --view out.";
+    }
+    output {
+        REFUSED = "CGR-COMMAND-014", "output::refused",
+            "The path of an output is a file that the command reads, or an existing file of another kind. It is not overwritten. Choose another name, or remove the file.";
+        UNWRITABLE = "CGR-COMMAND-015", "output::unwritable",
+            "A file cannot be written. Choose a file in a folder that exists and can be written.";
+        NAME = "CGR-COMMAND-016", "output::name",
+            "The name of an output file has the wrong extension. The name of a robot file must end in .toml.";
+        URDF = "CGR-COMMAND-017", "output::urdf",
+            "The URDF came from standard input, so the written file could not refer to it by a path. Give the URDF as a file.";
+    }
+    acm {
+        SHAPE = "CGR-COMMAND-018", "acm::shape",
+            "Distances cannot be computed for a shape of the robot; the message has the reason.";
+    }
+    clearance {
+        SHAPE = "CGR-COMMAND-019", "clearance::shape",
+            "Distances cannot be computed for a shape of the robot; the message has the reason.";
+    }
+    check {
+        PLOT = "CGR-COMMAND-025", "check::plot",
+            "--plot shows errors at configurations, but no configurations are given. Give --configurations FILE.";
+        ROBOT = "CGR-COMMAND-026", "check::robot",
+            "The robot cannot be checked; the message has the reason.";
+        TABLE = "CGR-COMMAND-070", "check::table",
+            "--table lists errors at configurations, but no configurations are given. Give --configurations FILE.";
+    }
+    compare {
+        NOT_COMPARABLE = "CGR-COMMAND-029", "compare::not_comparable",
+            "The two inputs are of different kinds and cannot be compared. Compare two reports, two trajectories, two recordings, or two folders of results.";
+    }
+    derive {
+        BASE_PARAMETERS = "CGR-COMMAND-037", "derive::base_parameters",
+            "The base inertial parameters cannot be computed; the message has the reason.";
+        NO_JOINT = "CGR-COMMAND-038", "derive::no_joint",
+            "No joint moves, so joint torques identify no inertial parameter. Give a URDF in which a joint moves.";
+    }
+    faults {
+        MARKDOWN = "CGR-COMMAND-043", "faults::markdown",
+            "The file lacks the two marker lines between which the table of faults is written. The help has the two lines. They keep the rest of the file as it is.";
+    }
+    ik {
+        ROBOT = "CGR-COMMAND-046", "ik::robot",
+            "Inverse kinematics cannot be computed for the chain; the message has the reason.";
+    }
+    inspect {
+        CHECK = "CGR-COMMAND-047", "inspect::check",
+            "The recording cannot be checked against the scenario; the message has the reason.";
+        CSV = "CGR-COMMAND-048", "inspect::csv",
+            "--csv writes one recording, but several are given. Give one recording.";
+        RECORDING = "CGR-COMMAND-049", "inspect::recording",
+            "The file is not a recording, or it is damaged. Recordings end in .rrd and are written by `congruent run`.";
+    }
+    man {
+        OUT = "CGR-COMMAND-053", "man::out",
+            "The folder for the manual pages cannot be created. Choose another folder with --out.";
+    }
+    new {
+        OUTSIDE = "CGR-COMMAND-057", "new::outside",
+            "A new file would lie outside the project of the files that it names, and could not open them. Move the file into the project, or allow the other folder with --allow in each call.";
+        PROJECT = "CGR-COMMAND-058", "new::project",
+            "A robot file in that folder would become the top of a new project, and files above it could no longer be opened.";
+        URDF = "CGR-COMMAND-062", "new::urdf",
+            "The URDF of a new robot file must be a file; standard input has no path. Give the URDF as a file.";
+    }
+    schema {
+        DOCUMENT = "CGR-COMMAND-063", "schema::document",
+            "No schema has this name. The help has the most similar name and the known ones.";
+    }
+    sensitivity {
+        ROBOT = "CGR-COMMAND-064", "sensitivity::robot",
+            "The sensitivities of the chain cannot be computed; the message has the reason.";
+    }
+    view {
+        INPUT = "CGR-COMMAND-065", "view::input",
+            "The file is not a recording, a robot or a scenario. Give a file that ends in .rrd, .urdf or .toml, or the folder of a robot.";
+        RECORDING = "CGR-COMMAND-066", "view::recording",
+            "The file is not a recording, or it is damaged. The viewer would open an empty window. `congruent inspect` says what is damaged.";
+        ROBOT = "CGR-COMMAND-067", "view::robot",
+            "The robot cannot be shown; the message has the reason.";
+    }
+    workspace {
+        ROBOT = "CGR-COMMAND-068", "workspace::robot",
+            "The workspace of the chain cannot be computed; the message has the reason.";
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,67 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them, and the list of all codes of the library.
+
+use congruent_input::Code;
+
+congruent_input::codes! {
+    lint {
+        NO_ROBOT = "CGR-FILE-017", "lint::no_robot" unreadable,
+            "The robot of an SRDF or of a table is not known, so the names in the file are not checked. Give both files in one call, or lint the robot file that names the SRDF.\n    congruent lint robot.toml configurations.json";
+    }
+    simulation {
+        ROBOT = "CGR-ROBOT-024", "simulation::robot",
+            "The physics of this robot cannot be built; the message has the reason.";
+    }
+    measurements {
+        OUTSIDE_LIMITS = "CGR-TABLE-024", "measurements::outside_limits",
+            "The joint positions of a measurement are outside the joint limits. Often the unit is wrong: the ending of a column's name is its unit.";
+    }
+    units {
+        MEASURED_POINT = "CGR-TABLE-025", "units::measured_point",
+            "A measured point is farther from the other points than the robot can reach. Often its unit is wrong.";
+        TARGET = "CGR-TABLE-026", "units::target",
+            "A target is far beyond the reach of the robot. Often its unit is wrong.";
+    }
+    check {
+        DECLARED_DYNAMICS = "CGR-COMMAND-027", "check::declared_dynamics",
+            "The declared dynamics cannot be compared; the message has the reason.";
+        SIMULATED_DYNAMICS = "CGR-COMMAND-028", "check::simulated_dynamics",
+            "The dynamics of the physics cannot be identified; the message has the reason.";
+        OTHER_DYNAMICS = "CGR-COMMAND-069", "check::other_dynamics",
+            "The dynamics of the two descriptions cannot be compared; the message has the reason.";
+    }
+    dynamics {
+        OVERFLOW = "CGR-COMMAND-040", "dynamics::overflow",
+            "A mass, inertia, speed or torque is so large that the computed torques exceed the range of 64-bit numbers. The message names the largest value; often its exponent is wrong.";
+    }
+    new {
+        AGREEMENT = "CGR-COMMAND-055", "new::agreement",
+            "The analytical model and the physics disagree at the same configuration, so no scenario could pass. Run `congruent check`, which says why, and correct the robot first.";
+        NO_JOINT = "CGR-COMMAND-056", "new::no_joint",
+            "No joint moves, so there is nothing to run. Choose base and tip in the robot file so that a joint between them moves.";
+        RUN = "CGR-COMMAND-059", "new::run",
+            "The new scenario does not run; the message has the reason.";
+        SCENARIO = "CGR-COMMAND-060", "new::scenario",
+            "`new scenario` cannot write the file: every motion that it tried fails a check, the robot came from standard input, or the name under --out does not end in .toml.";
+        SHAPE = "CGR-COMMAND-061", "new::shape",
+            "No check of distances can be written, or the check ignores some pairs.";
+    }
+}
+
+/// The codes of all messages of the library, those of the crates of the workspace among them.
+pub fn all_codes() -> Vec<&'static Code> {
+    [
+        congruent_analysis::codes::ALL,
+        congruent_calibration::codes::ALL,
+        congruent_description::codes::ALL,
+        congruent_input::codes::ALL,
+        congruent_lint::codes::ALL,
+        congruent_monitors::codes::ALL,
+        congruent_motion::codes::ALL,
+        congruent_proximity::codes::ALL,
+        congruent_scenario::codes::ALL,
+        congruent_tables::codes::ALL,
+        congruent_twin::codes::ALL,
+        ALL,
+    ]
+    .concat()
+}

@@ -1,0 +1,156 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them.
+
+congruent_input::codes! {
+    load {
+        NO_ROBOT_FILE = "CGR-FILE-015", "load::no_robot_file" unreadable,
+            "The folder has no robot.toml, so it is not a robot. Give a folder with a robot.toml, a robot file or a .urdf.";
+    }
+    mesh {
+        INVALID = "CGR-MESH-002", "mesh::invalid",
+            "The mesh cannot be used: it is damaged, has no area, holds NaN, or its format is not supported. Distances and contacts need every collision mesh.";
+        EMPTY = "CGR-MESH-003", "mesh::empty",
+            "The mesh file is valid but has no triangles, so the link gets no shape from it. Distances and contacts of that link are not measured. Export the mesh again.";
+        MATERIAL_OUTSIDE = "CGR-MESH-009", "mesh::material_outside",
+            "An OBJ file names a material library outside the project. Material libraries are never read.";
+        NO_FOLDER = "CGR-MESH-010", "mesh::no_folder",
+            "The URDF was given as text without a folder, so no mesh can be found. Give the URDF as a file.";
+    }
+    srdf {
+        UNKNOWN_LINK = "CGR-SRDF-001", "srdf::unknown_link",
+            "The SRDF names a link that the robot does not have; a disabled collision pair with this link has no effect. Often the link was renamed.";
+    }
+    urdf {
+        ROOT = "CGR-URDF-001", "urdf::root",
+            "The root element is not <robot>, so the file is not a URDF. The message says if it is an SDF, MuJoCo or COLLADA file.";
+        XACRO = "CGR-URDF-002", "urdf::xacro",
+            "The file is a xacro file that has not been expanded. It is never expanded here, because xacro executes code.\n    xacro robot.urdf.xacro > robot.urdf";
+        STRUCTURE = "CGR-URDF-003", "urdf::structure",
+            "The file is not a valid URDF; the message has the reason.";
+        TOO_MANY_LINKS = "CGR-URDF-004", "urdf::too_many_links",
+            "The robot has more links than the limit, up to which it can be processed in a reasonable time.";
+        TREE = "CGR-URDF-005", "urdf::tree",
+            "Links and joints do not form one tree: a link is missing, has two parents or is its own ancestor, there are several roots, or two links or two joints share a name.";
+        MISSING_ELEMENT = "CGR-URDF-006", "urdf::missing_element",
+            "A required element is missing. The message names it and the element that lacks it.";
+        REPEATED_ELEMENT = "CGR-URDF-007", "urdf::repeated_element",
+            "An element is given twice where only one is allowed. Readers differ in which of the two they use. Keep one.";
+        UNKNOWN_ELEMENT = "CGR-URDF-008", "urdf::unknown_element",
+            "The name of an element differs by a letter or two from a known one, and would be silently ignored. Elements of vendors, whose names are not similar to known ones, are ignored.\n    <limits lower=\"-1\" upper=\"1\"/> instead of <limit .../>";
+        MISSING_ATTRIBUTE = "CGR-URDF-009", "urdf::missing_attribute",
+            "A required attribute is missing. The message names it and its element.";
+        UNKNOWN_ATTRIBUTE = "CGR-URDF-010", "urdf::unknown_attribute",
+            "The name of an attribute differs by a letter or two from a known one, and would be silently ignored.";
+        UNKNOWN_TYPE = "CGR-URDF-011", "urdf::unknown_type",
+            "URDF has no joint type of this name. The help has the known types.";
+        NUMBER = "CGR-URDF-012", "urdf::number",
+            "A value is not a finite number, or has too few or too many numbers. Decimal commas and appended units are not allowed.\n    xyz=\"0 0.4\" instead of xyz=\"0 0.4 0\"";
+        EMPTY_NAME = "CGR-URDF-013", "urdf::empty_name",
+            "A link, a joint or a reference to one has an empty name. Two such parts could not be distinguished. Give it a name.";
+        HIDDEN_CHARACTER = "CGR-URDF-014", "urdf::hidden_character",
+            "A name has an invisible character, such as a control character or a mark of writing direction. Names are copied into every output. Type the name again.";
+        ROBOT_NAME = "CGR-URDF-015", "urdf::robot_name",
+            "The robot has no name, so reports cannot name it. Give it one.\n    <robot name=\"my_arm\">";
+        NAME = "CGR-URDF-016", "urdf::name",
+            "A name is valid XML but causes trouble elsewhere, because it is very long or contains `../`. It is escaped in every output. Use short names of letters, digits and underscores.";
+        JOINT_TYPE = "CGR-URDF-017", "urdf::joint_type",
+            "Joints of the types floating, planar and spherical are not supported. Replace such a joint by several joints with one degree of freedom, with massless links between them.";
+        AXIS = "CGR-URDF-018", "urdf::axis",
+            "The axis of a joint is zero, or its length is not 1. An axis of another length is normalised here, but some readers multiply the motion by its length.\n    <axis xyz=\"0 0 2\"/> instead of <axis xyz=\"0 0 1\"/>";
+        LIMIT = "CGR-URDF-019", "urdf::limit",
+            "The limits of a joint are missing, negative, in the wrong order, lock the joint, or are ignored. By the specification a limit without `lower` or `upper` has the value 0 there, which often locks a joint by mistake.";
+        DYNAMICS = "CGR-URDF-020", "urdf::dynamics",
+            "The damping or friction of a joint is negative, which would add energy. Write both as values of at least 0.";
+        QUATERNION = "CGR-URDF-021", "urdf::quaternion",
+            "A rotation is given as `quat_xyzw`, which only URDF 1.1 and later supports, or its quaternion is zero. Other readers ignore it and lose the rotation.\n    <robot name=\"r\" version=\"1.1\">";
+        GEOMETRY = "CGR-URDF-022", "urdf::geometry",
+            "A shape is missing, unknown, or has a size that is not positive. Give each <geometry> exactly one shape with sizes above 0.\n    <geometry><box size=\"0.1 0.1 0.2\"/></geometry>";
+        SCALE = "CGR-URDF-023", "urdf::scale",
+            "The scale of a mesh has a zero, which flattens the mesh to no volume. Use 1 for a direction that is not scaled.\n    scale=\"1 1 1\"";
+        MASS = "CGR-URDF-024", "urdf::mass",
+            "A mass is negative. No body has one, and forces would accelerate it in the opposite direction. Use a mass of at least 0.";
+        INERTIA = "CGR-URDF-025", "urdf::inertia",
+            "No rigid body has this inertia: it is not positive definite, or its largest principal moment exceeds the sum of the other two. The simulation would be unstable. A robot file can use the nearest possible inertia.\n    [inertia]\n    LINK = \"repair\"";
+        INERTIA_SIZE = "CGR-URDF-026", "urdf::inertia_size",
+            "The inertia belongs to a body many times larger than any part of a robot. Probably it is in kg mm^2 instead of kg m^2.";
+        CENTER_OF_MASS = "CGR-URDF-027", "urdf::center_of_mass",
+            "The centre of mass is far from the shapes and joints of its link. Probably its origin is in millimetres instead of metres.";
+        MASSLESS = "CGR-URDF-028", "urdf::massless",
+            "A link moves, but neither it nor a link fixed to it has a mass, so forces give it no defined motion. Poses and distances are not affected. Give it an <inertial>, or make its joint fixed.";
+        DEGREES = "CGR-UNIT-001", "urdf::degrees",
+            "An angle is larger than is plausible in radians, the unit of a URDF. Probably it is in degrees.\n    rpy=\"0 90 0\" instead of rpy=\"0 1.5708 0\"";
+        MILLIMETRES = "CGR-UNIT-002", "urdf::millimetres",
+            "A length is larger than is plausible in metres, the unit of a URDF. Probably it is in millimetres.";
+    }
+    robot_file {
+        DEGREES = "CGR-UNIT-003", "robot_file::degrees",
+            "An angle under a key that ends in `_rad` is larger than is plausible in radians. Probably it is in degrees, whose key ends in `_deg`.";
+        LENGTH = "CGR-UNIT-012", "robot_file::length",
+            "A length is longer than the whole robot. Keys that end in `_m` are in metres, keys that end in `_mm` in millimetres.";
+        FAST = "CGR-UNIT-013", "robot_file::fast",
+            "An acceleration under a key that ends in `_rad_s2` is implausibly high in radians. Probably it is in degrees, whose key ends in `_deg_s2`.";
+        RADIANS = "CGR-UNIT-014", "robot_file::radians",
+            "An angle under a key that ends in `_deg` is a multiple of 1.5708, a quarter turn in radians. Probably it is in radians, whose key ends in `_rad`.";
+        URDF = "CGR-ROBOT-001", "robot_file::urdf",
+            "The robot file does not name its URDF.\n    urdf = \"robot.urdf\"";
+        PACKAGE = "CGR-ROBOT-002", "robot_file::package",
+            "A folder under `packages` does not exist. Meshes named by package://NAME/... are looked for there. Correct the path of the folder.";
+        UNKNOWN_LINK = "CGR-ROBOT-003", "robot_file::unknown_link",
+            "`base` or `tip` names a link that the robot does not have. The help has the most similar name and the known ones.";
+        UNKNOWN_JOINT = "CGR-ROBOT-004", "robot_file::unknown_joint",
+            "A row, an [[inertial]] entry or a limit names a joint that the robot does not have, that does not move, or that is not between base and tip. Correct the name; the help has the known ones.";
+        CHAIN = "CGR-ROBOT-005", "robot_file::chain",
+            "The tip is not a descendant of the base, so no chain of joints connects them. Name a base from which joints lead down to the tip.";
+        CONVENTION = "CGR-ROBOT-006", "robot_file::convention",
+            "The table lacks its convention. The same values describe another robot in the other convention, so there is no default.\n    convention = \"standard\"";
+        MISSING_FIGURE = "CGR-ROBOT-007", "robot_file::missing_figure",
+            "A row of the table lacks a, alpha or d. A missing value is not taken as 0, because it may have been forgotten. If it is 0, write 0.\n    d_mm = 0";
+        MISSING_ROW = "CGR-ROBOT-008", "robot_file::missing_row",
+            "The table has no row for a joint that moves the tip. Without it the table describes another robot. The message names the missing joints.";
+        JOINT_TWICE = "CGR-ROBOT-009", "robot_file::joint_twice",
+            "Two rows, or two [[inertial]] entries, name the same joint. Only one of the two could apply. Remove one.";
+        SIGN = "CGR-ROBOT-010", "robot_file::sign",
+            "The sign of a row must be 1 or -1.";
+        ROW_KIND = "CGR-ROBOT-011", "robot_file::row_kind",
+            "A row is revolute but its joint in the URDF is prismatic, or the reverse. Such a table cannot describe this joint. Correct the kind of the row, or the name of its joint.";
+        ROW_ORDER = "CGR-ROBOT-012", "robot_file::row_order",
+            "The rows are in another order than the joints of the chain. The transforms are multiplied in the order of the rows. Put the rows into the order of the joints from base to tip.";
+        INERTIA = "CGR-ROBOT-013", "robot_file::inertia",
+            "An entry of [inertia] repairs nothing, because its link is unknown, has no inertia, or needs no repair. As a warning: what a repair has changed.";
+        INERTIAL = "CGR-ROBOT-014", "robot_file::inertial",
+            "An entry of [[inertial]] lacks a value, has a value that no rigid body can have, or names a frame that does not belong to its joint.";
+        LIMITS = "CGR-ROBOT-015", "robot_file::limits",
+            "An entry of [limits] has the wrong unit for its joint, is given twice, or is not positive.";
+        TOLERANCE = "CGR-ROBOT-016", "robot_file::tolerance",
+            "A tolerance must be greater than 0. With a tolerance of 0, rounding alone would be a disagreement.";
+        TCP_NAME = "CGR-ROBOT-017", "robot_file::tcp_name",
+            "A link of the URDF is called `tcp`, as the declared tool centre point usually is. The declared one is called `declared_tcp`.";
+    }
+    tolerance {
+        MEANINGLESS = "CGR-ROBOT-018", "tolerance::meaningless",
+            "A tolerance exceeds the reach of the arm, or half a turn, so that every pose would agree. Often the minus sign of an exponent is missing. Give far less than a tenth of the reach.";
+        WIDE = "CGR-ROBOT-019", "tolerance::wide",
+            "A tolerance exceeds a tenth of the reach of the arm, or of half a turn. Then real faults agree. Give at most a tenth, unless such a wide tolerance is intended.";
+    }
+    chain {
+        BROKEN = "CGR-ROBOT-020", "chain::broken",
+            "The tip is not a descendant of the base, so no chain of joints connects them. Name a base from which joints lead down to the tip.";
+        UNKNOWN_LINK = "CGR-ROBOT-021", "chain::unknown_link",
+            "--base or --tip names a link that the robot does not have. The help has the most similar name and the known ones.";
+        SEVERAL_TIPS = "CGR-ROBOT-022", "chain::several_tips",
+            "No file names the tip of the chain, and several chains are about equally long. Name the tip in a robot file.\n    tip = \"tool0\"";
+        TABLE_DROPPED = "CGR-ROBOT-023", "chain::table_dropped",
+            "The table describes another chain than the requested one, so it is not used. Leave --base and --tip out to use the table.";
+    }
+    configurations {
+        JSON = "CGR-TABLE-001", "configurations::json",
+            "The file is not a list of configurations: one on each line (JSON Lines), or a JSON array of at most 100,000.\n    {\"q\": {\"elbow_joint\": 0.1}}\n    {\"q\": {\"elbow_joint\": 0.2}}";
+        NONE = "CGR-TABLE-002", "configurations::none",
+            "The list of configurations is empty. One configuration with all joints at 0 is:\n    [{\"q\": {}}]";
+        UNKNOWN_JOINT = "CGR-TABLE-003", "configurations::unknown_joint",
+            "A configuration names a joint that the robot does not have or that does not move. The help has the most similar name and the known ones.";
+        MIMIC = "CGR-TABLE-004", "configurations::mimic",
+            "A mimic joint is given at a position that contradicts the position of the joint it mimics. Leave mimic joints out: their positions follow from the mimicked joints.";
+        OUTSIDE_LIMITS = "CGR-TABLE-005", "configurations::outside_limits",
+            "A configuration is outside the joint limits. The result is computed, but the robot cannot reach this pose.";
+    }
+}

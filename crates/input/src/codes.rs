@@ -1,0 +1,84 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them.
+
+crate::codes! {
+    file {
+        NOT_FOUND = "CGR-FILE-001", "file::not_found" unreadable,
+            "The file does not exist. The help names the most similar file name in the same folder.";
+        DIRECTORY = "CGR-FILE-002", "file::directory" unreadable,
+            "A folder is given where a file is expected. Give a file in this folder.";
+        NOT_REGULAR = "CGR-FILE-003", "file::not_regular" unreadable,
+            "The path is a pipe, a socket or a device. Only regular files are read, because reading the others may never end. Save its content as a file and give that.";
+        NO_WRITER = "CGR-FILE-004", "file::no_writer" unreadable,
+            "The path is a pipe that no program writes to, so reading would never end. Start the program that writes to it, or give a file.";
+        TOO_LARGE = "CGR-FILE-005", "file::too_large" unreadable,
+            "The file exceeds the size limit of its kind, and is not read, so that a wrong or hostile file cannot fill the memory. The message has size and limit.";
+        PERMISSION = "CGR-FILE-006", "file::permission" unreadable,
+            "The user who runs the command may not read the file. Change the permissions of the file, or run the command as another user.";
+        UNREADABLE = "CGR-FILE-007", "file::unreadable" unreadable,
+            "The operating system refuses to read the file; the message has its reason.";
+        EMPTY = "CGR-FILE-008", "file::empty" unreadable,
+            "The file has no content. Often the program that should have written it has failed. Run that program again and read its messages.";
+        UTF16 = "CGR-FILE-009", "file::utf16" unreadable,
+            "The text is encoded as UTF-16. Save it as UTF-8.";
+        NUL = "CGR-FILE-010", "file::nul" unreadable,
+            "The text has a NUL byte. Some readers stop there and silently lose the rest, so the file is refused. Save the file again as plain text in UTF-8.";
+        NOT_UTF8 = "CGR-FILE-011", "file::not_utf8" unreadable,
+            "The text has bytes that are not UTF-8. Save it as UTF-8.";
+        OUTSIDE = "CGR-FILE-012", "file::outside" unreadable,
+            "Another file names a file outside the project, which is not opened. The project is the nearest folder, at or above the given file, that holds package.xml or .git; without one it is the parent of the folder of that file. Allow another folder with --allow.";
+        ALLOW = "CGR-FILE-013", "file::allow" unreadable,
+            "--allow does not name a folder. Give a folder that exists and whose files may be opened.";
+        STANDARD_INPUT = "CGR-FILE-014", "file::standard_input" unreadable,
+            "Two arguments are standard input (-), which can be read only once. Give one of them as a file.";
+    }
+    xml {
+        MALFORMED = "CGR-XML-001", "xml::malformed",
+            "The text is not well-formed XML: for example a quote or a bracket is missing, an attribute is given twice, or a closing tag has no opening tag.";
+        TRUNCATED = "CGR-XML-002", "xml::truncated",
+            "The file ends inside an element: it was cut off, or a closing tag is missing. The message names the innermost open element. Copy the file again, or close that element.";
+        DTD = "CGR-XML-003", "xml::dtd",
+            "The file declares a document type or entities. Entities can read other files and expand to any size, so they are refused. Write the values out.";
+        DEPTH = "CGR-XML-004", "xml::depth",
+            "Elements are nested deeper than in any robot, which would overflow the stack of a reader. Remove the nesting; such a file is damaged or was made to do harm.";
+        ATTRIBUTES = "CGR-XML-005", "xml::attributes",
+            "An element has more attributes than any robot needs. Remove those that a URDF does not have.";
+        PREFIX = "CGR-XML-006", "xml::prefix",
+            "An element or attribute has a prefix (`prefix:name`) that no xmlns attribute declares. Declare the prefix on the root element, or remove it.\n    <robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">";
+    }
+    toml {
+        INVALID = "CGR-TOML-001", "toml::invalid",
+            "The text is not valid TOML, or a value has the wrong type. The message says where, and what was expected.";
+        UNKNOWN_KEY = "CGR-TOML-002", "toml::unknown_key",
+            "No such key is known here. Unknown keys are errors, because a misspelt key would otherwise be silently ignored. The help has the most similar key and the known ones.";
+        UNKNOWN_VALUE = "CGR-TOML-003", "toml::unknown_value",
+            "The key takes one of several words; this value is not one of them. The help lists the known words.";
+        MISSING_KEY = "CGR-TOML-004", "toml::missing_key",
+            "A required key is missing. The message names it.";
+        BOTH_UNITS = "CGR-TOML-005", "toml::both_units",
+            "A quantity is given twice, in two units. Keep exactly one of the keys.";
+        NOT_FINITE = "CGR-TOML-006", "toml::not_finite",
+            "The value is NaN or infinite. Every comparison with NaN is false, so a check could never fail. Write a finite number, or leave the key out if it is optional.";
+        HIDDEN_CHARACTER = "CGR-TOML-007", "toml::hidden_character",
+            "A name has an invisible character, such as a control character or a mark of writing direction. Names are copied into every output, so it is refused. Type the name again.";
+    }
+    transform {
+        CONFLICT = "CGR-TOML-008", "transform::conflict",
+            "A transform gives its rotation or its translation by two keys, such as a quaternion and angles. Keep exactly one.";
+        MATRIX = "CGR-TOML-009", "transform::matrix",
+            "The matrix of a transform is not a rotation with a translation. Its first three rows must be [R | t] with R orthonormal and right-handed, its last row [0, 0, 0, 1].";
+        QUATERNION_NORM = "CGR-TOML-010", "transform::quaternion_norm",
+            "The norm of a quaternion is not 1, so a digit is wrong or missing. It is not silently normalised. The order is w, x, y, z.";
+    }
+    mesh {
+        NOT_FOUND = "CGR-MESH-001", "mesh::not_found",
+            "The mesh file that the URDF names does not exist. Distances and contacts need every collision mesh.";
+        NETWORK = "CGR-MESH-005", "mesh::network",
+            "The mesh has a network address; the network is never used. Put the mesh beside the URDF and name it by a relative path.";
+        SCHEME = "CGR-MESH-006", "mesh::scheme",
+            "The scheme of the mesh address is not known. Known are package://, file:// and relative paths. Write one of these.";
+        OUTSIDE = "CGR-MESH-007", "mesh::outside",
+            "The mesh is outside the project, and is not opened. Allow its folder with --allow, or move the mesh.";
+        PACKAGE_SLASHES = "CGR-MESH-008", "mesh::package_slashes",
+            "The address has three slashes after `package:`, so it names no package. The file was found, but other readers may not find it.\n    package://NAME/meshes/x.stl";
+    }
+}

@@ -1,0 +1,72 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them.
+
+congruent_input::codes! {
+    lint {
+        KIND = "CGR-FILE-016", "lint::kind" unreadable,
+            "The file is not of a kind that can be linted. These kinds are URDF, SRDF, robot file, scenario, and tables of configurations, targets or measurements; the content decides the kind.";
+        IGNORE = "CGR-ROBOT-025", "lint::ignore",
+            "An entry of [[lint.ignore]] is wrong: its code is unknown, it gives no reason, or it would ignore an error.";
+        IGNORED_NOTHING = "CGR-ROBOT-026", "lint::ignored_nothing",
+            "An entry of [[lint.ignore]] ignores nothing, because no finding matches it. Remove it, so that it does not hide a finding later.";
+    }
+    xml {
+        ENCODING = "CGR-XML-007", "xml::encoding",
+            "The encoding that the file declares is not the encoding it has. Readers that follow the declaration refuse the file, or read other names. Save the file as UTF-8 and declare that.\n    <?xml version=\"1.0\" encoding=\"UTF-8\"?>";
+    }
+    srdf {
+        PAIR = "CGR-SRDF-002", "srdf::pair",
+            "<disable_collisions> or <enable_collisions> lacks link1 or link2, or names the same link twice, so it has no effect. Give two different links.\n    <disable_collisions link1=\"base_link\" link2=\"shoulder_link\"/>";
+        ROOT = "CGR-SRDF-003", "srdf::root",
+            "The root element of an SRDF must be <robot>, and the file must not be a URDF. Give the SRDF, which begins like this.\n    <robot name=\"my_arm\">";
+        UNKNOWN_JOINT = "CGR-SRDF-004", "srdf::unknown_joint",
+            "The SRDF names a joint that the robot does not have. Often the joint was renamed, or has the prefix of another robot.";
+        UNKNOWN_GROUP = "CGR-SRDF-005", "srdf::unknown_group",
+            "The SRDF names a group that it does not define. Often the group was renamed.";
+        MISSING_NAME = "CGR-SRDF-006", "srdf::missing_name",
+            "An element of the SRDF lacks the name of its link, joint or group. Without it the element has no effect.";
+        ROBOT_NAME = "CGR-SRDF-007", "srdf::robot_name",
+            "The SRDF and the URDF have different robot names. Motion planners refuse to load the two together. Give the SRDF the name of the URDF.";
+        TWICE = "CGR-SRDF-008", "srdf::twice",
+            "Two groups, or two states of one group, have the same name. Motion planners silently use one of the two. Rename or remove one.";
+        EMPTY_GROUP = "CGR-SRDF-009", "srdf::empty_group",
+            "A group has no joints, links, chains or groups, so nothing can be planned for it. Add what belongs to it, or remove the group.";
+        VALUE = "CGR-SRDF-010", "srdf::value",
+            "The position of a joint in a named state is missing or is not a number (in rad or m). Write a number.\n    <joint name=\"elbow_joint\" value=\"1.57\"/>";
+        BEYOND_LIMIT = "CGR-SRDF-011", "srdf::beyond_limit",
+            "A named state puts a joint beyond its limits in the URDF. Motion planners refuse it as a goal. Often the position is in degrees.";
+        UNKNOWN_ELEMENT = "CGR-SRDF-012", "srdf::unknown_element",
+            "An element is misspelt, so readers ignore it. Correct its name.";
+        VIRTUAL_JOINT = "CGR-SRDF-013", "srdf::virtual_joint",
+            "The type of a virtual joint is unknown; it must be fixed, planar or floating.";
+    }
+    urdf {
+        ZERO_INERTIA = "CGR-URDF-029", "urdf::zero_inertia",
+            "A link has a mass but an inertia of zero, which would be a point mass: any torque would give it an infinite acceleration. Give the inertia of the body in kg m^2.";
+        ZERO_LIMIT = "CGR-URDF-030", "urdf::zero_limit",
+            "The velocity limit of a movable joint is 0, or its effort limit is 0 while other joints have one. Congruent reads 0 as \"not given\"; other programs read it as \"cannot move\". If the effort limits of all joints are 0, nothing is reported: that is a common way to write \"unknown\".";
+        STILL_MIMIC = "CGR-URDF-031", "urdf::still_mimic",
+            "A joint mimics another with the multiplier 0, so it never moves. The default multiplier is 1. Correct the multiplier, or make the joint fixed.";
+        MATERIAL = "CGR-URDF-032", "urdf::material",
+            "A material has no colour and no texture anywhere in the file, so the viewer chooses the colour of the shape. Give it a colour, or remove the reference. No result depends on it.";
+        UNKNOWN_REFERENCE = "CGR-URDF-033", "urdf::unknown_reference",
+            "A <transmission>, <ros2_control> or <gazebo> element names a joint or a link that the robot does not have. Often it was renamed.";
+    }
+    units {
+        ORIGIN = "CGR-UNIT-004", "units::origin",
+            "The origin of a joint is far from the shapes of its parent link, or far longer than all other joint origins together. Lengths of a URDF are in metres.";
+        TRAVEL = "CGR-UNIT-005", "units::travel",
+            "The range of a prismatic joint is far larger than the robot or than the two links of the joint. The range is in metres, not in millimetres.";
+        SLIDE_SPEED = "CGR-UNIT-006", "units::slide_speed",
+            "The velocity limit of a prismatic joint is implausibly high. It is in m/s, not in mm/s.";
+        SPEED = "CGR-UNIT-007", "units::speed",
+            "The velocity limit of a revolute joint is implausibly high: in itself, for the parts that the joint carries, or for the power of its motor. It is in rad/s, not in deg/s.\n    velocity=\"180\" instead of velocity=\"3.14\"";
+        MASS = "CGR-UNIT-008", "units::mass",
+            "The mass of a link, divided by the volume of its shapes, gives a density higher than that of any material or lower than that of any foam. Masses are in kg, not in grams; or the shapes are in a wrong unit.";
+        INERTIA = "CGR-UNIT-009", "units::inertia",
+            "The radius of gyration that follows from mass and inertia does not fit the shapes of the link, or any material. Inertias are in kg m^2, masses in kg.";
+        SMALL_MESH = "CGR-UNIT-010", "units::small_mesh",
+            "A mesh is smaller than 3 mm, or tiny compared with the other meshes of the robot. Often a mesh in metres has the scale for millimetres.";
+        LARGE_SHAPE = "CGR-UNIT-011", "units::large_shape",
+            "A shape is many times larger than the other shapes of the robot. Sizes are in metres.";
+    }
+}

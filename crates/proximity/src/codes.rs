@@ -1,0 +1,18 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them.
+
+congruent_input::codes! {
+    mesh {
+        CUT_HULL = "CGR-MESH-011", "mesh::cut_hull",
+            "The convex hull of a mesh has too many points, so a smaller hull is used. The largest distance between the two hulls is subtracted from every distance. A mesh with fewer vertices is measured exactly, and faster.";
+    }
+    clearance {
+        UNKNOWN_NAME = "CGR-SCENARIO-083", "clearance::unknown_name",
+            "A pair names something that is neither a link nor an obstacle. The help has the most similar name and the known ones.";
+        NO_PAIR = "CGR-SCENARIO-084", "clearance::no_pair",
+            "A check of distances has no pair to measure, so it would always pass. Ignore fewer pairs, or remove the check.";
+        PAIR_IN_BOTH = "CGR-SCENARIO-085", "clearance::pair_in_both",
+            "A pair is listed both as measured and as ignored. The two contradict each other. Remove it from one of the lists.";
+        PAIR_NOT_MEASURED = "CGR-SCENARIO-086", "clearance::pair_not_measured",
+            "The distance of a pair is not measured: the two cannot move relative to each other, or have no shape. Remove the pair from `pairs`. A pair that the SRDF disables is not measured, either.";
+    }
+}

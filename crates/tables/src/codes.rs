@@ -1,0 +1,8 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them.
+
+congruent_input::codes! {
+    table {
+        PARQUET = "CGR-TABLE-027", "table::parquet",
+            "The file is named `.parquet`, but is not a Parquet table. The message has the reason. A file of a run that was killed has no end and cannot be read.";
+    }
+}

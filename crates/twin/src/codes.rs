@@ -1,0 +1,80 @@
+//! The codes of the messages of this crate, with what `lint --explain` says about them.
+
+congruent_input::codes! {
+    scenario {
+        SEED = "CGR-SCENARIO-003", "scenario::seed",
+            "The seed is greater than the largest integer of TOML.";
+        ROBOT = "CGR-SCENARIO-004", "scenario::robot",
+            "The robot of the scenario cannot be used; the findings about the robot are listed with this one.";
+        TWO_UNITS = "CGR-SCENARIO-007", "scenario::two_units",
+            "Two keys of `[sensors]` give one value of a joint. The two may contradict each other. Remove one of them.";
+        UNKNOWN_LINK = "CGR-SCENARIO-012", "scenario::unknown_link",
+            "No link of the robot has this name or matches this pattern. The help has the known names.";
+        JOINT_LEFT_OUT = "CGR-SCENARIO-015", "scenario::joint_left_out",
+            "A list must name every joint, but a joint is missing. Add the joint, or `others = ...` for all joints that are not named.";
+        SAMPLING = "CGR-SCENARIO-022", "scenario::sampling",
+            "A period or a delay is not a whole number of steps.";
+        OUTPUT = "CGR-SCENARIO-023", "scenario::output",
+            "The period of a trajectory file does not fit the run, or a period is given without a file. A row can be written only at a step. Give a period that is a multiple of `step_s`, or add trajectory = \"csv\" or \"parquet\".";
+        START_LIMIT = "CGR-SCENARIO-024", "scenario::start_limit",
+            "The start position of a joint is outside its limits. Change [start], or the limits in the URDF if they are wrong.";
+        START_DEFAULT = "CGR-SCENARIO-025", "scenario::start_default",
+            "The start position of a joint is not given, and the default 0 is outside its limits, so the joint starts at its limit.";
+        CONTROLLER_KEY = "CGR-SCENARIO-027", "scenario::controller_key",
+            "The controller has no such parameter. It would have no effect. The help lists the controllers that have it.";
+        SENSORS = "CGR-SCENARIO-028", "scenario::sensors",
+            "Two parameters of the sensors exclude each other. A velocity that is differentiated gets its noise from the positions. Remove `velocity` or the velocity noise.";
+        TORQUE_FILE = "CGR-SCENARIO-054", "scenario::torque_file",
+            "The file of torques is not a table of joint torques over time. Give a table with the column `time_s` and columns named by joints; the message has the line.";
+        OBSTACLE_NAME = "CGR-SCENARIO-055", "scenario::obstacle_name",
+            "An obstacle has no name. Reports and checks refer to an obstacle by its name. Give it one.";
+        OBSTACLE_TWICE = "CGR-SCENARIO-056", "scenario::obstacle_twice",
+            "Two obstacles share a name. Reports and checks could not distinguish them. Rename one.";
+        OBSTACLE_IS_LINK = "CGR-SCENARIO-057", "scenario::obstacle_is_link",
+            "An obstacle has the name of a link of the robot. A pair of names in a check of distances would be ambiguous. Rename the obstacle.";
+        OBSTACLE_SHAPE = "CGR-SCENARIO-058", "scenario::obstacle_shape",
+            "An obstacle must have exactly one shape. Give one of `box_m`, `sphere_radius_m`, `cylinder`, `mesh`.";
+        OBSTACLE_SIZE = "CGR-SCENARIO-059", "scenario::obstacle_size",
+            "A size or a coordinate of an obstacle exceeds 100,000 m. Give lengths in metres, or coordinates in millimetres under `xyz_mm`.";
+        OBSTACLE_PATH = "CGR-SCENARIO-060", "scenario::obstacle_path",
+            "The path of an obstacle cannot be followed.";
+        OBSTACLE_OVERLAP = "CGR-SCENARIO-061", "scenario::obstacle_overlap",
+            "An obstacle overlaps the robot at the start; the contact forces would throw them apart. Move the obstacle or change [start]. Meshes are replaced by their convex hulls, which are larger. The controller \"kinematic\" moves the robot without forces.";
+        ZONE_NAME = "CGR-SCENARIO-062", "scenario::zone_name",
+            "A zone has no name. Reports refer to a zone by its name. Give it one.";
+        ZONE_TWICE = "CGR-SCENARIO-063", "scenario::zone_twice",
+            "Two zones share a name. Reports could not distinguish them. Rename one.";
+        ZONE_IS_LINK = "CGR-SCENARIO-064", "scenario::zone_is_link",
+            "A zone has the name of a link of the robot. Reports could not distinguish them. Rename the zone.";
+        ZONE_SHAPE = "CGR-SCENARIO-065", "scenario::zone_shape",
+            "A zone must have exactly one shape. Give one of `box_m`, `sphere_radius_m`, `cylinder`.";
+        ZONE_SIZE = "CGR-SCENARIO-066", "scenario::zone_size",
+            "A size or a coordinate of a zone exceeds 100,000 m. Give lengths in metres, or coordinates in millimetres under `xyz_mm`.";
+        ZONE_LINKS = "CGR-SCENARIO-067", "scenario::zone_links",
+            "A zone applies to no link, or to links without a shape. Then no link is forbidden to enter it. Give links = [\"*\"] for all moving links, or names of links that have a shape.";
+        ZONE_UNCHECKED = "CGR-SCENARIO-068", "scenario::zone_unchecked",
+            "No check covers the zones, so they have no effect. Add a check of zones; the help has its `kind`.";
+        NO_ZONE = "CGR-SCENARIO-069", "scenario::no_zone",
+            "A check of zones is given, but the scenario has no zone. Add a [[zone]] with a name, links, a shape and a position.";
+        GRASP = "CGR-SCENARIO-070", "scenario::grasp",
+            "A grasp does not name an obstacle or a link, or its times or its mass do not fit.";
+        GRASP_INERTIA = "CGR-SCENARIO-071", "scenario::grasp_inertia",
+            "The inertia of a grasped body is missing, or no rigid body can have it. Give `inertia_kg_m2`: each of the three moments must be at most the sum of the other two.";
+        PAYLOAD = "CGR-SCENARIO-072", "scenario::payload",
+            "The mass or inertia of a payload is impossible for a rigid body, or the payload has no name.";
+        PAYLOAD_TWICE = "CGR-SCENARIO-073", "scenario::payload_twice",
+            "Two payloads share a name. Reports could not distinguish them. Rename one.";
+        FAULT_VALUE = "CGR-SCENARIO-075", "scenario::fault_value",
+            "A fault has no value, more than one value, or a value outside its range.";
+        FAULT_TIME = "CGR-SCENARIO-076", "scenario::fault_time",
+            "A fault begins outside of the run. A fault must begin before the end of the run, and end after it began and within the run.";
+        FAULT_NO_EFFECT = "CGR-SCENARIO-077", "scenario::fault_no_effect",
+            "A fault has no effect in this run. The message says why, the help what to change. A run with it would look as if no check could detect the fault.";
+        FAULTS_EXCLUDE = "CGR-SCENARIO-078", "scenario::faults_exclude",
+            "Two faults of a joint cannot act at the same time. Let one end (`until_s`) before the other begins (`at_s`), or remove one of them.";
+        LONG_RUN = "CGR-SCENARIO-087", "scenario::long_run",
+            "The physics of this many joints takes minutes or more: the time of a step grows with the cube of the number of joints. Give a longer `step_s` or a shorter `duration_s`, or use a robot with fewer moving joints.";
+        UNWATCHED = "CGR-SCENARIO-088", "scenario::unwatched",
+            "No check measures the distance to an obstacle or its contacts, so a run in which the arm passes through the obstacle would pass. Add a [[check]] with kind = \"clearance\" or \"contact\".";
+    }
+}
