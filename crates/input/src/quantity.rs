@@ -136,6 +136,12 @@ pub enum SiUnit {
     /// Radian per second.
     #[serde(rename = "rad/s")]
     RadianPerSecond,
+    /// Metre per second squared.
+    #[serde(rename = "m/s^2")]
+    MetrePerSecondSquared,
+    /// Kilogram square metre.
+    #[serde(rename = "kg m^2")]
+    KilogramSquareMetre,
     /// Newton.
     #[serde(rename = "N")]
     Newton,

@@ -1,6 +1,7 @@
 //! Brackets of the largest torque differences as they are reported, and the range of motion that they cover.
 
 use congruent_description::{JointLimit, RobotQ};
+use congruent_input::SiUnit;
 
 use crate::{
     model::DynamicsModel,
@@ -19,7 +20,8 @@ pub struct TorqueBracket {
     /// `certified_n_m / attained_n_m`: 1 if the bound is attained; `null` if no difference was found.
     pub ratio: Option<f64>,
     /// Unit of both: `N m`, or `N` for a sliding joint.
-    pub unit: String,
+    #[schemars(with = "String")]
+    pub unit: SiUnit,
     /// Positions where it was found, in the order of the moving joints; rad and m.
     pub q: Vec<f64>,
     /// Speeds at which it was found, rad/s and m/s.
@@ -74,7 +76,7 @@ impl TorqueBracket {
             // rounding; a bound below a value that was attained would be a false claim.
             certified_n_m: certified.max(attained),
             ratio: (attained > 0.0).then(|| certified.max(attained) / attained),
-            unit: if place.is_angular { "N m" } else { "N" }.to_owned(),
+            unit: place.effort_unit(),
             q: at.q.to_vec(),
             qd: at.qd,
             qdd: at.qdd,

@@ -1,9 +1,13 @@
 //! Values of the whole robot that are compared without searching a cause: masses, gravity torques, mass matrix.
 
 use congruent_dynamics::{BodyTree, DynamicsError};
+use congruent_input::SiUnit;
 use nalgebra::{DMatrix, SymmetricEigen, Vector3};
 
-use crate::{model::DynamicsModel, torque::states::SampledState};
+use crate::{
+    model::{DynamicsModel, frames::JointPlace},
+    torque::states::SampledState,
+};
 
 /// One value by both models.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
@@ -28,7 +32,8 @@ pub struct Invariants {
     /// The joint with this difference; `null` if no gravity torque differs.
     pub gravity_joint: Option<String>,
     /// Unit of `gravity_n_m`: `N m`, or `N` for a sliding joint.
-    pub gravity_unit: String,
+    #[schemars(with = "String")]
+    pub gravity_unit: SiUnit,
     /// The largest relative difference of the mass matrix at the compared states, in any direction of acceleration;
     /// `null` if the reference's is not positive definite.
     pub mass_matrix_relative: Option<f64>,
@@ -58,14 +63,14 @@ pub(crate) fn invariants(
         let relative = relative_difference(&found, &expected);
         mass_matrix_relative = mass_matrix_relative.zip(relative).map(|(a, b)| a.max(b));
     }
-    let slides = gravity_joint.is_some_and(|joint: usize| !candidate.frames.joints[joint].is_angular);
+    let gravity_place = gravity_joint.map(|joint: usize| &candidate.frames.joints[joint]);
     Ok(Invariants {
         total_mass_kg: CandidateAndReference { found: total, expected: reference_total },
         moving_mass_kg: CandidateAndReference { found: moving, expected: reference_moving },
         com_distance_m: com_at_zero(candidate).zip(com_at_zero(reference)).map(|(a, b)| (a - b).norm()),
         gravity_n_m,
-        gravity_joint: gravity_joint.map(|joint| candidate.frames.joint_name(joint).to_owned()),
-        gravity_unit: if slides { "N" } else { "N m" }.to_owned(),
+        gravity_joint: gravity_place.map(|place| place.name.clone()),
+        gravity_unit: gravity_place.map_or(SiUnit::NewtonMetre, JointPlace::effort_unit),
         mass_matrix_relative,
     })
 }

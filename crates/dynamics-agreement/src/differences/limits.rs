@@ -1,7 +1,7 @@
 //! Joint limits, compared by value: they have no effect on torques.
 
 use congruent_description::JointLimit;
-use congruent_input::ChangedLines;
+use congruent_input::{ChangedLines, SiUnit};
 
 use crate::{
     model::{DynamicsModel, frames::JointPlace},
@@ -30,7 +30,8 @@ pub struct LimitDifference {
     /// not.
     pub decides: bool,
     /// SI unit of `found` and `expected`: `rad`, `m`, `rad/s`, `m/s`, `N m` or `N`.
-    pub unit: String,
+    #[schemars(with = "String")]
+    pub unit: SiUnit,
     /// Line of the limit in the candidate's file; `null` if it is not known.
     pub line: Option<usize>,
     /// Line of the limit in the reference's file; `null` if it is not known.
@@ -101,7 +102,7 @@ pub(crate) fn differences(
                 // A missing range changes where the robot may go; a missing speed or effort is usually just not
                 // given.
                 decides: both.is_some() || cause == LimitCause::PositionLimit,
-                unit: unit(cause, &candidate.frames.joints[joint]).to_owned(),
+                unit: unit(cause, &candidate.frames.joints[joint]),
                 line: None,
                 expected_line: None,
                 file: None,
@@ -112,14 +113,13 @@ pub(crate) fn differences(
     differences
 }
 
-fn unit(cause: LimitCause, joint: &JointPlace) -> &'static str {
+fn unit(cause: LimitCause, joint: &JointPlace) -> SiUnit {
     match (cause, joint.is_angular) {
-        (LimitCause::VelocityLimit, true) => "rad/s",
-        (LimitCause::VelocityLimit, false) => "m/s",
-        (LimitCause::EffortLimit, true) => "N m",
-        (LimitCause::EffortLimit, false) => "N",
-        (LimitCause::PositionLimit, true) => "rad",
-        (LimitCause::PositionLimit, false) => "m",
+        (LimitCause::VelocityLimit, true) => SiUnit::RadianPerSecond,
+        (LimitCause::VelocityLimit, false) => SiUnit::MetrePerSecond,
+        (LimitCause::EffortLimit, _) => joint.effort_unit(),
+        (LimitCause::PositionLimit, true) => SiUnit::Radian,
+        (LimitCause::PositionLimit, false) => SiUnit::Metre,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Parameters of links, joints and gravity that differ, each as one entry.
 
 use congruent_dynamics::JointResistance;
+use congruent_input::SiUnit;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
@@ -21,7 +22,8 @@ pub struct ParameterDifference {
     /// The corrected value, or the reference's; `null` if there is none.
     pub expected: Option<f64>,
     /// SI unit of `found` and `expected`.
-    pub unit: String,
+    #[schemars(with = "String")]
+    pub unit: SiUnit,
     /// Line of the parameter in the candidate's file; `null` if it is not known.
     pub line: Option<usize>,
     /// Line of the parameter in the reference's file; `null` if it is not known.
@@ -32,17 +34,17 @@ pub struct ParameterDifference {
     pub below_resolution: Option<f64>,
 }
 
-const PARAMETER_UNITS: [(&str, &str); 10] = [
-    ("mass", "kg"),
-    ("com_x", "m"),
-    ("com_y", "m"),
-    ("com_z", "m"),
-    ("ixx", "kg m^2"),
-    ("ixy", "kg m^2"),
-    ("ixz", "kg m^2"),
-    ("iyy", "kg m^2"),
-    ("iyz", "kg m^2"),
-    ("izz", "kg m^2"),
+const PARAMETER_UNITS: [(&str, SiUnit); 10] = [
+    ("mass", SiUnit::Kilogram),
+    ("com_x", SiUnit::Metre),
+    ("com_y", SiUnit::Metre),
+    ("com_z", SiUnit::Metre),
+    ("ixx", SiUnit::KilogramSquareMetre),
+    ("ixy", SiUnit::KilogramSquareMetre),
+    ("ixz", SiUnit::KilogramSquareMetre),
+    ("iyy", SiUnit::KilogramSquareMetre),
+    ("iyz", SiUnit::KilogramSquareMetre),
+    ("izz", SiUnit::KilogramSquareMetre),
 ];
 
 /// The ten parameters of an inertial, each with the size that its difference is relative to: of one coordinate the largest
@@ -88,7 +90,7 @@ pub(crate) fn link_differences(
         parameter: parameter.to_owned(),
         found: value(0, at),
         expected: value(1, at),
-        unit: unit.to_owned(),
+        unit,
         line: None,
         expected_line: None,
         below_resolution: None,
@@ -112,7 +114,7 @@ pub(crate) fn joint_term_differences(
                     parameter: term.name().to_owned(),
                     found: Some(found),
                     expected: Some(expected),
-                    unit: term.unit(joint).to_owned(),
+                    unit: term.unit(joint),
                     line: None,
                     expected_line: None,
                     below_resolution: None,
@@ -134,7 +136,7 @@ pub(crate) fn gravity_differences(found: &Vector3<f64>, expected: &Vector3<f64>)
             parameter: name.to_owned(),
             found: Some(found[at]),
             expected: Some(expected[at]),
-            unit: "m/s^2".to_owned(),
+            unit: SiUnit::MetrePerSecondSquared,
             line: None,
             expected_line: None,
             below_resolution: None,

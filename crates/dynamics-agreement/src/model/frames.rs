@@ -3,6 +3,7 @@
 
 use congruent_description::{DhTable, JointIndex, LinkIndex, Robot, RobotQ};
 use congruent_dynamics::BodyTree;
+use congruent_input::SiUnit;
 use congruent_kinematics::{DhChain, KinematicsError, Pose};
 
 /// The geometry that both models of a comparison have in common.
@@ -42,6 +43,13 @@ pub(crate) struct JointPlace {
     pub(crate) follows: Option<(usize, f64, f64)>,
     /// Index of the link that it carries.
     pub(crate) link: usize,
+}
+
+impl JointPlace {
+    /// Unit of its torque or force.
+    pub(crate) fn effort_unit(&self) -> SiUnit {
+        if self.is_angular { SiUnit::NewtonMetre } else { SiUnit::Newton }
+    }
 }
 
 /// A frame other than the link's own in which the parameters of a link could have been given by mistake.

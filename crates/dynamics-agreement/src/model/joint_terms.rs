@@ -1,6 +1,7 @@
 //! The three torque terms of a joint itself: damping, dry friction, armature.
 
 use congruent_dynamics::JointResistance;
+use congruent_input::SiUnit;
 
 use super::frames::JointPlace;
 
@@ -39,14 +40,13 @@ impl JointTerm {
         }
     }
 
-    pub(crate) fn unit(self, joint: &JointPlace) -> &'static str {
+    pub(crate) fn unit(self, joint: &JointPlace) -> SiUnit {
         match (self, joint.is_angular) {
-            (Self::Damping, true) => "N m s/rad",
-            (Self::Damping, false) => "N s/m",
-            (Self::Friction, true) => "N m",
-            (Self::Friction, false) => "N",
-            (Self::Armature, true) => "kg m^2",
-            (Self::Armature, false) => "kg",
+            (Self::Damping, true) => SiUnit::NewtonMetreSecondPerRadian,
+            (Self::Damping, false) => SiUnit::NewtonSecondPerMetre,
+            (Self::Friction, _) => joint.effort_unit(),
+            (Self::Armature, true) => SiUnit::KilogramSquareMetre,
+            (Self::Armature, false) => SiUnit::Kilogram,
         }
     }
 }

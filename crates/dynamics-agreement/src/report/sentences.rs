@@ -30,7 +30,8 @@ pub(super) fn suggestion(faulty: FaultySide, parameters: &[ParameterDifference])
 impl ParameterDifference {
     /// `shoulder_link: mass is 2.63 kg, expected 3.76 kg`.
     pub fn sentence(&self) -> String {
-        let [found, expected] = with_distinct_digits(self.found, self.expected, &self.unit, "not given");
+        let [found, expected] =
+            with_distinct_digits(self.found, self.expected, self.unit.symbol(), "not given");
         let what = format!("{} is {found}, expected {expected}", self.parameter);
         if self.of.is_empty() { what } else { format!("{}: {what}", self.of) }
     }
@@ -101,7 +102,8 @@ impl DynamicsCause {
 impl LimitDifference {
     /// `elbow_joint: velocity limit is 10313 deg/s, expected 180 deg/s, factor 57.3: in degrees?`.
     pub fn sentence(&self) -> String {
-        let [found, expected] = with_distinct_digits(self.found, self.expected, &self.unit, "not stated");
+        let [found, expected] =
+            with_distinct_digits(self.found, self.expected, self.unit.symbol(), "not stated");
         let factor = self.factor.map_or_else(String::new, |factor| format!(", factor {}", number(factor)));
         let unit = if self.detail.is_empty() { String::new() } else { format!(": in {}?", self.detail) };
         let remark =
@@ -153,7 +155,7 @@ impl Invariants {
             gravity.map(|joint| {
                 format!(
                     "largest gravity torque difference at the compared states {} at {joint}",
-                    quantity(self.gravity_n_m, &self.gravity_unit)
+                    quantity(self.gravity_n_m, self.gravity_unit.symbol())
                 )
             }),
             matrix.map(|relative| {
@@ -274,9 +276,9 @@ impl TorqueBracket {
         let loose = loose.map(|ratio| format!(", {} times as much,", number(ratio)));
         format!(
             "{} at {}, certified below {}{}{} over the whole joint range",
-            quantity(self.attained_n_m, &self.unit),
+            quantity(self.attained_n_m, self.unit.symbol()),
             self.joint,
-            quantity(self.certified_n_m, &self.unit),
+            quantity(self.certified_n_m, self.unit.symbol()),
             share.unwrap_or_default(),
             loose.unwrap_or_default(),
         )
