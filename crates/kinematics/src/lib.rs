@@ -8,6 +8,7 @@
 //! Units are metres and radians; `a_from_b` is the pose of frame b in frame a.
 
 mod arm;
+pub mod best_first;
 mod chain;
 mod configurations;
 mod error;

@@ -1,7 +1,7 @@
 //! The bound from above: branch and bound over the box of all configurations. The box with the largest
 //! bound is split until that bound meets the largest difference that a configuration attains.
 
-use std::{cmp::Ordering, collections::BinaryHeap};
+use congruent_kinematics::best_first::{BoundedBox, halves, least_upper_bound};
 
 use super::{
     budget::{Budget, ROUNDING_LEVEL},
@@ -59,7 +59,6 @@ pub(super) struct BracketTask<'a> {
 #[derive(Debug, Clone)]
 struct BoxNode {
     bound: f64,
-    number: u64,
     intervals: Vec<PositionInterval>,
     /// The joint whose interval is split next; past the last joint if the bound depends on none.
     split_joint: usize,
@@ -67,26 +66,11 @@ struct BoxNode {
     bound_index: usize,
 }
 
-/// Largest bound first; of equal bounds the oldest box, so that the order is fixed.
-impl Ord for BoxNode {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.number.cmp(&self.number))
+impl BoundedBox for BoxNode {
+    fn upper_bound(&self) -> f64 {
+        self.bound
     }
 }
-
-impl PartialOrd for BoxNode {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for BoxNode {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for BoxNode {}
 
 /// The state of a search: the best configuration so far, buffers, and the work that was done.
 struct BranchAndBound<'a> {
@@ -113,12 +97,12 @@ impl BranchAndBound<'_> {
         self.boxes += 1;
         // A part of a box has no larger maximum than the box, so the bound of the box is where the bound of the part
         // starts: bounds never grow from a box to its halves, whichever bound is computed for them.
-        let mut node = BoxNode { bound: outer, number: self.boxes, intervals, split_joint: 0, bound_index };
+        let mut node = BoxNode { bound: outer, intervals, split_joint: 0, bound_index };
         let reduction = self.bound_by(bound_index, &mut node);
         // The bound that was least for the larger box is mostly least for its halves as well. Evaluating all of them
         // for each box would cost up to five times as many corners; now and then suffices to notice a change. The
         // first box has number 1: it is bounded by all.
-        let others = if node.number % ALL_BOUNDS_EVERY == 1 { self.task.bounds.len() } else { 0 };
+        let others = if self.boxes % ALL_BOUNDS_EVERY == 1 { self.task.bounds.len() } else { 0 };
         // Bounds over intermediate chains have a gap that no split closes: the steps have their maxima at different
         // configurations. Only bound 0, of the difference itself, converges to the maximum as boxes shrink. So if
         // all that were tried are stuck above the target, the box and its parts go back to bound 0, although it may
@@ -180,15 +164,25 @@ impl BranchAndBound<'_> {
         total_reduction
     }
 
-    fn split(&mut self, node: &BoxNode) -> [BoxNode; 2] {
-        let (lower, upper) = node.intervals[node.split_joint];
-        let middle = f64::midpoint(lower, upper);
-        // The halves share the middle: they are closed intervals, and no configuration falls between them.
-        [(lower, middle), (middle, upper)].map(|half| {
+    /// The halves of a box; `None` if its bound is good enough, or cannot be improved.
+    fn split(&mut self, node: &BoxNode) -> Option<Vec<BoxNode>> {
+        let is_spent = self.corners_spent >= self.task.budget.corners;
+        if self.is_largest_possible() || is_spent || node.bound <= self.target() {
+            return None;
+        }
+        // If no step depends on a joint, the split joint is past the end.
+        let halves = halves(*node.intervals.get(node.split_joint)?)?;
+        let parts = halves.map(|half| {
             let mut intervals = node.intervals.clone();
             intervals[node.split_joint] = half;
             self.bound(intervals, node.bound, node.bound_index)
-        })
+        });
+        Some(parts.into())
+    }
+
+    /// Whether no configuration can have a larger disagreement than the one that was found.
+    fn is_largest_possible(&self) -> bool {
+        self.incumbent.norm >= self.task.conversion.max_norm
     }
 }
 
@@ -201,33 +195,16 @@ pub(super) fn bracket(task: &BracketTask<'_>, incumbent: Incumbent) -> BracketOu
     let nearest = incumbent.at.clone();
     let buffers = EnclosureBuffers::default();
     let mut search = BranchAndBound { task, incumbent, buffers, nearest, boxes: 0, corners_spent: 0 };
-    let Budget { corners, .. } = task.budget;
     // The outermost box has nothing around it, so its bound starts at infinity.
-    let mut open = BinaryHeap::from([search.bound(task.ranges.to_vec(), f64::INFINITY, 0)]);
-    // Best first: the top of the heap has the largest bound of all open boxes, and together they cover the whole
-    // range. So its bound holds for every configuration, and the loop may end at any time with it. Nothing is gained
-    // by another order: every box above the target has to be split sooner or later.
-    let certified = loop {
-        let Some(node) = open.pop() else {
-            unreachable!("a box that is taken is replaced by its two halves")
-        };
-        // Orientations half a turn apart: no disagreement is larger, so the bracket is closed without a further box.
-        // Beyond that norm the other sign of the quaternion is nearer, and the angle is smaller than half a turn; so
-        // the configuration is moved back to where the norm is exactly the largest.
-        if search.incumbent.norm >= task.conversion.max_norm {
-            search.incumbent.descend_to(task.conversion.max_norm, task.difference, task.ranges);
-            break (task.conversion.from_norm)(task.conversion.max_norm);
-        }
-        // If no step depends on a joint, the split joint is past the end and the interval is empty.
-        let (lower, upper) = node.intervals.get(node.split_joint).copied().unwrap_or_default();
-        let middle = f64::midpoint(lower, upper);
-        // Halves of two neighbouring floating-point numbers would be the box itself, again and again.
-        let divisible = lower < middle && middle < upper;
-        if node.bound <= search.target() || search.corners_spent >= corners || !divisible {
-            break node.bound;
-        }
-        open.extend(search.split(&node));
-    };
+    let whole = search.bound(task.ranges.to_vec(), f64::INFINITY, 0);
+    let mut certified = least_upper_bound(whole, |node| search.split(node));
+    // Orientations half a turn apart: no disagreement is larger, so the bracket is closed without a further box.
+    // Beyond that norm the other sign of the quaternion is nearer, and the angle is smaller than half a turn; so
+    // the configuration is moved back to where the norm is exactly the largest.
+    if search.is_largest_possible() {
+        search.incumbent.descend_to(task.conversion.max_norm, task.difference, task.ranges);
+        certified = (task.conversion.from_norm)(task.conversion.max_norm);
+    }
     let (boxes, attained) = (search.boxes, search.attained());
     // Where the bound is exact, the attained difference can be above it by rounding.
     BracketOutcome { certified: certified.max(attained), incumbent: search.incumbent, boxes }

@@ -7,7 +7,7 @@
 //! Source: Farin, *Curves and Surfaces for CAGD* (2002), rational curves; Garloff, *Convergent bounds for the range of
 //! multivariate polynomials* (1985).
 
-use std::{cmp::Ordering, collections::BinaryHeap};
+use congruent_kinematics::best_first::{BoundedBox, halves, least_upper_bound};
 
 use super::{
     speeds::SpeedInterval,
@@ -54,23 +54,9 @@ enum Halved {
     Speed(usize),
 }
 
-impl PartialEq for Region {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Region {}
-
-impl PartialOrd for Region {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Region {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.upper.total_cmp(&other.upper)
+impl BoundedBox for Region {
+    fn upper_bound(&self) -> f64 {
+        self.upper
     }
 }
 
@@ -80,34 +66,25 @@ pub(in crate::bound) fn upper_bound(function: &Trigonometric, stop: SearchLimits
         function.variables.iter().map(|variable| (variable.lower, variable.upper)).collect();
     let speeds = vec![(-1.0, 1.0); function.measure.speeds()];
     let mut work = Work::default();
-    // Best first: the largest bound of all open boxes is the bound of the whole range, so only halving that box
-    // can lower the result.
-    let mut open = BinaryHeap::from([region(function, (ranges, speeds), &mut work)]);
     let mut boxes = 0;
     // A constant cannot be divided; its only box is its value.
     let divides = !function.variables.is_empty() || function.measure.speeds() > 0;
-    while let Some(worst) = open.peek() {
+    let whole = region(function, (ranges, speeds), &mut work);
+    let value = least_upper_bound(whole, |worst| {
         // Stopping early is safe: the bound that is returned holds for whatever boxes are open, it is only wider.
         let done = worst.upper <= stop.below || boxes >= stop.boxes || work.computed >= stop.control_values;
         if done || !divides {
-            break;
+            return None;
         }
-        let Some(worst) = open.pop() else { break };
         boxes += 1;
-        let Some(halves) = worst.halves() else {
-            // The box is at the resolution of floating point: it goes back, so that its bound still counts.
-            open.push(worst);
-            break;
-        };
-        for half in halves {
-            let mut part = region(function, half, &mut work);
+        let parts = worst.halves()?.into_iter().map(|half| {
+            let part = region(function, half, &mut work);
             // A half lies in the whole, so its bound is at most that of the whole, even if its own control values round higher.
-            part.upper = part.upper.min(worst.upper);
-            open.push(part);
-        }
-    }
+            Region { upper: part.upper.min(worst.upper), ..part }
+        });
+        Some(parts.collect())
+    });
     // The slack of left-out coefficients is added once: it holds at every position.
-    let value = open.peek().map_or(0.0, |worst| worst.upper);
     UpperBound { value: value + function.slack, boxes }
 }
 
@@ -118,17 +95,12 @@ impl Region {
     /// Both halves; `None` if no floating-point number lies between the ends.
     fn halves(&self) -> Option<Vec<Ranges>> {
         let halved = |ranges: &[(f64, f64)], at: usize| {
-            let (lower, upper) = *ranges.get(at)?;
-            let middle = f64::midpoint(lower, upper);
-            // Without this a box between two neighbouring floating-point numbers would be halved into itself for
-            // ever.
-            (middle > lower && middle < upper).then(|| {
-                [(lower, middle), (middle, upper)].map(|half| {
-                    let mut ranges = ranges.to_vec();
-                    ranges[at] = half;
-                    ranges
-                })
-            })
+            let halves = halves(*ranges.get(at)?)?;
+            Some(halves.map(|half| {
+                let mut ranges = ranges.to_vec();
+                ranges[at] = half;
+                ranges
+            }))
         };
         match self.halved {
             Halved::Position(at) => {
