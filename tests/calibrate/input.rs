@@ -22,7 +22,7 @@ fn refuse(measurements: &str, line: u64, words: &[&str]) {
 #[test]
 fn bad_measurements_are_refused_with_their_place() {
     refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,0,1,0\n# note\n\n1,2,oops,3\n", 5, &["oops", "x_m"]);
-    refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,0,1\n", 2, &["3 cells", "the header 4"]);
+    refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,0,1\n", 2, &["3 cells", "the header has 4"]);
     refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,,1,0\n", 2, &["joint_2_deg"]);
     refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,nan,1,0\n", 2, &["nan", "joint_2_deg"]);
     refuse("joint_1_deg,joint_2_deg,x_mm,y_m\n0,0,1,0\n0,0,1e15,0\n", 3, &["1e15", "x_mm"]);

@@ -257,7 +257,7 @@ fn more_suggestions_than_candidates_are_refused() {
     for count in ["18446744073709551615", "100000000000", "401"] {
         let answer = congruent(&["calibrate", "robots/ur5e", &file, "--next", count]);
         assert!(
-            answer.code == 2 && answer.stderr.contains("at most 400, the number of random candidates"),
+            answer.code == 2 && answer.stderr.contains("at most 400: they are chosen from that many"),
             "{count}: {}",
             answer.stderr
         );

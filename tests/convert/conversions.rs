@@ -305,7 +305,7 @@ fn a_table_does_not_exist_from_another_base() {
     let answer = congruent(&arguments);
     assert_eq!(answer.code, 2);
     for words in [
-        "[dh] table describes the chain from \"base_link\" to \"tool0\"",
+        "describe the chain from \"base_link\" to \"tool0\"",
         "\"shoulder_link\" to \"tool0\"",
         "--from urdf",
     ] {

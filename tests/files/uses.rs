@@ -76,8 +76,8 @@ fn kinematics_goes_on_with_each_warning_once() {
     let bench = ArmFolder::new("");
     let robot = bench.path("arm.urdf");
     let words = [
-        "2 links have an inertia that breaks the triangle inequality: upper, fore (blocks only physics)",
-        "mesh file \"package://arm_description/upper.stl\" not found (blocks only clearance)",
+        "2 links have an inertia that breaks the triangle inequality: upper, fore (needed only for physics)",
+        "mesh file \"package://arm_description/upper.stl\" not found (needed only for clearance)",
         "packages = { arm_description =",
         "--ros-packages",
         "<texture> has no filename",

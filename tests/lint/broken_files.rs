@@ -111,8 +111,8 @@ const CASES: &[Case] = &[
     ("xyz=\"0 0 0.1\" rpy", "xyz=\"0 0 100\" rpy", "warning", "100", 29),
     // Limits
     ("lower=\"-2\" upper=\"2\" effort=\"20\"", "lower=\"-115\" upper=\"115\" effort=\"20\"", "warning", "degrees", 40),
-    ("lower=\"-2\" upper=\"2\" effort=\"20\"", "upper=\"2\" effort=\"20\"", "warning", "without lower", 40),
-    ("lower=\"-2\" upper=\"2\" effort=\"20\"", "lower=\"2\" upper=\"2\" effort=\"20\"", "warning", "lock", 40),
+    ("lower=\"-2\" upper=\"2\" effort=\"20\"", "upper=\"2\" effort=\"20\"", "warning", "has no lower", 40),
+    ("lower=\"-2\" upper=\"2\" effort=\"20\"", "lower=\"2\" upper=\"2\" effort=\"20\"", "warning", "cannot move", 40),
     ("effort=\"20\" velocity=\"4.2\"", "effort=\"-20\" velocity=\"4.2\"", "error", "negative", 40),
     ("effort=\"20\" velocity=\"4.2\"", "effort=\"20\" velocity=\"-4.2\"", "error", "negative", 40),
     ("effort=\"20\" velocity=\"4.2\"", "effort=\"20\"", "warning", "no velocity", 40),

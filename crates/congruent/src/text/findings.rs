@@ -70,7 +70,7 @@ fn shortened(finding: &Diagnostic, options: &TextOptions) -> Diagnostic {
     shortened.message.insert_str(0, ": ");
     shortened.message.insert_str(0, serde_name(&finding.severity));
     if let Some(stopped) = finding.stops {
-        let _ = write!(shortened.message, " (blocks only {})", serde_name(&stopped));
+        let _ = write!(shortened.message, " (needed only for {})", serde_name(&stopped));
     }
     if options.is_in_full {
         return shortened;

@@ -54,7 +54,7 @@ impl OutsideLimits {
         let message = format!("outside the joint limits: {}{more}", self.listed.join(", "));
         (self.count > 0).then(|| {
             Diagnostic::warning(codes::configurations::OUTSIDE_LIMITS, message)
-                .with_help("the result is computed, but the robot cannot reach these positions")
+                .with_help("the result is computed, but the robot cannot reach these positions; numbers without a unit are in rad or m")
         })
     }
 }

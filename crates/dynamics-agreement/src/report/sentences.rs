@@ -127,12 +127,14 @@ fn with_distinct_digits(found: Option<f64>, expected: Option<f64>, unit: &str, n
         return texts;
     }
     let rounded = |digits| [a, b].map(|value| quantity_with_digits(value, unit, digits));
-    let distinct = (4..=MOST_DIGITS).map(rounded).find(|[a, b]| a != b);
-    distinct.unwrap_or_else(|| {
+    let digits = (4..=MOST_DIGITS).find(|&digits| rounded(digits)[0] != rounded(digits)[1]);
+    let difference = || {
         let sign = if a < b { '-' } else { '+' };
         let difference = quantity_with_digits((a - b).abs(), unit, 2);
         [format!("{} {sign} {difference}", texts[1]), texts[1].clone()]
-    })
+    };
+    // Some more digits than distinguish the two show how large their difference is.
+    digits.map_or_else(difference, |digits| rounded(digits + 2))
 }
 
 impl Invariants {
@@ -318,4 +320,18 @@ impl TorqueCertificates {
 
 fn count(number: usize) -> f64 {
     f64::from(u32::try_from(number).unwrap_or(u32::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_distinguish_them() {
+        let texts = |found: f64, expected: f64| with_distinct_digits(Some(found), Some(expected), "kg", "");
+        assert_eq!(texts(2.631, 3.7612), ["2.63 kg", "3.76 kg"]);
+        assert_eq!(texts(9.80665, 9.809_999_999_999_999), ["9.80665 kg", "9.81 kg"]);
+        assert_eq!(texts(0.364 + 2e-16, 0.364), ["0.364 kg + 2.2e-16 kg", "0.364 kg"]);
+        assert_eq!(texts(0.364, 0.364), ["0.364 kg", "0.364 kg"]);
+    }
 }

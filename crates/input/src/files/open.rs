@@ -122,7 +122,9 @@ fn metadata(path: &Path) -> Result<Metadata, Diagnostic> {
     let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
     if metadata.is_dir() {
         let message = format!("{} is a directory, not a file", path.display());
-        return Err(Diagnostic::error(codes::file::DIRECTORY, message));
+        return Err(
+            Diagnostic::error(codes::file::DIRECTORY, message).with_help("give the name of a file in it")
+        );
     }
     Ok(metadata)
 }
