@@ -132,7 +132,6 @@ fn split(whole: &PlannedMove, spline: &JointSpline, path: &TcpPath, motion_of_le
     let mut begins_s = 0.0;
     let mut motions = Vec::with_capacity(count);
     for motion in 0..count {
-        // A `path_tcp` has several legs, and ends with the last of them.
         let last_leg = motion_of_leg.iter().rposition(|&of| of == motion).unwrap_or(0);
         let share = path.ends_m()[last_leg] / path.length_m();
         let is_last = motion + 1 == count;
@@ -163,7 +162,6 @@ fn world_from_base(planning: &Planning<'_>) -> Result<Isometry3<f64>, Diagnostic
     found.map(|pose| pose.to_isometry()).map_err(|error| planning.place.mark(refused(error)))
 }
 
-/// All lines and arcs of a group.
 fn legs<'a>(
     motions: &[MotionSettings],
     places: FilePlace<'a>,
@@ -301,7 +299,6 @@ fn check(legs: &[Leg<'_>]) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// The time scaling along all lines and arcs.
 fn time_scaling(legs: &[Leg<'_>]) -> TimeScaling {
     if let [Leg { drive: LegTiming::Duration { duration_s, profile }, .. }] = legs {
         return TimeScaling::Shape { profile: *profile, duration_s: *duration_s };
@@ -315,7 +312,6 @@ fn time_scaling(legs: &[Leg<'_>]) -> TimeScaling {
         let length = leg.segment.length_m() - blended_m - leg.blend_m;
         let is_last = index + 1 == legs.len();
         let stops = !is_last && leg.blend_m == 0.0;
-        // Blends at both ends may cover the whole segment.
         if length > 0.0 {
             stretches.push(Stretch { length, limits: *limits, stops });
         }
