@@ -4,11 +4,13 @@
 
 use std::fs;
 
+use congruent::input::display::quantity;
 use serde_json::Value;
 
 use crate::support::{
     command::{Answer, congruent, congruent_json, text},
-    golden::number,
+    corpus::workspace,
+    golden::{number, read_json},
 };
 
 /// Kind: solver stop of the distance query, as in `clearance.rs`.
@@ -112,6 +114,48 @@ fn every_pair_below_the_limit_is_listed() {
     lists(&passing, &[0]);
     let human = slide.run("kind = \"clearance\"\nminimum_m = 0.1", "human");
     assert!(human.stdout.contains("cart--lamp") && human.stdout.contains("cart--post"), "{}", human.stdout);
+}
+
+/// The hand points down while the arm turns: both fingers of a Panda are as far from the floor as at the start, up to
+/// rounding, and which of them is nearer changes.
+const FINGERS: &str = r#"
+schema_version = 1
+name = "fingers"
+simulation = { duration_s = 1.2 }
+controller = { kind = "kinematic" }
+[start]
+joints_deg = { panda_joint1 = 66.93, panda_joint2 = -16.1, panda_joint4 = -134.35, panda_joint6 = 118.25, panda_joint7 = 45.0 }
+joints_m = { panda_finger_joint1 = 0.03 }
+[[motion]]
+move_joints_deg = { panda_joint1 = 0.0 }
+duration_s = 1.2
+[[obstacle]]
+name = "floor"
+box_m = [2.6, 2.5, 0.02]
+xyz_m = [0.35, 0.0, -0.01]
+[[check]]
+kind = "clearance"
+minimum_m = 1.0
+pairs = [["panda_leftfinger", "floor"], ["panda_rightfinger", "floor"]]
+"#;
+
+#[test]
+fn each_pair_is_printed_once_at_its_worst() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = text(&folder.path().join("fingers.toml"));
+    fs::write(&scenario, format!("robot = {:?}{FINGERS}", workspace().join("robots/panda"))).unwrap();
+    let answer = congruent(&["run", &scenario, "--no-recording", "--out", &text(folder.path())]);
+    assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+    let report = read_json(&folder.path().join("fingers/report.json"));
+    let measures = report["checks"][0]["measures"].as_array().unwrap();
+    assert_eq!(measures.len(), 2, "{measures:#?}");
+    for measure in measures {
+        let worst = &measure["worst"];
+        let (subject, time_s) = (worst["subject"].as_str().unwrap(), number(&worst["time_s"]));
+        let printed = format!("at {subject} ({})", quantity(time_s, "s"));
+        assert_eq!(answer.stdout.matches(&printed).count(), 1, "{printed}: {}", answer.stdout);
+        assert_eq!(answer.stdout.matches(&format!("at {subject} (")).count(), 1, "{}", answer.stdout);
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::{fs, path::Path};
 
 use crate::support::{
     command::{congruent, congruent_in_path, congruent_json, text},
+    corpus::workspace,
     scratch_folder::ScratchFolder,
 };
 
@@ -51,6 +52,76 @@ fn a_recording_is_checked_with_the_values_that_its_run_had() {
     assert!(answer.json()["recheck"]["disagreements"].as_array().unwrap().is_empty());
     let other = congruent(&["inspect", &recording, "--check", "scenarios/ur5e_weld.toml"]);
     assert!(other.code == 2 && other.stderr.contains("another scenario"), "{}", other.stderr);
+}
+
+/// The shipped scenario with another minimum distance, in a file of its own.
+fn pick_with_minimum(folder: &Path, minimum_m: &str) -> String {
+    let shipped = fs::read_to_string(workspace().join("scenarios/ur5e_pick.toml")).unwrap();
+    let robot = format!("robot = {:?}", workspace().join("robots/ur5e"));
+    let changed = shipped.lines().map(|line| match line.split_once(" = ") {
+        Some(("robot", _)) => robot.clone(),
+        Some(("minimum_m", _)) => format!("minimum_m = {minimum_m}"),
+        _ => line.to_owned(),
+    });
+    let file = folder.join("other_limit.toml");
+    fs::write(&file, changed.collect::<Vec<_>>().join("\n")).unwrap();
+    text(&file)
+}
+
+#[test]
+fn the_last_lines_are_the_verdict_of_the_new_check() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording = recorded(folder.path(), "ur5e_pick");
+    let other = pick_with_minimum(folder.path(), "0.05");
+    let answer = congruent(&["inspect", &recording, "--check", &other, "--allow", &text(&workspace())]);
+    let last = "verdict: not_as_expected\nreason: clearance fails, against expectation; in the run every check passes, as expected\n";
+    assert!(answer.code == 1 && answer.stdout.ends_with(last), "{}{}", answer.stdout, answer.stderr);
+    let same = congruent(&["inspect", &recording, "--check", "scenarios/ur5e_pick.toml"]);
+    let last = "verdict: as_expected\nreason: every check passes, as expected\n";
+    assert!(same.code == 0 && same.stdout.ends_with(last), "{}", same.stdout);
+}
+
+#[test]
+fn run_page_and_inspect_give_a_verdict_in_the_same_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = text(folder.path());
+    for (scenario, change, sentence) in [
+        ("ur5e_into_table", "seed=1", "clearance fails, as expected"),
+        ("ur5e_pick", "expect.verdict=fail", "unexpected pass: every check passed"),
+    ] {
+        let file = format!("scenarios/{scenario}.toml");
+        let ran = congruent(&["run", &file, "--set", change, "--out", &out]);
+        assert!(ran.stdout.contains(&format!(": {sentence} (ur5e, ")), "{}{}", ran.stdout, ran.stderr);
+        let results = folder.path().join(scenario);
+        let inspected = congruent(&["inspect", &text(&results)]).stdout;
+        assert!(inspected.ends_with(&format!("\nreason: {sentence}\n")), "{inspected}");
+        let page = fs::read_to_string(results.join("report.html")).unwrap();
+        let (first, rest) = sentence.split_at(1);
+        assert!(page.contains(&format!("{}{rest}.", first.to_uppercase())), "{sentence}");
+    }
+}
+
+#[test]
+fn a_result_that_is_no_longer_there_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording = recorded(folder.path(), "ur5e_into_zone");
+    let results = text(Path::new(&recording).parent().unwrap());
+    let missing = || {
+        let answer = congruent_json(&["inspect", &results]);
+        assert_eq!(answer.code, 0, "{}", answer.stderr);
+        let missing = answer.json()["missing_results"].as_array().cloned().unwrap_or_default();
+        let names: Vec<String> = missing.iter().map(|name| name.as_str().unwrap().to_owned()).collect();
+        names.join(", ")
+    };
+    assert_eq!(missing(), "");
+    for (removed, named) in
+        [("junit.xml", "junit.xml"), ("SHA256SUMS", "SHA256SUMS"), ("report.json", "report.json, SHA256SUMS")]
+    {
+        fs::remove_file(Path::new(&results).join(removed)).unwrap();
+        assert_eq!(missing(), named);
+    }
+    let shown = congruent(&["inspect", &results]).stdout;
+    assert!(shown.contains("missing beside the recording: report.json, SHA256SUMS"), "{shown}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use congruent_description::JointValues;
 use congruent_input::{Quantity, SiUnit, serde_name};
 use congruent_scenario::{CheckKind, Expectation};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// The outcome of one check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -35,10 +35,16 @@ pub struct Moment {
     /// Name of the link, joint or pair that has the value.
     pub subject: String,
     /// The value, in the unit of its [`Measure`]; `null` in JSON if it is infinite, such as a time that was not reached.
+    #[serde(deserialize_with = "number_or_null")]
     #[schemars(with = "Option<f64>")]
     pub value: f64,
     /// Position of every movable joint, rad or m.
     pub q: JointValues,
+}
+
+/// JSON has neither infinity nor NaN: both are `null`, which is read as NaN.
+fn number_or_null<'de, D: Deserializer<'de>>(value: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(value)?.unwrap_or(f64::NAN))
 }
 
 /// One quantity that a check compares with a limit.

@@ -12,10 +12,7 @@ use congruent_description::Robot;
 use congruent_input::display::{angle, counted, length, number};
 use maud::{Markup, html};
 
-use crate::{
-    parts::{BadgeKind, Pointer, badge, count, document, value, warnings},
-    run::capitalised,
-};
+use crate::parts::{BadgeKind, Pointer, badge, capitalised, count, document, value, warnings};
 
 /// Rows of the table of residuals that are shown; the report has all.
 const MOST_ROWS: usize = 200;

@@ -6,8 +6,8 @@ use congruent_results::report::{RunReport, lines};
 use maud::{Markup, html};
 
 use crate::{
-    parts::{BadgeKind, badge, document},
-    run::{capitalised, outcome},
+    parts::{BadgeKind, badge, capitalised, document},
+    run::outcome,
 };
 
 /// One scenario of a call.

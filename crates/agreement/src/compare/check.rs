@@ -124,6 +124,11 @@ impl CheckReport {
             named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default();
         self.diagnoses = diagnoses;
     }
+
+    /// Whether poses differ, and not dynamics alone.
+    pub fn poses_disagree(&self) -> bool {
+        self.comparisons.iter().any(|comparison| comparison.verdict == Agreement::Disagree)
+    }
 }
 
 /// Refuses positions so large that numbers of their size are further apart than the tolerance.

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use congruent::{
     input::{Diagnostic, FileAccess},
+    monitors::verdict::Verdict,
     recording::{Recheck, RecordingSummary, RerunFormat, inspect, recheck, scalars, scalars_csv},
     results::{RecordingFormat, files::result_files, report::TestSuite},
     text::{disagreement_sentence, recording_text},
     twin::RunSetup,
 };
-use serde_json::Value;
 
 use super::{
     inspected_files::{compare_files, judge_inputs, overrides},
@@ -27,10 +27,12 @@ use crate::{
 
 /// Summarises recordings: verdict, worst values, duration, entities, statistics of scalars, and problems of the file.
 ///
-/// The exit code is that of the recorded run, so 1 if its verdict was not as expected; 2 if a file is cut off,
-/// damaged or not a recording, has no footer, NaN values or times out of order, or lies beside the report of another
-/// run; 4 without a verdict, or if files of the run have changed since. With --check it is also 1 if series and
-/// report disagree, and changed files are only reported. For several recordings it is the worst.
+/// The exit code is that of the recorded run: 1 if its verdict was not as expected, 3 if it broke, 4 if it checked
+/// nothing. It is 2 if a file is not a recording, is cut off or damaged, holds a second recording, has no footer, NaN
+/// values or times out of order, or if results beside it (report.json and what SHA256SUMS names) are not those of
+/// its run; and 4 without a verdict, or if inputs of the run (scenario, robot files, meshes) have changed since. With
+/// --check it is that of the new check, 1 if series and report disagree, and 2 if the scenario has other checks or
+/// another robot; changed inputs are only reported. For several recordings it is the worst.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Recordings (.rrd), or folders of results.
@@ -120,7 +122,7 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
         return Ok(summary);
     };
     // A file that is damaged or has no verdict shows nothing about its checks.
-    if summary.exit_code == BAD_INPUT || summary.report.is_none() {
+    if summary.exit_code == BAD_INPUT || summary.run.is_none() {
         summary.reason += "; its checks are not evaluated again";
         return Ok(summary);
     }
@@ -147,13 +149,15 @@ fn take(summary: &mut RecordingSummary, result: Recheck) {
     } else if let Some(first) = result.samples.first() {
         summary.reason = format!("the samples are not those of the run: {first}");
     } else if !result.same_verdict {
-        "the limits of this scenario change the verdict".clone_into(&mut summary.reason);
+        summary.reason = format!("{}; in the run {}", result.sentence(), summary.reason);
+    } else if result.verdict != Verdict::Broken {
+        summary.reason = result.sentence();
     }
     summary.recheck = Some(result);
 }
 
 /// The scenario with the values that replaced those of its file in the run.
 fn load(scenario: &Path, summary: &RecordingSummary, access: &FileAccess) -> Result<RunSetup, Failure> {
-    let overrides = overrides(summary.report.as_ref().unwrap_or(&Value::Null))?;
+    let overrides = summary.run.as_ref().map(overrides).transpose()?.unwrap_or_default();
     Ok(RunSetup::load_with(scenario, &overrides, access)?)
 }

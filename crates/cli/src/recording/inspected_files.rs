@@ -7,7 +7,8 @@ use congruent::{
     recording::{RecordingSummary, RerunFormat},
     results::{
         RecordingFormat,
-        files::{DIGESTS, REPORT, compare_results, read_result},
+        files::{ComparedResults, DIGESTS, REPORT, compare_results, read_result},
+        report::RunReport,
     },
     scenario::Override,
     twin::RunSetup,
@@ -18,20 +19,24 @@ use crate::failure::{BAD_INPUT, NOTHING, worse};
 
 /// Adds what the files say: a report beside the recording must be its own, and the results as the run wrote them.
 pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access: &FileAccess) {
-    let report = summary.report.as_ref();
-    summary.changed_inputs = report.and_then(|report| changed_inputs(report, access));
+    let (report, run) = (summary.report.as_ref(), summary.run.as_ref());
+    summary.changed_inputs = run.and_then(|run| changed_inputs(run, access));
     // A recording under another name was moved out of the folder of its run: what lies beside it now is unrelated.
     if path.file_name().is_none_or(|name| name != RerunFormat.file_name()) {
         return;
     }
-    let beside = read_result(&path.with_file_name(REPORT)).ok();
+    let folder = path.with_file_name("");
+    let compared = compare_results(&folder);
+    summary.missing_results =
+        run.map(|run| missing_results(&folder, run, compared.as_ref())).unwrap_or_default();
+    let beside = read_result(&folder.join(REPORT)).ok();
     let is_its_own = |beside: Vec<u8>| serde_json::from_slice::<Value>(&beside).ok().as_ref() == report;
     // A file that is damaged may have lost its report.
     let problem = if report.is_some() && beside.is_some_and(|beside| !is_its_own(beside)) {
         format!(
             "{REPORT} beside the recording differs from the report inside the recording: {REPORT} has been changed, or belongs to another run"
         )
-    } else if let Some(changed) = changed_results(path) {
+    } else if let Some(changed) = compared.and_then(|compared| changed_results(&folder, &compared)) {
         format!("{changed} has changed since the run wrote it (by {DIGESTS} beside the recording)")
     } else {
         return;
@@ -43,13 +48,21 @@ pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access:
     summary.problems.push(problem);
 }
 
-/// The results beside a recording that are not those of its run; some may have been left behind on purpose.
-fn changed_results(recording: &Path) -> Option<String> {
-    let folder = recording.parent()?;
-    let compared = compare_results(folder)?;
-    let changed: Vec<&str> =
-        compared.changed.into_iter().filter(|name| folder.join(name).is_file()).collect();
+/// The results beside a recording that are not those of its run.
+fn changed_results(folder: &Path, compared: &ComparedResults) -> Option<String> {
+    let is_there = |name: &&str| folder.join(name).is_file();
+    let changed: Vec<&str> = compared.changed.iter().copied().filter(is_there).collect();
     (!changed.is_empty()).then(|| changed.join(", "))
+}
+
+/// The results of a run that are no longer beside its recording: those that its digests name, the digests themselves, and
+/// the report. A recording that was not made from a scenario file is written alone.
+fn missing_results(folder: &Path, run: &RunReport, compared: Option<&ComparedResults>) -> Vec<String> {
+    if run.scenario_file.is_none() {
+        return Vec::new();
+    }
+    let named = compared.map_or_else(|| vec![REPORT, DIGESTS], |compared| compared.changed.clone());
+    named.into_iter().filter(|name| !folder.join(name).exists()).map(str::to_owned).collect()
 }
 
 /// A verdict about files that have changed says nothing about those that are there.
@@ -65,27 +78,21 @@ pub(super) fn judge_inputs(summary: &mut RecordingSummary) {
 }
 
 /// The values that replaced those of the scenario file in the run.
-pub(super) fn overrides(report: &Value) -> Result<Vec<Override>, Diagnostic> {
-    let texts = report["overrides"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    texts.map(str::parse).collect()
+pub(super) fn overrides(run: &RunReport) -> Result<Vec<Override>, Diagnostic> {
+    run.overrides.iter().map(|text| text.parse()).collect()
 }
 
 /// Files of a run that have changed since; `None` if its scenario is missing, or names a file that may not be opened.
-fn changed_inputs(report: &Value, access: &FileAccess) -> Option<Vec<String>> {
-    let scenario = Path::new(report["scenario_file"].as_str()?);
-    let before: Vec<(&str, &str)> = report["inputs"]
-        .as_array()?
-        .iter()
-        .filter_map(|input| Some((input["file"].as_str()?, input["sha256"].as_str()?)))
-        .collect();
+fn changed_inputs(run: &RunReport, access: &FileAccess) -> Option<Vec<String>> {
+    let scenario = Path::new(run.scenario_file.as_ref()?);
     if !scenario.is_file() {
         return None;
     }
-    let setup = overrides(report)
+    let setup = overrides(run)
         .map_err(Findings::from)
         .and_then(|overrides| RunSetup::load_with(scenario, &overrides, access));
     Some(match setup {
-        Ok(setup) => differences(&before, &setup.inputs),
+        Ok(setup) => differences(&run.inputs, &setup.inputs),
         // What may not be opened here need not have changed.
         Err(findings)
             if findings.iter().any(|finding| {
@@ -102,14 +109,14 @@ fn changed_inputs(report: &Value, access: &FileAccess) -> Option<Vec<String>> {
     })
 }
 
-fn differences(before: &[(&str, &str)], now: &[InputFile]) -> Vec<String> {
-    let found = |file: &str| now.iter().find(|input| input.file == file);
-    let old = before.iter().filter_map(|&(file, sha256)| match found(file) {
+fn differences(before: &[InputFile], now: &[InputFile]) -> Vec<String> {
+    let find = |inputs: &[InputFile], file: &str| inputs.iter().position(|input| input.file == file);
+    let old = before.iter().filter_map(|InputFile { file, sha256, .. }| match find(now, file) {
         None => Some(format!("{file} is no longer read")),
-        Some(input) if input.sha256 != sha256 => Some(format!("{file} has changed since the run")),
+        Some(at) if now[at].sha256 != *sha256 => Some(format!("{file} has changed since the run")),
         Some(_) => None,
     });
-    let new = now.iter().filter(|input| !before.iter().any(|&(file, _)| file == input.file));
+    let new = now.iter().filter(|input| find(before, &input.file).is_none());
     old.chain(new.map(|input| format!("{} was not read in the run", input.file))).collect()
 }
 
@@ -125,7 +132,7 @@ mod tests {
             path: file.into(),
         };
         let now = [input("same", "1"), input("edited", "3"), input("new", "4")];
-        let found = differences(&[("same", "1"), ("edited", "2"), ("gone", "5")], &now);
+        let found = differences(&[input("same", "1"), input("edited", "2"), input("gone", "5")], &now);
         let expected =
             ["edited has changed since the run", "gone is no longer read", "new was not read in the run"];
         assert_eq!(found, expected);

@@ -2,7 +2,7 @@
 
 use congruent::{
     recording::{Recheck, RecordingSummary},
-    results::report::{Reason, TestCase, TestResult, TestSuite, judged, recorded_suite},
+    results::report::{Reason, TestCase, TestResult, TestSuite, judged},
     text::rechecked_text,
 };
 
@@ -18,9 +18,8 @@ pub(super) fn suite(summary: &RecordingSummary, input: &str) -> TestSuite {
         _ => TestResult::Error(reason),
     };
     let mut suite = TestSuite::with_case(input, "verdict", verdict);
-    let recorded =
-        summary.report.as_ref().filter(|_| summary.exit_code != BAD_INPUT).and_then(recorded_suite);
-    let mut cases = recorded.map(|suite| suite.cases).unwrap_or_default();
+    let run = summary.run.as_ref().filter(|_| summary.exit_code != BAD_INPUT);
+    let mut cases = run.map(|run| run.test_suite().cases).unwrap_or_default();
     if let Some(recheck) = &summary.recheck {
         evaluate_again(&mut cases, recheck);
     }

@@ -3,6 +3,7 @@
 mod against;
 mod checked;
 mod declared;
+mod headline;
 mod model_frames;
 mod page;
 mod physics;

@@ -26,6 +26,7 @@ pub fn checked_robot<'a>(
             .map(|left_out| format!("not compared (no [[inertial]] entry): {left_out}")),
     );
     CheckedRobot {
+        headline: report.headline(),
         description,
         geometry: &report.geometry,
         at_configurations: report.at_configurations.as_ref(),

@@ -10,7 +10,7 @@ use crate::{
         Basis, CheckSummary, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity, RecordingSummary,
         TimelineSummary,
     },
-    results::report::share_in_full,
+    results::report::{is_not_reached, not_finite_words, quantity_words, share_in_full},
 };
 
 /// The property that is printed as the verdict.
@@ -65,7 +65,13 @@ fn push_verdict(text: &mut String, summary: &RecordingSummary) {
     for problem in &summary.problems {
         let _ = writeln!(text, "problem: {problem}");
     }
-    let verdict = summary.verdict.as_deref().unwrap_or("none");
+    if !summary.missing_results.is_empty() {
+        let missing = summary.missing_results.join(", ");
+        let _ =
+            writeln!(text, "missing beside the recording: {missing}; its results are not compared in full");
+    }
+    let of_run = summary.verdict.as_deref().unwrap_or("none");
+    let verdict = summary.recheck.as_ref().map_or(of_run, |recheck| serde_name(&recheck.verdict));
     let _ = writeln!(text, "verdict: {verdict}\nreason: {}", summary.reason);
 }
 
@@ -82,26 +88,22 @@ fn inputs(summary: &RecordingSummary) -> String {
 fn push_check(text: &mut String, check: &CheckSummary) {
     let _ = writeln!(text, "  {:10} {}", check.check, check.status);
     for of in &check.quantities {
-        let (worst, time) = (shown(of.worst, of.unit), quantity(of.worst_s, "s"));
         let subject = of.subject.as_ref().map(|subject| format!(" at {subject}")).unwrap_or_default();
-        let (bound, limit) = (of.bound.words(), share_in_full(of.limit, of.unit));
-        let line = format!("{} {worst}{subject} ({time}), {bound} {limit}", words(of.quantity));
-        let _ = writeln!(text, "    {line}");
+        let limit = format!("{} {}", of.bound.words(), share_in_full(of.limit, of.unit));
+        let place = format!("{subject} ({})", quantity(of.worst_s, "s"));
+        let _ = writeln!(text, "    {}", value_and_limit(of.quantity, of.unit, of.worst, &place, &limit));
     }
 }
 
-/// A value, or what it means that there is none: a time that has not come is infinite, which JSON does not know.
-fn shown(value: f64, unit: SiUnit) -> String {
-    if unit == SiUnit::Second && !value.is_finite() {
-        "not reached".to_owned()
-    } else {
-        quantity(value, unit.symbol())
+/// A worst value with its place and its limit.
+fn value_and_limit(name: Quantity, unit: SiUnit, value: f64, place: &str, limit: &str) -> String {
+    let words = quantity_words(name);
+    match name {
+        Quantity::NotFiniteValues if value > 0.0 => not_finite_words(value) + place,
+        Quantity::NotFiniteValues => not_finite_words(value),
+        _ if is_not_reached(value, unit) => format!("{words} not reached{place}, {limit}"),
+        _ => format!("{words} {}{place}, {limit}", quantity(value, unit.symbol())),
     }
-}
-
-/// The name of a quantity as words.
-fn words(quantity: Quantity) -> String {
-    quantity.name().replace('_', " ")
 }
 
 fn push_recheck(text: &mut String, recheck: &Recheck) {
@@ -152,9 +154,9 @@ pub fn rechecked_text(check: &RecheckedCheck) -> String {
     let mut text = format!("  {:10} {:7} {basis}\n", check.check.word(), check.status.word());
     for of in &check.quantities {
         let report = if of.basis == Basis::Report { ", from the report only" } else { "" };
-        let (worst, time) = (shown(of.worst, of.unit), quantity(of.worst_s, "s"));
-        let line = format!("{} {worst} ({time}), {}{report}", words(of.quantity), limit(of));
-        let _ = writeln!(text, "    {line}");
+        let place = format!(" ({})", quantity(of.worst_s, "s"));
+        let line = value_and_limit(of.quantity, of.unit, of.worst, &place, &limit(of));
+        let _ = writeln!(text, "    {line}{report}");
     }
     text
 }
@@ -173,7 +175,12 @@ pub fn disagreement_sentence(disagreement: &Disagreement) -> String {
     let line = line.map(|line| format!(" (line {line})")).unwrap_or_default();
     let value = match (name, unit, time_s, value) {
         (Some(name), Some(unit), Some(time_s), Some(value)) => {
-            format!(", {}: {} at {}", words(*name), quantity(*value, unit.symbol()), quantity(*time_s, "s"))
+            format!(
+                ", {}: {} at {}",
+                quantity_words(*name),
+                quantity(*value, unit.symbol()),
+                quantity(*time_s, "s")
+            )
         }
         _ => String::new(),
     };

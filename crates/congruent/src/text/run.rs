@@ -5,9 +5,8 @@ use std::fmt::Write;
 use crate::{
     fault_diagnosis::RunDiagnosis,
     input::display::quantity,
-    monitors::verdict::{CheckResult, Status, Verdict},
-    results::report::{RunReport, lines},
-    scenario::{CheckKind, Expectation},
+    monitors::verdict::CheckResult,
+    results::report::{RunReport, lines, verdict_word},
     twin::source::ActuatorUse,
 };
 
@@ -15,20 +14,12 @@ use crate::{
 /// those that failed first, then faults and their diagnosis.
 pub fn run_text(report: &RunReport) -> String {
     let mut text = String::new();
-    let verdict = match (report.verdict, &report.expected) {
-        (Verdict::AsExpected, Expectation::Pass) => "pass".to_owned(),
-        (Verdict::AsExpected, Expectation::Fail { .. }) => "pass (expected failure)".to_owned(),
-        (Verdict::NotAsExpected, Expectation::Pass) => "FAIL".to_owned(),
-        (Verdict::NotAsExpected, Expectation::Fail { checks }) => {
-            format!("FAIL ({})", unexpected(report, checks))
-        }
-        (Verdict::NothingChecked, _) => "NOTHING CHECKED: add a [[check]]".to_owned(),
-        (Verdict::Broken, _) => "BROKEN".to_owned(),
-    };
     let _ = writeln!(
         text,
-        "{}: {verdict} ({}, {} in {} steps)",
+        "{}: {}: {} ({}, {} in {} steps)",
         report.scenario,
+        verdict_word(report.verdict),
+        report.sentence(),
         report.robot,
         quantity(report.simulation.duration_s, "s"),
         report.simulation.steps
@@ -59,30 +50,6 @@ pub fn run_text(report: &RunReport) -> String {
         let _ = writeln!(text, "  {:10} {:7} {sentence}", "diagnosis", "");
     }
     text
-}
-
-/// Why a failure is not the expected one: checks that did not fail although they should, and checks that failed as
-/// well.
-fn unexpected(report: &RunReport, expected: &[CheckKind]) -> String {
-    let has_failed = |kind: &CheckKind| {
-        report.checks.iter().any(|check| check.check == *kind && check.status == Status::Fail)
-    };
-    let listed = |kinds: Vec<&CheckKind>| kinds.iter().map(|kind| kind.word()).collect::<Vec<_>>().join(", ");
-    let missing: Vec<&CheckKind> = expected.iter().filter(|kind| !has_failed(kind)).collect();
-    let mut others: Vec<&CheckKind> = Vec::new();
-    for CheckResult { check, .. } in report.checks.iter().filter(|check| check.status == Status::Fail) {
-        if !expected.contains(check) && !others.contains(&check) {
-            others.push(check);
-        }
-    }
-    match (missing.is_empty(), others.is_empty()) {
-        _ if expected.is_empty() => "a failure was expected, and no check failed".to_owned(),
-        (false, true) => format!("expected to fail but did not: {}", listed(missing)),
-        (true, _) => format!("failed although not expected to: {}", listed(others)),
-        (false, false) => {
-            format!("expected to fail but did not: {}; failed instead: {}", listed(missing), listed(others))
-        }
-    }
 }
 
 fn checked(text: &mut String, check: &CheckResult) {

@@ -1,9 +1,9 @@
 //! Diagnostics in the JSON of reports, and as one line.
 
-use std::fmt;
+use std::{borrow::Cow, fmt};
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::visible::visible;
 
@@ -13,7 +13,7 @@ use super::{
 };
 
 /// A diagnostic in the JSON of a report.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Finding {
     /// Severity: `error` or `warning`.
     pub severity: Severity,
@@ -21,7 +21,7 @@ pub struct Finding {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub stops: Option<Capability>,
     /// Stable name of the kind of finding, as `urdf::axis`.
-    pub code: &'static str,
+    pub code: Cow<'static, str>,
     /// Stable number, as in `CGR-URDF-017`; the causes of disagreements have none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub id: Option<String>,
@@ -55,7 +55,7 @@ fn is_none(left_out: &usize) -> bool {
 }
 
 /// One of several findings of a kind, or a place that explains a finding.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct FindingPlace {
     /// What is wrong at this place.
     pub message: String,
@@ -74,7 +74,7 @@ impl From<&Diagnostic> for Finding {
         Self {
             severity: diagnostic.severity,
             stops: diagnostic.stops,
-            code: diagnostic.code.name,
+            code: diagnostic.code.name.into(),
             id: diagnostic.code.id.map(str::to_owned),
             message: diagnostic.message.clone(),
             file: diagnostic.source.as_ref().map(|source| source.path.display().to_string()),

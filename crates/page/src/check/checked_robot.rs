@@ -7,6 +7,8 @@ use congruent_dynamics_agreement::DynamicsReport;
 /// The report on one robot, with the descriptions and dynamics that its page also shows.
 #[derive(Debug, Clone)]
 pub struct CheckedRobot<'a> {
+    /// The answer in words, as the command prints it.
+    pub headline: String,
     /// The robot as it was read, whose URDF the pictures draw.
     pub description: &'a RobotDescription,
     /// The report on its geometry.

@@ -10,7 +10,7 @@ use maud::{Markup, html};
 use super::{
     certificate::certificate, checked_robot::CheckedRobot, comparisons::comparisons, dynamics::dynamics,
 };
-use crate::parts::{BadgeKind, Pointer, badge, count, diagnosis, document, value, warnings};
+use crate::parts::{BadgeKind, Pointer, badge, capitalised, count, diagnosis, document, value, warnings};
 
 /// One input of a check with its result.
 #[derive(Debug, Clone)]
@@ -118,7 +118,7 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
         header {
             p.kind { "Do the descriptions agree?" }
             h1 { (report.robot) }
-            p.verdict { (badge(outcome, word)) " " span.sentence { (sentence(robot)) } }
+            p.verdict { (badge(outcome, word)) " " span.sentence { (capitalised(&robot.headline)) "." } }
             dl.facts {
                 dt { "file" } dd { code { (report.file) } }
                 @if let Some(other) = robot.other { dt { "against" } dd { code { (other.path.display()) } } }
@@ -138,19 +138,6 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
                 @for finding in &not_asked.findings { p.note { "not compared: " (not_asked.source.name().replace('_', " ")) ": " (finding.message) } }
             }
         }
-    }
-}
-
-fn sentence(robot: &CheckedRobot<'_>) -> String {
-    let report = robot.geometry;
-    let poses_disagree = report.comparisons.iter().any(|of| of.verdict == Agreement::Disagree);
-    match report.verdict {
-        Agreement::NothingCompared => {
-            format!("Nothing was compared: {}.", Agreement::why_nothing(&report.chain))
-        }
-        Agreement::Agree => format!("All sources agree; the largest difference is {}.", largest(report)),
-        Agreement::Disagree if poses_disagree => format!("The largest difference is {}.", largest(report)),
-        Agreement::Disagree => "The poses agree, the dynamics does not.".to_owned(),
     }
 }
 

@@ -39,3 +39,9 @@ pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>) -> Str
     }
     .into_string()
 }
+
+/// A sentence with a capital letter.
+pub(crate) fn capitalised(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

@@ -10,7 +10,7 @@ mod warnings;
 
 pub(crate) use badge::{BadgeKind, badge};
 pub(crate) use diagnosis::diagnosis;
-pub(crate) use document::document;
+pub(crate) use document::{capitalised, document};
 pub(crate) use lines::changed;
 pub(crate) use plot::plot;
 pub(crate) use value::{Pointer, count, value};

@@ -2,7 +2,7 @@
 
 use congruent_input::display::quantity;
 use congruent_monitors::verdict::{Bound, CheckResult, Measure, Moment, Status};
-use congruent_results::report::{RunReport, limit_words, margin_words, quantity_words, worst_moment};
+use congruent_results::report::{RunReport, is_not_reached, limit_words, margin_words, quantity_words};
 use maud::{Markup, html};
 
 use crate::parts::{BadgeKind, Pointer, badge, value};
@@ -68,11 +68,10 @@ fn name(check: &CheckResult) -> Markup {
 
 fn cells(measure: &Measure, at: &Pointer) -> Markup {
     let what = quantity_words(measure.quantity);
-    let Some(worst) = worst_moment(measure) else {
+    let Some(worst) = &measure.worst else {
         return html! { td data-label="worst value" { (what) ": no value" } td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };
     };
-    let is_first = measure.first_violation.as_ref().is_some_and(|first| std::ptr::eq(first, worst));
-    let at_worst = at.key(if is_first { "first_violation" } else { "worst" });
+    let at_worst = at.key("worst");
     html! {
         td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) (bar(measure, worst.value)) }
         td data-label="limit" { (limit(measure, at)) }
@@ -89,7 +88,7 @@ fn cells(measure: &Measure, at: &Pointer) -> Markup {
 }
 
 fn shown(measure: &Measure, moment: &Moment) -> String {
-    if moment.value.is_infinite() {
+    if is_not_reached(moment.value, measure.unit) {
         "never".to_owned()
     } else {
         quantity(moment.value, measure.unit.symbol())

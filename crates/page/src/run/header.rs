@@ -4,11 +4,10 @@ use std::path::Path;
 
 use congruent_input::display::quantity;
 use congruent_monitors::verdict::Verdict;
-use congruent_results::report::RunReport;
-use congruent_scenario::Expectation;
+use congruent_results::report::{RunReport, verdict_word};
 use maud::{Markup, html};
 
-use crate::parts::{BadgeKind, Pointer, badge, count, value};
+use crate::parts::{BadgeKind, Pointer, badge, capitalised, count, value};
 
 /// Files of the results that may be there, with what they are. The first two are written before the page.
 const FILES: [(&str, &str); 6] = [
@@ -24,13 +23,12 @@ const LATER: [&str; 2] = ["report.json", "junit.xml"];
 
 /// Whether a run went well, in a word.
 pub(crate) fn outcome(report: &RunReport) -> (BadgeKind, &'static str) {
-    match (report.verdict, &report.expected) {
-        (Verdict::AsExpected, Expectation::Pass) => (BadgeKind::Good, "PASS"),
-        (Verdict::AsExpected, Expectation::Fail { .. }) => (BadgeKind::Good, "PASS (expected failure)"),
-        (Verdict::NotAsExpected, _) => (BadgeKind::Bad, "FAIL"),
-        (Verdict::NothingChecked, _) => (BadgeKind::Unclear, "NOTHING CHECKED"),
-        (Verdict::Broken, _) => (BadgeKind::Bad, "BROKEN"),
-    }
+    let outcome = match report.verdict {
+        Verdict::AsExpected => BadgeKind::Good,
+        Verdict::NotAsExpected | Verdict::Broken => BadgeKind::Bad,
+        Verdict::NothingChecked => BadgeKind::Unclear,
+    };
+    (outcome, verdict_word(report.verdict))
 }
 
 /// Name, verdict, what was run, and the files beside the page.
@@ -69,12 +67,6 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
             }
         }
     }
-}
-
-/// A sentence with a capital letter.
-pub(crate) fn capitalised(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// The command that repeats the run, the versions, and the hash of the trajectory.

@@ -11,5 +11,5 @@ mod page;
 mod recorder;
 mod scene;
 
-pub(crate) use header::{capitalised, outcome};
+pub(crate) use header::outcome;
 pub use recorder::PageFormat;

@@ -5,7 +5,7 @@ use congruent_description::{Obstacle, Robot, RobotQ};
 use congruent_input::display::{angle, length, quantity};
 use congruent_kinematics::{Pose, UrdfTree};
 use congruent_monitors::verdict::{CheckResult, Measure, Moment, Status};
-use congruent_results::report::{RunReport, sentence_at, worst_moment};
+use congruent_results::report::{RunReport, sentence_at};
 use congruent_scenario::CheckKind;
 use maud::{Markup, html};
 use nalgebra::Isometry3;
@@ -34,7 +34,7 @@ fn violation(report: &RunReport) -> Option<(&CheckResult, &Measure, &Moment)> {
     let violated =
         check.measures.iter().filter_map(|measure| Some((measure, measure.first_violation.as_ref()?)));
     let (measure, _) = violated.min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s))?;
-    Some((check, measure, worst_moment(measure)?))
+    Some((check, measure, measure.worst.as_ref()?))
 }
 
 /// Poses of the twin at the configuration of a moment.

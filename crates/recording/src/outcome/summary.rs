@@ -35,8 +35,8 @@ fn properties(report: &RunReport) -> AnyValues {
         .with_component_from_data("steps", number(report.simulation.steps))
         .with_component_from_data("step_s", Arc::new(Float64Array::from(vec![report.simulation.step_s])))
         .with_component_from_data("trajectory_sha256", text(&report.trajectory_sha256))
-        .with_component_from_data("congruent", text(report.versions.congruent))
-        .with_component_from_data("physics", text(report.versions.physics))
+        .with_component_from_data("congruent", text(&report.versions.congruent))
+        .with_component_from_data("physics", text(&report.versions.physics))
         .with_component_from_data("command", text(&report.command()))
         .with_component_from_data("report", text(&json))
 }
@@ -53,7 +53,7 @@ fn markdown(report: &RunReport) -> String {
     for check in report.checks_failed_first() {
         push_check(&mut text, check);
     }
-    let (clock, versions) = (report.simulation, report.versions);
+    let (clock, versions) = (report.simulation, &report.versions);
     let _ = writeln!(
         text,
         "\n{}, {} steps of {} s, seed {}, trajectory `{}`, by congruent {} on {}\n",
@@ -62,8 +62,8 @@ fn markdown(report: &RunReport) -> String {
         clock.step_s,
         report.seed,
         report.trajectory_sha256.get(..12).unwrap_or_default(),
-        escaped(versions.congruent),
-        escaped(versions.physics),
+        escaped(&versions.congruent),
+        escaped(&versions.physics),
     );
     let _ = writeln!(text, "```\n{}\n```", report.command().replace("```", ""));
     text

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use congruent_input::display::quantity;
+use congruent_results::report::RunReport;
 use re_chunk::{
     Chunk, TimeColumn,
     external::arrow::{
@@ -12,14 +13,11 @@ use re_chunk::{
 };
 use re_log_types::{ArrowMsg, EntityPathPart, StoreId, TimeType};
 use re_sdk_types::archetypes::Scalars;
+use serde::Deserialize;
 use serde_json::Value;
 
-use super::{
-    evidence::Evidence,
-    summary::{
-        CheckSummary, EntitySummary, QuantitySummary, RecordingSummary, ScalarSummary, TimelineSummary,
-        VERDICT,
-    },
+use super::summary::{
+    CheckSummary, EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary, VERDICT,
 };
 use crate::rrd::{identity, times::seconds};
 
@@ -193,8 +191,12 @@ impl RecordingContent {
         // Before scalars and entities are moved into the summary.
         self.find_problems();
         let report = self.properties.remove(REPORT);
-        let report = report.and_then(|text| serde_json::from_str(text.as_str()?).ok());
-        let checks = report.as_ref().map(|report| checks(report, &mut self.problems)).unwrap_or_default();
+        let report: Option<Value> = report.and_then(|text| serde_json::from_str(text.as_str()?).ok());
+        let run = report.as_ref().map(RunReport::deserialize).transpose();
+        let run = run.unwrap_or_else(|error| {
+            self.problems.push(format!("{REPORT}: {error}"));
+            None
+        });
         let verdict = self.properties.get(VERDICT).and_then(Value::as_str).map(str::to_owned);
         let entity = |(path, entity): (String, EntityContent)| EntitySummary {
             path,
@@ -221,8 +223,9 @@ impl RecordingContent {
             exit_code: 0,
             reason: String::new(),
             duration_s: self.duration_s(),
-            checks,
+            checks: run.iter().flat_map(|run| run.checks.iter().map(CheckSummary::from)).collect(),
             changed_inputs: None,
+            missing_results: Vec::new(),
             recheck: None,
             has_layout: self.has_layout,
             timelines: std::mem::take(&mut self.timelines).into_values().collect(),
@@ -230,6 +233,7 @@ impl RecordingContent {
             scalars: std::mem::take(&mut self.scalars).into_iter().map(scalar).collect(),
             properties: std::mem::take(&mut self.properties),
             report,
+            run,
         })
     }
 
@@ -262,35 +266,6 @@ impl RecordingContent {
                 .push(format!("the file contains another recording, which is not summarised: {other}"));
         }
     }
-}
-
-/// The checks in a report; words that are unknown are added to `problems`.
-fn checks(report: &Value, problems: &mut Vec<String>) -> Vec<CheckSummary> {
-    let word = |value: &Value| value.as_str().unwrap_or_default().to_owned();
-    let quantity = |Evidence { of, subject, worst, .. }: Evidence| QuantitySummary {
-        quantity: of.name,
-        unit: of.unit,
-        bound: of.bound,
-        limit: of.limit,
-        worst: worst.value,
-        worst_s: worst.time_s,
-        subject,
-    };
-    let mut measured = |measure: &Value| {
-        Evidence::from_report(measure).unwrap_or_else(|error| {
-            problems.push(format!("{REPORT}: {error}"));
-            None
-        })
-    };
-    let check = |check: &Value| {
-        let measures = check["measures"].as_array().into_iter().flatten();
-        CheckSummary {
-            check: word(&check["check"]),
-            status: word(&check["status"]),
-            quantities: measures.filter_map(&mut measured).map(quantity).collect(),
-        }
-    };
-    report["checks"].as_array().into_iter().flatten().map(check).collect()
 }
 
 /// Number of NaN in nested lists.

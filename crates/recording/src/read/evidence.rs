@@ -2,8 +2,6 @@
 
 use congruent_input::{Quantity, SiUnit};
 use congruent_monitors::verdict::{Bound, Measure};
-use serde::Deserialize;
-use serde_json::Value;
 
 /// A value with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,15 +17,6 @@ pub(super) struct LimitedQuantity {
     pub(super) unit: SiUnit,
     pub(super) bound: Bound,
     pub(super) limit: f64,
-}
-
-/// The words and the limit of a [`Measure`] in a report. Its moments are read by hand: their values may be `null`.
-#[derive(Deserialize)]
-struct ReportedQuantity {
-    quantity: Quantity,
-    unit: SiUnit,
-    bound: Bound,
-    limit: f64,
 }
 
 /// The values of one quantity from one origin.
@@ -74,7 +63,7 @@ impl Evidence {
         Some(found)
     }
 
-    /// Evidence of a check that was evaluated on the recorded states; `None` without values.
+    /// Evidence of a measure, of the report or of a check that was evaluated on the recorded states; `None` without values.
     pub(super) fn from_measure(measure: &Measure) -> Option<Self> {
         let worst = measure.worst.as_ref()?;
         Some(Self {
@@ -86,26 +75,6 @@ impl Evidence {
                 .as_ref()
                 .map(|first| TimedValue { time_s: first.time_s, value: first.value }),
         })
-    }
-
-    /// Evidence of a measure in the report of the recording; `None` if it has no value.
-    ///
-    /// # Errors
-    /// The words of its quantity, its unit or its bound are unknown.
-    pub(super) fn from_report(measure: &Value) -> Result<Option<Self>, serde_json::Error> {
-        let of = ReportedQuantity::deserialize(measure)?;
-        let at = |moment: &Value| {
-            // JSON has no infinity and no NaN: such a value is `null`.
-            let value = moment["value"].as_f64().unwrap_or(f64::NAN);
-            Some(TimedValue { time_s: moment["time_s"].as_f64()?, value })
-        };
-        let worst = &measure["worst"];
-        Ok(at(worst).map(|worst_at| Self {
-            of: LimitedQuantity { name: of.quantity, unit: of.unit, bound: of.bound, limit: of.limit },
-            subject: worst["subject"].as_str().map(str::to_owned),
-            worst: worst_at,
-            first_violation: at(&measure["first_violation"]),
-        }))
     }
 
     /// The first value outside a limit, which need not be the one that was known when the values were found.

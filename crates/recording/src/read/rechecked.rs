@@ -2,6 +2,7 @@
 
 use congruent_input::{Quantity, SiUnit};
 use congruent_monitors::verdict::{Bound, Status, Verdict};
+use congruent_results::report::verdict_sentence;
 use congruent_scenario::{CheckKind, Expectation};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -144,14 +145,21 @@ impl Disagreement {
         check: CheckKind,
         line: Option<usize>,
         status: Status,
-        recorded: &str,
+        recorded: Status,
     ) -> Self {
-        let problem = format!("is `{}` on the recording and `{recorded}` in its report", status.word());
+        let (found, recorded) = (status.word(), recorded.word());
+        let problem = format!("is `{found}` on the recording and `{recorded}` in its report");
         Self { check, line, quantity: None, unit: None, time_s: None, value: None, problem }
     }
 }
 
 impl Recheck {
+    /// The reason for the verdict as a sentence, as that of a run.
+    pub fn sentence(&self) -> String {
+        let results = self.checks.iter().map(|check| (check.check, check.status));
+        verdict_sentence(self.verdict, &self.expected, results)
+    }
+
     /// 0 if the recording shows what its report says and the verdict is as the scenario expects, 1 otherwise, and the code
     /// of a run that broke or checked nothing.
     pub fn exit_code(&self) -> u8 {

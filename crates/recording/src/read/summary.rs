@@ -3,7 +3,8 @@
 use congruent_input::{Quantity, SiUnit};
 use std::collections::BTreeMap;
 
-use congruent_monitors::verdict::Bound;
+use congruent_monitors::verdict::{Bound, CheckResult, Measure};
+use congruent_results::report::RunReport;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -40,6 +41,9 @@ pub struct RecordingSummary {
     /// What has changed since the run of the files that it was made from: the scenario, the robot's files, meshes. `null` if
     /// they are not there to be compared, or may not be opened.
     pub changed_inputs: Option<Vec<String>>,
+    /// Results that the run wrote and that are not beside the recording: nothing is compared with them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub missing_results: Vec<String>,
     /// The checks of a scenario, evaluated once more, if `--check` is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recheck: Option<Recheck>,
@@ -55,6 +59,9 @@ pub struct RecordingSummary {
     pub properties: BTreeMap<String, serde_json::Value>,
     /// The report of the run, if this program made the recording.
     pub report: Option<serde_json::Value>,
+    /// That report, read back.
+    #[serde(skip)]
+    pub run: Option<RunReport>,
 }
 
 /// A check of the recorded run.
@@ -88,6 +95,28 @@ pub struct QuantitySummary {
     pub worst_s: f64,
     /// The link, joint or pair that it is about.
     pub subject: Option<String>,
+}
+
+impl From<&CheckResult> for CheckSummary {
+    fn from(result: &CheckResult) -> Self {
+        let quantity = |measure: &Measure| {
+            let worst = measure.worst.as_ref()?;
+            Some(QuantitySummary {
+                quantity: measure.quantity,
+                unit: measure.unit,
+                bound: measure.bound,
+                limit: measure.limit,
+                worst: worst.value,
+                worst_s: worst.time_s,
+                subject: Some(worst.subject.clone()),
+            })
+        };
+        Self {
+            check: result.check.word().to_owned(),
+            status: result.status.word().to_owned(),
+            quantities: result.measures.iter().filter_map(quantity).collect(),
+        }
+    }
 }
 
 /// A timeline and its range.

@@ -11,6 +11,7 @@ mod sentence;
 mod step_summary;
 mod suite;
 mod test_suite;
+mod verdict_sentence;
 
 pub use annotations::github_annotations;
 pub use causes::{Causes, diagnose_run, explain};
@@ -19,8 +20,10 @@ pub use fault_table::{DetectedBy, FaultRow, FaultTable};
 pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{
-    failing, limit_words, lines, margin_words, quantity_words, sentence_at, share_in_full, worst_moment,
+    is_not_reached, limit_words, lines, margin_words, not_finite_words, quantity_words, sentence_at,
+    share_in_full,
 };
 pub use step_summary::step_summary;
 pub use suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
-pub use test_suite::{judged, planned_suite, recorded_suite};
+pub use test_suite::{judged, planned_suite};
+pub use verdict_sentence::{verdict_sentence, verdict_word};

@@ -5,24 +5,24 @@ use congruent_fault_diagnosis::RunDiagnosis;
 use congruent_input::{Finding, InputFile};
 use congruent_monitors::verdict::{CheckResult, RunStop, Status, Verdict, judge};
 use congruent_motion::{ServoResult, SlowedMotion};
-use congruent_scenario::{Expectation, MotionSettings, RunFault};
+use congruent_scenario::{Expectation, RunFault};
 use congruent_twin::{Outcome, RunError, RunSetup, source::ActuatorUse};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de::IgnoredAny};
 
-use super::{causes::Causes, sentence::failing};
+use super::{causes::Causes, verdict_sentence::verdict_sentence};
 
 /// The whole report of one scenario.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RunReport {
     /// Name and version of this format.
-    pub format: &'static str,
+    pub format: String,
     /// Name of the scenario.
     pub scenario: String,
     /// The scenario file, as it was named.
     pub scenario_file: Option<String>,
     /// Values that replaced those of the file, `KEY=VALUE`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub overrides: Vec<String>,
     /// Name of the robot.
     pub robot: String,
@@ -37,20 +37,20 @@ pub struct RunReport {
     /// The check that ended the run early, and when: later steps were neither taken nor checked.
     pub stopped: Option<RunStop>,
     /// The motions, one after another.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motions: Vec<MotionTimes>,
     /// The result of each `servo_tcp`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub servos: Vec<ServoResult>,
     /// The use of each joint's actuator: its largest effort, and the shares of time at its limits.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub actuators: Vec<ActuatorUse>,
     /// Why model and twin differ, if a check of their agreement failed: the diagnosis of each pair of models, as
     /// `check` gives it.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "not_read")]
     pub diagnoses: Vec<ReportedDiagnosis>,
     /// Faults that the scenario injects into the twin.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<RunFault>,
     /// Faults that the diagnosis found in the samples of the run, without knowledge of `faults`, if a check failed. `None` if
     /// it found none.
@@ -75,6 +75,11 @@ pub struct RunReport {
     pub warnings: Vec<Finding>,
 }
 
+/// The causes of a failed agreement are written for people: no reader of a report needs them.
+fn not_read<'de, D: Deserializer<'de>, T>(value: D) -> Result<Vec<T>, D::Error> {
+    IgnoredAny::deserialize(value).map(|_| Vec::new())
+}
+
 /// The clock of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RunClockReport {
@@ -87,10 +92,10 @@ pub struct RunClockReport {
 }
 
 /// Start and duration of a motion of the scenario.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionTimes {
     /// Kind of the motion: its key in the scenario, without a unit.
-    pub kind: &'static str,
+    pub kind: String,
     /// Start of the motion, from the start of the run.
     pub starts_s: f64,
     /// Duration of the motion.
@@ -110,17 +115,17 @@ pub struct LinkSource {
 }
 
 /// Programs that took part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Versions {
     /// Version of this program.
-    pub congruent: &'static str,
+    pub congruent: String,
     /// Name and version of the physics engine.
-    pub physics: &'static str,
+    pub physics: String,
 }
 
 /// The motions as they were: one that was made slower in the run delays those after it.
 fn motions(setup: &RunSetup, slowed: &[SlowedMotion]) -> Vec<MotionTimes> {
-    let kinds = setup.scenario.motion.iter().map(MotionSettings::kind).enumerate();
+    let kinds = setup.scenario.motion.iter().map(|motion| motion.kind().to_owned()).enumerate();
     let longer = |chosen: &dyn Fn(usize) -> bool| {
         slowed.iter().filter(|slowed| chosen(slowed.motion)).map(|slowed| slowed.longer_s).sum::<f64>()
     };
@@ -154,7 +159,7 @@ impl RunReport {
         let warnings = setup.description.warnings.iter().chain(&setup.warnings);
 
         Self {
-            format: "congruent-report/1",
+            format: "congruent-report/1".to_owned(),
             scenario: setup.scenario.name.clone(),
             scenario_file: setup.path.as_ref().map(|path| path.display().to_string()),
             overrides: setup.overrides.clone(),
@@ -181,8 +186,8 @@ impl RunReport {
             links: links.map(|(link, &source)| LinkSource { link: link.name.clone(), source }).collect(),
             inputs: setup.inputs.clone(),
             versions: Versions {
-                congruent: env!("CARGO_PKG_VERSION"),
-                physics: congruent_simulation::ENGINE,
+                congruent: env!("CARGO_PKG_VERSION").to_owned(),
+                physics: congruent_simulation::ENGINE.to_owned(),
             },
             warnings: warnings.map(Finding::from).collect(),
         }
@@ -198,21 +203,10 @@ impl RunReport {
         Ok(json)
     }
 
-    /// The verdict as a sentence.
+    /// The reason for the verdict as a sentence.
     pub fn sentence(&self) -> String {
-        let failed = self.checks.iter().filter(|check| check.status == Status::Fail);
-        let failed: Vec<&str> = failed.map(|check| check.check.word()).collect();
-        let failed = failing(&failed);
-        match (self.verdict, &self.expected) {
-            (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
-            (Verdict::AsExpected, Expectation::Fail { .. }) => format!("{failed}, as expected"),
-            (Verdict::NotAsExpected, _) if failed.is_empty() => {
-                "every check passes, against expectation".to_owned()
-            }
-            (Verdict::NotAsExpected, _) => format!("{failed}, against expectation"),
-            (Verdict::NothingChecked, _) => "nothing was checked".to_owned(),
-            (Verdict::Broken, _) => "the run ended with an error".to_owned(),
-        }
+        let results = self.checks.iter().map(|check| (check.check, check.status));
+        verdict_sentence(self.verdict, &self.expected, results)
     }
 
     /// The command that runs the same again.

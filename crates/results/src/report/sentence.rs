@@ -2,18 +2,9 @@
 
 use congruent_input::{
     Quantity, SiUnit,
-    display::{listed, quantity, quantity_in_full},
+    display::{quantity, quantity_in_full},
 };
 use congruent_monitors::verdict::{Bound, CheckResult, Contact, Measure, Moment, Status};
-
-/// The kinds of checks that failed, as the start of a sentence: `clearance and limits fail`; empty if none did.
-pub fn failing(kinds: &[&str]) -> String {
-    match kinds {
-        [] => String::new(),
-        [one] => format!("{one} fails"),
-        _ => format!("{} fail", listed(kinds)),
-    }
-}
 
 /// The lines of a check in a report: violated quantities first, then remarks, then the others. The first line marks a default
 /// check.
@@ -59,7 +50,7 @@ fn contacts(contacts: &[Contact]) -> impl Iterator<Item = String> + '_ {
 /// The worst value of a measure with limit and margin: `distance 33.8 mm at forearm--table (1.2 s), limit >= 20 mm, margin
 /// 13.8 mm`. If the violation began earlier, the sentence ends with that time.
 fn sentence(measure: &Measure) -> String {
-    let Some(worst) = worst_moment(measure) else {
+    let Some(worst) = &measure.worst else {
         return format!("{}: no value, {}", quantity_words(measure.quantity), limit_words(measure));
     };
     match &measure.first_violation {
@@ -70,22 +61,18 @@ fn sentence(measure: &Measure) -> String {
     }
 }
 
-/// The moment that is reported as the worst. Rounding decides when a constant value is the worst, so if the first violation
-/// prints the same value, it is that one.
-pub fn worst_moment(measure: &Measure) -> Option<&Moment> {
-    let shown = |moment: &Moment| quantity(moment.value, measure.unit.symbol());
-    let worst = measure.worst.as_ref()?;
-    measure.first_violation.as_ref().filter(|first| shown(first) == shown(worst)).or(Some(worst))
-}
-
 /// The value of one moment with limit and margin.
 pub fn sentence_at(measure: &Measure, moment: &Moment) -> String {
     let Moment { time_s, subject, value, .. } = moment;
     let time = quantity(*time_s, "s");
+    if measure.quantity == Quantity::NotFiniteValues {
+        let place = if *value > 0.0 { format!(" at {subject} ({time})") } else { String::new() };
+        return not_finite_words(*value) + &place;
+    }
     if matches!(measure.quantity, Quantity::AngleBeyondLimit | Quantity::ShiftBeyondLimit) {
         return format!("{} at {subject} ({time})", beyond_joint_limit(*value, measure));
     }
-    if value.is_infinite() {
+    if is_not_reached(*value, measure.unit) {
         return format!(
             "{} not reached at {subject} until {time}, {}",
             quantity_words(measure.quantity),
@@ -107,7 +94,8 @@ pub fn sentence_at(measure: &Measure, moment: &Moment) -> String {
 pub fn margin_words(measure: &Measure, value: f64) -> String {
     let words = match measure.quantity {
         Quantity::AngleBeyondLimit | Quantity::ShiftBeyondLimit => beyond_joint_limit(value, measure),
-        _ if value.is_infinite() => "not reached".to_owned(),
+        Quantity::NotFiniteValues if value <= 0.0 => "none".to_owned(),
+        _ if is_not_reached(value, measure.unit) => "not reached".to_owned(),
         Quantity::Distance if value < 0.0 => overlap(value, measure),
         _ => margin(value, measure),
     };
@@ -214,7 +202,28 @@ fn beyond_joint_limit(value: f64, measure: &Measure) -> String {
 
 /// The name of a quantity in words.
 pub fn quantity_words(quantity: Quantity) -> String {
-    quantity.name().replace('_', " ").replace("tcp", "TCP")
+    match quantity {
+        // The one check with velocities compares those of model and twin.
+        Quantity::Velocity | Quantity::AngularVelocity => {
+            format!("error of {}", quantity.name().replace('_', " "))
+        }
+        Quantity::NotFiniteValues => "values that are not finite".to_owned(),
+        _ => quantity.name().replace('_', " ").replace("tcp", "TCP"),
+    }
+}
+
+/// A number of values that are NaN or infinite, of which none is allowed.
+pub fn not_finite_words(count: f64) -> String {
+    match count {
+        0.0 => "no value that is not finite".to_owned(),
+        1.0 => "1 value that is not finite".to_owned(),
+        _ => format!("{count} values that are not finite"),
+    }
+}
+
+/// Whether a value is a time that has not come: it is infinite, which JSON does not know.
+pub fn is_not_reached(value: f64, unit: SiUnit) -> bool {
+    unit == SiUnit::Second && !value.is_finite()
 }
 
 #[cfg(test)]
@@ -229,7 +238,12 @@ mod tests {
 
     #[track_caller]
     fn reads(quantity: Quantity, (bound, limit): (Bound, f64), value: f64, expected: &str) {
-        let unit = if quantity == Quantity::AngleBeyondLimit { SiUnit::Radian } else { SiUnit::Metre };
+        let unit = match quantity {
+            Quantity::AngleBeyondLimit => SiUnit::Radian,
+            Quantity::NotFiniteValues => SiUnit::Ratio,
+            Quantity::Velocity => SiUnit::MetrePerSecond,
+            _ => SiUnit::Metre,
+        };
         let worst = Some(moment(1.0, value));
         let measure = Measure { quantity, unit, limit, bound, worst, first_violation: None };
         assert_eq!(sentence(&measure), expected);
@@ -267,6 +281,15 @@ mod tests {
             f64::NAN,
             "position NaN m at here (1 s), limit <= 100 mm, not a number",
         );
+    }
+
+    #[test]
+    fn the_words_of_a_quantity_say_what_is_limited() {
+        let none = (Bound::AtMost, 0.0);
+        reads(Quantity::NotFiniteValues, none, 0.0, "no value that is not finite");
+        reads(Quantity::NotFiniteValues, none, 1.0, "1 value that is not finite at here (1 s)");
+        let error = "error of velocity 5 mm/s at here (1 s), limit <= 6 mm/s, margin 1 mm/s";
+        reads(Quantity::Velocity, (Bound::AtMost, 0.006), 0.005, error);
     }
 
     #[test]
@@ -342,7 +365,7 @@ mod tests {
         };
         assert_eq!(
             sentence(&constant),
-            "distance 100 nm at here (0.5 s), limit >= 20 mm, 20 mm below the limit"
+            "distance 100 nm at here (1.7 s), limit >= 20 mm, 20 mm below the limit, first at 0.5 s"
         );
         let unseen = Measure { worst: None, first_violation: None, ..measure };
         assert_eq!(sentence(&unseen), "distance: no value, limit >= 20 mm");

@@ -5,7 +5,6 @@ use congruent_input::display::quantity;
 use congruent_monitors::verdict::{CheckResult, Status, Verdict};
 use congruent_scenario::{CheckKind, Expectation};
 use congruent_twin::RunSetup;
-use serde::Deserialize;
 
 use super::{
     run_report::{RunClockReport, RunReport},
@@ -13,44 +12,9 @@ use super::{
     suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite},
 };
 
-/// The parts of a report that determine its suite.
-#[derive(Deserialize)]
-struct RunVerdict {
-    scenario: String,
-    scenario_file: Option<String>,
-    verdict: Verdict,
-    expected: Expectation,
-    checks: Vec<CheckResult>,
-    diagnosis: Option<RunDiagnosis>,
-    error: Option<String>,
-    simulation: RunClockReport,
-}
-
 impl RunReport {
     /// The checks as a test suite, in the order of the scenario; its time is the simulated one.
     pub fn test_suite(&self) -> TestSuite {
-        let Self { verdict, simulation, .. } = *self;
-        let run = RunVerdict {
-            scenario: self.scenario.clone(),
-            scenario_file: self.scenario_file.clone(),
-            verdict,
-            expected: self.expected.clone(),
-            checks: self.checks.clone(),
-            diagnosis: self.diagnosis.clone(),
-            error: self.error.clone(),
-            simulation,
-        };
-        run.into_suite()
-    }
-}
-
-/// The suite of a report that was read back from its JSON; `None` if that is no report of a run.
-pub fn recorded_suite(report: &serde_json::Value) -> Option<TestSuite> {
-    Some(RunVerdict::deserialize(report).ok()?.into_suite())
-}
-
-impl RunVerdict {
-    fn into_suite(self) -> TestSuite {
         let checks = self.checks.iter().enumerate();
         let mut cases: Vec<TestCase> = checks.map(|(index, check)| self.case(index, check)).collect();
         if self.verdict == Verdict::NothingChecked || self.error.is_some() {
@@ -63,7 +27,7 @@ impl RunVerdict {
             cases.push(TestCase { name: "run".to_owned(), result, output: String::new(), place: None });
         }
         let time_s = self.simulation.duration_s;
-        TestSuite { name: self.scenario, cases, time_s, clock: Clock::Simulated }
+        TestSuite { name: self.scenario.clone(), cases, time_s, clock: Clock::Simulated }
     }
 
     /// When and after how many steps a failed run ended.

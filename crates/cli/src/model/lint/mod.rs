@@ -92,7 +92,7 @@ impl BatchReport for Linted {
         let said = self.report.findings.iter().map(|found| found.finding.to_string());
         let first = self.report.findings.first().map(|found| &found.finding);
         let reason = Reason {
-            kind: first.map_or("lint", |found| found.code).to_owned(),
+            kind: first.map_or("lint", |found| &found.code).to_owned(),
             message: said.collect::<Vec<_>>().join("\n"),
         };
         let result = match self.exit_code() {

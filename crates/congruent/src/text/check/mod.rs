@@ -4,7 +4,6 @@
 mod diagnosis;
 mod dynamics;
 mod errors_at;
-mod headline;
 mod whole;
 
 pub use errors_at::{shown_pairs, tip_differences};

@@ -26,7 +26,6 @@ use super::{
     diagnosis::diagnosed,
     dynamics::dynamics,
     errors_at::{lines, table},
-    headline::{headline, poses_disagree},
 };
 
 /// What else the text has.
@@ -84,7 +83,7 @@ pub fn check_text_parts<'a>(
 fn compared_text(check: &RobotCheck, robot: &Robot) -> String {
     let report = &check.geometry;
     let mut text = String::new();
-    let _ = writeln!(text, "{}", headline(check));
+    let _ = writeln!(text, "{}: {}", report.file, check.headline());
     let _ = writeln!(text, "  {}", report.chain);
     for comparison in &report.comparisons {
         compared(&mut text, comparison);
@@ -103,7 +102,7 @@ fn compared_text(check: &RobotCheck, robot: &Robot) -> String {
         }
     }
     // Only then: the largest error of models that agree is rounding, and its place means nothing.
-    let poses_disagree = poses_disagree(report);
+    let poses_disagree = report.poses_disagree();
     if poses_disagree {
         let _ = writeln!(text, "  largest error at link {}, at", report.worst.link);
         text += &wrapped(&report.worst.at.for_people(robot));
@@ -175,7 +174,7 @@ fn to_mm(metres: f64) -> f64 {
 
 /// The certificate: a bound over the whole joint range, not a sample.
 fn certified(text: &mut String, report: &CheckReport, robot: &Robot) {
-    if !poses_disagree(report) {
+    if !report.poses_disagree() {
         report.certificates.iter().for_each(|certificate| narrow(text, certificate));
         return;
     }

@@ -1,9 +1,8 @@
 //! Whether a recording has the samples that its run has recorded: one in a fixed number of steps, and the last.
 
 use congruent_input::display::quantity;
-use congruent_results::comparison::Scalars;
+use congruent_results::{comparison::Scalars, report::RunReport};
 use congruent_twin::RunSetup;
-use serde_json::Value;
 
 use super::{is_early, states::steps};
 use crate::{
@@ -15,7 +14,7 @@ use crate::{
 const ROUNDING_S: f64 = 1e-9;
 
 /// The first missing or misplaced sample of each series of joints and links.
-pub(super) fn problems(scalars: &Scalars, report: &Value, setup: &RunSetup) -> Vec<String> {
+pub(super) fn problems(scalars: &Scalars, report: &RunReport, setup: &RunSetup) -> Vec<String> {
     let robot = &setup.description.robot;
     let of_joint = |joint: &str| {
         let quantities = QUANTITIES.iter().chain(&["position"]);
@@ -29,7 +28,7 @@ pub(super) fn problems(scalars: &Scalars, report: &Value, setup: &RunSetup) -> V
     let expected = Expected {
         step_s: setup.clock.step_s,
         stride: stride(setup.clock.step_s),
-        last: report["simulation"]["steps"].as_u64().unwrap_or(0).saturating_sub(early),
+        last: report.simulation.steps.saturating_sub(early),
         is_whole: early == 0,
     };
     let problem = |path: String| {

@@ -12,13 +12,11 @@ mod states;
 
 use std::collections::BTreeSet;
 
-use congruent_input::SiUnit;
+use congruent_input::{SiUnit, serde_name};
 use congruent_monitors::verdict::{CheckResult, Status, Verdict, judge};
-use congruent_results::comparison::Scalars;
+use congruent_results::{comparison::Scalars, report::RunReport};
 use congruent_scenario::CheckKind;
 use congruent_twin::{RunError, RunSetup};
-use serde::Deserialize;
-use serde_json::Value;
 
 use self::replay::Replay;
 use super::{
@@ -74,35 +72,29 @@ pub fn recheck(
     scalars: &Scalars,
     mut setup: RunSetup,
 ) -> Result<Recheck, RecheckError> {
-    let report = summary.report.as_ref().ok_or(RecheckError::NoReport)?;
-    let recorded: Vec<&Value> = report["checks"].as_array().into_iter().flatten().collect();
+    let report = summary.run.as_ref().ok_or(RecheckError::NoReport)?;
     // Checks are matched by their position below: another list would compare the values of different checks.
-    is_of_scenario(&recorded, &setup)?;
+    is_of_scenario(report, &setup)?;
     is_of_robot(report, scalars, &setup)?;
-    let is_broken = report["error"].is_string();
-    if let Some(steps) = report["simulation"]["steps"].as_u64() {
-        // A motion that was slowed down in the run made it longer; one that ended early has no last step.
-        setup.clock.steps = if is_early(report) { setup.clock.steps.max(steps + 1) } else { steps };
-    }
+    let steps = report.simulation.steps;
+    // A motion that was slowed down in the run made it longer; one that ended early has no last step.
+    setup.clock.steps = if is_early(report) { setup.clock.steps.max(steps + 1) } else { steps };
     let left_out = left_out(report);
     let replay = Replay::evaluate(scalars, &setup, &left_out)?;
     let checks = setup.checks();
     let lines = checks.iter().map(|check| check.line).collect();
     let are_default = checks.iter().map(|check| check.is_default).collect();
+    let is_broken = report.error.is_some();
     let mut context = Context { scalars, setup: &setup, lines, are_default, replay, is_broken, gap_s: 0.0 };
     // After the context is made, since the gap follows from the steps that its replay has found.
     context.gap_s = context.longest_gap_s();
     let mut disagreements = Vec::new();
-    let checks: Vec<RecheckedCheck> = recorded
-        .iter()
-        .enumerate()
-        .map(|(at, recorded)| context.check(at, recorded, &mut disagreements))
-        .collect();
-    let expected = serde_json::to_value(&setup.scenario.expect).unwrap_or(Value::Null);
-    let same_limits = expected == report["expected"] && checks.iter().all(RecheckedCheck::has_same_limits);
+    let recorded = report.checks.iter().enumerate();
+    let checks: Vec<RecheckedCheck> =
+        recorded.map(|(at, recorded)| context.check(at, recorded, &mut disagreements)).collect();
+    let same_limits =
+        setup.scenario.expect == report.expected && checks.iter().all(RecheckedCheck::has_same_limits);
     let verdict = if is_broken { Verdict::Broken } else { context.verdict(&checks) };
-    let recorded_verdict = summary.verdict.clone().unwrap_or_default();
-    let same_verdict = congruent_input::serde_name(&verdict) == recorded_verdict;
     Ok(Recheck {
         scenario: setup.path.as_ref().map(|path| path.display().to_string()),
         same_limits,
@@ -111,8 +103,8 @@ pub fn recheck(
         step_s: setup.clock.step_s,
         expected: setup.scenario.expect.clone(),
         verdict,
-        same_verdict,
-        recorded_verdict,
+        same_verdict: verdict == report.verdict,
+        recorded_verdict: serde_name(&report.verdict).to_owned(),
         checks,
         disagreements,
         samples: instants::problems(scalars, report, &setup),
@@ -120,8 +112,8 @@ pub fn recheck(
 }
 
 /// Whether the checks are of the same kinds in the same order.
-fn is_of_scenario(recorded: &[&Value], setup: &RunSetup) -> Result<(), RecheckError> {
-    let kinds: Vec<&str> = recorded.iter().filter_map(|check| check["check"].as_str()).collect();
+fn is_of_scenario(report: &RunReport, setup: &RunSetup) -> Result<(), RecheckError> {
+    let kinds: Vec<&str> = report.checks.iter().map(|check| check.check.word()).collect();
     let given: Vec<&str> = setup.scenario.check.iter().map(|check| check.kind().word()).collect();
     if kinds == given {
         return Ok(());
@@ -134,8 +126,8 @@ fn is_of_scenario(recorded: &[&Value], setup: &RunSetup) -> Result<(), RecheckEr
 const JOINT_POSITIONS: &str = "/joint/position/";
 
 /// Whether the robot has the links of the run, and the joints whose positions are recorded.
-fn is_of_robot(report: &Value, scalars: &Scalars, setup: &RunSetup) -> Result<(), RecheckError> {
-    let links = report["links"].as_array().into_iter().flatten().filter_map(|link| link["link"].as_str());
+fn is_of_robot(report: &RunReport, scalars: &Scalars, setup: &RunSetup) -> Result<(), RecheckError> {
+    let links = report.links.iter().map(|link| link.link.as_str());
     let robot = &setup.description.robot;
     let joints: BTreeSet<String> =
         robot.movable_joint_names().map(|joint| paths::joint_position(joint).to_string()).collect();
@@ -144,20 +136,18 @@ fn is_of_robot(report: &Value, scalars: &Scalars, setup: &RunSetup) -> Result<()
     if has_joints && links.eq(robot.links().iter().map(|link| link.name.as_str())) {
         return Ok(());
     }
-    let recorded = report["robot"].as_str().unwrap_or_default().to_owned();
-    Err(RecheckError::OtherRobot { recorded, given: setup.description.name.clone() })
+    Err(RecheckError::OtherRobot { recorded: report.robot.clone(), given: setup.description.name.clone() })
 }
 
 /// Whether the run ended before its time: it broke, or a check stopped it.
-fn is_early(report: &Value) -> bool {
-    report["error"].is_string() || report["stopped"].is_object()
+fn is_early(report: &RunReport) -> bool {
+    report.error.is_some() || report.stopped.is_some()
 }
 
 /// Checks that depend on what a recording does not hold: when the motions end if the run was delayed, and what follows
 /// once it has ended early.
-fn left_out(report: &Value) -> Vec<CheckKind> {
-    let mut motions = report["motions"].as_array().into_iter().flatten();
-    let is_slowed = motions.any(|motion| motion["slowed"].is_object());
+fn left_out(report: &RunReport) -> Vec<CheckKind> {
+    let is_slowed = report.motions.iter().any(|motion| motion.slowed.is_some());
     match (is_early(report), is_slowed) {
         (true, _) => vec![CheckKind::CycleTime, CheckKind::Goal],
         (false, true) => vec![CheckKind::CycleTime],
@@ -200,12 +190,15 @@ impl Context<'_> {
         }
     }
 
-    fn check(&self, at: usize, recorded: &Value, disagreements: &mut Vec<Disagreement>) -> RecheckedCheck {
+    fn check(
+        &self,
+        at: usize,
+        recorded: &CheckResult,
+        disagreements: &mut Vec<Disagreement>,
+    ) -> RecheckedCheck {
         let kind = self.setup.scenario.check[at].kind();
         let line = self.lines[at];
-        let measures = recorded["measures"].as_array().into_iter().flatten();
-        // Measures with unknown words are among the problems of the summary.
-        let reported = merged(measures.filter_map(|measure| Evidence::from_report(measure).ok()?));
+        let reported = merged(recorded.measures.iter().filter_map(Evidence::from_measure));
         let mut quantities = Vec::new();
         let mut found_here = Vec::new();
         // Each quantity of the report has a limit and a worst value, which series and samples are compared with.
@@ -226,23 +219,28 @@ impl Context<'_> {
             found_here.push(Disagreement::new(kind, line, evidence, at, problem));
         }
         let basis = Basis::worst(quantities.iter().map(|quantity| quantity.basis));
-        let recorded_status = recorded["status"].as_str().unwrap_or_default().to_owned();
-        let recorded_outcome = Status::deserialize(&recorded["status"]).ok();
         let is_violated = quantities.iter().any(|quantity| quantity.violation_s.is_some());
         let is_same = quantities.iter().all(RecheckedQuantity::has_same_limit);
         // Without a quantity in the report, a contradiction found above is the only violation there can be.
-        let status = match recorded_outcome {
-            Some(Status::Skipped) if quantities.is_empty() => Status::Skipped,
+        let status = match recorded.status {
+            Status::Skipped if quantities.is_empty() => Status::Skipped,
             _ if is_violated || !found_here.is_empty() && quantities.is_empty() => Status::Fail,
-            Some(Status::Error) => Status::Error,
+            Status::Error => Status::Error,
             _ => Status::Pass,
         };
         // With limits other than those of the run, another status is the answer and no contradiction.
-        if is_same && found_here.is_empty() && Some(status) != recorded_outcome {
-            found_here.push(Disagreement::contradicted_status(kind, line, status, &recorded_status));
+        if is_same && found_here.is_empty() && status != recorded.status {
+            found_here.push(Disagreement::contradicted_status(kind, line, status, recorded.status));
         }
         disagreements.append(&mut found_here);
-        RecheckedCheck { check: kind, line, status, recorded_status, basis, quantities }
+        RecheckedCheck {
+            check: kind,
+            line,
+            status,
+            recorded_status: recorded.status.word().to_owned(),
+            basis,
+            quantities,
+        }
     }
 
     /// One quantity of a check, from all origins.

@@ -1,47 +1,42 @@
 //! The first line of a check: the answer in the words of the question, what was compared, and the largest difference.
 
-use crate::{
-    OtherDescription, RobotCheck,
-    agreement::{
-        SourcePair,
-        compare::{Agreement, CheckReport, Comparison, WorstDifference},
-    },
-    description::Tolerance,
-    input::display::{length_and_angle, listed},
+use congruent_agreement::{
+    SourcePair,
+    compare::{Agreement, CheckReport, Comparison, WorstDifference},
 };
+use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
+use congruent_input::display::{length_and_angle, listed};
 
-/// The answer: whether the descriptions are the same robot, by which sources, and how far they differ; and what the
-/// robot file declares of another chain, which the answer does not cover.
-pub(super) fn headline(check: &RobotCheck) -> String {
-    let dropped = check
-        .geometry
-        .warnings
-        .iter()
-        .find(|warning| warning.code == congruent_description::codes::chain::TABLE_DROPPED.name);
-    let dropped = dropped.map_or_else(String::new, |warning| format!("; {}", warning.message));
-    answer(check) + &dropped
-}
+use super::{against::OtherDescription, robot_check::RobotCheck};
 
-fn answer(check: &RobotCheck) -> String {
-    let report = &check.geometry;
-    let file = &report.file;
-    if let Some((other, why)) = other_chain(check) {
-        let other = &other.file;
-        return format!(
-            "{file}: not the same robot as {other}: another chain, {why}; the two were not compared"
-        );
+impl RobotCheck {
+    /// The answer as `check` and its page give it: whether the descriptions are the same robot, by which sources, and how
+    /// far they differ; and what the robot file declares of another chain, which the answer does not cover.
+    pub fn headline(&self) -> String {
+        let mut warnings = self.geometry.warnings.iter();
+        let dropped = warnings.find(|warning| warning.code == TABLE_DROPPED.name);
+        let dropped = dropped.map_or_else(String::new, |warning| format!("; {}", warning.message));
+        self.answer() + &dropped
     }
-    if report.verdict == Agreement::NothingCompared {
-        return format!("{file}: nothing was compared: {}", Agreement::why_nothing(&report.chain));
+
+    fn answer(&self) -> String {
+        let report = &self.geometry;
+        if let Some((other, why)) = other_chain(self) {
+            let other = &other.file;
+            return format!("not the same robot as {other}: another chain, {why}; the two were not compared");
+        }
+        if report.verdict == Agreement::NothingCompared {
+            return format!("nothing was compared: {}", Agreement::why_nothing(&report.chain));
+        }
+        let (answer, found) = if report.poses_disagree() {
+            ("not the same robot", differing(report).join(", "))
+        } else {
+            // The largest difference of sources that agree is rounding, and its place means nothing.
+            let found = format!("{} agree within {}", listed(&agreeing(report)), difference(&report.worst));
+            (answer_of_agreeing_poses(self), found)
+        };
+        format!("{answer}. {found} ({}, {} configurations)", tolerance(report), report.configurations)
     }
-    let (answer, found) = if poses_disagree(report) {
-        ("not the same robot", differing(report).join(", "))
-    } else {
-        // The largest difference of sources that agree is rounding, and its place means nothing.
-        let found = format!("{} agree within {}", listed(&agreeing(report)), difference(&report.worst));
-        (answer_of_agreeing_poses(check), found)
-    };
-    format!("{file}: {answer}. {found} ({}, {} configurations)", tolerance(report), report.configurations)
 }
 
 /// The answer if no pose differs. Physics and screws are made of the URDF, so that they are no second description of it.
@@ -60,11 +55,6 @@ fn answer_of_agreeing_poses(check: &RobotCheck) -> &'static str {
 /// The largest distance and angle.
 fn difference(worst: &WorstDifference) -> String {
     length_and_angle(worst.error.position_m, worst.error.orientation_rad)
-}
-
-/// Whether poses differ, and not dynamics alone.
-pub(super) fn poses_disagree(report: &CheckReport) -> bool {
-    report.comparisons.iter().any(|comparison| comparison.verdict == Agreement::Disagree)
 }
 
 /// The tolerance, and that of the robot file if another one was requested.

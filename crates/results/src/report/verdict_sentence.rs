@@ -1,0 +1,86 @@
+//! The verdict of a run in words, for all that show one: `run`, `inspect`, the page and the recording.
+
+use congruent_input::display::listed;
+use congruent_monitors::verdict::{Status, Verdict};
+use congruent_scenario::{CheckKind, Expectation};
+
+/// The verdict as the headline of a run begins.
+pub fn verdict_word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::AsExpected => "pass",
+        Verdict::NotAsExpected => "FAIL",
+        Verdict::NothingChecked => "NOTHING CHECKED",
+        Verdict::Broken => "BROKEN",
+    }
+}
+
+/// Why a run with these results has its verdict, without a full stop.
+pub fn verdict_sentence(
+    verdict: Verdict,
+    expected: &Expectation,
+    results: impl IntoIterator<Item = (CheckKind, Status)>,
+) -> String {
+    let mut failed: Vec<CheckKind> = Vec::new();
+    for (kind, status) in results {
+        if status == Status::Fail && !failed.contains(&kind) {
+            failed.push(kind);
+        }
+    }
+    match verdict {
+        Verdict::NothingChecked => "no check of the scenario was evaluated: add a [[check]]".to_owned(),
+        Verdict::Broken => "the run ended with an error".to_owned(),
+        Verdict::AsExpected if failed.is_empty() => "every check passes, as expected".to_owned(),
+        Verdict::AsExpected => format!("{}, as expected", failing(&failed)),
+        Verdict::NotAsExpected if failed.is_empty() => "unexpected pass: every check passed".to_owned(),
+        Verdict::NotAsExpected => against_expectation(expected, failed),
+    }
+}
+
+/// Checks that failed although they should not, and checks that did not fail although they should.
+fn against_expectation(expected: &Expectation, mut failed: Vec<CheckKind>) -> String {
+    let mut missing = match expected {
+        Expectation::Pass => Vec::new(),
+        Expectation::Fail { checks } => checks.clone(),
+    };
+    let expected = missing.clone();
+    missing.retain(|kind| !failed.contains(kind));
+    failed.retain(|kind| !expected.contains(kind));
+    let failed = (!failed.is_empty()).then(|| format!("{}, against expectation", failing(&failed)));
+    let missing = (!missing.is_empty()).then(|| format!("expected to fail but did not: {}", words(&missing)));
+    failed.into_iter().chain(missing).collect::<Vec<_>>().join("; ")
+}
+
+/// The kinds of checks that failed: `clearance and limits fail`.
+fn failing(kinds: &[CheckKind]) -> String {
+    format!("{} {}", words(kinds), if kinds.len() == 1 { "fails" } else { "fail" })
+}
+
+fn words(kinds: &[CheckKind]) -> String {
+    listed(&kinds.iter().map(|kind| kind.word()).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sentence_names_what_was_not_expected() {
+        use CheckKind::{Agreement, Clearance, Limits};
+        let check = |expected: &[CheckKind], failed: &[CheckKind], sentence: &str| {
+            let expected = Expectation::Fail { checks: expected.to_vec() };
+            let results = failed.iter().map(|&kind| (kind, Status::Fail)).chain([(Agreement, Status::Pass)]);
+            assert_eq!(verdict_sentence(Verdict::NotAsExpected, &expected, results), sentence);
+        };
+        check(&[Clearance], &[], "unexpected pass: every check passed");
+        check(&[], &[Limits], "limits fails, against expectation");
+        check(&[Clearance], &[Clearance, Limits, Limits], "limits fails, against expectation");
+        let instead = "limits fails, against expectation; expected to fail but did not: clearance";
+        check(&[Clearance], &[Limits], instead);
+        let missing = "expected to fail but did not: limits";
+        check(&[Clearance, Limits], &[Clearance], missing);
+        let both = [Clearance, Limits].map(|kind| (kind, Status::Fail));
+        let sentence = |verdict| verdict_sentence(verdict, &Expectation::Pass, both);
+        assert_eq!(sentence(Verdict::NotAsExpected), "clearance and limits fail, against expectation");
+        assert_eq!(sentence(Verdict::AsExpected), "clearance and limits fail, as expected");
+    }
+}
