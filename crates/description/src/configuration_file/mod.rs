@@ -13,9 +13,10 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 
 use self::beyond_limits::OutsideLimits;
-use crate::model::{Robot, RobotQ};
-
-use crate::codes;
+use crate::{
+    codes,
+    model::{Robot, RobotQ},
+};
 
 pub use self::{
     beyond_limits::{outside_limits, outside_limits_warning},
