@@ -1,7 +1,7 @@
 //! The bound from above: branch and bound over the box of all configurations. The box with the largest
 //! bound is split until that bound meets the largest difference that a configuration attains.
 
-use congruent_kinematics::best_first::{BoundedBox, halves, least_upper_bound};
+use congruent_kinematics::best_first::{halves, least_upper_bound};
 
 use super::{
     budget::{Budget, ROUNDING_LEVEL},
@@ -64,12 +64,6 @@ struct BoxNode {
     split_joint: usize,
     /// Which of the task's bounds was least.
     bound_index: usize,
-}
-
-impl BoundedBox for BoxNode {
-    fn upper_bound(&self) -> f64 {
-        self.bound
-    }
 }
 
 /// The state of a search: the best configuration so far, buffers, and the work that was done.
@@ -197,7 +191,7 @@ pub(super) fn bracket(task: &BracketTask<'_>, incumbent: Incumbent) -> BracketOu
     let mut search = BranchAndBound { task, incumbent, buffers, nearest, boxes: 0, corners_spent: 0 };
     // The outermost box has nothing around it, so its bound starts at infinity.
     let whole = search.bound(task.ranges.to_vec(), f64::INFINITY, 0);
-    let mut certified = least_upper_bound(whole, |node| search.split(node));
+    let mut certified = least_upper_bound(whole, |node| node.bound, |node| search.split(node));
     // Orientations half a turn apart: no disagreement is larger, so the bracket is closed without a further box.
     // Beyond that norm the other sign of the quaternion is nearer, and the angle is smaller than half a turn; so
     // the configuration is moved back to where the norm is exactly the largest.

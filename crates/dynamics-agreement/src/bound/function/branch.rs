@@ -7,7 +7,7 @@
 //! Source: Farin, *Curves and Surfaces for CAGD* (2002), rational curves; Garloff, *Convergent bounds for the range of
 //! multivariate polynomials* (1985).
 
-use congruent_kinematics::best_first::{BoundedBox, halves, least_upper_bound};
+use congruent_kinematics::best_first::{halves, least_upper_bound};
 
 use super::{
     speeds::SpeedInterval,
@@ -54,12 +54,6 @@ enum Halved {
     Speed(usize),
 }
 
-impl BoundedBox for Region {
-    fn upper_bound(&self) -> f64 {
-        self.upper
-    }
-}
-
 /// An upper bound of the measure of a function over the whole range of its variables.
 pub(in crate::bound) fn upper_bound(function: &Trigonometric, stop: SearchLimits) -> UpperBound {
     let ranges: Vec<(f64, f64)> =
@@ -70,7 +64,8 @@ pub(in crate::bound) fn upper_bound(function: &Trigonometric, stop: SearchLimits
     // A constant cannot be divided; its only box is its value.
     let divides = !function.variables.is_empty() || function.measure.speeds() > 0;
     let whole = region(function, (ranges, speeds), &mut work);
-    let value = least_upper_bound(whole, |worst| {
+    let upper = |region: &Region| region.upper;
+    let value = least_upper_bound(whole, upper, |worst| {
         // Stopping early is safe: the bound that is returned holds for whatever boxes are open, it is only wider.
         let done = worst.upper <= stop.below || boxes >= stop.boxes || work.computed >= stop.control_values;
         if done || !divides {
