@@ -1,7 +1,7 @@
 //! Timing of a line or an arc: a speed with acceleration and jerk, or a profile over a duration.
 
 use congruent_input::Diagnostic;
-use congruent_scenario::{FilePlace, Profile};
+use congruent_scenario::{ArcMotion, FilePlace, LineMotion, Profile, TcpPathMotion};
 
 use crate::{RateLimits, codes};
 
@@ -19,16 +19,33 @@ pub(super) enum LegTiming {
 
 /// The keys of a line or an arc that are about its timing.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct WrittenTiming {
-    pub(super) speed_m_s: Option<f64>,
-    pub(super) duration_s: Option<f64>,
-    pub(super) profile: Option<Profile>,
-    pub(super) acceleration_m_s2: Option<f64>,
-    pub(super) jerk_m_s3: Option<f64>,
+struct WrittenTiming {
+    speed_m_s: Option<f64>,
+    duration_s: Option<f64>,
+    profile: Option<Profile>,
+    acceleration_m_s2: Option<f64>,
+    jerk_m_s3: Option<f64>,
+}
+
+/// The timing of a line.
+pub(super) fn line_drive(line: &LineMotion, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
+    let LineMotion { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3, .. } = *line;
+    drive(WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 }, place)
+}
+
+/// The timing of an arc.
+pub(super) fn arc_drive(arc: &ArcMotion, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
+    let ArcMotion { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3, .. } = *arc;
+    drive(WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 }, place)
+}
+
+/// The timing of the lines of a path.
+pub(super) fn path_drive(path: &TcpPathMotion) -> LegTiming {
+    LegTiming::Speed(rates(path.speed_m_s, path.acceleration_m_s2, path.jerk_m_s3))
 }
 
 /// The timing by the speed or by the duration, whichever is given, with the keys that belong to it.
-pub(super) fn drive(written: WrittenTiming, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
+fn drive(written: WrittenTiming, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
     let WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 } = written;
     let refused = |key: &str, message: &str, help: &str| {
         let error = Diagnostic::error(codes::scenario::PATH_SPEED, message).with_help(help);
@@ -62,7 +79,7 @@ pub(super) fn drive(written: WrittenTiming, place: FilePlace<'_>) -> Result<LegT
 }
 
 /// The limits along the path for a speed, with defaults for acceleration and jerk.
-pub(super) fn rates(velocity: f64, acceleration: Option<f64>, jerk: Option<f64>) -> RateLimits {
+fn rates(velocity: f64, acceleration: Option<f64>, jerk: Option<f64>) -> RateLimits {
     let acceleration = acceleration.unwrap_or(ACCELERATION_M_S2);
     RateLimits { velocity, acceleration, jerk: jerk.unwrap_or_else(|| default_jerk_m_s3(acceleration)) }
 }

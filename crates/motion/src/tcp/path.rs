@@ -8,13 +8,11 @@ use congruent_input::{
     display::{angle, length, number, quantity},
 };
 use congruent_kinematics::{Arm, Pose, TargetPart, UrdfTree};
-use congruent_scenario::{
-    ArcMotion, FilePlace, LineMotion, MotionSettings, PoseSettings, TcpPathMotion, ToolOrientation,
-};
+use congruent_scenario::{ArcMotion, FilePlace, MotionSettings, PoseSettings, ToolOrientation};
 use nalgebra::{Isometry3, Vector3};
 
 use super::{
-    drive::{LegTiming, WrittenTiming, blend_rates, drive, rates},
+    drive::{LegTiming, arc_drive, blend_rates, line_drive, path_drive},
     geometry::TcpPath,
     inverse::{PathFailure, along},
     segment::Segment,
@@ -243,20 +241,6 @@ fn arc_of(arc: &ArcMotion, before: &Isometry3<f64>, place: FilePlace<'_>) -> Res
         );
         place.mark(error.with_help("move `via` off the line, or use line_tcp; a full circle is two arcs"))
     })
-}
-
-fn line_drive(line: &LineMotion, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
-    let LineMotion { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3, .. } = *line;
-    drive(WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 }, place)
-}
-
-fn arc_drive(arc: &ArcMotion, place: FilePlace<'_>) -> Result<LegTiming, Diagnostic> {
-    let ArcMotion { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3, .. } = *arc;
-    drive(WrittenTiming { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3 }, place)
-}
-
-fn path_drive(path: &TcpPathMotion) -> LegTiming {
-    LegTiming::Speed(rates(path.speed_m_s, path.acceleration_m_s2, path.jerk_m_s3))
 }
 
 /// Refuses blends that do not fit, and lines whose timing is not determined.
