@@ -69,7 +69,7 @@ causes! {
         "Roll, pitch and yaw are in another order. The order here is that of a URDF, turns about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll). Convert the three angles.";
     /// The model lacks a fixed joint of the reference model.
     FixedJointDropped = "fixed_joint_dropped",
-        "The table leaves out a fixed joint of the URDF, such as a flange. Put its <origin> into base_from_dh0 or dhn_from_tip, or declare another base or tip.";
+        "The table omits a fixed joint of the URDF, such as a flange. Put its <origin> into base_from_dh0 or dhn_from_tip, or declare another base or tip.";
     /// A joint's zero is shifted.
     ZeroOffset = "zero_offset",
         "The zero of a joint is at another position in the table than in the URDF. Add the difference to theta (to d of a prismatic joint), or correct <origin> of the joint in the URDF.";

@@ -24,7 +24,7 @@ impl FaultContext<'_> {
         let mut fault = Fault::default();
         let (message, suggestion) = match self.fault.cause {
             Cause::FixedJointDropped => (
-                format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
+                format!("the model does not have the fixed joint \"{listed}\" of the URDF"),
                 format!(
                     "write the <origin> of \"{listed}\" into base_from_dh0 or dhn_from_tip, or declare another base or tip"
                 ),
