@@ -57,7 +57,7 @@ fn a_recording_is_checked_with_the_values_that_its_run_had() {
 /// The shipped scenario with another minimum distance, in a file of its own.
 fn pick_with_minimum(folder: &Path, minimum_m: &str) -> String {
     let shipped = fs::read_to_string(workspace().join("scenarios/ur5e_pick.toml")).unwrap();
-    let robot = format!("robot = {:?}", workspace().join("robots/ur5e"));
+    let robot = format!("robot = '{}'", workspace().join("robots/ur5e").display());
     let changed = shipped.lines().map(|line| match line.split_once(" = ") {
         Some(("robot", _)) => robot.clone(),
         Some(("minimum_m", _)) => format!("minimum_m = {minimum_m}"),
