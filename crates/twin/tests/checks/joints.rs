@@ -206,7 +206,7 @@ fn tracking_needs_limits_that_mean_something() {
     let settling = TrackingCheck { path_deg: Some(1.0), settling_s: Some(0.1), ..TrackingCheck::default() };
     assert!(refused(settling).contains("`settling_s` needs a limit `goal_*` for joints"));
     let twice = TrackingCheck { path_deg: Some(1.0), path_rad: Some(0.1), ..TrackingCheck::default() };
-    assert!(refused(twice).contains("given twice"));
+    assert!(refused(twice).contains("are both given"));
 }
 
 fn cycle(limit_s: f64, edit: impl FnOnce(&mut Scenario)) -> CheckResult {
