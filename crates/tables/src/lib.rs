@@ -6,10 +6,12 @@
 pub mod codes;
 mod parquet;
 mod read;
+mod row_reader;
 pub mod run_columns;
 mod stream;
 mod table;
 
 pub use read::read_table;
-pub use stream::{RowReader, TableError, Value, open};
+pub use row_reader::{RowReader, Value};
+pub use stream::{TableError, open};
 pub use table::{Cell, Header, Row, TableRows, WrittenTable};

@@ -6,7 +6,7 @@ use parquet::{
     record::{Field, reader::RowIter},
 };
 
-use crate::stream::{RowReader, Value};
+use crate::row_reader::{RowReader, Value};
 
 pub(crate) struct ParquetRows {
     rows: RowIter<'static>,

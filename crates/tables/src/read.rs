@@ -4,11 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use congruent_input::{Diagnostic, FileAccess, SourceFile};
 
-use crate::{
-    codes,
-    parquet::ParquetRows,
-    stream::{RowReader, is_parquet},
-};
+use crate::{codes, parquet::ParquetRows, row_reader::RowReader, stream::is_parquet};
 
 /// The text of a table in CSV, or that which a Parquet file has as CSV: lines in messages are those of this text.
 ///

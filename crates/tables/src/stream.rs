@@ -8,29 +8,12 @@ use std::{
 
 use csv::{Reader, StringRecord};
 
-use crate::{parquet::ParquetRows, run_columns::TIME, table::reader_builder};
-
-/// One cell.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Value {
-    /// A number, in the unit of its column.
-    Number(f64),
-    /// The name of a link, a joint or a pair.
-    Name(String),
-    /// The cell is empty.
-    Missing,
-}
-
-/// As it is written in CSV: numbers as the shortest text that is read back as the same number.
-impl fmt::Display for Value {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Number(number) => write!(f, "{number:?}"),
-            Self::Name(name) => f.write_str(name),
-            Self::Missing => Ok(()),
-        }
-    }
-}
+use crate::{
+    parquet::ParquetRows,
+    row_reader::{RowReader, Value},
+    run_columns::TIME,
+    table::reader_builder,
+};
 
 /// Why a file is no table of a run.
 #[derive(Debug, thiserror::Error)]
@@ -46,18 +29,6 @@ impl TableError {
     fn new(path: &Path, error: impl fmt::Display) -> Self {
         Self { path: path.to_owned(), message: error.to_string() }
     }
-}
-
-/// A table that is read row by row.
-pub trait RowReader {
-    /// The names of the columns.
-    fn columns(&self) -> &[String];
-
-    /// Reads the next row into `row`, one value for each column; `false` after the last.
-    ///
-    /// # Errors
-    /// The message of the reader if the rest of the file cannot be read.
-    fn next_row(&mut self, row: &mut Vec<Value>) -> Result<bool, String>;
 }
 
 /// Opens a table by the ending of its name: `.parquet`, or else comma-separated values.
