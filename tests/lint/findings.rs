@@ -4,7 +4,7 @@ use std::{fs, path::PathBuf};
 
 use serde_json::Value;
 
-use crate::support::command::{Answer, congruent, congruent_json, text};
+use crate::support::command::{congruent, congruent_json, text};
 
 const URDF: &str = "<robot name='r'>
   <link name='base'/>
@@ -124,43 +124,6 @@ fn an_ignore_list_has_reasons_and_hides_nothing_else() {
     let last =
         unused["findings"].as_array().unwrap().iter().find(|found| found["code"] == "lint::ignored_nothing");
     assert_eq!(last.unwrap()["line"], 3);
-}
-
-#[test]
-fn codes_are_explained_by_number_and_by_name() {
-    for word in ["CGR-URDF-028", "urdf::massless"] {
-        let answer = congruent(&["lint", "--explain", word]);
-        assert!(
-            answer.code == 0 && answer.stdout.starts_with("CGR-URDF-028 urdf::massless\n"),
-            "{}",
-            answer.stdout
-        );
-    }
-    let unknown = congruent(&["lint", "--explain", "urdf::masless"]);
-    assert_eq!(unknown.code, 2);
-    assert!(unknown.stderr.contains("did you mean CGR-URDF-028, urdf::massless?"), "{}", unknown.stderr);
-}
-
-#[test]
-fn causes_of_check_are_explained_like_codes() {
-    let explained = |word: &str| congruent(&["lint", "--explain", word]);
-    let in_one_line = |answer: &Answer| answer.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
-    for word in ["check::axis_flipped", "axis_flipped", "CHECK::AXIS_FLIPPED"] {
-        let answer = explained(word);
-        assert!(answer.code == 0 && answer.stdout.starts_with("check::axis_flipped\n"), "{}", answer.stdout);
-        assert!(in_one_line(&answer).contains("change `sign` of the row"), "{}", answer.stdout);
-    }
-    assert!(
-        in_one_line(&explained("mass_unit"))
-            .contains("dynamics: the mass is given in another unit. A URDF has kg")
-    );
-    let of_both = in_one_line(&explained("joints_swapped"));
-    assert!(of_both.contains("Two rows") && of_both.contains("in dynamics: damping"), "{of_both}");
-    for word in ["check::axis_fliped", "axis_fliped"] {
-        let unknown = explained(word);
-        assert_eq!(unknown.code, 2);
-        assert!(unknown.stderr.contains("did you mean axis_flipped?"), "{}", unknown.stderr);
-    }
 }
 
 #[test]

@@ -18,8 +18,8 @@ use congruent_kinematics::{Pose, rotation_log};
 use super::{
     content::Fault,
     names::ModelNames,
-    units::WrongUnit,
     values::{ReportedValue, isometry, value_literal},
+    wrong_unit::WrongUnit,
 };
 use crate::diagnosis::{CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants};
 

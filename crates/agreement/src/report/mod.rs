@@ -13,6 +13,7 @@ mod statement;
 mod table;
 mod units;
 mod values;
+mod wrong_unit;
 
 pub use content::{
     ComparedValue, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
