@@ -116,7 +116,7 @@ fn a_table_or_chart_of_nothing_is_refused() {
         assert!(answer.stderr.contains(words), "no {words:?} in {}", answer.stderr);
     };
     refused(&["--table"], "--configurations");
-    refused(&["--plot", "p.svg"], "--plot needs configurations");
+    refused(&["--plot", "p.svg"], "--plot needs --configurations");
     let temporary = tempfile::tempdir().unwrap();
     let asked = temporary.path().join("configurations.json");
     fs::write(&asked, "[{\"q\": {}}]").unwrap();

@@ -58,7 +58,6 @@ impl Code {
 ///     }
 /// }
 /// assert_eq!((ALL.len(), gripper::OPEN.id, gripper::FILE.is_unreadable), (2, Some("CGR-GRIPPER-001"), true));
-/// # fn main() {}
 /// ```
 #[macro_export]
 macro_rules! codes {

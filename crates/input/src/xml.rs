@@ -165,7 +165,7 @@ fn after_root(error: &xmlparser::Error, text: &str) -> Diagnostic {
     };
     Diagnostic::error(codes::xml::MALFORMED, message)
         .at(at..at)
-        .with_help("the file ends with the closing tag of its first element; a second robot is another file")
+        .with_help("remove what follows the closing tag of the first element, or put a second robot in a file of its own")
 }
 
 /// The fault of a file with merge conflict markers, at the first of them; `None` if there are none.

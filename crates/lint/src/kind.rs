@@ -70,7 +70,7 @@ impl FileToLint {
         let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         // By the extension, before the file is opened: logs may have gigabytes.
         if let Some((_, what, now)) = ELSEWHERE.iter().find(|(end, ..)| *end == extension) {
-            let message = format!("{} is {what}, not a file that can be linted", path.display());
+            let message = format!("lint cannot read {}: it is {what}", path.display());
             return Err(Diagnostic::error(codes::lint::KIND, message).with_help(*now));
         }
         if ["json", "jsonl", "csv"].contains(&extension.as_str()) && file.is_file() {

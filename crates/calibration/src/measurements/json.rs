@@ -64,7 +64,8 @@ fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<
             .with_help("give x, y, z, or x, y for a planar measurement"));
     }
     for &value in q.iter().chain(&translation) {
-        let refused = |what| Diagnostic::error(codes::measurements::NUMBER, format!("{value} {what}"));
+        let refused =
+            |what| Diagnostic::error(codes::measurements::NUMBER, format!("the value {value} {what}"));
         plausible(value).map_err(refused)?;
     }
     let mut tip_in_base_m = [None; 3];

@@ -68,9 +68,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         .iter()
         .find(|warning| warning.code == congruent::description::codes::chain::TABLE_DROPPED);
     if let (Some(dropped), Some(ConversionSource::Dh)) = (dropped, arguments.from) {
-        return Err(Diagnostic::error(congruent::analysis::codes::convert::NO_DH, dropped.message.clone())
-            .with_help("leave --base and --tip out, or convert the chain of the URDF there with --from urdf")
-            .into());
+        return Err(Diagnostic::error(
+            congruent::analysis::codes::convert::NO_DH,
+            format!("--from dh: {}", dropped.message),
+        )
+        .with_help("omit --base and --tip, or convert the chosen chain with --from urdf")
+        .into());
     }
     let conversion = arguments.accuracy.conversion(arguments.from, arguments.to);
     answer(&description, &conversion, &arguments.output, printer)

@@ -67,8 +67,10 @@ const SEED: u64 = 0;
 
 fn base_parameters(description: &RobotDescription, printer: &Printer) -> Result<u8, Failure> {
     if description.robot.dof() == 0 {
-        let message =
-            format!("{}: no joint moves, so there are no joint torques", description.urdf_path.display());
+        let message = format!(
+            "{}: all joints are fixed, so there are no base parameters",
+            description.urdf_path.display()
+        );
         return Err(Diagnostic::error(codes::derive::NO_JOINT, message).into());
     }
     let report = derived(description, SEED)

@@ -116,7 +116,7 @@ mod tests {
             ("1", "is not a number with a unit"),
             ("", "is not a number with a unit"),
             ("1mm,", "is not a number with a unit"),
-            ("1mm,2mm", "is a length and one is given already"),
+            ("1mm,2mm", "is a length, and a length is already given"),
             ("1.2.3mm", "is not a number"),
         ] {
             let error = text.parse::<ToleranceArgument>().unwrap_err();

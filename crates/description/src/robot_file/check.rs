@@ -152,7 +152,10 @@ fn tolerance(written: Option<&WrittenTolerance>, diagnostics: &mut Diagnostics) 
                 diagnostics.keep(unit.value(quantity, si.as_ref(), engineering.as_ref())).flatten()?;
             let span = si.as_ref().or(engineering.as_ref()).map_or(0..0, Spanned::span);
             if value <= 0.0 {
-                let message = format!("tolerance {quantity} must be greater than 0, it is {value}");
+                let message = format!(
+                    "the tolerance of {quantity} must be greater than 0, it is {value} {}",
+                    unit.names()[0]
+                );
                 diagnostics.push(Diagnostic::error(codes::robot_file::TOLERANCE, message).at(span));
             }
             Some(value)

@@ -149,7 +149,7 @@ fn joints_are_checked() {
     joint_error(
         "<limit lower='0' upper='1e308' effort='1' velocity='1'/>",
         "urdf::limit",
-        "limit 1e308 is beyond 1e30",
+        "limit 1e308 is too large: poses are computed up to 1e30",
     );
     joint_error(&format!("{LIMIT}<axis xyz='0 0 0'/>"), "urdf::axis", "zero vector");
     joint_error(&format!("{LIMIT}<axis xyz='1.7e308 1.7e308 0'/>"), "urdf::axis", "its length overflows");
@@ -197,7 +197,7 @@ fn suspicious_joints_are_warned_of() {
     joint_warning(
         "<limit upper='1' effort='1' velocity='1'/>",
         "urdf::limit",
-        "limit without lower counts as 0",
+        "<limit> has no lower, which counts as 0",
     );
     joint_warning(
         "<limit lower='1' upper='1' effort='1' velocity='1'/>",

@@ -40,7 +40,9 @@ pub(crate) fn examine(check: &GoalCheck, place: FilePlace<'_>) -> Result<Isometr
         "`orientation_rad` (or `orientation_deg`) is the tolerance of a rotation, but the goal has no rotation"
     };
     let error = Diagnostic::error(codes::scenario::GOAL, message);
-    Err(place.mark(error.with_help("give both for a pose, neither for a position")))
+    Err(place.mark(error.with_help(
+        "for a pose give `tcp` a rotation and a tolerance of the orientation; for a position give neither",
+    )))
 }
 
 impl GoalMonitor {

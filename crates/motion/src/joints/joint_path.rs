@@ -200,7 +200,7 @@ pub(super) fn check_positions(
     let [q, lower, upper] = [q, lower, upper].map(|value| quantity(value, unit));
     let (time, where_) = (quantity(share * duration_s, "s"), where_(joint, share * duration_s));
     let message = format!(
-        "joint \"{name}\" would leave its range of {lower} to {upper} between points: {q} at {time}{where_}"
+        "joint \"{name}\" overshoots to {q} at {time}{where_}, between two points: its limits are {lower} and {upper}"
     );
     let error = Diagnostic::error(codes::scenario::PATH_LIMIT, message);
     Err(planning.place.mark(error.with_help("add a point where the spline overshoots, or change the times")))

@@ -205,7 +205,7 @@ pub fn quantity_words(quantity: Quantity) -> String {
     match quantity {
         // The one check with velocities compares those of model and twin.
         Quantity::Velocity | Quantity::AngularVelocity => {
-            format!("error of {}", quantity.name().replace('_', " "))
+            format!("{} error", quantity.name().replace('_', " "))
         }
         Quantity::NotFiniteValues => "values that are not finite".to_owned(),
         _ => quantity.name().replace('_', " ").replace("tcp", "TCP"),
@@ -215,7 +215,7 @@ pub fn quantity_words(quantity: Quantity) -> String {
 /// A number of values that are NaN or infinite, of which none is allowed.
 pub fn not_finite_words(count: f64) -> String {
     match count {
-        0.0 => "no value that is not finite".to_owned(),
+        0.0 => "all values are finite".to_owned(),
         1.0 => "1 value that is not finite".to_owned(),
         _ => format!("{count} values that are not finite"),
     }
@@ -286,9 +286,9 @@ mod tests {
     #[test]
     fn the_words_of_a_quantity_say_what_is_limited() {
         let none = (Bound::AtMost, 0.0);
-        reads(Quantity::NotFiniteValues, none, 0.0, "no value that is not finite");
+        reads(Quantity::NotFiniteValues, none, 0.0, "all values are finite");
         reads(Quantity::NotFiniteValues, none, 1.0, "1 value that is not finite at here (1 s)");
-        let error = "error of velocity 5 mm/s at here (1 s), limit <= 6 mm/s, margin 1 mm/s";
+        let error = "velocity error 5 mm/s at here (1 s), limit <= 6 mm/s, margin 1 mm/s";
         reads(Quantity::Velocity, (Bound::AtMost, 0.006), 0.005, error);
     }
 

@@ -277,7 +277,7 @@ impl Resolver<'_> {
         if fault.mass_kg > HEAVIEST_PART * robot_kg {
             let (mass, limit) = (quantity(fault.mass_kg, "kg"), quantity(HEAVIEST_PART * robot_kg, "kg"));
             let message = format!(
-                "mass_kg = {mass}, limit <= {limit}, which is {HEAVIEST_PART} times the mass of the robot"
+                "mass_kg = {mass} is more than {HEAVIEST_PART} times the mass of the robot: limit <= {limit}"
             );
             let error = Diagnostic::error(codes::scenario::FAULT_VALUE, message);
             return Err(self
@@ -292,8 +292,10 @@ impl Resolver<'_> {
         }
         // A load on the root's body loads no joint.
         if robot.body(*tip) == robot.root() {
-            let error =
-                Diagnostic::error(codes::scenario::FAULT_NO_EFFECT, "no effect: no joint moves the tool");
+            let error = Diagnostic::error(
+                codes::scenario::FAULT_NO_EFFECT,
+                "the fault has no effect: no joint moves the tip link",
+            );
             return Err(self.place.mark(error.with_help("choose another `tip` in the robot file")));
         }
         let tip_from_tcp = tip_from_tcp.unwrap_or_else(Isometry3::identity);

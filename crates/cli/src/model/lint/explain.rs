@@ -26,7 +26,7 @@ struct CodeExplanation {
 pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
     let known = [congruent::codes::all_codes(), codes::ALL.to_vec()].concat();
     let explanation = explained(word, &known).ok_or_else(|| {
-        let message = format!("neither a finding nor a cause of `check` has the code \"{word}\"");
+        let message = format!("unknown code or cause \"{word}\"");
         let unknown = Diagnostic::error(codes::lint::CODE, message);
         let name = word.to_lowercase();
         // Codes of findings have an area, `urdf::axis`; causes have none, or `check`.
@@ -36,7 +36,9 @@ pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
             Code::nearest(word, &known).map(|code| format!("{}, {}", code.id_or_name(), code.name))
         }) {
             Some(near) => unknown.with_help(format!("did you mean {near}?")),
-            None => unknown,
+            None => unknown.with_help(
+                "give the code of a finding (CGR-URDF-018, urdf::axis) or a cause of `check` (axis_flipped)",
+            ),
         }
     })?;
     printer.result(&explanation, text)?;

@@ -163,9 +163,11 @@ fn frame(
                 // A warning instead of an error: the table itself may be wrong, and the check of the geometry, which can
                 // find that out, must still run.
                 Some(own) => {
-                    let message = format!("frame \"{name}\" does not move with joint \"{joint_name}\"");
+                    let message = format!(
+                        "frame \"{name}\" is not fixed to the link that joint \"{joint_name}\" moves"
+                    );
                     let help = format!(
-                        "the table's frame of this joint is \"{own}\"; until this is corrected, no [[inertial]] entry is compared"
+                        "write frame = \"{own}\", or add the missing [[dh.row]] if there is one; until then no [[inertial]] entry is compared"
                     );
                     let warning = Diagnostic::warning(codes::robot_file::INERTIAL, message).with_help(help);
                     Err(warning.at(written.span()))

@@ -109,6 +109,11 @@ fn check_name(robot: &Robot, name: &str, rule: NumberRule<'_>) -> Result<(), Dia
         joint.kind.name(),
         rule.what
     );
-    Err(Diagnostic::error(congruent_motion::codes::scenario::JOINT_UNIT, message)
-        .with_help("use the key of the other unit"))
+    Err(Diagnostic::error(congruent_motion::codes::scenario::JOINT_UNIT, message).with_help(
+        if joint.kind.is_angular() {
+            "use the key in degrees or radians"
+        } else {
+            "use the key in millimetres or metres"
+        },
+    ))
 }

@@ -110,10 +110,10 @@ fn links_named(name: &str, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> 
         None => Err(no_link(name, robot)),
         Some(link) if can_enter(link) => Ok(vec![link]),
         Some(_) => {
-            let message = format!("link \"{name}\" has no collision shape, so that it cannot enter a zone");
+            let message = format!("link \"{name}\" has no collision shape, so it cannot enter a zone");
             Err(Diagnostic::error(codes::scenario::ZONE_LINKS, message).with_help(known_names(
                 "",
-                "links with one",
+                "links with a collision shape",
                 links_with_shape(robot),
             )))
         }
