@@ -75,14 +75,15 @@ impl JsonList {
     ) -> Result<Result<(), Findings>, Diagnostic> {
         let (mut faults, mut number) = (EntryFaults::default(), 1);
         loop {
-            match serde_json::from_str(lines.line()) {
+            // Without its end, so that an object that is cut off is a fault of this line.
+            match serde_json::from_str(lines.line().trim_end()) {
                 Ok(written) => {
                     if let Err(fault) = check(written, &mut || lines.keep()) {
                         faults.add(|| self.of_entry(number, fault.at(lines.keep())));
                     }
                 }
                 Err(error) => {
-                    let offset = offset_of(lines.line(), &error);
+                    let offset = offset_of(lines.line().trim_end(), &error);
                     faults.add(|| {
                         let at = lines.keep().start + offset;
                         self.of_entry(number, self.not_read(&error).at(at..at))

@@ -28,7 +28,7 @@ fn failures(report: &RunReport) -> Markup {
                         h3 { (check.check) @if let Some(line) = check.line { span.small { " line " (line) " of the scenario" } } }
                         @let lines = lines(check);
                         ul { @for line in lines.iter().take(SHOWN) { li { (line) } } }
-                        @if lines.len() > SHOWN { p.small { "and " (lines.len() - SHOWN) " more, in the table below" } }
+                        @if lines.len() > SHOWN { p.small { "and " (lines.len() - SHOWN) " more in the report" } }
                     }
                 }
             }

@@ -126,7 +126,10 @@ fn the_geometry_is_checked_with_a_frame_of_another_joint() {
     assert!(description.dynamics.is_none());
     let warning =
         description.warnings.iter().find(|warning| warning.code.name == "robot_file::inertial").unwrap();
-    assert!(warning.message.contains("frame \"dh2\" is not fixed to the link that joint \"turn\" moves"), "{warning:?}");
+    assert!(
+        warning.message.contains("frame \"dh2\" is not fixed to the link that joint \"turn\" moves"),
+        "{warning:?}"
+    );
     assert!(warning.help.as_deref().unwrap_or_default().contains("frame = \"dh1\""), "{warning:?}");
 }
 
