@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use congruent::{input::Diagnostic, page::PageFormat, results::RecordingFormat, scenario::Override};
 
-use crate::{ci::CiArguments, codes, failure::Failure, input::AccessArguments, terminal::print::Printer};
+use crate::{ci::CiArguments, failure::Failure, input::AccessArguments, terminal::print::Printer};
 
 #[cfg(feature = "recording")]
 use crate::recording::{live::LiveFormat, viewer::Viewer};
@@ -98,7 +98,9 @@ pub(super) fn recording_format(
     }
     if arguments.scenarios.len() > 1 {
         let message = format!("--view shows one run, but {} scenarios are given", arguments.scenarios.len());
-        return Err(Diagnostic::error(codes::run::VIEW, message).with_help("give one scenario").into());
+        return Err(Diagnostic::error(crate::codes::run::VIEW, message)
+            .with_help("give one scenario")
+            .into());
     }
     let viewer = Viewer::find(None)?;
     printer.notes(viewer.remark().as_deref());
