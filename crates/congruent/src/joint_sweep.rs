@@ -4,12 +4,13 @@ use std::{f64::consts::PI, path::PathBuf};
 
 use congruent_description::{JointKind, Robot, RobotDescription, RobotQ};
 use congruent_input::Findings;
-use congruent_monitors::{JointSample, JointStateView, RecordingError};
+use congruent_monitors::{JointSample, JointStateView};
 use congruent_recording::RerunFormat;
 use congruent_results::{
     RecordingFormat,
-    files::{FolderError, OutputError, OutputFolder},
-    report::{Causes, RunReport, diagnose_run},
+    files::{FolderError, OutputFolder},
+    record,
+    report::{Causes, diagnose_run},
 };
 use congruent_scenario::{AgreementCheck, Check, Scenario, SimulationSettings};
 use congruent_twin::{
@@ -74,18 +75,12 @@ pub enum SweepError {
     /// The robot cannot be drawn.
     #[error(transparent)]
     Robot(#[from] Findings),
-    /// The samples cannot be computed.
+    /// The samples cannot be computed or written.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The recording cannot be written.
-    #[error(transparent)]
-    Recording(#[from] RecordingError),
-    /// The folder or the file cannot be written.
+    /// There is no folder for the recording.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// A result cannot be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
 }
 
 /// Records the robot while each joint in turn moves over its range, in a folder of the robot's name in `out`. Nothing acts on
@@ -111,19 +106,12 @@ pub fn joint_sweep(description: RobotDescription, out: &std::path::Path) -> Resu
     };
     let setup = RunSetup::new(scenario, description)?;
     let folder = OutputFolder::create(out, &name, &setup.inputs)?;
-    let partial = format!("{}.partial", RerunFormat.file_name());
     let source = SweepSource::new(&setup.description.robot, &joints);
-    let mut run = Run::with_source(&setup, Box::new(source))?;
-    let sources = run.model().sources().to_vec();
-    let mut recording = RerunFormat.begin(&folder.file(&partial), &run)?;
-    let mut checks = setup.checks();
-    let (outcome, result) = run.finish(&mut checks, &mut *recording, |_| ());
-    result?;
-    let causes = Causes::from_samples(diagnose_run(&mut run, &outcome));
-    drop(run); // its source borrows the joints
-    let report = RunReport::new(&setup, &sources, outcome, causes, None);
-    recording.finish(&report)?;
-    folder.publish(&partial, RerunFormat.file_name())?;
+    let run = Run::with_source(&setup, Box::new(source))?;
+    // Nothing acts on the robot, so that there is no physics that the poses could be diagnosed with.
+    let causes = |run: &mut Run<'_>, outcome: &mut _| Causes::from_samples(diagnose_run(run, outcome));
+    let recorded = record(run, &[&RerunFormat], &folder, causes, |_| ()).map_err(RunError::from)?;
+    recorded.result?;
     Ok(JointSweep {
         format: "congruent-joint-sweep/1",
         robot: setup.description.robot.name().to_owned(),
@@ -131,7 +119,7 @@ pub fn joint_sweep(description: RobotDescription, out: &std::path::Path) -> Resu
         duration_s,
         joints,
         follow,
-        agrees: report.exit_code == 0,
+        agrees: recorded.report.exit_code == 0,
     })
 }
 

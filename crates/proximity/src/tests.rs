@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use congruent_description::{Geometry, Joint, JointKind, JointParts, Link, LinkIndex, Robot};
+use congruent_description::{Geometry, JointKind, JointParts, Link, LinkIndex, Robot};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
@@ -32,23 +32,9 @@ fn description() -> RobotDescription {
     ];
     let link = |(index, collisions)| Link { name: format!("link_{index}"), collisions, ..Link::default() };
     let links: Vec<Link> = shapes.into_iter().enumerate().map(link).collect();
-    let root = Robot::new("", vec![Link::default()], vec![]).unwrap().root();
-    let hang = |index: usize| JointParts {
-        joint: Joint {
-            name: format!("joint_{index}"),
-            kind: JointKind::Continuous,
-            parent: root,
-            child: root,
-            parent_from_joint: Isometry3::identity(),
-            axis_in_joint: Vector3::z_axis(),
-            limit: None,
-            damping: 0.0,
-            friction: 0.0,
-            mimic: None,
-        },
-        parent: "link_0".into(),
-        child: format!("link_{index}"),
-        mimic: None,
+    let hang = |index: usize| {
+        let [name, child] = ["joint", "link"].map(|what| format!("{what}_{index}"));
+        JointParts::new(&name, JointKind::Continuous, "link_0", &child, Isometry3::identity())
     };
     let robot = Robot::new("star", links, (1..6).map(hang).collect()).unwrap();
     RobotDescription {

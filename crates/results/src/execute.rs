@@ -6,13 +6,11 @@ use std::{
 };
 
 use congruent_monitors::{Recorder, Recorders, RecordingError};
-use congruent_scenario::TrajectoryFormat;
-use congruent_twin::{Run, RunError, RunSetup};
+use congruent_twin::{Outcome, Run, RunError, RunSetup};
 
 use crate::{
     files::{ComparedResults, FolderError, OutputError, OutputFolder, REPORT, compare_results, read_result},
-    report::{RunReport, earlier_report, explain, write_junit},
-    trajectory_file::TrajectoryRecorder,
+    report::{Causes, RunReport, earlier_report, explain, write_junit},
 };
 
 /// Which results are written, and to which folder.
@@ -97,9 +95,8 @@ pub enum ExecuteError {
 pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, PathBuf)> {
     let folder = OutputFolder::path_for(&options.out, &setup.scenario.name);
     let report = earlier_report(setup, &read_result(&folder.join(REPORT)).ok()?)?;
-    let trajectory = setup.scenario.output.trajectory.map(TrajectoryOutput::file_name);
-    let recordings = options.recordings.iter().map(|format| format.file_name());
-    let mut wanted = [REPORT, JUNIT, RESOLVED].into_iter().chain(recordings).chain(trajectory);
+    let recordings = formats(setup, options).map(RecordingFormat::file_name);
+    let mut wanted = [REPORT, JUNIT, RESOLVED].into_iter().chain(recordings);
     let ComparedResults { intact, changed } = compare_results(&folder)?;
     (changed.is_empty() && wanted.all(|name| intact.contains(&name))).then_some((report, folder))
 }
@@ -122,40 +119,71 @@ pub fn execute(
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
     let folder = OutputFolder::create(&options.out, &setup.scenario.name, &setup.inputs)?;
     folder.write(RESOLVED, setup.scenario.to_toml().as_bytes())?;
-    let mut checks = setup.checks();
     let cannot_run =
         |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
-    let mut run = Run::new(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
-    let sources = run.model().sources().to_vec();
-    let mut recordings = Vec::new();
-    for format in &options.recordings {
-        let file = StreamedFile::new(format.file_name(), format.if_incomplete());
-        recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
-    }
-    let mut trajectory = TrajectoryOutput::begin(&folder, &run)?;
-    let mut recorders = Recorders::default();
-    recorders.0.extend(recordings.iter_mut().map(|(recording, _)| &mut **recording as &mut dyn Recorder));
-    recorders.0.extend(trajectory.as_mut().map(|trajectory| &mut trajectory.recorder as &mut dyn Recorder));
-    let (mut outcome, mut result) = run.finish(&mut checks, &mut recorders, progress);
-    let causes = explain(&mut run, &mut outcome);
-    let mut settled = Vec::new();
-    if let Some(TrajectoryOutput { file, recorder }) = trajectory {
-        let closed = file.settle(&folder, recorder.finish(), &mut settled);
-        result = result.and(closed.map_err(RunError::from));
-    }
-    let mut report = RunReport::new(setup, &sources, outcome.clone(), causes.clone(), result.as_ref().err());
-    for (recording, file) in recordings {
-        let closed = file.settle(&folder, recording.finish(&report), &mut settled);
-        if let Err(error) = closed {
-            // The error of the run is reported before an error of the recording that follows from it.
-            result = result.and(Err(error.into()));
-            report = RunReport::new(setup, &sources, outcome.clone(), causes.clone(), result.as_ref().err());
-        }
-    }
+    let run = Run::new(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
+    let formats: Vec<_> = formats(setup, options).collect();
+    let RecordedRun { report, settled, .. } = record(run, &formats, &folder, explain, progress)?;
     match write_results(settled, &folder, &report).and_then(|()| folder.write_digests()) {
         Ok(()) => Ok((report, folder)),
         Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
     }
+}
+
+/// The files that take samples; the trajectory is completed before the page, which links to files that are there.
+fn formats<'a>(
+    setup: &'a RunSetup,
+    options: &'a Options<'_>,
+) -> impl Iterator<Item = &'a dyn RecordingFormat> {
+    let trajectory = setup.scenario.output.trajectory.as_ref().map(|format| format as &dyn RecordingFormat);
+    trajectory.into_iter().chain(options.recordings.iter().copied())
+}
+
+/// A run that has ended, with the files that took its samples.
+pub struct RecordedRun {
+    /// The report, as the last of these files has it unless one could not be completed.
+    pub report: RunReport,
+    /// Why the run, or one of its files, could not be completed.
+    pub result: Result<(), RunError>,
+    settled: Vec<Settled>,
+}
+
+/// Runs to the end and writes the samples to files of these formats, and nothing else. `explain` finds the causes of failed
+/// checks; `progress` is called with the number of steps taken.
+///
+/// # Errors
+/// [`RecordingError`] if one of the files cannot be created. A run that fails midway has a report.
+pub fn record(
+    mut run: Run<'_>,
+    formats: &[&dyn RecordingFormat],
+    folder: &OutputFolder,
+    explain: impl FnOnce(&mut Run<'_>, &mut Outcome) -> Causes,
+    progress: impl FnMut(u64),
+) -> Result<RecordedRun, RecordingError> {
+    let setup = run.setup();
+    let sources = run.model().sources().to_vec();
+    let mut recordings = Vec::new();
+    for format in formats {
+        let file = StreamedFile::new(*format);
+        recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
+    }
+    let mut recorders = Recorders::default();
+    recorders.0.extend(recordings.iter_mut().map(|(recording, _)| &mut **recording as &mut dyn Recorder));
+    let (mut outcome, mut result) = run.finish(&mut setup.checks(), &mut recorders, progress);
+    let causes = explain(&mut run, &mut outcome);
+    let report = |result: &Result<(), RunError>| {
+        RunReport::new(setup, &sources, outcome.clone(), causes.clone(), result.as_ref().err())
+    };
+    let (mut recorded, mut settled) = (report(&result), Vec::new());
+    for (recording, file) in recordings {
+        let closed = file.settle(folder, recording.finish(&recorded), &mut settled);
+        if let Err(error) = closed {
+            // The error of the run is reported before an error of the recording that follows from it.
+            result = result.and(Err(error.into()));
+            recorded = report(&result);
+        }
+    }
+    Ok(RecordedRun { report: recorded, result, settled })
 }
 
 /// Writes the report, whatever became of the other files.
@@ -210,7 +238,8 @@ struct Settled {
 }
 
 impl StreamedFile {
-    fn new(name: &'static str, if_incomplete: IfIncomplete) -> Self {
+    fn new(format: &dyn RecordingFormat) -> Self {
+        let (name, if_incomplete) = (format.file_name(), format.if_incomplete());
         Self { partial: format!("{name}.partial"), name, if_incomplete }
     }
 
@@ -234,32 +263,5 @@ impl StreamedFile {
         let named = if is_complete { named.copied() } else { Ok(()) };
         settled.push(file);
         closed.and(named)
-    }
-}
-
-/// The trajectory in progress, if the scenario asks for one.
-struct TrajectoryOutput {
-    file: StreamedFile,
-    recorder: TrajectoryRecorder,
-}
-
-impl TrajectoryOutput {
-    fn file_name(format: TrajectoryFormat) -> &'static str {
-        match format {
-            TrajectoryFormat::Csv => "trajectory.csv",
-            TrajectoryFormat::Parquet => "trajectory.parquet",
-        }
-    }
-
-    fn begin(folder: &OutputFolder, run: &Run<'_>) -> Result<Option<Self>, RecordingError> {
-        let Some(format) = run.setup().scenario.output.trajectory else { return Ok(None) };
-        let if_incomplete = match format {
-            TrajectoryFormat::Csv => IfIncomplete::Keep,
-            // It has its index at its end.
-            TrajectoryFormat::Parquet => IfIncomplete::Remove,
-        };
-        let file = StreamedFile::new(Self::file_name(format), if_incomplete);
-        let recorder = TrajectoryRecorder::create(&folder.file(&file.partial), format, run)?;
-        Ok(Some(Self { file, recorder }))
     }
 }

@@ -8,4 +8,6 @@ pub mod files;
 pub mod report;
 pub mod trajectory_file;
 
-pub use execute::{ExecuteError, IfIncomplete, Options, Recording, RecordingFormat, execute, finished};
+pub use execute::{
+    ExecuteError, IfIncomplete, Options, RecordedRun, Recording, RecordingFormat, execute, finished, record,
+};

@@ -56,7 +56,7 @@ fn inertia(robot: &Robot, body: usize, links: &[LinkOnBody]) -> Inertia {
 
 #[cfg(test)]
 mod tests {
-    use congruent_description::{Joint, JointParts, Link};
+    use congruent_description::{JointParts, Link};
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
@@ -73,22 +73,6 @@ mod tests {
     #[test]
     fn links_on_fixed_joints_are_one_body() {
         let root_link = Link { name: "root".into(), ..Link::default() };
-        let any = Robot::new("any", vec![root_link.clone()], vec![]).unwrap().root();
-        let parts = |kind, parent: &str, child: &str, parent_from_joint| {
-            let joint = Joint {
-                name: format!("{parent}-{child}"),
-                kind,
-                parent: any,
-                child: any,
-                parent_from_joint,
-                axis_in_joint: Vector3::z_axis(),
-                limit: None,
-                damping: 0.0,
-                friction: 0.0,
-                mimic: None,
-            };
-            JointParts { joint, parent: parent.into(), child: child.into(), mimic: None }
-        };
         // b is at (1, 2, 0) in a, turned by 90 deg about z: its (0, 2, 0) is a's (-1, 2, 0).
         let quarter_turn = Vector3::z() * std::f64::consts::FRAC_PI_2;
         let a_from_b = Isometry3::new(Vector3::new(1.0, 2.0, 0.0), quarter_turn);
@@ -98,8 +82,8 @@ mod tests {
             point_mass("b", Vector3::new(0.0, 2.0, 0.0)),
         ];
         let joints = vec![
-            parts(JointKind::Revolute, "root", "a", Isometry3::translation(5.0, 6.0, 7.0)),
-            parts(JointKind::Fixed, "a", "b", a_from_b),
+            JointParts::new("turn", JointKind::Revolute, "root", "a", Isometry3::translation(5.0, 6.0, 7.0)),
+            JointParts::new("fixed", JointKind::Fixed, "a", "b", a_from_b),
         ];
         let bodies = Bodies::lumped(&Robot::new("two", links, joints).unwrap());
 

@@ -33,11 +33,10 @@ const LARGEST: f64 = 1e75;
 /// # Examples
 /// A bar of 1 kg on a hinge, released level, falls:
 /// ```
-/// use congruent_description::{Inertia, Joint, JointKind, JointParts, Link, Robot, RobotQ};
+/// use congruent_description::{Inertia, JointKind, JointParts, Link, Robot, RobotQ};
 /// use congruent_simulation::{Passive, Setpoint, World, WorldSettings};
 /// use nalgebra::{Isometry3, Matrix3, Vector3};
 ///
-/// # let root = Robot::new("", vec![Link::default()], vec![])?.root();
 /// let inertia = Inertia {
 ///     mass_kg: 1.0,
 ///     link_from_inertial: Isometry3::translation(0.5, 0.0, 0.0),
@@ -45,16 +44,9 @@ const LARGEST: f64 = 1e75;
 /// };
 /// let base = Link { name: "base".into(), ..Link::default() };
 /// let bar = Link { name: "bar".into(), inertia: Some(inertia), ..Link::default() };
-/// let hinge = Joint {
-///     name: "hinge".into(),
-///     kind: JointKind::Continuous,
-///     parent: root, child: root, // both are overwritten by the names below
-///     parent_from_joint: Isometry3::identity(),
-///     axis_in_joint: Vector3::y_axis(),
-///     limit: None, damping: 0.0, friction: 0.0, mimic: None,
-/// };
-/// let parts = JointParts { joint: hinge, parent: "base".into(), child: "bar".into(), mimic: None };
-/// let robot = Robot::new("pendulum", vec![base, bar], vec![parts])?;
+/// let mut hinge = JointParts::new("hinge", JointKind::Continuous, "base", "bar", Isometry3::identity());
+/// hinge.joint.axis_in_joint = Vector3::y_axis();
+/// let robot = Robot::new("pendulum", vec![base, bar], vec![hinge])?;
 ///
 /// let mut world = World::new(&robot, &WorldSettings::default())?;
 /// let level = RobotQ::zeros(1);

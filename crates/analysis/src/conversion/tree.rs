@@ -40,7 +40,7 @@ pub(super) fn tree(model: &ConvertedModel<'_>) -> Result<Robot, Diagnostic> {
     // The tip keeps its own orientation, which no joint frame has.
     last.translation.vector = (last.translation.vector - here_in_base).map(clean);
     links.push(link(&tip));
-    parts.push(fixed(&parent, &tip, last, model.description.base));
+    parts.push(JointParts::new(&format!("{parent}_to_{tip}"), JointKind::Fixed, &parent, &tip, last));
     Robot::new(source.name(), links, parts)
         .map_err(|error| Diagnostic::error(codes::convert::TREE, error.to_string()))
 }
@@ -82,26 +82,6 @@ fn moved_link(joint: &Joint, source: &Robot, tip: &str) -> String {
 fn followed(source: &Robot, mimic: &Mimic, joints: &[JointIndex]) -> Option<(String, f64, f64)> {
     let master = joints.contains(&mimic.master).then(|| source.joint(mimic.master).name.clone())?;
     Some((master, mimic.multiplier, mimic.offset))
-}
-
-fn fixed(parent: &str, tip: &str, parent_from_joint: Isometry3<f64>, any_link: LinkIndex) -> JointParts {
-    JointParts {
-        joint: Joint {
-            name: format!("{parent}_to_{tip}"),
-            kind: JointKind::Fixed,
-            parent: any_link, // overwritten when the tree is built
-            child: any_link,
-            parent_from_joint,
-            axis_in_joint: Vector3::z_axis(),
-            limit: None,
-            damping: 0.0,
-            friction: 0.0,
-            mimic: None,
-        },
-        parent: parent.to_owned(),
-        child: tip.to_owned(),
-        mimic: None,
-    }
 }
 
 fn link(name: &str) -> Link {

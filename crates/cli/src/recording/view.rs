@@ -14,7 +14,7 @@ use congruent::{
     recording::RerunFormat,
     results::{Options, RecordingFormat},
     text::joint_sweep_text,
-    twin::RunSetup,
+    twin::{RunError, RunSetup},
 };
 
 use super::viewer::Viewer;
@@ -107,8 +107,7 @@ fn refused(error: SweepError) -> Failure {
     match error {
         SweepError::Robot(findings) => findings.into(),
         SweepError::Folder(error) => no_folder(error),
-        SweepError::Output(error) => no_folder(error.into()),
-        SweepError::Recording(error) => Failure::Machine(error.to_string()),
+        SweepError::Run(RunError::Recording(error)) => Failure::Machine(error.to_string()),
         error => Diagnostic::error(codes::view::ROBOT, error.to_string()).into(),
     }
 }

@@ -138,3 +138,40 @@ pub struct JointParts {
     /// Name of the mimicked joint, multiplier, offset.
     pub mimic: Option<(String, f64, f64)>,
 }
+
+impl JointParts {
+    /// A joint between two links, about or along the z axis of its frame, without limits and losses.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_description::{JointKind, JointParts, Link, Robot};
+    /// use nalgebra::Isometry3;
+    ///
+    /// let link = |name: &str| Link { name: name.into(), ..Link::default() };
+    /// let flange = JointParts::new("flange", JointKind::Fixed, "arm", "tool", Isometry3::translation(0.0, 0.0, 0.1));
+    /// assert_eq!(Robot::new("short", vec![link("arm"), link("tool")], vec![flange])?.dof(), 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn new(
+        name: &str,
+        kind: JointKind,
+        parent: &str,
+        child: &str,
+        parent_from_joint: Isometry3<f64>,
+    ) -> Self {
+        let joint = Joint {
+            name: name.to_owned(),
+            kind,
+            // Overwritten when the tree is built.
+            parent: LinkIndex(0),
+            child: LinkIndex(0),
+            parent_from_joint,
+            axis_in_joint: Vector3::z_axis(),
+            limit: None,
+            damping: 0.0,
+            friction: 0.0,
+            mimic: None,
+        };
+        Self { joint, parent: parent.to_owned(), child: child.to_owned(), mimic: None }
+    }
+}

@@ -35,18 +35,12 @@ const SEARCHES: usize = 4;
 /// # Examples
 /// A turning arm of 0.5 m, off by one degree: 2 sin(0.5 deg) times its length, everywhere.
 /// ```
-/// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+/// # use congruent_description::{JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
 /// use congruent_description::ArmQ;
 /// use congruent_kinematics::{Arm, Pose, Sampling, displacement};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
-/// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
-/// # let joint = Joint {
-/// #     name: "turn".into(), kind: JointKind::Continuous, parent: single.root(), child: single.root(),
-/// #     parent_from_joint: Isometry3::identity(), axis_in_joint: Vector3::z_axis(),
-/// #     limit: None, damping: 0., friction: 0., mimic: None,
-/// # };
-/// # let parts = JointParts { joint, parent: "base".into(), child: "arm".into(), mimic: None };
+/// # let parts = JointParts::new("turn", JointKind::Continuous, "base", "arm", Isometry3::identity());
 /// # let robot = Robot::new("r", vec![link("base"), link("arm")], vec![parts]).unwrap();
 /// let tool = Pose { translation: Vector3::new(0.5, 0., 0.), ..Pose::identity() };
 /// let arm = Arm::new(&robot, robot.root(), robot.find_link("arm").unwrap(), tool)?;

@@ -20,24 +20,16 @@ use crate::{
 /// # Examples
 /// A lift of 0.2 m that carries an arm:
 /// ```
-/// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+/// # use congruent_description::{JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
 /// use congruent_description::RobotQ;
 /// use congruent_kinematics::{Pose, UrdfTree};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
-/// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
-/// # let parts = |name: &str, kind, parent: &str, child: &str, x: f64| JointParts {
-/// #     joint: Joint {
-/// #         name: name.into(), kind, parent: single.root(), child: single.root(),
-/// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
-/// #         limit: None, damping: 0., friction: 0., mimic: None,
-/// #     },
-/// #     parent: parent.into(), child: child.into(), mimic: None,
-/// # };
+/// # let at = |x: f64| Isometry3::translation(x, 0., 0.);
 /// # let robot = Robot::new("r", vec![link("base"), link("lift"), link("arm"), link("tool")], vec![
-/// #     parts("lift", JointKind::Prismatic, "base", "lift", 0.),
-/// #     parts("turn", JointKind::Continuous, "lift", "arm", 0.),
-/// #     parts("flange", JointKind::Fixed, "arm", "tool", 0.5)]).unwrap();
+/// #     JointParts::new("lift", JointKind::Prismatic, "base", "lift", at(0.)),
+/// #     JointParts::new("turn", JointKind::Continuous, "lift", "arm", at(0.)),
+/// #     JointParts::new("flange", JointKind::Fixed, "arm", "tool", at(0.5))]).unwrap();
 /// let tree = UrdfTree::new(&robot);
 /// let q = RobotQ::from([0.2, std::f64::consts::FRAC_PI_2]);
 /// let mut root_from_links = [Pose::identity(); 4];
@@ -198,23 +190,15 @@ impl UrdfTree {
     /// # Examples
     /// An arm of 0.5 m on a vertical hinge, and its tool's velocity:
     /// ```
-    /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+    /// # use congruent_description::{JointKind, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Vector3};
     /// use congruent_description::RobotQ;
     /// use congruent_kinematics::{JacobianKind, UrdfTree};
     /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
-    /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
-    /// # let parts = |name: &str, kind, parent: &str, child: &str, x: f64| JointParts {
-    /// #     joint: Joint {
-    /// #         name: name.into(), kind, parent: single.root(), child: single.root(),
-    /// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
-    /// #         limit: None, damping: 0., friction: 0., mimic: None,
-    /// #     },
-    /// #     parent: parent.into(), child: child.into(), mimic: None,
-    /// # };
+    /// # let at = |x: f64| Isometry3::translation(x, 0., 0.);
     /// # let robot = Robot::new("r", vec![link("base"), link("arm"), link("tool")], vec![
-    /// #     parts("turn", JointKind::Continuous, "base", "arm", 0.),
-    /// #     parts("flange", JointKind::Fixed, "arm", "tool", 0.5)]).unwrap();
+    /// #     JointParts::new("turn", JointKind::Continuous, "base", "arm", at(0.)),
+    /// #     JointParts::new("flange", JointKind::Fixed, "arm", "tool", at(0.5))]).unwrap();
     /// let (tree, tool) = (UrdfTree::new(&robot), robot.find_link("tool").unwrap());
     /// let jacobian = tree.jacobian(&RobotQ::zeros(1), tool, JacobianKind::Geometric)?;
     /// assert_eq!(jacobian.times(&[2.0])?.linear, Vector3::new(0., 1., 0.));

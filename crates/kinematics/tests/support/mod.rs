@@ -7,8 +7,7 @@
 use std::f64::consts::PI;
 
 use congruent_description::{
-    ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Joint, JointKind, JointParts, Link, LinkIndex, Robot,
-    RobotQ,
+    ChainQ, DhConvention, DhRow, DhRowKind, DhTable, JointKind, JointParts, Link, Robot, RobotQ,
 };
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 use proptest::{prelude::*, test_runner::FileFailurePersistence};
@@ -89,34 +88,20 @@ impl Carried {
         }
     }
 
-    fn parts(self, any_link: LinkIndex) -> JointParts {
-        JointParts {
-            parent: self.parent,
-            child: self.name.clone(),
-            mimic: None,
-            joint: Joint {
-                name: self.name,
-                kind: self.kind,
-                parent: any_link,
-                child: any_link,
-                parent_from_joint: self.parent_from_joint,
-                axis_in_joint: self.axis_in_joint,
-                limit: None,
-                damping: 0.0,
-                friction: 0.0,
-                mimic: None,
-            },
-        }
+    fn parts(self) -> JointParts {
+        let Self { name, parent, kind, parent_from_joint, axis_in_joint } = self;
+        let mut parts = JointParts::new(&name, kind, &parent, &name, parent_from_joint);
+        parts.joint.axis_in_joint = axis_in_joint;
+        parts
     }
 }
 
 /// A robot with the root link `base` and one link for each joint, named like the joint.
 pub fn robot(joints: Vec<Carried>) -> Robot {
     let link = |name: &str| Link { name: name.into(), ..Link::default() };
-    let root_only = Robot::new("root", vec![link("base")], vec![]).expect("one link is a robot");
     let mut links = vec![link("base")];
     links.extend(joints.iter().map(|joint| link(&joint.name)));
-    let joints = joints.into_iter().map(|joint| joint.parts(root_only.root())).collect();
+    let joints = joints.into_iter().map(Carried::parts).collect();
     Robot::new("test", links, joints).expect("the parts are a tree")
 }
 

@@ -10,4 +10,3 @@ mod recorder;
 mod table;
 
 pub use congruent_tables::{RowReader, TableError, Value, open, run_columns::TIME};
-pub(crate) use recorder::TrajectoryRecorder;

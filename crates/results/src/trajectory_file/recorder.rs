@@ -12,36 +12,51 @@ use super::{
     parquet::ParquetTable,
     table::TableWriter,
 };
+use crate::{
+    execute::{IfIncomplete, Recording, RecordingFormat},
+    report::RunReport,
+};
 
 /// Writes a trajectory while the run goes on.
-pub(crate) struct TrajectoryRecorder {
+struct TrajectoryRecorder {
     cells: SampleCells,
     table: Box<dyn TableWriter>,
     /// Steps from row to row.
     stride: u64,
 }
 
-impl TrajectoryRecorder {
-    /// Creates the file of a run that is about to start.
-    pub(crate) fn create(
-        path: &Path,
-        format: TrajectoryFormat,
-        run: &Run<'_>,
-    ) -> Result<Self, RecordingError> {
+impl RecordingFormat for TrajectoryFormat {
+    fn file_name(&self) -> &'static str {
+        match self {
+            Self::Csv => "trajectory.csv",
+            Self::Parquet => "trajectory.parquet",
+        }
+    }
+
+    fn if_incomplete(&self) -> IfIncomplete {
+        match self {
+            Self::Csv => IfIncomplete::Keep,
+            // It has its index at its end.
+            Self::Parquet => IfIncomplete::Remove,
+        }
+    }
+
+    fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
         let setup = run.setup();
         let cells = SampleCells::new(&setup.description, run.names());
         let header = header(&setup.description);
-        let table: Box<dyn TableWriter> = match format {
-            TrajectoryFormat::Csv => Box::new(CsvTable::create(path, &header)?),
-            TrajectoryFormat::Parquet => Box::new(ParquetTable::create(path, &header)?),
+        let table: Box<dyn TableWriter> = match self {
+            Self::Csv => Box::new(CsvTable::create(path, &header)?),
+            Self::Parquet => Box::new(ParquetTable::create(path, &header)?),
         };
         let step_s = setup.clock.step_s;
         let period_s = setup.scenario.output.trajectory_period_s.unwrap_or(step_s);
-        Ok(Self { cells, table, stride: stride(period_s, step_s) })
+        Ok(Box::new(TrajectoryRecorder { cells, table, stride: stride(period_s, step_s) }))
     }
+}
 
-    /// Writes the end of the file and closes it.
-    pub(crate) fn finish(self) -> Result<(), RecordingError> {
+impl Recording for TrajectoryRecorder {
+    fn finish(self: Box<Self>, _: &RunReport) -> Result<(), RecordingError> {
         self.table.finish()
     }
 }

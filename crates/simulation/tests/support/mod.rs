@@ -5,17 +5,12 @@
 #![allow(missing_docs, unreachable_pub, reason = "helpers of tests")]
 
 use congruent_description::{
-    Geometry, Inertia, Joint, JointKind, JointLimit, JointParts, Link, LinkIndex, Robot, RobotQ, Shape,
+    Geometry, Inertia, JointKind, JointLimit, JointParts, Link, Robot, RobotQ, Shape,
 };
 use congruent_simulation::{
     Commands, Controller, Gains, JointsView, Kinematic, Motor, Passive, Pd, Setpoint, World, WorldSettings,
 };
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
-
-/// A link index, which `Robot::new` overwrites.
-fn any_link() -> LinkIndex {
-    Robot::new("", vec![Link::default()], vec![]).unwrap().root()
-}
 
 pub fn massless(name: &str) -> Link {
     Link { name: name.into(), ..Link::default() }
@@ -36,19 +31,8 @@ pub fn link(name: &str, mass_kg: f64, com_m: [f64; 3], inertia_kg_m2: [f64; 3]) 
 pub fn joint(kind: JointKind, ends: (&str, &str), xyz_m: [f64; 3], rpy_rad: [f64; 3]) -> JointParts {
     let [roll, pitch, yaw] = rpy_rad;
     let rotation = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
-    let joint = Joint {
-        name: format!("{}_joint", ends.1),
-        kind,
-        parent: any_link(),
-        child: any_link(),
-        parent_from_joint: Isometry3::from_parts(Translation3::from(Vector3::from(xyz_m)), rotation),
-        axis_in_joint: Vector3::z_axis(),
-        limit: None,
-        damping: 0.0,
-        friction: 0.0,
-        mimic: None,
-    };
-    JointParts { joint, parent: ends.0.into(), child: ends.1.into(), mimic: None }
+    let parent_from_joint = Isometry3::from_parts(Translation3::from(Vector3::from(xyz_m)), rotation);
+    JointParts::new(&format!("{}_joint", ends.1), kind, ends.0, ends.1, parent_from_joint)
 }
 
 pub fn about(mut parts: JointParts, axis: [f64; 3]) -> JointParts {

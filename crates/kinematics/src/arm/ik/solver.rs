@@ -72,24 +72,16 @@ impl IkSolver {
     /// # Examples
     /// An arm of two links of 0.6 m and 0.4 m reaches (0.6, 0.4), and gives the residual of (2, 0):
     /// ```
-    /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+    /// # use congruent_description::{JointKind, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Matrix3, Vector3};
     /// use congruent_description::ArmQ;
     /// use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, Pose, TargetPart};
     /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
-    /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
-    /// # let parts = |name: &str, kind, parent: &str, child: &str, x: f64| JointParts {
-    /// #     joint: Joint {
-    /// #         name: name.into(), kind, parent: single.root(), child: single.root(),
-    /// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
-    /// #         limit: None, damping: 0., friction: 0., mimic: None,
-    /// #     },
-    /// #     parent: parent.into(), child: child.into(), mimic: None,
-    /// # };
+    /// # let at = |x: f64| Isometry3::translation(x, 0., 0.);
     /// # let robot = Robot::new("2r", vec![link("base"), link("upper"), link("lower"), link("tip")], vec![
-    /// #     parts("shoulder", JointKind::Continuous, "base", "upper", 0.),
-    /// #     parts("elbow", JointKind::Continuous, "upper", "lower", 0.6),
-    /// #     parts("flange", JointKind::Fixed, "lower", "tip", 0.4)]).unwrap();
+    /// #     JointParts::new("shoulder", JointKind::Continuous, "base", "upper", at(0.)),
+    /// #     JointParts::new("elbow", JointKind::Continuous, "upper", "lower", at(0.6)),
+    /// #     JointParts::new("flange", JointKind::Fixed, "lower", "tip", at(0.4))]).unwrap();
     /// let tip = robot.find_link("tip").unwrap();
     /// let mut solver = IkSolver::new(Arm::new(&robot, robot.root(), tip, Pose::identity())?);
     /// let to = |x, y| IkTarget {
@@ -152,19 +144,14 @@ impl IkSolver {
     /// # Examples
     /// A slide 0.3 m before its target has 0.3 m to go, until its setpoint is at the limit:
     /// ```
-    /// # use congruent_description::{Joint, JointKind, JointLimit, JointParts, Link, Robot};
+    /// # use congruent_description::{JointKind, JointLimit, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Matrix3, Vector3};
     /// use congruent_description::ArmQ;
     /// use congruent_kinematics::{Arm, DifferentialMethod, IkSolver, IkTarget, Pose, TargetPart};
     /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
-    /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
-    /// # let slide = Joint {
-    /// #     name: "slide".into(), kind: JointKind::Prismatic, parent: single.root(), child: single.root(),
-    /// #     parent_from_joint: Isometry3::identity(), axis_in_joint: Vector3::x_axis(),
-    /// #     limit: Some(JointLimit { lower: 0., upper: 0.5, velocity: None, effort: None }),
-    /// #     damping: 0., friction: 0., mimic: None,
-    /// # };
-    /// # let parts = JointParts { joint: slide, parent: "base".into(), child: "tip".into(), mimic: None };
+    /// # let mut parts = JointParts::new("slide", JointKind::Prismatic, "base", "tip", Isometry3::identity());
+    /// # parts.joint.axis_in_joint = Vector3::x_axis();
+    /// # parts.joint.limit = Some(JointLimit { lower: 0., upper: 0.5, velocity: None, effort: None });
     /// # let robot = Robot::new("1p", vec![link("base"), link("tip")], vec![parts]).unwrap();
     /// let tip = robot.find_link("tip").unwrap();
     /// let mut solver = IkSolver::new(Arm::new(&robot, robot.root(), tip, Pose::identity())?); // goes from 0 to 0.5 m

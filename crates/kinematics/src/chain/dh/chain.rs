@@ -21,19 +21,13 @@ use crate::{
 /// # Examples
 /// A planar arm of two links of 0.6 m and 0.4 m, the elbow at a right angle:
 /// ```
-/// # use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Joint, JointKind, JointParts, Link, Robot};
+/// # use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
 /// use congruent_description::RobotQ;
 /// use congruent_kinematics::{DhChain, DhFrames, Pose};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
-/// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
-/// # let parts = |name: &str, parent: &str, child: &str, x: f64| JointParts {
-/// #     joint: Joint {
-/// #         name: name.into(), kind: JointKind::Continuous, parent: single.root(), child: single.root(),
-/// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
-/// #         limit: None, damping: 0., friction: 0., mimic: None,
-/// #     },
-/// #     parent: parent.into(), child: child.into(), mimic: None,
+/// # let parts = |name: &str, parent: &str, child: &str, x: f64| {
+/// #     JointParts::new(name, JointKind::Continuous, parent, child, Isometry3::translation(x, 0., 0.))
 /// # };
 /// # let robot = Robot::new("2r", vec![link("base"), link("upper"), link("lower")],
 /// #     vec![parts("shoulder", "base", "upper", 0.), parts("elbow", "upper", "lower", 0.6)]).unwrap();

@@ -6,6 +6,8 @@ pub(crate) mod conditions;
 pub(crate) mod derivatives;
 mod derive;
 pub(crate) mod modified;
+#[cfg(test)]
+mod rows;
 pub(crate) mod serial;
 pub(crate) mod standard;
 

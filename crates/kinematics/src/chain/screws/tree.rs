@@ -22,23 +22,15 @@ use crate::{
 /// # Examples
 /// A turn about the vertical axis through (0.6, 0, 0), which carries a tool at (1, 0, 0):
 /// ```
-/// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+/// # use congruent_description::{JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
 /// use congruent_description::RobotQ;
 /// use congruent_kinematics::ScrewTree;
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
-/// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
-/// # let parts = |name: &str, kind, parent: &str, child: &str, x: f64| JointParts {
-/// #     joint: Joint {
-/// #         name: name.into(), kind, parent: single.root(), child: single.root(),
-/// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
-/// #         limit: None, damping: 0., friction: 0., mimic: None,
-/// #     },
-/// #     parent: parent.into(), child: child.into(), mimic: None,
-/// # };
+/// # let at = |x: f64| Isometry3::translation(x, 0., 0.);
 /// # let robot = Robot::new("r", vec![link("base"), link("arm"), link("tool")], vec![
-/// #     parts("turn", JointKind::Continuous, "base", "arm", 0.6),
-/// #     parts("flange", JointKind::Fixed, "arm", "tool", 0.4)]).unwrap();
+/// #     JointParts::new("turn", JointKind::Continuous, "base", "arm", at(0.6)),
+/// #     JointParts::new("flange", JointKind::Fixed, "arm", "tool", at(0.4))]).unwrap();
 /// let screws = ScrewTree::new(&robot);
 /// let turn = screws.screw(robot.find_joint("turn").unwrap()).unwrap();
 /// assert_eq!(turn.twist().linear, Vector3::new(0., -0.6, 0.));

@@ -26,24 +26,16 @@ use crate::{
 ///
 /// # Examples
 /// ```
-/// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+/// # use congruent_description::{JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
 /// use congruent_description::ChainQ;
 /// use congruent_kinematics::{JacobianKind, SerialChain, Twist};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
-/// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
-/// # let parts = |name: &str, kind, parent: &str, child: &str, x: f64| JointParts {
-/// #     joint: Joint {
-/// #         name: name.into(), kind, parent: single.root(), child: single.root(),
-/// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
-/// #         limit: None, damping: 0., friction: 0., mimic: None,
-/// #     },
-/// #     parent: parent.into(), child: child.into(), mimic: None,
-/// # };
+/// # let at = |x: f64| Isometry3::translation(x, 0., 0.);
 /// # let robot = Robot::new("2r", vec![link("base"), link("upper"), link("lower"), link("tip")], vec![
-/// #     parts("shoulder", JointKind::Continuous, "base", "upper", 0.),
-/// #     parts("elbow", JointKind::Continuous, "upper", "lower", 0.6),
-/// #     parts("flange", JointKind::Fixed, "lower", "tip", 0.4)]).unwrap();
+/// #     JointParts::new("shoulder", JointKind::Continuous, "base", "upper", at(0.)),
+/// #     JointParts::new("elbow", JointKind::Continuous, "upper", "lower", at(0.6)),
+/// #     JointParts::new("flange", JointKind::Fixed, "lower", "tip", at(0.4))]).unwrap();
 /// let chain = SerialChain::from_urdf(&robot, robot.root(), robot.find_link("tip").unwrap());
 /// let mut columns = vec![Twist::zero(); chain.joint_count()];
 /// let q = ChainQ::zeros(2);
