@@ -305,8 +305,8 @@ fn a_table_does_not_exist_from_another_base() {
     let answer = congruent(&arguments);
     assert_eq!(answer.code, 2);
     for words in [
-        "--from dh: the [dh] table describes the chain from \"base_link\" to \"tool0\"",
-        "--base and --tip choose \"shoulder_link\" to \"tool0\"",
+        "--from dh: the [dh] table",
+        "\"base_link\" to \"tool0\", not from \"shoulder_link\" to \"tool0\"",
         "--from urdf",
     ] {
         assert!(answer.stderr.contains(words), "no {words:?} in {}", answer.stderr);

@@ -159,7 +159,7 @@ fn values_are_checked() {
         "tip = 'tip'",
         "tip = 'tip'\ntolerance = { position_m = 0 }",
         5,
-        "tolerance position must be greater than 0",
+        "tolerance of position must be greater than 0",
     );
     error("tip = 'tip'", "tip = 'tip'\ntolerance = { orientation_deg = nan }", 5, "orientation_deg is NaN");
     error("tip = 'tip'", "tip = 'tip'\ntcp = { quaternion_wxyz = [0.5, 0.5, 0.5, 0.6] }", 5, "norm 1.05");
