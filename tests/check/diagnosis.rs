@@ -65,12 +65,12 @@ fn case_22_diagnoses_swapped_joints() {
 
 #[test]
 fn one_entry_is_named_with_its_line_and_what_should_stand_there() {
-    let (answer, file) = check_changed("ur5e", &[("elbow_joint", "a_m = -0.3922", "a_m = -0.392")]);
+    let (answer, file) = check_changed("ur5e", &[("elbow_joint", "a_m = -0.3922", "a_m = -0.3822")]);
     let cause = first_cause(&answer);
     assert_eq!([&cause["cause"], &cause["joint"], &cause["parameter"]], ["parameter", "elbow_joint", "a"]);
-    near(&cause["found"], -0.392);
+    near(&cause["found"], -0.3822);
     near(&cause["expected"], -0.3922);
-    is_at_line(&cause, &file, "a_m = -0.392");
+    is_at_line(&cause, &file, "a_m = -0.3822");
 }
 
 #[test]
@@ -137,41 +137,44 @@ fn people_see_the_line_at_fault() {
     }
 }
 
-/// Published tables against published URDFs: what an independent study found, the diagnosis finds.
+/// Published tables against published URDFs: what an independent study found, the diagnosis finds, except for
+/// the rounding of the digits that both are typed with.
 #[track_caller]
 fn published(pairing: &Pairing<'_>) -> Option<Value> {
     let cause = first_cause(&check_table(pairing, &corpus()?));
-    assert!(cause["residual_m"].as_f64().unwrap() < FITTED, "{cause}");
+    assert_eq!(cause["within_tolerance"], true, "{cause}");
     Some(cause)
 }
 
-#[test]
-fn panda_rtb_has_a_tool_of_its_own() {
-    let (base, tip) = ("panda_link0", "panda_hand_tcp");
-    let Some(cause) =
-        published(&Pairing { table: "panda_rtb", urdf: "panda", base, tip, joints: &PANDA_JOINTS })
-    else {
-        return;
-    };
-    assert_eq!(cause["cause"], "tool");
-    near(&cause["translation_m"][2], -0.4e-3);
+/// Rounding alone is no cause; the nearest table shows which values are rounded.
+#[track_caller]
+fn only_rounded(pairing: &Pairing<'_>) {
+    let Some(corpus) = corpus() else { return };
+    let report = check_table(pairing, &corpus).json();
+    assert_eq!([&report["verdict"], &report["grade"]], ["disagree", "same_within_digits"]);
+    assert_eq!(report["diagnosis"], Value::Array(Vec::new()));
+    let nearest = &report["diagnoses"][0]["table"];
+    assert!(nearest["residual"]["position_m"].as_f64().unwrap() < FITTED, "{nearest}");
 }
 
 #[test]
-fn xarm7_differs_by_quarter_turns_with_four_decimals() {
+fn panda_rtb_rounds_its_tool() {
+    let (base, tip) = ("panda_link0", "panda_hand_tcp");
+    only_rounded(&Pairing { table: "panda_rtb", urdf: "panda", base, tip, joints: &PANDA_JOINTS });
+}
+
+#[test]
+fn xarm7_differs_by_quarter_turns_with_four_decimals_alone() {
     let joints = ["joint1", "joint2", "joint3", "joint4", "joint5", "joint6", "joint7"];
     for table in ["xarm7_vendor_modified", "xarm7_vendor_standard"] {
         let pairing =
             Pairing { table, urdf: "xarm7_gripper", base: "world", tip: "link_eef", joints: &joints };
-        let Some(cause) = published(&pairing) else { return };
-        assert_eq!([&cause["cause"], &cause["parameter"]], ["parameter", "rpy"]);
-        near(&cause["value"], 3.673_2e-6); // 1.5708 less pi/2
-        assert_eq!(cause["joints"].as_array().unwrap().len(), 6);
+        only_rounded(&pairing);
     }
 }
 
 #[test]
-fn baxter_differs_in_base_tool_and_two_offsets() {
+fn baxter_differs_in_base_and_tool() {
     let joints = ["left_s0", "left_s1", "left_e0", "left_e1", "left_w0", "left_w1", "left_w2"];
     let pairing = Pairing {
         table: "baxter_left_rtb",
@@ -182,21 +185,23 @@ fn baxter_differs_in_base_tool_and_two_offsets() {
     };
     let Some(cause) = published(&pairing) else { return };
     assert_eq!(cause["cause"], "several");
-    let offset = |joint: &str| {
-        let parts = cause["parts"].as_array().unwrap();
-        let is_it = |part: &&Value| part["joint"] == joint && part["parameter"] == "d";
-        parts.iter().find(is_it).unwrap_or_else(|| panic!("no {joint} in {cause}"))["value"].clone()
-    };
-    // The study's smallest change of the table: row 3 d +0.42 mm, row 5 d +0.29 mm.
-    near(&offset("left_e0"), -0.42e-3);
-    near(&offset("left_w0"), -0.29e-3);
+    let parts = cause["parts"].as_array().unwrap();
+    assert_eq!(parts.len(), 2, "{cause}");
+    // The study's other changes, 0.42 mm and 0.29 mm of two offsets, are rounding: the table has d in whole centimetres
+    // or millimetres there.
+    assert_eq!((&parts[0]["cause"], &parts[1]["cause"]), (&"base".into(), &"parameter".into()));
+    assert_eq!((&parts[1]["joint"], &parts[1]["parameter"]), (&"left_w2".into(), &"d".into()));
 }
 
 #[test]
-fn a_ur5_differs_from_a_ur5e_in_five_figures() {
+fn a_ur5_differs_from_a_ur5e_in_four_figures() {
     let pairing =
         Pairing { table: "ur5_rtb", urdf: "ur5e", base: "base", tip: "tool0", joints: &UR5E_JOINTS };
     let Some(cause) = published(&pairing) else { return };
     assert_eq!(cause["cause"], "several");
-    assert_eq!(cause["parts"].as_array().unwrap().len(), 5);
+    // The four offsets d, each with the value that the URDF is typed with; a3 = -0.39225 rounds to its -0.3922.
+    let parts = cause["parts"].as_array().unwrap();
+    let expected: Vec<&Value> = parts.iter().map(|part| &part["expected"]).collect();
+    assert_eq!(expected, [0.1625, 0.1333, 0.0996, 0.0997]);
+    assert!(cause["residual_m"].as_f64().unwrap() < 0.51e-4, "{cause}");
 }

@@ -3,6 +3,7 @@
 mod configurations;
 mod diagnosis;
 mod diagnosis_chains;
+mod digits;
 mod dynamics;
 mod dynamics_causes;
 mod joint_losses;

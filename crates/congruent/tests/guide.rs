@@ -71,7 +71,6 @@ fn a_ratio() {
         use congruent::agreement::diagnosis::{
             CandidateModel, Cause, Criterion, ModelPair, ReferenceModel, diagnose,
         };
-        use congruent::description::Tolerance;
         use congruent::kinematics::{Pose, ScrewChain, Twist};
         use congruent::nalgebra::{Matrix3, Vector3};
 
@@ -82,7 +81,7 @@ fn a_ratio() {
         let mut candidate = CandidateModel::from_screws(&turntable);
         candidate.rows[0].rate = 0.98; // 0.98 rad for each radian of the joint variable
         let models = ModelPair { candidate, reference: ReferenceModel::from_screws(&turntable) };
-        let criterion = Criterion { tolerance: Tolerance::default(), configurations: vec![[1.0].into()] };
+        let criterion = Criterion { configurations: vec![[1.0].into()], ..Criterion::default() };
         assert_eq!(diagnose(&models, &criterion).explanations[0].cause(), Cause::Ratio);
     }
 }

@@ -64,6 +64,9 @@ pub struct RobotDescription {
     pub tip_from_tcp: Option<Isometry3<f64>>,
     /// Largest difference of poses at which model and twin still agree.
     pub tolerance: Tolerance,
+    /// Whether the robot file or the caller has set the tolerance. If nobody has, a table is judged by the digits that it
+    /// is typed with.
+    pub tolerance_is_declared: bool,
     /// The other files and folders that the robot file names.
     pub named_files: NamedFiles,
     /// Link pairs that an SRDF excludes from clearance, the smaller index first.

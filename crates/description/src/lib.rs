@@ -31,11 +31,12 @@ pub use model::{
 };
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint,
-    RobotFilePlaces, RowKey, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, robot_file_schema,
+    RobotFilePlaces, RowKey, TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot,
+    robot_file_schema,
 };
 pub use robot_file_text::{dh_section, relative_path, robot_file_text, robot_file_values};
 pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{
-    LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES, UrdfPlaces,
-    misspellings, node, parse_urdf, urdf_text,
+    JointDigits, LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES,
+    UrdfPlaces, misspellings, node, parse_urdf, urdf_text,
 };

@@ -176,6 +176,7 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
         dynamics: None,
         tip_from_tcp: None,
         tolerance: Tolerance::default(),
+        tolerance_is_declared: false,
         named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings,
@@ -295,6 +296,7 @@ fn declared(
         .is_some()
         .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));
     let table = written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh)));
+    let tolerance_is_declared = written.tolerance.is_some();
     Some(RobotDescription {
         path: robot_file.path.clone(),
         name: written.name.map_or_else(|| robot.name().to_owned(), Spanned::into_inner),
@@ -308,6 +310,7 @@ fn declared(
         accelerations,
         tip_from_tcp,
         tolerance,
+        tolerance_is_declared,
         named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings: Vec::new(),

@@ -49,6 +49,7 @@ fn description() -> RobotDescription {
         dynamics: None,
         accelerations: Vec::new(),
         tip_from_tcp: None,
+        tolerance_is_declared: false,
         tolerance: congruent_description::Tolerance::default(),
         named_files: congruent_description::NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),

@@ -10,6 +10,7 @@ use super::{
     check_report::{Agreement, CheckReport},
     differences_at::without_table,
     error::CheckError,
+    grade::Grade,
 };
 use crate::{
     diagnosis::{
@@ -51,6 +52,8 @@ impl CheckReport {
             self.certificates.push(certificate);
         }
         self.verdict = verdict(&self.comparisons);
+        let compared = self.comparisons.iter().filter(|of| of.name == pair);
+        self.grade = self.grade.max(compared.map(|of| Grade::from_difference(&of.worst.error)).max());
         self.worst = worst_difference(&self.comparisons, &self.tolerance);
         let brackets = worst(&self.certificates);
         self.certificate = brackets.as_ref().map(Brackets::bounds);

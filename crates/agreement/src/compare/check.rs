@@ -13,6 +13,7 @@ use super::{
     comparing::{Comparing, is_turned_only},
     configurations::CheckConfigurations,
     error::CheckError,
+    graded::Graded,
     identified::IdentifiedChain,
 };
 use crate::{
@@ -82,7 +83,9 @@ pub(super) fn compared(
     for (index, q) in configurations.iter().enumerate() {
         comparing.observe(index, &q)?;
     }
-    let comparisons = comparing.finish(description, |index| configurations.at(index));
+    let mut comparisons = comparing.finish(description, |index| configurations.at(index));
+    let Graded { grade, allowed_by_digits } =
+        Graded::new(description, &mut comparisons, || configurations.diagnosed(comparing.worst_at()));
     let verdict = verdict(&comparisons);
     // If all sources agree, the residual is the rounding of the identified screws, which has no cause.
     let diagnosed = match verdict {
@@ -96,6 +99,8 @@ pub(super) fn compared(
         chain: description.reported_chain(),
         table_compared: description.dh.is_some(),
         verdict,
+        grade: (verdict != Agreement::NothingCompared).then_some(grade),
+        allowed_by_digits,
         worst: worst_difference(&comparisons, &description.tolerance),
         tolerance: description.tolerance,
         replaced_tolerance: None,
@@ -123,6 +128,12 @@ impl CheckReport {
         self.indistinguishable =
             named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default();
         self.diagnoses = diagnoses;
+    }
+
+    /// Whether table and URDF agree because of the digits that they are typed with, beyond the default tolerance.
+    pub fn is_judged_by_digits(&self) -> bool {
+        let mut tables = self.comparisons.iter().filter(|of| of.name == SourcePair::ModelUrdf);
+        tables.any(|of| of.verdict == Agreement::Agree && !of.worst.error.is_within(&self.tolerance))
     }
 
     /// Whether poses differ, and not dynamics alone.

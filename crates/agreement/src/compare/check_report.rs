@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::{
     basics::Basics,
     certificate::{Brackets, ReportedCertificate},
+    grade::Grade,
     model::PoseSource,
 };
 use crate::{
@@ -138,6 +139,13 @@ pub struct CheckReport {
     pub table_compared: bool,
     /// Whether all sources that were compared agree.
     pub verdict: Agreement,
+    /// How much alike the sources are, whatever the tolerance is; missing if nothing was compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grade: Option<Grade>,
+    /// The largest difference of table and URDF that the digits of the two allow, to first order: the sum of what half
+    /// of the last place of each typed value moves the tip. Missing if the two are identical.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub allowed_by_digits: Option<PoseError>,
     /// The largest differences of all comparisons.
     pub worst: WorstDifference,
     /// The largest difference that counts as agreement.

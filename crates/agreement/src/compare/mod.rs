@@ -11,6 +11,8 @@ mod configurations;
 pub(crate) mod diagnosis;
 mod differences_at;
 pub(crate) mod error;
+mod grade;
+mod graded;
 pub(crate) mod identified;
 mod mimic;
 pub(crate) mod model;
@@ -25,4 +27,5 @@ pub use check_report::{
 pub use diagnosis::diagnose;
 pub use differences_at::{DifferenceAt, DifferencesAt};
 pub use error::CheckError;
+pub use grade::Grade;
 pub use model::{Model, PoseSource};

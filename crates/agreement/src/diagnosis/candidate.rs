@@ -206,6 +206,13 @@ impl CandidateModel {
         }
     }
 
+    /// Gives an entry of a row another value, if the row has it.
+    pub(crate) fn set_entry(&mut self, row: usize, entry: DhEntry, value: f64) {
+        if let Some(place) = self.entry_mut(row, entry) {
+            *place = value;
+        }
+    }
+
     /// The entry that the joint of a row drives: its value at position zero.
     pub fn zero_entry(&self, row: usize) -> DhEntry {
         match self.rows[row].link {

@@ -5,16 +5,19 @@ use congruent_kinematics::PoseError;
 
 use super::{
     candidate::ModelParameter,
+    digits::WrittenDigits,
     hypothesis::{Cause, FaultPlace, ModelPair},
 };
 
-/// The tolerance, and the configurations at which a residual is measured.
-#[derive(Debug, Clone, PartialEq)]
+/// The tolerance, the configurations at which a residual is measured, and the digits of the files.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Criterion {
     /// Largest difference of the tips that counts as agreement.
     pub tolerance: Tolerance,
     /// Configurations at which residuals are measured, in the order of the reference model's joints.
     pub configurations: Vec<ChainQ>,
+    /// Models that are the same within the digits of their files count as equal, too.
+    pub digits: WrittenDigits,
 }
 
 /// One fault of an explanation.
@@ -39,9 +42,23 @@ pub struct Explanation {
     pub stages: Vec<PoseError>,
     /// The remaining difference of the corrected models.
     pub residual: PoseError,
+    /// Whether the corrected models are accepted: the faults explain the whole difference.
+    pub is_complete: bool,
 }
 
 impl Explanation {
+    /// No fault: all of the difference remains.
+    pub(crate) fn without_faults(models: &ModelPair, criterion: &Criterion) -> Self {
+        let residual = models.residual(criterion);
+        Self {
+            faults: Vec::new(),
+            corrected: models.clone(),
+            stages: vec![residual],
+            residual,
+            is_complete: models.is_accepted(criterion),
+        }
+    }
+
     /// The cause of the only fault, `several`, or `unexplained`.
     pub fn cause(&self) -> Cause {
         match &self.faults[..] {
@@ -60,19 +77,28 @@ impl ModelPair {
         residuals.fold(PoseError::default(), PoseError::larger)
     }
 
-    /// Whether the residual is accepted; stops at the first configuration at which it is not.
-    pub(super) fn is_accepted(&self, criterion: &Criterion) -> bool {
-        criterion.configurations.iter().all(|q| criterion.accepts(&self.residual_at(q)))
+    /// Whether the residual is within the tolerance, or within the digits of the files.
+    pub(crate) fn is_accepted(&self, criterion: &Criterion) -> bool {
+        self.is_within_tolerance(criterion) || criterion.digits.explain(self, &criterion.configurations)
     }
 
-    fn residual_at(&self, q: &ChainQ) -> PoseError {
+    /// Whether the residual is within the tolerance; stops at the first configuration at which it is not.
+    pub(crate) fn is_within_tolerance(&self, criterion: &Criterion) -> bool {
+        criterion.configurations.iter().all(|q| self.residual_at(q).is_within(&criterion.tolerance))
+    }
+
+    pub(super) fn residual_at(&self, q: &ChainQ) -> PoseError {
         PoseError::between(&self.candidate.base_from_tip(q), &self.reference.base_from_tip(q))
     }
 }
 
 impl Criterion {
-    /// Whether a residual is within the tolerance.
-    pub fn accepts(&self, residual: &PoseError) -> bool {
-        residual.is_within(&self.tolerance)
+    /// The residual that says nothing: the tolerance, or what the digits of the files allow, if that is more.
+    pub(super) fn insignificant(&self) -> Tolerance {
+        let PoseError { position_m, orientation_rad } = self.digits.allowed;
+        Tolerance {
+            position_m: self.tolerance.position_m.max(position_m),
+            orientation_rad: self.tolerance.orientation_rad.max(orientation_rad),
+        }
     }
 }

@@ -158,6 +158,11 @@ pub(super) struct PoseHypothesis {
 pub(super) type Edit = Box<dyn Fn(&mut ModelPair) + Send + Sync>;
 
 impl PoseHypothesis {
+    /// Whether it is about rounded angles in the reference model's file.
+    pub(super) fn is_rounding(&self) -> bool {
+        self.cause == Cause::Parameter && matches!(self.place, FaultPlace::ReferenceJoints(_))
+    }
+
     /// A correction without free parameters.
     pub(super) fn edit(
         cause: Cause,

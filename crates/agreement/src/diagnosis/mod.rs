@@ -10,6 +10,7 @@
 
 mod candidate;
 mod cause;
+mod digits;
 mod equivalence;
 mod explanation;
 mod fit;
@@ -24,6 +25,7 @@ mod search;
 pub(crate) mod thresholds;
 
 pub use candidate::{CandidateModel, CandidateRow, DeclaredTransform, DhEntry, ModelParameter, RowConstants};
+pub use digits::{TransformPart, TypedPlace, TypedValue, WrittenDigits};
 pub use equivalence::Equivalence;
 pub use explanation::{Criterion, ExplainedFault, Explanation};
 pub use hypothesis::{Cause, FaultPlace, ModelPair};

@@ -6,6 +6,7 @@
 //! at any cost. Of the others, whose residuals are the rounding of the file, the one with the lowest cost is
 //! named.
 
+use congruent_description::Tolerance;
 use congruent_kinematics::PoseError;
 
 use super::{
@@ -81,10 +82,12 @@ pub(super) fn is_refuted(
     best: &PoseError,
 ) -> bool {
     let own = context.corrected(fit).residual(criterion);
+    // Of two residuals that the digits allow, neither is the better evidence.
+    let PoseError { position_m, orientation_rad } = criterion.digits.allowed;
     let rounded_up = |residual: &PoseError| {
         criterion.in_tolerances(&PoseError {
-            position_m: residual.position_m.max(ROUNDING_RESIDUAL),
-            orientation_rad: residual.orientation_rad.max(ROUNDING_RESIDUAL),
+            position_m: residual.position_m.max(ROUNDING_RESIDUAL).max(position_m),
+            orientation_rad: residual.orientation_rad.max(ROUNDING_RESIDUAL).max(orientation_rad),
         })
     };
     let is_certain = |at: &usize| {
@@ -97,10 +100,10 @@ pub(super) fn is_refuted(
 }
 
 impl Criterion {
-    /// A residual as a multiple of the tolerance.
+    /// A residual as a multiple of the one that says nothing.
     pub(super) fn in_tolerances(&self, residual: &PoseError) -> f64 {
-        (residual.position_m / self.tolerance.position_m)
-            .max(residual.orientation_rad / self.tolerance.orientation_rad)
+        let Tolerance { position_m, orientation_rad } = self.insignificant();
+        (residual.position_m / position_m).max(residual.orientation_rad / orientation_rad)
     }
 }
 

@@ -60,6 +60,24 @@ pub(super) const SINGULAR_BELOW_RAD: f64 = 1e-9;
 /// file.
 pub(crate) const SAME_UNIT_RATIO: f64 = 1e-3;
 
+// Digits of files.
+
+/// Most joints of a chain whose differences are weighted by the digits of the files: the weights are a matrix of six
+/// rows for each joint. Kind: speed.
+pub(super) const MOST_WEIGHTED_JOINTS: usize = 24;
+
+/// A typed value may be off by this much more than half of its last place. Relative; kind: rounding of sums of values
+/// that are off by exactly half a place, such as 0.05 mm of 0.28475 m typed as 0.2848.
+pub(super) const DIGITS_MARGIN: f64 = 1e-4;
+
+/// Passes and steps of the search for values within the digits. Kind: loop bounds; some three passes of ten steps are
+/// needed.
+pub(super) const BOX_PASSES: usize = 6;
+pub(super) const BOX_STEPS: usize = 60;
+
+/// Damping of these steps, relative to the diagonal. No unit; kind: solver.
+pub(super) const BOX_DAMPING: f64 = 1e-9;
+
 // Choice between explanations.
 
 /// An explanation whose residual is more than this many times the best one is refuted. No unit; kind: judgement.

@@ -42,8 +42,8 @@ pub(super) fn slack(models: &ModelPair, explanation: &Explanation, criterion: &C
     let least = (noise * residual.position_m).max(MOST_SLACK);
     // An angle at the base moves the tip by the angle times the reach, so it needs as many more digits.
     let angle_rad = (least / reach_m).max(noise * residual.orientation_rad);
-    // Nothing to stay within: the model is not accepted with all digits either.
-    if !criterion.accepts(&residual) {
+    // Nothing to stay within: the model is not accepted with all digits either, or by the digits of its files.
+    if !residual.is_within(&tolerance) {
         return Slack { length_m: least, angle_rad };
     }
     // All written values may round to the same side; each gets an equal share of the margin.

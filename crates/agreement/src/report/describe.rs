@@ -10,6 +10,7 @@ use super::{
     },
     fault_message::{FaultContext, FaultMessage, FileLocation, describe_fault},
     names::ModelNames,
+    preferred::with_known_values,
     table::table_comparison,
 };
 use crate::{
@@ -28,7 +29,12 @@ pub(super) fn reported_diagnosis(
     let causes: Vec<(ReportedCause, Vec<Diagnostic>)> =
         diagnosis.explanations.iter().map(described).collect();
     let findings = causes.first().map(|(_, findings)| findings.clone()).unwrap_or_default();
-    let unexplained = diagnosis.explanations.first().filter(|first| !criterion.accepts(&first.residual));
+    // Beside a cause with a residual above the tolerance, or if the digits explain a difference that is not tolerated.
+    let rounded = || Explanation::without_faults(models, criterion);
+    let unexplained = match diagnosis.explanations.first() {
+        Some(first) => (!first.is_complete).then(|| first.clone()),
+        None => (!models.is_within_tolerance(criterion)).then(rounded),
+    };
     let alternative = |(explanation, equivalence): &(Explanation, Equivalence)| ReportedAlternative {
         cause: described(explanation).0,
         equivalence: *equivalence,
@@ -40,7 +46,7 @@ pub(super) fn reported_diagnosis(
         causes: causes.into_iter().map(|(cause, _)| cause).collect(),
         indistinguishable: diagnosis.indistinguishable.iter().map(alternative).collect(),
         invariants: diagnosis.differences.iter().map(|each| difference(each, names)).collect(),
-        table: unexplained.and_then(|first| table_comparison(models, first, criterion, names)),
+        table: unexplained.and_then(|first| table_comparison(models, &first, criterion, names)),
         findings,
     }
 }
@@ -51,6 +57,7 @@ fn describe(
     criterion: &Criterion,
     names: &ModelNames<'_>,
 ) -> (ReportedCause, Vec<Diagnostic>) {
+    let explanation = &with_known_values(explanation, models, criterion);
     let slack = advice::slack(models, explanation, criterion);
     let message = |fault| {
         describe_fault(&FaultContext { fault, before: models, after: &explanation.corrected, slack, names })
@@ -86,7 +93,7 @@ fn describe(
         fault,
         residual_m: position_m,
         residual_rad: orientation_rad,
-        within_tolerance: criterion.accepts(&explanation.residual),
+        within_tolerance: explanation.is_complete,
         parts,
         stages,
     };

@@ -8,9 +8,11 @@ mod fault_message;
 mod joint_parts;
 mod mimic;
 mod names;
+mod preferred;
 mod reference;
 mod statement;
 mod table;
+mod typed_values;
 mod units;
 mod values;
 mod wrong_unit;
@@ -20,7 +22,7 @@ pub use content::{
     ReportedStage, TableComparison,
 };
 pub use diagnose_models::diagnose_models;
-pub(crate) use diagnose_models::screw_differences;
+pub(crate) use diagnose_models::{digits_of_table, screw_differences};
 pub(crate) use joint_parts::diagnosed_by_joints;
 pub(crate) use mimic::{FollowedJoint, Relation, with_mimics};
 pub use statement::foremost;

@@ -273,9 +273,9 @@ fn gross_faults_of_a_modified_table_are_named_before_its_lengths() {
     gross_comes_first(
         "panda",
         &[
-            ("panda_joint1", "d_m = 0.333", "d_m = 0.3334"),
-            ("panda_joint3", "d_m = 0.316", "d_m = 0.3153"),
-            ("panda_joint5", "d_m = 0.384", "d_m = 0.3845"),
+            ("panda_joint1", "d_m = 0.333", "d_m = 0.3353"),
+            ("panda_joint3", "d_m = 0.316", "d_m = 0.3143"),
+            ("panda_joint5", "d_m = 0.384", "d_m = 0.3865"),
         ],
         &[
             (Cause::ConventionSwapped, &[("", "\"modified\"", "\"standard\"")]),

@@ -32,7 +32,11 @@ fn criterion(joints: usize, tolerance: f64) -> Criterion {
     #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
     let mut unit = || (generator.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
     let configurations = (0..16).map(|_| (0..joints).map(|_| 2.9 * unit()).collect()).collect();
-    Criterion { tolerance: Tolerance { position_m: tolerance, orientation_rad: tolerance }, configurations }
+    Criterion {
+        tolerance: Tolerance { position_m: tolerance, orientation_rad: tolerance },
+        configurations,
+        ..Criterion::default()
+    }
 }
 
 /// Injects faults and evaluates the diagnosis; `None` if the faults change nothing beyond the tolerance.
@@ -42,7 +46,7 @@ fn judge(models: &ModelPair, faults: &[&InjectedFault], tolerance: f64) -> Optio
     for fault in faults {
         fault.inject(&mut mutated);
     }
-    if criterion.accepts(&mutated.residual(&criterion)) {
+    if mutated.residual(&criterion).is_within(&criterion.tolerance) {
         return None;
     }
     Some(Outcome::from_diagnosis(&diagnose(&mutated, &criterion), faults))

@@ -186,6 +186,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         }
         description.warnings.extend(wide);
         description.tolerance = tolerance.replace(declared);
+        description.tolerance_is_declared = true;
     }
     batch.warn(path, &description.warnings);
     let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };

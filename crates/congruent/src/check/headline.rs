@@ -2,10 +2,11 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckReport, Comparison, WorstDifference},
+    compare::{Agreement, CheckReport, Comparison, Grade, WorstDifference},
 };
 use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
 use congruent_input::display::{length_and_angle, listed};
+use congruent_kinematics::PoseError;
 
 use super::{against::OtherDescription, robot_check::RobotCheck};
 
@@ -28,8 +29,23 @@ impl RobotCheck {
         if report.verdict == Agreement::NothingCompared {
             return format!("nothing was compared: {}", Agreement::why_nothing(&report.chain));
         }
+        let is_same_within_digits = report.grade == Some(Grade::SameWithinDigits);
         let (answer, found) = if report.poses_disagree() {
-            ("not the same robot", differing(report).join(", "))
+            let answer = if is_same_within_digits {
+                "the same within the digits written, but not within the tolerance"
+            } else {
+                "not the same robot"
+            };
+            (answer, differing(report).join(", "))
+        } else if is_same_within_digits && report.is_judged_by_digits() {
+            let worst = difference(&report.worst);
+            let found = format!("DH table against URDF: up to {worst}{}", allowed(report));
+            let answer =
+                answer_of_agreeing_poses(self).replace("same robot", "same robot within the digits written");
+            return format!(
+                "{answer}. {found} (no tolerance declared, {} configurations)",
+                report.configurations
+            );
         } else {
             // The largest difference of sources that agree is rounding, and its place means nothing.
             let found = format!("{} agree within {}", listed(&agreeing(report)), difference(&report.worst));
@@ -74,6 +90,14 @@ fn other_chain(check: &RobotCheck) -> Option<(&OtherDescription, &str)> {
     (!compared.any(|name| name == SourcePair::UrdfOther)).then_some((against, why))
 }
 
+/// What the digits of table and URDF allow, if the two are not identical and not written with all digits.
+fn allowed(report: &CheckReport) -> String {
+    let allowed = report.allowed_by_digits.filter(|allowed| *allowed != PoseError::default());
+    allowed.map_or_else(String::new, |PoseError { position_m, orientation_rad }| {
+        format!(", where the digits written allow {}", length_and_angle(position_m, orientation_rad))
+    })
+}
+
 /// The two sources of a pair.
 fn sources(pair: SourcePair) -> [&'static str; 2] {
     match pair {
@@ -100,7 +124,12 @@ fn differing(report: &CheckReport) -> Vec<String> {
     let differ = report.comparisons.iter().filter(|comparison| comparison.verdict == Agreement::Disagree);
     let words = |comparison: &Comparison| {
         let [a, b] = sources(comparison.name);
-        format!("{a} against {b}: up to {} at {}", difference(&comparison.worst), comparison.worst.link)
+        let allowed = if comparison.name == SourcePair::ModelUrdf { allowed(report) } else { String::new() };
+        format!(
+            "{a} against {b}: up to {} at {}{allowed}",
+            difference(&comparison.worst),
+            comparison.worst.link
+        )
     };
     differ.map(words).collect()
 }

@@ -1,11 +1,13 @@
 //! The report of a check as a test suite, which CI reads as JUnit: one case for each comparison of poses and of dynamics.
 
 use congruent_agreement::{
-    compare::{Agreement, CheckReport, Comparison, NotCompared, ReportedCertificate},
+    SourcePair,
+    compare::{Agreement, CheckReport, Comparison, Grade, NotCompared, ReportedCertificate},
     report::{ReportedDiagnosis, foremost},
 };
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{display::length_and_angle, serde_name};
+use congruent_kinematics::PoseError;
 use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
 use super::robot_check::RobotCheck;
@@ -44,6 +46,7 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
         worst.link,
         length_and_angle(limit.position_m, limit.orientation_rad)
     )];
+    lines.extend(grade(comparison, report));
     let result = if comparison.verdict == Agreement::Agree {
         lines.extend(certified(comparison, report));
         TestResult::Passed
@@ -54,6 +57,20 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
     };
     let place = diagnosis_of(comparison, report).filter(|_| result.reason().is_some()).and_then(place);
     TestCase { name: comparison.title.to_owned(), result, output: lines.join("\n"), place }
+}
+
+/// How much alike table and URDF are, and what their digits allow.
+fn grade(comparison: &Comparison, report: &CheckReport) -> Option<String> {
+    let grade = report.grade.filter(|_| comparison.name == SourcePair::ModelUrdf)?;
+    let allowed =
+        report.allowed_by_digits.map_or_else(String::new, |PoseError { position_m, orientation_rad }| {
+            format!(", which allow {}", length_and_angle(position_m, orientation_rad))
+        });
+    Some(match grade {
+        Grade::Identical => "grade: identical".to_owned(),
+        Grade::SameWithinDigits => format!("grade: same within the digits written{allowed}"),
+        Grade::Different => format!("grade: different beyond the digits written{allowed}"),
+    })
 }
 
 fn not_asked_case(not_asked: &NotCompared) -> TestCase {
@@ -104,6 +121,12 @@ fn certified(comparison: &Comparison, report: &CheckReport) -> Option<String> {
 /// The cause by the diagnosis of the same two sources, otherwise by the first that has one.
 fn causes(comparison: &Comparison, report: &CheckReport) -> Vec<String> {
     let statements = diagnosis_of(comparison, report).map(ReportedDiagnosis::statements).unwrap_or_default();
+    if statements.is_empty() && report.grade == Some(Grade::SameWithinDigits) {
+        return vec![
+            "rounding explains it: declare a tolerance that the digits allow, or write more digits"
+                .to_owned(),
+        ];
+    }
     if statements.is_empty() {
         return vec!["no known cause explains it".to_owned()];
     }

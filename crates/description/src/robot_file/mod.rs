@@ -1,6 +1,7 @@
 //! The robot file `robot.toml`: which URDF, which chain, which analytical model.
 
 mod check;
+mod digits;
 mod edits;
 mod inertials;
 mod limits;
@@ -11,6 +12,7 @@ mod written;
 mod written_lint;
 
 pub(crate) use check::{Declared, check};
+pub use digits::TableDigits;
 pub use inertials::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub use written::{WrittenRobot, robot_file_schema};

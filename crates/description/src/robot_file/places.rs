@@ -105,6 +105,10 @@ impl RobotFilePlaces {
         &self.source
     }
 
+    pub(super) fn row_count(&self) -> usize {
+        self.dh.get_ref().row.len()
+    }
+
     /// Byte range of the value of `convention`; `None` if the key is missing.
     pub fn convention(&self) -> Option<Range<usize>> {
         self.dh.get_ref().convention.as_ref().map(Spanned::span)

@@ -25,7 +25,7 @@ mod pose;
 mod shape;
 mod write;
 
-pub use places::UrdfPlaces;
+pub use places::{JointDigits, UrdfPlaces};
 pub use write::urdf_text;
 
 use std::{fmt::Write, ops::Range};

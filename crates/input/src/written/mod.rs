@@ -1,6 +1,7 @@
 //! Values as files write them: arrays, numbers, rotations and transforms, and TOML text as a whole.
 
 pub(crate) mod array;
+pub(crate) mod digits;
 pub(crate) mod name;
 pub mod number;
 pub(crate) mod rpy;

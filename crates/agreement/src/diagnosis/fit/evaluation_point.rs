@@ -7,6 +7,8 @@ use nalgebra::Vector3;
 
 use crate::diagnosis::{
     candidate::{CandidateEffect, CandidateModel, ChainWalk},
+    digits::{Weights, WrittenDigits},
+    hypothesis::ModelPair,
     reference_model::{ChainState, ReferenceModel},
 };
 
@@ -15,6 +17,8 @@ use crate::diagnosis::{
 pub(in crate::diagnosis) struct EvaluationPoint {
     pub(in crate::diagnosis) q: ChainQ,
     pub(in crate::diagnosis) length_m: f64,
+    /// What the digits of the files explain counts little; `None` if every difference counts.
+    weights: Option<Weights>,
 }
 
 impl EvaluationPoint {
@@ -30,11 +34,39 @@ impl EvaluationPoint {
         // of the axis.
         let reach = state.twists.iter().map(|twist| twist.linear.norm());
         let length_m = reach.fold(state.base_from_tip.translation.norm(), f64::max);
-        Self { q, length_m: if length_m > 0.0 { length_m } else { 1.0 } }
+        Self { q, length_m: if length_m > 0.0 { length_m } else { 1.0 }, weights: None }
+    }
+
+    /// The same configuration, with differences weighted by the digits of the files.
+    pub(in crate::diagnosis) fn weighted(self, models: &ModelPair, digits: &WrittenDigits) -> Self {
+        let weights = Weights::new(digits, models, &self);
+        Self { weights, ..self }
+    }
+
+    /// Whether what the digits of the files explain counts little.
+    pub(in crate::diagnosis) fn is_weighted(&self) -> bool {
+        self.weights.is_some()
+    }
+
+    /// The candidate minus the target, without unit, weighted.
+    pub(in crate::diagnosis) fn difference(
+        &self,
+        candidate: &CandidateModel,
+        walk: &ChainWalk,
+        target: &ChainState,
+    ) -> Vec<f64> {
+        self.apply_weights(self.unweighted(candidate, walk, target))
+    }
+
+    fn apply_weights(&self, numbers: Vec<f64>) -> Vec<f64> {
+        match &self.weights {
+            Some(weights) => weights.apply(numbers),
+            None => numbers,
+        }
     }
 
     /// The candidate minus the target, without unit: six values for each joint, then the tip.
-    pub(in crate::diagnosis) fn difference(
+    pub(in crate::diagnosis) fn unweighted(
         &self,
         candidate: &CandidateModel,
         walk: &ChainWalk,
@@ -88,6 +120,6 @@ impl EvaluationPoint {
         }
         let shift = generator.angular.cross(translation) + generator.linear;
         numbers.extend_from_slice((shift / self.length_m).as_slice());
-        numbers
+        self.apply_weights(numbers)
     }
 }

@@ -2,13 +2,16 @@
 
 use std::borrow::Cow;
 
+use congruent_description::Tolerance;
+
 use crate::diagnosis::{
     candidate::{CandidateModel, ModelParameter},
+    explanation::Criterion,
     fit::evaluation_point::EvaluationPoint,
     fit::least_squares::{FitTarget, FittedCandidate},
     hypothesis::{ModelPair, PoseHypothesis},
     reference_model::ChainState,
-    thresholds::{ANGLE_STARTS_RAD, GOOD_FIT},
+    thresholds::{ANGLE_STARTS_RAD, GOOD_FIT, SAME_VALUE},
 };
 
 /// Hypotheses with their free parameters fitted.
@@ -30,14 +33,25 @@ pub(in crate::diagnosis) struct FitContext<'a> {
     pub(in crate::diagnosis) models: &'a ModelPair,
     pub(in crate::diagnosis) hypotheses: &'a [PoseHypothesis],
     pub(in crate::diagnosis) evaluation_point: EvaluationPoint,
+    /// The same without weights.
+    unweighted: EvaluationPoint,
+    /// An unweighted norm that the tolerance allows, or rounding.
+    tolerated: f64,
     pub(in crate::diagnosis) state: ChainState,
 }
 
 impl<'a> FitContext<'a> {
-    pub(in crate::diagnosis) fn new(models: &'a ModelPair, hypotheses: &'a [PoseHypothesis]) -> Self {
-        let evaluation_point = EvaluationPoint::for_reference(&models.reference);
+    pub(in crate::diagnosis) fn new(
+        models: &'a ModelPair,
+        hypotheses: &'a [PoseHypothesis],
+        criterion: &Criterion,
+    ) -> Self {
+        let unweighted = EvaluationPoint::for_reference(&models.reference);
+        let evaluation_point = unweighted.clone().weighted(models, &criterion.digits);
         let state = models.reference.state(&evaluation_point.q);
-        Self { models, hypotheses, evaluation_point, state }
+        let Tolerance { position_m, orientation_rad } = criterion.tolerance;
+        let tolerated = orientation_rad.min(position_m / unweighted.length_m).max(SAME_VALUE);
+        Self { models, hypotheses, evaluation_point, unweighted, tolerated, state }
     }
 
     /// Norm of the difference of two models.
@@ -123,6 +137,7 @@ impl<'a> FitContext<'a> {
         for start in self.aligned(&models.candidate, state, &free).into_iter().flatten() {
             consider(start);
         }
+        let best = self.tolerated(best, state, &free);
         let FittedCandidate { candidate, norm } = best;
         let changes = free.iter().map(|&at| moved(&models.candidate, &candidate, at)).collect();
         HypothesisFit {
@@ -131,6 +146,26 @@ impl<'a> FitContext<'a> {
             norm,
             changes,
         }
+    }
+
+    /// The unweighted fit beside a weighted one, if it is within the tolerance: the digits need not explain anything then,
+    /// and in directions that count little a weighted fit ends before its values have all their digits.
+    fn tolerated(
+        &self,
+        best: FittedCandidate,
+        state: &ChainState,
+        free: &[ModelParameter],
+    ) -> FittedCandidate {
+        if !self.evaluation_point.is_weighted() || best.norm > self.tolerated {
+            return best;
+        }
+        let target = FitTarget { evaluation_point: &self.unweighted, state };
+        let exact = target.refit(&best.candidate, free);
+        if exact.norm > self.tolerated {
+            return best;
+        }
+        let weighted = FitTarget { evaluation_point: &self.evaluation_point, state };
+        FittedCandidate { norm: weighted.norm(&exact.candidate), ..exact }
     }
 
     /// Starts in closed form for a declared transform of which all components are free: the transform that

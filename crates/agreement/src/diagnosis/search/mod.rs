@@ -62,7 +62,11 @@ pub struct Diagnosis {
 /// let mut candidate = CandidateModel::from_screws(&chain);
 /// candidate.rows[0].rate = -1.0;
 /// let models = ModelPair { candidate, reference: ReferenceModel::from_screws(&chain) };
-/// let criterion = Criterion { tolerance: Tolerance::default(), configurations: vec![[1.0].into()] };
+/// let criterion = Criterion {
+///     tolerance: Tolerance::default(),
+///     configurations: vec![[1.0].into()],
+///     ..Criterion::default()
+/// };
 /// let diagnosis = diagnose(&models, &criterion);
 /// assert_eq!(diagnosis.explanations[0].cause(), Cause::AxisFlipped);
 /// assert_eq!(diagnosis.explanations[0].corrected.candidate.rows[0].rate, 1.0);
@@ -74,7 +78,7 @@ pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
         return Diagnosis { explanations: Vec::new(), indistinguishable: Vec::new(), differences };
     }
     let hypotheses = cause::hypotheses(models);
-    let context = FitContext::new(models, &hypotheses);
+    let context = FitContext::new(models, &hypotheses, criterion);
     let search = ExplanationSearch { context: &context, criterion };
     let (explained, others) = search.run();
     let mut found: Vec<Explanation> = explained.iter().map(|fit| search.explanation(fit)).collect();
@@ -86,13 +90,7 @@ pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
     };
     let indistinguishable = others_alike.into_iter().map(alike).collect();
     if found.is_empty() {
-        let residual = models.residual(criterion);
-        found.push(Explanation {
-            faults: Vec::new(),
-            corrected: models.clone(),
-            stages: vec![residual],
-            residual,
-        });
+        found.push(Explanation::without_faults(models, criterion));
     }
     found.extend(others.iter().map(|fit| search.explanation(fit)));
     Diagnosis { explanations: found, indistinguishable, differences }
@@ -148,7 +146,13 @@ impl ExplanationSearch<'_> {
     }
 
     fn explaining(&self, fits: &[HypothesisFit]) -> Vec<HypothesisFit> {
-        let accepted: Vec<&HypothesisFit> = fits.iter().filter(|fit| self.accepts(fit)).collect();
+        let mut accepted: Vec<&HypothesisFit> = fits.iter().filter(|fit| self.accepts(fit)).collect();
+        // If the correction of something makes the files agree, nothing is left to be explained by their digits.
+        let is_within =
+            |fit: &&HypothesisFit| self.context.corrected(fit).is_within_tolerance(self.criterion);
+        if accepted.iter().any(is_within) {
+            accepted.retain(is_within);
+        }
         // The best residual of all shows how precise the files are; only then is a larger one known to be wrong.
         let residuals = accepted.iter().map(|fit| self.context.corrected(fit).residual(self.criterion));
         let in_tolerances = |a: &PoseError, b: &PoseError| {
@@ -198,8 +202,11 @@ impl ExplanationSearch<'_> {
             .tolerance
             .orientation_rad
             .max(criterion.tolerance.position_m / context.evaluation_point.length_m);
+        let corrected = || context.corrected(fit);
         // The norm is known, while poses at all configurations cost more than the fit itself.
-        fit.norm <= EVALUATED_BELOW * tolerance && context.corrected(fit).is_accepted(criterion)
+        (fit.norm <= EVALUATED_BELOW * tolerance && corrected().is_within_tolerance(criterion))
+            || (fit.norm <= criterion.digits.most_norm()
+                && criterion.digits.explain(&corrected(), &criterion.configurations))
     }
 
     fn rank(&self, fit: &HypothesisFit) -> ExplanationRank {
@@ -225,8 +232,9 @@ impl ExplanationSearch<'_> {
                 *last = residual;
             }
         }
-        let residual = self.context.corrected(fit).residual(self.criterion);
-        Explanation { faults, stages, residual, corrected: self.context.corrected(fit).into_owned() }
+        let corrected = self.context.corrected(fit).into_owned();
+        let residual = corrected.residual(self.criterion);
+        Explanation { faults, stages, residual, is_complete: self.accepts(fit), corrected }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::diagnosis::{
     candidate::ModelParameter,
     explanation::Criterion,
     fit::hypothesis_fit::{HypothesisFit, moved},
-    hypothesis::{Cause, FaultPlace, PoseHypothesis},
+    hypothesis::{Cause, PoseHypothesis},
     nearest_table::nearby_table,
     thresholds::{
         GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_GROSS_ONE_BY_ONE, MAX_PARAMETERS, PARAMETER_GAIN,
@@ -32,13 +32,13 @@ impl ExplanationSearch<'_> {
         // What the best gross cause fails to explain is due to the other faults. It takes the place of the
         // tolerance, with which the ordinary ranking then names the gross cause.
         let Some(best) = gross.iter().map(residual).min_by(f64::total_cmp) else { return Vec::new() };
-        let Tolerance { position_m, orientation_rad } = self.criterion.tolerance;
+        let Tolerance { position_m, orientation_rad } = self.criterion.insignificant();
         let loose = Criterion {
             tolerance: Tolerance {
                 position_m: GROSS_WITHIN * best * position_m,
                 orientation_rad: GROSS_WITHIN * best * orientation_rad,
             },
-            configurations: self.criterion.configurations.clone(),
+            ..self.criterion.clone()
         };
         ExplanationSearch { context: self.context, criterion: &loose }.explaining(&gross)
     }
@@ -136,8 +136,7 @@ impl ExplanationSearch<'_> {
 
     /// Whether a hypothesis is about rounded angles in the reference model's file.
     fn is_rounding(&self, hypothesis: usize) -> bool {
-        let PoseHypothesis { cause, place, .. } = &self.context.hypotheses[hypothesis];
-        *cause == Cause::Parameter && matches!(place, FaultPlace::ReferenceJoints(_))
+        self.context.hypotheses[hypothesis].is_rounding()
     }
 
     /// The number of free parameters of a hypothesis.
@@ -185,13 +184,11 @@ impl ExplanationSearch<'_> {
     /// and the residual after each.
     pub(super) fn in_turn(&self, fit: &HypothesisFit) -> (Vec<usize>, Vec<PoseError>) {
         let mut order = fit.hypotheses.clone();
-        // Of more than two the order is that in which they were added, the largest gain first.
-        if let [first, second] = order[..] {
-            let [one, other] = [first, second].map(|hypothesis| self.context.single(hypothesis).norm);
-            if other < one {
-                order.reverse();
-            }
-        }
+        let mut alone: Vec<(f64, usize)> =
+            order.iter().map(|&hypothesis| (self.context.single(hypothesis).norm, hypothesis)).collect();
+        // What each takes away alone is what a person sees who corrects it first.
+        alone.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        order = alone.into_iter().map(|(_, hypothesis)| hypothesis).collect();
         let mut residuals: Vec<PoseError> = Vec::new();
         let mut changes: Vec<f64> = Vec::new();
         // Corrected one after the other, each fit starting from the values before it, as a person would change the

@@ -5,30 +5,39 @@ use std::fmt::Write;
 
 use crate::{
     agreement::{
+        compare::CheckReport,
         diagnosis::Invariant,
         report::{
             ComparedValue, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
             ReportedStage, TableComparison,
         },
     },
+    description::Tolerance,
     input::{
         Diagnostic,
         display::{angle, length, length_and_angle, number},
     },
+    kinematics::PoseError,
 };
 
 use crate::text::{TextOptions, finding_text, layout::column_width};
 
 /// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
 /// next best ones.
-pub(super) fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis, options: &TextOptions) {
+pub(super) fn diagnosed(
+    text: &mut String,
+    diagnosis: &ReportedDiagnosis,
+    tolerance: &Tolerance,
+    options: &TextOptions,
+) {
     /// Alternatives shown to people; JSON has all of them.
     const SHOWN: usize = 6;
     /// Next best causes are shown if their residual is less than this share of the difference.
     const PROMISING: f64 = 0.5;
     let Some(first) = diagnosis.causes.first() else { return };
     let faults = faults(first);
-    let _ = writeln!(text, "\n  {}: {}", diagnosis.title, summary(first, diagnosis.findings.len()));
+    let _ =
+        writeln!(text, "\n  {}: {}", diagnosis.title, summary(first, diagnosis.findings.len(), tolerance));
     for (at, (finding, fault)) in diagnosis.findings.iter().zip(&faults).enumerate() {
         text.push_str(&finding_text(&Diagnostic { help: None, ..finding.clone() }, options));
         found(text, fault, first.stages.get(at));
@@ -52,6 +61,17 @@ pub(super) fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis, option
     }
 }
 
+/// What to do if the digits explain all of a difference that the tolerance does not allow.
+pub(super) fn rounded(text: &mut String, report: &CheckReport) {
+    let _ = writeln!(
+        text,
+        "  rounding explains the difference: declare a tolerance that the digits allow, or write more digits"
+    );
+    if let Some(table) = report.diagnoses.iter().find_map(|diagnosis| diagnosis.table.as_ref()) {
+        row_by_row(text, table);
+    }
+}
+
 /// The faults of a cause, each on its own.
 fn faults(cause: &ReportedCause) -> Vec<&Fault> {
     if cause.parts.is_empty() { vec![&cause.fault] } else { cause.parts.iter().collect() }
@@ -62,14 +82,20 @@ fn residual(cause: &ReportedCause) -> String {
 }
 
 /// How much of the difference is explained.
-fn summary(cause: &ReportedCause, count: usize) -> String {
+fn summary(cause: &ReportedCause, count: usize, tolerance: &Tolerance) -> String {
     let causes = match count {
         0 => return "no known cause explains the difference".to_owned(),
         1 => "one cause".to_owned(),
         _ => format!("{count} causes together, the one with the largest effect first,"),
     };
     let verb = if count == 1 { "explains" } else { "explain" };
-    if cause.within_tolerance {
+    let residual_error = PoseError { position_m: cause.residual_m, orientation_rad: cause.residual_rad };
+    if cause.within_tolerance && !residual_error.is_within(tolerance) {
+        format!(
+            "{causes} {verb} the difference; the residual of {} is within the digits written",
+            residual(cause)
+        )
+    } else if cause.within_tolerance {
         format!("{causes} {verb} the difference")
     } else {
         format!(

@@ -11,7 +11,7 @@ use crate::{
         SourcePair,
         compare::{
             Agreement, Basics, Brackets, BySource, CheckReport, ComparedSource, Comparison, CoordinateUnit,
-            NotCompared, PoseSource, Premise, ReportedBracket, ReportedCertificate,
+            Grade, NotCompared, PoseSource, Premise, ReportedBracket, ReportedCertificate,
         },
     },
     description::Robot,
@@ -23,7 +23,7 @@ use crate::{
 };
 
 use super::{
-    diagnosis::diagnosed,
+    diagnosis::{diagnosed, rounded},
     dynamics::dynamics,
     errors_at::{lines, table},
 };
@@ -116,7 +116,10 @@ fn explained_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> S
     let mut text = String::new();
     certified(&mut text, report, robot);
     if let Some(diagnosis) = report.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()) {
-        diagnosed(&mut text, diagnosis, options);
+        diagnosed(&mut text, diagnosis, &report.tolerance, options);
+    }
+    if report.poses_disagree() && report.grade == Some(Grade::SameWithinDigits) {
+        rounded(&mut text, report);
     }
     dynamics(&mut text, check, robot);
     text

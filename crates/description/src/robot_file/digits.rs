@@ -1,0 +1,81 @@
+//! The digits with which a table is typed.
+
+use congruent_input::{
+    TypedNumber, half_places,
+    units::{Unit, UnitSystem},
+};
+use toml::Spanned;
+
+use super::places::{ConstantKey, RobotFilePlaces, RowKey};
+
+/// Half of the last place of the typed values of a table: how far each true value may be from the typed one. A value
+/// that is not written is exact.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TableDigits {
+    /// For each row those of a, alpha, d and theta, in m and rad.
+    pub rows: Vec<[f64; 4]>,
+    /// Those of `base_from_dh0`: x, y, z in m, then roll, pitch, yaw in rad.
+    pub base: [f64; 6],
+    /// Those of `dhn_from_tip`, likewise.
+    pub tool: [f64; 6],
+}
+
+/// Where a half place goes.
+enum Place {
+    Row(usize, usize),
+    Base(usize),
+    Tool(usize),
+}
+
+impl RobotFilePlaces {
+    /// The digits of all values of the table.
+    pub fn digits(&self) -> TableDigits {
+        let mut digits =
+            TableDigits { rows: vec![[0.0; 4]; self.row_count()], base: [0.0; 6], tool: [0.0; 6] };
+        for unit in [Unit::Length, Unit::Angle] {
+            let typed = self.typed(unit);
+            let numbers: Vec<TypedNumber<'_>> = typed.iter().map(|(_, number)| *number).collect();
+            for ((place, _), half) in typed.iter().zip(half_places(unit, &numbers)) {
+                match *place {
+                    Place::Row(row, entry) => digits.rows[row][entry] = half,
+                    Place::Base(component) => digits.base[component] = half,
+                    Place::Tool(component) => digits.tool[component] = half,
+                }
+            }
+        }
+        digits
+    }
+
+    /// All lengths, or all angles, as they are typed.
+    fn typed(&self, unit: Unit) -> Vec<(Place, TypedNumber<'_>)> {
+        let keys: &[(usize, RowKey)] = match unit {
+            Unit::Length => &[(0, RowKey::A), (2, RowKey::D)],
+            Unit::Angle => &[(1, RowKey::Alpha), (3, RowKey::Theta)],
+        };
+        let text = &self.source().text;
+        let cells = (0..self.row_count()).flat_map(|row| keys.iter().map(move |key| (row, *key)));
+        let cells = cells.filter_map(|(row, (entry, key))| {
+            let place = self.value(row, key).filter(|place| place.is_written)?;
+            Some((Place::Row(row, entry), TypedNumber { text: &text[place.span], units: place.units }))
+        });
+        let base = self.typed_constant(ConstantKey::BaseFromDh0, unit);
+        let tool = self.typed_constant(ConstantKey::DhnFromTip, unit);
+        let base = base.into_iter().map(|(component, number)| (Place::Base(component), number));
+        let tool = tool.into_iter().map(|(component, number)| (Place::Tool(component), number));
+        cells.chain(base).chain(tool).collect()
+    }
+
+    /// The lengths, or the roll, pitch and yaw, of a declared transform. Quaternions and matrices are exact.
+    fn typed_constant(&self, key: ConstantKey, unit: Unit) -> Vec<(usize, TypedNumber<'_>)> {
+        let Some(written) = self.written(key).map(Spanned::get_ref) else { return Vec::new() };
+        let (si, engineering, first) = match unit {
+            Unit::Length => (&written.xyz_m, &written.xyz_mm, 0),
+            Unit::Angle => (&written.rpy_rad, &written.rpy_deg, 3),
+        };
+        let units = UnitSystem::from_given_key(si.as_ref(), engineering.as_ref(), UnitSystem::Si);
+        let Some(vector) = si.as_ref().or(engineering.as_ref()) else { return Vec::new() };
+        let text = self.source().text[vector.span()].trim_matches(['[', ']']);
+        let numbers = text.split(',').take(3).enumerate();
+        numbers.map(|(at, text)| (first + at, TypedNumber { text: text.trim(), units })).collect()
+    }
+}

@@ -1,0 +1,130 @@
+//! The precision with which a number is typed: half of its last place.
+//!
+//! A value of a data sheet is rounded to the digits that are printed, so the true value is within half of the last
+//! place of the typed one. Values that a program has written, with 15 digits or more, are exact here.
+
+use crate::units::{Unit, UnitSystem};
+
+/// Significant digits from which a program has written a number, with all that an `f64` has. Kind: format.
+const PROGRAM_DIGITS: usize = 15;
+
+/// The coarsest last place, as an exponent of ten, of a value that is rounded: a millimetre, and a hundredth of a radian.
+/// Coarser ones have lost their trailing zeros: `0.4` is 400 mm, and not something from 350 mm to 450 mm. Kind: choice.
+const COARSEST_M: i32 = -3;
+const COARSEST_MM: i32 = 0;
+const COARSEST_RAD: i32 = -2;
+
+/// A number as it is typed, and the unit system of its key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TypedNumber<'a> {
+    /// The characters of the number.
+    pub text: &'a str,
+    /// Whether it is in m or rad, or in mm or degrees.
+    pub units: UnitSystem,
+}
+
+/// Half of the last place of each number, in m or rad: how far the true value may be from the typed one.
+///
+/// `typed` are all lengths, or all angles, of one file. A zero, and a value that is no finer than a centimetre, has the
+/// finest last place of the others, since zeros at the end are usually left out; if there are no others, it is exact.
+/// Whole degrees are exact, too: they are design angles, not measurements.
+///
+/// # Examples
+/// ```
+/// use congruent_input::{TypedNumber, half_places, units::{Unit, UnitSystem::Si}};
+/// let typed = ["0.1625", "0", "-0.425", "1.234567890123456"].map(|text| TypedNumber { text, units: Si });
+/// assert_eq!(half_places(Unit::Length, &typed[..3]), [5e-5, 5e-5, 5e-4]);
+/// // A value with all digits is exact, and shows that zeros of this file are, too.
+/// assert_eq!(half_places(Unit::Length, &typed)[1..], [0.0, 5e-4, 0.0]);
+/// ```
+pub fn half_places(unit: Unit, typed: &[TypedNumber<'_>]) -> Vec<f64> {
+    let halves: Vec<Option<f64>> = typed.iter().map(|number| half_place(unit, *number)).collect();
+    let typed_halves = || halves.iter().copied().flatten();
+    let finest = typed_halves().fold(f64::INFINITY, f64::min);
+    let finest = if finest.is_finite() { finest } else { 0.0 };
+    halves.iter().map(|half| half.unwrap_or(finest)).collect()
+}
+
+/// Half of the last place; `None` if zeros at the end may be left out.
+fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Option<f64> {
+    let Some(TypedDigits { significant, last_place }) = TypedDigits::read(text) else { return Some(0.0) };
+    let is_whole = text.parse::<f64>().is_ok_and(|value| value.fract() == 0.0);
+    let (one, coarsest) = match (unit, units) {
+        (Unit::Length, UnitSystem::Si) => (1.0, COARSEST_M),
+        (Unit::Length, UnitSystem::Engineering) => (1e-3, COARSEST_MM),
+        (Unit::Angle, UnitSystem::Si) => (1.0, COARSEST_RAD),
+        (Unit::Angle, UnitSystem::Engineering) if is_whole => return Some(0.0),
+        (Unit::Angle, UnitSystem::Engineering) => (1_f64.to_radians(), i32::MAX),
+    };
+    if significant >= PROGRAM_DIGITS {
+        return Some(0.0);
+    }
+    if significant == 0 || last_place > coarsest {
+        return None;
+    }
+    // A tenth power is exact as a literal alone: `powi` would be off by its rounding.
+    let half: f64 = format!("5e{}", last_place - 1).parse().unwrap_or(0.0);
+    Some(half * one)
+}
+
+/// The digits of a typed number.
+struct TypedDigits {
+    /// Digits from the first one that is not zero; 0 for a zero.
+    significant: usize,
+    /// Exponent of ten of the last digit.
+    last_place: i32,
+}
+
+impl TypedDigits {
+    fn read(text: &str) -> Option<Self> {
+        let unsigned = text.trim().trim_start_matches(['+', '-']).replace('_', "");
+        let (mantissa, exponent) = unsigned.split_once(['e', 'E']).unwrap_or((&unsigned, "0"));
+        let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let all: String = [whole, decimals].concat();
+        if all.is_empty() || !all.chars().all(|digit| digit.is_ascii_digit()) {
+            return None;
+        }
+        let last_place = exponent.parse::<i32>().ok()?.checked_sub(i32::try_from(decimals.len()).ok()?)?;
+        Some(Self { significant: all.trim_start_matches('0').len(), last_place })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn half(unit: Unit, units: UnitSystem, text: &str) -> f64 {
+        half_places(unit, &[TypedNumber { text, units }])[0]
+    }
+
+    #[test]
+    fn the_last_place_is_that_of_the_typed_text() {
+        use UnitSystem::{Engineering, Si};
+        for (unit, units, text, expected) in [
+            (Unit::Length, Si, "-0.0003501", 5e-8),
+            (Unit::Length, Engineering, "342.5", 5e-5),
+            (Unit::Length, Engineering, "425", 5e-4),
+            (Unit::Length, Si, "1.5e-3", 5e-5),
+            (Unit::Length, Si, "0.4", 0.0),
+            (Unit::Length, Si, "0.325", 5e-4),
+            (Unit::Angle, Si, "1.5708", 5e-5),
+            (Unit::Angle, Si, "+1.57", 5e-3),
+            (Unit::Angle, Si, "3", 0.0),
+            (Unit::Angle, Engineering, "90.0", 0.0),
+            (Unit::Angle, Engineering, "-21.5", 0.05_f64.to_radians()),
+            (Unit::Angle, Si, "1.5707963267948966", 0.0),
+            (Unit::Angle, Si, "2.7629E-18", 5e-23),
+            (Unit::Length, Si, "0", 0.0),
+            (Unit::Length, Si, "nan", 0.0),
+        ] {
+            let found = half(unit, units, text);
+            assert!((found - expected).abs() <= 1e-15 * expected, "{text}: {found} for {expected}");
+        }
+    }
+
+    #[test]
+    fn a_value_without_its_trailing_zeros_is_as_fine_as_the_others() {
+        let typed = ["0.4", "0.3125", "0"].map(|text| TypedNumber { text, units: UnitSystem::Si });
+        assert_eq!(half_places(Unit::Length, &typed), [5e-5; 3]);
+    }
+}
