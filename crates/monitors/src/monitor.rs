@@ -27,6 +27,8 @@ pub trait Monitor: Send {
 pub struct Observed {
     /// Number of instants that were checked.
     pub samples: u64,
+    /// Number of instants that could not be checked, with the reasons in `notes`.
+    pub not_evaluated: u64,
     /// The quantities with their limits and worst values.
     pub measures: Vec<Measure>,
     /// The pairs that touched, with begin and end of each contact.

@@ -23,6 +23,10 @@ use super::{
 };
 use crate::verdict::{CheckResult, InstantValue, Measure, Status};
 
+/// A check that evaluates fewer than one in this number of samples is inconclusive. Kind: judgement; a fault that lasts nine tenths
+/// of the run could lie in samples that were not evaluated as a whole. A violation counts however few there are.
+const FEWEST_ARE_ONE_IN: u64 = 10;
+
 /// A check with its results so far.
 pub struct RunningCheck<'a> {
     /// Kind of the check, as the scenario names it.
@@ -127,13 +131,21 @@ impl<'a> RunningCheck<'a> {
 
     /// The result of the check.
     pub fn result(&self, names: &Names) -> CheckResult {
-        let Observed { samples, measures, contacts, notes } = self.monitor.finish(names);
+        let Observed { samples, not_evaluated, measures, contacts, mut notes } = self.monitor.finish(names);
         let status = match samples {
             _ if self.monitor.has_failed() => Status::Fail,
             0 => Status::Skipped,
             _ if measures.iter().all(|measure| measure.worst.is_none()) => Status::Skipped,
+            _ if samples * FEWEST_ARE_ONE_IN < samples + not_evaluated => Status::Inconclusive,
             _ => Status::Pass,
         };
+        if status == Status::Inconclusive {
+            let all = samples + not_evaluated;
+            notes.insert(
+                0,
+                format!("inconclusive: {samples} of {all} samples evaluated, fewer than one in {FEWEST_ARE_ONE_IN}"),
+            );
+        }
         let Self { kind: check, line, is_default, .. } = *self;
         CheckResult { check, line, is_default, status, samples, measures, contacts, notes }
     }

@@ -18,9 +18,16 @@ pub enum Status {
     Error,
     /// There was nothing to check.
     Skipped,
+    /// Too few samples could be evaluated: the values within their limits say nothing about the run.
+    Inconclusive,
 }
 
 impl Status {
+    /// Whether the check says something about the run.
+    pub fn is_conclusive(self) -> bool {
+        !matches!(self, Self::Skipped | Self::Inconclusive)
+    }
+
     /// The name of the status in reports.
     pub fn word(self) -> &'static str {
         serde_name(&self)
@@ -266,7 +273,7 @@ impl Verdict {
 pub fn judge(expected: &Expectation, results: &[CheckResult]) -> Verdict {
     // A default check may fail a run, but passing default checks alone do not make a scenario without checks a success.
     let looked_at = |result: &CheckResult| {
-        result.status != Status::Skipped && (!result.is_default || result.status != Status::Pass)
+        result.status.is_conclusive() && (!result.is_default || result.status != Status::Pass)
     };
     // Before the comparison with what is expected: a run without a checked value must never be a success.
     if !results.iter().any(looked_at) {
@@ -322,6 +329,10 @@ mod tests {
         judged(&Expectation::Pass, &[], Verdict::NothingChecked);
         judged(&Expectation::Pass, &[result(CheckKind::Limits, Status::Skipped)], Verdict::NothingChecked);
         judged(&fail(&[]), &[], Verdict::NothingChecked);
+        let few = result(CheckKind::Dynamics, Status::Inconclusive);
+        judged(&Expectation::Pass, std::slice::from_ref(&few), Verdict::NothingChecked);
+        let passing = result(CheckKind::Limits, Status::Pass);
+        judged(&Expectation::Pass, &[few, passing], Verdict::AsExpected);
     }
 
     #[test]

@@ -159,8 +159,8 @@ fn refused(results: &[CheckResult]) -> Option<(CheckKind, String)> {
 fn leave_out(content: &mut ScenarioContent, results: &[CheckResult]) {
     let does_not_pass = |result: &&CheckResult| match result.status {
         Status::Pass => false,
-        // There was nothing to check, such as limits that no one states.
-        Status::Skipped => true,
+        // There was nothing to check, such as limits that no one states, or too little.
+        Status::Skipped | Status::Inconclusive => true,
         Status::Fail | Status::Error => is_optional(result.check),
     };
     let left_out: Vec<&CheckResult> = results.iter().filter(does_not_pass).collect();

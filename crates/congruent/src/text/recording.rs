@@ -149,6 +149,7 @@ pub fn rechecked_text(check: &RecheckedCheck) -> String {
         Basis::EveryStep => "from the worst values over every step",
         Basis::RecordedSamples => "from the recorded samples",
         Basis::Report if check.status == Status::Skipped => "there was nothing to check",
+        _ if check.status == Status::Inconclusive => "too few samples were evaluated in the run",
         Basis::Report => "NOT fully evaluated again: in part from the report of the run",
     };
     let mut text = format!("  {:10} {:7} {basis}\n", check.check.word(), check.status.word());

@@ -200,7 +200,13 @@ impl Monitor for DynamicsMonitor<'_> {
     fn finish(&self, names: &Names) -> Observed {
         let measure = self.torque.measure(&names.joints, |joint| names.joints[joint].clone());
         let notes = self.not_evaluated.notes(self.compared);
-        Observed { samples: self.compared, measures: vec![measure], notes, ..Observed::default() }
+        Observed {
+            samples: self.compared,
+            not_evaluated: self.not_evaluated.count(),
+            measures: vec![measure],
+            notes,
+            ..Observed::default()
+        }
     }
 
     fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {

@@ -12,6 +12,11 @@ pub(super) struct NotEvaluated {
 }
 
 impl NotEvaluated {
+    /// Number of samples that were not evaluated, for any reason.
+    pub(super) fn count(&self) -> u64 {
+        self.constrained + self.unknown + self.refused
+    }
+
     /// Remarks on the samples that were not evaluated; `compared` samples were.
     pub(super) fn notes(&self, compared: u64) -> Vec<String> {
         let whole = [
@@ -19,7 +24,7 @@ impl NotEvaluated {
             (self.unknown, "no forces known, as in playback"),
             (self.refused, "a joint without inertia, or a value that is not a number"),
         ];
-        let sum: u64 = whole.iter().map(|(count, _)| count).sum();
+        let sum = self.count();
         let mut notes: Vec<String> = whole
             .iter()
             .filter(|(count, _)| *count > 0)

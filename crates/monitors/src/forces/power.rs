@@ -183,7 +183,13 @@ impl Monitor for PowerMonitor<'_> {
         if self.compared > 0 {
             notes.push(format!("energy moved: {}", quantity(self.moved_j, "J")));
         }
-        Observed { samples: self.compared, measures: vec![measure], notes, ..Observed::default() }
+        Observed {
+            samples: self.compared,
+            not_evaluated: self.not_evaluated.count(),
+            measures: vec![measure],
+            notes,
+            ..Observed::default()
+        }
     }
 
     fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {

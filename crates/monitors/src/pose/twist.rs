@@ -170,7 +170,13 @@ impl Monitor for TwistMonitor {
                 self.constrained
             ));
         }
-        Observed { samples: self.samples, measures, notes, ..Observed::default() }
+        Observed {
+            samples: self.samples,
+            not_evaluated: self.constrained,
+            measures,
+            notes,
+            ..Observed::default()
+        }
     }
 
     fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {

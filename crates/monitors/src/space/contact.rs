@@ -153,6 +153,7 @@ impl Monitor for ContactMonitor {
             measures: vec![self.distance.measure(&names.joints, |pair| names.pairs[pair].clone())],
             contacts: self.contacts.iter().map(contact).collect(),
             notes,
+            ..Observed::default()
         }
     }
 

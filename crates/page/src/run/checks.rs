@@ -58,7 +58,7 @@ fn name(check: &CheckResult) -> Markup {
     let outcome = match check.status {
         Status::Pass => BadgeKind::Good,
         Status::Fail | Status::Error => BadgeKind::Bad,
-        Status::Skipped => BadgeKind::Unclear,
+        Status::Skipped | Status::Inconclusive => BadgeKind::Unclear,
     };
     html! {
         th scope="row" { (check.check) @if check.is_default { span.small { " (default)" } } @if let Some(line) = check.line { span.small { " line " (line) } } }

@@ -58,11 +58,11 @@ fn write_status(
     let style =
         StateConfiguration::new().with_values(palette::STATUS_WORDS).with_colors(palette::STATUS_COLORS);
     writer.log_static(path, &style)?;
-    let start = if check.status == Status::Skipped { Status::Skipped } else { Status::Pass };
+    let start = if check.status.is_conclusive() { Status::Pass } else { check.status };
     let change = match check.status {
         Status::Fail => first_violation(check).map(|(_, moment)| (moment.time_s, Status::Fail)),
         Status::Error => Some((report.simulation.duration_s, Status::Error)),
-        Status::Pass | Status::Skipped => None,
+        Status::Pass | Status::Skipped | Status::Inconclusive => None,
     };
     let has_start = change.is_none_or(|(time_s, _)| time_s > 0.0);
     for (time_s, status) in has_start.then_some((0.0, start)).into_iter().chain(change) {

@@ -69,7 +69,7 @@ pub struct RecordingSummary {
 pub struct CheckSummary {
     /// Kind of the check, such as `clearance`.
     pub check: String,
-    /// Result of the check: `pass`, `fail`, `error` or `skipped`.
+    /// Result of the check: `pass`, `fail`, `error`, `skipped` or `inconclusive`.
     pub status: String,
     /// Its quantities that have a value, each with the worst one.
     pub quantities: Vec<QuantitySummary>,

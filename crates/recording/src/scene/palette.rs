@@ -48,10 +48,15 @@ pub(crate) const NEUTRAL: Color = rgb([0xf2, 0xf2, 0xf2]);
 /// Background of the three-dimensional view.
 pub(crate) const BACKGROUND: [u8; 3] = [0x1c, 0x1e, 0x24];
 /// The colours of [`STATUS_WORDS`], in their order.
-pub(crate) const STATUS_COLORS: [Color; 4] =
-    [rgb([0x2e, 0x9e, 0x4f]), rgb([0xd9, 0x2d, 0x2d]), rgb([0xd9, 0x8a, 0x1f]), rgb([0x60, 0x66, 0x70])];
+pub(crate) const STATUS_COLORS: [Color; 5] = [
+    rgb([0x2e, 0x9e, 0x4f]),
+    rgb([0xd9, 0x2d, 0x2d]),
+    rgb([0xd9, 0x8a, 0x1f]),
+    rgb([0x60, 0x66, 0x70]),
+    rgb([0x60, 0x66, 0x70]),
+];
 /// The statuses of a check as the viewer names them.
-pub(crate) const STATUS_WORDS: [&str; 4] = ["pass", "fail", "error", "skipped"];
+pub(crate) const STATUS_WORDS: [&str; 5] = ["pass", "fail", "error", "skipped", "inconclusive"];
 
 const OBSTACLES: [[u8; 3]; 5] =
     [[0x6b, 0x70, 0x7a], [0xb8, 0x8a, 0x5a], [0x7d, 0x8c, 0x6a], [0x8a, 0x78, 0x96], [0x6f, 0x8f, 0x99]];

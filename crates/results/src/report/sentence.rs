@@ -27,6 +27,10 @@ fn all_lines(check: &CheckResult) -> Vec<String> {
     let (violated, others): (Vec<_>, Vec<_>) = check.measures.iter().partition(is_violated);
     let notes: Vec<String> = contacts(&check.contacts).chain(check.notes.iter().cloned()).collect();
     let others = others.into_iter().map(sentence);
+    if check.status == Status::Inconclusive {
+        // The remarks say why the values are not a result.
+        return notes.into_iter().chain(others).collect();
+    }
     if violated.is_empty() {
         return others.chain(notes).collect();
     }

@@ -72,7 +72,7 @@ pub fn judged(
         // With no kind named, any one failure is enough.
         Status::Pass if verdict == Verdict::AsExpected => TestResult::Passed,
         Status::Pass => TestResult::Failed(reason(format!("unexpected pass: {message}"))),
-        Status::Skipped => TestResult::Skipped(message),
+        Status::Skipped | Status::Inconclusive => TestResult::Skipped(message),
         Status::Error => TestResult::Error(reason(message)),
         Status::Fail => TestResult::Failed(reason(message)),
     }

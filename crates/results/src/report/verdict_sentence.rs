@@ -21,12 +21,15 @@ pub fn verdict_sentence(
     results: impl IntoIterator<Item = (CheckKind, Status)>,
 ) -> String {
     let mut failed: Vec<CheckKind> = Vec::new();
+    let mut is_inconclusive = false;
     for (kind, status) in results {
+        is_inconclusive |= status == Status::Inconclusive;
         if status == Status::Fail && !failed.contains(&kind) {
             failed.push(kind);
         }
     }
     match verdict {
+        Verdict::NothingChecked if is_inconclusive => "no check could evaluate enough samples".to_owned(),
         Verdict::NothingChecked => "no check of the scenario was evaluated: add a [[check]]".to_owned(),
         Verdict::Broken => "the run ended with an error".to_owned(),
         Verdict::AsExpected if failed.is_empty() => "every check passes, as expected".to_owned(),

@@ -8,7 +8,7 @@ const RED: u8 = 31;
 const YELLOW: u8 = 33;
 
 /// Words with their colours; of two with the same beginning the longer is first.
-const WORDS: [(&str, u8); 20] = [
+const WORDS: [(&str, u8); 21] = [
     ("same robot", GREEN),
     ("same geometry, different dynamics", RED),
     ("different dynamics", RED),
@@ -27,6 +27,7 @@ const WORDS: [(&str, u8); 20] = [
     ("BAD INPUT", RED),
     ("BROKEN", RED),
     ("skipped", YELLOW),
+    ("inconclusive", YELLOW),
     ("NOTHING CHECKED", YELLOW),
     ("NOT CHECKED", YELLOW),
 ];

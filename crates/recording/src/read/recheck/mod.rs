@@ -225,7 +225,7 @@ impl Context<'_> {
         let status = match recorded.status {
             Status::Skipped if quantities.is_empty() => Status::Skipped,
             _ if is_violated || !found_here.is_empty() && quantities.is_empty() => Status::Fail,
-            Status::Error => Status::Error,
+            Status::Error | Status::Inconclusive => recorded.status,
             _ => Status::Pass,
         };
         // With limits other than those of the run, another status is the answer and no contradiction.
