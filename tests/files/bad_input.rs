@@ -21,7 +21,7 @@ duration_s = 0.01
 [controller]
 kind = \"passive\"
 [[motion]]
-move_joints_deg = { joint_1 = 0.5 }
+move_joints_deg = { joint_1 = 0.05 }
 duration_s = 0.01
 [[check]]
 kind = \"agreement\"
@@ -196,7 +196,7 @@ fn case_23_a_servo_that_cannot_be() {
         ("servo_tcp = { xyz_m = [1, 0, 0] }\nprofile = \"cubic\"", ["unknown key \"profile\"", "gain_per_s"]),
     ] {
         let bench = Workbench::new();
-        bench.edit("scenario.toml", "move_joints_deg = { joint_1 = 0.5 }", keys);
+        bench.edit("scenario.toml", "move_joints_deg = { joint_1 = 0.05 }", keys);
         bench.refused("scenario.toml", 0, &words);
     }
     let bench = Workbench::new();
@@ -204,7 +204,7 @@ fn case_23_a_servo_that_cannot_be() {
     bench.edit("scenario.toml", "[[motion]]", servo);
     bench.edit(
         "scenario.toml",
-        "move_joints_deg = { joint_1 = 0.5 }\nduration_s = 0.01",
+        "move_joints_deg = { joint_1 = 0.05 }\nduration_s = 0.01",
         "move_joints_deg = { joint_1 = 10 }",
     );
     bench.refused("scenario.toml", 11, &["at the end of a servo_tcp", "`duration_s`"]);

@@ -40,6 +40,8 @@ pub enum Quantity {
     GoalErrorOfShift,
     /// Deviation of the TCP from its setpoint at the end, m.
     GoalErrorOfTcp,
+    /// Travel of a joint as a share of the travel of its setpoint.
+    ShareOfTravel,
     /// How far an angular joint passes its goal, rad.
     OvershootOfAngle,
     /// How far a prismatic joint passes its goal, m.

@@ -122,6 +122,7 @@ impl Numbers {
             Check::Power(check) => self.check_optional("check.relative", check.relative, Range::Positive),
             Check::Tracking(check) => {
                 self.check_optional("check.settling_s", check.settling_s, Range::NonNegative);
+                self.check_optional("check.travel_share", check.travel_share, Range::Positive);
             }
             Check::Agreement(_)
             | Check::Clearance(_)

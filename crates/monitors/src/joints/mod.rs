@@ -3,6 +3,7 @@
 mod cycle_time;
 mod limits;
 mod tracking;
+mod travel;
 
 pub(super) use cycle_time::{AT_THE_END, CycleTimeMonitor};
 pub(super) use limits::{

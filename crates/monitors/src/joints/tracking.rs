@@ -1,5 +1,5 @@
-//! The twin against its setpoint: the error during the run and at its end, and, while the setpoint is at rest, settling time
-//! and overshoot of the joints.
+//! The twin against its setpoint: the error during the run and at its end, the part of the commanded travel that joints make,
+//! and, while the setpoint is at rest, settling time and overshoot of the joints.
 
 use congruent_description::{JointKind, LinkIndex, Robot, RobotQ};
 use congruent_input::{Diagnostic, Quantity, SiUnit};
@@ -7,6 +7,7 @@ use congruent_kinematics::UrdfTree;
 use congruent_scenario::{FilePlace, TrackingCheck};
 use nalgebra::{Isometry3, Vector3};
 
+use super::travel::TravelShare;
 use crate::{
     CheckContext, Names, codes,
     monitor::{Monitor, Observed},
@@ -29,6 +30,7 @@ pub(crate) struct TrackingMonitor {
     goal: Errors,
     overshoot: Errors,
     settling: Option<Watch>,
+    travel: Option<TravelShare>,
     /// Whether the run ended before the setpoint came to rest after a motion.
     was_never_at_rest: bool,
     rest_detector: RestDetector,
@@ -60,8 +62,10 @@ pub(crate) fn examine(check: &TrackingCheck, place: FilePlace<'_>, robot: &Robot
     let refused = |message: String, help: &str| {
         Diagnostic::error(codes::scenario::TRACKING, message).with_help(help.to_owned())
     };
-    if limits.iter().all(|keys| keys.value().is_none()) {
-        let help = "give for example path_deg, path_tcp_mm, goal_deg or overshoot_deg";
+    if limits.iter().all(|keys| keys.value().is_none())
+        && (check.travel_share.is_none() || check.settling_s.is_some())
+    {
+        let help = "give for example path_deg, path_tcp_mm, goal_deg, travel_share or overshoot_deg";
         let what = if check.settling_s.is_some() {
             "`settling_s` needs a limit `goal_*`: the band in which the joints must stay"
         } else {
@@ -122,6 +126,7 @@ impl TrackingMonitor {
                 tcp: None,
             },
             settling: check.settling_s.map(|limit| watch(Quantity::SettlingTime, SiUnit::Second, limit)),
+            travel: check.travel_share.map(|limit| TravelShare::new(limit, dof)),
             was_never_at_rest: false,
             rest_detector: RestDetector {
                 q: RobotQ::zeros(dof),
@@ -137,7 +142,7 @@ impl TrackingMonitor {
     fn watches(&self) -> impl Iterator<Item = &Watch> {
         let groups = [&self.path, &self.goal, &self.overshoot];
         let of_groups = groups.into_iter().flat_map(|group| [&group.turning, &group.sliding, &group.tcp]);
-        of_groups.chain([&self.settling]).flatten()
+        of_groups.chain([&self.settling]).flatten().chain(self.travel.as_ref().map(|travel| &travel.watch))
     }
 
     /// While the setpoint is at rest: overshoot of the joints, and the time until they stay in their bands.
@@ -238,6 +243,9 @@ impl Monitor for TrackingMonitor {
         let tcp_error_m = if needs_tcp { self.tcp.error_m(setpoint.q, sample) } else { 0.0 };
         self.path.observe_joints(&self.kinds, setpoint.q, sample);
         self.path.observe_tcp(tcp_error_m, self.tcp.tip, sample);
+        if let Some(travel) = &mut self.travel {
+            travel.observe(setpoint.q, sample);
+        }
         let since_s = self.rest_detector.take(setpoint.q, sample.time_s);
         if let Some(since_s) = since_s {
             self.observe_rest(since_s, setpoint.q, sample);

@@ -209,6 +209,42 @@ fn tracking_needs_limits_that_mean_something() {
     assert!(refused(twice).contains("are both given"));
 }
 
+/// Servos without stiffness under compensated gravity: nothing moves, and the error is that of a small motion.
+#[test]
+fn a_small_motion_that_nobody_follows_fails() {
+    let by_default = |controller, targets: [(&str, f64); 2]| {
+        let mut scenario = scenario(controller, limits());
+        scenario.start.joints_rad.clear();
+        if let MotionSettings::Joints(motion) = &mut scenario.motion[0] {
+            motion.move_joints_rad = targets.map(|(name, target)| (name.to_owned(), target)).into();
+        }
+        let setup = setup(scenario, &arm(&[]));
+        let mut checks = crate::support::outcome(&setup, None).checks;
+        checks.retain(|check| check.check == congruent_scenario::CheckKind::Tracking && check.is_default);
+        checks.remove(0)
+    };
+    let slack = || controlled("gravity_compensation", 0.0, 0.0);
+    for target in [0.002, 0.02, 0.08] {
+        let not_followed = by_default(slack(), [("shoulder", target), ("elbow", 0.0)]);
+        fails(&not_followed, "share_of_travel", "shoulder");
+        passes(&by_default(servo(), [("shoulder", target), ("elbow", 0.0)]));
+    }
+    // Not judged: within it an arm is at its goal. Nor is a joint that is not commanded to move.
+    passes(&by_default(slack(), [("shoulder", 0.0005), ("elbow", 0.0)]));
+}
+
+#[test]
+fn a_motion_that_is_cut_short_is_not_judged_by_its_travel() {
+    let tracking = TrackingCheck { travel_share: Some(0.9), ..TrackingCheck::default() };
+    let ended = |duration_s: f64| {
+        let mut scenario = scenario(servo(), Check::Tracking(tracking));
+        scenario.simulation.duration_s = Some(duration_s);
+        result(&setup(scenario, &arm(&[])))
+    };
+    assert_eq!(ended(0.1).status, Status::Skipped);
+    passes(&ended(1.2));
+}
+
 fn cycle(limit_s: f64, edit: impl FnOnce(&mut Scenario)) -> CheckResult {
     let check = CycleTimeCheck {
         limit_s,

@@ -12,7 +12,7 @@ mod states;
 
 use std::collections::BTreeSet;
 
-use congruent_input::{SiUnit, serde_name};
+use congruent_input::{Quantity, SiUnit, serde_name};
 use congruent_monitors::verdict::{CheckResult, Status, Verdict, judge};
 use congruent_results::{comparison::Scalars, report::RunReport};
 use congruent_scenario::CheckKind;
@@ -59,6 +59,9 @@ pub enum RecheckError {
 /// By how much a value that is computed again from joint positions may be worse than that of the run. Kind: rounding of
 /// the physics; the poses of the run are those of its bodies, these follow from the URDF. In the unit of the value.
 const COMPUTED_AGAIN: f64 = 1e-6;
+/// The same for a share of travel, whose ends may lie between two recorded samples. Kind: judgement; joints are slow where they turn
+/// round or stop.
+const BETWEEN_SAMPLES: f64 = 0.05;
 
 /// Evaluates the checks of a scenario on a recording, and compares the results with the report in it.
 ///
@@ -182,9 +185,10 @@ impl Context<'_> {
 
     /// How much worse than in the run a value at recorded instants may be: rounding, and for a time the gap between
     /// samples.
-    fn slack(&self, kind: CheckKind, unit: SiUnit) -> f64 {
-        match unit {
+    fn slack(&self, kind: CheckKind, of: LimitedQuantity) -> f64 {
+        match of.unit {
             _ if kind == CheckKind::Agreement => 0.0, // recorded, not computed again
+            _ if of.name == Quantity::ShareOfTravel => BETWEEN_SAMPLES,
             SiUnit::Second => self.gap_s,
             _ => COMPUTED_AGAIN,
         }
@@ -210,9 +214,9 @@ impl Context<'_> {
         let unreported = self.replay.found[at]
             .iter()
             .filter(|evidence| !reported.iter().any(|known| known.of.is(evidence.of.name, evidence.of.unit)));
-        for evidence in unreported.filter(|evidence| {
-            exceeds(evidence.beyond(evidence.of.limit), self.slack(kind, evidence.of.unit))
-        }) {
+        for evidence in unreported
+            .filter(|evidence| exceeds(evidence.beyond(evidence.of.limit), self.slack(kind, evidence.of)))
+        {
             let at = evidence.first_violation.unwrap_or(evidence.worst);
             let problem =
                 "violates the limit at a recorded sample, and the report has no such value".to_owned();
@@ -264,7 +268,7 @@ impl Context<'_> {
         if let Some((at, evidence, problem)) = self.problem(kind, reported, every_step.as_ref(), sampled) {
             disagreements.push(Disagreement::new(kind, line, evidence, at, problem));
         }
-        let slack = self.slack(kind, unit);
+        let slack = self.slack(kind, of);
         // Shapes that touch are at the limit exactly: the run has found it, too.
         let is_known = reported.violation_of(limit).is_some();
         // A new violation must exceed the slack: rounding of recomputed poses would fail a run that passed at its
@@ -318,7 +322,7 @@ impl Context<'_> {
         // Samples are some of the steps: they may be better than the worst value of the run, and worse by rounding
         // only.
         let sampled = sampled?;
-        let slack = self.slack(kind, reported.of.unit);
+        let slack = self.slack(kind, reported.of);
         let difference = sampled.beyond(reported.worst.value);
         if exceeds(difference, slack)
             && !is_same(sampled.worst.value, reported.worst.value)

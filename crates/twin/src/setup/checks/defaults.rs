@@ -9,6 +9,10 @@ pub(crate) const PATH_DEG: f64 = 5.0;
 /// Largest error of a sliding joint at any instant.
 pub(crate) const PATH_MM: f64 = 20.0;
 
+/// Smallest share of its commanded travel that a joint makes: whatever the size of a motion, an arm that makes less of it does
+/// not follow. Kind: judgement; the scenarios of this project reach TRAVEL or more.
+pub(crate) const TRAVEL_SHARE: f64 = 0.5;
+
 /// The checks that are added to those of the scenario: `tracking` if it has motions, and `limits` if its robot declares
 /// some. A check of the scenario replaces the default check of the same kind.
 pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Vec<Check> {
@@ -22,6 +26,7 @@ pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Ve
         Check::Tracking(TrackingCheck {
             path_deg: turns.then_some(PATH_DEG),
             path_mm: slides.then_some(PATH_MM),
+            travel_share: Some(TRAVEL_SHARE),
             ..TrackingCheck::default()
         })
     });
