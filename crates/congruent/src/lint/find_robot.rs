@@ -6,7 +6,7 @@ use std::{
 };
 
 use congruent_description::{Robot, RobotDescription, load_robot_with};
-use congruent_input::{Diagnostic, FileAccess, SourceFile, read_text};
+use congruent_input::{Diagnostic, FileAccess, SourceFile};
 use congruent_lint::{FileKind, FileToLint, robot_name};
 
 use crate::codes;
@@ -71,7 +71,10 @@ fn urdfs_named(name: &str, folder: &Path) -> Vec<PathBuf> {
     urdfs.sort();
     urdfs.truncate(MOST_LOOKED_AT);
     let has_name = |path: &PathBuf| {
-        read_text(path, MOST_BYTES).is_ok_and(|urdf| robot_name(&urdf.text).as_deref() == Some(name))
+        // Nobody has named it, so that it may not be a pipe.
+        FileAccess::default()
+            .read_text(path, MOST_BYTES)
+            .is_ok_and(|urdf| robot_name(&urdf.text).as_deref() == Some(name))
     };
     urdfs.retain(has_name);
     urdfs

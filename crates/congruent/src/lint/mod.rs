@@ -210,7 +210,7 @@ const MOST_TABLE_BYTES: u64 = 64 << 20;
 fn srdf_of(description: &RobotDescription) -> Option<Arc<SourceFile>> {
     let srdf = description.named_files.srdf.as_ref()?;
     let is_read = description.inputs.iter().any(|file| file.path == *srdf);
-    is_read.then(|| read_text(srdf, MOST_BYTES).ok()).flatten()
+    is_read.then(|| FileAccess::default().read_text(srdf, MOST_BYTES).ok()).flatten()
 }
 
 /// An SRDF by itself, with the robot that is given beside it or lies beside it.
@@ -252,7 +252,7 @@ fn table(path: &Path, kind: FileKind, others: &[PathBuf], access: &FileAccess) -
 fn scenario(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
     match RunSetup::load_with(subject.path, &[], subject.access) {
         Ok(setup) => {
-            let robot_file = read_text(&setup.description.path, MOST_BYTES).ok();
+            let robot_file = FileAccess::default().read_text(&setup.description.path, MOST_BYTES).ok();
             let ignores = robot_file.as_ref().map_or_else(Ignores::default, ignores_of);
             let mut found = setup.warnings.clone();
             found.extend(suspicions(&setup.description));

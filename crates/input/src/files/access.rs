@@ -100,13 +100,20 @@ impl FileAccess {
         self.read.lock().map(|read| read.clone()).unwrap_or_default()
     }
 
-    /// The text of a file that a person names: a regular file of at most `most_bytes`, a pipe, or `-` for standard input.
+    /// The text of a file that a person names: a regular file of at most `most_bytes`, a pipe, or `-` for standard input. If a file
+    /// names it, as a scenario names its robot, it must be a regular file.
     ///
     /// # Errors
     /// The file cannot be read or is no UTF-8 text; the fault comes with as much of the text as is needed to show its
     /// place.
     pub fn read_named_text(&self, path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
-        let bytes = read_named_bytes(path, most_bytes)?;
+        // The project is set as soon as a file names others: from then on no path is a person's.
+        let is_named_by_file = self.project.is_some();
+        let bytes = if is_named_by_file {
+            read_regular_bytes(path, most_bytes)?
+        } else {
+            read_named_bytes(path, most_bytes)?
+        };
         self.note(&path.display(), path, &bytes);
         decode_text(path, &bytes)
     }
@@ -260,6 +267,20 @@ mod tests {
             std::os::unix::fs::symlink(top.path().join("outside"), &link).unwrap();
             assert_eq!(code(&access, &link.join("secret")), Some("file::outside"));
         }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_pipe_that_a_file_names_is_not_opened() {
+        let top = folders();
+        let pipe = top.path().join("project/robots/p.urdf");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let scenario = top.path().join("project/scenarios/s.toml");
+        let access = FileAccess::default().inside_project_of(&scenario).unwrap();
+        let named = |path: &Path| access.read_named_text(path, 99).err().map(|fault| fault.code.name);
+        assert_eq!(named(&pipe), Some("file::not_regular"));
+        assert_eq!(named(Path::new("-")), Some("file::not_found"));
+        assert_eq!(named(&top.path().join("project/robots/r.urdf")), None);
     }
 
     #[test]
