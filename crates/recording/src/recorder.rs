@@ -4,7 +4,7 @@ use std::path::Path;
 
 use congruent_agreement::compare::PoseSource;
 use congruent_description::{Obstacle, RobotDescription};
-use congruent_monitors::{Names, Recorder, RecordingError, Sample, verdict::CheckValue};
+use congruent_monitors::{Names, Recorder, RecordingError, Sample, agreement_tolerance, verdict::CheckValue};
 use congruent_results::{IfIncomplete, Recording, RecordingFormat, report::RunReport};
 use congruent_twin::{Run, RunSetup};
 use nalgebra::{Isometry3, Point3};
@@ -28,7 +28,7 @@ use crate::{
         checks::{CheckSeries, violating_link},
         clearance::ClearanceSeries,
         colors::ColorSeries,
-        disagreement::{AgreementLimits, DisagreementSeries},
+        disagreement::DisagreementSeries,
         extents::Extents,
         pairs::PairSeries,
         samples::SampleBatch,
@@ -90,13 +90,9 @@ impl RerunRecorder {
         sources: &[PoseSource],
     ) -> Result<Self, RecordingError> {
         let description = &setup.description;
-        let (robot, tolerance) = (&description.robot, description.tolerance);
-        // Without a check of agreement nothing is violated, but the arrows still have to appear at some error: that
-        // of the description's own tolerance.
-        let limits = AgreementLimits::tightest(&setup.scenario.check).unwrap_or(AgreementLimits {
-            position_m: tolerance.position_m,
-            orientation_rad: tolerance.orientation_rad,
-        });
+        let robot = &description.robot;
+        // Without a check of agreement nothing is violated, but the arrows still have to appear at some error.
+        let limits = agreement_tolerance(&setup.scenario.check, description.tolerance);
         let mut writer = RrdWriter::create(path, identity::store(setup, StoreKind::Recording))?;
         let bodies = shapes::bodies(setup);
         shapes::write(&mut writer, setup, &bodies)?;
@@ -125,7 +121,7 @@ impl RerunRecorder {
             batch: SampleBatch::new(names, moving_names(setup)),
             disagreement: DisagreementSeries::new(names.links.len(), limits),
             pairs: PairSeries::new(&setup.scenario.check),
-            clearance: ClearanceSeries::default(),
+            clearance: ClearanceSeries::new(&setup.scenario.check),
             zone_distances: ZoneSeries::new(setup.zones.len()),
             checks: CheckSeries::default(),
             extents: Extents::new(names.joints.len(), names.links.len()),

@@ -1,8 +1,8 @@
 //! Model against twin: position and orientation of every link, at every sample.
 
-use congruent_description::RobotDescription;
+use congruent_description::{RobotDescription, Tolerance};
 use congruent_input::{Quantity, SiUnit};
-use congruent_scenario::AgreementCheck;
+use congruent_scenario::{AgreementCheck, Check};
 
 use crate::{
     Names,
@@ -11,6 +11,22 @@ use crate::{
     verdict::{Bound, InstantValue},
     watch::Watch,
 };
+
+/// The limits of agreement that a picture or a plot of a run is for: the tightest of its checks, each part by itself, or else those
+/// of the robot file.
+pub fn agreement_tolerance(checks: &[Check], declared: Tolerance) -> Tolerance {
+    let tightest = |part: usize, declared: f64| {
+        let limits = checks.iter().filter_map(|check| match check {
+            Check::Agreement(check) => check.limits()[part],
+            _ => None,
+        });
+        limits.min_by(f64::total_cmp).unwrap_or(declared)
+    };
+    Tolerance {
+        position_m: tightest(0, declared.position_m),
+        orientation_rad: tightest(1, declared.orientation_rad),
+    }
+}
 
 pub(crate) struct AgreementMonitor {
     position: Watch,

@@ -5,14 +5,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use congruent_description::Tolerance;
-use congruent_monitors::{Recorder, RecordingError, RunClock, Sample};
+use congruent_monitors::{Recorder, RecordingError, RunClock, Sample, agreement_tolerance};
 use congruent_results::{IfIncomplete, Recording, RecordingFormat, report::RunReport};
-use congruent_scenario::Check;
-use congruent_twin::{Run, RunSetup};
+use congruent_twin::Run;
 
 use super::{content::RunContent, page};
-use crate::series::RunSeries;
+use crate::series::{NearestOverTime, RunSeries};
 
 /// The page of a run, `report.html`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -38,7 +36,11 @@ impl RecordingFormat for PageFormat {
                 obstacles: setup.obstacles.clone(),
                 obstacles_move: !setup.bodies.is_empty(),
                 zones: setup.zones.iter().map(|zone| zone.space.clone()).collect(),
-                series: RunSeries::new(&setup.description, tolerance(setup), step_s, steps),
+                series: RunSeries::new(
+                    &setup.description,
+                    agreement_tolerance(&setup.scenario.check, setup.description.tolerance),
+                    NearestOverTime::new(&setup.scenario.check, step_s, steps),
+                ),
             },
         }))
     }
@@ -66,13 +68,4 @@ impl Recording for PageRecorder {
             message: format!("cannot write {}: {error}", self.path.display()),
         })
     }
-}
-
-/// The limits of the checks of agreement, or the tolerance of the robot file.
-fn tolerance(setup: &RunSetup) -> Tolerance {
-    let limits = setup.scenario.check.iter().find_map(|check| {
-        let Check::Agreement(limits) = check else { return None };
-        Some(Tolerance { position_m: limits.position_m?, orientation_rad: limits.orientation_rad? })
-    });
-    limits.unwrap_or(setup.description.tolerance)
 }

@@ -1,7 +1,8 @@
 //! The smallest distances over time. They are measured now and then: an exact distance costs more than a physics step.
 
-use congruent_monitors::Sample;
-use congruent_proximity::{Clearance, Nearest};
+use congruent_monitors::{JudgedPairs, Sample};
+use congruent_proximity::Nearest;
+use congruent_scenario::Check;
 
 use super::{
     buckets::single,
@@ -54,8 +55,8 @@ impl NearestSeries {
         })
     }
 
-    fn look(&mut self, time_s: f64, clearance: &mut Clearance) {
-        let Some(Nearest { distance_m, pair }) = clearance.nearest() else { return };
+    fn push(&mut self, time_s: f64, nearest: Option<Nearest>) {
+        let Some(Nearest { distance_m, pair }) = nearest else { return };
         self.times_s.push(single(time_s));
         self.values_m.push(single(distance_m));
         self.pairs.push(pair);
@@ -67,15 +68,17 @@ impl NearestSeries {
 pub(crate) struct NearestOverTime {
     /// Steps between two measurements.
     stride: u64,
+    judged: JudgedPairs,
     pub(crate) clearance: NearestSeries,
     pub(crate) zones: NearestSeries,
 }
 
 impl NearestOverTime {
-    /// For a run of this number of steps.
-    pub(crate) fn new(step_s: f64, steps: u64) -> Self {
+    /// For a run of this number of steps: the distances that its checks judge.
+    pub(crate) fn new(checks: &[Check], step_s: f64, steps: u64) -> Self {
         Self {
             stride: stride(step_s, steps),
+            judged: JudgedPairs::new(checks),
             clearance: NearestSeries::with_capacity(ROOM),
             zones: NearestSeries::with_capacity(ROOM),
         }
@@ -84,8 +87,8 @@ impl NearestOverTime {
     /// Measures at this instant, if the stride has come to it.
     pub(crate) fn observe(&mut self, sample: &mut Sample<'_>) {
         if sample.step.is_multiple_of(self.stride) || sample.is_last {
-            self.clearance.look(sample.time_s, sample.clearance);
-            self.zones.look(sample.time_s, sample.zones);
+            self.clearance.push(sample.time_s, self.judged.nearest(sample.clearance));
+            self.zones.push(sample.time_s, sample.zones.nearest());
         }
     }
 }

@@ -80,8 +80,12 @@ pub(crate) struct RunSeries {
 }
 
 impl RunSeries {
-    /// Series before the first sample of a run of this number of steps.
-    pub(crate) fn new(description: &RobotDescription, tolerance: Tolerance, step_s: f64, steps: u64) -> Self {
+    /// Series before the first sample of a run.
+    pub(crate) fn new(
+        description: &RobotDescription,
+        tolerance: Tolerance,
+        nearest: NearestOverTime,
+    ) -> Self {
         let robot = &description.robot;
         let (links, joints) = (robot.links().len(), robot.dof());
         let series = 2 * links + JOINT_QUANTITIES.len() * joints;
@@ -92,7 +96,7 @@ impl RunSeries {
             tip: description.tip,
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             buckets: Buckets::new(series, MOST_BUCKETS.min(MOST_VALUES / (2 * series))),
-            nearest: NearestOverTime::new(step_s, steps),
+            nearest,
             tcp_path: DrawnPath::default(),
             largest: LargestDifference {
                 rank: [f64::NEG_INFINITY; 2],

@@ -3,8 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use congruent_monitors::RecordingError;
+use congruent_monitors::{JudgedPairs, RecordingError};
 use congruent_proximity::Clearance;
+use congruent_scenario::Check;
 
 use super::{distance_line::DistanceLine, pairs::NEAR_M};
 use crate::{
@@ -16,8 +17,9 @@ use crate::{
 const MAX_PAIRS: usize = 8;
 
 /// Distances of one run until they are written.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct ClearanceSeries {
+    judged: JudgedPairs,
     minimum: DistanceLine,
     /// Lines of pairs by the pair's index, each from the first time at which the pair was the nearest.
     pairs: BTreeMap<usize, DistanceLine>,
@@ -26,13 +28,21 @@ pub(crate) struct ClearanceSeries {
 }
 
 impl ClearanceSeries {
+    /// Distances of the pairs that the checks judge.
+    pub(crate) fn new(checks: &[Check]) -> Self {
+        let judged = JudgedPairs::new(checks);
+        Self { judged, minimum: DistanceLine::default(), pairs: BTreeMap::new(), range_m: None }
+    }
+
     /// Adds a row, or nothing if there are no pairs. Bodies of a pair with an index below `links` are links.
     pub(crate) fn push(&mut self, time: SampleTime, clearance: &mut Clearance, links: usize) {
-        let Some(nearest) = clearance.nearest() else { return };
+        let Some(nearest) = self.judged.nearest(clearance) else { return };
         self.minimum.push(time, nearest.distance_m);
         self.follow(nearest.pair);
         // Two links that are always close to each other must not hide an obstacle that the arm approaches.
-        if let Some(closest) = clearance.nearest_of(NEAR_M, |_, pair| pair.b >= links) {
+        let judged = &self.judged;
+        let closest = clearance.nearest_of(NEAR_M, |index, pair| pair.b >= links && judged.contains(index));
+        if let Some(closest) = closest {
             self.follow(closest.pair);
         }
         for (&pair, line) in &mut self.pairs {

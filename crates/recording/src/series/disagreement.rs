@@ -1,10 +1,10 @@
 //! Model and twin where they disagree: arrows of true length point from the twin's links outside the limits to the
 //! model's, and a label shows the error of the worst link.
 
+use congruent_description::Tolerance;
 use congruent_input::display::length_and_angle;
-use congruent_kinematics::PoseError;
+use congruent_kinematics::{PoseError, larger};
 use congruent_monitors::{RecordingError, Sample};
-use congruent_scenario::Check;
 use re_sdk_types::{
     SerializedComponentColumn,
     archetypes::{Arrows3D, Ellipsoids3D, Points3D},
@@ -29,40 +29,9 @@ const MARKER_M: f32 = 0.05;
 /// Height of the label above the origin of the worst link.
 const LABEL_ABOVE_M: f32 = 0.07;
 
-/// The largest errors at which model and twin agree.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct AgreementLimits {
-    /// Distance of the origins.
-    pub(crate) position_m: f64,
-    /// Angle between the orientations.
-    pub(crate) orientation_rad: f64,
-}
-
-impl AgreementLimits {
-    /// The tightest limits of all checks; `None` if no check limits these errors.
-    pub(crate) fn tightest(checks: &[Check]) -> Option<Self> {
-        let limits = checks.iter().filter_map(|check| {
-            let Check::Agreement(limits) = check else { return None };
-            let [position_m, orientation_rad] = limits.limits();
-            Some(Self { position_m: position_m?, orientation_rad: orientation_rad? })
-        });
-        limits.reduce(|a, b| Self {
-            position_m: a.position_m.min(b.position_m),
-            orientation_rad: a.orientation_rad.min(b.orientation_rad),
-        })
-    }
-
-    /// Whether an error is outside the limits; NaN is.
-    fn excludes(&self, error: &PoseError) -> bool {
-        // Both comparisons are false for NaN, so that its negation marks the link.
-        let is_within = error.position_m <= self.position_m && error.orientation_rad <= self.orientation_rad;
-        !is_within
-    }
-
-    /// The larger of both errors divided by their limits.
-    fn ratio(&self, error: &PoseError) -> f64 {
-        (error.position_m / self.position_m).max(error.orientation_rad / self.orientation_rad)
-    }
+/// The larger of both errors divided by their limits; NaN is the largest of all.
+fn ratio(error: &PoseError, limits: &Tolerance) -> f64 {
+    larger(error.position_m / limits.position_m, error.orientation_rad / limits.orientation_rad)
 }
 
 /// The link with the largest error at one time.
@@ -76,7 +45,7 @@ struct WorstLink {
 /// Arrows and labels of the links outside the limits, until they are written.
 #[derive(Debug)]
 pub(crate) struct DisagreementSeries {
-    limits: AgreementLimits,
+    limits: Tolerance,
     /// For each link, whether it was outside the limits in the row before; `None` before the first.
     is_outside: Vec<Option<bool>>,
     times: SampleTimes,
@@ -89,7 +58,7 @@ pub(crate) struct DisagreementSeries {
 
 impl DisagreementSeries {
     /// A series without rows, for a robot with this number of links.
-    pub(crate) fn new(links: usize, limits: AgreementLimits) -> Self {
+    pub(crate) fn new(links: usize, limits: Tolerance) -> Self {
         Self {
             limits,
             is_outside: vec![None; links],
@@ -104,7 +73,7 @@ impl DisagreementSeries {
     /// Whether a link has crossed its limits since the row before.
     pub(crate) fn would_change(&self, errors: &[PoseError]) -> bool {
         let shown = self.is_outside.iter();
-        shown.zip(errors).any(|(shown, error)| *shown != Some(self.limits.excludes(error)))
+        shown.zip(errors).any(|(shown, error)| *shown != Some(!error.is_within(&self.limits)))
     }
 
     /// Adds a row, and marks the links outside the limits.
@@ -113,7 +82,7 @@ impl DisagreementSeries {
         let first = self.origins.len();
         let mut worst: Option<(f64, WorstLink)> = None;
         for (link, error) in sample.errors.iter().enumerate() {
-            let is_outside = self.limits.excludes(error);
+            let is_outside = !error.is_within(&self.limits);
             self.is_outside[link] = Some(is_outside);
             if !is_outside {
                 continue;
@@ -123,8 +92,8 @@ impl DisagreementSeries {
             let origin_in_world = vector(twin);
             self.origins.push(origin_in_world);
             self.vectors.push(vector(&(model - twin)));
-            let ratio = self.limits.ratio(error);
-            if worst.is_none_or(|(known, _)| ratio > known) {
+            let ratio = ratio(error, &self.limits);
+            if worst.is_none_or(|(known, _)| larger(known, ratio).to_bits() != known.to_bits()) {
                 worst = Some((ratio, WorstLink { link, error: *error, origin_in_world }));
             }
         }

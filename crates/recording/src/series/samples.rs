@@ -1,6 +1,6 @@
 //! Poses, errors, joint positions and the tool's path, gathered in columns and written in batches.
 
-use congruent_kinematics::{Pose, PoseError};
+use congruent_kinematics::{Pose, PoseError, larger};
 use congruent_monitors::{Names, RecordingError, Sample};
 use nalgebra::Isometry3;
 use re_chunk::TimeColumn;
@@ -136,7 +136,8 @@ impl SampleBatch {
     ) -> Result<(), RecordingError> {
         let worst = |value: fn(&PoseError) -> f64| {
             let rows = self.errors.chunks_exact(links.max(1));
-            rows.map(move |row| log10(row.iter().map(value).fold(0.0, f64::max)))
+            // Not `f64::max`, which drops a NaN: an error that is not a number would be drawn as none.
+            rows.map(move |row| log10(row.iter().map(value).fold(0.0, larger)))
         };
         let position = worst(|error| error.position_m);
         write_scalars(writer, &paths::worst_of_links("position"), times, position)?;

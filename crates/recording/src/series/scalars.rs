@@ -1,5 +1,6 @@
 //! Scalars over time.
 
+use congruent_kinematics::larger;
 use congruent_monitors::RecordingError;
 use re_chunk::TimeColumn;
 use re_log_types::EntityPath;
@@ -10,7 +11,7 @@ use crate::rrd::writer::{RrdWriter, failed};
 /// Decimal logarithm of an error. An error below any rounding error counts as 1e-18, so that 0 has a value.
 pub(crate) fn log10(error: f64) -> f64 {
     const FLOOR: f64 = 1e-18;
-    libm::log10(error.max(FLOOR))
+    libm::log10(larger(error, FLOOR))
 }
 
 /// Writes one scalar for each time.
