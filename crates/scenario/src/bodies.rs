@@ -3,7 +3,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::number::{non_negative, optional_array, optional_positive, optional_positive_array};
+use super::{
+    checks::{UnitKeys, in_two_units},
+    number::{
+        non_negative, optional_array, optional_non_negative, optional_positive, optional_positive_array,
+    },
+};
 
 /// A pose on the path of an obstacle.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -42,6 +47,13 @@ pub struct GraspSettings {
     /// Time at which the link releases the obstacle; default: the end of the run.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub until_s: Option<f64>,
+    /// Largest distance of the obstacle from the gripper when it is taken, in metres or in millimetres: from the TCP, or from the
+    /// shapes of the link's body and of what is behind it; default: 0.1 m.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub reach_m: Option<f64>,
+    /// The same in millimetres.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub reach_mm: Option<f64>,
     /// Mass of the obstacle, which loads the arm while it is carried; default: no mass.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
@@ -52,4 +64,11 @@ pub struct GraspSettings {
     /// Centre of mass in the obstacle's frame; default: the origin.
     #[serde(default, deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
     pub com_m: Option<[f64; 3]>,
+}
+
+impl GraspSettings {
+    /// The reach of the gripper, which a file may give in one of two units.
+    pub fn reach(&self) -> UnitKeys {
+        in_two_units!(self, reach_m, reach_mm)
+    }
 }

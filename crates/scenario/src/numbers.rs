@@ -45,6 +45,8 @@ pub fn check(scenario: &Scenario) -> Vec<Diagnostic> {
     for grasp in &scenario.grasp {
         numbers.one("grasp.from_s", grasp.from_s, Range::NonNegative);
         numbers.check_optional("grasp.until_s", grasp.until_s, Range::Positive);
+        numbers.check_optional("grasp.reach_m", grasp.reach_m, Range::NonNegative);
+        numbers.check_optional("grasp.reach_mm", grasp.reach_mm, Range::NonNegative);
         numbers.check_optional("grasp.mass_kg", grasp.mass_kg, Range::Positive);
         let inertia = grasp.inertia_kg_m2.iter().flatten();
         inertia.for_each(|&value| numbers.one("grasp.inertia_kg_m2", value, Range::Positive));

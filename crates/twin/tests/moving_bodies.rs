@@ -169,6 +169,8 @@ fn grasp(mass_kg: Option<f64>) -> GraspSettings {
         body: "part".to_owned(),
         from_s: 0.5,
         until_s: Some(1.5),
+        // The ball takes it in passing, through the air.
+        reach_m: Some(1.0),
         mass_kg,
         ..GraspSettings::default()
     }
@@ -248,6 +250,28 @@ fn what_cannot_move_so_is_refused() {
     refused(one(moving, vec![grasp(None)]), "scenario::grasp", "moves along a path");
     let no_body = GraspSettings { inertia_kg_m2: Some([1.0, 1.0, 3.0]), ..grasp(Some(1.0)) };
     refused(one(part(), vec![no_body]), "scenario::grasp_inertia", "no body has this");
+}
+
+/// The ball of 0.1 m is on a straight line upwards, so that every distance is a closed form.
+#[test]
+fn a_body_beyond_the_reach_of_the_gripper_is_not_grasped() {
+    let near = |y| ball("part", 0.05, [0.0, y, 0.0]);
+    let taken = |reach_m| GraspSettings { from_s: 0.0, until_s: None, reach_m, ..grasp(None) };
+    let setup = |y: f64, reach_m| {
+        let (_folder, description) = lift();
+        RunSetup::new(scenario("kinematic", vec![near(y)], vec![taken(reach_m)]), description).map(|_| ())
+    };
+    assert!(setup(0.249, None).is_ok(), "99 mm between the surfaces");
+    for (y, reach_m, words) in [
+        (0.251, None, "101 mm from the gripper (link \"ball\""),
+        (0.7, None, "550 mm from the gripper"),
+        (0.249, Some(0.05), "at from_s = 0 s, reach <= 50 mm"),
+    ] {
+        refused(scenario("kinematic", vec![near(y)], vec![taken(reach_m)]), "scenario::grasp", words);
+    }
+    assert!(setup(0.7, Some(0.551)).is_ok());
+    let both = GraspSettings { reach_mm: Some(50.0), ..taken(Some(0.05)) };
+    refused(scenario("kinematic", vec![near(0.2)], vec![both]), "toml::both_units", "reach_mm");
 }
 
 /// A cube of 200 mm around the origin, as text of an STL file in millimetres.

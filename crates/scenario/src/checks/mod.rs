@@ -17,6 +17,7 @@ pub use on_violation::OnViolation;
 pub use pose::{AgreementCheck, GoalCheck, InvariantsCheck, TwistCheck};
 pub use space::{ClearanceCheck, ContactCheck, ZoneCheck};
 pub use unit_keys::UnitKeys;
+pub(crate) use unit_keys::in_two_units;
 
 /// One check of a run with its limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

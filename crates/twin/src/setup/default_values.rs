@@ -5,6 +5,8 @@ use congruent_monitors::{RunClock, write_out_limits};
 use congruent_motion::{ACCELERATION_M_S2, DEFAULT_GAIN_PER_S, default_jerk_m_s3};
 use congruent_scenario::{MotionSettings, Scenario, ScenarioFolder, StartSettings};
 
+use super::surroundings::DEFAULT_REACH_M;
+
 /// Fills in defaults: the duration, the whole start, limits, and the absolute paths of the robot and of files.
 pub(super) fn write_out(
     scenario: &mut Scenario,
@@ -43,6 +45,9 @@ pub(super) fn write_out(
     for grasp in &mut scenario.grasp {
         let tip = || description.robot.link(description.tip).name.clone();
         grasp.link.get_or_insert_with(tip);
+        if grasp.reach_mm.is_none() {
+            grasp.reach_m.get_or_insert(DEFAULT_REACH_M);
+        }
     }
     for check in &mut scenario.check {
         write_out_limits(check, description, clock.step_s);

@@ -9,7 +9,10 @@ use congruent_proximity::{BodyTrack, Grasp, MovingBody, ObstacleMobility, PathPo
 use congruent_scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario};
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
-use super::spaces;
+use super::{
+    reach::{GraspedBody, examine_reach},
+    spaces,
+};
 use crate::{codes, setup::written_at::WrittenAt};
 
 /// The bodies around the robot.
@@ -178,14 +181,6 @@ fn follow(
     if errors.is_empty() { Ok(payloads) } else { Err(errors.into()) }
 }
 
-/// A grasp with its place in the file.
-struct GraspedBody<'a> {
-    obstacle: usize,
-    grasp: Grasp,
-    settings: &'a GraspSettings,
-    place: FilePlace<'a>,
-}
-
 fn grasp(
     settings: &GraspSettings,
     place: FilePlace<'_>,
@@ -213,6 +208,7 @@ fn grasp(
         let message = format!("\"{}\": {}", settings.body, too_heavy(mass_kg));
         return Err(place.key("mass_kg").mark(Diagnostic::error(codes::scenario::GRASP, message)));
     }
+    settings.reach().examine(place)?;
     let of_the_mass = [("inertia_kg_m2", settings.inertia_kg_m2), ("com_m", settings.com_m)];
     let without_mass =
         of_the_mass.into_iter().find(|(_, given)| given.is_some() && settings.mass_kg.is_none());
@@ -250,6 +246,7 @@ fn of_one_body(
         );
         return Err(pair[1].place.key("from_s").mark(error));
     }
+    examine_reach(held, description, trajectory, obstacle)?;
     // Without a mass nothing loads the robot, so the plan is not needed: a body may be taken after a servo.
     if held.iter().all(|held| held.settings.mass_kg.is_none()) {
         return Ok(Vec::new());
