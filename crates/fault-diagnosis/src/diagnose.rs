@@ -186,11 +186,6 @@ impl Search<'_> {
         if let Some(contact) = first_contact {
             residuals.retain(|residual| residual.sample < contact);
         }
-        let robot = self.observed.robot;
-        let masters: Vec<usize> =
-            robot.joints().iter().filter_map(|joint| robot.coordinate(joint.mimic?.master)).collect();
-        // The effort of a joint that others mimic moves those as well, so it is not that of the joint alone.
-        self.open.retain(|joint| !masters.contains(joint));
         let (mut off, mut alone) = (Vec::new(), Vec::new());
         for &joint in &self.open {
             let of = |held: HeldSamples| self.off_window(&residuals, joint, held);

@@ -1,6 +1,6 @@
 //! Positions of the twin's joints by the poses of its links, against the readings of the encoders.
 
-use congruent_description::{Joint, JointKind, Robot};
+use congruent_description::{Joint, JointIndex, JointKind, Robot};
 use congruent_input::SiUnit;
 use congruent_monitors::{RunClock, SampleStore};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
@@ -37,8 +37,29 @@ pub(super) struct ObservedRun<'a> {
     pub(super) uncertainty: Vec<Uncertainty>,
     /// Which samples have a reading of their own, and not the one before once more.
     pub(super) is_used: Vec<bool>,
+    /// The joints that follow another.
+    pub(super) followers: Vec<Follower>,
     /// Readings of a time, and the efforts with them, arrive this many steps late in a window of samples.
     pub(super) late: Option<(Window, usize)>,
+}
+
+/// A joint that follows another: it has no drive, and by virtual work what moves it takes acts at its master, multiplied by the ratio.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Follower {
+    pub(super) joint: usize,
+    pub(super) master: usize,
+    pub(super) ratio: f64,
+}
+
+impl Follower {
+    /// The followers among the joints of a robot.
+    fn all(robot: &Robot) -> Vec<Self> {
+        let follower = |(joint, index): (usize, &JointIndex)| {
+            let mimic = robot.joint(*index).mimic?;
+            Some(Self { joint, master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
+        };
+        robot.movable_joints().iter().enumerate().filter_map(follower).collect()
+    }
 }
 
 impl<'a> ObservedRun<'a> {
@@ -75,6 +96,7 @@ impl<'a> ObservedRun<'a> {
             setpoint,
             uncertainty,
             is_used,
+            followers: Follower::all(robot),
             late: None,
         };
         observed.uncertainty = observed.uncertainties();

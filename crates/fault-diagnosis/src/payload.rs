@@ -48,7 +48,9 @@ pub(super) fn fault(
             // Missing is needed minus reported; the drive exerts what the load needs, so the load has the opposite sign.
             needed.push(-residual.missing[joint]);
             for (parameter, column) in columns.iter_mut().enumerate() {
-                column.push(regressor[(joint, PARAMETERS * body + parameter)]);
+                column.push(with_followers(observed, joint, |row| {
+                    regressor[(row, PARAMETERS * body + parameter)]
+                }));
             }
         }
     }
@@ -72,6 +74,12 @@ pub(super) fn fault(
         until_s,
     };
     Ok(Some(FaultFit { fault, remaining, parameters: 4 }))
+}
+
+/// A torque of a joint with those of the joints that follow it.
+fn with_followers(observed: &ObservedRun<'_>, joint: usize, torque: impl Fn(usize) -> f64) -> f64 {
+    let followers = observed.followers.iter().filter(|follower| follower.master == joint);
+    torque(joint) + followers.map(|follower| follower.ratio * torque(follower.joint)).sum::<f64>()
 }
 
 /// Mass and place by least squares, with the inertia of the mass and place of the round before.

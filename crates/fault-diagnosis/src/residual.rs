@@ -123,7 +123,7 @@ pub(super) struct Residual {
     pub(super) qd: [Vec<f64>; 2],
     pub(super) qdd: Vec<f64>,
     pub(super) effort: Vec<f64>,
-    /// Needed minus reported effort, by joint; for a joint at rest the part that dry friction does not explain.
+    /// Needed minus reported effort, by joint, with what its followers need; for a joint at rest the part that dry friction does not explain.
     pub(super) missing: Vec<f64>,
     /// Whether dry friction may hold the joint, with any effort up to its own: what is missing is then at least this much.
     pub(super) is_held: Vec<bool>,
@@ -228,6 +228,9 @@ fn residual(
     for (joint, resistance) in tree.resistances().iter().enumerate() {
         residual[joint] += resistance.damping * (qd[1][joint] - mean[joint]);
     }
+    for follower in &observed.followers {
+        residual[follower.master] += follower.ratio * std::mem::take(&mut residual[follower.joint]);
+    }
     let change = vec![0.0; q.len()];
     let (effort, is_known) = match observed.effort(sample) {
         Some(effort) => (effort.to_vec(), true),
@@ -238,10 +241,14 @@ fn residual(
     let friction = tree.resistances().iter().map(|resistance| resistance.friction).fold(0.0, f64::max);
     let rest_speed = REST_SPEED.max(REST_PART * qd[1].iter().map(|qd| qd.abs()).fold(0.0, f64::max));
     let mut is_held = vec![false; q.len()];
-    for (joint, resistance) in tree.resistances().iter().enumerate() {
-        is_held[joint] = resistance.friction > 0.0 && is_at_rest([qd[0][joint], qd[1][joint]], rest_speed);
+    let mut frictions: Vec<f64> = tree.resistances().iter().map(|resistance| resistance.friction).collect();
+    for follower in &observed.followers {
+        frictions[follower.master] += follower.ratio.abs() * std::mem::take(&mut frictions[follower.joint]);
+    }
+    for (joint, &friction) in frictions.iter().enumerate() {
+        is_held[joint] = friction > 0.0 && is_at_rest([qd[0][joint], qd[1][joint]], rest_speed);
         if is_held[joint] {
-            residual[joint] = not_held(residual[joint], resistance.friction, mean[joint]);
+            residual[joint] = not_held(residual[joint], friction, mean[joint]);
         }
     }
     Ok(Residual {

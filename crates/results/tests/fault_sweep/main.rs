@@ -5,8 +5,9 @@ mod single;
 
 use std::{collections::BTreeMap, path::Path};
 
-use congruent_description::{JointKind, Robot, RobotDescription, load_robot};
+use congruent_description::{JointKind, Robot, RobotDescription, load_robot, parse_robot};
 use congruent_fault_diagnosis::{FaultVerdict, RunDiagnosis, judge};
+use congruent_input::SourceFile;
 use congruent_monitors::NoRecorder;
 use congruent_results::report::diagnose_run;
 use congruent_scenario::{

@@ -166,3 +166,71 @@ fn a_torque_that_is_scaled_to_the_end_of_the_run_has_no_end() {
         }
     }
 }
+
+/// A telescope: stage 2 follows stage 1 with half of its travel, and carries a wrist.
+const TELESCOPE: &str = r#"<robot name="telescope">
+  <link name="base"/>
+  <link name="boom"><inertial><origin xyz="0.2 0 0"/><mass value="4"/>
+    <inertia ixx="0.01" iyy="0.08" izz="0.08" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="stage1"><inertial><origin xyz="0.1 0 0"/><mass value="3"/>
+    <inertia ixx="0.01" iyy="0.05" izz="0.05" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="stage2"><inertial><origin xyz="0.1 0 0"/><mass value="2"/>
+    <inertia ixx="0.01" iyy="0.03" izz="0.03" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="wrist"><inertial><origin xyz="0.05 0 0.02"/><mass value="1"/>
+    <inertia ixx="0.002" iyy="0.003" izz="0.003" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="tilt" type="revolute"><parent link="base"/><child link="boom"/><axis xyz="0 1 0"/>
+    <limit lower="-1.5" upper="1.5" effort="300" velocity="3"/><dynamics damping="0.5"/></joint>
+  <joint name="reach" type="prismatic"><parent link="boom"/><child link="stage1"/><origin xyz="0.3 0 0"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.5" effort="400" velocity="1"/><dynamics damping="5"/></joint>
+  <joint name="reach2" type="prismatic"><parent link="stage1"/><child link="stage2"/><origin xyz="0.2 0 0"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.25" effort="400" velocity="1"/><mimic joint="reach" multiplier="0.5"/></joint>
+  <joint name="spin" type="revolute"><parent link="stage2"/><child link="wrist"/><origin xyz="0.2 0 0"/><axis xyz="1 0 0"/>
+    <limit lower="-2" upper="2" effort="20" velocity="3"/></joint>
+</robot>"#;
+
+#[test]
+fn faults_of_a_joint_that_another_follows_are_found() {
+    let source = SourceFile { path: "telescope.urdf".into(), text: TELESCOPE.to_owned() };
+    let description = parse_robot(None, &source.into()).unwrap();
+    let motion = |tilt: f64, reach: f64| {
+        MotionSettings::Joints(JointMotion {
+            move_joints_rad: [("tilt", tilt), ("spin", tilt)].map(|(name, q)| (name.to_owned(), q)).into(),
+            move_joints_m: [("reach".to_owned(), reach)].into(),
+            duration_s: Some(1.0),
+            profile: Profile::Quintic,
+            ..JointMotion::default()
+        })
+    };
+    let diagnosed = |fault: Option<FaultSettings>| {
+        let mut scenario = scenario(None, &description, &mut Draw(ChaCha8Rng::seed_from_u64(1)));
+        scenario.start = StartSettings::default();
+        scenario.start.joints_m = [("reach".to_owned(), 0.1)].into();
+        scenario.start.joints_rad = [("tilt".to_owned(), -0.4)].into();
+        scenario.motion = vec![motion(0.3, 0.4), motion(-0.4, 0.15)];
+        scenario.fault = fault.into_iter().collect();
+        let (injected, found) = run(scenario, &description);
+        let faults: Vec<RunFault> = found.iter().flat_map(RunDiagnosis::run_faults).collect();
+        (judge(&injected, &faults), found.map(|found| found.sentences()).unwrap_or_default())
+    };
+    let joint = || "reach".to_owned();
+    let (at_s, until_s) = (0.3, None);
+    let plain = || JointFault { joint: joint(), at_s, until_s };
+    let load = WrongPayloadFault { mass_kg: 0.8, com_m: Some([0.05, 0.02, 0.0]), at_s, until_s };
+    for fault in [
+        None,
+        Some(FaultSettings::ScaledTorque(ScaledTorqueFault { joint: joint(), share: 0.7, at_s, until_s })),
+        Some(FaultSettings::ScaledTorque(ScaledTorqueFault { joint: joint(), share: 1.3, at_s, until_s })),
+        Some(FaultSettings::LostTorque(plain())),
+        Some(FaultSettings::StuckJoint(plain())),
+        Some(FaultSettings::AddedFriction(AddedFrictionFault {
+            joint: joint(),
+            dry_n: Some(12.0),
+            at_s,
+            ..Default::default()
+        })),
+        Some(FaultSettings::WrongPayload(load)),
+    ] {
+        let (judgement, said) = diagnosed(fault.clone());
+        assert_eq!(judgement, FaultVerdict::Right, "{fault:?}: {said:?}");
+    }
+}
