@@ -57,6 +57,47 @@ fn motions_are_tracked_without_being_asked() {
     assert_eq!(status(&played, "limits"), (1, fails()), "but no joint is as fast");
 }
 
+/// Servos without stiffness under compensated gravity: nothing moves, and the error is that of a small motion.
+#[test]
+fn a_small_motion_that_nobody_follows_fails() {
+    let scratch = ScratchFolder::new();
+    let idle = "[controller]\nkind = \"gravity_compensation\"\nstiffness = 0\ndamping = 0\n";
+    for by_deg in [0.5, 4.0, 5.0] {
+        let turn = format!(
+            "[[motion]]\nmove_joints_deg = {{ shoulder_pan_joint = {by_deg:?} }}\nduration_s = 0.4\n"
+        );
+        let answer = run(&scratch, &[idle, &turn, AGREEMENT]);
+        assert_eq!(
+            (answer.code, check(&answer, "tracking")),
+            (1, Some((true, "fail".to_owned()))),
+            "{by_deg}"
+        );
+        let followed = run(&scratch, &[STIFF, &turn, AGREEMENT]);
+        assert_eq!(followed.code, 0, "{by_deg}: {}", followed.stdout);
+    }
+}
+
+/// Feedback hides it from every other check, and the diagnosis names it.
+#[test]
+fn a_scaled_torque_is_seen_without_being_asked() {
+    let scratch = ScratchFolder::new();
+    let controller = "[controller]\nkind = \"computed_torque\"\nstiffness = 400.0\ndamping = 40.0\n";
+    for share in [0.8, 1.3] {
+        let fault = format!(
+            "[[fault]]\nkind = \"scaled_torque\"\njoint = \"elbow_joint\"\nshare = {share}\nat_s = 0.3\n"
+        );
+        let answer = run(&scratch, &[controller, TURN, AGREEMENT, &fault]);
+        assert_eq!((answer.code, check(&answer, "effort")), (1, Some((true, "fail".to_owned()))), "{share}");
+        let report = answer.json();
+        let found = &report["diagnosis"]["faults"][0];
+        assert_eq!(
+            (&found["kind"], &found["joints"][0]),
+            (&"scaled_torque".into(), &"elbow_joint".into()),
+            "{report}"
+        );
+    }
+}
+
 #[test]
 fn a_check_of_the_scenario_takes_the_place_of_a_default_one() {
     let scratch = ScratchFolder::new();
@@ -69,14 +110,14 @@ fn a_check_of_the_scenario_takes_the_place_of_a_default_one() {
         answer.stderr
     );
     let kinds = |answer: &Answer| answer.json()["checks"].as_array().unwrap().len();
-    assert_eq!(kinds(&answer), 3, "agreement, tracking, and limits by default");
+    assert_eq!(kinds(&answer), 4, "agreement, tracking, and limits and effort by default");
     // What was checked by default is written, and checked again.
     let resolved = fs::read_to_string(scratch.path().join("out/s/scenario.resolved.toml")).unwrap();
-    assert_eq!(resolved.matches("[[check]]").count(), 3, "{resolved}");
+    assert_eq!(resolved.matches("[[check]]").count(), 4, "{resolved}");
     let again = scratch.write("again.toml", &resolved);
     let out = text(&scratch.path().join("again"));
     let again = congruent_json(&["run", &again, "--no-recording", "--out", &out]);
-    assert_eq!((again.code, kinds(&again)), (0, 3), "{}", again.stderr);
+    assert_eq!((again.code, kinds(&again)), (0, 4), "{}", again.stderr);
     let junit = fs::read_to_string(scratch.path().join("out/s/junit.xml")).unwrap();
     assert!(junit.contains("name=\"3_limits_default\""), "{junit}");
 }

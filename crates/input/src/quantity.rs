@@ -68,6 +68,8 @@ pub enum Quantity {
     AccelerationError,
     /// Deviation of the energy from the power of the actuators, relative to the largest one.
     EnergyError,
+    /// Difference of delivered and commanded effort, relative to the commanded one.
+    EffortError,
     /// A constant error of an encoder, rad or m.
     Offset,
     /// An error of an encoder that grows with time, rad/s or m/s.

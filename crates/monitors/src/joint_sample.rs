@@ -22,6 +22,9 @@ pub struct SetpointView<'a> {
     pub qd: &'a [f64],
     /// Accelerations, rad/s^2 or m/s^2; 0 during a servo, which commands none.
     pub qdd: &'a [f64],
+    /// Efforts that the actuators were commanded to exert in the step that led to the present instant, N m or N; empty if the source
+    /// does not know them.
+    pub effort: &'a [f64],
 }
 
 /// The joints of a robot at one instant.

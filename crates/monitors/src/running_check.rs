@@ -8,7 +8,10 @@ use congruent_scenario::{Check, CheckKind, FilePlace, ObstacleSettings, OnViolat
 
 use super::{
     context::CheckContext,
-    forces::{DYNAMICS_RELATIVE_PER_S, DynamicsMonitor, POWER_RELATIVE_PER_S, PowerMonitor},
+    forces::{
+        DYNAMICS_RELATIVE_PER_S, DynamicsMonitor, EFFORT_RELATIVE, EffortMonitor, POWER_RELATIVE_PER_S,
+        PowerMonitor,
+    },
     joints::{
         AT_THE_END, AT_THE_LIMIT, CycleTimeMonitor, LARGEST_EFFORT_SHARE, LARGEST_VELOCITY_SHARE,
         LimitsMonitor, TrackingMonitor, examine_limits, examine_tracking,
@@ -79,6 +82,7 @@ impl<'a> RunningCheck<'a> {
             Check::Agreement(_)
             | Check::CycleTime(_)
             | Check::Dynamics(_)
+            | Check::Effort(_)
             | Check::Invariants(_)
             | Check::Power(_)
             | Check::Twist(_)
@@ -98,6 +102,7 @@ impl<'a> RunningCheck<'a> {
             Check::Contact(check) => Box::new(ContactMonitor::new(check, context)),
             Check::CycleTime(check) => Box::new(CycleTimeMonitor::new(check, context)),
             Check::Dynamics(check) => Box::new(DynamicsMonitor::new(check, context)),
+            Check::Effort(check) => Box::new(EffortMonitor::new(check, context)),
             Check::Goal(check) => Box::new(GoalMonitor::new(check, description)),
             Check::Invariants(check) => Box::new(InvariantsMonitor::new(check, context)),
             Check::Limits(check) => Box::new(LimitsMonitor::new(check, context)),
@@ -169,6 +174,9 @@ pub fn write_out_limits(check: &mut Check, description: &RobotDescription, step_
         }
         Check::Dynamics(check) => {
             check.relative.get_or_insert(DYNAMICS_RELATIVE_PER_S * step_s);
+        }
+        Check::Effort(check) => {
+            check.relative.get_or_insert(EFFORT_RELATIVE);
         }
         Check::Invariants(check) => {
             check.rotation.get_or_insert_with(|| default_rotation(&description.robot));

@@ -22,8 +22,9 @@ mod text;
 
 pub use bodies::{GraspSettings, PathPoseSettings};
 pub use checks::{
-    AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, CycleTimeCheck, DynamicsCheck, GoalCheck,
-    InvariantsCheck, LimitsCheck, OnViolation, PowerCheck, TrackingCheck, TwistCheck, UnitKeys, ZoneCheck,
+    AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, CycleTimeCheck, DynamicsCheck,
+    EffortCheck, GoalCheck, InvariantsCheck, LimitsCheck, OnViolation, PowerCheck, TrackingCheck, TwistCheck,
+    UnitKeys, ZoneCheck,
 };
 pub use data::{Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
 pub use faults::{

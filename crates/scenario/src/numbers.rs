@@ -114,6 +114,7 @@ impl Numbers {
         match check {
             Check::CycleTime(check) => self.one("check.limit_s", check.limit_s, Range::Positive),
             Check::Dynamics(check) => self.check_optional("check.relative", check.relative, Range::Positive),
+            Check::Effort(check) => self.check_optional("check.relative", check.relative, Range::Positive),
             Check::Invariants(check) => {
                 self.check_optional("check.rotation", check.rotation, Range::Positive);
             }

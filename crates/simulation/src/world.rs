@@ -319,6 +319,12 @@ impl World {
         asked.copy_from_slice(torque);
         if delivered.iter().any(|share| (share - 1.0).abs() > 0.0) {
             self.engine.asked(&self.asked, q, qd, asked);
+            // An actuator that delivers all is known exactly, at its limits, too.
+            for ((asked, torque), share) in asked.iter_mut().zip(torque.iter()).zip(delivered.iter()) {
+                if share.to_bits() == 1.0_f64.to_bits() {
+                    *asked = *torque;
+                }
+            }
         }
         self.check_finite("position", &self.state.q)?;
         self.check_finite("velocity", &self.state.qd)?;

@@ -101,7 +101,7 @@ pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioD
             Some((_, why)) => last = why,
             None => {
                 if is_playback {
-                    let remark = "the motion is played back without forces, so the checks dynamics and power are left out: with forces";
+                    let remark = "the motion is played back without forces, so the checks dynamics, power and effort are left out: with forces";
                     content.remarks.push(format!("{remark} it does not pass ({last})"));
                 }
                 leave_out(&mut content, &results);
@@ -168,7 +168,7 @@ fn leave_out(content: &mut ScenarioContent, results: &[CheckResult]) {
     scenario.check.retain(|check| !left_out.iter().any(|result| result.check == check.kind()));
     // Of a playback it is said already.
     let without_forces = scenario.controller.kind == PLAYBACK;
-    let needs_forces = |kind| matches!(kind, CheckKind::Dynamics | CheckKind::Power);
+    let needs_forces = |kind| matches!(kind, CheckKind::Dynamics | CheckKind::Effort | CheckKind::Power);
     for result in left_out.iter().filter(|result| !(without_forces && needs_forces(result.check))) {
         let why = lines(result).into_iter().next().unwrap_or_default();
         content.remarks.push(format!("no check {}: {why}", result.check));

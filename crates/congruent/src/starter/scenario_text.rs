@@ -123,6 +123,7 @@ fn keys_and_purpose(check: &Check) -> (Vec<(&'static str, String)>, &'static str
         Check::Invariants(_) => (Vec::new(), "rotations are rotations, joint states are numbers"),
         Check::Twist(_) => (Vec::new(), "velocity by the Jacobian against the motion of the tool"),
         Check::Dynamics(_) => (Vec::new(), "the twin moves as forward dynamics says"),
+        Check::Effort(_) => (Vec::new(), "the actuators deliver what they are commanded to"),
         Check::Power(_) => (Vec::new(), "the actuators' work is where it should be"),
         Check::CycleTime(_) | Check::Goal(_) | Check::Zone(_) => (Vec::new(), ""),
     }

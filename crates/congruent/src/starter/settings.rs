@@ -2,8 +2,8 @@
 
 use congruent_description::{JointKind, RobotDescription, RobotQ};
 use congruent_scenario::{
-    AgreementCheck, Check, ControllerKind, ControllerSettings, DynamicsCheck, InvariantsCheck, JointMotion,
-    LimitsCheck, MotionSettings, PowerCheck, Profile, StartSettings, TrackingCheck, TwistCheck,
+    AgreementCheck, Check, ControllerKind, ControllerSettings, DynamicsCheck, EffortCheck, InvariantsCheck,
+    JointMotion, LimitsCheck, MotionSettings, PowerCheck, Profile, StartSettings, TrackingCheck, TwistCheck,
 };
 
 use super::joint_move::JointMove;
@@ -61,6 +61,7 @@ pub(super) fn checks(description: &RobotDescription) -> Vec<Check> {
         Check::Twist(TwistCheck::default()),
         Check::Dynamics(DynamicsCheck::default()),
         Check::Power(PowerCheck::default()),
+        Check::Effort(EffortCheck::default()),
     ]
 }
 

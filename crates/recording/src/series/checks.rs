@@ -54,7 +54,7 @@ pub(crate) fn violating_link(value: &CheckValue, robot: &Robot) -> Option<usize>
     match value.kind {
         CheckKind::Twist => Some(subject),
         CheckKind::Tracking if quantity.is_of_tcp() => Some(subject),
-        CheckKind::Dynamics | CheckKind::Limits | CheckKind::Tracking => {
+        CheckKind::Dynamics | CheckKind::Effort | CheckKind::Limits | CheckKind::Tracking => {
             // Beyond the last joint there is the sum of all.
             let &joint = robot.movable_joints().get(subject)?;
             Some(robot.joint(joint).child.get())

@@ -49,7 +49,35 @@ pub fn diagnose_run(run: &mut Run<'_>, outcome: &Outcome) -> Option<RunDiagnosis
         bodies: MovingBodies::new(&setup.bodies, &setup.obstacles),
     };
     let (samples, clearance) = run.samples_and_clearance();
-    diagnose_samples(diagnosed, samples, clearance)
+    let found = diagnose_samples(diagnosed, samples, clearance);
+    with_actuators(found, outcome)
+}
+
+/// The same with the actuators that do not deliver what they are commanded to, and of which the motion shows no fault.
+fn with_actuators(found: Option<RunDiagnosis>, outcome: &Outcome) -> Option<RunDiagnosis> {
+    let measures = outcome.checks.iter().flat_map(|check| &check.measures);
+    let violations = measures
+        .filter(|measure| measure.quantity == Quantity::EffortError)
+        .filter_map(|measure| measure.first_violation.as_ref());
+    let is_named = |joint: &String| {
+        found.as_ref().is_some_and(|found| found.run_faults().any(|fault| fault.joints.contains(joint)))
+    };
+    let unnamed: Vec<String> = violations
+        .filter(|violation| !is_named(&violation.subject))
+        .map(|violation| {
+            format!(
+                "joint {}: its actuator does not deliver the commanded effort, and the motion does not show which part: its \
+                 torques are small beside those of other joints, or it is at a limit",
+                violation.subject
+            )
+        })
+        .collect();
+    if unnamed.is_empty() {
+        return found;
+    }
+    let mut found = found.unwrap_or_default();
+    found.unexplained.extend(unnamed);
+    Some(found)
 }
 
 /// Why checks of a finished run failed: what its samples show, and the cause of the first failed check of agreement, which

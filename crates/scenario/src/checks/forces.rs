@@ -19,6 +19,19 @@ pub struct DynamicsCheck {
     pub on_violation: OnViolation,
 }
 
+/// The effort that each actuator delivers in a step, against the effort that it is commanded to.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EffortCheck {
+    /// Largest difference relative to the commanded effort, which counts as at least a tenth of the largest one of the joint so
+    /// far; default 0.05.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub relative: Option<f64>,
+    /// What the run does at the first violation of the check.
+    #[serde(default, deserialize_with = "variant")]
+    pub on_violation: OnViolation,
+}
+
 /// Work of the actuators against the change of energy and the losses by damping and dry friction.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

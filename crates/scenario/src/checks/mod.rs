@@ -11,7 +11,7 @@ use congruent_input::serde_name;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use forces::{DynamicsCheck, PowerCheck};
+pub use forces::{DynamicsCheck, EffortCheck, PowerCheck};
 pub use joints::{CycleTimeCheck, LimitsCheck, TrackingCheck};
 pub use on_violation::OnViolation;
 pub use pose::{AgreementCheck, GoalCheck, InvariantsCheck, TwistCheck};
@@ -33,6 +33,8 @@ pub enum Check {
     CycleTime(CycleTimeCheck),
     /// Acceleration of the twin against forward dynamics by analysis.
     Dynamics(DynamicsCheck),
+    /// Effort that the actuators deliver against the commanded one.
+    Effort(EffortCheck),
     /// Pose or position of the TCP at the end.
     Goal(GoalCheck),
     /// Rotations are orthonormal, joint constraints hold, and joint states are finite numbers.
@@ -63,6 +65,8 @@ pub enum CheckKind {
     CycleTime,
     /// See [`Check::Dynamics`].
     Dynamics,
+    /// See [`Check::Effort`].
+    Effort,
     /// See [`Check::Goal`].
     Goal,
     /// See [`Check::Invariants`].
@@ -81,12 +85,13 @@ pub enum CheckKind {
 
 impl CheckKind {
     /// Every kind, in alphabetical order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Agreement,
         Self::Clearance,
         Self::Contact,
         Self::CycleTime,
         Self::Dynamics,
+        Self::Effort,
         Self::Goal,
         Self::Invariants,
         Self::Limits,
@@ -117,6 +122,7 @@ impl Check {
             Self::Contact(_) => CheckKind::Contact,
             Self::CycleTime(_) => CheckKind::CycleTime,
             Self::Dynamics(_) => CheckKind::Dynamics,
+            Self::Effort(_) => CheckKind::Effort,
             Self::Goal(_) => CheckKind::Goal,
             Self::Invariants(_) => CheckKind::Invariants,
             Self::Limits(_) => CheckKind::Limits,
@@ -135,6 +141,7 @@ impl Check {
             Self::Contact(check) => check.on_violation,
             Self::CycleTime(check) => check.on_violation,
             Self::Dynamics(check) => check.on_violation,
+            Self::Effort(check) => check.on_violation,
             Self::Goal(check) => check.on_violation,
             Self::Invariants(check) => check.on_violation,
             Self::Limits(check) => check.on_violation,
@@ -156,7 +163,9 @@ impl Check {
             Self::Limits(check) => check.unit_keys().into(),
             Self::Tracking(check) => check.unit_keys().into(),
             Self::Twist(check) => check.unit_keys().into(),
-            Self::Dynamics(_) | Self::Invariants(_) | Self::Power(_) | Self::Zone(_) => Vec::new(),
+            Self::Dynamics(_) | Self::Effort(_) | Self::Invariants(_) | Self::Power(_) | Self::Zone(_) => {
+                Vec::new()
+            }
         }
     }
 }

@@ -291,6 +291,7 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
         CheckKind::Contact => section.read_into(&mut found).map(Check::Contact),
         CheckKind::CycleTime => section.read_into(&mut found).map(Check::CycleTime),
         CheckKind::Dynamics => section.read_into(&mut found).map(Check::Dynamics),
+        CheckKind::Effort => section.read_into(&mut found).map(Check::Effort),
         CheckKind::Goal => section.read_into(&mut found).map(Check::Goal),
         CheckKind::Invariants => section.read_into(&mut found).map(Check::Invariants),
         CheckKind::Limits => section.read_into(&mut found).map(Check::Limits),

@@ -42,6 +42,11 @@ pub const CONTROLLER_KINDS: [ControllerKind; 8] = [
 ];
 
 impl ControllerKind {
+    /// Whether it drives the robot by efforts.
+    pub fn has_actuators(self) -> bool {
+        !matches!(self, Self::Passive | Self::Kinematic)
+    }
+
     /// The name in scenarios.
     pub fn name(self) -> &'static str {
         serde_name(&self)

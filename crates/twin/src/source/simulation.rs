@@ -138,7 +138,12 @@ impl JointStateSource for SimulationSource<'_> {
                 qd: measured.qd,
                 effort: self.faults.reported_effort(),
             },
-            setpoint: Some(SetpointView { q: setpoint.q, qd: setpoint.qd, qdd: setpoint.qdd }),
+            setpoint: Some(SetpointView {
+                q: setpoint.q,
+                qd: setpoint.qd,
+                qdd: setpoint.qdd,
+                effort: self.world.asked_torque(),
+            }),
         }
     }
 

@@ -2,7 +2,10 @@
 
 use congruent_description::{CarriedBody, Inertia};
 use congruent_monitors::{RunPayload, verdict::Status};
-use congruent_scenario::{Check, DynamicsCheck, ObstacleSettings, PowerCheck};
+use congruent_scenario::{
+    Check, DynamicsCheck, EffortCheck, FaultSettings, ObstacleSettings, OverLimit, PowerCheck,
+    ScaledTorqueFault,
+};
 use congruent_twin::RunSetup;
 use nalgebra::{Isometry3, Matrix3};
 
@@ -157,4 +160,50 @@ fn dry_friction_that_holds_is_any_torque_up_to_its_largest() {
     // At rest as well, what holds is held against what can: 60 N m hold where 1 N m is declared.
     let weak = setup(scenario(controlled("passive", 0.0, 0.0), dynamics()), &sticky(1.0));
     fails(&result_with_physics_of(&sticky(60.0), &weak), "acceleration_error", "elbow");
+}
+
+fn effort() -> Check {
+    Check::Effort(EffortCheck::default())
+}
+
+/// Feedback hides it from `tracking`, and the equations of motion hold with what is delivered.
+#[test]
+fn an_actuator_that_delivers_another_share_of_its_torque_is_named() {
+    let scaled = |check: Check, share: f64| {
+        let mut scenario = scenario(controlled("computed_torque", 400.0, 40.0), check);
+        scenario.fault = vec![FaultSettings::ScaledTorque(ScaledTorqueFault {
+            joint: "elbow".to_owned(),
+            share,
+            at_s: 0.3,
+            until_s: None,
+        })];
+        result(&setup(scenario, &arm(&[])))
+    };
+    for share in [0.8, 1.3] {
+        let result = scaled(effort(), share);
+        fails(&result, "effort_error", "elbow");
+        // Of the joint's own effort, whatever its size.
+        let error = (worst(&result, "effort_error") - (share - 1.0).abs()).abs();
+        assert!(error < 1e-9, "{result:#?}");
+        passes(&scaled(dynamics(), share));
+    }
+    passes(&scaled(effort(), 0.97));
+}
+
+#[test]
+fn a_drive_delivers_what_it_is_commanded_to_within_its_limits() {
+    for arm in [arm(&[]), arm(&[("effort=\"300\"", "effort=\"45\""), ("velocity=\"3\"", "velocity=\"0.5\"")])]
+    {
+        for controller in
+            [servo(), controlled("pd", 3000.0, 150.0), controlled("computed_torque", 400.0, 40.0)]
+        {
+            let mut scenario = scenario(controller, effort());
+            scenario.limits.over_limit = OverLimit::Warn;
+            let result = result(&setup(scenario, &arm));
+            passes(&result);
+            assert_eq!((result.samples, worst(&result, "effort_error").to_bits()), (1200, 0), "{result:#?}");
+        }
+    }
+    let played = result(&setup(scenario(controlled("kinematic", 0.0, 0.0), effort()), &arm(&[])));
+    assert_eq!((played.status, played.samples), (Status::Skipped, 0), "{played:#?}");
 }

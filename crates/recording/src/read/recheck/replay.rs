@@ -51,6 +51,7 @@ fn needs_states_alone(kind: CheckKind) -> bool {
         | CheckKind::Zone => true,
         CheckKind::Agreement
         | CheckKind::Dynamics
+        | CheckKind::Effort
         | CheckKind::Invariants
         | CheckKind::Power
         | CheckKind::Twist => false,

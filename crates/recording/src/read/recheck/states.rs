@@ -145,7 +145,7 @@ impl JointStateSource for RecordedStates {
         let instant = &self.instants[self.at];
         let truth = JointStateView { q: &instant.truth, qd: &instant.qd, effort: &instant.effort };
         let measured = JointStateView { q: &instant.measured, qd: &[], effort: &[] };
-        let setpoint = |(q, qd)| SetpointView { q, qd, qdd: &self.no_accelerations };
+        let setpoint = |(q, qd)| SetpointView { q, qd, qdd: &self.no_accelerations, effort: &[] };
         let setpoint = instant.setpoint.as_ref().map(|(q, qd)| (q, &qd[..])).map(setpoint);
         JointSample { truth, measured, setpoint }
     }

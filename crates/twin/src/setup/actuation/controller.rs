@@ -49,7 +49,7 @@ const MOST_BYTES: u64 = 64 << 20;
 impl ControllerSetup {
     /// Whether the controller drives the robot by efforts.
     pub(crate) fn has_actuators(&self) -> bool {
-        !matches!(self.kind, ControllerKind::Passive | ControllerKind::Kinematic)
+        self.kind.has_actuators()
     }
 
     pub(in crate::setup) fn new(

@@ -1,7 +1,7 @@
 //! The checks that a run has by default, if the scenario has no check of that kind.
 
 use congruent_description::{Joint, Robot};
-use congruent_scenario::{Check, CheckKind, LimitsCheck, Scenario, TrackingCheck};
+use congruent_scenario::{Check, CheckKind, EffortCheck, LimitsCheck, Scenario, TrackingCheck};
 
 /// Largest error of a turning joint at any instant. The scenarios of this project reach 0.43 deg under stiff servos and
 /// 4.2 deg under soft ones; an arm that falls, or that a setpoint turns by 180 deg in 5 ms, exceeds it at once.
@@ -10,11 +10,11 @@ pub(crate) const PATH_DEG: f64 = 5.0;
 pub(crate) const PATH_MM: f64 = 20.0;
 
 /// Smallest share of its commanded travel that a joint makes: whatever the size of a motion, an arm that makes less of it does
-/// not follow. Kind: judgement; the scenarios of this project reach TRAVEL or more.
+/// not follow. Kind: judgement; the scenarios of this project make all of it, to 1e-3.
 pub(crate) const TRAVEL_SHARE: f64 = 0.5;
 
-/// The checks that are added to those of the scenario: `tracking` if it has motions, and `limits` if its robot declares
-/// some. A check of the scenario replaces the default check of the same kind.
+/// The checks that are added to those of the scenario: `tracking` if it has motions, `limits` if its robot declares some, and
+/// `effort` if actuators drive it. A check of the scenario replaces the default check of the same kind.
 pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Vec<Check> {
     let has = |kind: CheckKind| scenario.check.iter().any(|check| check.kind() == kind);
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
@@ -32,7 +32,9 @@ pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Ve
     });
     let is_limited = joints().any(has_limits) && !has(CheckKind::Limits);
     let limits = is_limited.then(|| Check::Limits(LimitsCheck::default()));
-    tracking.into_iter().chain(limits).collect()
+    let is_driven = scenario.controller.kind.has_actuators();
+    let effort = (is_driven && !has(CheckKind::Effort)).then(|| Check::Effort(EffortCheck::default()));
+    tracking.into_iter().chain(limits).chain(effort).collect()
 }
 
 /// Whether a joint has a limit; a velocity or an effort of zero means unknown.

@@ -54,6 +54,7 @@ fn beyond_meaning(
     };
     match check {
         Check::Dynamics(check) => share("relative", check.relative, "as much as the torques themselves"),
+        Check::Effort(check) => share("relative", check.relative, "as much as the commanded effort itself"),
         Check::Power(check) => share("relative", check.relative, "as much as the energy itself"),
         Check::Invariants(check) => share("rotation", check.rotation, "the size of a rotation's columns"),
         Check::Twist(check) => {
@@ -113,6 +114,7 @@ fn is_tolerance(check: &Check, keys: &UnitKeys) -> bool {
         // A distance that is kept, velocities, or no keys in two units.
         Check::Clearance(_)
         | Check::Dynamics(_)
+        | Check::Effort(_)
         | Check::Invariants(_)
         | Check::Power(_)
         | Check::Twist(_)
