@@ -117,7 +117,7 @@ impl Search<'_> {
         let late = |observed: &ObservedRun<'_>, open: &[usize]| {
             let encoders = encoder::faults(observed, open);
             let late = transport::late(observed, open);
-            (late.filter(|late| late.gain > encoders.gain + DISTINCT), encoders)
+            (late.filter(|late| late.gain_with_others(observed) > encoders.gain + DISTINCT), encoders)
         };
         let (mut found, mut encoders) = late(&self.observed, &self.open);
         // Before the search for lost readings: with a latency, readings repeat a while after the robot was at rest, not while
@@ -132,11 +132,16 @@ impl Search<'_> {
             found = transport::late(&self.observed, &self.open);
             self.observed.is_used = is_held.into_iter().map(|is_held| !is_held).collect();
             encoders = encoder::faults(&self.observed, &self.open);
-            found = found.filter(|late| late.gain > encoders.gain + DISTINCT);
+            found = found.filter(|late| late.gain_with_others(&self.observed) > encoders.gain + DISTINCT);
             self.observed.late = found.as_ref().map(|late| (late.window, late.steps));
         }
         match found {
-            Some(late) => self.found.push(late.fit),
+            Some(late) => {
+                // Encoders that are off as well: what the latency does not explain of them.
+                self.observed = late.taken_out(&self.observed);
+                self.encoders(encoder::faults(&self.observed, &late.others));
+                self.found.push(late.fit);
+            }
             None => self.encoders(encoders),
         }
     }
@@ -198,10 +203,7 @@ impl Search<'_> {
             off.push((joint, window));
             alone.extend(stuck.or_else(|| actuator::fault(&self.observed, joint, &residuals, window)));
         }
-        let joints: Vec<usize> = off.iter().map(|&(joint, _)| joint).collect();
-        let together = off.iter().map(|&(_, window)| window).reduce(OffWindow::with);
-        let Some(together) = together else { return Ok(()) };
-        let load = payload::fault(&self.observed, run.description, &joints, &residuals, together)?;
+        let load = payload::fault(&self.observed, run.description, &off, &residuals)?;
         let load = load.filter(FaultFit::explains);
         let score_alone: f64 = alone.iter().map(FaultFit::score).sum();
         match load {

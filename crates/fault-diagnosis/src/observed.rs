@@ -19,7 +19,7 @@ const AT_LIMIT: f64 = 1e-4;
 const FARTHEST: f64 = 1e5;
 
 /// All kept samples as series over time, joint by joint.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct ObservedRun<'a> {
     pub(super) store: &'a SampleStore,
     pub(super) robot: &'a Robot,

@@ -1,5 +1,7 @@
 //! Hypothesis: the tool carries a point mass that is not declared.
 
+use std::cell::RefCell;
+
 use congruent_description::RobotDescription;
 use congruent_dynamics::{BodyTree, DynamicsError, JointMotionState, PARAMETERS, SpatialInertia};
 use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
@@ -24,14 +26,14 @@ const PART_OF_AXIS: f64 = 0.05;
 /// Columns of the regressor: the first moment and the mass, after the six of the tensor.
 const FIRST_MOMENT: usize = 6;
 
-/// The point mass that explains the residuals of all `joints` in a window of them.
+/// The point mass that explains the residuals of all joints of `off`, in the window of all.
 pub(super) fn fault(
     observed: &ObservedRun<'_>,
     description: &RobotDescription,
-    joints: &[usize],
+    off: &[(usize, OffWindow)],
     residuals: &[Residual],
-    window: OffWindow,
 ) -> Result<Option<FaultFit>, DynamicsError> {
+    let Some(window) = off.iter().map(|&(_, window)| window).reduce(OffWindow::with) else { return Ok(None) };
     let tree = BodyTree::new(observed.robot).with_gravity(observed.clock.gravity_in_world);
     let (body, body_from_tip) = body_of(observed.robot, description.tip);
     let Some(body) = (0..tree.dof()).find(|&joint| tree.link(joint) == body) else { return Ok(None) };
@@ -44,7 +46,7 @@ pub(super) fn fault(
     for residual in of_window.iter().step_by(every) {
         let motion = JointMotionState { q: &residual.q, qd: &residual.qd[0], qdd: &residual.qdd };
         tree.regressor_into(&motion, &mut buffer, &mut regressor)?;
-        for &joint in joints.iter().filter(|&&joint| !residual.is_held[joint]) {
+        for joint in off.iter().map(|&(joint, _)| joint).filter(|&joint| !residual.is_held[joint]) {
             // Missing is needed minus reported; the drive exerts what the load needs, so the load has the opposite sign.
             needed.push(-residual.missing[joint]);
             for (parameter, column) in columns.iter_mut().enumerate() {
@@ -65,6 +67,25 @@ pub(super) fn fault(
     };
     let is_identifiable = std::array::from_fn(of_axis);
     let (from_s, until_s) = observed.times(window.samples);
+    // Joints that friction holds show no load: it ends only if it would show in what follows.
+    let parameters = load.parameters();
+    let scratch = RefCell::new((buffer, regressor));
+    let expected = |residual: &Residual, joint: usize| {
+        let (buffer, regressor) = &mut *scratch.borrow_mut();
+        let motion = JointMotionState { q: &residual.q, qd: &residual.qd[0], qdd: &residual.qdd };
+        if tree.regressor_into(&motion, buffer, regressor).is_err() {
+            return 0.0;
+        }
+        let torque = |row: usize| {
+            let terms = parameters.iter().enumerate();
+            terms.map(|(at, parameter)| regressor[(row, PARAMETERS * body + at)] * parameter).sum()
+        };
+        with_followers(observed, joint, torque)
+    };
+    let ends = off.iter().any(|&(joint, own)| {
+        own.in_place_of(window).ends(residuals, joint, |residual| expected(residual, joint))
+    });
+    let until_s = until_s.filter(|_| ends);
     let fault = RunFault {
         kind: FaultKind::WrongPayload,
         joints: Vec::new(),

@@ -101,6 +101,11 @@ impl OffWindow {
         after.iter().filter(would_show).take(FEWEST).count() == FEWEST
     }
 
+    /// The window of another, with the threshold of this joint.
+    pub(super) fn in_place_of(self, other: Self) -> Self {
+        Self { residuals: other.residuals, samples: other.samples, ..self }
+    }
+
     /// From the first of both to the last.
     pub(super) fn with(self, other: Self) -> Self {
         let both = |a: Window, b: Window| Window { first: a.first.min(b.first), end: a.end.max(b.end) };

@@ -3,7 +3,7 @@
 use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
 
 use super::{
-    encoder::{DISTINCT, SIGNIFICANT},
+    encoder::{self, DISTINCT, SIGNIFICANT},
     fit::{EXPLAINED, FaultFit, Window, rms},
     noise::ROUNDING,
     observed::ObservedRun,
@@ -53,7 +53,9 @@ pub(super) fn dropped(observed: &ObservedRun<'_>, joints: &[usize]) -> Option<Dr
     let (others, of_repeats) = (errors(false), errors(true));
     let remaining = if others > 0.0 { (others / of_repeats).min(1.0) } else { 0.0 };
     let value = FaultQuantity::share(lost / all);
-    let is_held = (0..observed.samples()).map(|sample| shows_loss[sample] && repeats(sample)).collect();
+    // Also where a loss would not show: a joint that settles moves by less than what shows a loss, and by more than rounding in
+    // several lost readings.
+    let is_held = (0..observed.samples()).map(|sample| sample >= window.first && repeats(sample)).collect();
     let fault = fault(observed, FaultKind::DroppedSamples, value, window, joints);
     let fit = FaultFit { fault, remaining, parameters: 1 };
     Some(Dropped { fit, is_held, would_show: shows_loss })
@@ -95,12 +97,68 @@ pub(super) struct Late {
     pub(super) fit: FaultFit,
     pub(super) window: Window,
     pub(super) steps: usize,
+    /// Joints whose error has another part, which the latency does not explain.
+    pub(super) others: Vec<usize>,
     /// Variances of the noise that it explains.
-    pub(super) gain: f64,
+    gain: f64,
 }
 
-/// All readings are those of an earlier time.
+impl Late {
+    /// Variances of the noise that the latency explains, and faults of encoders beside it.
+    pub(super) fn gain_with_others(&self, observed: &ObservedRun<'_>) -> f64 {
+        if self.others.is_empty() {
+            return self.gain;
+        }
+        self.gain + encoder::faults(&self.taken_out(observed), &self.others).gain
+    }
+
+    /// The run with the errors that the latency does not explain.
+    pub(super) fn taken_out<'a>(&self, observed: &ObservedRun<'a>) -> ObservedRun<'a> {
+        let mut error: Vec<Vec<f64>> = observed.error.iter().map(|error| vec![0.0; error.len()]).collect();
+        for &joint in &self.others {
+            let added = added(observed, joint, self.steps as u64);
+            error[joint].copy_from_slice(&observed.error[joint]);
+            for sample in self.window.samples() {
+                error[joint][sample] -= added(sample);
+            }
+        }
+        ObservedRun { error, ..observed.clone() }
+    }
+}
+
+/// All readings are those of an earlier time; the encoders of a minority of joints may be off as well.
 pub(super) fn late(observed: &ObservedRun<'_>, joints: &[usize]) -> Option<Late> {
+    let (steps, (window, _)) = best_latency(observed, joints)?;
+    let rest = |steps: u64, window: Window| -> Vec<usize> {
+        let has_more = |joint: &usize| remaining(observed, *joint, steps, window) > EXPLAINED;
+        joints.iter().copied().filter(has_more).collect()
+    };
+    let mut best = (rest(steps, window), steps);
+    if !best.0.is_empty() {
+        // An encoder that is off as well draws the common latency to another value: each joint is fitted by itself.
+        let alone = joints.iter().filter_map(|joint| best_latency(observed, std::slice::from_ref(joint)));
+        let alone = alone.map(|(steps, (window, _))| (rest(steps, window), steps));
+        best = alone.chain([best]).min_by_key(|(others, _)| others.len())?;
+    }
+    let (others, steps) = best;
+    let own: Vec<usize> = joints.iter().copied().filter(|joint| !others.contains(joint)).collect();
+    // A latency is of all readings: what explains only a few of them is another fault.
+    if 2 * others.len() >= joints.len().max(1) {
+        return None;
+    }
+    let (window, gain) = shifted(observed, &own, steps);
+    let remaining = own.iter().map(|&joint| remaining(observed, joint, steps, window)).fold(0.0, f64::max);
+    let is_significant =
+        gain > SIGNIFICANT && remaining <= EXPLAINED && is_beyond_steps(observed, &own, steps, window);
+    #[expect(clippy::cast_precision_loss, reason = "steps of a run are far below 2^52")]
+    let value = FaultQuantity::latency(steps as f64 * observed.clock.step_s);
+    let fault = fault(observed, FaultKind::Latency, value, window, joints);
+    let fit = FaultFit { fault, remaining, parameters: 1 };
+    is_significant.then_some(Late { fit, window, steps: usize::try_from(steps).ok()?, others, gain })
+}
+
+/// The latency, in steps, that explains most of the errors of some joints, with its window and gain.
+fn best_latency(observed: &ObservedRun<'_>, joints: &[usize]) -> Option<(u64, (Window, f64))> {
     // A geometric grid, then bisection of the distance around the best: each trial costs a pass over all samples, and the gain
     // has one broad maximum at the right latency.
     let most = observed.store.steps().last()? / 2;
@@ -117,15 +175,7 @@ pub(super) fn late(observed: &ObservedRun<'_>, joints: &[usize]) -> Option<Late>
             None => by /= 2,
         }
     }
-    let (steps, (window, gain)) = best;
-    let remaining = joints.iter().map(|&joint| remaining(observed, joint, steps, window)).fold(0.0, f64::max);
-    let is_significant =
-        gain > SIGNIFICANT && remaining <= EXPLAINED && is_beyond_steps(observed, joints, steps, window);
-    #[expect(clippy::cast_precision_loss, reason = "steps of a run are far below 2^52")]
-    let value = FaultQuantity::latency(steps as f64 * observed.clock.step_s);
-    let fault = fault(observed, FaultKind::Latency, value, window, joints);
-    let fit = FaultFit { fault, remaining, parameters: 1 };
-    is_significant.then_some(Late { fit, window, steps: usize::try_from(steps).ok()?, gain })
+    Some(best)
 }
 
 /// The error that a latency adds to the reading of every sample.

@@ -234,3 +234,58 @@ fn faults_of_a_joint_that_another_follows_are_found() {
         assert_eq!(judgement, FaultVerdict::Right, "{fault:?}: {said:?}");
     }
 }
+
+/// Six joints read late, and one of them drifts: neither hides the other.
+#[test]
+fn a_latency_and_a_fault_of_an_encoder_are_found_together() {
+    for (seed, (joint, rate, time_s)) in (80..).zip([
+        ("wrist_3_joint", 0.4, 0.003),
+        ("shoulder_pan_joint", -1.0, 0.008),
+        ("elbow_joint", 0.2, 0.002),
+    ]) {
+        let drift = EncoderDriftFault {
+            joint: joint.to_owned(),
+            rate_deg_per_s: Some(rate),
+            at_s: 0.3,
+            ..Default::default()
+        };
+        let latency = LatencyFault { time_s, at_s: 0.6, until_s: None };
+        let faults = vec![FaultSettings::EncoderDrift(drift), FaultSettings::Latency(latency)];
+        let (judgement, said) = found(faults, seed, |scenario| {
+            scenario.controller.kind = ControllerKind::ComputedTorque;
+            (scenario.controller.stiffness, scenario.controller.damping) = (400.0.into(), 40.0.into());
+        });
+        assert_eq!((judgement, said.len()), (FaultVerdict::Right, 2), "{said:?}");
+    }
+}
+
+/// Joints that settle move by less than what shows a loss: their lost readings are no faults of encoders.
+#[test]
+fn lost_readings_are_the_only_fault_while_joints_settle() {
+    for (seed, share) in (100..).zip([0.05, 0.2, 0.5, 0.8]) {
+        let dropped = DroppedSamplesFault { share, at_s: 0.5, until_s: None };
+        let (judgement, said) = found(vec![FaultSettings::DroppedSamples(dropped)], seed, |scenario| {
+            scenario.controller.kind = ControllerKind::ComputedTorque;
+            (scenario.controller.stiffness, scenario.controller.damping) = (400.0.into(), 40.0.into());
+            scenario.simulation.duration_s = Some(4.0);
+        });
+        assert_eq!((judgement, said.len()), (FaultVerdict::Right, 1), "{share}: {said:?}");
+    }
+}
+
+/// Joints that dry friction holds at the end show no load: it has no end for that.
+#[test]
+fn a_payload_that_stays_has_no_end_although_friction_holds_the_joints() {
+    for seed in 90..96 {
+        let com_m = Some([0.03, -0.02, 0.06]);
+        let payload = WrongPayloadFault { mass_kg: 1.3, com_m, at_s: 0.4, until_s: None };
+        let (_, said) = found(vec![FaultSettings::WrongPayload(payload)], seed, |scenario| {
+            scenario.joints.friction = Some(6.0.into());
+            scenario.simulation.duration_s = Some(4.0);
+        });
+        assert!(
+            said.iter().any(|said| said.contains("undeclared mass") && said.ends_with(" on")),
+            "{said:?}"
+        );
+    }
+}
