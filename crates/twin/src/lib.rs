@@ -5,6 +5,7 @@
 pub mod codes;
 mod control;
 pub mod fault;
+mod random_streams;
 mod run;
 pub mod setup;
 pub mod source;

@@ -9,6 +9,7 @@
 use congruent_description::RobotQ;
 use congruent_dynamics::DrivenState;
 use congruent_input::{Quantity, SiUnit};
+use congruent_kinematics::larger;
 use congruent_scenario::DynamicsCheck;
 use nalgebra::DMatrix;
 
@@ -142,7 +143,7 @@ impl<'a> DynamicsMonitor<'a> {
         }
         let speeds = truth.qd.iter().chain(&self.before.qd);
         // Coupling passes a share of the fastest joint's motion on to joints that friction holds.
-        let at_rest = speeds.map(|qd| qd.abs() * CREEP_OF_FASTEST).fold(AT_REST, f64::max);
+        let at_rest = speeds.map(|qd| qd.abs() * CREEP_OF_FASTEST).fold(AT_REST, larger);
         for joint in (0..self.qdd.len()).filter(|&joint| self.drivers[joint].0 == joint) {
             self.torque.observe(self.relative(joint, sample, at_rest), joint, sample);
         }
@@ -174,7 +175,9 @@ impl StuckFriction {
 
     /// The part of a torque difference that no friction within its limits explains.
     fn unexplained(self, difference: f64) -> f64 {
-        ((difference - self.assumed).abs() - self.largest).max(0.0)
+        let beyond = (difference - self.assumed).abs() - self.largest;
+        // `max` drops a NaN: with a plain 0 a difference that is not a number would become 0 and pass.
+        beyond.max(0.0 * beyond)
     }
 }
 
@@ -215,5 +218,20 @@ impl Monitor for DynamicsMonitor<'_> {
 
     fn has_failed(&self) -> bool {
         self.torque.is_violated()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn friction_explains_no_difference_that_is_not_a_number() {
+        let mut held = StuckFriction::default();
+        assert!(held.unexplained(f64::NAN).is_nan());
+        held.add(5.0, 1.0, 0.0);
+        assert!(held.unexplained(f64::NAN).is_nan());
+        assert_eq!(held.unexplained(4.0).to_bits(), 0.0_f64.to_bits());
+        assert!((held.unexplained(-7.0) - 2.0).abs() < 1e-12);
     }
 }

@@ -11,7 +11,7 @@ use super::{
     tool,
     transport::{Delay, ReadingLoss},
 };
-use crate::setup::RunSetup;
+use crate::{random_streams::fault_stream, setup::RunSetup};
 
 /// The faults of a run with their state; a clone is a snapshot.
 #[derive(Debug, Clone)]
@@ -50,7 +50,7 @@ impl<'a> InjectedFaults<'a> {
         let faults = setup.faults.as_slice();
         let mut truth = Reading::new(dof);
         read_truth(world, &mut truth);
-        let state = |(stream, fault): (u64, &PlannedFault)| FaultState {
+        let state = |(index, fault): (usize, &PlannedFault)| FaultState {
             is_active: false,
             replaced: Replaced::default(),
             delay: match fault.action {
@@ -59,14 +59,14 @@ impl<'a> InjectedFaults<'a> {
             },
             loss: match fault.action {
                 FaultAction::DroppedSamples { share } => {
-                    Some(ReadingLoss::new(share, setup.scenario.seed, stream))
+                    Some(ReadingLoss::new(share, setup.scenario.seed, fault_stream(index)))
                 }
                 _ => None,
             },
         };
         let mut injected = Self {
             faults,
-            states: (0..).zip(faults).map(state).collect(),
+            states: faults.iter().enumerate().map(state).collect(),
             step: 0,
             step_s: setup.clock.step_s,
             wires: vec![None; dof],

@@ -9,11 +9,10 @@ use rand_chacha::{
     rand_core::{RngCore, SeedableRng},
 };
 
-use crate::setup::{RunSetup, SensorSetup};
-
-/// Stream of random numbers of the sensors: independent of the other streams of the same seed, so that adding noise does not
-/// change which readings are lost.
-const STREAM: u64 = 1;
+use crate::{
+    random_streams::SENSORS,
+    setup::{RunSetup, SensorSetup},
+};
 
 /// The sensors of all joints with their last reading.
 #[derive(Debug, Clone)]
@@ -32,7 +31,7 @@ impl JointSensors {
     pub(super) fn new(setup: &RunSetup) -> Self {
         let dof = setup.description.robot.dof();
         let mut random = ChaCha8Rng::seed_from_u64(setup.scenario.seed);
-        random.set_stream(STREAM);
+        random.set_stream(SENSORS);
         Self {
             setup: setup.sensors.clone(),
             step_s: setup.clock.step_s,
