@@ -90,6 +90,49 @@ fn a_recording_that_could_not_be_completed_is_read_as_far_as_it_goes() {
     assert!(summary["duration_s"].as_f64().unwrap() > 5.0, "{}", summary["duration_s"]);
 }
 
+/// Shapes and frames of the robot are the beginning of a recording: more than these blocks hold, and more than the report.
+#[cfg(feature = "recording")]
+#[test]
+fn the_report_is_kept_although_the_recording_cannot_be_begun() {
+    let scratch = ScratchFolder::new();
+    let robot = text(&workspace().join("robots/ur5e"));
+    let scenario = format!(
+        "schema_version = 1\nname = \"run\"\nrobot = {robot:?}\n[simulation]\nduration_s = 0.1\n\
+         [controller]\nkind = \"kinematic\"\n[[check]]\nkind = \"agreement\"\n"
+    );
+    let scenario = scratch.write("run.toml", &scenario);
+    for blocks in [60, 100] {
+        let out = scratch.path().join(format!("out{blocks}"));
+        let output = limited(blocks, &["run", &scenario, "--out", &text(&out)]);
+        assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+        let folder = out.join("run");
+        let report: Value = serde_json::from_slice(&fs::read(folder.join("report.json")).unwrap()).unwrap();
+        assert_eq!(report["verdict"], "broken");
+        assert!(report["error"].as_str().unwrap().contains("File too large"), "{}", report["error"]);
+    }
+}
+
+#[cfg(feature = "recording")]
+#[test]
+fn a_folder_without_its_recording_is_named_with_what_is_there() {
+    let scratch = ScratchFolder::new();
+    let scenario = scenario(&scratch, 0.1);
+    let out = scratch.path().join("out");
+    assert_eq!(congruent(&["run", &scenario, "--out", &text(&out)]).code, 0);
+    let folder = text(&out.join("run"));
+    for name in ["recording.rrd", "junit.xml"] {
+        fs::remove_file(out.join("run").join(name)).unwrap();
+    }
+    let answer = congruent(&["inspect", &folder]);
+    let said = answer.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(answer.code, 2, "{said}");
+    for expected in
+        ["recording.rrd is gone", "gone: junit.xml, recording.rrd", "as the run wrote them: report.json"]
+    {
+        assert!(said.replace("│ ", "").contains(expected), "{expected}: {said}");
+    }
+}
+
 #[test]
 fn results_that_cannot_be_written_at_all_are_reported() {
     let scratch = ScratchFolder::new();

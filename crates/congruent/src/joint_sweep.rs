@@ -110,7 +110,7 @@ pub fn joint_sweep(description: RobotDescription, out: &std::path::Path) -> Resu
     let run = Run::with_source(&setup, Box::new(source))?;
     // Nothing acts on the robot, so that there is no physics that the poses could be diagnosed with.
     let causes = |run: &mut Run<'_>, outcome: &mut _| Causes::from_samples(diagnose_run(run, outcome));
-    let recorded = record(run, &[&RerunFormat], &folder, causes, |_| ()).map_err(RunError::from)?;
+    let recorded = record(run, &[&RerunFormat], &folder, causes, |_| ());
     recorded.result?;
     Ok(JointSweep {
         format: "congruent-joint-sweep/1",

@@ -5,7 +5,7 @@ use std::{
     sync::atomic::AtomicBool,
 };
 
-use congruent_monitors::{Recorder, Recorders, RecordingError};
+use congruent_monitors::{Recorder, Recorders, RecordingError, Sample};
 use congruent_twin::{Outcome, Run, RunError, RunSetup};
 
 use crate::{
@@ -32,6 +32,27 @@ pub trait Recording: Recorder {
     /// # Errors
     /// [`RecordingError`] if it cannot be written.
     fn finish(self: Box<Self>, report: &RunReport) -> Result<(), RecordingError>;
+}
+
+/// In place of a recording that could not be begun, with the reason: the run then has a report that says so.
+struct NotBegun(String);
+
+impl NotBegun {
+    fn error(&self) -> RecordingError {
+        RecordingError { message: self.0.clone() }
+    }
+}
+
+impl Recorder for NotBegun {
+    fn record(&mut self, _sample: &mut Sample<'_>) -> Result<(), RecordingError> {
+        Err(self.error())
+    }
+}
+
+impl Recording for NotBegun {
+    fn finish(self: Box<Self>, _report: &RunReport) -> Result<(), RecordingError> {
+        Err(self.error())
+    }
 }
 
 /// A kind of recording.
@@ -68,9 +89,6 @@ pub enum ExecuteError {
     /// Results cannot be written; this was found before the run.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The recording cannot be created.
-    #[error(transparent)]
-    Recording(#[from] RecordingError),
     /// Results cannot be written after the run: the report is here instead.
     #[error("the results of scenario \"{}\" cannot be written: {source}", .report.scenario)]
     Lost {
@@ -123,7 +141,7 @@ pub fn execute(
         |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
     let run = Run::new(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
     let formats: Vec<_> = formats(setup, options).collect();
-    let RecordedRun { report, settled, .. } = record(run, &formats, &folder, explain, progress)?;
+    let RecordedRun { report, settled, .. } = record(run, &formats, &folder, explain, progress);
     match write_results(settled, &folder, &report).and_then(|()| folder.write_digests()) {
         Ok(()) => Ok((report, folder)),
         Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
@@ -149,23 +167,21 @@ pub struct RecordedRun {
 }
 
 /// Runs to the end and writes the samples to files of these formats, and nothing else. `explain` finds the causes of failed
-/// checks; `progress` is called with the number of steps taken.
-///
-/// # Errors
-/// [`RecordingError`] if one of the files cannot be created. A run that fails midway has a report.
+/// checks; `progress` is called with the number of steps taken. A file that cannot be created ends the run at its first sample.
 pub fn record(
     mut run: Run<'_>,
     formats: &[&dyn RecordingFormat],
     folder: &OutputFolder,
     explain: impl FnOnce(&mut Run<'_>, &mut Outcome) -> Causes,
     progress: impl FnMut(u64),
-) -> Result<RecordedRun, RecordingError> {
+) -> RecordedRun {
     let setup = run.setup();
     let sources = run.model().sources().to_vec();
     let mut recordings = Vec::new();
     for format in formats {
         let file = StreamedFile::new(*format);
-        recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
+        let recording = format.begin(&folder.file(&file.partial), &run);
+        recordings.push((recording.unwrap_or_else(|error| Box::new(NotBegun(error.message))), file));
     }
     let mut recorders = Recorders::default();
     recorders.0.extend(recordings.iter_mut().map(|(recording, _)| &mut **recording as &mut dyn Recorder));
@@ -183,7 +199,7 @@ pub fn record(
             recorded = report(&result);
         }
     }
-    Ok(RecordedRun { report: recorded, result, settled })
+    RecordedRun { report: recorded, result, settled }
 }
 
 /// Writes the report, whatever became of the other files.

@@ -12,7 +12,7 @@ use congruent::{
 };
 
 use super::{
-    inspected_files::{compare_files, judge_inputs, overrides},
+    inspected_files::{compare_files, judge_inputs, overrides, without_recording},
     inspected_suite::suite,
 };
 use crate::{
@@ -100,6 +100,9 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
         Diagnostic::error(codes::inspect::RECORDING, error.to_string())
     };
     let in_folder = path.join(RerunFormat.file_name());
+    if let Some(missing) = without_recording(path) {
+        return Err(missing.into());
+    }
     let path = if path.is_dir() { in_folder.as_path() } else { path };
     let access = arguments.access.access()?;
     if arguments.check.is_none() && arguments.csv.is_none() {

@@ -15,7 +15,10 @@ use congruent::{
 };
 use serde_json::Value;
 
-use crate::failure::{BAD_INPUT, NOTHING, worse};
+use crate::{
+    codes,
+    failure::{BAD_INPUT, NOTHING, worse},
+};
 
 /// Adds what the files say: a report beside the recording must be its own, and the results as the run wrote them.
 pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access: &FileAccess) {
@@ -46,6 +49,27 @@ pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access:
     }
     summary.exit_code = worse(summary.exit_code, BAD_INPUT);
     summary.problems.push(problem);
+}
+
+/// Why a folder of results has no recording to inspect, and what is there of the run by its digests; `None` if it has one, or if it is
+/// no such folder.
+pub(super) fn without_recording(folder: &Path) -> Option<Diagnostic> {
+    let recording = RerunFormat.file_name();
+    if !folder.is_dir() || folder.join(recording).exists() {
+        return None;
+    }
+    let ComparedResults { intact, changed } = compare_results(folder)?;
+    let (there, gone): (Vec<&str>, Vec<&str>) =
+        changed.into_iter().partition(|name| folder.join(name).exists());
+    let named =
+        |names: &[&str], what: &str| (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")));
+    let found = [named(&gone, "gone"), named(&there, "changed"), named(&intact, "as the run wrote them")];
+    let why =
+        if gone.contains(&recording) { "is gone" } else { "was not written: the run had --no-recording" };
+    let message = format!("{}: {recording} {why}", folder.display());
+    let found: Vec<String> = found.into_iter().flatten().collect();
+    let help = format!("of the results that {DIGESTS} names, {}; run the scenario again", found.join("; "));
+    Some(Diagnostic::error(codes::inspect::RECORDING, message).with_help(help))
 }
 
 /// The results beside a recording that are not those of its run.

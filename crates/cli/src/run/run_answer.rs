@@ -85,7 +85,6 @@ pub(crate) fn run_one(
         }
         Err(ExecuteError::Folder(error)) => Err(no_folder(error)),
         Err(ExecuteError::Output(error)) => Err(no_folder(error.into())),
-        Err(ExecuteError::Recording(error)) => Err(Failure::Machine(error.to_string())),
         Err(error) => Err(Diagnostic::error(codes::run::CANNOT_RUN, error.to_string()).into()),
     }
 }
