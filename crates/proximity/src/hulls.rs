@@ -5,11 +5,19 @@
 //! every distance is reduced by that error, so that it stays a lower bound.
 
 use congruent_description::{Geometry, HullPoints, Mesh, Shape};
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
 use parry3d_f64::{
     math::{Pose, Rotation, Vector},
-    query::{self, ClosestPoints, Unsupported, details::distance_support_map_support_map},
-    shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, SharedShape},
+    query::{
+        self, ClosestPoints,
+        gjk::{self, CsoPoint, GJKResult, VoronoiSimplex},
+    },
+    shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, Shape as Form, SharedShape, SupportMap},
+};
+
+use super::{
+    penetration::{Penetration, depth_of_boxes, least_overlap, overlap_along},
+    separation::{direction, nearest_to_origin},
 };
 
 /// Why a shape has no hull.
@@ -49,7 +57,8 @@ struct Hull {
 /// Why a query never fails: the message of a broken assumption.
 const ANSWERS: &str = "parry answers for every pair of boxes, balls, cylinders and hulls";
 
-/// Largest error of a distance by parry. Kind: solver stop; see `DISTANCE_SLACK_M` in `clearance.rs`.
+/// Largest error of a distance. Kind: solver stop; see `DISTANCE_SLACK_M` in `clearance.rs`. Distances by parry that are
+/// proven to this width are kept, others are improved.
 const SOLVER_STOP_M: f64 = 1e-7;
 
 impl std::fmt::Debug for Hulls {
@@ -108,13 +117,9 @@ impl Hulls {
     /// Like [`Hulls::distance_m`], but negative if they overlap: minus the depth.
     pub fn signed_distance_m(&self, other: &Self, self_from_other: &Isometry3<f64>) -> f64 {
         self.smallest(other, self_from_other, f64::INFINITY, |between, a, b| {
-            let apart = distance_apart(between, a, b)?;
-            // The depth is defined for an overlap only: for shapes apart `contact` gives none.
-            if apart > 0.0 {
-                return Ok(apart);
-            }
-            let contact = query::contact(&Pose::IDENTITY, a, between, b, 0.0)?;
-            Ok(contact.map_or(0.0, |contact| contact.dist.min(0.0)))
+            let apart = distance_apart(between, a, b);
+            // The depth is defined for an overlap only.
+            if apart > 0.0 { apart } else { (-penetration(between, a, b).depth_m).min(0.0) }
         })
     }
 
@@ -138,11 +143,7 @@ impl Hulls {
         other: &Self,
         self_from_other: &Isometry3<f64>,
         most_m: f64,
-        distance: impl Fn(
-            &Pose,
-            &dyn parry3d_f64::shape::Shape,
-            &dyn parry3d_f64::shape::Shape,
-        ) -> Result<f64, Unsupported>,
+        distance: impl Fn(&Pose, &dyn Form, &dyn Form) -> f64,
     ) -> f64 {
         let self_from_other = pose(self_from_other);
         let mut smallest = most_m;
@@ -154,7 +155,7 @@ impl Hulls {
                 if a_from_b.translation.length() - a.radius_m - b.radius_m > smallest + SOLVER_STOP_M {
                     continue;
                 }
-                let apart = distance(&a_from_b, &*a.form, &*b.form).expect(ANSWERS);
+                let apart = distance(&a_from_b, &*a.form, &*b.form);
                 // Each mesh may reach beyond its simplified hull, towards the other.
                 smallest = smallest.min(apart - a.error_m - b.error_m);
             }
@@ -165,17 +166,101 @@ impl Hulls {
 
 /// The distance of two shapes; 0 if they touch or overlap.
 ///
-/// For two boxes parry measures between points that it projects twice along the axis of largest separation, which are not
-/// always the nearest ones: near edges and corners they are farther apart. So boxes are measured like all other shapes.
-fn distance_apart(
-    a_from_b: &Pose,
-    a: &dyn parry3d_f64::shape::Shape,
-    b: &dyn parry3d_f64::shape::Shape,
-) -> Result<f64, Unsupported> {
-    match (a.as_cuboid(), b.as_cuboid()) {
-        (Some(a), Some(b)) => Ok(distance_support_map_support_map(a_from_b, a, b)),
-        _ => query::distance(&Pose::IDENTITY, a, a_from_b, b).map(|nearest| nearest.distance),
+/// Parry has closed forms for a ball with a ball, a box or a cylinder. Its method for two boxes is avoided: it measures between
+/// points that are not always the nearest ones.
+fn distance_apart(a_from_b: &Pose, a: &dyn Form, b: &dyn Form) -> f64 {
+    match (a.as_ball(), b.as_ball()) {
+        (Some(ball), None) if b.as_convex_polyhedron().is_some() => ball_apart(&a_from_b.inverse(), b, *ball),
+        (None, Some(ball)) if a.as_convex_polyhedron().is_some() => ball_apart(a_from_b, a, *ball),
+        (None, None) => maps_apart(a_from_b, support_map(a), support_map(b)),
+        _ => query::distance(&Pose::IDENTITY, a, a_from_b, b).expect(ANSWERS).distance,
     }
+}
+
+/// The distance of a hull and a ball: of the hull and a point.
+fn ball_apart(hull_from_ball: &Pose, hull: &dyn Form, ball: Ball) -> f64 {
+    let nearest = hull.project_local_point(hull_from_ball.translation, true);
+    let between = hull_from_ball.translation - nearest.point;
+    if nearest.is_inside || between == Vector::ZERO {
+        return 0.0;
+    }
+    let center = Ball::new(0.0);
+    let lowest = lowest_point(hull_from_ball, support_map(hull), &center);
+    (proven_m(lowest, from_parry(between)) - ball.radius).max(0.0)
+}
+
+/// The distance of two shapes by their support points.
+fn maps_apart(a_from_b: &Pose, a: &dyn SupportMap, b: &dyn SupportMap) -> f64 {
+    let lowest = lowest_point(a_from_b, a, b);
+    match nearest_by_parry(a_from_b, a, b) {
+        GJKResult::Intersection => 0.0,
+        GJKResult::ClosestPoints(on_a, on_b, _) => proven_m(lowest, from_parry(on_b - on_a)),
+        // After a hundred steps without an end parry has no points.
+        GJKResult::Proximity(_) | GJKResult::NoIntersection(_) => {
+            let start = lowest(&direction(&from_parry(a_from_b.translation)));
+            nearest_to_origin(lowest, start).least_m
+        }
+    }
+}
+
+/// The nearest points of two shapes, as `distance_support_map_support_map` of parry has them; in the frame of the first.
+fn nearest_by_parry(a_from_b: &Pose, a: &dyn SupportMap, b: &dyn SupportMap) -> GJKResult {
+    let start = (-a_from_b.translation).try_normalize().unwrap_or(Vector::X);
+    let mut simplex = VoronoiSimplex::new();
+    simplex.reset(CsoPoint::from_shapes(a_from_b, a, b, start));
+    gjk::closest_points(a_from_b, a, b, f64::MAX, true, &mut simplex)
+}
+
+/// The length of the vector between two points, if the plane across it proves that no points are nearer; otherwise a proven
+/// distance. Parry stops where it makes no progress: distances of cylinders and thin hulls are then up to 14 um too large.
+fn proven_m(lowest: impl Fn(&Vector3<f64>) -> Vector3<f64>, between: Vector3<f64>) -> f64 {
+    let length_m = between.norm();
+    let along = direction(&between);
+    if length_m - lowest(&along).dot(&along) <= SOLVER_STOP_M {
+        return length_m;
+    }
+    nearest_to_origin(lowest, between).least_m
+}
+
+/// Of all vectors from a point of `a` to a point of `b`, the one that is farthest against a direction.
+fn lowest_point(
+    a_from_b: &Pose,
+    a: &dyn SupportMap,
+    b: &dyn SupportMap,
+) -> impl Fn(&Vector3<f64>) -> Vector3<f64> {
+    move |along| {
+        let along = Vector::new(along.x, along.y, along.z);
+        from_parry(b.support_point(a_from_b, -along) - a.local_support_point(along))
+    }
+}
+
+/// The shortest shift that separates two shapes that overlap.
+///
+/// Parry stops early at parallel faces and edges, up to 9 mm too shallow for two boxes: its answer counts only if the
+/// overlap along its direction is what it says.
+fn penetration(a_from_b: &Pose, a: &dyn Form, b: &dyn Form) -> Penetration {
+    if let (Some(a), Some(b)) = (a.as_cuboid(), b.as_cuboid()) {
+        let halves = [from_parry(a.half_extents), from_parry(b.half_extents)];
+        return depth_of_boxes([&halves[0], &halves[1]], &isometry(a_from_b));
+    }
+    let lowest = lowest_point(a_from_b, support_map(a), support_map(b));
+    let contact = query::contact(&Pose::IDENTITY, a, a_from_b, b, 0.0).expect(ANSWERS);
+    let by_parry = contact.map(|contact| (contact.dist, from_parry(contact.normal1)));
+    if let Some((distance_m, along)) = by_parry {
+        let overlap = overlap_along(&lowest, direction(&along));
+        if (overlap.depth_m + distance_m).abs() <= SOLVER_STOP_M {
+            return overlap;
+        }
+    }
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let turn = isometry(a_from_b).rotation;
+    let both = axes.into_iter().chain(axes.map(|axis| turn * axis)).flat_map(|axis| [axis, -axis]);
+    let starts = by_parry.map(|(_, along)| direction(&along)).into_iter().chain(both);
+    least_overlap(lowest, starts).expect("there are twelve axes")
+}
+
+fn support_map(form: &dyn Form) -> &dyn SupportMap {
+    form.as_support_map().expect("boxes, balls, cylinders and hulls have support points")
 }
 
 /// The nearest points of two shapes, in the first link's frame.
@@ -193,16 +278,25 @@ fn nearest_points(a: &Hull, a_from_b: &Pose, b: &Hull) -> Option<NearestPoints> 
             Point3::new(point.x, point.y, point.z)
         })
     };
-    let (a_form, b_form) = (&*a.form, &*b.form);
-    let apart = query::closest_points(&Pose::IDENTITY, a_form, a_from_b, b_form, f64::MAX).expect(ANSWERS);
     // With an infinite margin anything that does not intersect is within it; overlaps need the penetration.
-    if let ClosestPoints::WithinMargin(on_a, on_b) = apart {
+    if let ClosestPoints::WithinMargin(on_a, on_b) = closest_points(a_from_b, a, b) {
         let distance_m = (on_b - on_a).length();
         return Some(NearestPoints { distance_m, points: in_link(on_a, on_b) });
     }
-    let contact = query::contact(&Pose::IDENTITY, a_form, a_from_b, b_form, 0.0).expect(ANSWERS)?;
-    let points = in_link(contact.point1, contact.point2);
-    Some(NearestPoints { distance_m: contact.dist, points })
+    let Penetration { depth_m, along } = penetration(a_from_b, &*a.form, &*b.form);
+    if depth_m <= 0.0 {
+        return None;
+    }
+    // Beyond the depth the shapes are apart, and their nearest points are those that came out last.
+    let shift = Vector::new(along.x, along.y, along.z) * (2.0 * depth_m);
+    let shifted = Pose::from_parts(a_from_b.translation + shift, a_from_b.rotation);
+    let ClosestPoints::WithinMargin(on_a, on_b) = closest_points(&shifted, a, b) else { return None };
+    Some(NearestPoints { distance_m: -depth_m, points: in_link(on_a, on_b - shift) })
+}
+
+/// The nearest points of two shapes that do not intersect, in the frame of the first.
+fn closest_points(a_from_b: &Pose, a: &Hull, b: &Hull) -> ClosestPoints {
+    query::closest_points(&Pose::IDENTITY, &*a.form, a_from_b, &*b.form, f64::MAX).expect(ANSWERS)
 }
 
 /// The convex shape of a geometry, in the frame of that geometry; `None` for an empty mesh.
@@ -244,6 +338,16 @@ fn hull_of(mesh: &Mesh) -> Option<(ConvexPolyhedron, f64)> {
 
 fn vector(point: &Point3<f64>) -> Vector {
     Vector::new(point.x, point.y, point.z)
+}
+
+fn from_parry(vector: Vector) -> Vector3<f64> {
+    Vector3::new(vector.x, vector.y, vector.z)
+}
+
+fn isometry(pose: &Pose) -> Isometry3<f64> {
+    let turn = pose.rotation;
+    let quaternion = Quaternion::new(turn.w, turn.x, turn.y, turn.z);
+    Isometry3::from_parts(from_parry(pose.translation).into(), UnitQuaternion::from_quaternion(quaternion))
 }
 
 fn pose(isometry: &Isometry3<f64>) -> Pose {

@@ -10,6 +10,8 @@ mod distances;
 mod hulls;
 mod pair_names;
 mod pairs;
+mod penetration;
+mod separation;
 mod simplified_hulls;
 mod travel;
 mod waiting;
