@@ -16,6 +16,8 @@ pub enum Quantity {
     Orientation,
     /// Distance between two shapes, m; negative for an overlap.
     Distance,
+    /// Normal force between a link and an obstacle, N.
+    ContactForce,
     /// How far an angular joint is beyond its range, rad; negative inside.
     AngleBeyondLimit,
     /// How far a prismatic joint is beyond its range, m; negative inside.

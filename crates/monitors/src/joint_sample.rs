@@ -51,6 +51,17 @@ pub enum StepForces {
     Contact,
 }
 
+/// A link and an obstacle that pushed each other in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactForce {
+    /// The link, in the robot's order.
+    pub link: usize,
+    /// Number of the obstacle in the scenario.
+    pub obstacle: usize,
+    /// Mean normal force in the step, N.
+    pub force_n: f64,
+}
+
 impl StepForces {
     /// Whether constraint forces may have acted, which the efforts do not include.
     pub(crate) fn are_constrained(self) -> bool {

@@ -26,7 +26,7 @@ mod watch;
 pub use actuator_limits::ActuatorLimits;
 pub use clock::RunClock;
 pub use context::CheckContext;
-pub use joint_sample::{JointSample, JointStateView, SetpointView, StepForces};
+pub use joint_sample::{ContactForce, JointSample, JointStateView, SetpointView, StepForces};
 pub use monitor::{Monitor, Observed};
 pub use names::Names;
 pub use payload::{HEAVIEST_KG, RunPayload, taken_too_late, too_heavy};

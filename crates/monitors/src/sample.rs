@@ -4,7 +4,7 @@ use congruent_kinematics::{Pose, PoseError};
 use congruent_proximity::{Clearance, MovingBodies, Nearest, Pair};
 use nalgebra::Isometry3;
 
-use crate::{JointSample, StepForces, verdict::CheckValue};
+use crate::{ContactForce, JointSample, StepForces, verdict::CheckValue};
 
 /// How far the physics keeps two shapes apart at most, m: the path of a link at 5 m/s in a step of 1 ms. Kind: physics.
 const KEPT_APART_M: f64 = 5e-3;
@@ -29,6 +29,8 @@ pub struct Sample<'a> {
     pub joints: JointSample<'a>,
     /// What acted in the step that led here.
     pub forces: StepForces,
+    /// The links and obstacles that pushed each other in that step.
+    pub contact_forces: &'a [ContactForce],
     /// Poses by analysis at the measured joint positions, in the root link's frame and the robot's order of
     /// links.
     pub model: &'a [Pose],
@@ -47,6 +49,16 @@ pub struct Sample<'a> {
 }
 
 impl Sample<'_> {
+    /// Normal force of a pair of a link and an obstacle in the step that led here, N. `None` between links, and if the source
+    /// knows no forces, as at the start.
+    pub fn contact_force_n(&self, Pair { a, b }: Pair) -> Option<f64> {
+        let links = self.twin.len();
+        let is_known = self.step > 0 && self.forces != StepForces::Unknown;
+        let obstacle = b.checked_sub(links).filter(|_| is_known && a < links)?;
+        let acts = |force: &&ContactForce| force.link == a && force.obstacle == obstacle;
+        Some(self.contact_forces.iter().filter(acts).map(|force| force.force_n).sum())
+    }
+
     /// The pair that the physics keeps apart in this step although its hulls do not meet: the nearest of the chosen pairs of
     /// a link and an obstacle. `None` if a pair overlaps, which then is the one in contact.
     pub fn kept_apart(&mut self, is_chosen: impl Fn(usize) -> bool) -> Option<usize> {

@@ -180,6 +180,20 @@ pub struct Contact {
     pub until_s: f64,
     /// Largest penetration depth of their convex hulls; 0 if they only touched.
     pub depth_m: f64,
+    /// The normal force; absent between links, and if the source of joint states knows no forces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<ContactLoad>,
+}
+
+/// The normal force of a contact, without friction: the mean of each step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ContactLoad {
+    /// Largest force.
+    pub peak_n: f64,
+    /// The instant of the largest force.
+    pub peak_s: f64,
+    /// Sum of the forces of all steps, each multiplied by the length of a step.
+    pub impulse_n_s: f64,
 }
 
 /// The early end of a run by a check with `on_violation = "stop"`.

@@ -9,7 +9,7 @@ use super::{
     faults::FaultSettings,
     joints::StartSettings,
     motions::{LimitSettings, MotionSettings},
-    number::{finite_array, optional_positive, positive},
+    number::{finite_array, non_negative, optional_positive, positive, share},
     output::OutputSettings,
     robot::{ControllerSettings, JointSettings, PayloadSettings, SensorSettings},
     spaces::{ObstacleSettings, ZoneSettings},
@@ -49,7 +49,7 @@ pub struct Scenario {
     /// Seed of everything random.
     #[serde(default)]
     pub seed: u64,
-    /// Length of a step, duration and gravity.
+    /// Length of a step, duration, gravity and contact with obstacles.
     #[serde(default)]
     pub simulation: SimulationSettings,
     /// Joint positions at the start.
@@ -132,7 +132,7 @@ impl Scenario {
     }
 }
 
-/// `[simulation]`: clock and gravity.
+/// `[simulation]`: clock, gravity and contact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SimulationSettings {
@@ -145,6 +145,33 @@ pub struct SimulationSettings {
     /// Gravity in the root link's frame.
     #[serde(default = "down", deserialize_with = "finite_array")]
     pub gravity_m_s2: [f64; 3],
+    /// Coefficient of friction between links and obstacles.
+    #[serde(
+        default = "contact_friction",
+        deserialize_with = "non_negative",
+        skip_serializing_if = "is_contact_friction"
+    )]
+    pub contact_friction: f64,
+    /// Coefficient of restitution between links and obstacles: the share of the speed after an impact, 0 to 1.
+    #[serde(default, deserialize_with = "share", skip_serializing_if = "is_zero")]
+    pub contact_restitution: f64,
+}
+
+/// Coefficient of friction between links and obstacles, if no other is given: dry metal on metal or plastic.
+const CONTACT_FRICTION: f64 = 0.5;
+
+fn contact_friction() -> f64 {
+    CONTACT_FRICTION
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_contact_friction(value: &f64) -> bool {
+    value.total_cmp(&CONTACT_FRICTION).is_eq()
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 fn one_millisecond() -> f64 {
@@ -157,7 +184,13 @@ fn down() -> [f64; 3] {
 
 impl Default for SimulationSettings {
     fn default() -> Self {
-        Self { step_s: one_millisecond(), duration_s: None, gravity_m_s2: down() }
+        Self {
+            step_s: one_millisecond(),
+            duration_s: None,
+            gravity_m_s2: down(),
+            contact_friction: CONTACT_FRICTION,
+            contact_restitution: 0.0,
+        }
     }
 }
 

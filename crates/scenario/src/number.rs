@@ -11,6 +11,8 @@ pub enum Range {
     Positive,
     /// Finite, 0 or above.
     NonNegative,
+    /// 0 to 1.
+    Share,
 }
 
 impl Range {
@@ -21,6 +23,7 @@ impl Range {
                 Self::Finite => true,
                 Self::Positive => value > 0.0,
                 Self::NonNegative => value >= 0.0,
+                Self::Share => (0.0..=1.0).contains(&value),
             }
     }
 
@@ -30,6 +33,7 @@ impl Range {
             Self::Finite => "a finite number",
             Self::Positive => "a finite number above 0",
             Self::NonNegative => "a finite number, 0 or above",
+            Self::Share => "a number from 0 to 1",
         }
     }
 
@@ -70,6 +74,11 @@ pub(crate) fn optional_positive<'de, D: Deserializer<'de>>(deserializer: D) -> R
 /// For `deserialize_with`: a number in the range of the name.
 pub(crate) fn non_negative<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Range::NonNegative.read(deserializer)
+}
+
+/// For `deserialize_with`: a number from 0 to 1.
+pub(crate) fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Range::Share.read(deserializer)
 }
 
 /// For `deserialize_with` of an optional key: a number in the range of the name.

@@ -16,6 +16,8 @@ pub fn check(scenario: &Scenario) -> Vec<Diagnostic> {
         .gravity_m_s2
         .iter()
         .for_each(|&value| numbers.one("simulation.gravity_m_s2", value, Range::Finite));
+    numbers.one("simulation.contact_friction", simulation.contact_friction, Range::NonNegative);
+    numbers.one("simulation.contact_restitution", simulation.contact_restitution, Range::Share);
     numbers.check_optional("controller.rate_hz", scenario.controller.rate_hz, Range::Positive);
     numbers.check_optional("controller.delay_s", scenario.controller.delay_s, Range::Positive);
     for payload in &scenario.payload {
@@ -112,6 +114,7 @@ impl Numbers {
 
     fn limits(&mut self, check: &Check) {
         match check {
+            Check::Contact(check) => self.check_optional("check.force_n", check.force_n, Range::NonNegative),
             Check::CycleTime(check) => self.one("check.limit_s", check.limit_s, Range::Positive),
             Check::Dynamics(check) => self.check_optional("check.relative", check.relative, Range::Positive),
             Check::Effort(check) => self.check_optional("check.relative", check.relative, Range::Positive),
@@ -127,12 +130,8 @@ impl Numbers {
                 self.check_optional("check.settling_s", check.settling_s, Range::NonNegative);
                 self.check_optional("check.travel_share", check.travel_share, Range::Positive);
             }
-            Check::Agreement(_)
-            | Check::Clearance(_)
-            | Check::Contact(_)
-            | Check::Goal(_)
-            | Check::Twist(_)
-            | Check::Zone(_) => {}
+            Check::Agreement(_) | Check::Clearance(_) | Check::Goal(_) | Check::Twist(_) | Check::Zone(_) => {
+            }
         }
         let range = match check {
             Check::Agreement(_) | Check::Goal(_) => Range::Positive,

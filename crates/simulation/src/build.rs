@@ -52,7 +52,7 @@ pub(crate) fn build(
     let mut moving = BTreeMap::new();
     // Without obstacles nothing can touch: links never collide with each other.
     if settings.contacts && !settings.obstacles.is_empty() {
-        let links = add_colliders(&mut sets, &handles, robot, bodies)?;
+        let links = add_colliders(&mut sets, shapes::link_colliders(robot, bodies, settings)?, &handles);
         let standing;
         (moving, standing) = add_obstacles(&mut sets, settings)?;
         // Obstacles that move would have to be followed: beside one, all shapes stay as they are.
@@ -94,15 +94,13 @@ fn rigid_body(body: usize, inertia: &Inertia) -> RigidBodyBuilder {
 
 fn add_colliders(
     sets: &mut EngineSets,
+    colliders: Vec<(usize, Collider)>,
     handles: &[RigidBodyHandle],
-    robot: &Robot,
-    bodies: &Bodies,
-) -> Result<Vec<ColliderHandle>, SimulationError> {
-    let colliders = shapes::link_colliders(robot, bodies)?;
+) -> Vec<ColliderHandle> {
     let insert = |(body, collider): (usize, Collider)| {
         sets.colliders.insert_with_parent(collider, handles[body], &mut sets.bodies)
     };
-    Ok(colliders.into_iter().map(insert).collect())
+    colliders.into_iter().map(insert).collect()
 }
 
 /// Obstacles that stand still are colliders alone; those that may move hang on bodies whose poses are given.
@@ -115,12 +113,12 @@ fn add_obstacles(
         if settings.moving_obstacles.contains(&index) {
             // Its pose is that of its body; a collider with the same pose would have it twice.
             let at_origin = Obstacle { world_from_obstacle: Isometry3::identity(), ..obstacle.clone() };
-            let Some(collider) = shapes::obstacle_collider(&at_origin)? else { continue };
+            let Some(collider) = shapes::obstacle_collider(index, &at_origin, settings)? else { continue };
             let pose = adapter::pose(&obstacle.world_from_obstacle);
             let body = sets.bodies.insert(RigidBodyBuilder::kinematic_position_based().pose(pose));
             sets.colliders.insert_with_parent(collider, body, &mut sets.bodies);
             moving.insert(index, body);
-        } else if let Some(collider) = shapes::obstacle_collider(obstacle)? {
+        } else if let Some(collider) = shapes::obstacle_collider(index, obstacle, settings)? {
             standing.push(sets.colliders.insert(collider));
         }
     }

@@ -3,13 +3,23 @@
 use congruent_description::{CarriedBody, Inertia};
 use nalgebra::Isometry3;
 
-use crate::{actuation::DriveConnection, error::SimulationError, settings::Touches, world::World};
+use crate::{
+    actuation::DriveConnection,
+    error::SimulationError,
+    settings::{PairForce, Touches},
+    world::World,
+};
 
 impl World {
     /// Whether a link and an obstacle pushed each other in the last step. Contacts act before the shapes touch if they
     /// would within the step.
     pub fn contact_acts(&self) -> bool {
         self.engine.contact_acts()
+    }
+
+    /// The links and obstacles that pushed each other in the last step; a pair of several shapes has several entries.
+    pub fn contact_forces(&self) -> impl Iterator<Item = PairForce> + '_ {
+        self.engine.contact_forces()
     }
 
     /// Whether forces may have acted in the last step that are neither efforts nor gravity nor what resists the joints: the

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
-    ContactPair, IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint,
-    MultibodyLink, PhysicsPipeline, RigidBodyHandle, Vector,
+    IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyLink,
+    PhysicsPipeline, RigidBodyHandle, Vector,
 };
 
 use crate::{
@@ -284,17 +284,6 @@ impl Engine {
             let servo = drive.servo.filter(|_| !drive.is_constrained);
             multibody.damping_mut()[row] = own + servo.map_or(0.0, |servo| servo.gains.damping);
         }
-    }
-
-    /// Whether a link and an obstacle push each other: contacts act before the shapes touch, if they would in the step.
-    pub(crate) fn contact_acts(&self) -> bool {
-        self.sets.narrow_phase.contact_pairs().any(|pair| pair.total_impulse_magnitude() > 0.0)
-    }
-
-    /// Whether contact or the stop of a joint may have acted in the last step.
-    pub(crate) fn constraints_may_act(&self) -> bool {
-        let mut pairs = self.sets.narrow_phase.contact_pairs();
-        self.is_beyond_limits || pairs.any(ContactPair::has_any_active_contact)
     }
 
     /// The first coordinate for which this step had no solution: rapier found no pivot in its mass

@@ -12,6 +12,7 @@ mod contact;
 mod drive;
 mod engine;
 mod engine_changes;
+mod engine_contacts;
 mod error;
 mod joints_view;
 mod lumping;
@@ -24,7 +25,7 @@ pub use commands::{Commands, Gains, Motor};
 pub use drive::Saturation;
 pub use error::SimulationError;
 pub use joints_view::{JointsView, MeasuredState, Setpoint};
-pub use settings::{Touches, WorldSettings};
+pub use settings::{PairForce, Touches, WorldSettings};
 pub use world::{World, WorldSnapshot};
 
 /// Name and version of the physics engine, as reports give it; a test of the workspace compares it

@@ -18,6 +18,10 @@ pub struct WorldSettings {
     pub moving_obstacles: Vec<usize>,
     /// Whether links touch obstacles; links never touch each other.
     pub contacts: bool,
+    /// Coefficient of friction between links and obstacles.
+    pub contact_friction: f64,
+    /// Coefficient of restitution between links and obstacles.
+    pub contact_restitution: f64,
     /// Whether actuators keep the limits of effort and velocity that the description gives.
     pub actuator_limits: bool,
 }
@@ -31,9 +35,22 @@ impl Default for WorldSettings {
             obstacles: Vec::new(),
             moving_obstacles: Vec::new(),
             contacts: false,
+            contact_friction: 0.5,
+            contact_restitution: 0.0,
             actuator_limits: true,
         }
     }
+}
+
+/// A link and an obstacle that push each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairForce {
+    /// The link, in the robot's order.
+    pub link: usize,
+    /// Number of the obstacle in [`WorldSettings::obstacles`].
+    pub obstacle: usize,
+    /// Mean normal force in the last step, N, without friction.
+    pub force_n: f64,
 }
 
 /// What an obstacle touches.

@@ -9,7 +9,9 @@ use congruent_description::{Geometry, Obstacle, RobotQ};
 use congruent_simulation::{Commands, Controller, Gains, JointsView, Motor, Setpoint, World, WorldSettings};
 use nalgebra::{Isometry3, Vector3};
 
-use support::{arm, arm_q0, arm_with, at, bits, limited, make, mimic_arm, run, swinging_bar, worst};
+use support::{
+    arm, arm_q0, arm_with, at, bits, limited, make, mimic_arm, run, sliding_block, swinging_bar, worst,
+};
 
 /// Drift under gravity compensation, rad in 10 s; rounding of g(q), an equilibrium that is not
 /// stable; worst seen 8.5e-12.
@@ -193,6 +195,88 @@ fn a_robot_placed_on_an_obstacle_rests_there() {
     run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(1), 500);
     println!("resting: {:e}", world.q()[0] - resting);
     assert!((world.q()[0] - resting).abs() < RESTING_RAD, "{} {resting}", world.q()[0]);
+}
+
+/// A floor, on whose surface the sliding block is at z = 0.05 m, under gravity that pulls along x with this share.
+fn on_floor(share: f64, friction: f64, restitution: f64) -> WorldSettings {
+    let floor = Obstacle {
+        name: "floor".into(),
+        world_from_obstacle: Isometry3::translation(0.0, 0.0, -0.5),
+        geometry: Geometry::Box { size_m: Vector3::new(40.0, 4.0, 1.0) },
+    };
+    WorldSettings {
+        contacts: true,
+        obstacles: vec![floor],
+        gravity_in_world: Vector3::new(9.81 * share, 0.0, -9.81),
+        contact_friction: friction,
+        contact_restitution: restitution,
+        ..WorldSettings::default()
+    }
+}
+
+/// Contact force at rest against the weight, relative; solver stop and a resting contact that gives way; worst seen 3e-5.
+const WEIGHT: f64 = 1e-3;
+
+#[test]
+fn an_obstacle_pushes_with_the_weight_that_rests_on_it() {
+    let mut world = at(&sliding_block(), &on_floor(0.0, 0.5, 0.0), &RobotQ::from([0.0, 0.05]));
+    run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(2), 2000);
+    let forces: Vec<_> = world.contact_forces().collect();
+    let [force] = forces[..] else { panic!("{forces:?}") };
+    assert_eq!((force.link, force.obstacle), (2, 0));
+    let weight_n = 2.0 * 9.81;
+    println!("weight: {:e}", force.force_n / weight_n - 1.0);
+    assert!((force.force_n / weight_n - 1.0).abs() < WEIGHT, "{force:?}");
+    // In the air nothing pushes.
+    let mut world = at(&sliding_block(), &on_floor(0.0, 0.5, 0.0), &RobotQ::from([0.0, 1.0]));
+    run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(2), 10);
+    assert_eq!(world.contact_forces().count(), 0);
+}
+
+/// Share of the path of a slide with friction against the closed form; physics, the block settles at first; worst seen 2e-3.
+const SLID: f64 = 0.02;
+
+#[test]
+fn friction_holds_up_to_its_coefficient_and_brakes_beyond() {
+    let slid_m = |friction| {
+        let mut world = at(&sliding_block(), &on_floor(0.3, friction, 0.0), &RobotQ::from([0.0, 0.05]));
+        run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(2), 1000);
+        world.q()[0]
+    };
+    // In 1 s from rest: a = g (0.3 - friction).
+    for friction in [0.0, 0.1, 0.2] {
+        let expected_m = 0.5 * 9.81 * (0.3 - friction);
+        println!("friction {friction}: {} {expected_m}", slid_m(friction));
+        assert!(
+            (slid_m(friction) / expected_m - 1.0).abs() < SLID,
+            "{friction}: {} {expected_m}",
+            slid_m(friction)
+        );
+    }
+    assert!(slid_m(0.4).abs() < 1e-3, "{}", slid_m(0.4));
+}
+
+/// Share of the height of a bounce; physics, a step of 1 ms at the impact; worst seen 0.03.
+const BOUNCE: f64 = 0.06;
+
+#[test]
+fn restitution_is_the_share_of_the_speed_after_an_impact() {
+    for restitution in [0.0, 0.5, 0.8] {
+        let mut world = at(&sliding_block(), &on_floor(0.0, 0.5, restitution), &RobotQ::from([0.0, 0.55]));
+        let mut highest_m: f64 = 0.0;
+        let mut has_met = false;
+        for _ in 0..700 {
+            run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(2), 1);
+            has_met |= world.contact_acts();
+            if has_met {
+                highest_m = highest_m.max(world.q()[1] - 0.05);
+            }
+        }
+        // From 0.5 m; the height goes with the square of the speed.
+        let expected_m = 0.5 * restitution * restitution;
+        println!("restitution {restitution}: {highest_m} {expected_m}");
+        assert!((highest_m - expected_m).abs() < BOUNCE * 0.5, "{restitution}: {highest_m} {expected_m}");
+    }
 }
 
 #[test]

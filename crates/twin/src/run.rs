@@ -268,6 +268,7 @@ impl<'a> Run<'a> {
             violated_checks: 0,
             joints: self.source.joints(),
             forces: self.source.step_forces(),
+            contact_forces: self.source.contact_forces(),
             model: self.model.latest(),
             twin: &self.root_from_links,
             values: &self.values,

@@ -1,8 +1,8 @@
-//! Contact between links and with obstacles: which pair, from when to when, and how deep. Meshes are replaced by their convex
-//! hulls; the depth is the smallest translation that would separate two hulls.
+//! Contact between links and with obstacles: which pair, from when to when, how deep, and with which force. Meshes are replaced by
+//! their convex hulls; the depth is the smallest translation that would separate two hulls.
 
 use congruent_input::{Quantity, SiUnit};
-use congruent_proximity::{Clearance, PairNames};
+use congruent_proximity::{Clearance, Pair, PairNames};
 use congruent_scenario::ContactCheck;
 
 use super::clearance::notes_on;
@@ -10,7 +10,7 @@ use crate::{
     CheckContext, Names,
     monitor::{Monitor, Observed},
     sample::Sample,
-    verdict::{Bound, Contact},
+    verdict::{Bound, Contact, ContactLoad},
     watch::Watch,
 };
 
@@ -21,6 +21,11 @@ pub(crate) struct ContactMonitor {
     names: PairNames,
     /// The distance, negative for an overlap.
     distance: Watch,
+    /// The normal force, if it has a limit.
+    force: Option<Watch>,
+    /// Whether a link may touch an obstacle: a force is limited, and no depth.
+    may_touch: bool,
+    step_s: f64,
     /// The names of the pairs that are measured, from the first sample on: only then they are known.
     measured: Vec<[String; 2]>,
     /// The pairs that the check evaluates.
@@ -33,6 +38,7 @@ pub(crate) struct ContactMonitor {
 /// A pair, and whether it touches now.
 struct EvaluatedPair {
     pair: usize,
+    subjects: Pair,
     touch: TouchNow,
 }
 
@@ -51,6 +57,20 @@ struct Touch {
     from_s: f64,
     until_s: f64,
     depth_m: f64,
+    force: Option<ContactLoad>,
+}
+
+impl Touch {
+    /// Counts the force of one step.
+    fn push(&mut self, force_n: Option<f64>, time_s: f64, step_s: f64) {
+        let Some(force_n) = force_n else { return };
+        let none = ContactLoad { peak_n: 0.0, peak_s: time_s, impulse_n_s: 0.0 };
+        let load = self.force.get_or_insert(none);
+        if force_n > load.peak_n {
+            (load.peak_n, load.peak_s) = (force_n, time_s);
+        }
+        load.impulse_n_s += force_n * step_s;
+    }
 }
 
 impl ContactMonitor {
@@ -59,7 +79,13 @@ impl ContactMonitor {
             None => (Bound::Above, 0.0),
             Some(depth_m) => (Bound::AtLeast, -depth_m),
         };
+        let newtons = |limit_n: f64| {
+            Watch::new(Quantity::ContactForce, SiUnit::Newton, Bound::AtMost, limit_n, context.dof())
+        };
         Self {
+            force: check.force_n.map(newtons),
+            may_touch: check.force_n.is_some() && check.limit_m().is_none(),
+            step_s: context.clock.step_s,
             names: PairNames { pairs: check.pairs.clone(), ignore: check.ignore.clone() },
             distance: Watch::new(Quantity::Distance, SiUnit::Metre, bound, limit_m, context.dof()),
             measured: Vec::new(),
@@ -74,18 +100,22 @@ impl ContactMonitor {
         let all = 0..clearance.pairs().len();
         self.measured = all.clone().map(|pair| clearance.names(pair).map(str::to_owned)).collect();
         let chosen = all.filter(|&pair| self.names.is_evaluated(clearance.names(pair)));
-        self.pairs = chosen.map(|pair| EvaluatedPair { pair, touch: TouchNow::None }).collect();
+        let subjects: Vec<Pair> = clearance.pairs().collect();
+        let evaluated = |pair| EvaluatedPair { pair, subjects: subjects[pair], touch: TouchNow::None };
+        self.pairs = chosen.map(evaluated).collect();
     }
 
     /// Begins or continues the contact of a pair.
-    fn touches(&mut self, at: usize, depth_m: f64, time_s: f64) {
-        let EvaluatedPair { pair, touch } = &mut self.pairs[at];
+    fn touches(&mut self, at: usize, depth_m: f64, sample: &Sample<'_>) {
+        let EvaluatedPair { pair, subjects, touch } = &mut self.pairs[at];
+        let (time_s, force_n) = (sample.time_s, sample.contact_force_n(*subjects));
         match *touch {
             TouchNow::Unlisted => {}
             TouchNow::Listed(number) => {
                 let contact = &mut self.contacts[number];
                 contact.until_s = time_s;
                 contact.depth_m = contact.depth_m.max(depth_m);
+                contact.push(force_n, time_s, self.step_s);
             }
             TouchNow::None if self.contacts.len() == MOST_CONTACTS => {
                 *touch = TouchNow::Unlisted;
@@ -93,8 +123,36 @@ impl ContactMonitor {
             }
             TouchNow::None => {
                 *touch = TouchNow::Listed(self.contacts.len());
-                self.contacts.push(Touch { pair: *pair, from_s: time_s, until_s: time_s, depth_m });
+                let mut contact =
+                    Touch { pair: *pair, from_s: time_s, until_s: time_s, depth_m, force: None };
+                contact.push(force_n, time_s, self.step_s);
+                self.contacts.push(contact);
             }
+        }
+    }
+
+    /// Compares the forces of this instant with their limit.
+    fn observe_forces(&mut self, sample: &Sample<'_>) {
+        let Some(watch) = &mut self.force else { return };
+        for evaluated in &self.pairs {
+            if let Some(force_n) = sample.contact_force_n(evaluated.subjects) {
+                watch.observe(force_n, evaluated.pair, sample);
+            }
+        }
+    }
+
+    /// Distance and force; no distance if all pairs may touch.
+    fn measured_quantities(&self) -> impl Iterator<Item = &Watch> {
+        let distance = Some(&self.distance).filter(|watch| !self.may_touch || watch.worst().is_some());
+        distance.into_iter().chain(&self.force)
+    }
+
+    /// Compares the distance of a pair with its limit, if it may not simply touch.
+    fn observe_distance(&mut self, at: usize, distance_m: f64, sample: &Sample<'_>) {
+        let EvaluatedPair { pair, subjects, .. } = self.pairs[at];
+        let is_obstacle = subjects.b >= sample.twin.len();
+        if !(self.may_touch && is_obstacle) {
+            self.distance.observe(distance_m, pair, sample);
         }
     }
 }
@@ -105,6 +163,7 @@ impl Monitor for ContactMonitor {
             self.choose(sample.clearance);
         }
         self.samples += 1;
+        self.observe_forces(sample);
         let pairs = &self.pairs;
         let pushed = sample.kept_apart(|pair| pairs.iter().any(|looked_at| looked_at.pair == pair));
         // A pair farther than the nearest so far does not change the worst value; a touching pair always counts, hence the
@@ -112,12 +171,13 @@ impl Monitor for ContactMonitor {
         let mut threshold_m =
             self.distance.worst().map_or(f64::INFINITY, |worst_m| worst_m.max(f64::MIN_POSITIVE));
         for at in 0..self.pairs.len() {
-            let pair = self.pairs[at].pair;
-            if pushed == Some(pair) {
+            let EvaluatedPair { pair, subjects, .. } = self.pairs[at];
+            let acts = sample.contact_force_n(subjects).is_some_and(|force_n| force_n > 0.0);
+            if pushed == Some(pair) || (acts && sample.clearance.measure(pair) > 0.0) {
                 // The solver keeps the two apart just before their hulls meet: contact of depth 0, although a distance of up
                 // to some millimetres would be measured.
-                self.distance.observe(0.0, pair, sample);
-                self.touches(at, 0.0, sample.time_s);
+                self.observe_distance(at, 0.0, sample);
+                self.touches(at, 0.0, sample);
                 continue;
             }
             let Some(distance_m) = sample.clearance.measure_below(pair, threshold_m) else {
@@ -126,12 +186,12 @@ impl Monitor for ContactMonitor {
             };
             // The depth is costly, and only shapes that overlap have one.
             let signed_m = if distance_m > 0.0 { distance_m } else { sample.clearance.measure_signed(pair) };
-            self.distance.observe(signed_m, pair, sample);
+            self.observe_distance(at, signed_m, sample);
             threshold_m = threshold_m.min(distance_m.max(f64::MIN_POSITIVE));
             if distance_m > 0.0 {
                 self.pairs[at].touch = TouchNow::None;
             } else {
-                self.touches(at, -signed_m, sample.time_s);
+                self.touches(at, -signed_m, sample);
             }
         }
     }
@@ -143,14 +203,16 @@ impl Monitor for ContactMonitor {
             until_s: touch.until_s,
             // -0.0 would print as a negative depth.
             depth_m: touch.depth_m.max(0.0),
+            force: touch.force,
         };
+        let name = |pair: usize| names.pairs[pair].clone();
         let mut notes = notes_on(&self.names, &self.measured);
         if self.more_contacts > 0 {
             notes.push(format!("{} further contacts are not listed", self.more_contacts));
         }
         Observed {
             samples: self.samples,
-            measures: vec![self.distance.measure(&names.joints, |pair| names.pairs[pair].clone())],
+            measures: self.measured_quantities().map(|watch| watch.measure(&names.joints, name)).collect(),
             contacts: self.contacts.iter().map(contact).collect(),
             notes,
             ..Observed::default()
@@ -158,6 +220,6 @@ impl Monitor for ContactMonitor {
     }
 
     fn has_failed(&self) -> bool {
-        self.distance.is_violated()
+        self.measured_quantities().any(Watch::is_violated)
     }
 }

@@ -4,7 +4,7 @@ use congruent_input::{
     Quantity, SiUnit,
     display::{quantity, quantity_in_full},
 };
-use congruent_monitors::verdict::{Bound, CheckResult, Contact, Measure, Moment, Status};
+use congruent_monitors::verdict::{Bound, CheckResult, Contact, ContactLoad, Measure, Moment, Status};
 
 /// The lines of a check in a report: violated quantities first, then remarks, then the others. The first line marks a default
 /// check.
@@ -40,12 +40,16 @@ fn all_lines(check: &CheckResult) -> Vec<String> {
 /// Number of contacts that are printed; the report has all.
 const SHOWN_CONTACTS: usize = 5;
 
-/// Each contact with its time and depth.
+/// Each contact with its time, depth and force.
 fn contacts(contacts: &[Contact]) -> impl Iterator<Item = String> + '_ {
     let shown = contacts.iter().take(SHOWN_CONTACTS).map(|contact| {
-        let Contact { pair: [a, b], from_s, until_s, depth_m } = contact;
+        let Contact { pair: [a, b], from_s, until_s, depth_m, force } = contact;
         let (from, until) = (quantity(*from_s, "s"), quantity(*until_s, "s"));
-        format!("{a}--{b} touch from {from} to {until}, depth up to {}", quantity(*depth_m, "m"))
+        let force = force.map_or_else(String::new, |ContactLoad { peak_n, peak_s, impulse_n_s }| {
+            let (peak, at) = (quantity(peak_n, "N"), quantity(peak_s, "s"));
+            format!(", force up to {peak} ({at}), impulse {}", quantity(impulse_n_s, "N s"))
+        });
+        format!("{a}--{b} touch from {from} to {until}, depth up to {}{force}", quantity(*depth_m, "m"))
     });
     let further = contacts.len().saturating_sub(SHOWN_CONTACTS);
     shown.chain((further > 0).then(|| format!("{further} further contacts are in the report")))

@@ -31,7 +31,8 @@ pub struct ClearanceCheck {
     pub on_violation: OnViolation,
 }
 
-/// No link touches another link or an obstacle; with a depth, no pair overlaps by more.
+/// No link touches another link or an obstacle; with a depth, no pair overlaps by more; with a force, no link pushes an
+/// obstacle by more.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactCheck {
@@ -41,6 +42,10 @@ pub struct ContactCheck {
     /// The same in millimetres.
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub depth_mm: Option<f64>,
+    /// Largest normal force between a link and an obstacle, N: without a depth, the two may then touch. Only the physics knows
+    /// it, and only between links and obstacles.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<f64>,
     /// Only these pairs of links and obstacles are checked, in either order; in a name, `*` matches any
     /// characters. Default: all pairs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

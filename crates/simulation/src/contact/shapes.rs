@@ -10,6 +10,7 @@ use crate::{
     adapter,
     error::SimulationError,
     lumping::{Bodies, LinkOnBody},
+    settings::WorldSettings,
 };
 
 /// Group of the robot's links.
@@ -17,13 +18,14 @@ const LINKS: Group = Group::GROUP_1;
 /// Group of the obstacles.
 const OBSTACLES: Group = Group::GROUP_2;
 
-/// Colliders of all moving links, each with the number of its body.
+/// Colliders of all moving links, each with the number of its body; the user data of each is its link.
 pub(crate) fn link_colliders(
     robot: &Robot,
     bodies: &Bodies,
+    settings: &WorldSettings,
 ) -> Result<Vec<(usize, Collider)>, SimulationError> {
     let mut colliders = Vec::new();
-    for (place, link) in bodies.links.iter().zip(robot.links()) {
+    for (index, (place, link)) in bodies.links.iter().zip(robot.links()).enumerate() {
         let LinkOnBody { body, body_from_link, .. } = place;
         // The root body is at rest, as obstacles are: the two never meet.
         let shapes = if *body == 0 { &[][..] } else { &link.collisions };
@@ -31,19 +33,40 @@ pub(crate) fn link_colliders(
             let owner = || format!("link \"{}\"", link.name);
             let body_from_shape = adapter::pose(&(body_from_link * shape.link_from_shape));
             if let Some(builder) = shaped(&shape.geometry, body_from_shape, owner)? {
-                colliders.push((*body, builder.collision_groups(groups(LINKS, OBSTACLES)).build()));
+                let builder = surface(builder, settings).collision_groups(groups(LINKS, OBSTACLES));
+                colliders.push((*body, builder.user_data(index as u128).build()));
             }
         }
     }
     Ok(colliders)
 }
 
-/// The collider of an obstacle; `None` for a mesh without a vertex.
-pub(crate) fn obstacle_collider(obstacle: &Obstacle) -> Result<Option<Collider>, SimulationError> {
+/// The collider of an obstacle, whose user data is its number; `None` for a mesh without a vertex.
+pub(crate) fn obstacle_collider(
+    number: usize,
+    obstacle: &Obstacle,
+    settings: &WorldSettings,
+) -> Result<Option<Collider>, SimulationError> {
     let owner = || format!("obstacle \"{}\"", obstacle.name);
     let pose = adapter::pose(&obstacle.world_from_obstacle);
     let builder = shaped(&obstacle.geometry, pose, owner)?;
-    Ok(builder.map(|builder| builder.collision_groups(groups(OBSTACLES, LINKS)).build()))
+    let complete = |builder| {
+        surface(builder, settings)
+            .collision_groups(groups(OBSTACLES, LINKS))
+            .user_data(number as u128)
+            .build()
+    };
+    Ok(builder.map(complete))
+}
+
+/// Friction and restitution: the same on both sides, so that their mean is that of the contact.
+fn surface(builder: ColliderBuilder, settings: &WorldSettings) -> ColliderBuilder {
+    builder.friction(settings.contact_friction).restitution(settings.contact_restitution)
+}
+
+/// Whether a collider is of an obstacle, not of a link.
+pub(crate) fn is_obstacle(collider: &Collider) -> bool {
+    collider.collision_groups().memberships == OBSTACLES
 }
 
 fn groups(member: Group, meets: Group) -> InteractionGroups {

@@ -135,6 +135,22 @@ pub fn swinging_bar() -> Robot {
     Robot::new("bar", vec![massless("base"), bar], vec![hinge]).unwrap()
 }
 
+/// A block of 2 kg and edges of 0.1 m that slides along x and along z, its faces 0.05 m from its origin.
+pub fn sliding_block() -> Robot {
+    let mut block = link("block", 2.0, [0.0; 3], [0.01; 3]);
+    block.collisions.push(Shape {
+        link_from_shape: Isometry3::identity(),
+        geometry: Geometry::Box { size_m: Vector3::new(0.1, 0.1, 0.1) },
+        color_rgba: None,
+    });
+    let carriage = link("carriage", 1e-3, [0.0; 3], [1e-6; 3]);
+    let slide = |ends, axis| about(joint(JointKind::Prismatic, ends, [0.0; 3], [0.0; 3]), axis);
+    let joints =
+        vec![slide(("base", "carriage"), [1.0, 0.0, 0.0]), slide(("carriage", "block"), [0.0, 0.0, 1.0])];
+    let free = joints.into_iter().map(|parts| limited(parts, (-50.0, 50.0), 1e3)).collect();
+    Robot::new("block", vec![massless("base"), carriage, block], free).unwrap()
+}
+
 /// Gravity torque of the present configuration by the engine's own masses, and servos if the gains are not zero.
 pub struct EngineGravity(pub Gains);
 

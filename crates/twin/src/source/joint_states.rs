@@ -1,6 +1,6 @@
 //! Sources of joint states: a simulation, later a log or a live robot.
 
-use congruent_monitors::{JointSample, StepForces};
+use congruent_monitors::{ContactForce, JointSample, StepForces};
 use congruent_motion::{ServoResult, SlowedMotion};
 use nalgebra::Isometry3;
 
@@ -33,6 +33,11 @@ pub trait JointStateSource {
     /// The forces in the step that led to the present instant; only a simulation knows them.
     fn step_forces(&self) -> StepForces {
         StepForces::Unknown
+    }
+
+    /// The links and obstacles that pushed each other in that step; only a simulation knows them.
+    fn contact_forces(&self) -> &[ContactForce] {
+        &[]
     }
 
     /// Brings the robot to rest from the present instant on, within its limits: the setpoint slows down and stays. Returns

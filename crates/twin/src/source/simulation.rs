@@ -2,7 +2,7 @@
 
 use congruent_dynamics::JointResistance;
 use congruent_input::Findings;
-use congruent_monitors::{JointSample, JointStateView, SetpointView, StepForces};
+use congruent_monitors::{ContactForce, JointSample, JointStateView, SetpointView, StepForces};
 use congruent_motion::{ReferenceGenerator, ServoResult, SlowedMotion};
 use congruent_proximity::MovingBodies;
 use congruent_scenario::ControllerKind;
@@ -29,6 +29,7 @@ pub struct SimulationSource<'a> {
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
     actuators: ActuatorCounts,
+    contact_forces: Vec<ContactForce>,
     bodies: MovingBodies<'a>,
     /// Takes the place of the motions if a check stops the run.
     braking: Option<Braking>,
@@ -57,6 +58,8 @@ impl<'a> SimulationSource<'a> {
             obstacles: setup.obstacles.clone(),
             moving_obstacles: setup.bodies.iter().map(|body| body.obstacle).collect(),
             contacts: true,
+            contact_friction: setup.scenario.simulation.contact_friction,
+            contact_restitution: setup.scenario.simulation.contact_restitution,
             actuator_limits: setup.scenario.joints.enforce_limits,
         };
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
@@ -80,6 +83,7 @@ impl<'a> SimulationSource<'a> {
             is_placed,
             payloads,
             actuators: ActuatorCounts::new(robot.dof()),
+            contact_forces: Vec::new(),
             braking: None,
             setup,
             world,
@@ -171,6 +175,10 @@ impl JointStateSource for SimulationSource<'_> {
         }
     }
 
+    fn contact_forces(&self) -> &[ContactForce] {
+        &self.contact_forces
+    }
+
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
         // Obstacles first: the step moves them to their poses at its end.
         self.move_bodies(time_s);
@@ -190,6 +198,13 @@ impl JointStateSource for SimulationSource<'_> {
         let stepped = self.world.step_measured(&mut self.controller, &setpoint, &measured);
         stepped.map_err(SourceError::new)?;
         self.actuators.observe(&self.world);
+        let forces = self.world.contact_forces();
+        self.contact_forces.clear();
+        self.contact_forces.extend(forces.map(|force| ContactForce {
+            link: force.link,
+            obstacle: force.obstacle,
+            force_n: force.force_n,
+        }));
         // Faults by the new step, then the reading: a fault acts from the first sample at its time on.
         self.faults.advance(self.world.step_count(), &mut self.world).map_err(SourceError::new)?;
         measure(&mut self.faults, &mut self.sensors);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use congruent_monitors::verdict::Status;
+use congruent_monitors::verdict::{CheckResult, Status};
 use congruent_scenario::{Check, ContactCheck, MotionSettings, ObstacleSettings, ZoneCheck, ZoneSettings};
 use congruent_twin::RunSetup;
 
@@ -55,6 +55,34 @@ fn a_depth_that_is_allowed_is_no_violation() {
     // 30 mm deep at q = 0.06 m, after four sevenths of the path.
     let violation = measure(&too_deep, "distance").first_violation.clone().unwrap();
     assert!((violation.time_s - 0.8 * 4.0 / 7.0).abs() < 1.5e-3, "{violation:?}");
+}
+
+/// The same under the physics: the slide pushes the block, whose face is in its path, with the force of its controller.
+fn pushed(check: ContactCheck) -> CheckResult {
+    let mut scenario = slid(check).scenario;
+    scenario.controller = controlled("pd", 400.0, 60.0);
+    result(&setup(scenario, &arm(&[])))
+}
+
+#[test]
+fn the_force_on_an_obstacle_has_a_peak_an_impulse_and_a_limit() {
+    let report = pushed(ContactCheck::default());
+    assert_eq!(report.status, Status::Fail, "{report:#?}");
+    let load = report.contacts.iter().find_map(|contact| contact.force).expect("the physics knows the force");
+    let contact = report.contacts.iter().find(|contact| contact.force.is_some()).unwrap();
+    assert!((contact.from_s..=contact.until_s).contains(&load.peak_s), "{contact:?}");
+    let most_n_s = load.peak_n * (contact.until_s - contact.from_s + 1e-3);
+    assert!(load.peak_n > 0.0 && load.impulse_n_s > 0.0 && load.impulse_n_s <= most_n_s, "{contact:?}");
+    let limited = |force_n| pushed(ContactCheck { force_n: Some(force_n), ..ContactCheck::default() });
+    // With a force that is allowed the two may touch.
+    passes(&limited(load.peak_n * 1.01));
+    let too_hard = limited(load.peak_n * 0.99);
+    assert_eq!(too_hard.status, Status::Fail, "{too_hard:#?}");
+    let worst = measure(&too_hard, "contact_force").worst.clone().unwrap();
+    assert_eq!((worst.value, worst.time_s), (load.peak_n, load.peak_s));
+    // Playback has no forces: nothing was checked.
+    let check = ContactCheck { force_n: Some(1.0), ..ContactCheck::default() };
+    assert_eq!(result(&slid(check)).status, Status::Skipped);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use congruent_description::{RobotDescription, RobotQ, parse_robot};
 use congruent_input::SourceFile;
 use congruent_monitors::{
-    JointSample, JointStateView, NoRecorder, StepForces,
+    ContactForce, JointSample, JointStateView, NoRecorder, StepForces,
     verdict::{CheckResult, Measure, Status},
 };
 use congruent_scenario::{
@@ -233,6 +233,10 @@ impl JointStateSource for Distorted<'_> {
 
     fn step_forces(&self) -> StepForces {
         self.physics.step_forces()
+    }
+
+    fn contact_forces(&self) -> &[ContactForce] {
+        self.physics.contact_forces()
     }
 
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
