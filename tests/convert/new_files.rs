@@ -119,7 +119,7 @@ fn what_is_no_urdf_is_refused_and_nothing_stays_behind() {
 
 /// A robot.toml beside the URDF would make its folder the project, above which no mesh is opened.
 #[test]
-fn a_robot_file_that_would_hide_meshes_is_refused() {
+fn behind_a_fence_a_robot_file_that_would_hide_meshes_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let inner = folder.path().join("pkg/urdf");
     fs::create_dir_all(&inner).unwrap();
@@ -136,7 +136,7 @@ fn a_robot_file_that_would_hide_meshes_is_refused() {
          <mesh filename='../meshes/part.obj'/></geometry></collision></link>\
          <joint name='j' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>",
     );
-    let beside = congruent(&["new", "robot", &urdf, "--out", &text(&inner)]);
+    let beside = congruent(&["new", "robot", &urdf, "--out", &text(&inner), "--fence"]);
     assert_eq!(beside.code, 2, "{}", beside.stdout);
     assert!(beside.stderr.contains("would make that folder the project"), "{}", beside.stderr);
     assert!(!inner.join("robot.toml").exists());

@@ -53,8 +53,10 @@ fn refused(answer: &Answer) {
     assert!(!answer.stderr.contains("root:x"), "nothing of it is shown: {}", answer.stderr);
 }
 
+const FENCE: &[&str] = &["--fence"];
+
 #[test]
-fn a_robot_file_names_files_of_its_project() {
+fn behind_a_fence_a_robot_file_names_files_of_its_project() {
     let project = Project::new();
     for line in [
         "urdf = '../outside/r.urdf'",
@@ -67,13 +69,13 @@ fn a_robot_file_names_files_of_its_project() {
         if line.contains("srdf") {
             // Kinematics can do without it, clearance cannot.
             project.write("project/robot.toml", line);
-            refused(&congruent_alone(&["clearance", project.path("project").as_str()]));
+            refused(&congruent_alone(&["clearance", project.path("project").as_str(), "--fence"]));
         } else {
-            refused(&project.check(line, &[]));
+            refused(&project.check(line, FENCE));
         }
     }
     let outside = project.path("outside");
-    let allowed = project.check("urdf = '../outside/r.urdf'", &["--allow", &outside]);
+    let allowed = project.check("urdf = '../outside/r.urdf'", &["--fence", "--allow", &outside]);
     assert_ne!(allowed.code, 2, "{}", allowed.stderr);
     assert_eq!(project.check("urdf = 'r.urdf'", &["--allow", &project.path("nowhere")]).code, 2);
 }
@@ -84,16 +86,18 @@ fn links_are_resolved() {
     let project = Project::new();
     let link = project.0.path().join("project/link.urdf");
     std::os::unix::fs::symlink(project.0.path().join("outside/r.urdf"), link).unwrap();
-    refused(&project.check("urdf = 'link.urdf'", &[]));
+    refused(&project.check("urdf = 'link.urdf'", FENCE));
+    assert_ne!(project.check("urdf = 'link.urdf'", &[]).code, 2);
 }
 
 #[test]
-fn a_scenario_names_files_of_its_project() {
+fn behind_a_fence_a_scenario_names_files_of_its_project() {
     let project = Project::new();
     let out = project.path("out");
     let check = |lines: &str| {
         project.write("project/scenarios/s.toml", &format!("schema_version = 1\nname = 's'\n{lines}\n"));
-        congruent_alone(&["run", &project.path("project/scenarios/s.toml"), "--no-recording", "--out", &out])
+        let scenario = project.path("project/scenarios/s.toml");
+        congruent_alone(&["run", &scenario, "--no-recording", "--out", &out, "--fence"])
     };
     let workspace_robot = text(&workspace().join("robots/ur5e"));
     for robot in ["../../outside/r.urdf", "/etc/passwd", &workspace_robot] {
@@ -111,6 +115,92 @@ fn a_scenario_names_files_of_its_project() {
         assert!(reason.iter().any(|reason| answer.stderr.contains(reason)), "{}", answer.stderr);
         assert!(!answer.stderr.contains("root:x"), "{}", answer.stderr);
     }
+}
+
+/// Nothing of a file that is not what is expected is on either stream.
+#[track_caller]
+fn refused_unread(answer: &Answer) {
+    let printed = format!("{}{}", answer.stdout, answer.stderr);
+    assert_eq!(answer.code, 2, "{printed}");
+    assert!(!printed.contains("root:x") && !printed.contains("second line"), "{printed}");
+}
+
+#[test]
+fn without_a_fence_what_is_expected_is_opened_and_nothing_else_is_shown() {
+    let project = Project::new();
+    let opened = project.check("urdf = '../outside/r.urdf'", &[]);
+    assert_ne!(opened.code, 2, "{}", opened.stderr);
+    for line in ["urdf = '../outside/secret'", "urdf = '/etc/passwd'", "urdf = '/dev/zero'"] {
+        refused_unread(&project.check(line, &[]));
+    }
+    project.write("project/robot.toml", "urdf = 'r.urdf'\nsrdf = '../outside/secret'");
+    for format in ["text", "json"] {
+        refused_unread(&congruent_alone(&["clearance", &project.path("project"), "--format", format]));
+    }
+    let lint = congruent_alone(&["lint", &project.path("project"), "--format", "sarif"]);
+    assert!(!lint.stdout.contains("root:x"), "{}", lint.stdout);
+    // A URDF outside with a fault: its place is named, its line is not quoted.
+    project
+        .write("outside/bad.urdf", "<robot name='r'>\n<link name='a'/><link name='secret_link'/>\n</robot>");
+    let bad = project.check("urdf = '../outside/bad.urdf'", &[]);
+    assert!(bad.code == 2 && !bad.stderr.contains("<link"), "{}", bad.stderr);
+    assert!(bad.stderr.contains("bad.urdf:"), "{}", bad.stderr);
+    let allowed = project.check("urdf = '../outside/bad.urdf'", &["--allow", &project.path("outside")]);
+    assert!(allowed.stderr.contains("<link name='secret_link'/>"), "{}", allowed.stderr);
+}
+
+#[test]
+fn without_a_fence_a_scenario_opens_what_is_expected() {
+    let project = Project::new();
+    let out = project.path("out");
+    let run = |lines: &str| {
+        project.write("project/scenarios/s.toml", &format!("schema_version = 1\nname = 's'\n{lines}\n"));
+        let scenario = project.path("project/scenarios/s.toml");
+        congruent_alone(&["run", &scenario, "--no-recording", "--out", &out])
+    };
+    let rest =
+        "[simulation]\nduration_s = 0.01\n[controller]\nkind = 'kinematic'\n[[check]]\nkind = 'agreement'";
+    let ran = run(&format!("robot = '../../outside/r.urdf'\n{rest}"));
+    assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
+    project.write("outside/robot.toml", "token = 'root:x:0:0'\n");
+    for robot in ["../../outside/robot.toml", "../../outside/secret", "/etc/passwd", "/dev/zero"] {
+        refused_unread(&run(&format!("robot = '{robot}'\n{rest}")));
+    }
+    for section in [
+        "kind = 'kinematic'\n[[motion]]\nplay_csv = '../../outside/secret'",
+        "kind = 'torque'\ntorque_file = '../../outside/secret'",
+        "kind = 'kinematic'\n[[obstacle]]\nname = 'o'\nmesh = '../../outside/secret'",
+    ] {
+        refused_unread(&run(&format!(
+            "robot = '../r.urdf'\n[simulation]\nduration_s = 1.0\n[controller]\n{section}"
+        )));
+    }
+}
+
+/// An installed package, as those below `/opt/ros`: the URDF in one folder, its meshes in another package.
+#[test]
+fn a_robot_file_for_an_installed_urdf_is_read_again() {
+    let project = Project::new();
+    for folder in ["opt/share/arm/urdf", "opt/share/parts/meshes"] {
+        fs::create_dir_all(project.0.path().join(folder)).unwrap();
+    }
+    for package in ["arm", "parts"] {
+        project.write(&format!("opt/share/{package}/package.xml"), "<package/>");
+    }
+    project.write("opt/share/parts/meshes/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
+    let mesh = "<link name='b'><collision><geometry><mesh filename='package://parts/meshes/a.obj'/></geometry></collision></link>";
+    project.write("opt/share/arm/urdf/r.urdf", &URDF.replace("<link name='b'/>", mesh));
+    let urdf = project.path("opt/share/arm/urdf/r.urdf");
+    let package = format!("parts={}", project.path("opt/share/parts"));
+    let new = project.path("project/new");
+    let made = congruent_alone(&["new", "robot", &urdf, "--out", &new, "--package", &package]);
+    assert_ne!(made.code, 2, "{}", made.stderr);
+    for command in ["check", "lint"] {
+        let read = congruent_alone(&[command, new.as_str()]);
+        assert_ne!(read.code, 2, "{}{}", read.stdout, read.stderr);
+        assert!(!read.stderr.contains("not found"), "{}", read.stderr);
+    }
+    refused(&congruent_alone(&["check", &new, "--fence"]));
 }
 
 #[test]

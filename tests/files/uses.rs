@@ -79,7 +79,7 @@ fn kinematics_goes_on_with_each_warning_once() {
         "2 links have an inertia that breaks the triangle inequality: upper, fore (needed only for physics)",
         "mesh file \"package://arm_description/upper.stl\" not found (needed only for clearance)",
         "packages = { arm_description =",
-        "--ros-packages",
+        "--package arm_description=DIR",
         "<texture> has no filename",
         "<material> has no name",
         "<limit> has no effort",
@@ -160,7 +160,7 @@ fn a_check_says_which_source_it_could_not_ask() {
 }
 
 #[test]
-fn packages_of_ros_are_followed_only_if_asked_for() {
+fn packages_of_ros_are_found_and_behind_a_fence_only_if_asked_for() {
     let bench = ArmFolder::new(REPAIR);
     let workspace = tempfile::tempdir().unwrap();
     let package: PathBuf = workspace.path().join("src/arm_description");
@@ -180,12 +180,13 @@ fn packages_of_ros_are_followed_only_if_asked_for() {
             .unwrap();
         answer.status.code()
     };
-    let (ask, path) = (&["--ros-packages"][..], workspace.path().to_owned());
-    assert_eq!(code(&[], "ROS_PACKAGE_PATH", path.clone()), Some(2));
+    let (fence, ask) = (&["--fence"][..], &["--fence", "--ros-packages"][..]);
+    let path = workspace.path().to_owned();
+    assert_eq!(code(fence, "ROS_PACKAGE_PATH", path.clone()), Some(2));
     // The mesh is found; with it alone there is no pair to measure.
     assert_eq!(code(ask, "ROS_PACKAGE_PATH", path.clone()), Some(4));
     assert_eq!(code(ask, "AMENT_PREFIX_PATH", path.clone()), Some(2));
     fs::rename(path.join("src"), path.join("share")).unwrap();
-    assert_eq!(code(&[], "AMENT_PREFIX_PATH", path.clone()), Some(2));
-    assert_eq!(code(ask, "AMENT_PREFIX_PATH", path), Some(4));
+    assert_eq!(code(fence, "AMENT_PREFIX_PATH", path.clone()), Some(2));
+    assert_eq!(code(&[], "AMENT_PREFIX_PATH", path), Some(4));
 }

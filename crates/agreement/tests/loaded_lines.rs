@@ -69,7 +69,9 @@ fn an_edit_after_loading_moves_no_line() {
 
 #[test]
 fn a_robot_made_in_memory_has_lines() {
-    let source = |name: &str, text: &str| Arc::new(SourceFile { path: name.into(), text: text.to_owned() });
+    let source = |name: &str, text: &str| {
+        Arc::new(SourceFile { path: name.into(), text: text.to_owned(), is_foreign: false })
+    };
     let (robot_file, urdf) = (source("robot.toml", ROBOT_FILE), source("arm.urdf", URDF));
     let description = parse_robot(Some(&robot_file), &urdf).unwrap();
     names_line_10(&description, Path::new("robot.toml"));

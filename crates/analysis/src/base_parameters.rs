@@ -84,7 +84,7 @@ const FASTEST: f64 = 3.0;
 /// use congruent_input::SourceFile;
 /// let urdf = r#"<robot name="rod"><link name="base"/><link name="rod"/>
 ///   <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint></robot>"#;
-/// let source = SourceFile { path: "rod.urdf".into(), text: urdf.into() };
+/// let source = SourceFile { path: "rod.urdf".into(), text: urdf.into(), is_foreign: false };
 /// let description = parse_robot(None, &source.into()).unwrap();
 /// let report = base_parameters(&description, 0)?;
 /// let names: Vec<&str> = report.base_parameters.iter().map(|group| group.of.parameter).collect();

@@ -46,21 +46,30 @@ pub(crate) struct RobotArgument {
 /// Which files may be opened that other files name.
 #[derive(Debug, clap::Args)]
 pub(crate) struct AccessArguments {
-    /// Look for the packages of `package://` in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` as well.
+    /// Open only files of the project, for files of strangers: the project is the nearest folder at or above the given file with
+    /// package.xml or .git, or else the folder above its own, or the current folder if that is higher. Without it the URDF, SRDF,
+    /// meshes and tables that a file names are opened wherever they are.
     #[arg(long)]
-    ros_packages: bool,
-    /// Also open files in this folder if a scenario, a robot file or a URDF names them. Without it only files of the
-    /// project are opened: the nearest folder at or above the given file with package.xml or .git, or else the folder
-    /// above its own, or the current folder if that is higher. May be given several times.
+    fence: bool,
+    /// Count this folder as part of the project: with --fence its files are opened, and lines of them are quoted. May be given
+    /// several times.
     #[arg(long, value_name = "DIR")]
     allow: Vec<PathBuf>,
+    /// The folder of a package of `package://`. May be given several times.
+    #[arg(long, value_name = "NAME=DIR")]
+    package: Vec<String>,
+    /// With --fence, look for packages in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` all the same.
+    #[arg(long)]
+    ros_packages: bool,
 }
 
 impl AccessArguments {
-    /// The environment is read only with `--ros-packages`.
+    /// Behind a fence the environment is read only with `--ros-packages`.
     pub(crate) fn access(&self) -> Result<FileAccess, Diagnostic> {
-        let ros = if self.ros_packages { RosPackages::from_environment() } else { RosPackages::default() };
-        FileAccess::new(ros, &self.allow)
+        let is_searched = self.ros_packages || !self.fence;
+        let ros = if is_searched { RosPackages::from_environment() } else { RosPackages::default() };
+        let access = FileAccess::new(ros, &self.allow)?.with_packages(&self.package)?;
+        Ok(if self.fence { access.fenced() } else { access })
     }
 }
 
@@ -114,13 +123,13 @@ pub(crate) fn allowing_inputs(access: FileAccess, description: &RobotDescription
     named.into_iter().flatten().fold(access, |access, file| access.beside(file))
 }
 
-/// Whether a new file names another that commands open only if it is allowed.
-pub(crate) fn needs_to_be_allowed(file: &Path, named: &Path) -> Option<Diagnostic> {
-    FileAccess::default().inside_project_of(file).ok()?.check(named).err()?;
+/// Whether a new file names another that commands with a fence open only if it is allowed.
+pub(crate) fn needs_to_be_allowed(access: &FileAccess, file: &Path, named: &Path) -> Option<Diagnostic> {
+    access.inside_project_of(file).ok()?.check(named).err()?;
     let folder = named.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let message = format!("{} is outside of the project of {}", named.display(), file.display());
     Some(Diagnostic::warning(codes::new::OUTSIDE, message).with_help(format!(
-        "add --allow {} to every other command that reads the new file",
+        "add --allow {} to every other command that reads the new file with --fence",
         folder.display()
     )))
 }

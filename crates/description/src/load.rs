@@ -8,8 +8,8 @@ use std::{
 };
 
 use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, folder_of, not_found,
-    toml_text::parse_toml,
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of,
+    not_found, toml_text::parse_toml,
 };
 use toml::Spanned;
 
@@ -108,7 +108,9 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
 /// # Errors
 /// The file cannot be read, may not be opened, or is longer than `most_bytes`.
 pub fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
-    access.read_named_text(path, most_bytes).map_err(|fault| {
+    let kind = if is_toml(path) { TextKind::RobotFile } else { TextKind::Robot };
+    // A scenario may name it.
+    access.read_named_text(path, most_bytes).and_then(|source| kind.check(source)).map_err(|fault| {
         let is_helpless = fault.code == congruent_input::codes::file::NOT_FOUND && fault.help.is_none();
         if is_helpless { fault.with_help(ACCEPTED) } else { fault }
     })
@@ -125,7 +127,7 @@ pub fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<Sou
 /// ```
 /// use congruent_description::parse_robot;
 /// use congruent_input::SourceFile;
-/// let source = |name: &str, text: &str| SourceFile { path: name.into(), text: text.into() }.into();
+/// let source = |name: &str, text: &str| SourceFile { path: name.into(), text: text.into(), is_foreign: false }.into();
 /// let urdf = source("stand.urdf", "<robot name='stand'><link name='base'/></robot>");
 /// let robot_file = source("robot.toml", "name = 'mine'\ntip = 'tool'");
 /// assert_eq!(parse_robot(None, &urdf).unwrap().name, "stand");
@@ -157,7 +159,8 @@ pub fn parse_robot(
 
 fn load_bare_urdf(urdf: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
     let (robot, warnings) = load_urdf(urdf, BTreeMap::new(), access, &Repairs::default())?;
-    Ok(bare(urdf, robot, warnings))
+    let named_files = NamedFiles { packages: access.packages().clone(), ..NamedFiles::default() };
+    Ok(RobotDescription { named_files, ..bare(urdf, robot, warnings) })
 }
 
 /// The description of a bare URDF: root as base, a chosen tip, no table, default tolerance.
@@ -262,7 +265,7 @@ fn read_robot_file(
     };
     let repairs = written.repairs(robot_file);
     // If the URDF cannot be used, nothing after it can be checked: names of links and joints would all be unknown.
-    let urdf = access.read_text(&urdf_path, URDF_BYTES).map_err(Findings::from);
+    let urdf = access.read_text(&urdf_path, URDF_BYTES, TextKind::Robot).map_err(Findings::from);
     let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, packages, access, &repairs)?, urdf)));
     let ((robot, warnings), urdf) = match robot {
         Ok(read) => read,
@@ -327,7 +330,7 @@ fn disabled_collisions(
     diagnostics: &mut Diagnostics,
 ) -> BTreeSet<(LinkIndex, LinkIndex)> {
     let Some(srdf) = srdf else { return BTreeSet::new() };
-    match access.read_text(&folder.join(srdf.get_ref()), SRDF_BYTES) {
+    match access.read_text(&folder.join(srdf.get_ref()), SRDF_BYTES, TextKind::Robot) {
         Ok(source) => {
             let (pairs, faults) = srdf::parse(&source, robot);
             diagnostics.extend(faults);

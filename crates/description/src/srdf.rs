@@ -56,7 +56,7 @@ mod tests {
         let urdf = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'>\
                     <parent link='a'/><child link='b'/></joint></robot>";
         let robot = crate::parse_urdf(urdf).unwrap();
-        let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned() });
+        let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned(), is_foreign: false });
         let (pairs, diagnostics) = parse(&source, &robot);
         (pairs.len(), diagnostics.into_iter().map(|found| found.message).collect())
     }

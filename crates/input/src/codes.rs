@@ -25,11 +25,13 @@ crate::codes! {
         NOT_UTF8 = "CGR-FILE-011", "file::not_utf8" unreadable,
             "The text has bytes that are not UTF-8. Save it as UTF-8.";
         OUTSIDE = "CGR-FILE-012", "file::outside" unreadable,
-            "Another file names a file outside the project, which is not opened. The project is the nearest folder, at or above the given file, that holds package.xml or .git; without one it is the parent of the folder of that file. Allow another folder with --allow.";
+            "With --fence, a file that another file names is not opened outside the project. The project is the nearest folder, at or above the given file, that holds package.xml or .git; without one it is the parent of the folder of that file. Allow another folder with --allow, or leave out --fence.";
         ALLOW = "CGR-FILE-013", "file::allow" unreadable,
-            "--allow does not name a folder. Give a folder that exists and whose files may be opened.";
+            "--allow or --package does not name a folder. Give a folder that exists: --allow DIR, --package NAME=DIR.";
         STANDARD_INPUT = "CGR-FILE-014", "file::standard_input" unreadable,
             "Two arguments are standard input (-), which can be read only once. Give one of them as a file.";
+        KIND = "CGR-FILE-018", "file::kind" unreadable,
+            "A file names another file outside its project, which is not of the kind that is expected there: a URDF or SRDF, a robot file, a table of numbers. Nothing of it is shown. Correct the path, or count its folder as the project with --allow to see what is wrong.";
     }
     xml {
         MALFORMED = "CGR-XML-001", "xml::malformed",
@@ -77,7 +79,7 @@ crate::codes! {
         SCHEME = "CGR-MESH-006", "mesh::scheme",
             "The scheme of the mesh address is not known. Known are package://, file:// and relative paths. Write one of these.";
         OUTSIDE = "CGR-MESH-007", "mesh::outside",
-            "The mesh is outside the project, and is not opened. Allow its folder with --allow, or move the mesh.";
+            "With --fence, a mesh outside the project is not opened. Allow its folder with --allow, move the mesh, or leave out --fence.";
         PACKAGE_SLASHES = "CGR-MESH-008", "mesh::package_slashes",
             "The address has three slashes after `package:`, so it names no package. The file was found, but other readers may not find it.\n    package://NAME/meshes/x.stl";
     }

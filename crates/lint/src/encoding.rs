@@ -44,7 +44,8 @@ mod tests {
     #[test]
     fn an_encoding_that_is_not_that_of_the_text_is_reported() {
         let findings = |text: &str| {
-            let source = Arc::new(SourceFile { path: "r.urdf".into(), text: text.to_owned() });
+            let source =
+                Arc::new(SourceFile { path: "r.urdf".into(), text: text.to_owned(), is_foreign: false });
             declared_encoding(&source).and_then(|found| Some(text.get(found.span?)?.to_owned()))
         };
         for same in [

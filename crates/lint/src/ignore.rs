@@ -122,7 +122,8 @@ mod tests {
     use congruent_input::Diagnostics;
 
     fn massless(names: &[&str]) -> Vec<Diagnostic> {
-        let source = Arc::new(SourceFile { path: "r.urdf".into(), text: "abc".to_owned() });
+        let source =
+            Arc::new(SourceFile { path: "r.urdf".into(), text: "abc".to_owned(), is_foreign: false });
         let mut found = Diagnostics::default();
         for (at, name) in names.iter().enumerate() {
             let warning = Diagnostic::warning(
@@ -136,7 +137,11 @@ mod tests {
 
     fn applied(entries: &str, found: Vec<Diagnostic>) -> (Vec<String>, Vec<IgnoredFinding>) {
         let text = format!("urdf = 'r.urdf'\n{entries}");
-        let ignores = Ignores::from_robot_file(&Arc::new(SourceFile { path: "robot.toml".into(), text }));
+        let ignores = Ignores::from_robot_file(&Arc::new(SourceFile {
+            path: "robot.toml".into(),
+            text,
+            is_foreign: false,
+        }));
         let (kept, ignored) = ignores.apply(found, congruent_description::codes::ALL);
         (kept.into_iter().map(|found| found.message).collect(), ignored)
     }

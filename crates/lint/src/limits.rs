@@ -95,7 +95,7 @@ mod tests {
         };
         let joints: String = limits.into_iter().enumerate().map(joint).collect();
         let text = format!("<robot name='r'><link name='l0'/>\n{joints}</robot>");
-        let source = Arc::new(SourceFile { path: "r.urdf".into(), text });
+        let source = Arc::new(SourceFile { path: "r.urdf".into(), text, is_foreign: false });
         let found = zero_limits(&parse_robot(None, &source).unwrap());
         assert!(found.iter().all(|found| found.code.name == "urdf::zero_limit"
             && found.severity < congruent_input::Severity::Error));

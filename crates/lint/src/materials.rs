@@ -51,7 +51,7 @@ mod tests {
                 visual(&format!("<material name='blue'>{colour}</material>")),
                 visual(&format!("<material name=''>{colour}</material>")),
             );
-            let source = Arc::new(SourceFile { path: "r.urdf".into(), text });
+            let source = Arc::new(SourceFile { path: "r.urdf".into(), text, is_foreign: false });
             let found = undefined_materials(&parse_robot(None, &source).unwrap());
             found.into_iter().map(|found| found.message).collect::<Vec<_>>()
         };

@@ -44,7 +44,7 @@ mod tests {
             let mimic = format!("<mimic joint='j'{multiplier}/>");
             let joints = joint("j", "b", "") + &joint("k", "c", &mimic);
             let text = format!("<robot name='r'><link name='a'/>{joints}</robot>");
-            let source = Arc::new(SourceFile { path: "r.urdf".into(), text });
+            let source = Arc::new(SourceFile { path: "r.urdf".into(), text, is_foreign: false });
             let found = still_mimics(&parse_robot(None, &source).unwrap());
             found.into_iter().map(|found| found.message).collect::<Vec<_>>()
         };

@@ -68,7 +68,7 @@ mod tests {
                 "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'><parent link='a'/>\
                  <child link='b'/></joint>{section}</robot>"
             );
-            let source = Arc::new(SourceFile { path: "r.urdf".into(), text });
+            let source = Arc::new(SourceFile { path: "r.urdf".into(), text, is_foreign: false });
             let found = unknown_references(&parse_robot(None, &source).unwrap());
             found.into_iter().map(|found| found.message).collect::<Vec<_>>()
         };

@@ -218,7 +218,7 @@ mod tests {
                         <parent link='a'/><child link='b'/></joint></robot>";
 
     fn examined(text: &str, robot: Option<&Robot>) -> Vec<String> {
-        let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned() });
+        let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned(), is_foreign: false });
         examine_srdf(&source, robot).into_iter().map(|found| found.message).collect()
     }
 

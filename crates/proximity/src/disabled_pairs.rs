@@ -399,7 +399,7 @@ mod tests {
 
     fn suggested(body: &str) -> Vec<(String, DisableReason)> {
         let text = format!("<robot name='r'>{body}</robot>");
-        let source = Arc::new(SourceFile { path: "r.urdf".into(), text });
+        let source = Arc::new(SourceFile { path: "r.urdf".into(), text, is_foreign: false });
         let description = parse_robot(None, &source).unwrap();
         let pairs = suggest_disabled(&description, Sampling { samples: 400, seed: 0 }).unwrap();
         pairs.suggested.into_iter().map(|each| (each.pair.join("-"), each.reason)).collect()

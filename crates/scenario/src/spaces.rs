@@ -36,8 +36,8 @@ pub struct ObstacleSettings {
     /// Radius and length of a cylinder along z.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cylinder: Option<CylinderSettings>,
-    /// A mesh file (STL, OBJ, COLLADA), relative to the scenario; its convex hull is used. No file outside the project folder
-    /// (the nearest at or above the scenario with .git, package.xml or robot.toml) is opened.
+    /// A mesh file (STL, OBJ, COLLADA), relative to the scenario; its convex hull is used. With --fence no file outside the
+    /// project folder (the nearest at or above the scenario with .git, package.xml or robot.toml) is opened.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<String>,
     /// Factors for the coordinates of the mesh: 0.001 for a mesh in millimetres.

@@ -2,7 +2,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use congruent_input::{Diagnostic, FileAccess, SourceFile};
+use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind};
 
 use crate::{codes, parquet::ParquetRows, row_reader::RowReader, stream::is_parquet};
 
@@ -12,7 +12,7 @@ use crate::{codes, parquet::ParquetRows, row_reader::RowReader, stream::is_parqu
 /// The file may not be opened, cannot be read, or is longer than `most_bytes`, as a file or as text.
 pub fn read_table(access: &FileAccess, path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
     if !is_parquet(path) {
-        return access.read_text(path, most_bytes);
+        return access.read_text(path, most_bytes, TextKind::Table);
     }
     let bytes = access.read_bytes(path, most_bytes)?;
     let text = ParquetRows::new(bytes::Bytes::from(bytes)).and_then(|rows| csv_text(rows, most_bytes));
@@ -20,7 +20,8 @@ pub fn read_table(access: &FileAccess, path: &Path, most_bytes: u64) -> Result<A
         let message = format!("{} cannot be read as a Parquet table: {message}", path.display());
         Diagnostic::error(codes::table::PARQUET, message)
     };
-    Ok(Arc::new(SourceFile { path: path.to_owned(), text: text.map_err(refused)? }))
+    let is_foreign = access.is_foreign(path);
+    Ok(Arc::new(SourceFile { path: path.to_owned(), text: text.map_err(refused)?, is_foreign }))
 }
 
 fn csv_text(mut rows: impl RowReader, most_bytes: u64) -> Result<String, String> {

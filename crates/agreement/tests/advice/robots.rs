@@ -54,8 +54,9 @@ impl Texts {
     /// The report under a tolerance, in m and rad alike.
     #[track_caller]
     pub(crate) fn check(&self, tolerance: f64) -> CheckReport {
-        let source =
-            |name: &str, text: &str| Arc::new(SourceFile { path: name.into(), text: text.to_owned() });
+        let source = |name: &str, text: &str| {
+            Arc::new(SourceFile { path: name.into(), text: text.to_owned(), is_foreign: false })
+        };
         let urdf = source(&format!("{}.urdf", self.name), &self.urdf);
         let mut description = parse_robot(Some(&source("robot.toml", &self.robot_file)), &urdf)
             .unwrap_or_else(|findings| panic!("{findings:?}\n{}", self.robot_file));

@@ -125,7 +125,10 @@ mod tests {
 
     fn summary(body: &str) -> DescriptionSummary {
         let text = format!("<robot name='r'>{body}</robot>");
-        describe(&parse_robot(None, &Arc::new(SourceFile { path: "r.urdf".into(), text })).unwrap())
+        describe(
+            &parse_robot(None, &Arc::new(SourceFile { path: "r.urdf".into(), text, is_foreign: false }))
+                .unwrap(),
+        )
     }
 
     #[test]

@@ -64,7 +64,9 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     };
     let made = Folders::make(&arguments.out)?;
     let mut report = written(arguments, &description, to).inspect_err(|_| made.remove())?;
-    if let Some(warning) = needs_to_be_allowed(&arguments.out.join(FILE), path) {
+    if let Some(warning) =
+        needs_to_be_allowed(&arguments.arm.robot.access()?, &arguments.out.join(FILE), path)
+    {
         printer.warnings(None, std::slice::from_ref(&warning));
         report.warnings.push(Finding::from(&warning));
     }

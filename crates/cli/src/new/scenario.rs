@@ -66,7 +66,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         Ok((setup, outcome))
     })?;
     let mut report = report(arguments, &description, draft, &setup, outcome);
-    if let Some(warning) = needs_to_be_allowed(out, &description.path) {
+    if let Some(warning) = needs_to_be_allowed(&arguments.robot.access()?, out, &description.path) {
         printer.warnings(None, std::slice::from_ref(&warning));
         report.warnings.push(Finding::from(&warning));
     }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use congruent_description::{Robot, RobotDescription, load_robot_with};
-use congruent_input::{Diagnostic, FileAccess, SourceFile};
+use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind};
 use congruent_lint::{FileKind, FileToLint, robot_name};
 
 use crate::codes;
@@ -73,7 +73,7 @@ fn urdfs_named(name: &str, folder: &Path) -> Vec<PathBuf> {
     let has_name = |path: &PathBuf| {
         // Nobody has named it, so that it may not be a pipe.
         FileAccess::default()
-            .read_text(path, MOST_BYTES)
+            .read_text(path, MOST_BYTES, TextKind::Robot)
             .is_ok_and(|urdf| robot_name(&urdf.text).as_deref() == Some(name))
     };
     urdfs.retain(has_name);

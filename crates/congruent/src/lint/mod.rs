@@ -13,7 +13,7 @@ use congruent_analysis::inverse::read_targets;
 use congruent_calibration::{measurements::read_measurements, needed_coordinates};
 use congruent_description::{RobotDescription, load_opened_robot, read_states};
 use congruent_input::{
-    Capability, Diagnostic, FileAccess, Finding, Findings, Severity, SourceFile, read_text,
+    Capability, Diagnostic, FileAccess, Finding, Findings, Severity, SourceFile, TextKind, read_text,
 };
 use congruent_lint::{
     FileKind, FileToLint, Ignores, SafeFix, declared_encoding, examine_srdf, safe_fixes,
@@ -210,7 +210,12 @@ const MOST_TABLE_BYTES: u64 = 64 << 20;
 fn srdf_of(description: &RobotDescription) -> Option<Arc<SourceFile>> {
     let srdf = description.named_files.srdf.as_ref()?;
     let is_read = description.inputs.iter().any(|file| file.path == *srdf);
-    is_read.then(|| FileAccess::default().read_text(srdf, MOST_BYTES).ok()).flatten()
+    is_read.then(|| named_text(&description.path, srdf, TextKind::Robot)).flatten()
+}
+
+/// The text of a file that another file names.
+fn named_text(by: &Path, path: &Path, kind: TextKind) -> Option<Arc<SourceFile>> {
+    FileAccess::default().inside_project_of(by).ok()?.read_text(path, MOST_BYTES, kind).ok()
 }
 
 /// An SRDF by itself, with the robot that is given beside it or lies beside it.
@@ -252,7 +257,7 @@ fn table(path: &Path, kind: FileKind, others: &[PathBuf], access: &FileAccess) -
 fn scenario(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
     match RunSetup::load_with(subject.path, &[], subject.access) {
         Ok(setup) => {
-            let robot_file = FileAccess::default().read_text(&setup.description.path, MOST_BYTES).ok();
+            let robot_file = named_text(subject.path, &setup.description.path, TextKind::RobotFile);
             let ignores = robot_file.as_ref().map_or_else(Ignores::default, ignores_of);
             let mut found = setup.warnings.clone();
             found.extend(suspicions(&setup.description));

@@ -72,7 +72,7 @@ fn shortened(finding: &Diagnostic, options: &TextOptions) -> Diagnostic {
     if let Some(stopped) = finding.stops {
         let _ = write!(shortened.message, " (needed only for {})", serde_name(&stopped));
     }
-    if options.is_in_full {
+    if options.is_in_full && finding.source.as_ref().is_none_or(|source| !source.is_foreign) {
         return shortened;
     }
     clip(&mut shortened.message);
@@ -86,7 +86,7 @@ fn shortened(finding: &Diagnostic, options: &TextOptions) -> Diagnostic {
     }
     if let (Some(source), Some(span), Some((line, column))) =
         (&finding.source, &finding.span, finding.line_column())
-        && snippet_bytes(&source.text, span) > LONGEST_SNIPPET
+        && (source.is_foreign || snippet_bytes(&source.text, span) > LONGEST_SNIPPET)
     {
         let _ = write!(shortened.message, " ({}:{line}:{column})", visible_path(&source.path));
         (shortened.source, shortened.span) = (None, None);
@@ -120,7 +120,8 @@ mod tests {
     use super::*;
 
     fn finding(text: &str, span: std::ops::Range<usize>) -> Diagnostic {
-        let source = Arc::new(SourceFile { path: "some.toml".into(), text: text.to_owned() });
+        let source =
+            Arc::new(SourceFile { path: "some.toml".into(), text: text.to_owned(), is_foreign: false });
         Diagnostic::error(crate::codes::new::SHAPE, "this is wrong").at(span).in_file(&source)
     }
 

@@ -51,7 +51,7 @@ fn for_robots(cases: u32, law: impl Fn(GeneratedRobot, u64) -> Result<(), TestCa
 }
 
 fn source(name: &str, text: &str) -> Arc<SourceFile> {
-    Arc::new(SourceFile { path: name.into(), text: text.to_owned() })
+    Arc::new(SourceFile { path: name.into(), text: text.to_owned(), is_foreign: false })
 }
 
 fn failed(found: &Findings, text: &str) -> TestCaseError {

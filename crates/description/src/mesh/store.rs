@@ -50,8 +50,12 @@ impl<'a> MeshStore<'a> {
             return Ok(FoundMesh { mesh: Arc::clone(mesh), warnings: warning.into_iter().collect() });
         }
         let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+        let is_foreign = self.access.is_foreign(&path);
         let refused = |error: MeshError| {
-            Diagnostic::error(codes::mesh::INVALID, format!("mesh \"{uri}\": {error}"))
+            // The words of an error may be those of the file.
+            let why =
+                if is_foreign { format!("not a mesh in the format {extension}") } else { error.to_string() };
+            Diagnostic::error(codes::mesh::INVALID, format!("mesh \"{uri}\": {why}"))
                 .one_of("mesh files cannot be used", uri)
         };
         // The format is checked by the extension first, so that a file of an unsupported format is never opened.

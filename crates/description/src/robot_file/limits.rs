@@ -172,8 +172,9 @@ mod tests {
         <limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>";
 
     fn accelerations(limits: &str) -> Result<Vec<Option<f64>>, Findings> {
-        let source =
-            |name: &str, text: &str| Arc::new(SourceFile { path: name.into(), text: text.to_owned() });
+        let source = |name: &str, text: &str| {
+            Arc::new(SourceFile { path: name.into(), text: text.to_owned(), is_foreign: false })
+        };
         let file = source("robot.toml", &format!("[limits]\n{limits}\n"));
         Ok(parse_robot(Some(&file), &source("r.urdf", URDF))?.accelerations)
     }

@@ -165,8 +165,9 @@ mod tests {
         <joint name='j' type='continuous'><origin xyz='0 0 0.5'/><parent link='a'/><child link='b'/></joint></robot>";
 
     fn codes(robot_file: &str) -> Vec<&'static str> {
-        let source =
-            |name: &str, text: &str| Arc::new(SourceFile { path: name.into(), text: text.to_owned() });
+        let source = |name: &str, text: &str| {
+            Arc::new(SourceFile { path: name.into(), text: text.to_owned(), is_foreign: false })
+        };
         let description = parse_robot(Some(&source("robot.toml", robot_file)), &source("r.urdf", URDF));
         description.unwrap().warnings.iter().map(|found| found.code.name).collect()
     }

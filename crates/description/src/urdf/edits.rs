@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn a_corrected_inertial_is_read_back() {
-        let source = SourceFile { path: "two.urdf".into(), text: TEXT.to_owned() };
+        let source = SourceFile { path: "two.urdf".into(), text: TEXT.to_owned(), is_foreign: false };
         let places = UrdfPlaces::new(Arc::new(source));
         for link in ["b", "c"] {
             let text = applied(&places.set_inertia(link, &inertia()));
@@ -232,7 +232,7 @@ mod tests {
 
     #[test]
     fn a_corrected_joint_is_read_back() {
-        let source = SourceFile { path: "two.urdf".into(), text: TEXT.to_owned() };
+        let source = SourceFile { path: "two.urdf".into(), text: TEXT.to_owned(), is_foreign: false };
         let places = UrdfPlaces::new(Arc::new(source));
         let text = applied(&places.set_joint_dynamics("k", 0.5, 0.25));
         let robot = parse_urdf(&text).unwrap();
@@ -246,7 +246,11 @@ mod tests {
         let text =
             TEXT.replace("name='j' type='continuous'>", "name='j' type='continuous'><origin xyz='1  0 2'/>");
         let places = |text: &str| {
-            UrdfPlaces::new(Arc::new(SourceFile { path: "two.urdf".into(), text: text.to_owned() }))
+            UrdfPlaces::new(Arc::new(SourceFile {
+                path: "two.urdf".into(),
+                text: text.to_owned(),
+                is_foreign: false,
+            }))
         };
         let written = |text: &str, joint, attribute| places(text).joint_attribute(joint, "origin", attribute);
         assert_eq!(written(&text, "j", "xyz").as_deref(), Some("1 0 2"));
@@ -267,7 +271,7 @@ mod tests {
     fn a_corrected_limit_is_read_back() {
         let text =
             TEXT.replace("name='j' type='continuous'>", "name='j' type='revolute'><limit effort='1'/>");
-        let source = SourceFile { path: "two.urdf".into(), text };
+        let source = SourceFile { path: "two.urdf".into(), text, is_foreign: false };
         let places = UrdfPlaces::new(Arc::new(source));
         let of = |limit, value| places.set_joint_limit("j", limit, value);
         let edits = [of("upper", 1.5), of("effort", 20.0), of("velocity", 3.0)].concat();

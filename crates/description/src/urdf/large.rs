@@ -104,7 +104,8 @@ mod tests {
         <limit velocity='0.1' effort='1e5'/></joint></robot>";
 
     fn findings(urdf: &str) -> Vec<String> {
-        let source = Arc::new(SourceFile { path: "crane.urdf".into(), text: urdf.to_owned() });
+        let source =
+            Arc::new(SourceFile { path: "crane.urdf".into(), text: urdf.to_owned(), is_foreign: false });
         parse_robot(None, &source).unwrap().warnings.into_iter().map(|found| found.message).collect()
     }
 

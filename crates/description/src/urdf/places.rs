@@ -160,7 +160,7 @@ mod tests {
     fn the_rpy_of_a_joint_is_shown_as_it_is_written() {
         let text = "<robot name='two'>\n<joint name='a'>\n<origin xyz='1 0 0'\n rpy='1.5708 0 0'/></joint>\n\
                     <joint name='b'><origin xyz='0 0 0'/></joint></robot>";
-        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned() };
+        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned(), is_foreign: false };
         let places = UrdfPlaces::new(Arc::new(source));
         assert_eq!(places.joint_rpy("a"), Some(("1.5708 0 0".to_owned(), 4)));
         assert_eq!([places.joint_rpy("b"), places.joint_rpy("c")], [None, None]);
@@ -170,7 +170,7 @@ mod tests {
     fn a_link_is_shown_with_its_joint() {
         let text = "<robot name='two'><link name='a'/><link name='b'>\n</link>\n\
             <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>";
-        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned() };
+        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned(), is_foreign: false };
         let places = UrdfPlaces::new(Arc::new(source));
         let with_joint = "<link name='b'>\n</link>\n  \
             <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>";
@@ -183,7 +183,7 @@ mod tests {
     fn the_place_of_a_joint_is_that_of_its_origin() {
         let text =
             "<robot name='two'>\n<joint name='a'>\n<origin xyz='1 0 0'/></joint>\n<joint name='b'/></robot>";
-        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned() };
+        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned(), is_foreign: false };
         let places = UrdfPlaces::new(Arc::new(source));
         let at = |name| places.joint_origin(name).map(|span| &text[span]);
         assert_eq!(at("a"), Some("<origin"));
@@ -196,7 +196,7 @@ mod tests {
     fn the_place_of_a_link_is_that_of_its_inertial() {
         let text = "<robot name='two'>\n<link name='a'>\n<inertial/></link>\n<link name='b'/>\n\
             <joint name='j'><dynamics damping='1'/></joint></robot>";
-        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned() };
+        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned(), is_foreign: false };
         let places = UrdfPlaces::new(Arc::new(source));
         let at = |name| places.link_inertial(name).map(|span| &text[span]);
         assert_eq!(at("a"), Some("<inertial"));

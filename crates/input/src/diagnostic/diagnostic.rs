@@ -19,6 +19,8 @@ pub struct SourceFile {
     pub path: PathBuf,
     /// Text of the file; empty if it is not text.
     pub text: String,
+    /// Whether another file named it and it is outside of that file's project: then no line of it is quoted.
+    pub is_foreign: bool,
 }
 
 impl SourceCode for SourceFile {

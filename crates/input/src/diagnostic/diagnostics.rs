@@ -195,7 +195,7 @@ mod tests {
     use super::*;
 
     fn source() -> Arc<SourceFile> {
-        Arc::new(SourceFile { path: "a.urdf".into(), text: "1\n2\n3\n4\n".to_owned() })
+        Arc::new(SourceFile { path: "a.urdf".into(), text: "1\n2\n3\n4\n".to_owned(), is_foreign: false })
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Decides which files another file may name, and records which files were read.
 
 use std::{
+    collections::BTreeMap,
     fmt::Display,
     path::{Path, PathBuf},
     sync::{Arc, Mutex},
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::{
+    kind::TextKind,
     open::{decode_text, folder_of, read_named_bytes, read_regular_bytes},
     project::{normalised, project_folder},
     ros_packages::RosPackages,
@@ -25,16 +27,20 @@ const MARKS: [&str; 2] = ["package.xml", ".git"];
 
 /// Permission to open files, and the record of the files that were read.
 ///
-/// A file that a person names, on the command line or in a call, is opened wherever it is. A file that a scenario or a robot file names
-/// is opened only inside the project of the first file, with symbolic links resolved: the nearest folder at or above it
-/// that holds `package.xml` or `.git`, or else the folder above its own, or the current folder if that is higher above it, but
-/// never `/` or the home folder. Other folders are opened if a person allows them.
+/// A file that a person names, on the command line or in a call, is opened wherever it is, and so is a regular file that such a file
+/// names, if it is what is expected there: a URDF, an SRDF, a robot file, a mesh or a table. No line is quoted of a file outside the
+/// project of the first file: the nearest folder at or above it that holds `package.xml` or `.git`, or else the folder above its own,
+/// or the current folder if that is higher above it, but never `/` or the home folder; symbolic links are resolved. A fence
+/// ([`FileAccess::fenced`]) refuses these files. Folders that a person allows count as the project.
 #[derive(Debug, Clone, Default)]
 pub struct FileAccess {
     ros: RosPackages,
     allowed: Vec<PathBuf>,
     /// The project, canonical; `None` until a file names others.
     project: Option<PathBuf>,
+    is_fenced: bool,
+    /// Folders of ROS packages by name, as a person gives them.
+    packages: BTreeMap<String, PathBuf>,
     read: Arc<Mutex<Vec<InputFile>>>,
 }
 
@@ -66,6 +72,30 @@ impl FileAccess {
         };
         let allowed = allowed.iter().map(canonical).collect::<Result<_, _>>()?;
         Ok(Self { ros, allowed, ..Self::default() })
+    }
+
+    /// The same behind a fence: a file names only what is in its project.
+    #[must_use]
+    pub fn fenced(self) -> Self {
+        Self { is_fenced: true, ..self }
+    }
+
+    /// The same with folders of ROS packages, each as `NAME=DIR`.
+    ///
+    /// # Errors
+    /// One is not written so, or is not a folder.
+    pub fn with_packages(mut self, packages: &[String]) -> Result<Self, Diagnostic> {
+        for written in packages {
+            let (name, folder) = written.split_once('=').unwrap_or((written, ""));
+            let real = Path::new(folder).canonicalize().ok().filter(|real| real.is_dir());
+            let Some(real) = real.filter(|_| !name.is_empty()) else {
+                let message = format!("--package {written}: expected NAME=DIR with a folder that exists");
+                return Err(Diagnostic::error(codes::file::ALLOW, message)
+                    .with_help("--package my_description=../my_description"));
+            };
+            self.packages.insert(name.to_owned(), real);
+        }
+        Ok(self)
     }
 
     /// The same with the folder of a file that a person names.
@@ -115,15 +145,40 @@ impl FileAccess {
             read_named_bytes(path, most_bytes)?
         };
         self.note(&path.display(), path, &bytes);
-        decode_text(path, &bytes)
+        self.marked(decode_text(path, &bytes))
     }
 
-    /// The text of a file that another file names: a regular file of at most `most_bytes`.
+    /// The text of a file that another file names: a regular file of at most `most_bytes`, and outside of the project of this kind.
     ///
     /// # Errors
     /// The file may not be opened, or as [`FileAccess::read_named_text`].
-    pub fn read_text(&self, path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
-        decode_text(path, &self.read_bytes(path, most_bytes)?)
+    pub fn read_text(
+        &self,
+        path: &Path,
+        most_bytes: u64,
+        kind: TextKind,
+    ) -> Result<Arc<SourceFile>, Diagnostic> {
+        kind.check(self.marked(decode_text(path, &self.read_bytes(path, most_bytes)?))?)
+    }
+
+    /// Marks a text from outside of the project, also that which shows the place of a fault.
+    fn marked(&self, read: Result<Arc<SourceFile>, Diagnostic>) -> Result<Arc<SourceFile>, Diagnostic> {
+        let mark = |source: &mut Arc<SourceFile>| {
+            let is_foreign = self.is_foreign(&source.path);
+            if let Some(source) = Arc::get_mut(source) {
+                source.is_foreign = is_foreign;
+            }
+        };
+        match read {
+            Ok(mut source) => {
+                mark(&mut source);
+                Ok(source)
+            }
+            Err(mut fault) => {
+                fault.source.iter_mut().for_each(mark);
+                Err(fault)
+            }
+        }
     }
 
     /// The bytes of a file that another file names: a regular file of at most `most_bytes`.
@@ -147,13 +202,18 @@ impl FileAccess {
         Ok(bytes)
     }
 
+    /// Whether a file names `path` that is outside of its project and of the folders that are allowed.
+    pub fn is_foreign(&self, path: &Path) -> bool {
+        self.project.is_some() && !self.is_inside(&real(path))
+    }
+
     /// Whether a file may name `path`. A path that does not exist is checked by its name alone, so that the answer does not
     /// reveal which files exist outside the project.
     ///
     /// # Errors
-    /// It is outside of the project and of the folders that are allowed.
+    /// There is a fence, and it is outside of the project and of the folders that are allowed.
     pub fn check(&self, path: &Path) -> Result<(), Diagnostic> {
-        let Some(project) = &self.project else { return Ok(()) };
+        let Some(project) = self.project.as_ref().filter(|_| self.is_fenced) else { return Ok(()) };
         let real = real(path);
         if self.is_inside(&real) {
             return Ok(());
@@ -165,8 +225,19 @@ impl FileAccess {
         );
         let folder = real.parent().unwrap_or(&real).display();
         Err(Diagnostic::error(codes::file::OUTSIDE, message).with_help(format!(
-            "move it into the project, whose top is marked by package.xml or .git, or allow its folder: --allow {folder}"
+            "move it into the project, whose top is marked by package.xml or .git, allow its folder (--allow {folder}), or leave out \
+             --fence"
         )))
+    }
+
+    /// Whether a file names only what is in its project.
+    pub(super) fn is_fenced(&self) -> bool {
+        self.is_fenced
+    }
+
+    /// Folders of ROS packages by name, as a person gives them.
+    pub fn packages(&self) -> &BTreeMap<String, PathBuf> {
+        &self.packages
     }
 
     /// The ROS packages that may be searched.
@@ -244,14 +315,14 @@ mod tests {
     }
 
     fn code(access: &FileAccess, path: &Path) -> Option<&'static str> {
-        access.read_text(path, 99).err().map(|fault| fault.code.name)
+        access.read_text(path, 99, TextKind::Table).err().map(|fault| fault.code.name)
     }
 
     #[test]
     fn files_name_only_what_is_in_their_project() {
         let top = folders();
         let scenario = top.path().join("project/scenarios/s.toml");
-        let access = FileAccess::default().inside_project_of(&scenario).unwrap();
+        let access = FileAccess::default().fenced().inside_project_of(&scenario).unwrap();
         let robots = scenario.parent().unwrap().join("../robots");
         assert_eq!(code(&access, &robots.join("r.urdf")), None);
         assert_eq!(code(&access, &robots.join("gone.urdf")), Some("file::not_found"));
@@ -284,14 +355,48 @@ mod tests {
     }
 
     #[test]
+    fn without_a_fence_files_are_opened_if_they_are_what_is_expected_and_not_quoted() {
+        let top = folders();
+        let scenario = top.path().join("project/scenarios/s.toml");
+        let access = FileAccess::default().inside_project_of(&scenario).unwrap();
+        let write = |name: &str, text: &str| {
+            let path = top.path().join(name);
+            fs::write(&path, text).unwrap();
+            path
+        };
+        let read = |path: &Path, kind| access.read_text(path, 999, kind);
+        let urdf = write("outside/r.urdf", "<?xml version='1.0'?>\n<!-- <x> --><robot name='r'/>");
+        assert!(read(&urdf, TextKind::Robot).unwrap().is_foreign);
+        let table = write("outside/t.csv", "time_s,q\n0,\"1.5\"\n");
+        assert!(read(&table, TextKind::Table).unwrap().is_foreign);
+        let robot_file = write("outside/robot.toml", "name = 'r'\nurdf = 'r.urdf'\n");
+        assert!(read(&robot_file, TextKind::RobotFile).is_ok());
+        let secret = write("outside/passwd", "root:x:0:0\nsecond,line\n");
+        for kind in [TextKind::Robot, TextKind::RobotFile, TextKind::Table] {
+            let fault = read(&secret, kind).unwrap_err();
+            assert!(fault.code.name == "file::kind" && !format!("{fault:?}").contains("root:x"), "{fault:?}");
+        }
+        let not_text = top.path().join("outside/bytes");
+        fs::write(&not_text, b"secret\xff").unwrap();
+        let fault = read(&not_text, TextKind::Table).unwrap_err();
+        assert!(fault.source.is_none_or(|source| source.is_foreign));
+        // In the project the reader itself says what is wrong.
+        let own = write("project/robots/odd.csv", "root:x:0:0\nsecond,line\n");
+        assert!(!read(&own, TextKind::Table).unwrap().is_foreign);
+        #[cfg(unix)]
+        assert_eq!(read(Path::new("/dev/zero"), TextKind::Table).unwrap_err().code.name, "file::not_regular");
+    }
+
+    #[test]
     fn allowed_folders_and_marked_projects_are_wider() {
         let top = folders();
         let scenario = top.path().join("project/scenarios/s.toml");
         let outside = top.path().join("outside");
-        let allowing = FileAccess::new(RosPackages::default(), std::slice::from_ref(&outside)).unwrap();
+        let allowing =
+            FileAccess::new(RosPackages::default(), std::slice::from_ref(&outside)).unwrap().fenced();
         assert_eq!(code(&allowing.inside_project_of(&scenario).unwrap(), &outside.join("secret")), None);
         fs::create_dir(top.path().join(".git")).unwrap();
-        let marked = FileAccess::default().inside_project_of(&scenario).unwrap();
+        let marked = FileAccess::default().fenced().inside_project_of(&scenario).unwrap();
         assert_eq!(code(&marked, &outside.join("secret")), None);
         assert!(FileAccess::new(RosPackages::default(), &[scenario]).is_err());
     }

@@ -1,6 +1,7 @@
 //! Which files are opened, how, and which were: nothing else in this crate opens one.
 
 mod access;
+mod kind;
 mod open;
 mod packages;
 mod project;
@@ -8,6 +9,7 @@ mod ros_packages;
 mod text_lines;
 
 pub use access::{FileAccess, InputFile};
+pub use kind::TextKind;
 pub use open::{folder_of, head_of, is_standard_input, not_found, read_text};
 pub use packages::{Packages, Resolved};
 pub use ros_packages::RosPackages;

@@ -188,7 +188,8 @@ pub fn read_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagno
 
 /// The text of a file with these bytes, without a byte order mark.
 pub(super) fn decode_text(path: &Path, bytes: &[u8]) -> Result<Arc<SourceFile>, Diagnostic> {
-    let source = |text: &str| Arc::new(SourceFile { path: path.to_owned(), text: text.to_owned() });
+    let source =
+        |text: &str| Arc::new(SourceFile { path: path.to_owned(), text: text.to_owned(), is_foreign: false });
     match decode(bytes) {
         Ok(text) => Ok(source(text)),
         Err(refused) => {

@@ -3,9 +3,8 @@
 //! One is the project folder. It is not the URDF's own, since real robots say `../meshes/x.stl`, but the
 //! nearest folder at or above the URDF that holds `package.xml`, `robot.toml` or `.git`; if none does,
 //! it is the folder above the URDF's. It is never `/` or a home folder. The others are the folders that
-//! a robot file declares under `packages`, which lie in its own project, ROS packages if the user requests them, and
-//! folders that the user allows. Symbolic links are resolved before a path is compared with
-//! these folders, and nothing outside of them is opened.
+//! a robot file or the command line declares, ROS packages, and folders that the user allows. Behind a fence
+//! nothing outside of them is opened; symbolic links are resolved before a path is compared with these folders.
 
 use std::{
     collections::BTreeMap,
@@ -34,6 +33,7 @@ pub struct Packages {
     ros: RosPackages,
     /// Folders that a person allows.
     allowed: Vec<PathBuf>,
+    is_fenced: bool,
 }
 
 /// A file that a URI names.
@@ -59,9 +59,11 @@ impl Packages {
         // Never wider than the project of the file that names the URDF.
         let around = access.project().filter(|project| project.starts_with(&own));
         let project_folder = around.map_or(own, Path::to_owned);
-        let known = declared.into_iter().map(|(name, folder)| (name, Some(folder))).collect();
+        // The command line has the last word.
+        let declared = declared.into_iter().chain(access.packages().clone());
+        let known = declared.map(|(name, folder)| (name, Some(folder))).collect();
         let (ros, allowed) = (access.ros().clone(), access.allowed().to_vec());
-        Ok(Self { urdf_folder, project_folder, known, ros, allowed })
+        Ok(Self { urdf_folder, project_folder, known, ros, allowed, is_fenced: access.is_fenced() })
     }
 
     /// The regular file that `uri` names: `package://PKG/rest`, `file:///path` or a path relative
@@ -80,17 +82,17 @@ impl Packages {
                 Diagnostic::error(codes::mesh::OUTSIDE, message)
                     .one_of("meshes are outside of the project folder, so they are not opened", uri)
                     .with_help(
-                        "mesh paths must stay inside the project; allow another folder with --allow DIR",
+                        "move the mesh into the project, allow its folder with --allow DIR, or leave out --fence",
                     )
             };
             let candidate = normalised(&candidate);
             // By its name first, so that nothing outside is looked at; then by the real path, since a link may lead
             // out.
-            if !self.allows(&candidate) {
+            if self.is_fenced && !self.allows(&candidate) {
                 return Err(outside());
             }
             match candidate.canonicalize() {
-                Ok(real) if !self.allows(&real) => return Err(outside()),
+                Ok(real) if self.is_fenced && !self.allows(&real) => return Err(outside()),
                 Ok(path) => return Ok(Resolved { warning: three_slashes(uri, &path), path }),
                 Err(_) => tried.push(candidate.display().to_string()),
             }
@@ -101,8 +103,8 @@ impl Packages {
         let tried = tried.join(", ");
         Err(fault.with_help(match package_of(uri) {
             Some((package, _)) => format!(
-                "tried {tried}; give the folder of the package in robot.toml: packages = {{ {package} = \"../{package}\" }}, \
-                 or search ROS_PACKAGE_PATH and AMENT_PREFIX_PATH with --ros-packages"
+                "tried {tried}; give the folder of the package with --package {package}=DIR, in robot.toml as packages = {{ {package} = \
+                 \"../{package}\" }}, or in ROS_PACKAGE_PATH or AMENT_PREFIX_PATH"
             ),
             None => format!("tried {tried}"),
         }))
@@ -217,7 +219,8 @@ mod tests {
             fs::write(top.path().join(mark), "").unwrap();
         }
         let packages =
-            Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), &FileAccess::default()).unwrap();
+            Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), &FileAccess::default().fenced())
+                .unwrap();
         (top, packages)
     }
 
@@ -261,6 +264,26 @@ mod tests {
     }
 
     #[test]
+    fn without_a_fence_meshes_are_found_wherever_they_are() {
+        let (top, _) = project(None);
+        let urdf_folder = top.path().join("robot/urdf");
+        let open = |access: &FileAccess| Packages::new(&urdf_folder, BTreeMap::new(), access).unwrap();
+        let mut packages = open(&FileAccess::default());
+        found(&mut packages, "../../outside/c.stl", "outside/c.stl");
+        let whole = top.path().join("outside/c.stl");
+        found(&mut packages, &format!("file://{}", whole.display()), "outside/c.stl");
+        refused(&mut packages, "HTTP://127.0.0.1:9/a.stl", "mesh::network");
+        // The command line says where a package is, also behind a fence.
+        let given = [format!("far={}", top.path().join("outside").display())];
+        let access = FileAccess::default().with_packages(&given).unwrap();
+        found(&mut open(&access), "package://far/c.stl", "outside/c.stl");
+        found(&mut open(&access.fenced()), "package://far/c.stl", "outside/c.stl");
+        for wrong in ["far", "far=/nowhere/at/all", "=.", ""] {
+            assert!(FileAccess::default().with_packages(&[wrong.to_owned()]).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
     fn a_mark_sets_the_project_folder_and_declared_folders_are_allowed() {
         let (_top, mut packages) = project(Some(".git"));
         found(&mut packages, "../../outside/c.stl", "outside/c.stl");
@@ -270,7 +293,7 @@ mod tests {
         let declared =
             BTreeMap::from([("far".to_owned(), top.path().join("outside").canonicalize().unwrap())]);
         let mut packages =
-            Packages::new(&top.path().join("robot/urdf"), declared, &FileAccess::default()).unwrap();
+            Packages::new(&top.path().join("robot/urdf"), declared, &FileAccess::default().fenced()).unwrap();
         found(&mut packages, "package://far/c.stl", "outside/c.stl");
     }
 
@@ -283,7 +306,7 @@ mod tests {
         fs::write(top.path().join("ros/share/e.stl"), "").unwrap();
         refused(&mut packages, "package://far/d.stl", "mesh::not_found");
         let ros = RosPackages { prefixes: vec![top.path().join("ros")], ..RosPackages::default() };
-        let access = FileAccess::new(ros, &[]).unwrap();
+        let access = FileAccess::new(ros, &[]).unwrap().fenced();
         let mut packages = Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), &access).unwrap();
         found(&mut packages, "package://far/d.stl", "far/d.stl");
         // The package itself and nothing else.

@@ -93,7 +93,10 @@ impl TextLines {
         let Self { path, digest, kept: text, .. } = self;
         let file = path.display().to_string();
         let sha256 = format!("{:x}", digest.finalize());
-        Ok((InputFile { file, sha256, path: path.clone() }, Arc::new(SourceFile { path, text })))
+        Ok((
+            InputFile { file, sha256, path: path.clone() },
+            Arc::new(SourceFile { path, text, is_foreign: false }),
+        ))
     }
 
     /// A line as text; the first one without its byte order mark.
@@ -102,7 +105,11 @@ impl TextLines {
         text.map_err(|refused| {
             let (fault, readable) = *refused;
             let text = "\n".repeat(self.count) + readable;
-            fault.at(text.len()..text.len()).in_file(&Arc::new(SourceFile { path: self.path.clone(), text }))
+            fault.at(text.len()..text.len()).in_file(&Arc::new(SourceFile {
+                path: self.path.clone(),
+                text,
+                is_foreign: false,
+            }))
         })
     }
 }

@@ -182,7 +182,7 @@ mod tests {
     fn read(text: &str) -> (Option<Written>, Vec<String>) {
         let mut diagnostics = Diagnostics::default();
         let value = parse_toml(text, &mut diagnostics);
-        let source = SourceFile { path: "x.toml".into(), text: text.to_owned() };
+        let source = SourceFile { path: "x.toml".into(), text: text.to_owned(), is_foreign: false };
         let line = |found: Diagnostic| {
             let (line, column) = found.line_column().unwrap();
             let help = found.help.map_or(String::new(), |help| format!(" ({help})"));

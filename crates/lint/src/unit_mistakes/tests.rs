@@ -28,7 +28,7 @@ const ARM: &str = "<robot name='arm'>
 </robot>";
 
 fn findings(urdf: &str) -> Vec<(&'static str, String)> {
-    let source = Arc::new(SourceFile { path: "arm.urdf".into(), text: urdf.to_owned() });
+    let source = Arc::new(SourceFile { path: "arm.urdf".into(), text: urdf.to_owned(), is_foreign: false });
     let description = parse_robot(None, &source).unwrap();
     unit_mistakes(&description).into_iter().map(|found| (found.code.name, found.message)).collect()
 }

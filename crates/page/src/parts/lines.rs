@@ -1,6 +1,6 @@
 //! Lines of a file: the marked ones with their neighbours, and lines to write instead.
 
-use congruent_input::{ChangedLines, Diagnostic};
+use congruent_input::{ChangedLines, Diagnostic, SourceFile};
 use maud::{Markup, html};
 
 /// Lines before and after the marked ones.
@@ -24,7 +24,7 @@ pub(crate) fn marked(finding: &Diagnostic) -> Markup {
     html! {
         p.place { code { (source.path.display()) ":" (first) } }
         pre.file {
-            @for (number, line) in (1..).zip(source.text.lines()).filter(|(number, _)| shown.contains(number)) {
+            @for (number, line) in (1..).zip(quotable(source).lines()).filter(|(number, _)| shown.contains(number)) {
                 @if (first..=last).contains(&number) {
                     mark { (row(number, line)) }
                 } @else {
@@ -33,6 +33,11 @@ pub(crate) fn marked(finding: &Diagnostic) -> Markup {
             }
         }
     }
+}
+
+/// The text of a file; none of one outside of the project.
+fn quotable(source: &SourceFile) -> &str {
+    if source.is_foreign { "" } else { &source.text }
 }
 
 fn row(number: usize, line: &str) -> Markup {

@@ -190,7 +190,7 @@ const TELESCOPE: &str = r#"<robot name="telescope">
 
 #[test]
 fn faults_of_a_joint_that_another_follows_are_found() {
-    let source = SourceFile { path: "telescope.urdf".into(), text: TELESCOPE.to_owned() };
+    let source = SourceFile { path: "telescope.urdf".into(), text: TELESCOPE.to_owned(), is_foreign: false };
     let description = parse_robot(None, &source.into()).unwrap();
     let motion = |tilt: f64, reach: f64| {
         MotionSettings::Joints(JointMotion {

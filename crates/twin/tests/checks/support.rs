@@ -51,7 +51,7 @@ pub(crate) fn arm(edits: &[(&str, &str)]) -> RobotDescription {
         assert!(text.contains(from), "the arm has no {from:?}");
         text = text.replacen(from, to, 1);
     }
-    let source = SourceFile { path: "small.urdf".into(), text };
+    let source = SourceFile { path: "small.urdf".into(), text, is_foreign: false };
     let mut description = parse_robot(None, &source.into()).unwrap();
     description.tip = description.robot.find_link("finger").unwrap();
     description

@@ -22,7 +22,8 @@ fn joint(name: &str, kind: &str, [parent, child]: [&str; 2], [xyz, axis]: [&str;
 
 fn setup(joints: &[String], start: &StartSettings, line: LineMotion) -> Result<RunSetup, String> {
     let text = format!("<robot name=\"few\"><link name=\"base\"/>{}</robot>", joints.concat());
-    let description = parse_robot(None, &SourceFile { path: "few.urdf".into(), text }.into()).unwrap();
+    let description =
+        parse_robot(None, &SourceFile { path: "few.urdf".into(), text, is_foreign: false }.into()).unwrap();
     let scenario = Scenario {
         name: "few".to_owned(),
         controller: ControllerSettings::default(),

@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn places_are_those_of_the_text() {
         let text = "ab\n\u{e9}<x>\n\n<y>".to_owned();
-        let source = SourceFile { path: "a.urdf".into(), text: text.clone() };
+        let source = SourceFile { path: "a.urdf".into(), text: text.clone(), is_foreign: false };
         let mut lines = Lines::default();
         for offset in (0..=text.len() + 2).rev() {
             let expected = line_column(&text, offset);

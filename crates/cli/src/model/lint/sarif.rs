@@ -272,8 +272,11 @@ mod tests {
 
     #[test]
     fn every_place_is_a_result_with_its_region() {
-        let source =
-            Arc::new(SourceFile { path: "my robot/a.urdf".into(), text: "ab\né<x>\n<y>\n".to_owned() });
+        let source = Arc::new(SourceFile {
+            path: "my robot/a.urdf".into(),
+            text: "ab\né<x>\n<y>\n".to_owned(),
+            is_foreign: false,
+        });
         let mut found = Diagnostics::default();
         for (name, span) in [("x", 5..7), ("y", 9..11)] {
             let warning = Diagnostic::warning(
@@ -298,7 +301,11 @@ mod tests {
     #[test]
     fn a_fingerprint_stays_when_lines_are_added() {
         let of = |lines: &str, names: &[&str]| -> Vec<Value> {
-            let source = Arc::new(SourceFile { path: "a.urdf".into(), text: format!("{lines}<x>") });
+            let source = Arc::new(SourceFile {
+                path: "a.urdf".into(),
+                text: format!("{lines}<x>"),
+                is_foreign: false,
+            });
             let fault = |name: &&str| {
                 Diagnostic::error(congruent::description::codes::urdf::MASS, format!("link {name}: negative"))
             };

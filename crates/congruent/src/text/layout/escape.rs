@@ -114,7 +114,8 @@ pub(in crate::text) fn with_visible_lines(mut finding: Diagnostic) -> Diagnostic
     let start = place(span.start, shown.start, &mut text);
     let end = place(span.end.max(span.start), span.start, &mut text);
     place(shown.end, span.end.max(span.start), &mut text);
-    finding.source = Some(Arc::new(SourceFile { path: source.path.clone(), text }));
+    finding.source =
+        Some(Arc::new(SourceFile { path: source.path.clone(), text, is_foreign: source.is_foreign }));
     finding.span = Some(start..end);
     finding
 }
@@ -185,7 +186,7 @@ mod tests {
     fn a_span_marks_the_same_characters() {
         let text = "a = 1\nb\u{202e} = \u{1b}[2J\t'bad'\r\nc = 3\n";
         let start = text.find("'bad'").unwrap();
-        let source = Arc::new(SourceFile { path: "x.toml".into(), text: text.to_owned() });
+        let source = Arc::new(SourceFile { path: "x.toml".into(), text: text.to_owned(), is_foreign: false });
         let found =
             Diagnostic::error(crate::codes::new::SHAPE, "wrong").at(start..start + 5).in_file(&source);
         let escaped_finding = with_visible_lines(found);
@@ -200,7 +201,8 @@ mod tests {
         for text in ["", "\u{7}", "\u{7}\n\u{7}\u{e4}\n", "\n\n\u{1b}"] {
             for start in 0..=text.len() + 2 {
                 for end in 0..=text.len() + 2 {
-                    let source = Arc::new(SourceFile { path: "x".into(), text: text.to_owned() });
+                    let source =
+                        Arc::new(SourceFile { path: "x".into(), text: text.to_owned(), is_foreign: false });
                     let found =
                         Diagnostic::error(crate::codes::new::SHAPE, "wrong").at(start..end).in_file(&source);
                     let escaped_finding = with_visible_lines(found);

@@ -42,7 +42,7 @@ friction_n = 0.25
 ";
 
 fn source(name: &str, text: &str) -> Arc<SourceFile> {
-    Arc::new(SourceFile { path: name.into(), text: text.to_owned() })
+    Arc::new(SourceFile { path: name.into(), text: text.to_owned(), is_foreign: false })
 }
 
 fn parsed(text: &str) -> Result<RobotDescription, Findings> {

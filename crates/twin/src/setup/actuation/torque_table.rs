@@ -113,7 +113,10 @@ mod tests {
     }
 
     fn read(text: &str) -> Result<TorqueTable, Diagnostic> {
-        TorqueTable::read(&SourceFile { path: "t.csv".into(), text: text.to_owned() }, &robot())
+        TorqueTable::read(
+            &SourceFile { path: "t.csv".into(), text: text.to_owned(), is_foreign: false },
+            &robot(),
+        )
     }
 
     #[test]

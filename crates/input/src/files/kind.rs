@@ -1,0 +1,60 @@
+//! What is expected of a text that another file names, outside of its project: anything else could be a secret, of which the
+//! messages of a reader would show words.
+
+use std::sync::Arc;
+
+use crate::{
+    codes,
+    diagnostic::{Diagnostic, SourceFile},
+};
+
+/// A kind of text that a file may name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TextKind {
+    /// A URDF or an SRDF: XML with the element `robot`.
+    Robot,
+    /// A robot file: TOML with the key `urdf` or a table `dh`.
+    RobotFile,
+    /// A table: a line of names, then numbers.
+    Table,
+}
+
+impl TextKind {
+    /// The text, unless it is from outside of the project and not of this kind.
+    ///
+    /// # Errors
+    /// It is not of this kind; nothing of it is quoted.
+    pub fn check(self, source: Arc<SourceFile>) -> Result<Arc<SourceFile>, Diagnostic> {
+        if !source.is_foreign || self.is_met_by(&source.text) {
+            return Ok(source);
+        }
+        let message = format!("{} is not {}", source.path.display(), self.words());
+        let help = "it is outside of the project, so nothing of it is shown; --allow DIR counts its folder as the project";
+        Err(Diagnostic::error(codes::file::KIND, message).with_help(help))
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Robot => "a URDF or an SRDF",
+            Self::RobotFile => "a robot file",
+            Self::Table => "a table of numbers",
+        }
+    }
+
+    fn is_met_by(self, text: &str) -> bool {
+        let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        match self {
+            Self::Robot => text.trim_start().starts_with('<') && text.contains("<robot"),
+            Self::RobotFile => lines.any(|line| {
+                let has_urdf = |rest: &str| rest.trim_start().starts_with('=');
+                line.strip_prefix("urdf").is_some_and(has_urdf) || line.starts_with("[dh")
+            }),
+            Self::Table => lines.nth(1).is_some_and(|line| line.split([',', ';', '\t']).all(is_number)),
+        }
+    }
+}
+
+fn is_number(cell: &str) -> bool {
+    let cell = cell.trim().trim_matches('"');
+    cell.is_empty() || cell.parse::<f64>().is_ok()
+}
