@@ -5,7 +5,13 @@
 //! otherwise they are limbs, of which the first is taken and the others are candidates.
 
 use super::frame_name::{is_jaw, preference};
-use crate::model::{JointIndex, LinkIndex, Robot};
+use crate::model::{JointIndex, JointKind, LinkIndex, Robot};
+
+/// Travel up to which a slide at the tip is a jaw, m. Kind: judgement; jaws of grippers travel 10 to 50 mm, the quill of the smallest SCARA
+/// 100 mm.
+const SHORT_SLIDE_M: f64 = 0.06;
+/// Joints before a short slide from which on they are an arm, and not the axes of a small stage. Kind: judgement.
+const JOINTS_OF_AN_ARM: usize = 3;
 
 /// The chosen tip, and the other tips that might have been meant.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -67,8 +73,9 @@ impl<'a> LinkBodies<'a> {
             // chain or none before them. A single last joint ends the chain only if its name says that it is a jaw, since
             // the last joint of an arm is single, too.
             let are_fingers = equal.len() > 1 && passed.len() >= deepest;
-            let is_gripper =
-                !passed.is_empty() && deepest == 1 && equal.iter().all(|&one| is_jaw(self.robot.joint(one)));
+            let is_gripper = !passed.is_empty()
+                && deepest == 1
+                && equal.iter().all(|&one| self.is_jaw(one) || self.is_short_slide(one, &passed));
             if are_fingers || is_gripper {
                 return (self.frame(&body), equal_limbs);
             }
@@ -84,6 +91,20 @@ impl<'a> LinkBodies<'a> {
             passed.push(equal[first]);
             link = self.robot.joint(equal[first]).child;
         }
+    }
+
+    fn is_jaw(&self, last: JointIndex) -> bool {
+        let joint = self.robot.joint(last);
+        is_jaw(joint, self.robot.link(joint.child))
+    }
+
+    /// Whether a last joint without a name for it is a jaw all the same: a short slide at the end of an arm, with no frame for a
+    /// tool behind it.
+    fn is_short_slide(&self, last: JointIndex, passed: &[JointIndex]) -> bool {
+        let joint = self.robot.joint(last);
+        let is_short = joint.position_range().is_some_and(|(lower, upper)| upper - lower <= SHORT_SLIDE_M);
+        let is_end = self.body(joint.child).len() == 1;
+        joint.kind == JointKind::Prismatic && is_short && is_end && passed.len() >= JOINTS_OF_AN_ARM
     }
 
     fn follow_branch(&self, passed: &[JointIndex]) -> LinkIndex {
@@ -148,7 +169,7 @@ impl<'a> LinkBodies<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::urdf::parse_urdf;
+    use crate::{model::JointParts, urdf::parse_urdf};
 
     /// A robot from lines `parent kind child [mimic joint]`; a joint has its child's name.
     fn robot(lines: &[&str]) -> Robot {
@@ -186,8 +207,33 @@ mod tests {
         let unequal = ["lower revolute thumb", "lower revolute index", "index revolute index_end"];
         check(&[&ARM[..], &unequal].concat(), "lower", &[]);
         check(&[&ARM[..], &["lower revolute gripper_jaw"]].concat(), "lower", &[]);
+        for jaw in ["gripperMover", "jointGripper", "rightFinger", "joint_Jaw2"] {
+            check(&[&ARM[..], &[format!("lower revolute {jaw}").as_str()]].concat(), "lower", &[]);
+        }
+        check(&[&ARM[..], &["lower revolute gripperRoll"]].concat(), "gripperRoll", &[]);
         check(&[&ARM[..], &["lower revolute gripper_roll"]].concat(), "gripper_roll", &[]);
         check(&[&ARM[..], &["lower prismatic quill"]].concat(), "quill", &[]);
+    }
+
+    #[test]
+    fn a_short_slide_without_a_frame_is_a_jaw_at_the_end_of_an_arm() {
+        let lines = ["base revolute a", "a revolute b", "b revolute c", "c prismatic d", "d fixed e"];
+        let tip = |lines: &[&str], travel_m: f64| {
+            let long = robot(lines);
+            let parts = long.joints().iter().map(|joint| {
+                let mut joint = joint.clone();
+                if let Some(limit) = joint.limit.as_mut().filter(|_| joint.kind == JointKind::Prismatic) {
+                    limit.upper = travel_m;
+                }
+                let [parent, child] = [joint.parent, joint.child].map(|link| long.link(link).name.clone());
+                JointParts { parent, child, mimic: None, joint }
+            });
+            let robot = Robot::new("r", long.links().to_vec(), parts.collect()).unwrap();
+            robot.link(choose_tip(&robot, robot.root()).tip).name.clone()
+        };
+        assert_eq!([0.04, 0.1].map(|travel_m| tip(&lines[..4], travel_m)), ["c", "d"]);
+        // With a frame behind it, or as the second axis of a stage, it belongs to the chain.
+        assert_eq!([tip(&lines, 0.04), tip(&["base revolute a", "a prismatic d"], 0.04)], ["e", "d"]);
     }
 
     #[test]

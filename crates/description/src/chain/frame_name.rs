@@ -14,11 +14,29 @@ const FILLERS: [&str; 3] = ["link", "frame", "joint"];
 const SENSORS: [&str; 9] = ["camera", "cam", "optical", "lidar", "laser", "imu", "sensor", "rgb", "depth"];
 /// Words for joints that open and close a gripper.
 const JAWS: [&str; 6] = ["gripper", "finger", "jaw", "knuckle", "claw", "thumb"];
+/// Words for links that open and close; a link named after a gripper as a whole may be its palm.
+const FINGERS: [&str; 5] = ["finger", "jaw", "knuckle", "claw", "thumb"];
 /// Words for joints that turn a gripper and belong to the arm.
 const TURNS: [&str; 6] = ["roll", "pitch", "yaw", "rotate", "rotation", "wrist"];
 
+/// The words of a name, which end at a sign, or before a capital: `jointGripper`, `left_TCPFrame`.
 fn words(name: &str) -> impl DoubleEndedIterator<Item = String> {
-    name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(str::to_ascii_lowercase)
+    let letters: Vec<char> = name.chars().collect();
+    let mut spaced = String::new();
+    for (at, letter) in letters.iter().enumerate() {
+        let before = at.checked_sub(1).map(|before| letters[before]);
+        let is_small = |letter: Option<&char>| letter.is_some_and(|letter| letter.is_lowercase());
+        // Of several capitals the last belongs to the word after them.
+        let begins = letter.is_uppercase()
+            && (is_small(before.as_ref())
+                || before.is_some_and(char::is_uppercase) && is_small(letters.get(at + 1)));
+        if begins {
+            spaced.push(' ');
+        }
+        spaced.push(*letter);
+    }
+    let words = spaced.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.map(str::to_ascii_lowercase).collect::<Vec<_>>().into_iter()
 }
 
 /// How much a link's name says that tools are programmed in its frame: 0 if it says nothing.
@@ -38,10 +56,12 @@ pub(super) fn preference(link: &Link, fixed_joints: usize, index: usize) -> impl
     (tool_rank(link), !is_sensor, fixed_joints, is_frame, Reverse(index))
 }
 
-/// Whether a joint opens and closes a gripper, by its name.
-pub(super) fn is_jaw(joint: &Joint) -> bool {
-    let has = |known: &[&str]| words(&joint.name).any(|word| known.contains(&word.as_str()));
-    has(&JAWS) && !has(&TURNS)
+/// Whether a last joint opens and closes a gripper, by its name or by that of the link that it moves.
+pub(super) fn is_jaw(joint: &Joint, moved: &Link) -> bool {
+    let has = |name: &str, known: &[&str]| {
+        words(name).any(|word| known.contains(&word.trim_end_matches(|c: char| c.is_ascii_digit())))
+    };
+    (has(&joint.name, &JAWS) || has(&moved.name, &FINGERS)) && !has(&joint.name, &TURNS)
 }
 
 #[cfg(test)]
@@ -63,6 +83,7 @@ mod tests {
         let ranks =
             ["flange", "iiwa_link_ee", "ee_link", "left_tool0", "r_gripper_tool_frame", "panda_hand_tcp"];
         assert_eq!(ranks.map(rank), [1, 2, 2, 3, 3, 4]);
+        assert_eq!(["leftTool0", "gripperTCPFrame", "EELink", "linkTCP"].map(rank), [3, 4, 2, 4]);
         assert_eq!(["tool_changer", "tool0_controller", "steel", "link", ""].map(rank), [0; 5]);
     }
 }
