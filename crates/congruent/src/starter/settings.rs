@@ -1,6 +1,6 @@
 //! What a scenario is made of: controllers, checks, positions by name.
 
-use congruent_description::{JointKind, RobotDescription, RobotQ};
+use congruent_description::{Joint, JointKind, RobotDescription, RobotQ};
 use congruent_scenario::{
     AgreementCheck, Check, ControllerKind, ControllerSettings, DynamicsCheck, EffortCheck, InvariantsCheck,
     JointMotion, LimitsCheck, MotionSettings, PowerCheck, Profile, StartSettings, TrackingCheck, TwistCheck,
@@ -77,7 +77,7 @@ pub(super) fn start_settings(description: &RobotDescription, motion: &JointMove)
         let (name, value) = (joint.name.clone(), motion.start[coordinate]);
         match joint.kind {
             JointKind::Prismatic => settings.joints_m.insert(name, in_metres(value)),
-            _ => settings.joints_deg.insert(name, in_degrees(value)),
+            _ => settings.joints_deg.insert(name, in_degrees(joint, value)),
         };
     }
     settings
@@ -97,7 +97,7 @@ pub(super) fn motion_settings(description: &RobotDescription, motion: &JointMove
                 JointKind::Prismatic => {
                     settings.move_joints_m.insert(joint.name.clone(), in_metres(q[coordinate]))
                 }
-                _ => settings.move_joints_deg.insert(joint.name.clone(), in_degrees(q[coordinate])),
+                _ => settings.move_joints_deg.insert(joint.name.clone(), in_degrees(joint, q[coordinate])),
             };
         }
         MotionSettings::Joints(settings)
@@ -105,9 +105,18 @@ pub(super) fn motion_settings(description: &RobotDescription, motion: &JointMove
     vec![to(&motion.target), to(&motion.start)]
 }
 
-/// In degrees, without the digits that the conversion has added to tenths.
-fn in_degrees(radians: f64) -> f64 {
-    without_noise(radians.to_degrees())
+/// Far more than the rounding of a conversion to degrees and back, far less than a motion.
+const INWARDS_DEG: f64 = 1e-9;
+
+/// In degrees, without the digits that the conversion has added to tenths. At the end of a range it is a little inside: the
+/// conversion back may be rounded to outside of it.
+fn in_degrees(joint: &Joint, radians: f64) -> f64 {
+    let degrees = without_noise(radians.to_degrees());
+    match joint.position_range() {
+        Some((lower, _)) if degrees.to_radians() < lower => degrees + INWARDS_DEG,
+        Some((_, upper)) if degrees.to_radians() > upper => degrees - INWARDS_DEG,
+        _ => degrees,
+    }
 }
 
 fn in_metres(metres: f64) -> f64 {
@@ -121,11 +130,36 @@ fn without_noise(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use congruent_description::{JointLimit, JointParts};
+
     use super::*;
+
+    fn joint(range: Option<(f64, f64)>) -> Joint {
+        let mut parts = JointParts::new("j", JointKind::Revolute, "a", "b", nalgebra::Isometry3::identity());
+        parts.joint.limit =
+            range.map(|(lower, upper)| JointLimit { lower, upper, velocity: None, effort: None });
+        parts.joint
+    }
+
+    /// Ends of ranges as URDFs have them: degrees with seven digits in radians.
+    #[test]
+    fn the_end_of_a_range_is_still_inside_after_conversion_to_degrees_and_back() {
+        for tenth in 1..3600_u32 {
+            let digits = (f64::from(tenth) * 0.1).to_radians() * 1e7;
+            for end in [digits.floor() / 1e7, digits.round() / 1e7, digits.ceil() / 1e7] {
+                for (lower, upper) in [(end, end + 1.0), (end - 1.0, end)] {
+                    let back = in_degrees(&joint(Some((lower, upper))), end).to_radians();
+                    assert!((lower..=upper).contains(&back), "{end}: {back}");
+                    assert!((back - end).abs() < 1e-10, "{end}: {back}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn tenths_of_a_degree_are_written_as_such() {
-        let found = [in_degrees(0.1_f64.to_radians()), in_degrees(1.0)];
+        let joint = joint(None);
+        let found = [in_degrees(&joint, 0.1_f64.to_radians()), in_degrees(&joint, 1.0)];
         assert_eq!(found.map(f64::to_bits), [0.1, 1_f64.to_degrees()].map(f64::to_bits));
     }
 }
