@@ -96,6 +96,25 @@ fn kinematics_goes_on_with_each_warning_once() {
 }
 
 #[test]
+fn of_several_inputs_a_warning_is_shown_once_and_then_named_in_one_line() {
+    let bench = ArmFolder::new(REPAIR);
+    for name in ["one", "two", "three"] {
+        bench.write(&format!("{name}.toml"), &SCENARIO.replace("still", name));
+    }
+    let scenarios = ["one", "two", "three"].map(|name| bench.path(&format!("{name}.toml")));
+    let [one, two, three] = scenarios.each_ref().map(String::as_str);
+    let answer = congruent(&["run", one, two, three, "--no-recording", "--out", &bench.path("out")]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    // Of the mesh as visual and as collision shape.
+    assert_eq!(answer.stderr.matches("packages = {").count(), 2, "{}", answer.stderr);
+    let named = |scenario: &str| {
+        let head = format!("{scenario}.toml: warning, as above: link \"upper\": mesh file");
+        answer.stderr.lines().filter(|line| line.contains(&head)).count()
+    };
+    assert_eq!(["one", "two", "three"].map(named), [0, 2, 2], "{}", answer.stderr);
+}
+
+#[test]
 fn what_needs_the_part_is_refused_with_what_to_do() {
     let bench = ArmFolder::new("");
     let robot = bench.path("arm.urdf");
@@ -184,7 +203,9 @@ fn packages_of_ros_are_found_and_behind_a_fence_only_if_asked_for() {
     let path = workspace.path().to_owned();
     assert_eq!(code(fence, "ROS_PACKAGE_PATH", path.clone()), Some(2));
     // The mesh is found; with it alone there is no pair to measure.
-    assert_eq!(code(ask, "ROS_PACKAGE_PATH", path.clone()), Some(4));
+    for found in [&[], ask] {
+        assert_eq!(code(found, "ROS_PACKAGE_PATH", path.clone()), Some(4));
+    }
     assert_eq!(code(ask, "AMENT_PREFIX_PATH", path.clone()), Some(2));
     fs::rename(path.join("src"), path.join("share")).unwrap();
     assert_eq!(code(fence, "AMENT_PREFIX_PATH", path.clone()), Some(2));

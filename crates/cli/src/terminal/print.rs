@@ -2,10 +2,11 @@
 //! standard error.
 
 use std::{
+    collections::BTreeSet,
     io::{self, BufWriter, IsTerminal, Write},
     iter::once_with,
     path::Path,
-    sync::OnceLock,
+    sync::{Mutex, OnceLock},
 };
 
 use clap::ValueEnum;
@@ -185,13 +186,14 @@ impl Printer {
     }
 
     /// Warnings for people; beside a JSON document, which has them in full, each in one line. Of several inputs the name of
-    /// theirs is in front of each.
+    /// theirs is in front of each. A warning that was printed in this call, as of a robot of several scenarios, is one line.
     pub(crate) fn warnings(&self, input: Option<&Path>, warnings: &[Diagnostic]) {
         if self.verbosity == Verbosity::Quiet {
             return;
         }
         let shown = |warning: &Diagnostic| match self.format {
-            Format::Human => labelled(input, warning),
+            Format::Human if is_first(warning) => labelled(input, warning),
+            Format::Human => format!("{}warning, as above: {}\n", named(input), visible(&warning.message)),
             Format::Json | Format::Sarif => in_one_line(input, warning),
         };
         to_stderr(&warnings.iter().map(shown).collect::<String>());
@@ -269,6 +271,13 @@ fn labelled(input: Option<&Path>, finding: &Diagnostic) -> String {
     let word = serde_name(&finding.severity);
     let heading = input.map(|input| format!("{}: {word}\n", visible_path(input)));
     heading.unwrap_or_default() + &finding_text(finding, &text_options())
+}
+
+/// Whether this call has not printed a warning yet.
+fn is_first(warning: &Diagnostic) -> bool {
+    static PRINTED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let text = finding_text(warning, &text_options());
+    PRINTED.lock().map_or(true, |mut printed| printed.insert(text))
 }
 
 /// `robot.toml: warning: robot.urdf:12: link "tool" has no mass; ...`.
