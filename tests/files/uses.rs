@@ -115,6 +115,28 @@ fn of_several_inputs_a_warning_is_shown_once_and_then_named_in_one_line() {
 }
 
 #[test]
+fn the_name_of_the_robot_file_is_the_name_in_every_report() {
+    let bench = ArmFolder::new(&format!("name = 'cell_7'\n{REPAIR}{TABLE}"));
+    bench.write("targets.json", r#"[{"translation_m": [0.4, 0.2, 0]}]"#);
+    let (robot, targets) = (bench.path("robot.toml"), bench.path("targets.json"));
+    for arguments in [
+        &["check", &robot][..],
+        &["fk", &robot],
+        &["jacobian", &robot],
+        &["manipulability", &robot],
+        &["sensitivity", &robot],
+        &["workspace", &robot, "--samples", "10"],
+        &["dynamics", &robot],
+        &["ik", &robot, "--targets", &targets],
+    ] {
+        assert_eq!(congruent_json(arguments).json()["robot"], "cell_7", "{arguments:?}");
+    }
+    bench.run();
+    let report = fs::read_to_string(bench.path("out/still/report.json")).unwrap();
+    assert_eq!(serde_json::from_str::<Value>(&report).unwrap()["robot"], "cell_7");
+}
+
+#[test]
 fn what_needs_the_part_is_refused_with_what_to_do() {
     let bench = ArmFolder::new("");
     let robot = bench.path("arm.urdf");

@@ -137,7 +137,7 @@ pub fn base_parameters(
     });
     Ok(BaseParameterReport {
         file: description.urdf_path.display().to_string(),
-        robot: robot.name().to_owned(),
+        robot: description.name.clone(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         of: congruent_dynamics::PARAMETERS * robot.dof(),
         base_parameters: groups.collect(),

@@ -164,7 +164,7 @@ pub fn dynamics<'a>(
     let at_rest = stiction(robot, options, states);
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     Ok(JointDynamicsReport {
-        robot: robot.name().to_owned(),
+        robot: description.name.clone(),
         chain: description.reported_chain(),
         joints: joints().map(|joint| joint.name.clone()).collect(),
         units: joints().map(|joint| joint.kind.si_unit()).collect(),

@@ -182,7 +182,7 @@ fn report<'a>(
 ) -> Result<ForwardReport<PoseStream<'a>>, Diagnostic> {
     let robot = &description.robot;
     Ok(ForwardReport {
-        robot: robot.name().to_owned(),
+        robot: description.name.clone(),
         chain: description.reported_chain(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         source,
@@ -203,7 +203,7 @@ pub fn forward_by_table<'a>(
 ) -> Result<ForwardReport<PoseStream<'a>>, Diagnostic> {
     let robot = &description.robot;
     let table =
-        description.dh.as_ref().ok_or_else(|| ForwardError::NoTable { robot: robot.name().to_owned() })?;
+        description.dh.as_ref().ok_or_else(|| ForwardError::NoTable { robot: description.name.clone() })?;
     let chain = DhChain::new(table, robot);
     let tree = UrdfTree::new(robot);
     let name = |link| robot.link(link).name.clone();

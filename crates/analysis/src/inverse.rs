@@ -183,7 +183,7 @@ pub fn inverse(
         results.push(solution(&solver.solve(&target.target, &start, options, || true)?, &joints));
     }
     Ok(InverseReport {
-        robot: description.robot.name().to_owned(),
+        robot: description.name.clone(),
         chain: description.reported_chain(),
         joints,
         method: options.method,

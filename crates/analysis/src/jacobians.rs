@@ -187,7 +187,7 @@ fn report<'a>(
     };
     Ok(JacobianReport {
         chain: description.reported_chain(),
-        robot: robot.name().to_owned(),
+        robot: description.name.clone(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         link,
         tcp,

@@ -132,7 +132,7 @@ pub fn manipulability<'a>(
         })
     };
     Ok(ManipulabilityReport {
-        robot: description.robot.name().to_owned(),
+        robot: description.name.clone(),
         chain: description.reported_chain(),
         metres_per_rad,
         sliding,
@@ -186,8 +186,7 @@ pub fn plot(
             ellipsoid.semi_axes[0], ellipsoid.semi_axes[2]
         )
     });
-    let title =
-        format!("{}: velocity ellipsoids of the tool, each to its own scale", description.robot.name());
+    let title = format!("{}: velocity ellipsoids of the tool, each to its own scale", description.name);
     views(&title, &legend, &PLANES.each_ref().map(view))
 }
 

@@ -125,7 +125,7 @@ pub fn sensitivity(
         parameters: effects.iter().map(|found| effect(found, &arm, &names, length_factor)).collect(),
     };
     Ok(SensitivityReport {
-        robot: description.robot.name().to_owned(),
+        robot: description.name.clone(),
         chain: description.reported_chain(),
         samples: sampling.samples,
         seed: sampling.seed,

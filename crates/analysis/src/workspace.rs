@@ -73,7 +73,7 @@ pub fn workspace(
         at: JointValues::new(&names, &found.reach_at[end]),
     });
     let report = WorkspaceReport {
-        robot: description.robot.name().to_owned(),
+        robot: description.name.clone(),
         chain: description.reported_chain(),
         samples: sampling.samples,
         seed: sampling.seed,

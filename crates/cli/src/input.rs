@@ -106,7 +106,7 @@ fn read_from(description: &RobotDescription) -> String {
     let [base, tip] = [description.base, description.tip].map(|link| robot.link(link).name.as_str());
     format!(
         "{}: {links} links, {dof} joints that move, chain {base} to {tip}; read from {}",
-        robot.name(),
+        description.name,
         files.join(", ")
     )
 }

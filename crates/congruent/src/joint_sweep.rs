@@ -114,7 +114,7 @@ pub fn joint_sweep(description: RobotDescription, out: &std::path::Path) -> Resu
     recorded.result?;
     Ok(JointSweep {
         format: "congruent-joint-sweep/1",
-        robot: setup.description.robot.name().to_owned(),
+        robot: setup.description.name.clone(),
         recording: folder.file(RerunFormat.file_name()),
         duration_s,
         joints,

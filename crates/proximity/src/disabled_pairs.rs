@@ -356,7 +356,7 @@ fn report(
         })
     });
     DisabledPairs {
-        robot: robot.name().to_owned(),
+        robot: description.name.clone(),
         urdf: description.urdf_path.display().to_string(),
         samples: sampling.samples,
         seed: sampling.seed,

@@ -152,7 +152,7 @@ pub fn distances<'a>(
     let least = options.limit_m.map_or_else(Vec::new, |_| least(&pairs, &results));
     let hull_warnings = simplified_hulls(description, obstacles);
     Ok(DistanceReport {
-        robot: robot.name().to_owned(),
+        robot: description.name.clone(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         least_m: least.first().map(|least| least.distance_m),
         below: least

@@ -95,7 +95,7 @@ pub(super) fn compared(
     let brackets = worst(&certificates);
     let report = CheckReport {
         file: description.path.display().to_string(),
-        robot: robot.name().to_owned(),
+        robot: description.name.clone(),
         chain: description.reported_chain(),
         table_compared: description.dh.is_some(),
         verdict,

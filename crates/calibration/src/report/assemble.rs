@@ -52,7 +52,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     };
     let row_residuals = rows(computed, &nominal);
     let mut report = CalibrationReport {
-        robot: robot.name().to_owned(),
+        robot: computed.description.name.clone(),
         chain: computed.description.reported_chain(),
         model: if computed.nominal.table.is_some() { CalibratedModel::Dh } else { CalibratedModel::Urdf },
         measured_frame: measured_frame.to_owned(),

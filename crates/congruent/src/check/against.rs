@@ -41,7 +41,7 @@ pub(super) fn compared(
 ) -> Result<(OtherDescription, Option<DynamicsReport>), CheckError> {
     let mut against = OtherDescription {
         file: other.path.display().to_string(),
-        robot: other.robot.name().to_owned(),
+        robot: other.name.clone(),
         dynamics_not_compared: other_joint(&description.robot, &other.robot),
         links_in_other_frames: Vec::new(),
     };

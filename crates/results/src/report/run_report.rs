@@ -163,7 +163,7 @@ impl RunReport {
             scenario: setup.scenario.name.clone(),
             scenario_file: setup.path.as_ref().map(|path| path.display().to_string()),
             overrides: setup.overrides.clone(),
-            robot: robot.name().to_owned(),
+            robot: setup.description.name.clone(),
             verdict,
             exit_code: verdict.exit_code(),
             expected: setup.scenario.expect.clone(),
