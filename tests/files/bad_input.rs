@@ -118,7 +118,8 @@ fn an_obstacle_that_cannot_be() {
     for (keys, words) in [
         ("name = \"a\"\ncylinder = [1, 2]", "`cylinder` is a table"),
         ("name = \"a\"\nbox_m = [1, 1, 1e308]", "size or coordinate is 1e308 m"),
-        ("name = \"a\"\nsphere_radius_m = 1\nxyz_m = [0, 1e9, 0]", "size or coordinate is 1e9 m"),
+        ("name = \"a\"\nsphere_radius_m = 1\nxyz_m = [0, 5e5, 0]", "size or coordinate is 5e5 m"),
+        ("name = \"a\"\nsphere_radius_m = 1\nxyz_m = [0, 1e9, 0]", "xyz_m is 1.0e9 m, limit <= 1e6 m"),
         ("name = \"\"\nsphere_radius_m = 1", "name is empty"),
         ("name = \"link_1\"\nsphere_radius_m = 1", "the name of a link"),
         ("name = \"a\"", "exactly one shape"),
@@ -136,7 +137,7 @@ fn case_13_a_zone_that_cannot_be() {
     for (keys, words) in [
         ("links = [\"*\"]", ["zone \"a\" must have exactly one shape", "box_m"]),
         ("links = [\"*\"]\nbox_m = [1, -1, 1]", ["above 0", "-1"]),
-        ("links = [\"*\"]\nbox_m = [1, 1, 1]\nxyz_m = [0, 1e9, 0]", ["zone \"a\"", "size or coordinate"]),
+        ("links = [\"*\"]\nbox_m = [1, 1, 1]\nxyz_m = [0, 5e5, 0]", ["zone \"a\"", "size or coordinate"]),
         ("links = [\"link_11\"]\nbox_m = [1, 1, 1]", ["no link \"link_11\"", "did you mean \"link_1\"?"]),
         ("links = [\"l*9\"]\nbox_m = [1, 1, 1]", ["no moving link with a collision shape \"l*9\"", "link_2"]),
         ("links = [\"tip\"]\nbox_m = [1, 1, 1]", ["\"tip\" has no collision shape", "link_1"]),

@@ -81,6 +81,20 @@ fn an_empty_list_is_no_check_and_an_error_has_its_line() {
     }
 }
 
+/// With 1275 mm to go, such a target was "reached".
+#[test]
+fn a_tolerance_that_every_pose_meets_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let targets = targets(&folder, r#"[{"translation_m": [0, 0, 1]}]"#);
+    for tolerance in ["inf", "1e9", "4"] {
+        let answer = congruent_json(&["ik", "robots/ur5e", "--targets", &targets, "--tolerance", tolerance]);
+        let finding = answer.json()["findings"][0].clone();
+        assert_eq!((answer.code, &finding["code"]), (2, &"tolerance::meaningless".into()), "{finding}");
+    }
+    let answer = congruent(&["ik", "robots/ur5e", "--targets", &targets, "--tolerance", "0.5"]);
+    assert!(answer.stderr.contains("more than a tenth of the reach"), "{}", answer.stderr);
+}
+
 #[test]
 fn a_start_outside_the_limits_is_warned_of_with_its_line() {
     let folder = tempfile::tempdir().unwrap();

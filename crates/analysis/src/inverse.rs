@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
 use congruent_description::{
     ArmQ, JointValues, JsonList, ReportedChain, Robot, RobotDescription, configuration, unique_names,
 };
-use congruent_input::{Diagnostic, Finding, Findings, display::limit_number, read_text};
+use congruent_input::{Diagnostic, Finding, Findings, display::limit_number, read_text, units::LARGEST};
 use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use schemars::JsonSchema;
@@ -21,8 +21,6 @@ const LIST: JsonList = JsonList {
     code: codes::targets::JSON,
     help: r#"expected [{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint": 0.1}}]"#,
 };
-/// Largest coordinate of a target: the square of a larger one would make all others insignificant.
-const MOST_M: f64 = 1e6;
 /// Largest file of targets that is read.
 const MOST_BYTES: u64 = 256 << 20;
 /// How far the norm of a written quaternion may be from 1. Kind: six digits in the file.
@@ -138,8 +136,8 @@ fn outside(robot: &Robot, name: &str, value: f64) -> Option<String> {
 
 fn checked(written: WrittenTarget, robot: &Robot) -> Result<InverseTarget, Diagnostic> {
     configuration(&written.start, robot)?;
-    if let Some(far) = written.translation_m.iter().find(|coordinate| coordinate.abs() > MOST_M) {
-        let message = format!("translation_m has {far}, which is beyond {MOST_M:e} m");
+    if let Some(far) = written.translation_m.iter().find(|coordinate| coordinate.abs() > LARGEST) {
+        let message = format!("translation_m has {far}, which is beyond {LARGEST:e} m");
         return Err(Diagnostic::error(codes::targets::TRANSLATION, message));
     }
     let (part, rotation) = match written.quaternion_wxyz {

@@ -37,6 +37,6 @@ pub use robot_file::{
 pub use robot_file_text::{dh_section, relative_path, robot_file_text, robot_file_values};
 pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{
-    JointDigits, LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES,
-    UrdfPlaces, misspellings, node, parse_urdf, urdf_text,
+    JointDigits, LARGEST_GYRATION_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES, UrdfPlaces, misspellings,
+    node, parse_urdf, urdf_text,
 };

@@ -60,6 +60,8 @@ crate::codes! {
             "A quantity is given twice, in two units. Keep exactly one of the keys.";
         NOT_FINITE = "CGR-TOML-006", "toml::not_finite",
             "The value is NaN or infinite. Every comparison with NaN is false, so a check could never fail. Write a finite number, or leave the key out if it is optional.";
+        TOO_LARGE = "CGR-TOML-011", "toml::too_large",
+            "A length or an angle is so large that its last digits are larger than the tolerances of a robot: above 1e6 m or 1e6 rad. Results would be infinite or without meaning. Often the exponent or the unit is wrong.";
         HIDDEN_CHARACTER = "CGR-TOML-007", "toml::hidden_character",
             "A name has an invisible character, such as a control character or a mark of writing direction. Names are copied into every output, so it is refused. Type the name again.";
     }

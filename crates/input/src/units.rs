@@ -4,7 +4,13 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::{codes, diagnostic::Diagnostic};
+use crate::{codes, diagnostic::Diagnostic, display::number};
+
+/// Longer parts of a robot, and offsets between them, are taken for millimetres.
+pub const LARGEST_PLAUSIBLE_M: f64 = 10.0;
+/// Largest length in m and largest angle in rad of a description. Kind: range of numbers; a double resolves 1e-10 there, a
+/// tenth of the default tolerance, and no machine is a thousand kilometres long.
+pub const LARGEST: f64 = 1e6;
 
 /// The physical quantity of a value, which decides the unit suffixes of its keys in files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,7 +124,7 @@ impl Unit {
     /// The value of `quantity` from its two keys, of which at most one may be given.
     ///
     /// # Errors
-    /// Both keys are given, or the value is not finite.
+    /// Both keys are given, or the value is not finite or beyond [`LARGEST`].
     pub fn value(
         self,
         quantity: &str,
@@ -133,7 +139,7 @@ impl Unit {
     /// The vector `quantity` from its two keys, of which at most one may be given.
     ///
     /// # Errors
-    /// Both keys are given, or a value is not finite.
+    /// Both keys are given, or a value is not finite or beyond [`LARGEST`].
     pub fn vector<const N: usize>(
         self,
         quantity: &str,
@@ -143,12 +149,39 @@ impl Unit {
         let [si_key, engineering_key] = self.keys(quantity);
         match (si, engineering) {
             (None, None) => Ok(None),
-            (Some(values), None) => finite(&si_key, values).map(Some),
+            (Some(values), None) => self.in_range(&si_key, values, |value| value).map(Some),
             (None, Some(values)) => {
-                Ok(Some(finite(&engineering_key, values)?.map(|value| self.convert(value))))
+                self.in_range(&engineering_key, values, |value| self.convert(value)).map(Some)
             }
             (Some(_), Some(second)) => Err(both_given([&si_key, &engineering_key]).at(second.span())),
         }
+    }
+
+    fn in_range<const N: usize>(
+        self,
+        key: &str,
+        written: &Spanned<[f64; N]>,
+        to_si: impl Fn(f64) -> f64,
+    ) -> Result<[f64; N], Diagnostic> {
+        let values = finite(key, written)?.map(to_si);
+        values.iter().try_for_each(|&value| self.check_range(key, value, written.span()))?;
+        Ok(values)
+    }
+
+    /// Refuses a value, m or rad, that no description has and whose digits would be lost.
+    ///
+    /// # Errors
+    /// `value` is beyond [`LARGEST`].
+    pub fn check_range(self, key: &str, value: f64, span: Range<usize>) -> Result<(), Diagnostic> {
+        if value.abs() <= LARGEST {
+            return Ok(());
+        }
+        let [unit, engineering] = self.names();
+        let value = number(value);
+        let message = format!("{key} is {value} {unit}, limit <= {LARGEST:e} {unit}");
+        Err(Diagnostic::error(codes::toml::TOO_LARGE, message).at(span).with_help(format!(
+            "numbers that large have lost the digits that a robot needs; keys that end in _{engineering} are in {engineering}"
+        )))
     }
 }
 
@@ -194,6 +227,14 @@ mod tests {
         check(Unit::Length, None, Some(162.5), Ok(Some(0.1625)));
         check(Unit::Angle, None, Some(90.0), Ok(Some(FRAC_PI_2)));
         check(Unit::Angle, Some(FRAC_PI_2), None, Ok(Some(FRAC_PI_2)));
+    }
+
+    #[test]
+    fn a_value_beyond_meaning_is_refused_with_its_limit() {
+        check(Unit::Length, Some(-LARGEST), None, Ok(Some(-LARGEST)));
+        check(Unit::Length, Some(1e200), None, Err("a_m is 1.0e200 m, limit <= 1e6 m"));
+        check(Unit::Length, None, Some(-1e12), Err("a_mm is -1.0e9 m, limit <= 1e6 m"));
+        check(Unit::Angle, None, Some(1e9), Err("a_deg is 1.7e7 rad, limit <= 1e6 rad"));
     }
 
     #[test]

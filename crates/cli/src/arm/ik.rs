@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use congruent::{
     analysis::inverse::{IkMethod, IkOptions, TargetPart, inverse, read_targets},
-    input::Diagnostic,
+    description::RobotDescription,
+    input::{Diagnostic, Findings, Severity, units::Unit},
     text::inverse_text,
 };
 
@@ -49,8 +50,24 @@ fn tolerance(text: &str) -> Result<f64, String> {
     if value > 0.0 { Ok(value) } else { Err("it must be above 0".to_owned()) }
 }
 
+/// Refuses a tolerance within which every pose counts as reached, and warns of a wide one.
+fn examine_tolerance(
+    tolerance: f64,
+    description: &RobotDescription,
+    printer: &Printer,
+) -> Result<(), Failure> {
+    let scale = description.tolerance_scale();
+    let found = [Unit::Length, Unit::Angle]
+        .into_iter()
+        .filter_map(|unit| scale.examine(unit, "--tolerance", tolerance));
+    let (wrong, wide): (Vec<_>, Vec<_>) = found.partition(|found| found.severity == Severity::Error);
+    printer.warnings(None, &wide);
+    if wrong.is_empty() { Ok(()) } else { Err(Findings::from(wrong).into()) }
+}
+
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
+    examine_tolerance(arguments.tolerance, &description, printer)?;
     let mut targets = read_targets(&arguments.targets, &description.robot)?;
     printer.warnings(None, &targets.warnings);
     if arguments.position_only {

@@ -2,7 +2,7 @@
 
 use congruent::{
     analysis::sensitivity::{plot, sensitivity},
-    input::Diagnostic,
+    input::{Diagnostic, units::LARGEST},
     kinematics::Sampling,
     text::sensitivity_text,
 };
@@ -40,7 +40,11 @@ pub(crate) struct Arguments {
 
 fn factor(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|error: std::num::ParseFloatError| error.to_string())?;
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("it must be above 0".to_owned()) }
+    if (1.0 / LARGEST..=LARGEST).contains(&value) {
+        Ok(value)
+    } else {
+        Err(format!("must be from {:e} to {LARGEST:e}", 1.0 / LARGEST))
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {

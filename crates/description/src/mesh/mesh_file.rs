@@ -1,9 +1,7 @@
 //! What a mesh file holds, whatever its format, and what may be wrong with it.
 
+use congruent_input::units::LARGEST;
 use nalgebra::{Point3, Vector3};
-
-/// The furthest that a vertex may be from the origin of its shape.
-pub(super) const FURTHEST_M: f64 = 1e6;
 
 /// The contents of a mesh file, in metres and in the file's own axes.
 #[derive(Debug, Default, PartialEq)]
@@ -49,7 +47,7 @@ pub(crate) enum MeshError {
     #[error("triangle {triangle} has a vertex that is not finite")]
     NotFinite { triangle: usize },
     /// No machine is so large, and squares of such numbers overflow.
-    #[error("a vertex is {furthest_m:.1e} m away from the origin (limit {FURTHEST_M:e} m)")]
+    #[error("a vertex is {furthest_m:.1e} m away from the origin (limit {LARGEST:e} m)")]
     TooFar { furthest_m: f64 },
     /// All triangles are degenerate, or there are none.
     #[error("no triangle has area")]

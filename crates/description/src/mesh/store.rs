@@ -6,12 +6,12 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Diagnostic, FileAccess, Packages, Resolved};
+use congruent_input::{Diagnostic, FileAccess, Packages, Resolved, units::LARGEST};
 use nalgebra::{Point3, Vector3};
 
 use super::{
     format::MeshFormat,
-    mesh_file::{FURTHEST_M, MeshError, MeshFile},
+    mesh_file::{MeshError, MeshFile},
 };
 use crate::{codes, model::Mesh};
 
@@ -124,7 +124,7 @@ fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, Me
         mesh.vertices_m.iter().map(|vertex| Point3::from(vertex.coords.component_mul(&scale))).collect();
     // After scaling: a mesh in millimetres may have coordinates of 1e5.
     let furthest_m = vertices_m.iter().fold(0.0, |furthest: f64, vertex| furthest.max(vertex.coords.amax()));
-    if furthest_m > FURTHEST_M {
+    if furthest_m > LARGEST {
         return Err(MeshError::TooFar { furthest_m });
     }
     let mut triangles = mesh.triangles;

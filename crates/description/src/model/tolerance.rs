@@ -3,7 +3,7 @@
 use congruent_input::{
     Diagnostic,
     display::{angle, length},
-    units::Unit,
+    units::{LARGEST_PLAUSIBLE_M, Unit},
 };
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
@@ -75,9 +75,11 @@ impl ToleranceScale {
     /// assert!(scale.examine(Unit::Length, "position_m", 0.1).is_none());
     /// ```
     pub fn examine(self, unit: Unit, key: &str, value: f64) -> Option<Diagnostic> {
-        let (largest, of_what, shown): (f64, &str, fn(f64) -> String) = match unit {
-            Unit::Length => (self.reach_m?, "the reach of the robot", length),
-            Unit::Angle => (std::f64::consts::PI, "half a turn", angle),
+        let (largest, of_what, shown): (f64, &str, fn(f64) -> String) = match (unit, self.reach_m) {
+            (Unit::Length, Some(reach_m)) => (reach_m, "the reach of the robot", length),
+            // Sliding joints without limits reach any distance, but no difference of two descriptions is that large.
+            (Unit::Length, None) => (LARGEST_PLAUSIBLE_M, "the largest plausible length of a robot", length),
+            (Unit::Angle, _) => (std::f64::consts::PI, "half a turn", angle),
         };
         let tenth = shown(WIDE * largest);
         let (value, whole) = (Some(value).filter(|&value| value > WIDE * largest)?, shown(largest));
@@ -179,7 +181,8 @@ mod tests {
         assert_eq!(severity(Unit::Angle, 3.0), Some(Severity::Warning));
         assert_eq!(severity(Unit::Angle, 3.2), Some(Severity::Error));
         let open = ToleranceScale { reach_m: None };
-        assert_eq!(open.examine(Unit::Length, "key", 1e9), None);
+        assert_eq!(open.examine(Unit::Length, "key", 0.9), None);
+        assert!(open.examine(Unit::Length, "key", f64::INFINITY).is_some());
         assert!(open.examine(Unit::Angle, "key", 1e9).is_some());
     }
 }

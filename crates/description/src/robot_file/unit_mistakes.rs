@@ -198,6 +198,6 @@ mod tests {
         assert_eq!(codes(&row("a_m = 0\nd_m = 500\nalpha_deg = 0")), ["robot_file::length"]);
         assert_eq!(codes(&row("a_m = 0\nd_m = 0.5\nalpha_deg = 1.5708")), ["robot_file::radians"]);
         assert_eq!(codes(&row("a_m = 0\nd_mm = 500\nalpha_deg = 90")), [""; 0]);
-        assert_eq!(codes(&row("a_mm = 1e300\nd_mm = 500\nalpha_deg = 90")), ["robot_file::length"]);
+        assert_eq!(codes(&row("a_mm = 1e8\nd_mm = 500\nalpha_deg = 90")), ["robot_file::length"]);
     }
 }

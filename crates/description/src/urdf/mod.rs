@@ -226,4 +226,3 @@ mod tests;
 pub use grammar::{Misspelling, Misspelt, misspellings};
 pub use inertial::LARGEST_GYRATION_M;
 pub use large::LargeLinks;
-pub use pose::LARGEST_PLAUSIBLE_M;

@@ -2,15 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use congruent_input::{Capability, Diagnostic, Diagnostics, display, rotation_from_rpy_fixed_xyz};
+use congruent_input::{
+    Capability, Diagnostic, Diagnostics, display, rotation_from_rpy_fixed_xyz,
+    units::{LARGEST, LARGEST_PLAUSIBLE_M},
+};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 use super::node::{element, label, place, tag};
 use crate::codes;
-
-/// Longer offsets between the parts of one robot are taken for millimetres.
-pub const LARGEST_PLAUSIBLE_M: f64 = 10.0;
 
 /// The place of an `<origin>` in the document.
 #[derive(Clone, Copy)]
@@ -54,7 +54,7 @@ pub(super) fn read(
     Isometry3::from_parts(translation, rotation_from_rpy_fixed_xyz(rpy))
 }
 
-/// Reports an offset that is implausible for a robot: a warning, or an error if its square overflows.
+/// Reports an offset that is implausible for a robot: a warning, or an error if poses would lose the digits that matter.
 fn far_away(xyz: Vector3<f64>, place: OriginPlace<'_, '_>, diagnostics: &mut Diagnostics) {
     let largest = xyz.amax();
     if largest <= LARGEST_PLAUSIBLE_M {
@@ -72,11 +72,10 @@ fn far_away(xyz: Vector3<f64>, place: OriginPlace<'_, '_>, diagnostics: &mut Dia
         (codes::urdf::MILLIMETRES, what, "origins are more than 10 m away")
     };
     let owner = label(place.owner);
-    let found = if (far_m * far_m).is_finite() {
+    let found = if far_m <= LARGEST {
         Diagnostic::warning(code, format!("{owner}: {what}")).one_of(kind, owner)
     } else {
-        let why = if is_com { "its inertia about the joint" } else { "its squared distance" };
-        let message = format!("{owner}: {what}, so far that {why} overflows");
+        let message = format!("{owner}: {what}, limit <= {LARGEST:e} m");
         Diagnostic::error(code, message).needed_by(place.needed_by)
     };
     diagnostics

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use congruent_input::{Capability, Diagnostic, Diagnostics};
+use congruent_input::{Capability, Diagnostic, Diagnostics, units::LARGEST_PLAUSIBLE_M};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
 use super::{
     node::{element, label, tag},
-    pose::{self, LARGEST_PLAUSIBLE_M},
+    pose,
 };
 use crate::{
     codes,

@@ -183,6 +183,9 @@ fn from_matrix(written: &Spanned<[[f64; 4]; 4]>) -> Result<Isometry3<f64>, Diagn
     if rows[3].iter().zip(last).any(|(found, expected)| (found - expected).abs() > ORTHONORMAL) {
         return refused(format!("the last row of matrix is {:?}, it must be [0, 0, 0, 1]", rows[3]));
     }
+    for row in &rows[..3] {
+        Unit::Length.check_range("a translation of matrix", row[3], written.span())?;
+    }
     let turn = Matrix3::from_fn(|row, column| rows[row][column]);
     // Orthonormality comes first: only then the determinant is 1 or -1, and its sign alone shows a reflection.
     let off = (turn.transpose() * turn - Matrix3::identity()).amax();
@@ -293,6 +296,9 @@ mod tests {
         refused("rpy_deg = [1, 2, 3]\nquaternion_wxyz = [1, 0, 0, 0]", "rpy and quaternion_wxyz");
         refused("quaternion_wxyz = [0.5, 0.5, 0.5, 0.6]", "norm 1.0535654");
         refused("quaternion_wxyz = [nan, 0, 0, 0]", "NaN");
+        refused("xyz_m = [0, 1e200, 0]", "xyz_m is 1.0e200 m, limit <= 1e6 m");
+        refused("rpy_rad = [1e308, 0, 0]", "limit <= 1e6 rad");
+        refused("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1e9], [0, 0, 0, 1]]", "limit <= 1e6 m");
         refused("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]]", "off by 3");
         refused("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]]", "reflection");
         refused("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]", "last row");

@@ -1,7 +1,10 @@
 //! Compares masses, inertia tensors and centres of mass with each other and with the shapes of their links.
 
-use congruent_description::{Inertia, LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M, LinkIndex};
-use congruent_input::display::{length, quantity};
+use congruent_description::{Inertia, LARGEST_GYRATION_M, LinkIndex};
+use congruent_input::{
+    display::{length, quantity},
+    units::LARGEST_PLAUSIBLE_M,
+};
 
 use super::{
     UnitCheck, UnitMistake,

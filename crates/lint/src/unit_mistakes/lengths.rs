@@ -1,7 +1,10 @@
 //! Compares joint origins with the rest of the robot, and the ranges of prismatic joints with its size.
 
-use congruent_description::{Joint, JointKind, LARGEST_PLAUSIBLE_M};
-use congruent_input::display::{length, number, quantity};
+use congruent_description::{Joint, JointKind};
+use congruent_input::{
+    display::{length, number, quantity},
+    units::LARGEST_PLAUSIBLE_M,
+};
 
 use super::{
     UnitCheck, UnitMistake,

@@ -1,7 +1,7 @@
 //! Compares the sizes of meshes and shapes with each other.
 
-use congruent_description::{Geometry, LARGEST_PLAUSIBLE_M, Shape};
-use congruent_input::display::length;
+use congruent_description::{Geometry, Shape};
+use congruent_input::{display::length, units::LARGEST_PLAUSIBLE_M};
 
 use super::{
     UnitCheck, UnitMistake,
