@@ -16,7 +16,7 @@ use crate::{
     failure::Failure,
     input::{RobotArgument, allowing_inputs, files_of, needs_to_be_allowed},
     output::file::{NewFile, folder_of},
-    terminal::print::Printer,
+    terminal::{print::Printer, progress::waiting},
 };
 
 /// A commented scenario for a robot, which passes.
@@ -57,11 +57,12 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let folder = folder_of(out)?;
     file.may_be_written(&inputs)?;
     let name = out.file_name().unwrap_or_default();
-    let draft = scenario(&description, &folder.join(name))?;
+    let find = || scenario(&description, &folder.join(name));
+    let draft = waiting(printer, "trying motions", find)?;
     let (setup, outcome) = file.write(&draft.text, &inputs, |written| {
         let setup =
             RunSetup::load_with(written, &[], &allowing_inputs(arguments.robot.access()?, &description))?;
-        let outcome = try_scenario(&setup)?;
+        let outcome = waiting(printer, "running the new scenario", || try_scenario(&setup))?;
         passed(&outcome)?;
         Ok((setup, outcome))
     })?;

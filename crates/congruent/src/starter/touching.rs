@@ -40,12 +40,19 @@ pub(super) struct FarthestMove {
 /// A motion that was tried, with its distances.
 struct CandidateMove<'a> {
     motion: &'a JointMove,
-    /// Pairs that touch, without those that usually do; then all pairs that touch.
+    /// Number of pairs that touch, without those that usually do; then of all pairs that touch.
     touching: (usize, usize),
-    /// The smallest distance of the others.
+    distances: PathDistances,
+}
+
+/// What the pairs do along a motion.
+struct PathDistances {
+    /// For each pair, whether it touches somewhere.
+    touches: Vec<bool>,
+    /// Smallest distance of the pairs that touch nowhere and do not usually touch; infinite without such pairs. Unit: m.
     least_m: f64,
-    /// Smallest distance along the motion, for each pair. Unit: m.
-    distances_m: Vec<f64>,
+    /// The same of all pairs that touch nowhere.
+    least_of_all_m: f64,
 }
 
 impl PairDistances {
@@ -77,34 +84,33 @@ impl PairDistances {
             if is_enough || at >= held + MOST {
                 break;
             }
-            let distances_m = self.along(description, motion);
-            let others = || distances_m.iter().zip(&usual).filter(|(_, usual)| !**usual).map(|(&m, _)| m);
+            let distances = self.along(description, motion, &usual);
             // Pairs that usually touch do so because of their hulls: they do not count against a motion, but decide
             // between equal ones.
-            let touching = others().filter(|&distance_m| distance_m < TOUCH_M).count();
-            let all = distances_m.iter().filter(|&&distance_m| distance_m < TOUCH_M).count();
-            let touching = (touching, all);
+            let unusual =
+                distances.touches.iter().zip(&usual).filter(|(touches, usual)| **touches && !**usual);
+            let all = distances.touches.iter().filter(|touches| **touches).count();
+            let touching = (unusual.count(), all);
             // Pairs that touch are ignored by the scenario, so that the smallest distance is that of the other
             // pairs.
-            let least_m = others().filter(|&m| m >= TOUCH_M).fold(f64::INFINITY, f64::min);
+            let least_m = distances.least_m;
             let is_better = |known: &CandidateMove<'_>| {
-                touching < known.touching || (touching == known.touching && least_m > known.least_m)
+                touching < known.touching || (touching == known.touching && least_m > known.distances.least_m)
             };
             if best.as_ref().is_none_or(is_better) {
-                best = Some(CandidateMove { motion, touching, least_m, distances_m });
+                best = Some(CandidateMove { motion, touching, distances });
             }
             if touching.0 == 0 && touching.1 <= always && least_m >= FAR_M {
                 break;
             }
         }
-        let CandidateMove { motion, distances_m, .. } = best?;
-        let touches = |pair: &usize| distances_m[*pair] < TOUCH_M;
+        let CandidateMove { motion, distances, .. } = best?;
+        let touches = |pair: &usize| distances.touches[*pair];
         let names = |pair: usize| self.clearance.names(pair).map(str::to_owned);
-        let apart = distances_m.iter().copied().filter(|&distance_m| distance_m >= TOUCH_M);
-        let all = 0..distances_m.len();
+        let all = 0..usual.len();
         Some(FarthestMove {
             motion: motion.clone(),
-            least_m: apart.min_by(f64::total_cmp),
+            least_m: Some(distances.least_of_all_m).filter(|least_m| least_m.is_finite()),
             ignored: all.clone().filter(touches).map(names).collect(),
             touching: all.filter(|pair| touches(pair) && !usual[*pair]).map(names).collect(),
         })
@@ -120,37 +126,56 @@ impl PairDistances {
         let stride = moves.len().div_ceil(MOST).max(1);
         let mut counts = vec![0_usize; self.clearance.pairs().len()];
         for motion in moves.iter().step_by(stride) {
-            let distances = self.at(&motion.start);
-            counts.iter_mut().zip(distances).for_each(|(count, m)| *count += usize::from(m < TOUCH_M));
+            self.place(&motion.start);
+            self.touching_now(|pair| counts[pair] += 1);
         }
         // Zero is the pose in which descriptions are drawn: shapes that overlap there do so by design.
         let mut zero = RobotQ::zeros(description.robot.dof());
         move_inside_limits(&mut zero, &description.robot);
-        let at_zero = self.at(&zero);
+        let mut touches_at_zero = vec![false; counts.len()];
+        self.place(&zero);
+        self.touching_now(|pair| touches_at_zero[pair] = true);
         // All but one in twenty.
         let looked_at = moves.iter().step_by(stride).len();
         let is_always = |count: usize| 20 * count >= 19 * looked_at;
         let always = counts.iter().filter(|&&count| is_always(count)).count();
-        (counts.into_iter().zip(at_zero).map(|(count, m)| m < TOUCH_M || is_always(count)).collect(), always)
+        let usual = counts.into_iter().zip(touches_at_zero);
+        (usual.map(|(count, at_zero)| at_zero || is_always(count)).collect(), always)
     }
 
-    /// The least distance of each pair along a motion.
-    fn along(&mut self, description: &RobotDescription, motion: &JointMove) -> Vec<f64> {
-        let mut least = vec![f64::INFINITY; self.clearance.pairs().len()];
-        for at in 0..=SAMPLES_OF_PATH {
-            let q = motion.at(&description.robot, f64::from(at) / f64::from(SAMPLES_OF_PATH));
-            least.iter_mut().zip(self.at(&q)).for_each(|(least, m)| *least = least.min(m));
+    /// Which pairs touch along a motion, and how near the others come. Twice along it: the smallest distance is of the pairs that
+    /// touch nowhere, and only pairs whose bound is below the smallest so far are measured.
+    fn along(&mut self, description: &RobotDescription, motion: &JointMove, usual: &[bool]) -> PathDistances {
+        let path: Vec<RobotQ> = (0..=SAMPLES_OF_PATH)
+            .map(|at| motion.at(&description.robot, f64::from(at) / f64::from(SAMPLES_OF_PATH)))
+            .collect();
+        let mut touches = vec![false; usual.len()];
+        for q in &path {
+            self.place(q);
+            self.touching_now(|pair| touches[pair] = true);
         }
-        least
+        let (mut least_m, mut least_of_all_m) = (f64::INFINITY, f64::INFINITY);
+        for q in path.iter().rev() {
+            self.place(q);
+            let unusual = self.clearance.nearest_of(least_m, |pair, _| !touches[pair] && !usual[pair]);
+            least_m = unusual.map_or(least_m, |nearest| nearest.distance_m);
+            least_of_all_m = least_of_all_m.min(least_m);
+            let any = self.clearance.nearest_of(least_of_all_m, |pair, _| !touches[pair]);
+            least_of_all_m = any.map_or(least_of_all_m, |nearest| nearest.distance_m);
+        }
+        PathDistances { touches, least_m, least_of_all_m }
     }
 
-    fn at(&mut self, q: &RobotQ) -> Vec<f64> {
+    /// Passes each pair that touches where the links are.
+    fn touching_now(&mut self, mut touching: impl FnMut(usize)) {
+        self.clearance.below(TOUCH_M, |_| f64::INFINITY, |pair, _| touching(pair));
+    }
+
+    fn place(&mut self, q: &RobotQ) {
         self.tree.root_from_links_into(q, &mut self.by_tree).expect("a configuration of this robot");
         for (pose, by_tree) in self.root_from_links.iter_mut().zip(&self.by_tree) {
             *pose = by_tree.to_isometry();
         }
         self.clearance.move_links(&self.root_from_links);
-        let pairs = self.clearance.pairs().len();
-        (0..pairs).map(|pair| self.clearance.measure(pair)).collect()
     }
 }
