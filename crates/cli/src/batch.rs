@@ -66,8 +66,42 @@ pub(crate) struct Batch<'a> {
     ci: &'a CiArguments,
     /// The files that were read for them, which no result may replace.
     read: Mutex<Vec<PathBuf>>,
-    /// The suites of the JUnit file, one for each input, until all inputs are answered.
-    suites: Mutex<Vec<TestSuite>>,
+    unfinished: Mutex<UnfinishedJunit>,
+}
+
+/// The JUnit file until all inputs are answered.
+struct UnfinishedJunit {
+    /// One for each input.
+    suites: Vec<TestSuite>,
+    /// How many inputs are answered.
+    answered: usize,
+    /// When it may be written again, once there are many answers.
+    next: Option<Instant>,
+}
+
+/// Up to so many answers the JUnit file is written after each. Kind: choice; a write takes a millisecond for these.
+const WRITTEN_AT_ONCE: usize = 64;
+/// With more answers, it is written again after so many times the duration of the last write, which is proportional to their
+/// number: written after each, a thousand answers took seven times as long as their runs.
+const PAUSE: u32 = 10;
+
+impl UnfinishedJunit {
+    /// Notes an answer, and writes the file unless it was written just now. An answer that is not written yet is an error in
+    /// the file of a call that is killed.
+    #[expect(clippy::disallowed_methods, reason = "when the JUnit file is written changes no result")]
+    fn keep(&mut self, input: usize, suite: TestSuite, ci: &CiArguments) {
+        if let Some(planned) = self.suites.get_mut(input) {
+            *planned = suite;
+        }
+        self.answered += 1;
+        let start = Instant::now();
+        if self.answered > WRITTEN_AT_ONCE && self.next.is_some_and(|next| start < next) {
+            return;
+        }
+        // A file that cannot be written is reported by `finish`, which writes it again.
+        let _ = ci.write_unfinished(&self.suites);
+        self.next = Some(start + start.elapsed() * (PAUSE + 1));
+    }
 }
 
 impl<'a> Batch<'a> {
@@ -87,7 +121,14 @@ impl<'a> Batch<'a> {
         // Before any work: a file that cannot be written is known at once, and a call that is killed later has
         // reported errors.
         ci.begin(inputs, &suites)?;
-        Ok(Self { printer, inputs, ci, read: Mutex::new(inputs.to_vec()), suites: Mutex::new(suites) })
+        let unfinished = UnfinishedJunit { suites, answered: 0, next: None };
+        Ok(Self {
+            printer,
+            inputs,
+            ci,
+            read: Mutex::new(inputs.to_vec()),
+            unfinished: Mutex::new(unfinished),
+        })
     }
 
     /// The printer of the answers.
@@ -161,15 +202,15 @@ impl<'a> Batch<'a> {
 
     /// Notes what the JUnit file must have of each input that goes on.
     pub(crate) fn plan<S>(&self, loaded: &[Answer<S>], planned: impl Fn(&S) -> TestSuite) {
-        let Ok(mut suites) = self.suites.lock() else { return };
-        for (suite, answer) in suites.iter_mut().zip(loaded) {
+        let Ok(mut unfinished) = self.unfinished.lock() else { return };
+        for (suite, answer) in unfinished.suites.iter_mut().zip(loaded) {
             *suite = match &answer.result {
                 Ok(stage) => planned(stage),
                 Err(failure) => refused_suite(&answer.input, failure),
             };
         }
         // A file that cannot be written is reported by `finish`, which writes it again.
-        let _ = self.ci.begin(self.inputs, &suites);
+        let _ = self.ci.begin(self.inputs, &unfinished.suites);
     }
 
     /// Prints at once how one of several inputs has ended; the whole answers follow at the end.
@@ -180,17 +221,15 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// Writes the answer to the input of this number to the JUnit file at once: a call that is killed keeps it.
+    /// Writes the answer to the input of this number to the JUnit file: a call that is killed keeps it.
     pub(crate) fn keep<R: BatchReport>(&self, input: usize, answer: &Answer<R>) {
         if !self.ci.has_junit() {
             return;
         }
-        let Ok(mut suites) = self.suites.lock() else { return };
-        if let Some(suite) = suites.get_mut(input) {
-            *suite = answer.suite();
+        let suite = answer.suite();
+        if let Ok(mut unfinished) = self.unfinished.lock() {
+            unfinished.keep(input, suite, self.ci);
         }
-        // A file that cannot be written is reported by `finish`, which writes it again.
-        let _ = self.ci.begin(self.inputs, &suites);
     }
 
     /// Writes the files for CI, prints all answers, and returns the worst exit code. Answers are in the order of the inputs;

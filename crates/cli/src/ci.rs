@@ -72,9 +72,8 @@ impl CiArguments {
         refuse_same(self.outputs())?;
         if let Some(path) = &self.junit {
             is_junit(path)?;
-            write_junit(path, unfinished)
-                .map_err(|error| unwritable(&error, "choose another file with --junit"))?;
         }
+        self.write_unfinished(unfinished)?;
         if let Some(path) = &self.summary {
             append_to(path, "").map_err(|error| {
                 let message = format!("cannot write {}: {error}", path.display());
@@ -82,6 +81,12 @@ impl CiArguments {
             })?;
         }
         Ok(())
+    }
+
+    /// Writes the JUnit file if one is asked for; `begin` has found that it may be written.
+    pub(crate) fn write_unfinished(&self, suites: &[TestSuite]) -> Result<(), Failure> {
+        let Some(path) = &self.junit else { return Ok(()) };
+        write_junit(path, suites).map_err(|error| unwritable(&error, "choose another file with --junit"))
     }
 
     /// Whether `--junit` is given.
