@@ -9,8 +9,8 @@ use crate::{
     codes,
     computed::{Computed, measurement},
     estimation::{
-        CorrectedChain, Measurement, Noise, Problem, fit, fit_robustly, fit_with_estimated_noise, held_out,
-        identify, most_informative,
+        CorrectedChain, FOLDS_UNSETTLED, FoldOptions, MOST_FOLDS, Measurement, Noise, Problem, fit,
+        fit_robustly, fit_with_estimated_noise, held_out, identify, most_informative,
     },
     free,
     measurements::MeasuredRow,
@@ -69,7 +69,11 @@ pub fn calibrate(
     let is_most = 2 * robust.outliers.len() > measurements.len();
     let outlier_rows = if is_most { Vec::new() } else { robust.outliers.clone() };
     let use_robust = !outlier_rows.is_empty();
-    let held_out = held_out(&chain, &measurements, options.threshold, |problem, kept| {
+    // An estimate that does not settle is no better on fewer rows, and takes its whole time in each fold.
+    let used = if use_robust { &robust.fit } else { &least_squares };
+    let folds = if used.converged { MOST_FOLDS } else { FOLDS_UNSETTLED };
+    let fold_options = FoldOptions { threshold: options.threshold, most: folds };
+    let held_out = held_out(&chain, &measurements, fold_options, |problem, kept| {
         if use_robust { robustly(problem, kept).fit.corrections } else { plain(problem, kept).corrections }
     });
     let candidates = random_configurations(&description.robot, options.seed, CANDIDATES);

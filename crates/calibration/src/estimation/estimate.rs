@@ -11,7 +11,7 @@ use super::{
 };
 
 /// Most iterations: near the solution each gains several digits, so this is far more than needed.
-const MOST_ITERATIONS: usize = 200;
+pub(super) const MOST_ITERATIONS: usize = 200;
 /// A step below this, in rad and m, ends the iteration. Kind: solver stop, a hundredth of the rounding of
 /// an angle.
 const STEP: f64 = 1e-15;
@@ -52,7 +52,8 @@ pub struct CalibrationFit {
 /// If a measurement's `q` has another length than the chain has joints.
 pub fn fit(problem: &Problem<'_>, kept: &[usize], noise: Noise) -> CalibrationFit {
     let start = vec![0.0; problem.chain.parameters().len()];
-    weighted_fit(problem, kept, start, &Weighting { noise: noise.floored(), rows: &[] })
+    let weighting = Weighting { noise: noise.floored(), rows: &[] };
+    weighted_fit(problem, kept, start, &weighting, MOST_ITERATIONS)
 }
 
 /// Least squares with the noise estimated from the residuals, of positions and of orientations separately.
@@ -66,12 +67,20 @@ pub fn fit_with_estimated_noise(problem: &Problem<'_>, kept: &[usize]) -> Calibr
     // Any ratio starts the iteration; this one makes an angle of 1 rad count like a distance of one reach.
     let mut noise = Noise { position_m: 1.0, orientation_rad: 1.0 / problem.reach_m() };
     let mut best = fit(problem, kept, noise);
+    // For all rounds together: rows that no correction explains would take all iterations in each of them.
+    let mut iterations_left = MOST_ITERATIONS - best.iterations;
     for _ in 0..NOISE_ROUNDS {
         // Noise and corrections depend on each other (the weights are 1 / noise^2), so they are estimated in
         // turn.
         noise = estimated_noise(problem, kept, &best).floored();
         let start = best.corrections.clone();
-        best = weighted_fit(problem, kept, start, &Weighting { noise, rows: &[] });
+        // At least one, so that the standard deviations are those of this noise.
+        let most = iterations_left.max(1);
+        best = weighted_fit(problem, kept, start, &Weighting { noise, rows: &[] }, most);
+        iterations_left = iterations_left.saturating_sub(best.iterations);
+    }
+    if !best.converged {
+        best.iterations = MOST_ITERATIONS - iterations_left;
     }
     best.with_redundancy(problem.redundancy(kept))
 }
@@ -130,12 +139,13 @@ pub(super) fn weighted_fit(
     kept: &[usize],
     start: Vec<f64>,
     weighting: &Weighting<'_>,
+    most_iterations: usize,
 ) -> CalibrationFit {
     let mut p = start;
     let mut equations = problem.normal_equations(&p, weighting).only(kept);
     let (mut damping, mut last_step, mut converged, mut iterations) =
         (FIRST_DAMPING, f64::INFINITY, kept.is_empty(), 0);
-    while !converged && iterations < MOST_ITERATIONS && damping < MOST_DAMPING {
+    while !converged && iterations < most_iterations && damping < MOST_DAMPING {
         iterations += 1;
         let damped = Damping { relative: damping, absolute: 0.0 };
         // Not positive definite at this damping: more of it makes the matrix diagonally dominant.

@@ -6,12 +6,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    estimate::{CalibrationFit, as_f64, weighted_fit},
+    estimate::{CalibrationFit, MOST_ITERATIONS, as_f64, weighted_fit},
     problem::{Measurement, Noise, PoseResidual, Problem, Weighting, median_norm, outlying_norm},
 };
 
 /// Most reweightings. Kind: bound; a dozen is usual.
 const MOST_ROUNDS: usize = 100;
+/// Most iterations of all reweightings together, and of all steps to the half of the rows that agrees. Kind: bound; two hundred is
+/// much for rows of the robot, and rows that do not belong to it take whatever there is.
+const MOST_ITERATIONS_OF_ROUNDS: usize = 400;
 /// Smallest ratio of the noise of one kind of component to that of the other, an angle times the reach.
 /// Kind: conditioning; its square stays well above rounding.
 const LEAST_RATIO: f64 = 1e-4;
@@ -135,6 +138,7 @@ pub fn fit_robustly(
     let scale = noise_of(&fit, 1.0 + 5.0 / redundancy);
     let mut weights = vec![1.0; problem.measurements.len()];
     let mut settled = false;
+    let mut iterations_left = MOST_ITERATIONS_OF_ROUNDS;
     for _ in 0..MOST_ROUNDS {
         let rows = problem.measurements.iter().zip(&fit.residuals);
         for (weight, (measurement, residual)) in weights.iter_mut().zip(rows) {
@@ -143,17 +147,26 @@ pub fn fit_robustly(
             *weight = loss.weight(distance(measurement, residual, &scale));
         }
         let before = fit.corrections.clone();
-        fit = weighted_fit(problem, kept, before.clone(), &Weighting { noise: scale, rows: &weights });
+        let weighting = Weighting { noise: scale, rows: &weights };
+        fit = weighted_fit(problem, kept, before.clone(), &weighting, MOST_ITERATIONS);
         let moved = before.iter().zip(&fit.corrections).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         if moved <= MOVE {
             settled = true;
             break;
         }
+        iterations_left = iterations_left.saturating_sub(fit.iterations);
+        if iterations_left == 0 {
+            break;
+        }
     }
     // The start had selected the nearest rows; now nearly all of them determine the scale.
     let noise = noise_of(&fit, (components / redundancy).sqrt());
-    fit = weighted_fit(problem, kept, fit.corrections, &Weighting { noise, rows: &weights });
+    let weighting = Weighting { noise, rows: &weights };
+    fit = weighted_fit(problem, kept, fit.corrections, &weighting, MOST_ITERATIONS);
     fit.converged &= settled;
+    if !fit.converged {
+        fit.iterations += MOST_ITERATIONS_OF_ROUNDS - iterations_left;
+    }
     let outlies = |&row: &usize| {
         let (measurement, residual) = (&problem.measurements[row], &fit.residuals[row]);
         residual.whitened_squared(&fit.noise).sqrt() > outlying_norm(measurement.component_count())
@@ -237,19 +250,21 @@ fn concentrated(
         chosen
     };
     let fit_of = |start: Vec<f64>, chosen: &[f64]| {
-        weighted_fit(problem, kept, start, &Weighting { noise, rows: chosen })
+        weighted_fit(problem, kept, start, &Weighting { noise, rows: chosen }, MOST_ITERATIONS)
     };
     let mut chosen = nearest_half(residuals);
     let mut fit = fit_of(start, &chosen);
+    let mut iterations = fit.iterations;
     for _ in 0..MOST_ROUNDS {
         let next = nearest_half(&fit.residuals);
         // Each step lowers the sum of the chosen squares, so the choice cannot return to an earlier one: equal
         // means converged.
-        if next == chosen {
+        if next == chosen || iterations >= MOST_ITERATIONS_OF_ROUNDS {
             break;
         }
         chosen = next;
         fit = fit_of(fit.corrections, &chosen);
+        iterations += fit.iterations;
     }
     fit
 }

@@ -8,7 +8,18 @@ use super::{
 use crate::estimation::configurations;
 
 /// Most folds; with fewer configurations each is a fold.
-const MOST_FOLDS: usize = 10;
+pub const MOST_FOLDS: usize = 10;
+/// Folds for an estimate that has not converged on all rows: enough to say that it explains none of the others.
+pub const FOLDS_UNSETTLED: usize = 2;
+
+/// How rows are held out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FoldOptions {
+    /// Threshold of [`identify`], with which the corrections are identified anew for each fold.
+    pub threshold: f64,
+    /// Most folds.
+    pub most: usize,
+}
 
 /// Residuals of held-out rows, which the estimate had not used.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,13 +38,12 @@ pub struct HeldOut {
 /// modulo the number of folds, so the result is deterministic. Rows that repeat a configuration are in its fold: otherwise the
 /// estimate would have used that configuration.
 ///
-/// `estimate` gives the corrections from a problem and the corrections that it may estimate, which
-/// are identified anew for each round with `threshold`. `None` for fewer than two
+/// `estimate` gives the corrections from a problem and the corrections that it may estimate. `None` for fewer than two
 /// configurations.
 pub fn held_out(
     chain: &CorrectedChain,
     measurements: &[Measurement],
-    threshold: f64,
+    FoldOptions { threshold, most }: FoldOptions,
     mut estimate: impl FnMut(&Problem<'_>, &[usize]) -> Vec<f64>,
 ) -> Option<HeldOut> {
     let configuration_of = configurations(measurements);
@@ -41,7 +51,7 @@ pub fn held_out(
     if count < 2 {
         return None;
     }
-    let folds = count.min(MOST_FOLDS);
+    let folds = count.min(most);
     let nothing =
         PoseResidual { position_m: nalgebra::Vector3::zeros(), orientation_rad: nalgebra::Vector3::zeros() };
     let mut residuals = vec![nothing; measurements.len()];
