@@ -236,6 +236,11 @@ fn many_links_are_counted_and_the_most_allowed_load() {
     assert!(lines(&load_robot(&path).unwrap_err()).contains("too many links: 10001, the limit is 10000"));
     std::fs::write(&path, chain(10_000, "")).expect("a writable folder");
     assert_eq!(load_robot(&path).unwrap().robot.links().len(), 10_000);
+    let moving = chain(2_002, "").replace("\"fixed\"", "\"continuous\"");
+    std::fs::write(&path, moving).expect("a writable folder");
+    assert!(
+        lines(&load_robot(&path).unwrap_err()).contains("too many moving joints: 2001, the limit is 2000")
+    );
 }
 
 #[test]

@@ -44,6 +44,8 @@ crate::codes! {
             "Elements are nested deeper than in any robot, which would overflow the stack of a reader. Remove the nesting; such a file is damaged or was made to do harm.";
         ATTRIBUTES = "CGR-XML-005", "xml::attributes",
             "An element has more attributes than any robot needs. Remove those that a URDF does not have.";
+        ELEMENTS = "CGR-XML-008", "xml::elements",
+            "The file has more elements or attributes than any robot, whose tree would fill the memory. Remove what is no part of the robot; such a file is damaged or was made to do harm.";
         PREFIX = "CGR-XML-006", "xml::prefix",
             "An element or attribute has a prefix (`prefix:name`) that no xmlns attribute declares. Declare the prefix on the root element, or remove it.\n    <robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">";
     }

@@ -19,8 +19,14 @@ pub const LFS_POINTER: &str = "version https://git-lfs";
 /// URDF needs six levels, vendor blocks a few more, COLLADA one for each node of a limb.
 const DEEPEST: usize = 64;
 
-/// The tree builder compares each attribute of an element with all others: a hundred thousand take a minute.
-const MOST_ATTRIBUTES: usize = 1000;
+/// The tree builder compares each attribute of an element with all others: 16 MB of elements with 64 each take some seconds.
+/// URDF, SRDF and COLLADA have at most ten.
+const MOST_ATTRIBUTES: usize = 64;
+
+/// Most elements of a file, and attributes of all of them together: a tree of `urdf-rs` needs 800 bytes for each element and 200 for
+/// each attribute. 10,000 links and joints with all their parts have 200,000 elements.
+const MOST_ELEMENTS: usize = 300_000;
+const MOST_ATTRIBUTES_IN_ALL: usize = 1_000_000;
 
 /// An element that is not closed yet.
 struct OpenElement<'a> {
@@ -35,6 +41,33 @@ impl OpenElement<'_> {
     fn opening(&self) -> Range<usize> {
         self.start..self.start + 1 + self.tag.len()
     }
+}
+
+/// The number of elements and attributes so far.
+#[derive(Default)]
+struct DocumentSize {
+    elements: usize,
+    attributes: usize,
+}
+
+impl DocumentSize {
+    fn add_element(&mut self, at: Range<usize>) -> Result<(), Diagnostic> {
+        self.elements += 1;
+        at_most(self.elements, MOST_ELEMENTS, "elements", at)
+    }
+
+    fn add_attribute(&mut self, at: Range<usize>) -> Result<(), Diagnostic> {
+        self.attributes += 1;
+        at_most(self.attributes, MOST_ATTRIBUTES_IN_ALL, "attributes", at)
+    }
+}
+
+fn at_most(count: usize, most: usize, what: &str, at: Range<usize>) -> Result<(), Diagnostic> {
+    if count <= most {
+        return Ok(());
+    }
+    let message = format!("the file has more than {most} {what}, the most that are read");
+    Err(Diagnostic::error(codes::xml::ELEMENTS, message).at(at))
 }
 
 /// The XML tree of a text.
@@ -69,6 +102,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
     no_xml(text)?;
     let mut open: Vec<OpenElement<'_>> = Vec::new();
     let mut has_root = false;
+    let mut size = DocumentSize::default();
     for token in Tokenizer::from(text) {
         let token = token.map_err(|error| {
             if has_root && open.is_empty() {
@@ -86,6 +120,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
             }
             Token::ElementStart { span, local, .. } => {
                 has_root = true;
+                size.add_element(span.range())?;
                 open.push(OpenElement {
                     tag: local.as_str(),
                     name: None,
@@ -99,6 +134,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
             }
             Token::Attribute { local, value, span, .. } => {
                 if let Some(element) = open.last_mut() {
+                    size.add_attribute(span.range())?;
                     element.attributes += 1;
                     if element.attributes > MOST_ATTRIBUTES {
                         let message = format!("<{}> has more than {MOST_ATTRIBUTES} attributes", element.tag);
@@ -268,7 +304,17 @@ mod tests {
         let attributes = |count| (0..count).map(|at| format!("k{at}='1'")).collect::<Vec<_>>().join(" ");
         let element = |count| format!("<a {}/>", attributes(count));
         assert_eq!(check(&element(MOST_ATTRIBUTES)), Ok(()));
-        refused(&element(100_000), "xml::attributes", "<a> has more than 1000 attributes");
+        refused(&element(100_000), "xml::attributes", "<a> has more than 64 attributes");
+        let many = format!("<r>{}</r>", format!("<b {}/>", attributes(50)).repeat(20_001));
+        refused(&many, "xml::elements", "more than 1000000 attributes");
+    }
+
+    /// 15 MB of such elements took 2.4 GB.
+    #[test]
+    fn elements_are_bounded() {
+        let elements = |count| format!("<r>{}</r>", "<b/>x".repeat(count));
+        assert_eq!(check(&elements(MOST_ELEMENTS - 1)), Ok(()));
+        refused(&elements(MOST_ELEMENTS), "xml::elements", "more than 300000 elements");
     }
 
     #[test]

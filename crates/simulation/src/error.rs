@@ -28,6 +28,16 @@ pub enum SimulationError {
         /// Unit of the limits: `rad` or `m`.
         unit: &'static str,
     },
+    /// The robot has so many joints that the physics would not end in a time that anyone waits for.
+    #[error(
+        "{joints} joints move, and the physics is built for at most {most}: its time for one pose grows with the square of the number"
+    )]
+    TooManyJoints {
+        /// Number of movable joints.
+        joints: usize,
+        /// The limit.
+        most: usize,
+    },
     /// Damping, dry friction, armature or a share of the effort is negative or not finite.
     #[error("joint \"{joint}\": {what} = {value} must be finite and >= 0")]
     Resistance {

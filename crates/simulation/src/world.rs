@@ -24,6 +24,10 @@ const NO_INERTIA_RATIO: f64 = 1e-15;
 /// overflows; above, one may, and rapier then continues with accelerations of zero without an error.
 const LARGEST: f64 = 1e75;
 
+/// Most movable joints. A pose costs the engine 6 n^2 entries of Jacobians in time and memory, and a check sets 4 n of them:
+/// 4 s for a chain of 300, 16 s for one of 500. A humanoid with two hands has 100. Kind: choice.
+const MOST_JOINTS: usize = 300;
+
 /// A robot in physics.
 ///
 /// The world frame is the frame of the root link, which is at rest. Vectors hold one entry for
@@ -99,10 +103,14 @@ impl World {
     /// A robot without mass is accepted: it can be placed, and stepped by a controller that places it.
     ///
     /// # Errors
-    /// [`SimulationError`] if a setting is out of range, the limits of a joint exclude each other, or a
+    /// [`SimulationError`] if a setting is out of range, the robot has more than 300 movable joints, the limits of a joint exclude each other, or a
     /// shape with contacts has no volume.
     pub fn new(robot: &Robot, settings: &WorldSettings) -> Result<Self, SimulationError> {
         check(settings)?;
+        let joints = robot.dof();
+        if joints > MOST_JOINTS {
+            return Err(SimulationError::TooManyJoints { joints, most: MOST_JOINTS });
+        }
         let bodies = Bodies::lumped(robot);
         let engine = Engine::new(build::build(robot, &bodies, settings)?, settings);
         let dof = robot.dof();

@@ -4,7 +4,7 @@ mod support;
 
 use std::sync::Arc;
 
-use congruent_description::{Geometry, Mesh, Obstacle, Robot, RobotQ};
+use congruent_description::{Geometry, JointKind, JointParts, Link, Mesh, Obstacle, Robot, RobotQ};
 use congruent_simulation::{
     Commands, Controller, JointsView, Setpoint, SimulationError, World, WorldSettings,
 };
@@ -33,6 +33,23 @@ fn limits_that_exclude_each_other() {
     let error = World::new(&robot, &WorldSettings::default()).err().unwrap();
     let expected = "joint \"shoulder_joint\": the lower limit 1 rad is above the upper limit -1 rad";
     assert_eq!(error.to_string(), expected);
+}
+
+/// A star of 1000 joints, which the physics took minutes for, and 5000 that took 4 GB.
+#[test]
+fn more_joints_than_the_physics_can_carry() {
+    let robot = |joints: usize| {
+        let link = |name: String| Link { name, ..Link::default() };
+        let links = (0..=joints).map(|index| link(index.to_string())).collect();
+        let joint = |index: usize| {
+            let (name, child) = (format!("j{index}"), index.to_string());
+            JointParts::new(&name, JointKind::Continuous, "0", &child, Isometry3::identity())
+        };
+        Robot::new("star", links, (1..=joints).map(joint).collect()).unwrap()
+    };
+    let error = World::new(&robot(301), &WorldSettings::default()).err().unwrap();
+    assert_eq!(error, SimulationError::TooManyJoints { joints: 301, most: 300 });
+    assert!(World::new(&robot(300), &WorldSettings::default()).is_ok());
 }
 
 fn mesh_obstacle(vertices_m: Vec<Point3<f64>>) -> WorldSettings {

@@ -14,6 +14,13 @@ use super::{
 /// the telescoping bound remains.
 const MAX_CORNERS_OF_BOX: u64 = 1 << 20;
 
+/// Most memory of the boxes of one search, bytes; beyond, the bound that was reached holds. Kind: choice; 2.7 million boxes of
+/// six joints, of which the searches of all examples need a tenth.
+const MOST_BYTES: usize = 512 << 20;
+
+/// What a queue and an allocator need for one box beside it. Unit: bytes; kind: measured, 60 to 80.
+const BYTES_OF_A_PLACE: usize = 80;
+
 /// Each box whose number has remainder 1 modulo this is bounded by every bound; every other box only by
 /// the bound that was least for the box that it is half of.
 const ALL_BOUNDS_EVERY: u64 = 8;
@@ -160,7 +167,7 @@ impl BranchAndBound<'_> {
 
     /// The halves of a box; `None` if its bound is good enough, or cannot be improved.
     fn split(&mut self, node: &BoxNode) -> Option<Vec<BoxNode>> {
-        let is_spent = self.corners_spent >= self.task.budget.corners;
+        let is_spent = self.corners_spent >= self.task.budget.corners || self.boxes >= self.most_boxes();
         if self.is_largest_possible() || is_spent || node.bound <= self.target() {
             return None;
         }
@@ -172,6 +179,12 @@ impl BranchAndBound<'_> {
             self.bound(intervals, node.bound, node.bound_index)
         });
         Some(parts.into())
+    }
+
+    /// The number of boxes that fit into the memory of a search: each has its intervals, and its place in the queue.
+    fn most_boxes(&self) -> u64 {
+        let bytes = size_of::<BoxNode>() + size_of_val(self.task.ranges) + BYTES_OF_A_PLACE;
+        (MOST_BYTES / bytes) as u64
     }
 
     /// Whether no configuration can have a larger disagreement than the one that was found.

@@ -48,6 +48,9 @@ pub(crate) use large::without_large_links;
 pub const URDF_BYTES: u64 = 16 << 20;
 /// The largest number of links: far above any robot, far below what would take minutes.
 const MOST_LINKS: usize = 10_000;
+/// The largest number of joints that move. Matrices have one entry for each pair of them, and a check four configurations for each:
+/// 130 MB for these, a few GB for 10,000. A humanoid with two hands has 100.
+const MOST_MOVING: usize = 2_000;
 
 /// The inputs beside the text of a URDF: a source of its meshes, and the repairs that the robot file declares.
 pub(crate) struct UrdfInputs<'a, 'm> {
@@ -72,6 +75,12 @@ pub(crate) fn parse(
     let links = elements(root, "link").count();
     if links > MOST_LINKS {
         let message = format!("too many links: {links}, the limit is {MOST_LINKS}");
+        diagnostics.push(Diagnostic::error(codes::urdf::TOO_MANY_LINKS, message).at(tag(root)));
+    }
+    let is_moving = |joint: &roxmltree::Node<'_, '_>| joint.attribute("type") != Some("fixed");
+    let moving = elements(root, "joint").filter(is_moving).count();
+    if moving > MOST_MOVING {
+        let message = format!("too many moving joints: {moving}, the limit is {MOST_MOVING}");
         diagnostics.push(Diagnostic::error(codes::urdf::TOO_MANY_LINKS, message).at(tag(root)));
     }
     if diagnostics.has_error() {
