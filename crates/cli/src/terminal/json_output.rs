@@ -53,6 +53,10 @@ impl Formatter for ForPrograms {
 /// A JSON document that no terminal and no CI host obeys. These characters are in strings alone: it stays the same
 /// document.
 fn for_programs(json: &str) -> Cow<'_, str> {
+    // Nearly every string is a name of printable ASCII.
+    if json.bytes().all(|byte| matches!(byte, b' '..=b'"' | b'$'..=b'~')) {
+        return Cow::Borrowed(json);
+    }
     let is_obeyed = |c: char| is_hidden(c) && c != '\n';
     if !json.contains(is_obeyed) && !json.contains("##") {
         return Cow::Borrowed(json);

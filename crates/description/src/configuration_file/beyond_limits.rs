@@ -14,10 +14,11 @@ pub fn outside_limits(values: &BTreeMap<String, f64>, robot: &Robot) -> Vec<Stri
     let sentence = |(name, &value): (&String, &f64)| {
         let joint = robot.joint(robot.find_joint(name)?);
         let (lower, upper) = joint.position_range()?;
-        let [shown, lower_shown, upper_shown] =
-            [value, lower, upper].map(|each| quantity(each, joint.kind.unit()));
-        (value < lower || value > upper)
-            .then(|| format!("{name} at {shown} (limits {lower_shown} to {upper_shown})"))
+        // Formatted only if it is outside: of a million configurations nearly all are inside.
+        (value < lower || value > upper).then(|| {
+            let [shown, lower, upper] = [value, lower, upper].map(|each| quantity(each, joint.kind.unit()));
+            format!("{name} at {shown} (limits {lower} to {upper})")
+        })
     };
     values.iter().filter_map(sentence).collect()
 }

@@ -68,7 +68,7 @@ impl Arm {
         Ok(Manipulability {
             linear: ellipsoid(&linear, ranks[0]),
             angular: ellipsoid(&angular, ranks[1]),
-            whole: dexterity(&sorted(&whole.singular_values()), ranks[2]),
+            whole: dexterity(&singular_values(&whole), ranks[2]),
         })
     }
 
@@ -99,17 +99,31 @@ impl Arm {
 
     /// The largest rank of each of the three Jacobians over a few fixed configurations. A single one might be singular.
     pub(super) fn attainable_ranks(&mut self) -> [usize; 3] {
+        // They are of the arm, and sixteen times the work of a configuration: found once.
+        if let Some(ranks) = self.ranks {
+            return ranks;
+        }
         let mut ranks = [0; 3];
         let metres_per_rad = self.metres_per_rad();
         for q in self.spread(RANK_SAMPLES) {
             let jacobians = self.jacobians(&q, metres_per_rad).expect("q is a configuration of this arm");
             for (rank, jacobian) in ranks.iter_mut().zip(jacobians) {
-                let values = sorted(&jacobian.singular_values());
+                let values = singular_values(&jacobian);
                 let zero = RANK_SHARE * values.first().copied().unwrap_or(0.0);
                 *rank = values.iter().filter(|&&value| value > zero).count().max(*rank);
             }
         }
+        self.ranks = Some(ranks);
         ranks
+    }
+}
+
+/// The singular values, largest first; NaN if an entry is not finite, since nalgebra would iterate for ever.
+fn singular_values(matrix: &DMatrix<f64>) -> Vec<f64> {
+    if matrix.iter().all(|entry| entry.is_finite()) {
+        sorted(&matrix.singular_values())
+    } else {
+        vec![f64::NAN; matrix.nrows().min(matrix.ncols())]
     }
 }
 
@@ -132,15 +146,23 @@ fn dexterity(values: &[f64], rank: usize) -> Dexterity {
     }
 }
 
+/// The eigenvectors of a symmetric matrix as columns, that of the largest eigenvalue first; NaN if an entry is not finite.
+fn eigenvectors(symmetric: Matrix3<f64>) -> Matrix3<f64> {
+    if !symmetric.iter().all(|entry| entry.is_finite()) {
+        return Matrix3::repeat(f64::NAN);
+    }
+    let eigen = symmetric.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    Matrix3::from_columns(&order.map(|at| eigen.eigenvectors.column(at).into_owned()))
+}
+
 /// The axes follow from `J J^T`; the singular values from `J` itself, since small ones lose half their digits in the square.
 fn ellipsoid(jacobian: &DMatrix<f64>, rank: usize) -> VelocityEllipsoid {
     // nalgebra's SVD of a 3 x n matrix with n < 3 has only n left vectors; J J^T always has three.
     let gram = Matrix3::from_fn(|row, column| jacobian.row(row).dot(&jacobian.row(column)));
-    let eigen = gram.symmetric_eigen();
-    let mut order = [0, 1, 2];
-    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-    let axes_in_base = Matrix3::from_columns(&order.map(|at| eigen.eigenvectors.column(at).into_owned()));
-    let values = sorted(&jacobian.singular_values());
+    let axes_in_base = eigenvectors(gram);
+    let values = singular_values(jacobian);
     let semi_axes = [0, 1, 2].map(|at| values.get(at).copied().unwrap_or(0.0));
     VelocityEllipsoid { axes_in_base, semi_axes, dexterity: dexterity(&values, rank) }
 }

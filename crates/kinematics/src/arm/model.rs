@@ -93,6 +93,8 @@ pub struct Arm {
     joints: Vec<ArmJoint>,
     follows: Vec<Follows>,
     metres_per_rad: f64,
+    /// The attainable ranks of its Jacobians, once they are known.
+    pub(super) ranks: Option<[usize; 3]>,
     positions: ChainQ,
     of_chain: Vec<Twist>,
     columns: Vec<Twist>,
@@ -135,6 +137,7 @@ impl Arm {
             joints,
             follows,
             metres_per_rad: 1.0,
+            ranks: None,
         };
         // Last, since it evaluates the Jacobian of the finished arm.
         arm.metres_per_rad = arm.typical_metres_per_rad();

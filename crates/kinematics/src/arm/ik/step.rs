@@ -103,7 +103,12 @@ pub(super) fn damped_pseudo_inverse(task: &IkTask<'_>, change: &mut [f64]) {
 fn through_directions(task: &IkTask<'_>, damping: impl Fn(f64) -> f64, change: &mut [f64]) {
     // J J^T = U S^2 U^T is 6 x 6 for any number of joints: its eigenvectors are the left singular vectors of J and its
     // eigenvalues the squares of the singular values, so no decomposition of J itself is needed.
-    let eigen = task.gram().symmetric_eigen();
+    let gram = task.gram();
+    // Of a matrix that is not finite nalgebra would look for eigenvalues for ever; there is no step from such a configuration.
+    if !gram.iter().all(|entry| entry.is_finite()) {
+        return change.fill(0.0);
+    }
+    let eigen = gram.symmetric_eigen();
     let largest = eigen.eigenvalues.max();
     let smallest = largest * SMALLEST_SINGULAR_SHARE * SMALLEST_SINGULAR_SHARE;
     let mut along = eigen.eigenvectors.transpose() * task.residual;
