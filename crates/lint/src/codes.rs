@@ -60,6 +60,10 @@ congruent_input::codes! {
             "The velocity limit of a prismatic joint is implausibly high. It is in m/s, not in mm/s.";
         SPEED = "CGR-UNIT-007", "units::speed",
             "The velocity limit of a revolute joint is implausibly high: in itself, for the parts that the joint carries, or for the power of its motor. It is in rad/s, not in deg/s.\n    velocity=\"180\" instead of velocity=\"3.14\"";
+        EFFORT = "CGR-UNIT-015", "units::effort",
+            "The effort limit of a turning joint, times its velocity limit, is a power that no motor of the robot's mass has. It is in N m, not in N mm.\n    effort=\"150000\" instead of effort=\"150\"";
+        DAMPING = "CGR-UNIT-016", "units::damping",
+            "The damping of a joint takes many times its effort limit at its velocity limit, so the joint could never reach that speed. It is in N m s/rad, not in N mm s/rad.";
         MASS = "CGR-UNIT-008", "units::mass",
             "The mass of a link, divided by the volume of its shapes, gives a density higher than that of any material or lower than that of any foam. Masses are in kg, not in grams; or the shapes are in a wrong unit.";
         INERTIA = "CGR-UNIT-009", "units::inertia",

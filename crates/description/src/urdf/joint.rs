@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use congruent_input::{Capability, Code, Diagnostic, Diagnostics};
+use congruent_input::{Capability, Code, Diagnostic, Diagnostics, units::LARGEST};
 use nalgebra::{Unit, Vector3};
 use roxmltree::Node;
 use urdf_rs::JointType;
@@ -20,6 +20,8 @@ use crate::{
 const AXIS_LENGTH: f64 = 1e-6;
 /// Limits beyond this many radians are taken for degrees: no cable survives four turns.
 const LARGEST_PLAUSIBLE_RAD: f64 = 4.0 * TAU;
+/// Limits from here on are no degrees either, but stand for "no limit", such as +-1e16. Unit: rad; kind: choice, 28 turns in degrees.
+const UNLIMITED_RAD: f64 = 1e4;
 /// Squares of larger positions, and sums of them, overflow. Unit: rad or m; kind: range of numbers.
 const LARGEST_LIMIT: f64 = 1e30;
 
@@ -37,6 +39,9 @@ pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut
     let parent_from_joint = pose::read(&joint.origin, place, diagnostics);
     let mut reader = JointReader { joint, node, diagnostics };
     let kind = reader.kind();
+    if let Some(mimic) = &joint.mimic {
+        reader.mimic_numbers([mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0)]);
+    }
     let read = Joint {
         name: joint.name.clone(),
         kind,
@@ -75,6 +80,16 @@ impl JointReader<'_, '_> {
 
     fn warn(&mut self, code: &'static Code, what: impl Into<String>, child: &str) {
         self.report(Diagnostic::warning(code, what), child);
+    }
+
+    /// Refuses a multiplier or an offset whose products with positions would lose all digits, or overflow.
+    fn mimic_numbers(&mut self, numbers: [f64; 2]) {
+        for (key, number) in ["multiplier", "offset"].into_iter().zip(numbers) {
+            if number.is_finite() && number.abs() > LARGEST {
+                let what = format!("mimic: {key} {number:e}, limit <= {LARGEST:e}");
+                self.error(codes::urdf::NUMBER, what, "mimic");
+            }
+        }
     }
 
     fn kind(&mut self) -> JointKind {
@@ -195,7 +210,7 @@ impl JointReader<'_, '_> {
         if furthest.is_finite() && furthest > LARGEST_LIMIT {
             let what = format!("limit {furthest:e} is too large: poses are computed up to {LARGEST_LIMIT:e}");
             self.error(codes::urdf::LIMIT, what, "limit");
-        } else if kind.is_angular() && furthest.is_finite() && furthest > LARGEST_PLAUSIBLE_RAD {
+        } else if kind.is_angular() && (LARGEST_PLAUSIBLE_RAD.next_up()..UNLIMITED_RAD).contains(&furthest) {
             let what =
                 format!("limits [{lower}, {upper}] are more than four turns: degrees instead of radians?");
             self.warn(codes::urdf::DEGREES, what, "limit");

@@ -15,7 +15,8 @@ pub struct LimitDifference {
     pub joint: String,
     /// Which kind of limit differs.
     pub cause: LimitCause,
-    /// `degrees` or `rpm` if the factor is that of this unit; otherwise empty.
+    /// `degrees`, `rpm` or `N mm` if the factor, or its inverse, is that of this unit, `degrees` also for a range of more than four
+    /// turns; the larger value is probably in it. Otherwise empty.
     pub detail: String,
     /// `velocity`, `effort`, `lower`, `upper`.
     #[serde(rename = "figure")]
@@ -56,6 +57,9 @@ pub enum LimitCause {
 }
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+const N_MM: f64 = 1000.0;
+/// No cable survives more; a URDF with such a range is warned of, too. Unit: rad.
+const FOUR_TURNS: f64 = 4.0 * std::f64::consts::TAU;
 const RPM: f64 = 30.0 / std::f64::consts::PI;
 /// Relative tolerance of a factor that names a unit. No unit; kind: digits of a file, which rounds a limit to three; the
 /// factors of degrees and rpm differ by a factor of six.
@@ -94,7 +98,7 @@ pub(crate) fn differences(
             differences.push(LimitDifference {
                 joint: candidate.frames.joint_name(joint).to_owned(),
                 cause,
-                detail: detail(cause, factor).to_owned(),
+                detail: detail(cause, both, &candidate.frames.joints[joint]).to_owned(),
                 parameter: parameter.to_owned(),
                 found,
                 expected,
@@ -132,12 +136,18 @@ const LIMITS: [LimitEntry; 4] = [
     (LimitCause::PositionLimit, "upper", |limit| Some(limit.upper)),
 ];
 
-fn detail(cause: LimitCause, factor: Option<f64>) -> &'static str {
-    let is = |unit: f64| factor.is_some_and(|factor| (factor / unit - 1.0).abs() <= FACTOR);
+fn detail(cause: LimitCause, both: Option<(f64, f64)>, joint: &JointPlace) -> &'static str {
+    let Some((found, expected)) = both.filter(|_| joint.is_angular) else { return "" };
+    // Either of the two may be the one in another unit.
+    let is = |unit: f64| {
+        [found / expected, expected / found].iter().any(|factor| (factor / unit - 1.0).abs() <= FACTOR)
+    };
     match cause {
         // Neither degrees nor rpm are units of an effort, whatever its factor is.
+        LimitCause::EffortLimit if is(N_MM) => "N mm",
         LimitCause::EffortLimit => "",
         _ if is(DEGREES) => "degrees",
+        LimitCause::PositionLimit if found.abs().max(expected.abs()) > FOUR_TURNS => "degrees",
         LimitCause::VelocityLimit if is(RPM) => "rpm",
         _ => "",
     }

@@ -1,6 +1,6 @@
 //! The sentences of the report, for people.
 
-use congruent_input::display::{length, number, quantity, quantity_with_digits};
+use congruent_input::display::{length, limit_number, number, quantity, quantity_with_digits};
 
 use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict, TorqueCertificates};
 use crate::{
@@ -105,7 +105,14 @@ impl LimitDifference {
         let [found, expected] =
             with_distinct_digits(self.found, self.expected, self.unit.symbol(), "not stated");
         let factor = self.factor.map_or_else(String::new, |factor| format!(", factor {}", number(factor)));
-        let unit = if self.detail.is_empty() { String::new() } else { format!(": in {}?", self.detail) };
+        let unit = match self.found.zip(self.expected) {
+            _ if self.detail.is_empty() => String::new(),
+            // The larger of the two is the one in another unit.
+            Some((found, expected)) if found.abs() < expected.abs() => {
+                format!(": is the expected {} in {}?", limit_number(expected), self.detail)
+            }
+            _ => format!(": in {}?", self.detail),
+        };
         let remark =
             if self.decides { "" } else { "; only one of the two states it, so this is no disagreement" };
         format!(

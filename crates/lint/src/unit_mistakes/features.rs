@@ -129,7 +129,7 @@ impl LinkInertiaFeatures {
 }
 
 /// Whether a value is zero or has one significant digit, as in 0.001.
-fn has_one_digit(value: f64) -> bool {
+pub(super) fn has_one_digit(value: f64) -> bool {
     let text = format!("{:e}", value.abs());
     value == 0.0 || text.split('e').next().is_some_and(|digits| digits.len() == 1)
 }

@@ -1,6 +1,6 @@
 //! Compares joint origins with the rest of the robot, and the ranges of prismatic joints with its size.
 
-use congruent_description::{Joint, JointKind};
+use congruent_description::{Geometry, Joint, JointKind, Shape};
 use congruent_input::{
     display::{length, number, quantity},
     units::LARGEST_PLAUSIBLE_M,
@@ -49,10 +49,13 @@ impl UnitCheck<'_> {
         let origin = joint.parent_from_joint.translation.vector;
         let length_m = origin.norm();
         let parent = self.robot.link(joint.parent);
-        // A fixed joint from an empty root link places the robot in its world, at any distance.
-        let places_robot = joint.parent == self.robot.root()
-            && joint.kind == JointKind::Fixed
-            && self.sizes.shapes[joint.parent.get()].is_none();
+        // A fixed joint from an empty root link places the robot in its world, at any distance; so does one from a footprint, which
+        // has a small box or ball to be seen, and no mass.
+        let is_mesh = |shape: &Shape| matches!(shape.geometry, Geometry::Mesh(_));
+        let is_footprint =
+            parent.inertia.is_none() && !parent.visuals.iter().chain(&parent.collisions).any(is_mesh);
+        let places_robot =
+            joint.parent == self.robot.root() && joint.kind == JointKind::Fixed && is_footprint;
         // Larger ones were reported by `urdf/pose.rs` when the file was read.
         if places_robot || length_m < LEAST_ORIGIN_M || origin.amax() > LARGEST_PLAUSIBLE_M {
             return None;

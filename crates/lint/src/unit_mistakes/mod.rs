@@ -1,9 +1,10 @@
 //! Values of a URDF that are probably in another unit, found by comparing related values: inertia with mass and shapes,
-//! joint origins with the shapes of the parent link, speeds with torques and lengths. The bounds are in `thresholds.rs`.
+//! joint origins with the shapes of the parent link, speeds with torques and lengths, damping with torques. The bounds are in `thresholds.rs`.
 //!
 //! Values that are implausible by themselves, such as 1000 m or an angle of 90 rad, are reported when the file is read.
 
 mod bodies;
+mod efforts;
 mod features;
 mod lengths;
 mod shapes;
@@ -75,6 +76,7 @@ pub fn unit_mistakes(description: &RobotDescription) -> Vec<Diagnostic> {
     unit_check.shapes();
     unit_check.bodies();
     unit_check.speeds((!lengths_are_reported).then_some(FASTEST_TIP_M_S));
+    unit_check.efforts();
     unit_check.found.in_file(places.source())
 }
 

@@ -9,7 +9,7 @@ use super::{
     lengths::is_real,
     thresholds::{
         FASTEST_CONTINUOUS_RAD_S, FASTEST_ROTOR_RAD_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG,
-        MEDIAN_TURN_RAD_S, MOST_POWER_W_KG, MOST_SPEED_TO_MEDIAN,
+        LEAST_ODD_RAD_S, MEDIAN_TURN_RAD_S, MOST_LAST_SPEED_TO_MEDIAN, MOST_POWER_W_KG, MOST_SPEED_TO_MEDIAN,
     },
 };
 use crate::codes;
@@ -20,7 +20,7 @@ const SPEED: UnitMistake = UnitMistake {
     element: "limit",
 };
 
-fn speed(joint: &Joint) -> Option<f64> {
+pub(super) fn speed(joint: &Joint) -> Option<f64> {
     let speed = joint.limit.filter(|_| joint.kind.is_angular())?.velocity?;
     (is_real(speed) && speed > 0.0).then_some(speed)
 }
@@ -36,11 +36,13 @@ impl UnitCheck<'_> {
         let all_are_fast = middle > Some(MEDIAN_TURN_RAD_S);
         let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
         for joint in robot.joints() {
-            let Some(speed) = speed(joint).filter(|speed| *speed > LEAST_FAST_RAD_S) else { continue };
+            let is_last = self.is_last(joint);
+            let least = if is_last { LEAST_FAST_RAD_S } else { LEAST_ODD_RAD_S };
+            let Some(speed) = speed(joint).filter(|speed| *speed > least) else { continue };
             if self.is_rotor(joint) && speed < FASTEST_ROTOR_RAD_S {
                 continue;
             }
-            let most = if joint.kind == JointKind::Continuous {
+            let most = if joint.kind == JointKind::Continuous || is_last {
                 FASTEST_CONTINUOUS_RAD_S
             } else {
                 FASTEST_TURN_RAD_S
@@ -49,12 +51,15 @@ impl UnitCheck<'_> {
             let effort = joint.limit.and_then(|limit| limit.effort).filter(|effort| is_real(*effort));
             let power_w = effort.map_or(0.0, |effort| effort * speed);
             // Only joints with a range are compared with the median: wheels and rotors may be far faster than the arm beside them.
+            let most_to_median = if is_last { MOST_LAST_SPEED_TO_MEDIAN } else { MOST_SPEED_TO_MEDIAN };
             let is_odd = joint.kind == JointKind::Revolute
-                && middle.is_some_and(|middle| speed > MOST_SPEED_TO_MEDIAN * middle);
+                && middle.is_some_and(|middle| speed > most_to_median * middle);
             let why = if speed > most || (all_are_fast && speed > MEDIAN_TURN_RAD_S) {
                 String::new()
             } else if let (true, Some(middle)) = (is_odd, middle) {
                 format!(", but the median of the robot's joints is {} rad/s", number(middle))
+            } else if speed <= LEAST_FAST_RAD_S {
+                continue;
             } else if fastest_tip_m_s.is_some_and(|fastest_m_s| carried_m_s > fastest_m_s) {
                 format!(", at which the parts that it carries would reach {}", quantity(carried_m_s, "m/s"))
             } else if mass_kg > LEAST_MASS_KG && power_w > MOST_POWER_W_KG * mass_kg {
@@ -68,12 +73,27 @@ impl UnitCheck<'_> {
             };
             let what = format!("its velocity limit is {} rad/s{why}", number(speed));
             let help = format!(
-                "the velocity is read in rad/s: if the value is in deg/s, {} deg/s are {} rad/s",
+                "the velocity is read in rad/s: if the value is in deg/s, {0} deg/s are {1} rad/s; {0} rpm are {2} rad/s",
                 number(speed),
-                number(speed.to_radians())
+                number(speed.to_radians()),
+                number(speed * std::f64::consts::TAU / 60.0)
             );
             self.warn_joint(&SPEED, &joint.name, &what, help);
         }
+    }
+
+    /// Whether a joint carries no other that moves.
+    fn is_last(&self, joint: &Joint) -> bool {
+        let mut carried = vec![joint.child];
+        while let Some(link) = carried.pop() {
+            for other in self.robot.joints().iter().filter(|other| other.parent == link) {
+                if other.kind.is_movable() {
+                    return false;
+                }
+                carried.push(other.child);
+            }
+        }
+        true
     }
 
     /// Whether a joint turns a propeller, a spindle or the like. Only the names of the joint and its link distinguish it from a

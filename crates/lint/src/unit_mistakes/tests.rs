@@ -49,6 +49,55 @@ fn an_arm_as_it_should_be_is_not_reported() {
 }
 
 #[test]
+fn efforts_in_n_mm_and_damping_times_1000_are_reported() {
+    check(
+        "effort='40'",
+        "effort='40000'",
+        "units::effort",
+        "40000 N m, which times its velocity limit is 124",
+    );
+    check("velocity='4.2' effort='20'/>", "velocity='4.2' effort='21500'/>", "units::effort", "\"elbow\"");
+    let damped = |damping: &str| {
+        findings(&ARM.replacen("effort='40'/>", &format!("effort='40'/><dynamics damping='{damping}'/>"), 1))
+    };
+    assert_eq!(damped("12"), []);
+    let found = damped("12000");
+    assert!(found.len() == 1 && found[0].0 == "units::damping", "{found:?}");
+    assert!(found[0].1.contains("takes 37200 N m, 930 times its effort limit"), "{found:?}");
+    // What stands for "no limit" is no mistake.
+    for effort in ["1000", "100000", "1e9"] {
+        assert_eq!(findings(&ARM.replacen("effort='40'", &format!("effort='{effort}'"), 1)), [], "{effort}");
+    }
+}
+
+/// A footprint far below the arm, with a box that is to be seen.
+#[test]
+fn a_footprint_is_at_any_distance() {
+    let footprint = "<link name='footprint'><visual><geometry><box size='0.05 0.05 0.01'/></geometry></visual></link>\
+         <joint name='foot' type='fixed'><origin xyz='0 0 0.9'/><parent link='footprint'/><child link='base'/></joint></robot>";
+    assert_eq!(findings(&ARM.replace("</robot>", footprint)), []);
+}
+
+#[test]
+fn one_length_in_inches_is_reported() {
+    let chain = |last_m: &str| {
+        let lengths_m = ["0.3", "0.25", "0.2", "0.1", last_m];
+        let joint = |(at, length_m): (usize, &&str)| {
+            format!(
+                "<link name='l{0}'/><joint name='j{at}' type='continuous'><origin xyz='0 0 {length_m}'/>\
+                 <parent link='l{at}'/><child link='l{0}'/></joint>",
+                at + 1
+            )
+        };
+        let joints: String = lengths_m.iter().enumerate().map(joint).collect();
+        findings(&format!("<robot name='r'><link name='l0'/>{joints}</robot>"))
+    };
+    assert_eq!(chain("0.08"), []);
+    let found = chain("3.15");
+    assert!(found.len() == 1 && found[0].0 == "units::origin" && found[0].1.contains("\"j4\""), "{found:?}");
+}
+
+#[test]
 fn what_belongs_together_reveals_a_mistake() {
     check("mass value='2'", "mass value='2000'", "units::mass", "781250 kg/m^3");
     check("mass value='0.06'", "mass value='60'", "units::mass", "link \"finger\"");

@@ -47,6 +47,9 @@ pub(crate) const CLASSES: &[Class] = &[
     class("joint origin, deg", &["urdf::degrees"], DEGREES, joint_rpy, 0.11),
     class("joint limits, deg", &["urdf::degrees"], DEGREES, turn_range, 0.11),
     class("joint velocity, deg/s", &["units::speed"], DEGREES, turn_speed, 0.1),
+    class("joint velocity, rpm", &["units::speed"], 30.0 / std::f64::consts::PI, turn_speed, 0.1),
+    class("effort, N mm", &["units::effort"], 1000.0, turn_effort, 0.5),
+    class("damping times 1000", &["units::damping"], 1000.0, turn_damping, 0.05),
     class("travel, mm", TRAVEL, 1000.0, slide_range, 0.005),
     class("travel, cm", TRAVEL, 100.0, slide_range, 0.01),
     class("slide velocity, mm/s", &["units::slide_speed"], 1000.0, slide_speed, 0.02),
@@ -86,6 +89,16 @@ fn turn_speed(node: &Node<'_, '_>) -> &'static [&'static str] {
     // 1000 and more is a placeholder.
     let speed: f64 = node.attribute("velocity").and_then(|speed| speed.parse().ok()).unwrap_or(0.0);
     if in_joint(node, "limit", &["revolute", "continuous"]) && speed < 1000.0 { &["velocity"] } else { &[] }
+}
+
+fn turn_effort(node: &Node<'_, '_>) -> &'static [&'static str] {
+    // 1000 and more is a placeholder.
+    let effort: f64 = node.attribute("effort").and_then(|effort| effort.parse().ok()).unwrap_or(0.0);
+    if in_joint(node, "limit", &["revolute", "continuous"]) && effort < 1000.0 { &["effort"] } else { &[] }
+}
+
+fn turn_damping(node: &Node<'_, '_>) -> &'static [&'static str] {
+    if in_joint(node, "dynamics", &["revolute", "continuous"]) { &["damping"] } else { &[] }
 }
 
 fn slide_range(node: &Node<'_, '_>) -> &'static [&'static str] {
