@@ -62,7 +62,7 @@ fn open_regular(path: &Path, most_bytes: u64) -> Result<File, Diagnostic> {
 /// It is not a regular file, or cannot be read.
 pub fn head_of(path: &Path, bytes: usize) -> Result<String, Diagnostic> {
     let mut head = Vec::new();
-    let file = File::open(path).map_err(|error| unreadable(path, &error))?;
+    let file = open_regular(path, u64::MAX)?;
     file.take(bytes as u64).read_to_end(&mut head).map_err(|error| unreadable(path, &error))?;
     Ok(String::from_utf8_lossy(&head).into_owned())
 }
@@ -301,6 +301,7 @@ mod tests {
         let (silent, pipe) = (make("silent"), make("pipe"));
         assert_eq!(read_text(&silent, 9).unwrap_err().code.name, "file::no_writer");
         assert_eq!(read_regular_bytes(&pipe, 9).unwrap_err().code.name, "file::not_regular");
+        assert_eq!(head_of(&silent, 9).unwrap_err().code.name, "file::not_regular");
         let to = pipe.clone();
         let writer = std::thread::spawn(move || std::fs::write(to, "written"));
         assert_eq!(read_text(&pipe, 9).unwrap().text, "written");
