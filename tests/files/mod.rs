@@ -6,6 +6,7 @@ mod describe;
 mod fence;
 #[cfg(target_os = "linux")]
 mod large_inputs;
+mod live_lines;
 mod long_chains;
 mod machine_faults;
 mod uses;

@@ -1,11 +1,14 @@
 //! `congruent ik`: joint positions that bring the tool to given poses.
 
-use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
+use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path, sync::Arc};
 
 use congruent_description::{
-    ArmQ, JointValues, JsonList, ReportedChain, Robot, RobotDescription, configuration, unique_names,
+    ArmQ, JointValues, JsonList, LiveEntries, LiveInput, ReportedChain, Robot, RobotDescription,
+    configuration, unique_names,
 };
-use congruent_input::{Diagnostic, Finding, Findings, display::limit_number, read_text, units::LARGEST};
+use congruent_input::{
+    Diagnostic, Finding, Findings, SourceFile, TextLines, display::limit_number, read_text, units::LARGEST,
+};
 use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use schemars::JsonSchema;
@@ -95,23 +98,65 @@ pub struct InverseSolution {
 /// # Errors
 /// The file cannot be read, is no such array, names an unknown joint or has a quaternion not of unit length.
 pub fn read_targets(path: &Path, robot: &Robot) -> Result<InverseTargets, Findings> {
-    let source = read_text(path, MOST_BYTES)?;
-    let in_file = |found: Diagnostic| found.in_file(&source);
+    read_targets_of(&read_text(path, MOST_BYTES)?, robot)
+}
+
+/// [`read_targets`] of a file that is open.
+///
+/// # Errors
+/// As [`read_targets`].
+pub fn read_targets_from(lines: TextLines, robot: &Robot) -> Result<InverseTargets, Findings> {
+    read_targets_of(&lines.whole()?.1, robot)
+}
+
+fn read_targets_of(source: &Arc<SourceFile>, robot: &Robot) -> Result<InverseTargets, Findings> {
+    let in_file = |found: Diagnostic| found.in_file(source);
     let (mut warnings, mut index) = (Vec::new(), 0);
     let entry = |written: WrittenTarget, place: Range<usize>| {
         index += 1;
         let target = checked(written, robot)?;
-        let outside = target.start.iter().filter_map(|(name, &value)| outside(robot, name, value));
-        warnings.extend(outside.map(|what| {
-            Diagnostic::warning(codes::targets::START, format!("target {index}: {what}"))
-                .with_help("the search begins at the nearest position within the limits")
-                .at(place.clone())
-        }));
+        warnings.extend(start_warnings(&target, index, robot).map(|warning| warning.at(place.clone())));
         Ok(target)
     };
     let targets = LIST.read(&source.text, entry);
     let targets = targets.map_err(|faults| faults.into_iter().map(in_file).collect::<Findings>())?;
     Ok(InverseTargets { targets, warnings: warnings.into_iter().map(in_file).collect() })
+}
+
+fn start_warnings(target: &InverseTarget, number: usize, robot: &Robot) -> impl Iterator<Item = Diagnostic> {
+    let outside = target.start.iter().filter_map(|(name, &value)| outside(robot, name, value));
+    outside.map(move |what| {
+        Diagnostic::warning(codes::targets::START, format!("target {number}: {what}"))
+            .with_help("the search begins at the nearest position within the limits")
+    })
+}
+
+/// Targets that come one by one.
+pub struct LiveTargets(LiveEntries);
+
+impl LiveTargets {
+    /// Opens what a person names, and waits for its first line.
+    ///
+    /// # Errors
+    /// It cannot be read, or is empty or no text.
+    pub fn open(path: &Path) -> Result<LiveInput<Self>, Diagnostic> {
+        Ok(match LiveEntries::open(LIST, path, MOST_BYTES)? {
+            LiveInput::Lines(entries) => LiveInput::Lines(Self(entries)),
+            LiveInput::Whole(lines) => LiveInput::Whole(lines),
+        })
+    }
+
+    /// The next target alone, with its number from 1; waits for its line. `None` at the end.
+    ///
+    /// # Errors
+    /// The line is no target for the robot.
+    pub fn next_target(&mut self, robot: &Robot) -> Result<Option<(usize, InverseTargets)>, Diagnostic> {
+        let read = self.0.next_entry(|written: WrittenTarget| checked(written, robot))?;
+        Ok(read.map(|(number, target)| {
+            let warnings = start_warnings(&target, number, robot).collect();
+            (number, InverseTargets { targets: vec![target], warnings })
+        }))
+    }
 }
 
 /// The limits that a start is outside of, unless whole turns of the joint bring it within.

@@ -9,10 +9,13 @@ use std::{
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use congruent::{
     description::{
-        Configurations, JointState, JointStateList, Robot, RobotDescription, RobotQList, configuration,
-        load_robot_with, outside_limits, outside_limits_warning, read_configurations, read_states,
+        Configurations, JointState, JointStateList, LiveInput, LiveState, LiveStates, Robot,
+        RobotDescription, RobotQList, configuration, load_robot_with, outside_limits, outside_limits_warning,
+        read_configurations, read_configurations_from, read_states, read_states_from,
     },
-    input::{Capability, Diagnostic, FileAccess, RosPackages, units::WrittenUnit},
+    input::{
+        Capability, Diagnostic, FileAccess, RosPackages, TextLines, is_standard_input, units::WrittenUnit,
+    },
 };
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
@@ -202,7 +205,8 @@ impl ArmArguments {
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConfigurationArguments {
     /// A file with one {"q": {"joint": value}} per line (JSON Lines), or a JSON array of at most 100,000 of them, in rad and
-    /// m; - is standard input. Joints that are not named are at 0.
+    /// m; - is standard input, of which `fk`, `jacobian` and `dynamics` answer each line at once, with --format json by a
+    /// document in one line. Joints that are not named are at 0.
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
     configurations: Option<PathBuf>,
     /// One joint's position in rad or m, or with a unit as 90deg, 1.57rad, 0.1m, 100mm; may be given several
@@ -241,16 +245,71 @@ impl ConfigurationArguments {
         ))
     }
 
-    /// The same with the velocities, accelerations and torques of the file; at rest and without torques if there
-    /// is none.
-    pub(crate) fn read_states_or_rest(
+    /// Answers the configurations of a file as one list, and each line of standard input when it comes. `answer` is given a list
+    /// and the number of its first entry.
+    pub(crate) fn answer(
+        &self,
+        description: &mut RobotDescription,
+        printer: &Printer,
+        mut answer: impl FnMut(&RobotDescription, &RobotQList, usize) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let Some(path) = self.live() else {
+            let list = self.read(description, printer)?;
+            return answer(description, &list, 1);
+        };
+        let each = |description: &RobotDescription, state: JointState, number| {
+            answer(description, &RobotQList::from(&state.q), number)
+        };
+        let Some(lines) = each_line(path, description, printer, each)? else { return Ok(()) };
+        let list = with_warning(read_configurations_from(*lines, &description.robot)?, description, printer);
+        answer(description, &list, 1)
+    }
+
+    /// The same with velocities, accelerations and torques.
+    pub(crate) fn answer_states(
+        &self,
+        description: &mut RobotDescription,
+        printer: &Printer,
+        mut answer: impl FnMut(&RobotDescription, &JointStateList, usize) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let Some(path) = self.live() else {
+            let list = self.read_states(description, printer)?;
+            return answer(description, &list, 1);
+        };
+        let each = |description: &RobotDescription, state: JointState, number| {
+            let mut list = JointStateList::new(state.q.len());
+            list.push(&state);
+            answer(description, &list, number)
+        };
+        let Some(lines) = each_line(path, description, printer, each)? else { return Ok(()) };
+        let list = with_warning(read_states_from(*lines, &description.robot)?, description, printer);
+        answer(description, &list, 1)
+    }
+
+    /// The same; at rest and without torques if there is no file.
+    pub(crate) fn answer_states_or_rest(
+        &self,
+        description: &mut RobotDescription,
+        printer: &Printer,
+        mut answer: impl FnMut(&RobotDescription, &JointStateList, usize) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        if self.configurations.is_some() {
+            return self.answer_states(description, printer, answer);
+        }
+        let list = self.at_rest(description, printer)?;
+        answer(description, &list, 1)
+    }
+
+    /// Standard input, if configurations come from there.
+    fn live(&self) -> Option<&Path> {
+        self.configurations.as_deref().filter(|path| is_standard_input(path))
+    }
+
+    fn at_rest(
         &self,
         description: &mut RobotDescription,
         printer: &Printer,
     ) -> Result<JointStateList, Failure> {
-        if self.configurations.is_some() {
-            return self.read_states(description, printer);
-        }
         let zeros = vec![0.0; description.robot.dof()];
         let mut at_rest = JointStateList::new(description.robot.dof());
         for q in self.read(description, printer)?.iter() {
@@ -275,6 +334,29 @@ impl ConfigurationArguments {
         };
         Ok(with_warning(read_states(path, &description.robot)?, description, printer))
     }
+}
+
+/// Answers each line of standard input when it comes; what is no list of lines is returned unread.
+fn each_line(
+    path: &Path,
+    description: &mut RobotDescription,
+    printer: &Printer,
+    mut answer: impl FnMut(&RobotDescription, JointState, usize) -> Result<(), Failure>,
+) -> Result<Option<Box<TextLines>>, Failure> {
+    let mut lines = match LiveStates::open(path)? {
+        LiveInput::Lines(lines) => lines,
+        LiveInput::Whole(lines) => return Ok(Some(lines)),
+    };
+    while let Some(LiveState { number, state, warning }) = lines.next_state(&description.robot)? {
+        printer.warnings(None, warning.as_slice());
+        // The document of this line has its warning, that of the next has not.
+        let before = description.warnings.len();
+        description.warnings.extend(warning);
+        let answered = answer(description, state, number);
+        description.warnings.truncate(before);
+        answered?;
+    }
+    Ok(None)
 }
 
 /// The entries; their warning is printed and becomes one of the description, whose warnings are in each report, and their

@@ -18,8 +18,9 @@ mod urdf;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use configuration_file::{
-    Configurations, JointState, JointStateList, JsonList, RobotQList, configuration, configurations_schema,
-    outside_limits, outside_limits_warning, read_configurations, read_states, unique_names,
+    Configurations, JointState, JointStateList, JsonList, LiveEntries, LiveInput, LiveState, LiveStates,
+    RobotQList, configuration, configurations_schema, outside_limits, outside_limits_warning,
+    read_configurations, read_configurations_from, read_states, read_states_from, unique_names,
 };
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{file_of_robot, load_opened_robot, load_robot, load_robot_with, open, parse_robot};

@@ -2,6 +2,7 @@
 
 use congruent::{
     analysis::dynamics::{DynamicsOptions, DynamicsSource, PointPayload, robot_with_options, stiction},
+    description::{JointStateList, RobotDescription},
     input::Capability,
     text::joint_dynamics_text_parts,
 };
@@ -50,15 +51,17 @@ fn payload(text: &str) -> Result<PointPayload, String> {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load_urdf(printer)?;
-    let states = arguments.configurations.read_states_or_rest(&mut description, printer)?;
     let &Arguments { source, friction, payload, .. } = arguments;
     let options = DynamicsOptions { source, friction, payload };
     description.check_capability(Capability::Physics)?;
     let robot = robot_with_options(&description, &options)?;
-    let report = congruent::joint_dynamics(&description, &robot, &options, &states)?;
-    printer.warnings(None, stiction(&description.robot, &options, &states).as_slice());
-    let printed = printer.parts(&report, joint_dynamics_text_parts);
-    report.results.end()?;
-    printed?;
+    let print = |description: &RobotDescription, states: &JointStateList, first| {
+        let report = congruent::joint_dynamics(description, &robot, &options, states)?;
+        printer.warnings(None, stiction(&description.robot, &options, states).as_slice());
+        let printed = printer.parts(&report, |report| joint_dynamics_text_parts(report, first));
+        report.results.end()?;
+        printed
+    };
+    arguments.configurations.answer_states_or_rest(&mut description, printer, print)?;
     Ok(0)
 }

@@ -35,13 +35,14 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let needed =
         if arguments.source == Source::Simulation { Capability::Physics } else { Capability::Kinematics };
     let mut description = arguments.arm.load_for(needed, printer)?;
-    let configurations = arguments.configurations.read(&mut description, printer)?;
-    let report = congruent::forward(&description, arguments.source, configurations.iter())?;
-    let report = report.between(arguments.from.as_deref(), arguments.to.as_deref())?;
-    let root = &description.robot.link(description.robot.root()).name;
     let options = text_options();
-    let printed = printer.parts(&report, |report| forward_text_parts(report, root, &options));
-    report.results.end()?;
-    printed?;
+    arguments.configurations.answer(&mut description, printer, |description, configurations, first| {
+        let report = congruent::forward(description, arguments.source, configurations.iter())?;
+        let report = report.between(arguments.from.as_deref(), arguments.to.as_deref())?;
+        let root = &description.robot.link(description.robot.root()).name;
+        let printed = printer.parts(&report, |report| forward_text_parts(report, root, first, &options));
+        report.results.end()?;
+        printed
+    })?;
     Ok(0)
 }

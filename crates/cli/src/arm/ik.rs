@@ -3,9 +3,12 @@
 use std::path::PathBuf;
 
 use congruent::{
-    analysis::inverse::{IkMethod, IkOptions, TargetPart, inverse, read_targets},
-    description::RobotDescription,
-    input::{Diagnostic, Findings, Severity, units::Unit},
+    analysis::inverse::{
+        IkMethod, IkOptions, InverseTargets, LiveTargets, TargetPart, inverse, read_targets,
+        read_targets_from,
+    },
+    description::{LiveInput, RobotDescription},
+    input::{Diagnostic, Findings, Severity, is_standard_input, units::Unit},
     text::inverse_text,
 };
 
@@ -24,8 +27,9 @@ use crate::{
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
-    /// A file (or -) with a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
-    /// value}}`; without a quaternion any orientation will do. Poses are in link `base`.
+    /// A file with a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
+    /// value}}`; without a quaternion any orientation will do. Poses are in link `base`. - is standard input, where one target per
+    /// line (JSON Lines) is answered at once, with --format json by a document in one line.
     #[arg(long, value_name = "FILE")]
     targets: PathBuf,
     /// Method by which steps are found.
@@ -68,7 +72,34 @@ fn examine_tolerance(
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
     examine_tolerance(arguments.tolerance, &description, printer)?;
-    let mut targets = read_targets(&arguments.targets, &description.robot)?;
+    if !is_standard_input(&arguments.targets) {
+        let targets = read_targets(&arguments.targets, &description.robot)?;
+        return answer(arguments, &description, targets, 1, printer);
+    }
+    let mut lines = match LiveTargets::open(&arguments.targets)? {
+        LiveInput::Lines(lines) => lines,
+        LiveInput::Whole(lines) => {
+            let targets = read_targets_from(*lines, &description.robot)?;
+            return answer(arguments, &description, targets, 1, printer);
+        }
+    };
+    let mut code = NOTHING;
+    while let Some((number, targets)) = lines.next_target(&description.robot)? {
+        let answered = answer(arguments, &description, targets, number, printer)?;
+        // Nothing was answered before the first; a target that is not reached decides.
+        code = if code == NOTHING { answered } else { code.max(answered) };
+    }
+    Ok(code)
+}
+
+/// Prints the answer to targets, of which the first has this number; the exit code.
+fn answer(
+    arguments: &Arguments,
+    description: &RobotDescription,
+    mut targets: InverseTargets,
+    first: usize,
+    printer: &Printer,
+) -> Result<u8, Failure> {
     printer.warnings(None, &targets.warnings);
     if arguments.position_only {
         for target in &mut targets.targets {
@@ -82,10 +113,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         max_iterations: arguments.iterations,
         seed: arguments.seed,
     };
-    let report = inverse(&description, &targets, &options)
+    let report = inverse(description, &targets, &options)
         .map_err(|error| Diagnostic::error(codes::ik::ROBOT, error.to_string()))?;
     printer.result(&report, |report| {
-        inverse_text(report, &description.robot, arguments.tolerance, &text_options())
+        inverse_text(report, &description.robot, arguments.tolerance, first, &text_options())
     })?;
     Ok(match &report.results[..] {
         [] => NOTHING,

@@ -1,7 +1,10 @@
 //! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
 use congruent::{
-    analysis::jacobians::{JacobianFrame, JacobianKind, jacobians, jacobians_in_motion},
+    analysis::jacobians::{
+        JacobianFrame, JacobianKind, JacobianReport, JacobianStream, jacobians, jacobians_in_motion,
+    },
+    description::RobotDescription,
     text::jacobian_text_parts,
 };
 
@@ -33,17 +36,25 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let mut description = arguments.arm.load(printer)?;
     let frame = JacobianFrame::named(&description, arguments.link.as_deref())?;
     let kind = arguments.kind;
-    let (states, configurations);
-    let report = if arguments.derivative {
-        states = arguments.configurations.read_states(&mut description, printer)?;
-        jacobians_in_motion(&description, frame, kind, states.iter())?
-    } else {
-        configurations = arguments.configurations.read(&mut description, printer)?;
-        jacobians(&description, frame, kind, configurations.iter())?
-    };
     let options = text_options();
-    let printed = printer.parts(&report, |report| jacobian_text_parts(report, &description, &options));
-    report.results.end()?;
-    printed?;
+    let print = |report: JacobianReport<JacobianStream<'_>>, description: &RobotDescription, first| {
+        let printed =
+            printer.parts(&report, |report| jacobian_text_parts(report, description, first, &options));
+        report.results.end()?;
+        printed
+    };
+    if arguments.derivative {
+        arguments.configurations.answer_states(&mut description, printer, |description, states, first| {
+            print(jacobians_in_motion(description, frame, kind, states.iter())?, description, first)
+        })?;
+    } else {
+        arguments.configurations.answer(
+            &mut description,
+            printer,
+            |description, configurations, first| {
+                print(jacobians(description, frame, kind, configurations.iter())?, description, first)
+            },
+        )?;
+    }
     Ok(0)
 }

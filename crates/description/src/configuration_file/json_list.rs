@@ -49,22 +49,36 @@ impl JsonList {
         mut lines: TextLines,
         mut check: impl FnMut(Written, &mut dyn FnMut() -> Range<usize>) -> Result<(), Diagnostic>,
     ) -> Result<(InputFile, Arc<SourceFile>), Findings> {
-        let mut has_line = lines.advance()?;
-        let (file, read) = if has_line && lines.line().trim_start().starts_with('{') {
+        let has_line = lines.advance()?;
+        let (file, read) = if has_line && is_entry(lines.line()) {
             let read = self.read_lines(&mut lines, check)?;
             (lines.close()?, read)
         } else {
-            while has_line {
-                lines.keep();
-                has_line = lines.advance()?;
-            }
-            let file = lines.close()?;
+            lines.put_back();
+            let file = lines.whole()?;
             let check = |written, place: Range<usize>| check(written, &mut || place.clone());
             let read = self.read_at_most(MOST_IN_ARRAY, &file.1.text, check);
             (file, read.map(drop))
         };
         read.map_err(|faults| faults.into_iter().map(|fault| fault.in_file(&file.1)).collect::<Findings>())?;
         Ok(file)
+    }
+
+    /// The entry in the line that was read last, which has this number from 1.
+    pub(super) fn read_line<Written: DeserializeOwned, T>(
+        &self,
+        lines: &mut TextLines,
+        number: usize,
+        check: impl FnOnce(Written) -> Result<T, Diagnostic>,
+    ) -> Result<T, Diagnostic> {
+        let read = match serde_json::from_str(lines.line().trim_end()) {
+            Ok(written) => check(written).map_err(|fault| fault.at(lines.keep())),
+            Err(error) => {
+                let at = lines.keep().start + offset_of(lines.line().trim_end(), &error);
+                Err(self.not_read(&error).at(at..at))
+            }
+        };
+        read.map_err(|fault| self.of_entry(number, fault).in_file(&lines.kept()))
     }
 
     /// The faults of the entries; the outer error is one of the file.
@@ -153,6 +167,11 @@ impl JsonList {
         let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
         Diagnostic::error(self.code, said).with_help(self.help)
     }
+}
+
+/// Whether a line begins an entry, so that the list is one of lines.
+pub(super) fn is_entry(line: &str) -> bool {
+    line.trim_start().starts_with('{')
 }
 
 /// The place that an error means in the text that was parsed.

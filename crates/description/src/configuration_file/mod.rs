@@ -2,6 +2,7 @@
 
 mod beyond_limits;
 mod json_list;
+mod live;
 mod rows;
 mod states;
 mod unique;
@@ -21,6 +22,7 @@ use crate::{
 pub use self::{
     beyond_limits::{outside_limits, outside_limits_warning},
     json_list::JsonList,
+    live::{LiveEntries, LiveInput, LiveState, LiveStates},
     rows::RobotQList,
     states::{JointState, JointStateList},
     unique::unique_names,
@@ -57,6 +59,18 @@ struct WrittenConfiguration {
     a: BTreeMap<String, f64>,
 }
 
+impl WrittenConfiguration {
+    /// The state; joints of all groups must be known, also of those that a command does not use.
+    fn state(&self, robot: &Robot) -> Result<JointState, Diagnostic> {
+        let in_ratio = |values: &BTreeMap<String, f64>| {
+            followed(values, robot, |robot, rates| robot.apply_mimic_to_speeds(rates))
+                .map(|rates| rates.to_vec())
+        };
+        let (q, tau) = (configuration(&self.q, robot)?, place(&self.tau, robot)?.to_vec());
+        Ok(JointState { q, qd: in_ratio(&self.v)?, qdd: in_ratio(&self.a)?, tau })
+    }
+}
+
 /// The JSON schema of files of configurations.
 pub fn configurations_schema() -> Schema {
     schema_for!(Vec<WrittenConfiguration>)
@@ -79,12 +93,23 @@ pub struct Configurations<List> {
 /// # Errors
 /// The file cannot be read, is no such list, is empty, or names an unknown joint.
 pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Configurations<RobotQList>, Findings> {
+    read_configurations_from(TextLines::open(path, MOST_BYTES)?, robot)
+}
+
+/// [`read_configurations`] of a file that is open.
+///
+/// # Errors
+/// As [`read_configurations`].
+pub fn read_configurations_from(
+    lines: TextLines,
+    robot: &Robot,
+) -> Result<Configurations<RobotQList>, Findings> {
     let mut list = RobotQList::new(robot.dof());
     let add = |written: &WrittenConfiguration| {
         list.push(&configuration(&written.q, robot)?);
         Ok(())
     };
-    let (warning, input) = read(path, robot, add)?;
+    let (warning, input) = read(lines, robot, add)?;
     Ok(Configurations { entries: list, warning, input: Some(input) })
 }
 
@@ -94,22 +119,26 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Configurations<
 /// # Errors
 /// As [`read_configurations`], or a mimic joint has another speed or acceleration than its master implies.
 pub fn read_states(path: &Path, robot: &Robot) -> Result<Configurations<JointStateList>, Findings> {
-    let in_ratio = |values: &BTreeMap<String, f64>| {
-        followed(values, robot, |robot, rates| robot.apply_mimic_to_speeds(rates)).map(|rates| rates.to_vec())
-    };
+    read_states_from(TextLines::open(path, MOST_BYTES)?, robot)
+}
+
+/// [`read_states`] of a file that is open.
+///
+/// # Errors
+/// As [`read_states`].
+pub fn read_states_from(lines: TextLines, robot: &Robot) -> Result<Configurations<JointStateList>, Findings> {
     let mut list = JointStateList::new(robot.dof());
     let add = |written: &WrittenConfiguration| {
-        let (q, tau) = (configuration(&written.q, robot)?, place(&written.tau, robot)?.to_vec());
-        list.push(&JointState { q, qd: in_ratio(&written.v)?, qdd: in_ratio(&written.a)?, tau });
+        list.push(&written.state(robot)?);
         Ok(())
     };
-    let (warning, input) = read(path, robot, add)?;
+    let (warning, input) = read(lines, robot, add)?;
     Ok(Configurations { entries: list, warning, input: Some(input) })
 }
 
 /// Reads a file whose entries are added to a list; the warning about positions outside the limits.
 fn read(
-    path: &Path,
+    lines: TextLines,
     robot: &Robot,
     mut add: impl FnMut(&WrittenConfiguration) -> Result<(), Diagnostic>,
 ) -> Result<(Option<Diagnostic>, InputFile), Findings> {
@@ -128,7 +157,7 @@ fn read(
         }
         add(&written)
     };
-    let (input, source) = LIST.read_file(TextLines::open(path, MOST_BYTES)?, entry)?;
+    let (input, source) = LIST.read_file(lines, entry)?;
     if index == 0 {
         return Err(no_entry().in_file(&source).into());
     }

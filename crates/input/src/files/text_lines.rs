@@ -20,6 +20,9 @@ pub struct TextLines {
     path: PathBuf,
     from: Take<BufReader<Box<dyn Read>>>,
     most_bytes: u64,
+    /// Whether the limit is of each line.
+    is_endless: bool,
+    is_put_back: bool,
     digest: Sha256,
     line: String,
     /// Lines that were read.
@@ -39,6 +42,8 @@ impl TextLines {
             path: path.to_owned(),
             from: BufReader::new(open_named(path, most_bytes)?).take(most_bytes + 1),
             most_bytes,
+            is_endless: false,
+            is_put_back: false,
             digest: Sha256::new(),
             line: String::new(),
             count: 0,
@@ -52,9 +57,15 @@ impl TextLines {
     /// # Errors
     /// The file cannot be read, is too large, is empty or is no text.
     pub fn advance(&mut self) -> Result<bool, Diagnostic> {
+        if std::mem::take(&mut self.is_put_back) {
+            return Ok(!self.line.is_empty());
+        }
         loop {
             let mut bytes = std::mem::take(&mut self.line).into_bytes();
             bytes.clear();
+            if self.is_endless {
+                self.from.set_limit(self.most_bytes + 1);
+            }
             self.from.read_until(b'\n', &mut bytes).map_err(|error| unreadable(&self.path, &error))?;
             if self.from.limit() == 0 {
                 return Err(too_large(&self.path, self.most_bytes + 1, self.most_bytes));
@@ -66,6 +77,18 @@ impl TextLines {
                 return Ok(!self.line.is_empty());
             }
         }
+    }
+
+    /// The same for a text that may come for any length of time: each line has at most as many bytes as a file could have.
+    #[must_use]
+    pub fn of_any_length(mut self) -> Self {
+        self.is_endless = true;
+        self
+    }
+
+    /// Makes the line that was read last the next one again.
+    pub fn put_back(&mut self) {
+        self.is_put_back = true;
     }
 
     /// The line that was read last, with its end.
@@ -82,6 +105,23 @@ impl TextLines {
         }
         let start = self.kept.len() - self.line.len();
         start..start + self.line.trim_end().len()
+    }
+
+    /// The text so far, of which lines that were not kept are empty.
+    pub fn kept(&self) -> Arc<SourceFile> {
+        Arc::new(SourceFile { path: self.path.clone(), text: self.kept.clone(), is_foreign: false })
+    }
+
+    /// The file with its digest, and all of its text.
+    ///
+    /// # Errors
+    /// As [`TextLines::close`].
+    pub fn whole(mut self) -> Result<(InputFile, Arc<SourceFile>), Diagnostic> {
+        self.is_endless = false;
+        while self.advance()? {
+            self.keep();
+        }
+        self.close()
     }
 
     /// The file with its digest, and its text, of which lines that were not kept are empty.

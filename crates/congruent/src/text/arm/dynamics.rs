@@ -1,6 +1,6 @@
 //! What `congruent dynamics` prints.
 
-use std::{fmt::Write, iter::once};
+use std::fmt::Write;
 
 use crate::{
     analysis::dynamics::{DynamicsResult, DynamicsStream, JointDynamicsReport, PointPayload},
@@ -11,9 +11,10 @@ use crate::{
 type Report<'a> = JointDynamicsReport<DynamicsStream<'a>>;
 
 /// What `congruent dynamics` prints: the source, then torques, accelerations and the mass matrix at each state, in parts of
-/// whole lines.
+/// whole lines. `first` is the number of the first state; the heading is left out if that is not 1.
 pub fn joint_dynamics_text_parts<'a>(
     report: &'a JointDynamicsReport<DynamicsStream<'_>>,
+    first: usize,
 ) -> impl Iterator<Item = String> + 'a {
     let source = serde_name(&report.source);
     let mut text = format!("{}: dynamics by the {source}", report.robot);
@@ -28,7 +29,7 @@ pub fn joint_dynamics_text_parts<'a>(
         state(&mut text, report, &result);
         text
     };
-    once(text).chain((1..).zip(report.results.iter()).map(one))
+    (first == 1).then_some(text).into_iter().chain((first..).zip(report.results.iter()).map(one))
 }
 
 fn state(text: &mut String, report: &Report<'_>, result: &DynamicsResult) {

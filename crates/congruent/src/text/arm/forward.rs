@@ -1,7 +1,5 @@
 //! What `congruent fk` prints.
 
-use std::iter::once;
-
 use crate::{
     analysis::forward::{ForwardReport, PoseStream, ReportedLinkPoses},
     text::{
@@ -11,10 +9,11 @@ use crate::{
 };
 
 /// What `congruent fk` prints: the chain, then a table of poses for each configuration, in parts of whole lines. `root` is the
-/// name of the root link.
+/// name of the root link, `first` the number of the first configuration; the chain is left out if that is not 1.
 pub fn forward_text_parts<'a>(
     report: &'a ForwardReport<PoseStream<'_>>,
     root: &str,
+    first: usize,
     options: &'a TextOptions,
 ) -> impl Iterator<Item = String> + 'a {
     let columns = options.columns;
@@ -28,5 +27,6 @@ pub fn forward_text_parts<'a>(
         table.write(&mut text, columns);
         text
     };
-    once(format!("{}\n", report.chain)).chain((1..).zip(report.results.iter()).map(configuration))
+    let heading = (first == 1).then(|| format!("{}\n", report.chain));
+    heading.into_iter().chain((first..).zip(report.results.iter()).map(configuration))
 }

@@ -9,14 +9,15 @@ use crate::{
     text::{TextOptions, layout::Table},
 };
 
-/// What `congruent ik` prints: for each target whether it is reached within the tolerance (in m), and the joint positions.
+/// What `congruent ik` prints: for each target whether it is reached within the tolerance (in m), and the joint positions. `first` is the number of the first target; the chain is left out if that is not 1.
 pub fn inverse_text(
     report: &InverseReport,
     robot: &Robot,
     tolerance_m: f64,
+    first: usize,
     options: &TextOptions,
 ) -> String {
-    let mut text = format!("{}\n", report.chain);
+    let mut text = if first == 1 { format!("{}\n", report.chain) } else { String::new() };
     if report.results.is_empty() {
         text += "the file has no target\n";
     }
@@ -24,7 +25,7 @@ pub fn inverse_text(
         let _ = writeln!(
             text,
             "target {}: {} after {} steps, residual {}, tolerance {}",
-            index + 1,
+            first + index,
             if result.converged { "reached" } else { "NOT REACHED" },
             result.iterations,
             length_and_angle(result.residual_position_m, result.residual_orientation_rad),

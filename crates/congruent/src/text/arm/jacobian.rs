@@ -1,6 +1,6 @@
 //! What `congruent jacobian` prints.
 
-use std::{fmt::Write, iter::once};
+use std::fmt::Write;
 
 use crate::{
     analysis::jacobians::{JacobianBlocks, JacobianKind, JacobianReport, JacobianResult, JacobianStream},
@@ -12,10 +12,11 @@ use crate::{
 type Report<'a> = JacobianReport<JacobianStream<'a>>;
 
 /// What `congruent jacobian` prints: the frame and the point, then the columns of the Jacobian at each configuration, in parts
-/// of whole lines.
+/// of whole lines. `first` is the number of the first configuration; the heading is left out if that is not 1.
 pub fn jacobian_text_parts<'a>(
     report: &'a JacobianReport<JacobianStream<'_>>,
     description: &RobotDescription,
+    first: usize,
     options: &'a TextOptions,
 ) -> impl Iterator<Item = String> + 'a {
     let frame = frame(report, description);
@@ -35,7 +36,7 @@ pub fn jacobian_text_parts<'a>(
         }
         text
     };
-    once(text).chain((1..).zip(report.results.iter()).map(configuration))
+    (first == 1).then_some(text).into_iter().chain((first..).zip(report.results.iter()).map(configuration))
 }
 
 /// The frame, and the other one that could be meant.
