@@ -1,6 +1,6 @@
 //! `congruent derive --base-parameters`: the combinations of inertial parameters that are identifiable from joint torques.
 
-use congruent_description::{JointIndex, RobotDescription, RobotQ};
+use congruent_description::{DrivenCoordinates, Followers, JointIndex, RobotDescription, RobotQ};
 use congruent_dynamics::{BodyTree, DynamicsError, InertialParameter, JointMotionState};
 use congruent_input::Finding;
 use congruent_kinematics::{Uniform, range};
@@ -52,7 +52,8 @@ pub struct BaseParameterReport {
     pub file: String,
     /// Name of the robot.
     pub robot: String,
-    /// Movable joints; mimic joints are independent.
+    /// The driven joints, whose torques are meant: the torque of a joint that follows another by `<mimic>` acts on that one.
+    /// With `--free-followers` all moving joints, each as if it were driven.
     pub joints: Vec<String>,
     /// Number of inertial parameters of all bodies: ten each.
     pub of: usize,
@@ -80,28 +81,33 @@ const FASTEST: f64 = 3.0;
 /// For a body on one hinge that is not vertical, three of ten parameters are identifiable:
 /// ```
 /// use congruent_analysis::base_parameters::base_parameters;
-/// use congruent_description::parse_robot;
+/// use congruent_description::{Followers, parse_robot};
 /// use congruent_input::SourceFile;
 /// let urdf = r#"<robot name="rod"><link name="base"/><link name="rod"/>
 ///   <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint></robot>"#;
 /// let source = SourceFile { path: "rod.urdf".into(), text: urdf.into(), is_foreign: false };
 /// let description = parse_robot(None, &source.into()).unwrap();
-/// let report = base_parameters(&description, 0)?;
+/// let report = base_parameters(&description, Followers::Folded, 0)?;
 /// let names: Vec<&str> = report.base_parameters.iter().map(|group| group.of.parameter).collect();
 /// assert_eq!((names, report.of), (vec!["iyy", "mx", "mz"], 10));
 /// # Ok::<(), congruent_dynamics::DynamicsError>(())
 /// ```
 pub fn base_parameters(
     description: &RobotDescription,
+    followers: Followers,
     seed: u64,
 ) -> Result<BaseParameterReport, DynamicsError> {
     let robot = &description.robot;
-    let tree = BodyTree::new(robot).without_resistances().with_independent_mimics();
+    let tree = BodyTree::new(robot).without_resistances();
+    let (tree, follow) = match followers {
+        Followers::Folded => (tree, true),
+        Followers::Free => (tree.with_independent_mimics(), false),
+    };
     let mut random = Uniform::seeded(seed);
     // All rates are drawn before the positions: the order of the draws fixes the motions of a seed.
     let mut rates =
         |count: usize| -> Vec<f64> { (0..count).map(|_| random.between(-FASTEST, FASTEST)).collect() };
-    let moving: Vec<(Vec<f64>, Vec<f64>)> =
+    let mut moving: Vec<(Vec<f64>, Vec<f64>)> =
         (0..MOTIONS).map(|_| (rates(robot.dof()), rates(robot.dof()))).collect();
     let mut place = || -> RobotQ {
         let draw = |&joint: &JointIndex| {
@@ -110,7 +116,14 @@ pub fn base_parameters(
         };
         robot.movable_joints().iter().map(draw).collect()
     };
-    let places: Vec<RobotQ> = (0..MOTIONS).map(|_| place()).collect();
+    let mut places: Vec<RobotQ> = (0..MOTIONS).map(|_| place()).collect();
+    if follow {
+        for (q, (qd, qdd)) in places.iter_mut().zip(&mut moving) {
+            robot.apply_mimic(q);
+            robot.apply_mimic_to_speeds(qd);
+            robot.apply_mimic_to_speeds(qdd);
+        }
+    }
     let motions: Vec<JointMotionState<'_>> =
         places.iter().zip(&moving).map(|(q, (qd, qdd))| JointMotionState { q, qd, qdd }).collect();
     let found = tree.base_parameters(&motions)?;
@@ -138,7 +151,7 @@ pub fn base_parameters(
     Ok(BaseParameterReport {
         file: description.urdf_path.display().to_string(),
         robot: description.name.clone(),
-        joints: robot.movable_joint_names().map(str::to_owned).collect(),
+        joints: DrivenCoordinates::new(robot, followers).joint_names(robot),
         of: congruent_dynamics::PARAMETERS * robot.dof(),
         base_parameters: groups.collect(),
         not_seen: found.without_effect.iter().map(named).collect(),

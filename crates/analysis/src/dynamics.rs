@@ -1,6 +1,8 @@
 //! `congruent dynamics`: torques and accelerations of a robot at given states.
 
-use congruent_description::{JointState, JointStateList, ReportedChain, Robot, RobotDescription};
+use congruent_description::{
+    DrivenCoordinates, Followers, JointState, JointStateList, ReportedChain, Robot, RobotDescription,
+};
 use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError, JointMotionState, SpatialInertia};
 use congruent_input::{Diagnostic, Finding, SiUnit};
 use nalgebra::{DMatrix, Point3, Vector3};
@@ -37,6 +39,8 @@ pub struct DynamicsOptions {
     pub friction: bool,
     /// A mass that the tool carries.
     pub payload: Option<PointPayload>,
+    /// How joints that follow others count.
+    pub followers: Followers,
 }
 
 /// The dynamics at one state. Torques are in N m, those of prismatic joints in N.
@@ -50,7 +54,7 @@ pub struct DynamicsResult {
     pub bias_n_m: Vec<f64>,
     /// Torques of the motion `q`, `v`, `a`.
     pub inverse_dynamics_n_m: Vec<f64>,
-    /// Accelerations under `tau`, in rad/s^2 and m/s^2; mimic joints keep their ratio.
+    /// Accelerations under `tau`, in rad/s^2 and m/s^2.
     pub forward_dynamics: Vec<f64>,
 }
 
@@ -62,7 +66,8 @@ pub struct JointDynamicsReport<Results> {
     pub robot: String,
     /// Base and tip, on which a payload hangs.
     pub chain: ReportedChain,
-    /// Movable joints, in the order of vectors; mimic joints are independent but in `forward_dynamics`.
+    /// The driven joints, in the order of vectors: the torque of a joint that follows another by `<mimic>` acts on that one,
+    /// and is counted there. With `--free-followers` all moving joints, each as if it were driven.
     pub joints: Vec<String>,
     /// Unit of each joint's position: `rad` or `m`.
     #[schemars(with = "Vec<String>")]
@@ -89,7 +94,11 @@ impl DynamicsResult {
     ///
     /// # Errors
     /// [`JointDynamicsError`] if the source refuses the state.
-    pub fn at(state: &JointState, by: &mut dyn JointDynamics) -> Result<Self, JointDynamicsError> {
+    pub fn at(
+        state: &JointState,
+        by: &mut dyn JointDynamics,
+        coordinates: &DrivenCoordinates,
+    ) -> Result<Self, JointDynamicsError> {
         let JointState { q, qd, qdd, tau } = state;
         let n = qd.len();
         let zeros = vec![0.0; n];
@@ -100,13 +109,24 @@ impl DynamicsResult {
         // Bias by the same source, rather than by subtraction, which would lose digits.
         by.inverse_into(&JointMotionState { q, qd, qdd: &zeros }, &mut bias)?;
         by.inverse_into(&JointMotionState { q, qd, qdd }, &mut inverse)?;
-        by.forward_into(&DrivenState { q, qd, tau }, &mut forward)?;
+        let driven = DrivenState { q, qd, tau };
+        if coordinates.driven().len() == n {
+            by.independent_forward_into(&driven, &mut forward)?;
+        } else {
+            by.forward_into(&driven, &mut forward)?;
+        }
+        // G' M G, rows first; of the rows of followers the multiples are added to those of their masters.
+        let rows: Vec<Vec<f64>> =
+            matrix.column_iter().map(|column| coordinates.folded(column.as_slice())).collect();
+        let of_driven = |row: usize| rows.iter().map(|column| column[row]).collect::<Vec<f64>>();
         Ok(Self {
-            gravity_n_m: gravity,
-            mass_matrix: matrix.row_iter().map(|row| row.iter().copied().collect()).collect(),
-            bias_n_m: bias,
-            inverse_dynamics_n_m: inverse,
-            forward_dynamics: forward,
+            gravity_n_m: coordinates.folded(&gravity),
+            mass_matrix: (0..coordinates.driven().len())
+                .map(|row| coordinates.folded(&of_driven(row)))
+                .collect(),
+            bias_n_m: coordinates.folded(&bias),
+            inverse_dynamics_n_m: coordinates.folded(&inverse),
+            forward_dynamics: coordinates.of_driven(&forward),
         })
     }
 
@@ -159,10 +179,14 @@ pub fn dynamics<'a>(
     mut by: Box<dyn JointDynamics + 'a>,
     states: &'a JointStateList,
 ) -> Result<JointDynamicsReport<DynamicsStream<'a>>, Diagnostic> {
-    let at = move |state: JointState| DynamicsResult::at(&state, &mut *by).map_err(|error| refused(&error));
+    let coordinates = DrivenCoordinates::new(robot, options.followers);
+    let driven = coordinates.of_driven(robot.movable_joints());
+    let at = move |state: JointState| {
+        DynamicsResult::at(&state, &mut *by, &coordinates).map_err(|error| refused(&error))
+    };
     let results = Stream::begin(states.iter().map(at))?;
     let at_rest = stiction(robot, options, states);
-    let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+    let joints = || driven.iter().map(|&joint| robot.joint(joint));
     Ok(JointDynamicsReport {
         robot: description.name.clone(),
         chain: description.reported_chain(),

@@ -1,6 +1,8 @@
 //! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
-use congruent_description::{JointState, LinkIndex, ReportedChain, RobotDescription, RobotQ};
+use congruent_description::{
+    DrivenCoordinates, Followers, JointState, LinkIndex, ReportedChain, RobotDescription, RobotQ,
+};
 use congruent_input::{Diagnostic, Finding, known_names};
 use congruent_kinematics::{Jacobian, KinematicsError, Pose, ReportedPose, UrdfTree};
 use nalgebra::Matrix3xX;
@@ -21,14 +23,14 @@ pub struct JacobianBlocks {
     pub angular: [Vec<f64>; 3],
 }
 
-impl From<&Jacobian> for JacobianBlocks {
-    fn from(jacobian: &Jacobian) -> Self {
-        Self { linear: rows(&jacobian.linear()), angular: rows(&jacobian.angular()) }
+impl JacobianBlocks {
+    /// The columns of the driven joints: a follower moves the frame by its ratio, as a part of its master's motion.
+    fn new(jacobian: &Jacobian, coordinates: &DrivenCoordinates) -> Self {
+        let rows = |block: Matrix3xX<f64>| {
+            [0, 1, 2].map(|row| coordinates.folded(&block.row(row).iter().copied().collect::<Vec<f64>>()))
+        };
+        Self { linear: rows(jacobian.linear()), angular: rows(jacobian.angular()) }
     }
-}
-
-fn rows(block: &Matrix3xX<f64>) -> [Vec<f64>; 3] {
-    [0, 1, 2].map(|row| block.row(row).iter().copied().collect())
 }
 
 /// The Jacobian at one configuration.
@@ -50,7 +52,8 @@ pub struct JacobianReport<Results> {
     pub robot: String,
     /// Base and tip, and who named them.
     pub chain: ReportedChain,
-    /// Movable joints, in the order of columns; mimic joints have columns of their own.
+    /// The driven joints, in the order of columns: a joint that follows another by `<mimic>` is part of the column of that one.
+    /// With `--free-followers` all moving joints, each as if it were driven.
     pub joints: Vec<String>,
     /// The frame that moves, and whose origin is the point of the linear part: a link, or `tcp` for the declared tool
     /// centre point.
@@ -137,15 +140,18 @@ pub fn jacobians<'a>(
     description: &RobotDescription,
     frame: JacobianFrame,
     kind: JacobianKind,
+    followers: Followers,
     configurations: impl Iterator<Item = RobotQ> + 'a,
 ) -> Result<JacobianReport<JacobianStream<'a>>, Diagnostic> {
     let tree = UrdfTree::new(&description.robot);
+    let coordinates = DrivenCoordinates::new(&description.robot, followers);
+    let driven = coordinates.clone();
     let (link, link_from_frame) = frame.in_link();
     let at = move |q: RobotQ| {
         let jacobian = tree.jacobian_of_frame(&q, link, &link_from_frame, kind)?;
-        Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative: None })
+        Ok(JacobianResult { jacobian: JacobianBlocks::new(&jacobian, &coordinates), derivative: None })
     };
-    report(description, frame, kind, configurations.map(at))
+    report(description, frame, kind, &driven, configurations.map(at))
 }
 
 /// Jacobians of one frame and their time derivatives, from the URDF chain, each computed on demand.
@@ -156,22 +162,26 @@ pub fn jacobians_in_motion<'a>(
     description: &RobotDescription,
     frame: JacobianFrame,
     kind: JacobianKind,
+    followers: Followers,
     states: impl Iterator<Item = JointState> + 'a,
 ) -> Result<JacobianReport<JacobianStream<'a>>, Diagnostic> {
     let tree = UrdfTree::new(&description.robot);
+    let coordinates = DrivenCoordinates::new(&description.robot, followers);
+    let driven = coordinates.clone();
     let (link, link_from_frame) = frame.in_link();
     let at = move |JointState { q, qd, .. }: JointState| {
         let jacobian = tree.jacobian_of_frame(&q, link, &link_from_frame, kind)?;
-        let derivative = Some(JacobianBlocks::from(&jacobian.rate(&qd)?));
-        Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative })
+        let derivative = Some(JacobianBlocks::new(&jacobian.rate(&qd)?, &coordinates));
+        Ok(JacobianResult { jacobian: JacobianBlocks::new(&jacobian, &coordinates), derivative })
     };
-    report(description, frame, kind, states.map(at))
+    report(description, frame, kind, &driven, states.map(at))
 }
 
 fn report<'a>(
     description: &RobotDescription,
     frame: JacobianFrame,
     kind: JacobianKind,
+    coordinates: &DrivenCoordinates,
     results: impl Iterator<Item = Result<JacobianResult, KinematicsError>> + 'a,
 ) -> Result<JacobianReport<JacobianStream<'a>>, Diagnostic> {
     let refused =
@@ -188,7 +198,7 @@ fn report<'a>(
     Ok(JacobianReport {
         chain: description.reported_chain(),
         robot: description.name.clone(),
-        joints: robot.movable_joint_names().map(str::to_owned).collect(),
+        joints: coordinates.joint_names(robot),
         link,
         tcp,
         kind,

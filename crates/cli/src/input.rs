@@ -9,7 +9,7 @@ use std::{
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use congruent::{
     description::{
-        Configurations, JointState, JointStateList, LiveInput, LiveState, LiveStates, Robot,
+        Configurations, Followers, JointState, JointStateList, LiveInput, LiveState, LiveStates, Robot,
         RobotDescription, RobotQList, configuration, load_robot_with, outside_limits, outside_limits_warning,
         read_configurations, read_configurations_from, read_states, read_states_from,
     },
@@ -198,6 +198,21 @@ impl ArmArguments {
         let mut description = self.robot.read()?;
         description.dh = None;
         self.chain.choose(description, printer)
+    }
+}
+
+/// How joints that follow others count.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct FollowerArgument {
+    /// Count each joint that follows another by <mimic> as if it were driven; by default its torques and velocities are part
+    /// of those of the joint that it follows.
+    #[arg(long)]
+    free_followers: bool,
+}
+
+impl FollowerArgument {
+    pub(crate) fn followers(&self) -> Followers {
+        if self.free_followers { Followers::Free } else { Followers::Folded }
     }
 }
 

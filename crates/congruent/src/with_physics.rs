@@ -9,7 +9,7 @@ use congruent_analysis::{
     },
     forward::{ForwardReport, PoseStream, Source, forward_by_table},
 };
-use congruent_description::{JointStateList, Robot, RobotDescription, RobotQ};
+use congruent_description::{DrivenCoordinates, JointStateList, Robot, RobotDescription, RobotQ};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_input::{Capability, Diagnostic, Findings};
 use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};
@@ -62,8 +62,9 @@ pub fn joint_dynamics<'a>(
         }
     };
     // Nothing is written if there is a state that cannot be answered, so all are tried before the first is.
+    let coordinates = DrivenCoordinates::new(robot, options.followers);
     for state in states.iter() {
-        match DynamicsResult::at(&state, &mut *by) {
+        match DynamicsResult::at(&state, &mut *by, &coordinates) {
             Ok(result) if result.is_finite() => {}
             // A number that overflows may look like a joint without inertia.
             Ok(_) => return Err(beyond_numbers(description, robot, states).into()),

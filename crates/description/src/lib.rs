@@ -26,9 +26,10 @@ pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{file_of_robot, load_opened_robot, load_robot, load_robot_with, open, parse_robot};
 pub use mesh::{HullPoints, read_mesh};
 pub use model::{
-    ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Extent, Geometry, Inertia, Joint,
-    JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Obstacle,
-    Robot, RobotError, RobotQ, SPEED_MARGIN, Shape, Tolerance, ToleranceScale, principal_moments,
+    ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
+    Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex,
+    Mesh, Mimic, Obstacle, Robot, RobotError, RobotQ, SPEED_MARGIN, Shape, Tolerance, ToleranceScale,
+    principal_moments,
 };
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint,

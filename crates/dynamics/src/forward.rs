@@ -126,7 +126,7 @@ impl BodyTree {
     }
 
     /// Which of the independent joints moves a joint, and by which ratio.
-    fn driver(&self, joint: usize) -> (usize, f64) {
+    pub(crate) fn driver(&self, joint: usize) -> (usize, f64) {
         let (master, ratio) = self.mimics[joint].map_or((joint, 1.0), |mimic| (mimic.master, mimic.ratio));
         let row = self.independent.iter().position(|&independent| independent == master);
         (row.expect("a mimicked joint is independent"), ratio)

@@ -9,7 +9,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{ArmArguments, ConfigurationArguments, named},
+    input::{ArmArguments, ConfigurationArguments, FollowerArgument, named},
     terminal::print::Printer,
 };
 
@@ -29,6 +29,8 @@ pub(crate) struct Arguments {
     /// Include the damping and the dry friction of the description.
     #[arg(long)]
     friction: bool,
+    #[command(flatten)]
+    followers: FollowerArgument,
     /// A mass at the tool centre point, in kg; with X,Y,Z in m it is there in the frame of the TCP.
     #[arg(long, value_name = "KG[,X,Y,Z]", value_parser = payload, allow_hyphen_values = true)]
     payload: Option<PointPayload>,
@@ -52,7 +54,8 @@ fn payload(text: &str) -> Result<PointPayload, String> {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load_urdf(printer)?;
     let &Arguments { source, friction, payload, .. } = arguments;
-    let options = DynamicsOptions { source, friction, payload };
+    let followers = arguments.followers.followers();
+    let options = DynamicsOptions { source, friction, payload, followers };
     description.check_capability(Capability::Physics)?;
     let robot = robot_with_options(&description, &options)?;
     let print = |description: &RobotDescription, states: &JointStateList, first| {

@@ -10,7 +10,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{ArmArguments, ConfigurationArguments, named},
+    input::{ArmArguments, ConfigurationArguments, FollowerArgument, named},
     terminal::print::{Printer, text_options},
 };
 
@@ -27,6 +27,8 @@ pub(crate) struct Arguments {
     kind: JacobianKind,
     #[command(flatten)]
     configurations: ConfigurationArguments,
+    #[command(flatten)]
+    followers: FollowerArgument,
     /// Add the time derivative at the velocities "v" of the configurations, in rad/s and m/s.
     #[arg(long)]
     derivative: bool,
@@ -35,7 +37,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load(printer)?;
     let frame = JacobianFrame::named(&description, arguments.link.as_deref())?;
-    let kind = arguments.kind;
+    let (kind, followers) = (arguments.kind, arguments.followers.followers());
     let options = text_options();
     let print = |report: JacobianReport<JacobianStream<'_>>, description: &RobotDescription, first| {
         let printed =
@@ -45,14 +47,22 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     };
     if arguments.derivative {
         arguments.configurations.answer_states(&mut description, printer, |description, states, first| {
-            print(jacobians_in_motion(description, frame, kind, states.iter())?, description, first)
+            print(
+                jacobians_in_motion(description, frame, kind, followers, states.iter())?,
+                description,
+                first,
+            )
         })?;
     } else {
         arguments.configurations.answer(
             &mut description,
             printer,
             |description, configurations, first| {
-                print(jacobians(description, frame, kind, configurations.iter())?, description, first)
+                print(
+                    jacobians(description, frame, kind, followers, configurations.iter())?,
+                    description,
+                    first,
+                )
             },
         )?;
     }

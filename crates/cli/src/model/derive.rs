@@ -6,7 +6,7 @@ use congruent::{
         base_parameters::base_parameters as derived,
         conversion::{ConversionSource, ConversionTarget},
     },
-    description::RobotDescription,
+    description::{Followers, RobotDescription},
     input::Diagnostic,
     text::base_parameters_text,
 };
@@ -37,6 +37,9 @@ pub(crate) struct Arguments {
     /// joint torques, with the parameters grouped in each, and the parameters that change no torque.
     #[arg(long, conflicts_with_all = ["convention", "exact", "out"])]
     base_parameters: bool,
+    /// Count each joint that follows another by <mimic> as if it were driven, with a torque of its own.
+    #[arg(long, requires = "base_parameters")]
+    free_followers: bool,
     #[command(flatten)]
     accuracy: AccuracyArguments,
     #[command(flatten)]
@@ -53,8 +56,9 @@ enum ConventionArgument {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load_urdf(printer)?;
+    let followers = if arguments.free_followers { Followers::Free } else { Followers::Folded };
     let to = match arguments.convention {
-        None => return base_parameters(&description, printer),
+        None => return base_parameters(&description, followers, printer),
         Some(ConventionArgument::Standard) => ConversionTarget::Standard,
         Some(ConventionArgument::Modified) => ConversionTarget::Modified,
     };
@@ -65,7 +69,11 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 /// Seed of the motions at which torques are computed; the result does not depend on it.
 const SEED: u64 = 0;
 
-fn base_parameters(description: &RobotDescription, printer: &Printer) -> Result<u8, Failure> {
+fn base_parameters(
+    description: &RobotDescription,
+    followers: Followers,
+    printer: &Printer,
+) -> Result<u8, Failure> {
     if description.robot.dof() == 0 {
         let message = format!(
             "{}: all joints are fixed, so there are no base parameters",
@@ -73,7 +81,7 @@ fn base_parameters(description: &RobotDescription, printer: &Printer) -> Result<
         );
         return Err(Diagnostic::error(codes::derive::NO_JOINT, message).into());
     }
-    let report = derived(description, SEED)
+    let report = derived(description, followers, SEED)
         .map_err(|error| Diagnostic::error(codes::derive::BASE_PARAMETERS, error.to_string()))?;
     printer.result(&report, base_parameters_text)?;
     Ok(0)

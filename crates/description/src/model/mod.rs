@@ -2,6 +2,7 @@
 
 mod carried_body;
 mod dh_table;
+mod driven;
 mod error;
 mod extent;
 mod geometry;
@@ -17,6 +18,7 @@ mod tree;
 
 pub use carried_body::CarriedBody;
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
+pub use driven::{DrivenCoordinates, Followers};
 pub use error::RobotError;
 pub use extent::Extent;
 pub use geometry::{Geometry, Mesh, Shape};

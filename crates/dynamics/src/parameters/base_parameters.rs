@@ -90,7 +90,8 @@ impl BodyTree {
         Ok(found)
     }
 
-    /// The regressors of all motions, one below another.
+    /// The regressors of all motions, one below another: a row for each driven joint, since the torque of a joint that
+    /// follows another acts on its master ([`BodyTree::with_independent_mimics`] gives each a row of its own).
     ///
     /// # Errors
     /// [`DynamicsError::Length`] if a vector is another robot's.
@@ -98,10 +99,15 @@ impl BodyTree {
         let n = self.dof();
         let mut buffer = self.buffer();
         let mut one = DMatrix::zeros(n, PARAMETERS * n);
-        let mut stacked = DMatrix::zeros(n * motions.len(), PARAMETERS * n);
+        let rows = self.independent.len();
+        let mut stacked = DMatrix::zeros(rows * motions.len(), PARAMETERS * n);
         for (at, motion) in motions.iter().enumerate() {
             self.regressor_into(motion, &mut buffer, &mut one)?;
-            stacked.rows_mut(at * n, n).copy_from(&one);
+            for joint in 0..n {
+                let (row, ratio) = self.driver(joint);
+                let mut sum = stacked.row_mut(at * rows + row);
+                sum += one.row(joint) * ratio;
+            }
         }
         Ok(stacked)
     }
