@@ -101,6 +101,9 @@ pub(crate) const COMPLEXITY_OF_MISSING: f64 = 0.5;
 /// explain a fault there together with one at the first link, which has one identifiable parameter. Unit: free parameters;
 /// kind: choice.
 pub(crate) const PAIRS_ABOVE: usize = 3;
+/// If the causes of all links together have a higher complexity, pairs of faults are tried as well. Unit: free parameters;
+/// kind: choice, that of two faults with one free parameter each.
+pub(crate) const COMPLEXITY_OF_PAIRS: f64 = 3.0;
 /// Complexity of each part beyond the first. Unit: free parameters; kind: choice.
 pub(crate) const COMPLEXITY_PER_PART: f64 = 1.0;
 

@@ -30,6 +30,9 @@ pub struct OtherDescription {
     /// this description.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links_in_other_frames: Vec<String>,
+    /// Joints that do not move the tip which the caller named: they are not compared, and neither is what they carry.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joints_left_out: Vec<String>,
 }
 
 /// Adds the comparison of geometry to the report, and compares dynamics if the two are the same chain.
@@ -44,11 +47,13 @@ pub(super) fn compared(
         robot: other.name.clone(),
         dynamics_not_compared: other_joint(&description.robot, &other.robot),
         links_in_other_frames: Vec::new(),
+        joints_left_out: Vec::new(),
     };
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
-    let mut poses = PosesOfOther::new(&description.robot, &other.robot);
+    let mut poses =
+        PosesOfOther::new(&description.robot, &other.robot).with_free_frames(description, &other.robot)?;
     // Joints as if all were driven; how mimic joints follow is compared after it, with them following.
     geometry.add_other(description, other, &mut poses, options)?;
     if let Some(followed) = geometry.add_mimics(description, other, &mut poses, options)? {
@@ -60,9 +65,10 @@ pub(super) fn compared(
     // Torques in the same joints need the same axes. Frames that only lie elsewhere in links that move alike are no
     // obstacle.
     let misplaced = misplaced_joint(description, geometry);
-    let in_other_frames = match &misplaced {
-        Some(_) => moved_alike(description, other, options.seed)?,
-        None => Vec::new(),
+    let in_other_frames = if misplaced.is_some() || poses.has_free_frames() {
+        moved_alike(description, other, options.seed)?
+    } else {
+        Vec::new()
     };
     if misplaced.is_some() && in_other_frames.is_empty() {
         against.dynamics_not_compared = misplaced;
@@ -78,7 +84,8 @@ pub(super) fn compared(
         // already.
         let is_written_alike =
             expected.inertials == found.inertials && expected.resistances == found.resistances;
-        let Some(in_frames) = expected.in_frames_of(&found).filter(|_| !is_written_alike) else {
+        let is_fault_of_frames = misplaced.is_some() && is_written_alike;
+        let Some(in_frames) = expected.in_frames_of(&found).filter(|_| !is_fault_of_frames) else {
             against.dynamics_not_compared = misplaced;
             return Ok((against, None));
         };

@@ -10,7 +10,12 @@ use congruent_input::{Diagnostic, Finding};
 use congruent_kinematics::LinkPoses;
 
 use super::{
-    against, declared, model_frames::unreadable_value, physics, poses_of_other::PosesOfOther,
+    against::{self, OtherDescription},
+    declared::{self, DeclaredSource},
+    model_frames::unreadable_value,
+    narrowed::NarrowedPair,
+    physics,
+    poses_of_other::PosesOfOther,
     robot_check::RobotCheck,
 };
 use crate::{codes, with_physics::simulated_poses};
@@ -48,30 +53,31 @@ fn checked(
     let poses = poses.as_mut().map(|poses| poses as &mut dyn LinkPoses).map_err(|found| found.clone());
     let mut geometry = congruent_agreement::compare::check(description, poses, options)?;
     let mut compared = Vec::new();
+    let narrowed = other.and_then(|other| NarrowedPair::new(description, other, options));
+    let (own, other, own_options) = match &narrowed {
+        Some(pair) => (&pair.description, Some(&pair.other), &pair.options),
+        None => (description, other, options),
+    };
     let against = match other {
         Some(other) => {
             // First, since it adds to the geometry on which the verdicts of dynamics below depend.
-            let (against, dynamics) = against::compared(&mut geometry, description, other, options)?;
+            let (mut against, dynamics) = against::compared(&mut geometry, own, other, own_options)?;
+            against.joints_left_out = narrowed.as_ref().map_or_else(Vec::new, |pair| pair.left_out.clone());
             compared.extend(dynamics);
             geometry.warnings.extend(other.warnings.iter().map(Finding::from));
             Some(against)
         }
         None => None,
     };
-    let at_configurations = at_configurations(description, other, &geometry, options)?;
+    let at_configurations = at_configurations(own, other, &geometry, own_options)?;
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
-        // A value that cannot be read was taken as 0 and would appear as a difference.
-        let readable = unreadable_value(description).map_or(Ok(()), Err);
-        match readable.and_then(|()| comparable(declared, &geometry)).and_then(|()| {
-            declared::compared(description, declared, options.seed).map_err(|error| error.to_string())
-        }) {
+        match compared_with_declared(description, declared, &geometry, options.seed) {
             Ok((source, report)) => {
                 declared_dynamics = Some(source);
                 compared.push(report);
             }
-            Err(why) => {
-                let finding = Diagnostic::error(codes::check::DECLARED_DYNAMICS, why);
+            Err(finding) => {
                 geometry.not_asked.push(NotCompared::because(ComparedSource::DeclaredDynamics, &finding));
             }
         }
@@ -86,19 +92,43 @@ fn checked(
     }
     // A comparison that disagrees comes first; the order is otherwise kept.
     compared.sort_by_key(DynamicsReport::agrees);
-    let is_same = against.as_ref().is_none_or(|against| against.dynamics_not_compared.is_none());
-    if !is_same || compared.iter().any(|report| !report.agrees()) {
-        geometry.verdict = Agreement::Disagree;
-    } else if geometry.verdict == Agreement::NothingCompared && !compared.is_empty() {
-        geometry.verdict = Agreement::Agree;
-    }
-    // Links that hang together agree at every configuration, of which there is one.
-    if geometry.verdict == Agreement::Agree && against.is_none() && geometry.chain.joints.is_empty() {
-        geometry.verdict = Agreement::NothingCompared;
-    }
+    geometry.verdict = verdict(&geometry, against.as_ref(), &compared);
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
     Ok(RobotCheck { geometry, at_configurations, against, declared_dynamics, dynamics, other_dynamics })
+}
+
+/// The verdict of poses and dynamics together.
+fn verdict(
+    geometry: &CheckReport,
+    against: Option<&OtherDescription>,
+    dynamics: &[DynamicsReport],
+) -> Agreement {
+    let is_same = against.is_none_or(|against| against.dynamics_not_compared.is_none());
+    let poses = geometry.verdict;
+    if !is_same || dynamics.iter().any(|report| !report.agrees()) {
+        return Agreement::Disagree;
+    }
+    let is_compared = poses != Agreement::NothingCompared || !dynamics.is_empty();
+    let together = if is_compared && poses != Agreement::Disagree { Agreement::Agree } else { poses };
+    // Links that hang together agree at every configuration, of which there is one.
+    let is_rigid = against.is_none() && geometry.chain.joints.is_empty();
+    if together == Agreement::Agree && is_rigid { Agreement::NothingCompared } else { together }
+}
+
+/// The dynamics of the URDF against those that the robot file declares, or why the two were not compared.
+fn compared_with_declared(
+    description: &RobotDescription,
+    declared: &DynamicsTable,
+    geometry: &CheckReport,
+    seed: u64,
+) -> Result<(DeclaredSource, DynamicsReport), Diagnostic> {
+    // A value that cannot be read was taken as 0 and would appear as a difference.
+    let readable = unreadable_value(description).map_or(Ok(()), Err);
+    let compared = readable
+        .and_then(|()| comparable(declared, geometry))
+        .and_then(|()| declared::compared(description, declared, seed).map_err(|error| error.to_string()));
+    compared.map_err(|why| Diagnostic::error(codes::check::DECLARED_DYNAMICS, why))
 }
 
 /// The differences at requested configurations, by the sources that the comparison had.
@@ -116,7 +146,8 @@ fn at_configurations(
     let is_compared = geometry.comparisons.iter().any(|of| of.name == SourcePair::UrdfOther);
     Ok(Some(match other.filter(|_| is_compared) {
         Some(other) => {
-            let poses = PosesOfOther::with_mimics(&description.robot, &other.robot);
+            let poses = PosesOfOther::with_mimics(&description.robot, &other.robot)
+                .with_free_frames(description, &other.robot)?;
             differences.with_other(description, Box::new(poses))?
         }
         None => differences,

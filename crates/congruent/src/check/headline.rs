@@ -5,6 +5,7 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport, Comparison, Grade, WorstDifference},
 };
 use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
+use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
 use congruent_input::display::{length_and_angle, listed};
 use congruent_kinematics::PoseError;
 
@@ -59,7 +60,16 @@ impl RobotCheck {
 fn answer_of_agreeing_poses(check: &RobotCheck) -> &'static str {
     let report = &check.geometry;
     let has_second_geometry = report.table_compared || check.against.is_some();
+    let reports = || check.all_dynamics();
+    let differ_in_limits_alone = reports().all(DynamicsReport::has_same_torques)
+        && reports().any(DynamicsReport::has_other_limits)
+        && check.against.as_ref().is_none_or(|other| other.dynamics_not_compared.is_none());
+    if report.verdict == Agreement::Disagree && differ_in_limits_alone {
+        return "same geometry and dynamics, different joint limits";
+    }
+    let has_masses_of_both = reports().all(|of| of.verdict != DynamicsVerdict::NotCompared);
     match (report.verdict, has_second_geometry, &check.declared_dynamics) {
+        (Agreement::Agree, true, None) if !has_masses_of_both => "same geometry, masses not compared",
         (Agreement::Disagree, true, _) => "same geometry, different dynamics",
         (Agreement::Disagree, false, _) => "different dynamics",
         (_, true, _) => "same robot",

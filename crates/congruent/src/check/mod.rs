@@ -5,6 +5,7 @@ mod checked;
 mod declared;
 mod headline;
 mod model_frames;
+mod narrowed;
 mod page;
 mod physics;
 mod poses_of_other;

@@ -1,12 +1,14 @@
 //! The poses of another description at the links of a robot.
 
-use congruent_description::{Robot, RobotQ};
-use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
+use congruent_description::{Link, Robot, RobotDescription, RobotQ};
+use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree};
 
 /// The poses of another description at the links of a robot; both have the same moving joints by name.
 pub(super) struct PosesOfOther {
     tree: UrdfTree,
     links: Vec<LinkCorrespondence>,
+    /// For each link its pose in the link where it is found.
+    there_from_links: Vec<Pose>,
     /// Coordinate of the robot for each coordinate of the other description, by the name of the joint.
     coordinates: Vec<usize>,
     /// The other robot if its mimic joints follow; otherwise each joint counts as driven.
@@ -48,11 +50,47 @@ impl PosesOfOther {
         Self {
             tree: UrdfTree::new(other),
             links: robot.link_indices().map(place).collect(),
+            there_from_links: vec![Pose::identity(); robot.links().len()],
             coordinates: other.movable_joint_names().filter_map(coordinate).collect(),
             followed: None,
             q: RobotQ::zeros(other.dof()),
             poses: vec![Pose::identity(); other.links().len()],
         }
+    }
+
+    /// A link between joints that is but a name in the other description, without inertia and shape, has nothing that its
+    /// frame could misplace: there it may lie anywhere, if the joints move it alike. The pose at zero is taken; base, tip and
+    /// the ends of branches keep their frames.
+    pub(super) fn with_free_frames(
+        mut self,
+        description: &RobotDescription,
+        other: &Robot,
+    ) -> Result<Self, LinkPosesError> {
+        let robot = &description.robot;
+        let zero = RobotQ::zeros(robot.dof());
+        let [mut here, mut there] = [robot, robot].map(|robot| vec![Pose::identity(); robot.links().len()]);
+        UrdfTree::new(robot).root_from_links_into(&zero, &mut here)?;
+        self.root_from_links_into(&zero, &mut there)?;
+        let is_name =
+            |link: &Link| link.inertia.is_none() && link.visuals.is_empty() && link.collisions.is_empty();
+        for index in robot.link_indices() {
+            let LinkCorrespondence::Other(found) = self.links[index.get()] else { continue };
+            let is_moved = robot.parent_joint(index).is_some_and(|at| robot.joint(at).kind.is_movable());
+            let is_between = robot.joints().iter().any(|joint| joint.parent == index)
+                && index != description.base
+                && index != description.tip;
+            let at = index.get();
+            let is_elsewhere = !PoseError::between(&here[at], &there[at]).is_within(&description.tolerance);
+            if is_moved && is_between && is_elsewhere && is_name(&other.links()[found]) {
+                self.there_from_links[at] = there[at].inverse() * here[at];
+            }
+        }
+        Ok(self)
+    }
+
+    /// Whether a link is where the other description does not have its frame.
+    pub(super) fn has_free_frames(&self) -> bool {
+        self.there_from_links.iter().any(|pose| *pose != Pose::identity())
     }
 
     /// Mimic joints of the other follow as the other says.
@@ -76,7 +114,7 @@ impl LinkPoses for PosesOfOther {
         self.tree.root_from_links_into(&self.q, &mut self.poses)?;
         for (link, place) in self.links.iter().enumerate() {
             root_from_links[link] = match *place {
-                LinkCorrespondence::Other(there) => self.poses[there],
+                LinkCorrespondence::Other(there) => self.poses[there] * self.there_from_links[link],
                 // A parent comes before its children.
                 LinkCorrespondence::Behind(parent, parent_from_link) => {
                     root_from_links[parent] * parent_from_link

@@ -1,5 +1,7 @@
 //! The robot: a checked tree of links and joints. Reading it from a file is `urdf/`.
 
+use std::collections::BTreeSet;
+
 use super::{
     error::RobotError,
     inertia::Inertia,
@@ -194,6 +196,54 @@ impl Robot {
             link = joint.parent;
         }
         link
+    }
+
+    /// Names of the moving joints on which the pose of a link depends: those on its path from the root, and the masters of
+    /// those that follow others, with the joints on their paths.
+    pub fn joints_that_move(&self, link: LinkIndex) -> BTreeSet<&str> {
+        let mut names = BTreeSet::new();
+        let mut next = vec![link];
+        while let Some(link) = next.pop() {
+            let Some(index) = self.parent_joint(link) else { continue };
+            let joint = self.joint(index);
+            next.push(joint.parent);
+            if joint.kind.is_movable() && names.insert(joint.name.as_str()) {
+                next.extend(joint.mimic.map(|mimic| self.joint(mimic.master).child));
+            }
+        }
+        names
+    }
+
+    /// The part of the tree that these joints move, with the links that do not move: links beyond other moving joints are
+    /// left out.
+    #[must_use]
+    pub fn moved_by(&self, names: &BTreeSet<&str>) -> Self {
+        let mut is_kept = vec![true; self.links.len()];
+        let mut parts = Vec::new();
+        for joint in &self.joints {
+            let is_part = !joint.kind.is_movable() || names.contains(joint.name.as_str());
+            is_kept[joint.child.0] = is_kept[joint.parent.0] && is_part;
+            if is_kept[joint.child.0] {
+                parts.push(joint);
+            }
+        }
+        let kept = |of: JointIndex| is_kept[self.joint(of).child.0];
+        let parts = parts.into_iter().map(|joint| JointParts {
+            joint: joint.clone(),
+            parent: self.link(joint.parent).name.clone(),
+            child: self.link(joint.child).name.clone(),
+            mimic: joint
+                .mimic
+                .filter(|mimic| kept(mimic.master))
+                .map(|of| (self.joint(of.master).name.clone(), of.multiplier, of.offset)),
+        });
+        let links = self.links.iter().zip(&is_kept).filter(|(_, is_kept)| **is_kept);
+        self.part(links.map(|(link, _)| link.clone()).collect(), parts.collect())
+    }
+
+    /// A part of the tree, from its root.
+    fn part(&self, links: Vec<Link>, joints: Vec<JointParts>) -> Self {
+        Self::new(self.name.clone(), links, joints).expect("a part of a tree from its root is a tree")
     }
 
     /// Overwrites the entries of mimic joints in `q` by what their masters imply.

@@ -104,6 +104,14 @@ impl UrdfPlaces {
         Some(place(last(document.root_element(), "joint", name)?, "dynamics"))
     }
 
+    /// Whether any joint has a `<dynamics>`: if none has one, the file says nothing about damping and dry friction.
+    pub fn has_joint_dynamics(&self) -> bool {
+        let document = xml::parse(&self.source.text).ok();
+        document.is_some_and(|document| {
+            elements(document.root_element(), "joint").any(|joint| element(joint, "dynamics").is_some())
+        })
+    }
+
     /// Place of the `<mimic>` of a joint, or of the joint if it has none.
     pub fn joint_mimic(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
@@ -177,6 +185,7 @@ mod tests {
         assert_eq!(places.link_with_its_joint("b").as_deref(), Some(with_joint));
         assert_eq!(places.link_with_its_joint("a").as_deref(), Some("<link name='a'/>"));
         assert_eq!(places.link_with_its_joint("j"), None);
+        assert!(!places.has_joint_dynamics());
     }
 
     #[test]

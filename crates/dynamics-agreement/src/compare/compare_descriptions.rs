@@ -5,8 +5,9 @@ use nalgebra::Matrix3;
 
 use super::{
     compare_long::compare_long,
-    link_by_link::{is_simpler, link_by_link},
+    link_by_link::{complexity, is_simpler, link_by_link},
     named_diagnosis::{NamedDiagnosis, NamedModel},
+    statements::StatedReference,
 };
 use crate::{
     bound,
@@ -17,7 +18,7 @@ use crate::{
         content::{ComparedModels, DynamicsPremise, DynamicsReport, DynamicsVerdict, TorqueCertificates},
         places::ModelFiles,
     },
-    thresholds::{INVARIANT_STATES, MOST_JOINTS, Precision, STATES},
+    thresholds::{COMPLEXITY_OF_PAIRS, INVARIANT_STATES, MOST_JOINTS, Precision, STATES},
     torque::{
         reduced_difference::{ReducedTorqueDifference, torques},
         states::random_states,
@@ -71,6 +72,9 @@ pub enum CompareError {
 /// Links and joints are matched by name; frames of equal name must be equal, which is the question of the kinematic
 /// comparison before this one.
 ///
+/// What the reference does not state is not compared: the masses of a moving body without any, and damping and dry friction if
+/// it states neither a mass nor these.
+///
 /// For more than 60 joints no cause is searched: the report has the difference of torques and the parameters that differ.
 ///
 /// # Errors
@@ -102,13 +106,16 @@ pub fn compare(
     seed: u64,
 ) -> Result<DynamicsReport, CompareError> {
     let joints = comparable(candidate.model, reference.model)?;
+    let stated = StatedReference::new(candidate.model, reference, &joints);
+    let reference = &NamedModel { model: &stated.model, ..*reference };
     let reference_in_candidate = in_geometry_of(candidate.model, reference.model, &joints);
     let states = random_states(&candidate.model.frames, seed, STATES);
     // Both torques are computed with one geometry, so that only masses, joint terms and gravity can differ.
     let torques = torques(&reference_in_candidate, &states)?;
     let expected = ReferenceTorques { states: &states, torques: &torques };
     if joints.len() > MOST_JOINTS {
-        return Ok(compare_long(candidate, reference, &reference_in_candidate, &joints, expected)?);
+        let report = compare_long(candidate, reference, &reference_in_candidate, &joints, expected)?;
+        return Ok(DynamicsReport { not_stated: stated.not_stated, ..report });
     }
     let torque = ReducedTorqueDifference::new(candidate.model, &states, &torques)?;
     let setting = DiagnosisInput {
@@ -134,8 +141,11 @@ pub fn compare(
     files.place_limits(&mut limits);
     // Equal torques with differing parameters are `SameTorques`: hidden differences are reported, but do not
     // decide.
-    let verdict =
-        if diagnosis.same && differences.is_empty() { DynamicsVerdict::Same } else { diagnosis.verdict() };
+    let verdict = match (diagnosis.same, differences.is_empty()) {
+        (true, _) if !stated.has_mass => DynamicsVerdict::NotCompared,
+        (true, true) => DynamicsVerdict::Same,
+        _ => diagnosis.verdict(),
+    };
     let tree = reference_in_candidate.tree().without_resistances();
     Ok(DynamicsReport {
         sides: ComparedModels {
@@ -157,12 +167,14 @@ pub fn compare(
         hidden_differences,
         explanations: diagnosis.explanations,
         indistinguishable: diagnosis.indistinguishable,
+        not_stated: stated.not_stated,
         limits,
         certificates: None,
     })
 }
 
-/// The diagnosis of the torque difference; if no single fault explains it, of each link by itself, or of pairs of faults.
+/// The diagnosis of the torque difference; if no single fault explains it, of each link by itself, or of pairs of faults,
+/// whichever is simpler.
 fn diagnose_with_fallbacks(
     setting: &DiagnosisInput<'_>,
     files: ModelFiles<'_>,
@@ -178,10 +190,13 @@ fn diagnose_with_fallbacks(
         .map_or(!diagnosis.same, |first| first.contradicted || first.numbers > 0.0)
     {
         let by_link = link_by_link(setting, files, reference_in_candidate, torque, expected.states)?;
-        if by_link.is_empty() {
+        // Values that only their combinations determine may be split between links in another manner: then every link
+        // differs, although few faults change torques. Torques do not depend on the split.
+        if by_link.is_empty() || complexity(&by_link) > COMPLEXITY_OF_PAIRS {
             diagnosis =
                 NamedDiagnosis::new(&DiagnosisInput { pairs: true, ..*setting }, files, torque, expected)?;
-        } else if is_simpler(&by_link, &diagnosis.explanations) {
+        }
+        if !by_link.is_empty() && is_simpler(&by_link, &diagnosis.explanations) {
             diagnosis.explanations = by_link;
             diagnosis.indistinguishable.clear();
         }
@@ -200,7 +215,8 @@ pub fn certify(
 ) -> Result<TorqueCertificates, CompareError> {
     let joints = comparable(candidate.model, reference.model)?;
     check_count(joints.len())?;
-    let reference = in_geometry_of(candidate.model, reference.model, &joints);
+    let stated = StatedReference::new(candidate.model, reference, &joints);
+    let reference = in_geometry_of(candidate.model, &stated.model, &joints);
     let certified = bound::certify(candidate.model, &reference, seed)?;
     Ok(TorqueCertificates {
         gravity: certified.gravity,

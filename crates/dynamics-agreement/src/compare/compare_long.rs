@@ -61,6 +61,7 @@ pub(super) fn compare_long(
         differences,
         explanations: Vec::new(),
         indistinguishable: Vec::new(),
+        not_stated: Vec::new(),
         limits,
         certificates: None,
     })

@@ -65,6 +65,7 @@ pub fn compare_with_source(
         hidden_differences: Vec::new(),
         explanations: diagnosis.explanations,
         indistinguishable: diagnosis.indistinguishable,
+        not_stated: Vec::new(),
         limits: Vec::new(),
         certificates: None,
     })

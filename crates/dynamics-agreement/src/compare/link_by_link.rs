@@ -127,10 +127,13 @@ fn alone(
 /// other one changes a parameter that is equal in both files.
 pub(super) fn is_simpler(by_link: &[DynamicsExplanation], by_torque: &[DynamicsExplanation]) -> bool {
     let Some(first) = by_torque.first() else { return true };
-    let parts = f64::from(u32::try_from(by_link.len().saturating_sub(1)).unwrap_or(u32::MAX));
-    let complexity =
-        by_link.iter().map(|explanation| explanation.numbers).sum::<f64>() + parts * COMPLEXITY_PER_PART;
-    !by_link.is_empty() && (first.contradicted || complexity < first.numbers)
+    !by_link.is_empty() && (first.contradicted || complexity(by_link) < first.numbers)
+}
+
+/// The complexity of explanations that hold together.
+pub(super) fn complexity(explanations: &[DynamicsExplanation]) -> f64 {
+    let parts = f64::from(u32::try_from(explanations.len().saturating_sub(1)).unwrap_or(u32::MAX));
+    explanations.iter().map(|explanation| explanation.numbers).sum::<f64>() + parts * COMPLEXITY_PER_PART
 }
 
 /// Whether two models have the same torques at these states.

@@ -7,6 +7,7 @@ mod compare_long;
 mod compare_with_source;
 mod link_by_link;
 mod named_diagnosis;
+mod statements;
 mod unmatched;
 
 pub use compare_descriptions::{CompareError, certify, compare};

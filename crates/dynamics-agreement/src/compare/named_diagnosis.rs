@@ -6,7 +6,7 @@ use crate::{
     diagnosis::{DiagnosisInput, ReferenceTorques, diagnose_in_stages},
     model::DynamicsModel,
     report::{
-        content::{DynamicsExplanation, DynamicsVerdict},
+        content::{DynamicsExplanation, DynamicsVerdict, PlacedCause},
         explained::ExplanationContext,
         places::{ModelFiles, ParameterPlaces},
     },
@@ -51,13 +51,25 @@ impl NamedDiagnosis {
         let diagnosed = diagnose_in_stages(setting, torque, expected)?;
         let context = ExplanationContext::new(setting, files, torque);
         let mut explained = diagnosed.explanations.iter().map(|grouped| context.explanation(grouped));
-        let explanations = explained.by_ref().take(1).collect();
+        let mut explanations: Vec<DynamicsExplanation> = explained.by_ref().take(1).collect();
+        let mut indistinguishable: Vec<DynamicsExplanation> = Vec::new();
+        for other in explained {
+            // With the values of the other file two causes may be one correction, of which the first is the narrower name.
+            match explanations.first_mut().filter(|first| first.parameters == other.parameters) {
+                Some(first) => {
+                    let (cause, detail, place) = (other.cause, other.detail, other.place);
+                    first.also_named.push(PlacedCause { cause, detail, place });
+                    first.also_named.extend(other.also_named);
+                }
+                None => indistinguishable.push(other),
+            }
+        }
         let name = |&link: &usize| setting.candidate.frames.link_name(link).to_owned();
         Ok(Self {
             same: diagnosed.same,
             links: diagnosed.links.iter().map(name).collect(),
             explanations,
-            indistinguishable: explained.collect(),
+            indistinguishable,
         })
     }
 }

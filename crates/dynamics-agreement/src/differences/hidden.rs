@@ -3,7 +3,7 @@
 use super::parameters::{ParameterDifference, link_differences};
 use crate::{
     model::{DynamicsModel, Inertial},
-    thresholds::IDENTIFIABLE,
+    thresholds::{IDENTIFIABLE, Precision},
     torque::reduced_difference::ReducedTorqueDifference,
 };
 
@@ -13,7 +13,7 @@ pub(crate) fn differences(candidate: &DynamicsModel, reference: &DynamicsModel) 
 }
 
 /// The parameters whose difference alone changes no torque, and those that change at most the share `most` of all torques,
-/// with their share.
+/// with their share: it is below the resolution, or the other differences cancel it.
 pub(crate) fn without_effect(
     candidate: &DynamicsModel,
     reference: &DynamicsModel,
@@ -23,10 +23,11 @@ pub(crate) fn without_effect(
     let hidden = differing(candidate, reference).into_iter().filter_map(|(pair, difference)| {
         match torque_share(torque, &pair, &difference.parameter) {
             None => Some(difference),
-            Some(share) if share <= most => {
-                Some(ParameterDifference { below_resolution: Some(share), ..difference })
+            Some(share) if share > most => None,
+            Some(share) if share > Precision::EXACT.same => {
+                Some(ParameterDifference { cancelled: Some(share), ..difference })
             }
-            Some(_) => None,
+            Some(share) => Some(ParameterDifference { below_resolution: Some(share), ..difference }),
         }
     });
     hidden.collect()

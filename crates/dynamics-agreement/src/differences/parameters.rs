@@ -32,6 +32,17 @@ pub struct ParameterDifference {
     /// if the parameter has no effect on torques, or one above the resolution.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub below_resolution: Option<f64>,
+    /// The same change, if it is above the resolution and the other differences cancel it: the parameters differ, and all
+    /// torques agree.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub cancelled: Option<f64>,
+}
+
+impl ParameterDifference {
+    /// Whether it is a component of gravity, which belongs to no link and no joint.
+    pub fn is_of_gravity(&self) -> bool {
+        self.parameter.starts_with("gravity_")
+    }
 }
 
 const PARAMETER_UNITS: [(&str, SiUnit); 10] = [
@@ -94,6 +105,7 @@ pub(crate) fn link_differences(
         line: None,
         expected_line: None,
         below_resolution: None,
+        cancelled: None,
     })
     .collect()
 }
@@ -118,6 +130,7 @@ pub(crate) fn joint_term_differences(
                     line: None,
                     expected_line: None,
                     below_resolution: None,
+                    cancelled: None,
                 });
             }
         }
@@ -140,6 +153,7 @@ pub(crate) fn gravity_differences(found: &Vector3<f64>, expected: &Vector3<f64>)
             line: None,
             expected_line: None,
             below_resolution: None,
+            cancelled: None,
         })
         .collect()
 }

@@ -42,6 +42,27 @@ impl DynamicsModel {
     }
 }
 
+impl DynamicsModel {
+    /// Replaces the inertials of a body by those of the same body of another description. Links that only the other one
+    /// has are added.
+    pub(crate) fn replace_body(&mut self, body: usize, other: &Self, other_body: usize) {
+        let mut frames = (*self.frames).clone();
+        for link in self.frames.links_of(body) {
+            self.inertials[link] = None;
+        }
+        for link in other.frames.links_of(other_body) {
+            let place = &other.frames.links[link];
+            let there = frames.find_link(&place.name).filter(|&there| frames.links[there].body == Some(body));
+            let there = there.unwrap_or_else(|| {
+                self.inertials.push(None);
+                frames.with_link(place, Some(body))
+            });
+            self.inertials[there] = other.inertials[link];
+        }
+        self.frames = Arc::new(frames);
+    }
+}
+
 impl Frames {
     /// Adds a link of another description to a body, and returns its index.
     fn with_link(&mut self, place: &LinkPlace, body: Option<usize>) -> usize {

@@ -38,6 +38,9 @@ pub struct DynamicsReport {
     pub explanations: Vec<DynamicsExplanation>,
     /// Other explanations with other parameters and the same torques.
     pub indistinguishable: Vec<DynamicsExplanation>,
+    /// What the reference does not state, in words: it is not compared.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub not_stated: Vec<String>,
     /// Joint limits that differ.
     pub limits: Vec<LimitDifference>,
     /// Certified bounds of the torque differences; `null` if they were not requested.
@@ -45,15 +48,20 @@ pub struct DynamicsReport {
 }
 
 impl DynamicsReport {
-    /// Whether all joint torques agree within the precision of the comparison.
+    /// Whether no joint torque differs by more than the precision of the comparison.
     pub fn has_same_torques(&self) -> bool {
-        matches!(self.verdict, DynamicsVerdict::Same | DynamicsVerdict::SameTorques)
+        !matches!(self.verdict, DynamicsVerdict::Explained | DynamicsVerdict::Unexplained)
     }
 
-    /// Whether torques and limits agree. Parameters without an effect on torques do not decide, and neither does a limit of
-    /// speed or effort that only one of the two states.
+    /// Whether no torque and no limit differs. Parameters without an effect on torques do not decide, and neither does a
+    /// limit of speed or effort that only one of the two states.
     pub fn agrees(&self) -> bool {
-        self.has_same_torques() && !self.limits.iter().any(|limit| limit.decides)
+        self.has_same_torques() && !self.has_other_limits()
+    }
+
+    /// Whether a joint limit differs that decides.
+    pub fn has_other_limits(&self) -> bool {
+        self.limits.iter().any(|limit| limit.decides)
     }
 }
 
@@ -95,6 +103,8 @@ pub enum DynamicsVerdict {
     Explained,
     /// Torques differ for no known reason.
     Unexplained,
+    /// The reference states no mass of a moving link: there are no torques to compare.
+    NotCompared,
 }
 
 /// How well a chain of rigid bodies reproduces the reference's torques: the premise of every explanation.

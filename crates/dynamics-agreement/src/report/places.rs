@@ -21,6 +21,11 @@ pub trait ParameterPlaces: Debug {
     /// Place of a parameter, such as `mass` or `com_x`, in the text; `of` is the link or joint, empty for gravity.
     fn parameter(&self, of: &str, parameter: &str) -> Option<Range<usize>>;
 
+    /// Whether the file says anything about damping, dry friction or armature: if not, their zeros are no statement.
+    fn states_joint_terms(&self) -> bool {
+        true
+    }
+
     /// The edits that give a link these parameters; empty if the file format cannot express them.
     fn set_inertial(&self, link: &str, parameters: &Inertial) -> Vec<TextEdit>;
 
@@ -111,6 +116,10 @@ impl ParameterPlaces for UrdfPlaces {
             "velocity" | "effort" | "lower" | "upper" => self.joint_limit(of),
             _ => None,
         }
+    }
+
+    fn states_joint_terms(&self) -> bool {
+        self.has_joint_dynamics()
     }
 
     fn set_inertial(&self, link: &str, parameters: &Inertial) -> Vec<TextEdit> {

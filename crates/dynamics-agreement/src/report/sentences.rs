@@ -79,7 +79,7 @@ impl DynamicsCause {
     }
 
     /// Whether the cause names only the values that are wrong, not how they became wrong.
-    pub(super) fn is_of_free_values(self) -> bool {
+    pub fn is_of_free_values(self) -> bool {
         matches!(
             self,
             Self::Mass
@@ -203,6 +203,7 @@ impl DynamicsReport {
         }
         sentences.extend(self.limits.iter().map(LimitDifference::sentence));
         sentences.extend(self.hidden_sentences());
+        sentences.extend(self.not_stated_sentence());
         if !self.has_same_torques() {
             sentences.extend(self.invariants.iter().flat_map(Invariants::sentences));
         }
@@ -220,6 +221,14 @@ impl DynamicsReport {
                     self.identifiability_sentence().map_or_else(String::new, |seen| format!("; {seen}"));
                 format!("torques agree within {equal} (relative) at {states} states{seen}")
             }
+            DynamicsVerdict::NotCompared => match &self.not_stated[..] {
+                [] => "torques are not compared: neither description states a mass".to_owned(),
+                what => format!(
+                    "torques are not compared, since {} does not state: {}",
+                    self.sides.reference,
+                    what.join("; ")
+                ),
+            },
             DynamicsVerdict::Explained => {
                 format!("torques differ by {percent} % at {states} states; the cause is found:")
             }
@@ -253,16 +262,28 @@ impl DynamicsReport {
 
     /// Sentences about parameters that differ without an effect on torques, with both values.
     pub fn hidden_sentences(&self) -> Vec<String> {
-        let why = |parameter: &ParameterDifference| match parameter.below_resolution {
-            Some(share) => format!(
+        let why = |parameter: &ParameterDifference| match (parameter.below_resolution, parameter.cancelled) {
+            (Some(share), _) => format!(
                 "it changes joint torques by {} (relative), below the resolution of {}",
                 number(share),
                 number(Precision::EXACT.same)
             ),
-            None => "it has no effect on joint torques".to_owned(),
+            (None, Some(share)) => format!(
+                "the other differences cancel its effect on joint torques, {} (relative)",
+                number(share)
+            ),
+            (None, None) => "it has no effect on joint torques".to_owned(),
         };
         let hidden = self.hidden_differences.iter();
         hidden.map(|parameter| format!("{}; {}", parameter.sentence(), why(parameter))).collect()
+    }
+
+    /// What is not compared, since the reference does not state it; `None` if it states everything, or if nothing else is
+    /// compared either, which is the headline.
+    pub fn not_stated_sentence(&self) -> Option<String> {
+        let says_more = !self.not_stated.is_empty() && self.verdict != DynamicsVerdict::NotCompared;
+        let what = || format!("not compared ({} does not state them): ", self.sides.reference);
+        says_more.then(|| what() + &self.not_stated.join("; "))
     }
 
     /// How many inertial parameters are identifiable from joint torques; `None` if it is not computed.
@@ -278,13 +299,16 @@ impl DynamicsReport {
 
 impl TorqueBracket {
     /// `3.43 N m at shoulder_lift_joint, certified below 3.44 N m (2.3 % of its effort limit) over the whole joint range`.
+    /// Only a bound near the difference that was found is called certified; it holds in any case.
     pub fn sentence(&self) -> String {
         let share =
             self.share_of_effort.map(|share| format!(" ({} % of its effort limit)", number(share * 100.0)));
         let loose = self.ratio.filter(|ratio| *ratio > LOOSE);
         let loose = loose.map(|ratio| format!(", {} times as much,", number(ratio)));
+        let is_tight = self.ratio.is_none_or(|ratio| ratio <= TIGHT);
+        let bound = if is_tight { "certified below" } else { "loosely bounded by" };
         format!(
-            "{} at {}, certified below {}{}{} over the whole joint range",
+            "{} at {}, {bound} {}{}{} over the whole joint range",
             quantity(self.attained_n_m, self.unit.symbol()),
             self.joint,
             quantity(self.certified_n_m, self.unit.symbol()),
@@ -296,6 +320,8 @@ impl TorqueBracket {
 
 /// A bound above this multiple of the difference that was found is reported with the ratio. No unit; kind: choice.
 const LOOSE: f64 = 1.1;
+/// A bound up to this multiple of the difference that was found is called certified. No unit; kind: choice.
+const TIGHT: f64 = 1.5;
 
 impl TorqueCertificates {
     /// The speeds and accelerations that the bounds cover, and whether they are stated or assumed.

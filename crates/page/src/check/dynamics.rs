@@ -1,6 +1,8 @@
 //! The comparisons of dynamics: the result, its causes with their lines, and what else differs.
 
-use congruent_dynamics_agreement::{DynamicsExplanation, DynamicsReport, ParameterDifference};
+use congruent_dynamics_agreement::{
+    DynamicsExplanation, DynamicsReport, DynamicsVerdict, ParameterDifference,
+};
 use congruent_input::display::number;
 use maud::{Markup, html};
 
@@ -29,8 +31,12 @@ pub(super) fn dynamics(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
 }
 
 fn compared(report: &DynamicsReport, at: &Pointer) -> Markup {
-    let (outcome, word) =
-        if report.agrees() { (BadgeKind::Good, "agree") } else { (BadgeKind::Bad, "disagree") };
+    let (outcome, word) = match (report.agrees(), report.has_same_torques(), report.verdict) {
+        (true, _, DynamicsVerdict::NotCompared) => (BadgeKind::Unclear, "not compared"),
+        (true, ..) => (BadgeKind::Good, "agree"),
+        (false, true, _) => (BadgeKind::Bad, "joint limits disagree"),
+        (false, false, _) => (BadgeKind::Bad, "disagree"),
+    };
     let percent = format!("{} %", number(100.0 * report.difference_relative));
     html! {
         div.card.(outcome.class()) {
@@ -67,5 +73,10 @@ fn others(report: &DynamicsReport) -> Vec<String> {
     let torques = torques.flat_map(congruent_dynamics_agreement::Invariants::sentences);
     let worst =
         report.worst_gravity().map(|worst| format!("largest gravity torque difference {}", worst.sentence()));
-    limits.chain(torques).chain(report.hidden_sentences().into_iter().take(SHOWN)).chain(worst).collect()
+    limits
+        .chain(report.not_stated_sentence())
+        .chain(torques)
+        .chain(report.hidden_sentences().into_iter().take(SHOWN))
+        .chain(worst)
+        .collect()
 }

@@ -8,7 +8,8 @@ use crate::{
     agreement::SourcePair,
     description::{JointValues, Robot, RobotQ},
     dynamics_agreement::{
-        DynamicsExplanation, DynamicsReport, LimitDifference, ParameterDifference, TorqueBracket,
+        DynamicsExplanation, DynamicsReport, DynamicsVerdict, LimitDifference, ParameterDifference,
+        TorqueBracket,
     },
 };
 
@@ -35,6 +36,14 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
             links.join(", ")
         );
     }
+    if let Some(joints) = against.map(|of| &of.joints_left_out).filter(|joints| !joints.is_empty()) {
+        let _ = writeln!(
+            text,
+            "  not compared with the other description, since they do not move the tip that --tip names: {}, and what \
+             they carry",
+            joints.join(", ")
+        );
+    }
     check.all_dynamics().for_each(|report| compared(text, report, robot));
     let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
     if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
@@ -43,7 +52,11 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
 }
 
 fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
-    let verdict = if report.agrees() { "agree" } else { "disagree" };
+    let verdict = match (report.has_same_torques(), report.verdict) {
+        (_, DynamicsVerdict::NotCompared) => "not compared:",
+        (true, _) => "agree",
+        (false, _) => "disagree",
+    };
     let (candidate, reference) = (&report.sides.candidate, &report.sides.reference);
     let _ = writeln!(
         text,
@@ -62,7 +75,11 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
             let _ = writeln!(text, "      {more}");
         }
     }
-    let mut lines: Vec<String> = limits(&report.limits);
+    let mut lines = Vec::new();
+    lines.extend(report.not_stated_sentence());
+    if !report.has_other_limits() {
+        lines.extend(limits(&report.limits));
+    }
     if !report.has_same_torques() {
         let others: Vec<&DynamicsExplanation> = report
             .indistinguishable
@@ -82,6 +99,17 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
     for line in lines {
         let _ = writeln!(text, "    {line}");
     }
+    largest(text, report, robot);
+    if report.has_other_limits() {
+        let _ = writeln!(text, "  disagree  joint limits of {candidate} against {reference}:");
+        for line in limits(&report.limits) {
+            let _ = writeln!(text, "    {line}");
+        }
+    }
+}
+
+/// The largest torque differences, each with the configuration that has it.
+fn largest(text: &mut String, report: &DynamicsReport, robot: &Robot) {
     if let Some(worst) = report.worst_gravity() {
         certified(text, "gravity torque difference", worst, robot);
     }
