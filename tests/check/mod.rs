@@ -11,4 +11,5 @@ mod joint_origins;
 mod mimics;
 mod planted_dynamics;
 mod published_tables;
+mod stated;
 mod suggestions;

@@ -63,7 +63,13 @@ pub(super) fn compared(
         };
         let mut other = two_descriptions(&by_file, &NamedModel { model: &urdf, ..by_urdf }, seed)?;
         // Both explanations are tried: the numbers alone do not say which of the two files is wrong.
-        let [of_urdf, of_file] = [&report, &other].map(|report| cost(report, urdf.frames().reach_m()));
+        let reach_m = urdf.frames().reach_m();
+        let [of_urdf, of_file] = [
+            cost(&report, reach_m, |parameter| {
+                parameter.is_of_gravity() || parameter.parameter == "armature"
+            }),
+            cost(&other, reach_m, |_| false),
+        ];
         if of_file < of_urdf {
             std::mem::swap(&mut report, &mut other);
         }
@@ -80,14 +86,16 @@ pub(super) fn compared(
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Cost {
     /// Whether it is unexplained, whether its correction is physically impossible, and whether the file has no place
-    /// for it, as a URDF has none for gravity.
+    /// for a part of it, as a URDF has none for gravity.
     against_it: [bool; 3],
     /// Free numbers, in halves.
     numbers: u32,
     is_implausible: bool,
+    /// Whether the cause is nothing but other values; that values are left out, which zeros show, is more likely.
+    is_of_free_values: bool,
 }
 
-fn cost(report: &DynamicsReport, reach_m: f64) -> Cost {
+fn cost(report: &DynamicsReport, reach_m: f64, has_no_place: impl Fn(&ParameterDifference) -> bool) -> Cost {
     let explanations = &report.explanations;
     let numbers: f64 = explanations.iter().map(|explanation| explanation.numbers).sum();
     let any = |is_so: fn(&DynamicsExplanation) -> bool| explanations.iter().any(is_so);
@@ -97,9 +105,15 @@ fn cost(report: &DynamicsReport, reach_m: f64) -> Cost {
         reason = "a few free numbers, in halves"
     )]
     Cost {
-        against_it: [explanations.is_empty(), any(|of| !of.is_a_body), any(|of| of.changes.is_empty())],
+        against_it: [
+            explanations.is_empty(),
+            any(|of| !of.is_a_body),
+            any(|of| of.changes.is_empty())
+                || explanations.iter().any(|of| of.parameters.iter().any(&has_no_place)),
+        ],
         numbers: (2.0 * numbers).round() as u32,
         is_implausible: explanations.iter().any(|of| has_plausible_com(of, reach_m)),
+        is_of_free_values: any(|of| of.cause.is_of_free_values()),
     }
 }
 

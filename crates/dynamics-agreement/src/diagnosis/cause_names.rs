@@ -99,10 +99,10 @@ causes! {
     CountedTwice = "counted_twice", "the inertia of one link is counted twice: that of the other link contains it", WHOLE_LINKS;
     InertialsSwapped = "inertials_swapped", "the inertias of two links are exchanged", WHOLE_LINKS;
     InertialLeftOut = "inertial_left_out", "the inertia of a link is left out", MISSING;
+    PrincipalAxesMissing = "principal_axes_missing", "principal moments are given without their axes", INERTIAL_AXES;
     InertiaRotation = "inertia_rotation", "the inertia has the right principal moments and wrong axes", INERTIAL_AXES;
     ComMissing = "com_missing", "the centre of mass is missing", MISSING;
     ProductsMissing = "products_missing", "the products of inertia are missing", MISSING;
-    PrincipalAxesMissing = "principal_axes_missing", "principal moments are given without their axes", INERTIAL_AXES;
     InertiaPlaceholder = "inertia_placeholder", "the inertia is a placeholder", MISSING;
     InertiaMissing = "inertia_missing", "the inertia is missing", MISSING;
     InertialMissing = "inertial_missing", "the link has no inertia", MISSING;

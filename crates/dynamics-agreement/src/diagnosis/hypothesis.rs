@@ -79,6 +79,17 @@ pub(crate) enum Change {
     FreeGravity(Vec<Vector3<f64>>),
 }
 
+impl Change {
+    /// Whether it determines each parameter that it changes. Of several free parameters of which torques show few
+    /// combinations, a fit may change any.
+    pub(super) fn determines_each_parameter(&self) -> bool {
+        match self {
+            Self::FreeLink { free, .. } | Self::FreeLinkFrom { free, .. } => free.count() == 1,
+            _ => true,
+        }
+    }
+}
+
 /// The parameters that one factor for all links multiplies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scale {

@@ -1,11 +1,15 @@
 //! The order of explanations, and which of them correct to the same parameters.
 
+use std::ops::Range;
+
+use congruent_description::principal_moments;
 use congruent_dynamics::JointResistance;
 
 use super::{
     cause_names::DynamicsCause,
     fit::{Corrected, FittedHypothesis},
-    hypothesis::DynamicsPlace,
+    free::{ENTRIES, FreeParameters},
+    hypothesis::{Change, DynamicsPlace},
 };
 use crate::{
     model::{BodyLaw, DynamicsModel, Inertial, JointTerm},
@@ -48,7 +52,12 @@ impl ExactExplanation {
             }
         }
         let law_broken = corrected.law_broken(model);
-        let contradicted = reference.is_some_and(|reference| is_contradicted(model, reference, &corrected));
+        let by_parameter = parts.iter().all(|part| part.hypothesis.change.determines_each_parameter());
+        let judged = if by_parameter { &EACH[..] } else { &PARTS[..] };
+        let contradicted = reference.is_some_and(|reference| {
+            is_contradicted([model, reference], &corrected, judged)
+                || parts.iter().any(|part| part.turns_into_another_tensor([model, reference]))
+        });
         let more = f64::from(u32::try_from(parts.len() - 1).unwrap_or(u32::MAX));
         let complexity =
             parts.iter().map(FittedHypothesis::complexity).sum::<f64>() + COMPLEXITY_PER_PART * more;
@@ -147,6 +156,20 @@ impl Corrected {
 }
 
 impl FittedHypothesis {
+    /// Whether it turns the inertia of a link that has other principal moments in the other description. Of a link with few
+    /// identifiable parameters some rotation nearly always gives the torques.
+    fn turns_into_another_tensor(&self, [model, reference]: [&DynamicsModel; 2]) -> bool {
+        let Change::FreeLink { link, free: FreeParameters::Rotation(_) } = self.hypothesis.change else {
+            return false;
+        };
+        let there = reference.frames.find_link(model.frames.link_name(link));
+        let there = there.and_then(|there| reference.inertials[there]);
+        let Some((written, there)) = model.inertials[link].zip(there) else { return false };
+        let [a, b] = [written, there].map(|of| principal_moments(&of.tensor_kg_m2));
+        let size = a[2].abs().max(b[2].abs());
+        a.iter().zip(b).any(|(a, b)| (a - b).abs() > FILE_DIGITS * size)
+    }
+
     /// Whether the correction changes more than the rounding of link parameters.
     pub(super) fn is_more_than_rounding(&self, model: &DynamicsModel) -> bool {
         let is_same = |(link, parameters): &(usize, Inertial)| {
@@ -203,6 +226,10 @@ fn added(new: &JointResistance, old: &JointResistance, before: JointResistance) 
 
 /// The law that corrected parameters break; a tensor that the correction does not change is not judged.
 fn law_broken(model: &DynamicsModel, link: usize, parameters: &Inertial) -> Option<BodyLaw> {
+    // A link that loses its inertial is a frame, no body.
+    if *parameters == Inertial::nothing() {
+        return None;
+    }
     let broken = parameters.law_broken(model.frames.reach_m)?;
     // A file with an impossible tensor is reported elsewhere; a correction of its mass is no worse for it.
     let keeps_tensor =
@@ -210,8 +237,13 @@ fn law_broken(model: &DynamicsModel, link: usize, parameters: &Inertial) -> Opti
     (broken == BodyLaw::Mass || !keeps_tensor).then_some(broken)
 }
 
-/// Whether a correction changes a parameter that is equal in both descriptions.
-fn is_contradicted(model: &DynamicsModel, reference: &DynamicsModel, corrected: &Corrected) -> bool {
+/// Whether a correction changes what is equal in both descriptions; parameters that are `judged` together are equal if all
+/// are.
+fn is_contradicted(
+    [model, reference]: [&DynamicsModel; 2],
+    corrected: &Corrected,
+    judged: &[Range<usize>],
+) -> bool {
     let links = corrected.links.iter().any(|(link, parameters)| {
         let name = model.frames.link_name(*link);
         let Some(other) = reference.frames.find_link(name) else { return false };
@@ -219,8 +251,9 @@ fn is_contradicted(model: &DynamicsModel, reference: &DynamicsModel, corrected: 
         let (Some(written), Some(other)) = (written, reference.inertials[other]) else {
             return written.is_none() && reference.inertials[other].is_none();
         };
-        LinkDifferences::between(&written, parameters)
-            .change_what_is_equal(LinkDifferences::between(&written, &other))
+        let changed = ParameterDifferences::between(&written, parameters);
+        let different = ParameterDifferences::between(&written, &other);
+        changed.change_what_is_equal(&different, judged)
     });
     let joints = corrected.joints.iter().flatten().enumerate().any(|(joint, new)| {
         let name = model.frames.joint_name(joint);
@@ -252,11 +285,42 @@ impl LinkDifferences {
             differs((tensors[0] - tensors[1]).amax(), tensors[0].amax().max(tensors[1].amax())),
         ])
     }
+}
 
-    fn change_what_is_equal(self, real: Self) -> bool {
-        self.0.into_iter().zip(real.0).any(|(named, real)| named && !real)
+/// Which of a link's ten parameters differ: the mass, the centre of mass, the entries of the tensor in the link's axes.
+struct ParameterDifferences([bool; 10]);
+
+impl ParameterDifferences {
+    fn between(a: &Inertial, b: &Inertial) -> Self {
+        let parameters = |of: &Inertial| {
+            let (c, tensor) = (of.com_m, of.tensor_in_link());
+            let mut all = [of.mass_kg, c.x, c.y, c.z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            all[4..].copy_from_slice(&ENTRIES.map(|entry| tensor[entry]));
+            all
+        };
+        let (a, b) = (parameters(a), parameters(b));
+        let mut differ = [false; 10];
+        for part in PARTS {
+            // Relative to the largest of its part: a coordinate of zero has no size of its own.
+            let size =
+                a[part.clone()].iter().chain(&b[part.clone()]).fold(0.0_f64, |size, of| size.max(of.abs()));
+            for at in part {
+                differ[at] = (a[at] - b[at]).abs() > SAME_VALUE * size;
+            }
+        }
+        Self(differ)
+    }
+
+    fn change_what_is_equal(&self, real: &Self, judged: &[Range<usize>]) -> bool {
+        let any = |of: &Self, group: &Range<usize>| of.0[group.clone()].contains(&true);
+        judged.iter().any(|group| any(self, group) && !any(real, group))
     }
 }
+
+/// Mass, centre of mass and tensor among the ten parameters.
+const PARTS: [Range<usize>; 3] = [0..1, 1..4, 4..10];
+/// Each of the ten parameters by itself.
+const EACH: [Range<usize>; 10] = [0..1, 1..2, 2..3, 3..4, 4..5, 5..6, 6..7, 7..8, 8..9, 9..10];
 
 /// Whether two parameters describe the same body.
 fn is_same(a: &Inertial, b: &Inertial) -> bool {

@@ -220,6 +220,12 @@ impl Frames {
         (0..self.links.len()).filter(move |&link| self.links[link].body == Some(body))
     }
 
+    /// Whether a link moves and no joint moves against its body.
+    pub(crate) fn is_at_tip(&self, link: usize) -> bool {
+        let body = self.links[link].body;
+        body.is_some() && self.joints.iter().all(|joint| joint.parent != body)
+    }
+
     /// The joints from one up to the root, itself first.
     pub(crate) fn ancestors(&self, joint: usize) -> impl Iterator<Item = usize> {
         std::iter::successors(Some(joint), |&joint| self.joints[joint].parent)

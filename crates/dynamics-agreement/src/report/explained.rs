@@ -204,7 +204,8 @@ impl ExplanationContext<'_> {
         for (link, parameters) in &corrected.links {
             let name = model.frames.link_name(*link);
             let written: Option<&Inertial> = model.inertials[*link].as_ref();
-            differences.extend(parameters::link_differences(name, written, Some(parameters)));
+            let right = (*parameters != Inertial::nothing()).then_some(parameters);
+            differences.extend(parameters::link_differences(name, written, right));
         }
         if let Some(joints) = &corrected.joints {
             differences.extend(parameters::joint_term_differences(&model.frames, &model.resistances, joints));
@@ -229,7 +230,7 @@ impl ExplanationContext<'_> {
         };
         let model = self.candidate;
         let mut edits: Vec<TextEdit> = Vec::new();
-        for (link, parameters) in &corrected.links {
+        for (link, parameters) in corrected.links.iter().filter(|(_, of)| *of != Inertial::nothing()) {
             edits.extend(file.set_inertial(model.frames.link_name(*link), parameters));
         }
         for (joint, terms) in corrected.joints.iter().flatten().enumerate() {

@@ -44,10 +44,9 @@ pub(super) fn link_hypotheses(
     for ((row, column), name) in ENTRIES.into_iter().zip(ENTRY_NAMES) {
         hypotheses.push(free(DynamicsCause::InertiaEntry, name, FreeParameters::InertiaEntry(row, column)));
     }
-    let body = model.frames.links[link].body;
-    // A payload hangs at the end of the chain; a point mass elsewhere is a fault of that link.
-    let is_tip = body.is_some_and(|body| model.frames.joints.iter().all(|joint| joint.parent != Some(body)));
-    if is_tip && body.is_some_and(|body| model.frames.joints[body].link == link) {
+    // A payload hangs on any of the links that are fixed together at the end of the chain; a point mass elsewhere is a fault
+    // of that link.
+    if model.frames.is_at_tip(link) {
         hypotheses.push(free(DynamicsCause::Payload, "", FreeParameters::Payload));
     }
     let rotation = FreeParameters::Rotation(Matrix3::identity());

@@ -87,6 +87,20 @@ pub(super) fn link_hypotheses(
     hypotheses
 }
 
+/// A mass at the end of the chain on a link that has none in the other description: a payload, whatever its form.
+pub(super) fn only_here(
+    model: &DynamicsModel,
+    reference: &DynamicsModel,
+    link: usize,
+) -> Option<DynamicsHypothesis> {
+    let there = reference.frames.find_link(model.frames.link_name(link))?;
+    let is_only_here = model.inertials[link].is_some() && reference.inertials[there].is_none();
+    (is_only_here && model.frames.is_at_tip(link)).then(|| {
+        let change = Change::Links(vec![(link, Inertial::nothing())]);
+        DynamicsHypothesis::new(DynamicsCause::Payload, "", DynamicsPlace::Links(vec![link]), change)
+    })
+}
+
 /// Whether a link without an inertial could lack one: links without mass are normal on a body that has some, unless they have a
 /// shape, or the other description has an inertial for them.
 fn could_have_inertial(model: &DynamicsModel, reference: Option<&DynamicsModel>, link: usize) -> bool {

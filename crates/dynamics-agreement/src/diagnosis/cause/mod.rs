@@ -61,6 +61,7 @@ pub(super) fn link_hypotheses(
     }
     if faulty == FaultySide::Candidate {
         hypotheses.extend(missing::link_hypotheses(model, reference, link));
+        hypotheses.extend(reference.and_then(|reference| missing::only_here(model, reference, link)));
         hypotheses.extend(
             reference.and_then(|reference| other_frames::rotation_of_reference(model, reference, link)),
         );

@@ -1,0 +1,250 @@
+//! `congruent check --against`: what only one of two descriptions states, and what differs beside torques.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use crate::support::{
+    command::{Answer, congruent, congruent_json, text},
+    suggested_changes::names,
+};
+
+/// Three turning joints, a tool that is fixed to the last link, and a finger behind the tool.
+const ARM: &str = r#"<robot name="arm">
+<link name="base"/>
+<link name="first"><inertial><origin xyz="0.05 0.02 0.2"/><mass value="10"/>
+<inertia ixx="0.3" iyy="0.31" izz="0.2" ixy="0.01" ixz="-0.02" iyz="0.03"/></inertial></link>
+<link name="second"><inertial><origin xyz="0.1 -0.02 0.03"/><mass value="6"/>
+<inertia ixx="0.1" iyy="0.12" izz="0.15" ixy="0.004" ixz="0.006" iyz="-0.002"/></inertial></link>
+<link name="third"><inertial><origin xyz="0.02 0.01 0.05"/><mass value="2"/>
+<inertia ixx="0.01" iyy="0.012" izz="0.014" ixy="0.001" ixz="0.0002" iyz="0.0003"/></inertial></link>
+<link name="tool"><inertial><origin xyz="0.01 0.02 0.03"/><mass value="0.5"/>
+<inertia ixx="0.001" iyy="0.0012" izz="0.0014" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="turn" type="revolute"><parent link="base"/><child link="first"/><origin xyz="0 0 0.1"/><axis xyz="0 0 1"/>
+<limit lower="-2.5" upper="2.5" velocity="1.5" effort="200"/><dynamics damping="1" friction="0"/></joint>
+<joint name="lift" type="revolute"><parent link="first"/><child link="second"/><origin xyz="0.1 0 0.4"/><axis xyz="0 1 0"/>
+<limit lower="-2" upper="2" velocity="1.5" effort="200"/><dynamics damping="0.5" friction="0"/></joint>
+<joint name="bend" type="revolute"><parent link="second"/><child link="third"/><origin xyz="0.3 0.03 0.02"/><axis xyz="1 0 0"/>
+<limit lower="-2" upper="2" velocity="1.5" effort="50"/><dynamics damping="0.1" friction="0"/></joint>
+<joint name="mount" type="fixed"><parent link="third"/><child link="tool"/><origin xyz="0 0 0.1"/></joint>
+</robot>
+"#;
+
+const FINGER: &str = r#"<link name="finger"><inertial><origin xyz="0 0 0.02"/><mass value="0.1"/>
+<inertia ixx="0.0001" iyy="0.0001" izz="0.0001" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="grip" type="prismatic"><parent link="tool"/><child link="finger"/><axis xyz="0 1 0"/>
+<limit lower="0" upper="0.04" velocity="0.1" effort="20"/></joint>
+</robot>"#;
+
+/// The arm without the `<inertial>` of these links.
+fn without_inertials(links: &[&str]) -> String {
+    let mut urdf = ARM.to_owned();
+    for link in links {
+        let from =
+            urdf.find(&format!("<link name=\"{link}\">")).unwrap() + format!("<link name=\"{link}\">").len();
+        let to = from + urdf[from..].find("</link>").unwrap();
+        urdf.replace_range(from..to, "");
+    }
+    urdf
+}
+
+/// The arm with one text in place of another that it has once.
+fn with(old: &str, new: &str) -> String {
+    assert_eq!(ARM.matches(old).count(), 1, "{old}");
+    ARM.replacen(old, new, 1)
+}
+
+/// A description against another one, as JSON and as text.
+fn against(first: &str, second: &str, more: &[&str]) -> (Answer, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let [one, other] = ["one.urdf", "other.urdf"].map(|name| folder.path().join(name));
+    fs::write(&one, first).unwrap();
+    fs::write(&other, second).unwrap();
+    let [one, other] = [&one, &other].map(|path| text(path));
+    let arguments = [&["check", &one, "--against", &other], more].concat();
+    (congruent_json(&arguments), congruent(&arguments).stdout)
+}
+
+/// The comparison of the two descriptions.
+fn dynamics(report: &Value) -> &Value {
+    let more = report["other_dynamics"].as_array().into_iter().flatten();
+    let mut all = std::iter::once(&report["dynamics"]).chain(more);
+    all.find(|of| of["sides"]["reference"] != "physics").unwrap()
+}
+
+const LINKS: [&str; 4] = ["first", "second", "third", "tool"];
+
+#[test]
+fn a_file_without_masses_is_no_reference_for_masses() {
+    let (answer, printed) = against(ARM, &without_inertials(&LINKS), &[]);
+    let report = answer.json();
+    assert_eq!((answer.code, &report["verdict"]), (0, &json!("agree")), "{printed}");
+    let compared = dynamics(&report);
+    assert_eq!(compared["verdict"], "not_compared", "{compared:#}");
+    assert_eq!(names(&compared["not_stated"]), ["masses of all links"]);
+    assert!(compared["explanations"].as_array().unwrap().is_empty());
+    assert!(printed.contains("same geometry, masses not compared"), "{printed}");
+    assert!(!printed.contains("to write in"), "{printed}");
+    // The other file still lacks what this one states.
+    let (answer, _) = against(&without_inertials(&LINKS), ARM, &[]);
+    assert_eq!(answer.code, 1);
+}
+
+#[test]
+fn what_one_body_lacks_is_not_compared_and_the_rest_is() {
+    let bare = without_inertials(&["first"]).replace("damping=\"0.5\"", "damping=\"0.7\"");
+    let (answer, printed) = against(ARM, &bare, &[]);
+    let report = answer.json();
+    let compared = dynamics(&report);
+    assert_eq!((answer.code, &compared["verdict"]), (1, &json!("explained")), "{printed}");
+    assert_eq!(names(&compared["not_stated"]), ["masses of first"]);
+    let [explanation] = &compared["explanations"].as_array().unwrap()[..] else { panic!("{compared:#}") };
+    assert_eq!((&explanation["cause"], &explanation["place"]), (&json!("damping"), &json!(["lift"])));
+}
+
+#[test]
+fn a_mass_on_a_frame_at_the_tip_is_a_payload() {
+    // A link without mass that is fixed to one with a mass is a frame: that is a statement.
+    let (answer, printed) = against(ARM, &without_inertials(&["tool"]), &[]);
+    assert_eq!(answer.code, 1, "{printed}");
+    let report = answer.json();
+    let first = &dynamics(&report)["explanations"][0];
+    assert_eq!((&first["cause"], &first["place"]), (&json!("payload"), &json!(["tool"])), "{printed}");
+    // A point mass more on the tool: its mass, and the place and the tensor of both together.
+    let heavier = with(
+        "<origin xyz=\"0.01 0.02 0.03\"/><mass value=\"0.5\"/>\n<inertia ixx=\"0.001\" iyy=\"0.0012\" izz=\"0.0014\"",
+        "<origin xyz=\"0.01 0.02 0.08\"/><mass value=\"1.0\"/>\n<inertia ixx=\"0.0035\" iyy=\"0.0037\" izz=\"0.0014\"",
+    );
+    let (answer, printed) = against(ARM, &heavier, &[]);
+    let report = answer.json();
+    let first = &dynamics(&report)["explanations"][0];
+    assert_eq!((&first["cause"], &first["place"]), (&json!("payload"), &json!(["tool"])), "{printed}");
+}
+
+#[test]
+fn a_file_of_geometry_alone_is_no_reference_for_damping() {
+    let undamped = |urdf: &str| {
+        [" damping=\"1\"", " damping=\"0.5\"", " damping=\"0.1\""]
+            .iter()
+            .fold(urdf.to_owned(), |urdf, damping| {
+                urdf.replace(&format!("<dynamics{damping} friction=\"0\"/>"), "")
+            })
+    };
+    let (answer, printed) = against(ARM, &undamped(&without_inertials(&LINKS)), &[]);
+    assert_eq!(answer.code, 0, "{printed}");
+    let report = answer.json();
+    let not_stated = names(&dynamics(&report)["not_stated"]);
+    assert_eq!(not_stated, ["masses of all links", "damping and dry friction of all joints"]);
+    // With masses, the default of the format is a statement: no damping. A zero that is written is one in any case.
+    assert_eq!(against(ARM, &undamped(ARM), &[]).0.code, 1);
+    assert_eq!(
+        against(ARM, &without_inertials(&LINKS).replace("damping=\"1\"", "damping=\"0\""), &[]).0.code,
+        1
+    );
+}
+
+#[test]
+fn one_moment_is_named_alone_although_torques_show_few_of_its_body() {
+    for (old, new) in [("izz=\"0.2\"", "izz=\"0.3\""), ("izz=\"0.2\"", "izz=\"0.31\"")] {
+        let other = with(old, new);
+        for (first, second) in [(ARM, other.as_str()), (other.as_str(), ARM)] {
+            let (answer, printed) = against(first, second, &[]);
+            let report = answer.json();
+            let compared = dynamics(&report);
+            let first = &compared["explanations"][0];
+            assert_eq!(
+                (&first["cause"], &first["detail"]),
+                (&json!("inertia_entry"), &json!("izz")),
+                "{printed}"
+            );
+            assert_eq!(first["figures"].as_array().unwrap().len(), 1, "{first:#}");
+            assert!(!printed.contains("quarter"), "{printed}");
+        }
+    }
+}
+
+#[test]
+fn a_range_that_differs_is_no_difference_of_dynamics() {
+    let (answer, printed) = against(ARM, &with("lower=\"-2.5\"", "lower=\"-2.4\""), &[]);
+    assert_eq!(answer.code, 1);
+    assert!(printed.contains("same geometry and dynamics, different joint limits"), "{printed}");
+    assert!(
+        printed.contains("  agree     dynamics of") && printed.contains("  disagree  joint limits of"),
+        "{printed}"
+    );
+    assert!(!printed.contains("disagree  dynamics"), "{printed}");
+}
+
+/// The tool's mass at the link that carries it: the same body.
+#[test]
+fn differences_that_cancel_are_not_said_to_be_below_the_resolution() {
+    // About the origin of `third`: 2 kg at (20, 10, 50) mm and 0.5 kg at (10, 20, 130) mm.
+    let lumped = without_inertials(&["tool"]);
+    let mass = [2.0, 0.5];
+    let at = [[0.02, 0.01, 0.05], [0.01, 0.02, 0.13]];
+    let com: Vec<f64> = (0..3).map(|axis| (mass[0] * at[0][axis] + mass[1] * at[1][axis]) / 2.5).collect();
+    let tensors = [[0.01, 0.012, 0.014, 0.001, 0.0002, 0.0003], [0.001, 0.0012, 0.0014, 0.0, 0.0, 0.0]];
+    let mut sum = [0.0; 6];
+    for (link, tensor) in tensors.iter().enumerate() {
+        let [x, y, z] = [0, 1, 2].map(|axis| at[link][axis] - com[axis]);
+        let shift = [y * y + z * z, x * x + z * z, x * x + y * y, -x * y, -x * z, -y * z];
+        for entry in 0..6 {
+            sum[entry] += tensor[entry] + mass[link] * shift[entry];
+        }
+    }
+    let inertial = format!(
+        "<origin xyz=\"{} {} {}\"/><mass value=\"2.5\"/>\n\
+         <inertia ixx=\"{}\" iyy=\"{}\" izz=\"{}\" ixy=\"{}\" ixz=\"{}\" iyz=\"{}\"/>",
+        com[0], com[1], com[2], sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]
+    );
+    let from = lumped.find("<origin xyz=\"0.02 0.01 0.05\"/>").unwrap();
+    let to = from + lumped[from..].find("</inertial>").unwrap();
+    let lumped = [&lumped[..from], &inertial, &lumped[to..]].concat();
+    let (answer, printed) = against(ARM, &lumped, &[]);
+    assert_eq!(answer.code, 0, "{printed}");
+    assert!(
+        printed.contains("third: mass is 2 kg, expected 2.5 kg; the other differences cancel"),
+        "{printed}"
+    );
+    assert!(!printed.contains("below the resolution"), "{printed}");
+}
+
+#[test]
+fn a_named_tip_narrows_what_is_compared() {
+    let gripping = ARM.replace("</robot>", FINGER);
+    let (answer, printed) = against(&gripping, ARM, &[]);
+    assert_eq!(answer.code, 1, "{printed}");
+    for (first, second) in [(gripping.as_str(), ARM), (ARM, gripping.as_str())] {
+        let (answer, printed) = against(first, second, &["--tip", "tool"]);
+        let report = answer.json();
+        assert_eq!((answer.code, &report["verdict"]), (0, &json!("agree")), "{printed}");
+        assert_eq!(names(&report["against"]["joints_left_out"]), ["grip"]);
+        assert_eq!(dynamics(&report)["verdict"], "same");
+        assert!(report["comparisons"].as_array().unwrap().iter().any(|of| of["name"] == "urdf_other"));
+        let longer = with("xyz=\"0.3 0.03 0.02\"", "xyz=\"0.31 0.03 0.02\"");
+        let longer = if first == ARM { longer } else { longer.replace("</robot>", FINGER) };
+        assert_eq!(against(&longer, second, &["--tip", "tool"]).0.code, 1);
+    }
+}
+
+/// The same axes with other frames, of links that are only names: what a table says of a robot.
+#[test]
+fn frames_of_links_that_are_names_may_lie_anywhere() {
+    let names_only = without_inertials(&LINKS);
+    // The frame of `second` is 50 mm further along its axis, and that of `first` is turned about its own.
+    let elsewhere = names_only
+        .replace("xyz=\"0 0 0.1\"/><axis xyz=\"0 0 1\"", "xyz=\"0 0 0.3\"/><axis xyz=\"0 0 1\"")
+        .replace("xyz=\"0.1 0 0.4\"", "xyz=\"0.1 0.05 0.2\"")
+        .replace("xyz=\"0.3 0.03 0.02\"", "xyz=\"0.3 -0.02 0.02\"");
+    assert_ne!(elsewhere, names_only);
+    let (answer, printed) = against(ARM, &elsewhere, &[]);
+    assert_eq!(answer.code, 0, "{printed}");
+    assert!(printed.contains("the frames of first, second are placed differently"), "{printed}");
+    // One that has a shape there is where its file says.
+    let shape = "<link name=\"first\"><visual><geometry><sphere radius=\"0.1\"/></geometry></visual></link>";
+    let (answer, _) = against(ARM, &elsewhere.replace("<link name=\"first\"></link>", shape), &[]);
+    assert_eq!(answer.code, 1);
+    // A wrong length moves the tip.
+    let (answer, _) = against(ARM, &elsewhere.replace("0.3 -0.02 0.02", "0.3 -0.02 0.03"), &[]);
+    assert_eq!(answer.code, 1);
+}
