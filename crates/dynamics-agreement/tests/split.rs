@@ -59,6 +59,10 @@ fn split_otherwise(robot: &Robot, model: &DynamicsModel, random: &mut Uniform) -
     let mut bodies = model.bodies();
     for (coordinate, &index) in robot.movable_joints().iter().enumerate() {
         let joint = robot.joint(index);
+        // What a sliding joint carries has no point that stays in the body before.
+        if !joint.kind.is_angular() {
+            continue;
+        }
         let carrier =
             robot.parent_joint(robot.body(joint.parent)).and_then(|before| robot.coordinate(before));
         for along_m in [0.0, 0.1, -0.15] {
