@@ -61,9 +61,9 @@ causes! {
     /// A length is off by the factor between millimetres and metres.
     MillimetresAsMetres = "millimetres_as_metres",
         "Lengths are off by a factor of 1000: millimetres under a key that ends in _m, or metres under one that ends in _mm. Change the key or the values.";
-    /// Two entries are exchanged.
+    /// Two entries are exchanged, or the values of a column are in the rows before or behind their own.
     ParametersExchanged = "parameters_exchanged",
-        "Two values or two columns of the table are exchanged, for example a and d: data sheets list them in different orders. Write each value under its own key.";
+        "Two values or two columns of the table are exchanged, or a column is shifted by one row: data sheets list a and d in different orders, and a modified table has a and alpha one row further down than a standard one. Write each value under its own key, in its own row.";
     /// Roll, pitch and yaw are in another order.
     RpyOrder = "rpy_order",
         "Roll, pitch and yaw are in another order. The order here is that of a URDF, turns about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll). Convert the three angles.";
@@ -81,7 +81,7 @@ causes! {
         "The transform from the base to frame 0 of the table is wrong. Correct base_from_dh0, or declare the base that the table begins at.";
     /// One entry of one row is off, or the reference model's file has angles with too few digits.
     Parameter = "parameter",
-        "One value differs, for example by a typing error or another edition of the data sheet. Correct it in the file that is wrong; quarter turns need all digits, 1.5707963267948966.";
+        "One value differs, for example by a typing error, a missing minus or another edition of the data sheet. Correct it in the file that is wrong; quarter turns need all digits, 1.5707963267948966.";
     /// A joint moves more or less than its variable says.
     Ratio = "ratio",
         "The joint moves more or less than its variable says. Compare the gear ratio and the unit of the joint position in the program that gives the poses.";
@@ -125,14 +125,27 @@ pub enum FaultPlace {
     Rows(Vec<usize>),
     /// One entry of some rows.
     Entries(DhEntry, Vec<usize>),
+    /// Several entries of one row.
+    RowEntries(Vec<DhEntry>, usize),
     /// Whole columns of the table.
     Column(Vec<DhEntry>),
+    /// Columns in which each value is one row too low or too high.
+    ShiftedColumn(Vec<DhEntry>, RowShift),
     /// The declared transform before the rows.
     Base,
     /// The declared transform after the rows.
     Tool,
     /// Joints of the reference model, by their number in it, fixed ones included.
     ReferenceJoints(Vec<usize>),
+}
+
+/// Where the values of a column belong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowShift {
+    /// Each value belongs one row up, towards the base.
+    BelongsUp,
+    /// Each value belongs one row down, towards the tip.
+    BelongsDown,
 }
 
 /// Both models; hypotheses change them.
@@ -175,6 +188,11 @@ impl PoseHypothesis {
     /// A correction that is a fit only.
     pub(super) fn fit(cause: Cause, place: FaultPlace, free: Vec<ModelParameter>) -> Self {
         Self { cause, place, edit: None, free }
+    }
+
+    /// Whether one value is fitted and nothing else is changed.
+    pub(super) fn is_single_value(&self) -> bool {
+        self.edit.is_none() && self.free.len() == 1 && self.cause != Cause::Ratio
     }
 
     /// Applies the correction, except for the fit.

@@ -28,7 +28,7 @@ pub use candidate::{CandidateModel, CandidateRow, DeclaredTransform, DhEntry, Mo
 pub use digits::{TransformPart, TypedPlace, TypedValue, WrittenDigits};
 pub use equivalence::Equivalence;
 pub use explanation::{Criterion, ExplainedFault, Explanation};
-pub use hypothesis::{Cause, FaultPlace, ModelPair};
+pub use hypothesis::{Cause, FaultPlace, ModelPair, RowShift};
 pub(crate) use invariants::compare as differences;
 pub use invariants::{Invariant, JointDifference};
 pub(crate) use nearest_table::nearest_table;

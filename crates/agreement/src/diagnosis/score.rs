@@ -176,7 +176,10 @@ impl UnitEvidence {
                     [column(&[DhEntry::A, DhEntry::D]), constant(&candidate.base), constant(&candidate.tool)]
                         .concat()
                 }
-                FaultPlace::Rows(_) | FaultPlace::ReferenceJoints(_) => Vec::new(),
+                FaultPlace::Rows(_)
+                | FaultPlace::RowEntries(..)
+                | FaultPlace::ShiftedColumn(..)
+                | FaultPlace::ReferenceJoints(_) => Vec::new(),
             }
         };
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));

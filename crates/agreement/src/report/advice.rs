@@ -107,7 +107,10 @@ impl FileValue {
             (Self::Row(row, key), FaultPlace::Entries(entry, rows)) => {
                 rows.contains(&row) && row_key(*entry) == key
             }
-            (Self::Row(_, key), FaultPlace::Column(entries)) => {
+            (Self::Row(row, key), FaultPlace::RowEntries(entries, at)) => {
+                row == *at && entries.iter().any(|&entry| row_key(entry) == key)
+            }
+            (Self::Row(_, key), FaultPlace::Column(entries) | FaultPlace::ShiftedColumn(entries, _)) => {
                 entries.iter().any(|&entry| row_key(entry) == key)
             }
             _ => false,

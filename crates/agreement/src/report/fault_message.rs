@@ -18,6 +18,7 @@ use congruent_kinematics::{Pose, rotation_log};
 use super::{
     content::Fault,
     names::ModelNames,
+    typing_error::typing_error,
     values::{ReportedValue, isometry, value_literal},
     wrong_unit::WrongUnit,
 };
@@ -82,10 +83,16 @@ pub(super) fn describe_fault(context: &FaultContext<'_>) -> FaultMessage {
         FaultPlace::Model => context.model(),
         FaultPlace::Rows(rows) => context.rows(rows),
         FaultPlace::Entries(entry, rows) => context.entries(*entry, rows),
-        FaultPlace::Column(entries) if fault.cause == Cause::ParametersExchanged => {
-            context.columns_exchanged(entries)
+        FaultPlace::RowEntries(entries, row) if fault.cause == Cause::ParametersExchanged => {
+            context.row_exchanged(*row, entries)
         }
-        FaultPlace::Column(entries) => context.columns(entries),
+        FaultPlace::RowEntries(entries, row) => context.row_signs(*row, entries),
+        FaultPlace::Column(entries) => match fault.cause {
+            Cause::ParametersExchanged => context.columns_exchanged(entries),
+            Cause::Parameter => context.column_signs(entries),
+            _ => context.columns(entries),
+        },
+        FaultPlace::ShiftedColumn(entries, shift) => context.shifted(entries, *shift),
         FaultPlace::Base => context.declared_transform(ConstantKey::BaseFromDh0),
         FaultPlace::Tool => context.declared_transform(ConstantKey::DhnFromTip),
         FaultPlace::ReferenceJoints(joints) => context.reference_joints(joints),
@@ -122,8 +129,10 @@ impl FaultContext<'_> {
     }
 
     fn rows(&self, rows: &[usize]) -> FaultMessage {
-        if self.fault.cause == Cause::Parameter {
-            return self.kind(rows[0]);
+        match self.fault.cause {
+            Cause::Parameter => return self.kind(rows[0]),
+            Cause::ParametersExchanged => return self.row_exchanged(rows[0], &[DhEntry::A, DhEntry::D]),
+            _ => {}
         }
         let names: Vec<String> = rows.iter().map(|&row| self.joint(row)).collect();
         let listed = names.join("\", \"");
@@ -162,7 +171,6 @@ impl FaultContext<'_> {
                     format!("exchange the two {how}"),
                 )
             }
-            Cause::ParametersExchanged => self.lengths_exchanged(named, rows[0]),
             _ => (
                 ratio(named),
                 format!(
@@ -172,12 +180,7 @@ impl FaultContext<'_> {
                 "give joint positions in rad".to_owned(),
             ),
         };
-        let key = match self.fault.cause {
-            Cause::AxisFlipped => RowKey::Sign,
-            Cause::ParametersExchanged if self.is_written(rows[0], RowKey::A) => RowKey::A,
-            Cause::ParametersExchanged => RowKey::D,
-            _ => RowKey::Joint,
-        };
+        let key = if self.fault.cause == Cause::AxisFlipped { RowKey::Sign } else { RowKey::Joint };
         FaultMessage { fault: Fault { suggestion, ..fault }, message, location: self.location(rows[0], key) }
     }
 
@@ -208,36 +211,13 @@ impl FaultContext<'_> {
         FaultMessage { fault, message, location: self.location(row, RowKey::Kind) }
     }
 
-    fn lengths_exchanged(&self, named: Fault, row: usize) -> (Fault, String, String) {
-        let value = |models: &ModelPair, entry| models.candidate.entry(row, entry).unwrap_or_default();
-        let lengths = [DhEntry::A, DhEntry::D];
-        let found = lengths.map(|entry| self.given(row, entry, value(self.before, entry))).join(", ");
-        let expected = lengths.map(|entry| self.written(row, entry, value(self.after, entry)));
-        let fault = Fault {
-            parameter: Some("a, d".to_owned()),
-            found: Some(ReportedValue::Text(found.clone())),
-            expected: Some(ReportedValue::Text(expected.join(", "))),
-            ..named
-        };
-        let message = format!("a and d of joint \"{}\" are exchanged: {found}", self.joint(row));
-        (fault, message, expected.join("\n"))
-    }
-
     fn entries(&self, entry: DhEntry, rows: &[usize]) -> FaultMessage {
         let row = rows[0];
         let value = |models: &ModelPair, row: usize| models.candidate.entry(row, entry).unwrap_or_default();
         let (found, expected) = (value(self.before, row), value(self.after, row));
         let parameter = Some(entry.to_string());
         if let &[first, second] = rows {
-            let joints = vec![self.joint(first), self.joint(second)];
-            let message = format!("alpha of joints \"{}\" are exchanged", joints.join("\", \""));
-            let suggestion = format!(
-                "{}\n{}",
-                self.written(first, entry, expected),
-                self.written(second, entry, value(self.after, second))
-            );
-            let fault = Fault { joints, parameter, suggestion, ..Fault::default() };
-            return FaultMessage { fault, message, location: self.location(second, row_key(entry)) };
+            return self.values_exchanged(entry, [first, second]);
         }
         let joint = self.joint(row);
         let right = self.corrected(row, entry, found, expected);
@@ -247,7 +227,8 @@ impl FaultContext<'_> {
             format!("{entry} is not written (default 0)")
         };
         let expected = within_a_turn(entry, expected);
-        let message = format!("joint \"{joint}\": {given}, expected {right}");
+        let how = typing_error(&given, &right).map(|how| format!(" ({how})")).unwrap_or_default();
+        let message = format!("joint \"{joint}\": {given}, expected {right}{how}");
         let fault = Fault {
             joint: Some(joint),
             parameter,
@@ -304,7 +285,7 @@ impl FaultContext<'_> {
         FaultMessage { fault, message, location: self.in_robot_file(span) }
     }
 
-    fn joint(&self, row: usize) -> String {
+    pub(super) fn joint(&self, row: usize) -> String {
         self.names.moving_joint(self.before.candidate.rows[row].joint)
     }
 
@@ -313,7 +294,7 @@ impl FaultContext<'_> {
     }
 
     /// Whether the file writes a value of a row; true if there is no file.
-    fn is_written(&self, row: usize, key: RowKey) -> bool {
+    pub(super) fn is_written(&self, row: usize, key: RowKey) -> bool {
         let place = self.names.places.and_then(|places| places.value(row, key));
         place.is_none_or(|place| place.is_written)
     }
@@ -329,7 +310,7 @@ impl FaultContext<'_> {
     }
 
     /// A value of a row as the file writes it, with its key and in the unit of that key.
-    fn written(&self, row: usize, entry: DhEntry, value: f64) -> String {
+    pub(super) fn written(&self, row: usize, entry: DhEntry, value: f64) -> String {
         self.corrected(row, entry, f64::INFINITY, value)
     }
 
@@ -343,7 +324,7 @@ impl FaultContext<'_> {
     }
 
     /// The given value of a row, in the digits of the file.
-    fn given(&self, row: usize, entry: DhEntry, value: f64) -> String {
+    pub(super) fn given(&self, row: usize, entry: DhEntry, value: f64) -> String {
         let place = self.names.places.and_then(|places| Some((places, places.value(row, row_key(entry))?)));
         match place {
             Some((places, place)) if place.is_written => {

@@ -1,4 +1,4 @@
-//! Messages about whole columns: a wrong unit, and exchanged columns.
+//! Messages about whole columns in a wrong unit.
 
 use congruent_input::fitted_number;
 
@@ -11,21 +11,6 @@ use super::{
 use crate::diagnosis::{DhEntry, FaultPlace, ModelPair};
 
 impl FaultContext<'_> {
-    /// Two columns that are exchanged in every row.
-    pub(super) fn columns_exchanged(&self, entries: &[DhEntry]) -> FaultMessage {
-        let names: Vec<String> = entries.iter().map(DhEntry::to_string).collect();
-        let message = format!("columns {} are exchanged throughout the table", names.join(" and "));
-        let value = |models: &ModelPair, row| models.candidate.entry(row, entries[0]);
-        let rows = 0..self.before.candidate.rows.len();
-        let row = rows.into_iter().find(|&row| value(self.before, row) != value(self.after, row));
-        let fault = Fault {
-            parameter: Some(names.join(", ")),
-            suggestion: format!("exchange {} in every row", names.join(" and ")),
-            ..Fault::default()
-        };
-        FaultMessage { fault, message, location: self.location(row.unwrap_or(0), row_key(entries[0])) }
-    }
-
     /// Columns whose values are not in the unit of their keys.
     pub(super) fn columns(&self, entries: &[DhEntry]) -> FaultMessage {
         let rows = 0..self.before.candidate.rows.len();

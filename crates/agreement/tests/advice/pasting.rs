@@ -56,7 +56,7 @@ fn number(line: &str) -> Option<(&str, f64)> {
 
 /// One fault in a robot file; `None` if the file has no place for it.
 fn mutate(file: &mut Vec<String>, random: &mut Random) -> Option<()> {
-    match random.below(9) {
+    match random.below(12) {
         0..=2 => value(file, &["a_m", "d_m"], &OF_LENGTHS, random),
         3 | 4 => value(file, &["alpha_deg", "theta_deg"], &OF_ANGLES_DEG, random),
         5 => {
@@ -83,8 +83,26 @@ fn mutate(file: &mut Vec<String>, random: &mut Random) -> Option<()> {
             file[line] = format!("convention = \"{}\"", if is_standard { "modified" } else { "standard" });
             Some(())
         }
-        _ => transform(file, random),
+        8 => transform(file, random),
+        _ => misplaced(file, random),
     }
+}
+
+/// Values of one key in each other's rows, a column one row too low or too high, or a minus that is missing or too many.
+fn misplaced(file: &mut [String], random: &mut Random) -> Option<()> {
+    let key = random.pick(&["a_m", "d_m", "alpha_deg"]);
+    let lines = lines_with(file, &[key]);
+    let (one, two) = (random.pick(&lines), random.pick(&lines));
+    match random.below(4) {
+        0 => file.swap(one, two),
+        1 => lines.windows(2).for_each(|pair| file.swap(pair[0], pair[1])),
+        2 => lines.windows(2).rev().for_each(|pair| file.swap(pair[0], pair[1])),
+        _ => {
+            let (key, value) = number(&file[one])?;
+            file[one] = format!("{key} = {:?}", -value);
+        }
+    }
+    Some(())
 }
 
 /// Another number in a line, or no line for a theta, which has a default.

@@ -1,6 +1,8 @@
 //! Faults to inject: each changes the model (or, if a file of the reference model can be wrong, the
 //! reference) by its own code, not by the catalogue's.
 
+mod typing;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use congruent_agreement::diagnosis::{Cause, DhEntry, FaultPlace, ModelPair, ReferenceJoint, RowConstants};
@@ -40,6 +42,7 @@ pub(crate) fn all(models: &ModelPair) -> Vec<InjectedFault> {
         }
     }
     table(&mut list);
+    typing::all(models, &mut list);
     constants(&mut list);
     reference(models, &mut list);
     list
@@ -109,12 +112,11 @@ fn order(row: usize, other: usize, list: &mut Vec<InjectedFault>) {
     list.push(InjectedFault::new(Cause::JointsSwapped, place, move |models| {
         models.candidate.rows.swap(row, other);
     }));
-    if other == row + 1 {
-        let place = FaultPlace::Entries(DhEntry::Alpha, vec![row, other]);
+    for what in [DhEntry::A, DhEntry::Alpha, DhEntry::D, DhEntry::Theta] {
+        let place = FaultPlace::Entries(what, vec![row, other]);
         list.push(InjectedFault::new(Cause::ParametersExchanged, place, move |models| {
-            let (first, second) =
-                (*entry(models, row, DhEntry::Alpha), *entry(models, other, DhEntry::Alpha));
-            (*entry(models, row, DhEntry::Alpha), *entry(models, other, DhEntry::Alpha)) = (second, first);
+            let (first, second) = (*entry(models, row, what), *entry(models, other, what));
+            (*entry(models, row, what), *entry(models, other, what)) = (second, first);
         }));
     }
 }

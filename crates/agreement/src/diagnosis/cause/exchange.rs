@@ -1,4 +1,4 @@
-//! `parameters_exchanged`: `a` and `d` of a row, `alpha` of neighbouring rows, or two columns of the whole table
+//! `parameters_exchanged`: two values of a row, the values of one entry in two rows, or two columns of the whole table
 //! are exchanged.
 
 use crate::diagnosis::{
@@ -6,22 +6,37 @@ use crate::diagnosis::{
     hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
 };
 
+/// Entries that a reader may take for each other: both lengths, and both angles.
+const ALIKE: [[DhEntry; 2]; 2] = [[DhEntry::A, DhEntry::D], [DhEntry::Alpha, DhEntry::Theta]];
+
 pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let candidate = &models.candidate;
     let rows = candidate.rows.len();
-    let lengths = (0..rows)
-        .filter(|&row| candidate.entry(row, DhEntry::A).is_some())
-        .map(|row| exchanged(FaultPlace::Rows(vec![row]), [row; 2], [DhEntry::A, DhEntry::D]));
-    // The conventions differ by one row in where `alpha` belongs, which is the usual reason for this exchange.
-    let twists = (1..rows).filter(|&row| candidate.entry(row, DhEntry::Alpha).is_some()).map(|row| {
-        let place = FaultPlace::Entries(DhEntry::Alpha, vec![row - 1, row]);
-        exchanged(place, [row - 1, row], [DhEntry::Alpha; 2])
-    });
-    lengths.chain(twists).chain(COLUMNS.map(columns)).collect()
+    let has_entries = |row: &usize| candidate.entry(*row, DhEntry::A).is_some();
+    let mut list: Vec<PoseHypothesis> = Vec::new();
+    for row in (0..rows).filter(has_entries) {
+        list.push(exchanged(FaultPlace::Rows(vec![row]), [row; 2], ALIKE[0]));
+        list.push(exchanged(FaultPlace::RowEntries(ALIKE[1].to_vec(), row), [row; 2], ALIKE[1]));
+    }
+    for entry in DhEntry::ALL {
+        for second in (0..rows).filter(has_entries) {
+            for first in 0..second {
+                // Equal values have no order. Of a long chain only neighbours: the number of pairs is the square of
+                // that of the rows.
+                let is_near = second - first == 1 || rows <= MAX_ROWS;
+                if is_near && candidate.entry(first, entry) != candidate.entry(second, entry) {
+                    let place = FaultPlace::Entries(entry, vec![first, second]);
+                    list.push(exchanged(place, [first, second], [entry; 2]));
+                }
+            }
+        }
+    }
+    list.extend(ALIKE.map(columns));
+    list
 }
 
-/// Columns that a reader may take for each other: both lengths, and both angles.
-const COLUMNS: [[DhEntry; 2]; 2] = [[DhEntry::A, DhEntry::D], [DhEntry::Alpha, DhEntry::Theta]];
+/// Most rows of a table in which the values of any two rows may be exchanged. Kind: speed; published arms have up to 8.
+const MAX_ROWS: usize = 10;
 
 fn columns(entries: [DhEntry; 2]) -> PoseHypothesis {
     let place = FaultPlace::Column(entries.to_vec());

@@ -8,6 +8,8 @@ mod joint;
 mod parameter;
 mod rounding;
 mod rpy;
+mod shift;
+mod sign;
 mod units;
 
 use super::hypothesis::{ModelPair, PoseHypothesis};
@@ -18,13 +20,15 @@ type Family = fn(&ModelPair) -> Vec<PoseHypothesis>;
 /// All families of hypotheses.
 // Edits before fits: the order decides last, between explanations of equal rank, and an edit that is undone exactly
 // is the likelier one.
-const FAMILIES: [Family; 13] = [
+const FAMILIES: [Family; 15] = [
     joint::axis::hypotheses,
     convention::hypotheses,
     joint::order::hypotheses,
     joint::kind::hypotheses,
     units::hypotheses,
     exchange::hypotheses,
+    shift::hypotheses,
+    sign::hypotheses,
     rpy::hypotheses,
     joint::fixed_joint::hypotheses,
     rounding::hypotheses,

@@ -105,7 +105,7 @@ impl ExplanationSearch<'_> {
     /// Fits that reach the tolerance, the best first, and the best of those that do not.
     fn run(&self) -> (Vec<HypothesisFit>, Vec<HypothesisFit>) {
         let singles = self.singles();
-        // From simple to complex, and only as far as needed: single faults are some two hundred fits, pairs tens of
+        // From simple to complex, and only as far as needed: single faults are some three hundred fits, pairs tens of
         // thousands, and with more faults the answer becomes less certain.
         let explained = self.explaining(&singles);
         if !explained.is_empty() {

@@ -70,8 +70,7 @@ impl ExplanationSearch<'_> {
     /// the one with the smallest norm each time, and in the end removes those that are not needed.
     fn with_parameters(&self, gross: Option<HypothesisFit>) -> Option<HypothesisFit> {
         let is_parameter = |hypothesis: &usize| {
-            let PoseHypothesis { cause, free, .. } = &self.context.hypotheses[*hypothesis];
-            (free.len() == 1 && *cause != Cause::Ratio) || self.is_rounding(*hypothesis)
+            self.context.hypotheses[*hypothesis].is_single_value() || self.is_rounding(*hypothesis)
         };
         let kept = usize::from(gross.is_some());
         let parameters: Vec<usize> = (0..self.context.hypotheses.len()).filter(is_parameter).collect();
@@ -113,13 +112,14 @@ impl ExplanationSearch<'_> {
         let nearest = nearby_table(&models, &fitted)?;
         let length_m = self.context.evaluation_point.length_m;
         let mut changed: Vec<(f64, usize, f64)> = Vec::new();
-        for (at, PoseHypothesis { cause, free, .. }) in self.context.hypotheses.iter().enumerate() {
-            // Only hypotheses with one parameter name a single value; edits and whole transforms are gross causes.
-            let [parameter] = free[..] else { continue };
+        for (at, hypothesis) in self.context.hypotheses.iter().enumerate() {
+            // Edits and whole transforms are gross causes.
+            let (true, &[parameter]) = (hypothesis.is_single_value(), &hypothesis.free[..]) else { continue };
             let by = moved(&models.candidate, &nearest, parameter);
             // The offset of a prismatic joint has two hypotheses.
-            let is_known = changed.iter().any(|(_, known, _)| self.context.hypotheses[*known].free == *free);
-            if by.abs() > SAME_VALUE && *cause != Cause::Ratio && !fitted.contains(&parameter) && !is_known {
+            let is_known =
+                changed.iter().any(|(_, known, _)| self.context.hypotheses[*known].free == hypothesis.free);
+            if by.abs() > SAME_VALUE && !fitted.contains(&parameter) && !is_known {
                 changed.push((if parameter.is_angle() { by.abs() * length_m } else { by.abs() }, at, by));
             }
         }
