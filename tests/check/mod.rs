@@ -1,6 +1,7 @@
 //! `congruent check`: two models of a robot compared, the cause of a difference, and the change that removes it.
 
 mod configurations;
+mod corrected_file;
 mod diagnosis;
 mod diagnosis_chains;
 mod digits;

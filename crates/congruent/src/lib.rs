@@ -38,7 +38,8 @@ pub mod text;
 mod with_physics;
 
 pub use check::{
-    DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite, checked_robot,
+    DeclaredSource, OtherDescription, RobotCheck, WrittenFix, check, check_against, check_suite,
+    checked_robot,
 };
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};

@@ -33,7 +33,7 @@ pub use model::{
 };
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint,
-    RobotFilePlaces, RowKey, TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot,
+    RobotFilePlaces, RowKey, TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text,
     robot_file_schema,
 };
 pub use robot_file_text::{dh_section, relative_path, robot_file_text, robot_file_values};

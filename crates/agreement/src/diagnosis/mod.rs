@@ -11,6 +11,7 @@
 mod candidate;
 mod cause;
 mod digits;
+mod dropped_joint;
 mod equivalence;
 mod explanation;
 mod fit;
@@ -26,6 +27,7 @@ pub(crate) mod thresholds;
 
 pub use candidate::{CandidateModel, CandidateRow, DeclaredTransform, DhEntry, ModelParameter, RowConstants};
 pub use digits::{TransformPart, TypedPlace, TypedValue, WrittenDigits};
+pub(crate) use dropped_joint::with_dropped_joints;
 pub use equivalence::Equivalence;
 pub use explanation::{Criterion, ExplainedFault, Explanation};
 pub use hypothesis::{Cause, FaultPlace, ModelPair, RowShift};

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::diagnosis::{
     CandidateModel, Cause, Criterion, DhEntry, ExplainedFault, Explanation, FaultPlace, ModelPair,
-    RowConstants,
+    RowConstants, with_dropped_joints,
 };
 
 /// Most that a written value may be off if the fit is exact. Unit: m or rad; kind: choice, a digit below
@@ -163,14 +163,23 @@ impl FileValue {
     }
 }
 
-/// The lines that each fault of an explanation changes; `None` if the file cannot say its correction. A line that
-/// two faults share is the first one's, with both corrections.
-pub(super) fn lines_by_fault(
+/// The correction of a robot file.
+pub(super) struct FileCorrection {
+    /// The lines that each fault of an explanation changes; `None` if the file cannot say its correction. A line that
+    /// two faults share is the first one's, with both corrections.
+    pub(super) by_fault: Vec<Option<Vec<ChangedLines>>>,
+    /// All changes of the text.
+    pub(super) edits: Vec<TextEdit>,
+}
+
+/// What the robot file would have to say for an explanation to hold.
+pub(super) fn file_correction(
     models: &ModelPair,
     explanation: &Explanation,
     places: &RobotFilePlaces,
     slack: Slack,
-) -> Vec<Option<Vec<ChangedLines>>> {
+) -> FileCorrection {
+    let explanation = &with_dropped_joints(models, explanation);
     let tables = [&models.candidate, &explanation.corrected.candidate];
     let mut edits: Vec<(usize, TextEdit)> = Vec::new();
     let values = changed(tables[0], tables[1]);
@@ -204,5 +213,5 @@ pub(super) fn lines_by_fault(
             of_first.push(lines);
         }
     }
-    by_fault
+    FileCorrection { by_fault, edits: all }
 }

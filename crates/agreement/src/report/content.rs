@@ -1,6 +1,6 @@
 //! The diagnosis as programs read it.
 
-use congruent_input::{ChangedLines, Diagnostic};
+use congruent_input::{ChangedLines, Diagnostic, SourceFile, TextEdit, edited};
 use congruent_kinematics::PoseError;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -27,9 +27,33 @@ pub struct ReportedDiagnosis {
     /// The table beside the nearest one that agrees, row by row, if no cause explains everything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<TableComparison>,
+    /// The robot file with the first cause corrected, or with the first of `indistinguishable` that a robot file can
+    /// hold; missing if it can hold none of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corrected: Option<CorrectedFile>,
     /// The first cause with its places in the robot file.
     #[serde(skip)]
     pub findings: Vec<Diagnostic>,
+}
+
+/// A robot file with every line of a correction.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct CorrectedFile {
+    /// The robot file that has the cause.
+    pub file: String,
+    /// The whole text with the correction.
+    pub text: String,
+}
+
+impl CorrectedFile {
+    pub(super) fn new(source: &SourceFile, edits: &[TextEdit]) -> Self {
+        Self { file: source.path.display().to_string(), text: edited(&source.text, edits) }
+    }
+
+    /// The table in it: `[dh]` with all rows and declared transforms.
+    pub fn table(&self) -> String {
+        congruent_description::dh_text(&self.text)
+    }
 }
 
 /// A cause with the residual after it is corrected.

@@ -4,9 +4,10 @@ use congruent_input::{Diagnostic, display::length_and_angle};
 use congruent_kinematics::PoseError;
 
 use super::{
-    advice,
+    advice::{self, FileCorrection, file_correction},
     content::{
-        Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference, ReportedStage,
+        CorrectedFile, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
+        ReportedStage,
     },
     fault_message::{FaultContext, FaultMessage, FileLocation, describe_fault},
     names::ModelNames,
@@ -26,29 +27,41 @@ pub(super) fn reported_diagnosis(
     names: &ModelNames<'_>,
 ) -> ReportedDiagnosis {
     let described = |explanation: &Explanation| describe(explanation, models, criterion, names);
-    let causes: Vec<(ReportedCause, Vec<Diagnostic>)> =
-        diagnosis.explanations.iter().map(described).collect();
-    let findings = causes.first().map(|(_, findings)| findings.clone()).unwrap_or_default();
+    let causes: Vec<DescribedCause> = diagnosis.explanations.iter().map(described).collect();
+    let others: Vec<(DescribedCause, Equivalence)> =
+        diagnosis.indistinguishable.iter().map(|(other, why)| (described(other), *why)).collect();
+    let findings = causes.first().map(|first| first.findings.clone()).unwrap_or_default();
+    // The named cause, or if the file cannot say its correction one that cannot be distinguished from it.
+    let mut named = causes.iter().take(1).chain(others.iter().map(|(other, _)| other));
+    let corrected = named.find_map(|cause| cause.corrected.clone());
     // Beside a cause with a residual above the tolerance, or if the digits explain a difference that is not tolerated.
     let rounded = || Explanation::without_faults(models, criterion);
     let unexplained = match diagnosis.explanations.first() {
         Some(first) => (!first.is_complete).then(|| first.clone()),
         None => (!models.is_within_tolerance(criterion)).then(rounded),
     };
-    let alternative = |(explanation, equivalence): &(Explanation, Equivalence)| ReportedAlternative {
-        cause: described(explanation).0,
-        equivalence: *equivalence,
+    let alternative = |(other, equivalence): (DescribedCause, Equivalence)| ReportedAlternative {
+        cause: other.cause,
+        equivalence,
         reason: equivalence.sentence(),
     };
     ReportedDiagnosis {
         name: pair,
         title: pair.title(),
-        causes: causes.into_iter().map(|(cause, _)| cause).collect(),
-        indistinguishable: diagnosis.indistinguishable.iter().map(alternative).collect(),
+        causes: causes.into_iter().map(|described| described.cause).collect(),
+        indistinguishable: others.into_iter().map(alternative).collect(),
         invariants: diagnosis.differences.iter().map(|each| difference(each, names)).collect(),
         table: unexplained.and_then(|first| table_comparison(models, &first, criterion, names)),
+        corrected,
         findings,
     }
+}
+
+/// A cause with its findings, and the robot file without it, if the file can say the correction.
+struct DescribedCause {
+    cause: ReportedCause,
+    findings: Vec<Diagnostic>,
+    corrected: Option<CorrectedFile>,
 }
 
 fn describe(
@@ -56,18 +69,22 @@ fn describe(
     models: &ModelPair,
     criterion: &Criterion,
     names: &ModelNames<'_>,
-) -> (ReportedCause, Vec<Diagnostic>) {
+) -> DescribedCause {
     let explanation = &with_known_values(explanation, models, criterion);
     let slack = advice::slack(models, explanation, criterion);
     let message = |fault| {
         describe_fault(&FaultContext { fault, before: models, after: &explanation.corrected, slack, names })
     };
     let mut messages: Vec<FaultMessage> = explanation.faults.iter().map(message).collect();
+    let mut corrected = None;
     if let Some(places) = names.places {
-        let changes = advice::lines_by_fault(models, explanation, places, slack);
-        for (message, changes) in messages.iter_mut().zip(changes) {
+        let FileCorrection { by_fault, edits } = file_correction(models, explanation, places, slack);
+        if !edits.is_empty() && by_fault.iter().all(Option::is_some) {
+            corrected = Some(CorrectedFile::new(places.source(), &edits));
+        }
+        for (message, changes) in messages.iter_mut().zip(by_fault) {
             if let Some(changes) = changes {
-                message.advise(changes, &places.source().text);
+                message.advise(changes, places.source());
             }
         }
     }
@@ -97,7 +114,7 @@ fn describe(
         parts,
         stages,
     };
-    (cause, findings)
+    DescribedCause { cause, findings, corrected }
 }
 
 /// Several faults as one: all of their lines.

@@ -32,13 +32,16 @@ pub(super) struct FaultMessage {
 }
 
 impl FaultMessage {
-    /// Replaces the suggestion in words by whole lines of the file with this text.
-    pub(super) fn advise(&mut self, changes: Vec<ChangedLines>, text: &str) {
+    /// Replaces the suggestion in words by whole lines of a file.
+    pub(super) fn advise(&mut self, changes: Vec<ChangedLines>, source: &SourceFile) {
         let (mut lines, mut pasted) = (Vec::new(), Vec::new());
+        // A fault that is quoted from the URDF may be corrected in the robot file.
+        let is_elsewhere = self.location.as_ref().is_none_or(|location| location.source.path != source.path);
+        let file = if is_elsewhere { format!(" of {}", source.path.display()) } else { String::new() };
         for change in &changes {
-            let (new, place) = new_lines(change, text);
+            let (new, place) = new_lines(change, &source.text);
             lines.push(new);
-            pasted.push(format!("{new}  # {place}"));
+            pasted.push(format!("{new}  # {place}{file}"));
         }
         self.fault.suggestion = if lines.is_empty() {
             "nothing more: the lines to write for another cause correct this as well".to_owned()

@@ -88,6 +88,7 @@ pub(crate) fn diagnosed_by_joints(
         causes: vec![cause(faults, stages)],
         invariants: differences,
         table: None,
+        corrected: None,
         findings,
     }
 }
@@ -250,10 +251,10 @@ fn advise(
 ) {
     let new: Vec<(&'static str, String)> =
         attributes.iter().map(|of| (of.name, of.expected.clone())).collect();
-    let text = &places.source().text;
-    let changes = changed_lines(text, &places.set_joint_part(joint, part, &new));
+    let source = places.source();
+    let changes = changed_lines(&source.text, &places.set_joint_part(joint, part, &new));
     if !changes.is_empty() {
-        message.advise(changes, text);
+        message.advise(changes, source);
     }
 }
 

@@ -52,6 +52,7 @@ pub(crate) fn with_mimics(
         indistinguishable: Vec::new(),
         invariants: Vec::new(),
         table: None,
+        corrected: None,
         findings: Vec::new(),
     });
     let (mut parts, mut findings): (Vec<Fault>, Vec<Diagnostic>) =

@@ -21,8 +21,8 @@ mod values;
 mod wrong_unit;
 
 pub use content::{
-    ComparedValue, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
-    ReportedStage, TableComparison,
+    ComparedValue, CorrectedFile, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis,
+    ReportedDifference, ReportedStage, TableComparison,
 };
 pub use diagnose_models::diagnose_models;
 pub(crate) use diagnose_models::{digits_of_table, screw_differences};

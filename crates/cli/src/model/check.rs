@@ -15,7 +15,11 @@ use congruent::{
 };
 use serde::{Serialize, Serializer};
 
-use super::{errors_at::chart, tolerance::ToleranceArgument};
+use super::{
+    errors_at::chart,
+    fixed_table::{FixArgument, fix},
+    tolerance::ToleranceArgument,
+};
 use crate::{
     batch::{Answer, Batch, BatchReport, TextParts},
     ci::CiArguments,
@@ -37,8 +41,9 @@ use crate::{
 /// damping, friction, gravity and limits) is compared with the physics, whose parameters are identified from its
 /// torques, with the `[[inertial]]` entries of robot.toml, and with the URDF of --against. Torques at 100 random
 /// states may differ by 1e-10 (relative) between two descriptions, and by 1e-8 between a description and the physics,
-/// which is rounding. Exit code 1 if they disagree, 4 if nothing was compared, since there is neither a table nor a
-/// robot that can be simulated.
+/// which is rounding. If a value of the table is wrong, the report ends with the whole table, corrected; --fix writes it.
+/// Exit code 1 if they disagree, 4 if nothing was compared, since there is neither a table nor a robot that can be
+/// simulated; with --fix that of the corrected file.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
@@ -62,6 +67,8 @@ pub(crate) struct Arguments {
     table: bool,
     #[command(flatten)]
     plot: PlotArgument,
+    #[command(flatten)]
+    fix: FixArgument,
     /// Tolerance of positions and orientations in place of the robot file's, each with its unit: 1mm,0.1deg; a part
     /// that is not given is taken from the file.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
@@ -85,6 +92,8 @@ struct Checked {
     with_basics: bool,
     with_table: bool,
     options: TextOptions,
+    /// The check of the file that --fix has written.
+    fixed: Option<RobotCheck>,
 }
 
 impl Serialize for Checked {
@@ -95,7 +104,7 @@ impl Serialize for Checked {
 
 impl BatchReport for Checked {
     fn exit_code(&self) -> u8 {
-        match self.report.geometry.verdict {
+        match self.decisive().geometry.verdict {
             Agreement::Agree => 0,
             Agreement::Disagree => FAILED,
             Agreement::NothingCompared => NOTHING,
@@ -112,7 +121,14 @@ impl BatchReport for Checked {
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
-        check_suite(input, &self.report)
+        check_suite(input, self.decisive())
+    }
+}
+
+impl Checked {
+    /// The check that decides: of the corrected file, if one was written.
+    fn decisive(&self) -> &RobotCheck {
+        self.fixed.as_ref().unwrap_or(&self.report)
     }
 }
 
@@ -169,7 +185,18 @@ fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
     }
 }
 
+/// The check of a robot, and with --fix that of its corrected file.
 fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
+    let mut checked = compared(path, arguments, batch)?;
+    if arguments.fix.fix {
+        let again = |path: &Path| Ok(compared(path, arguments, batch)?.report);
+        let (fix, fixed) = fix(&checked.report, &checked.description, &batch.read(), again)?;
+        (checked.report.fix, checked.fixed) = (Some(fix), fixed);
+    }
+    Ok(checked)
+}
+
+fn compared(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
     let mut description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
     let mut configurations = RobotQList::new(description.robot.dof());
     if let Some(path) = &arguments.configurations {
@@ -213,7 +240,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     }
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
     let (with_basics, with_table) = (arguments.basics, arguments.table);
-    Ok(Checked { report, description, other, with_basics, with_table, options: text_options() })
+    Ok(Checked { report, description, other, with_basics, with_table, options: text_options(), fixed: None })
 }
 
 /// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the

@@ -6,6 +6,7 @@ pub(crate) mod convert;
 pub(crate) mod derive;
 pub(crate) mod describe;
 mod errors_at;
+mod fixed_table;
 pub(crate) mod lint;
 mod tolerance;
 mod written_model;

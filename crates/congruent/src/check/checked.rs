@@ -95,7 +95,15 @@ fn checked(
     geometry.verdict = verdict(&geometry, against.as_ref(), &compared);
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
-    Ok(RobotCheck { geometry, at_configurations, against, declared_dynamics, dynamics, other_dynamics })
+    Ok(RobotCheck {
+        geometry,
+        at_configurations,
+        against,
+        declared_dynamics,
+        dynamics,
+        other_dynamics,
+        fix: None,
+    })
 }
 
 /// The verdict of poses and dynamics together.

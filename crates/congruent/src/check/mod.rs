@@ -16,5 +16,5 @@ pub use against::OtherDescription;
 pub use checked::{check, check_against};
 pub use declared::DeclaredSource;
 pub use page::checked_robot;
-pub use robot_check::RobotCheck;
+pub use robot_check::{RobotCheck, WrittenFix};
 pub use suite::check_suite;

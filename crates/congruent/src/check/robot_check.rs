@@ -1,6 +1,9 @@
 //! The answer of `congruent check`: geometry, then dynamics.
 
-use congruent_agreement::compare::{CheckReport, DifferenceAt, DifferencesAt};
+use congruent_agreement::{
+    compare::{Agreement, CheckReport, DifferenceAt, DifferencesAt},
+    report::ReportedDiagnosis,
+};
 use congruent_dynamics_agreement::DynamicsReport;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -31,11 +34,32 @@ pub struct RobotCheck {
     /// The other comparisons of dynamics.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub other_dynamics: Vec<DynamicsReport>,
+    /// What --fix has written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fix: Option<WrittenFix>,
+}
+
+/// The corrected robot file that `check --fix` writes, and its own check.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct WrittenFix {
+    /// The file; missing if none was written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// The verdict of the check of that file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Agreement>,
+    /// The answer of that check in a sentence, or why nothing was written.
+    pub statement: String,
 }
 
 impl RobotCheck {
     /// All comparisons of dynamics.
     pub fn all_dynamics(&self) -> impl Iterator<Item = &DynamicsReport> {
         self.dynamics.iter().chain(&self.other_dynamics)
+    }
+
+    /// The diagnosis that is reported: the first that names a cause.
+    pub fn diagnosis(&self) -> Option<&ReportedDiagnosis> {
+        self.geometry.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty())
     }
 }

@@ -1,6 +1,7 @@
 //! The robot file `robot.toml`: which URDF, which chain, which analytical model.
 
 mod check;
+mod dh_text;
 mod digits;
 mod edits;
 mod inertials;
@@ -12,6 +13,7 @@ mod written;
 mod written_lint;
 
 pub(crate) use check::{Declared, check};
+pub use dh_text::dh_text;
 pub use digits::TableDigits;
 pub use inertials::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};

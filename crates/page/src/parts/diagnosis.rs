@@ -31,6 +31,9 @@ pub(crate) fn diagnosis(diagnosis: &ReportedDiagnosis, at: &Pointer) -> Markup {
                 @if let Some(stage) = first.stages.get(index) { (stages(stage, &at_first.key("stages").key(index))) }
             }
         }
+        @if let Some(corrected) = &diagnosis.corrected {
+            details { summary { "the table of " (corrected.file) ", corrected" } pre { (corrected.table()) } }
+        }
         @if !diagnosis.indistinguishable.is_empty() {
             details {
                 summary { "causes that cannot be distinguished from this one (" (diagnosis.indistinguishable.len()) ")" }

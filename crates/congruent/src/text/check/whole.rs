@@ -6,7 +6,7 @@ use std::{
 };
 
 use crate::{
-    RobotCheck,
+    RobotCheck, WrittenFix,
     agreement::{
         SourcePair,
         compare::{
@@ -115,14 +115,30 @@ fn explained_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> S
     let report = &check.geometry;
     let mut text = String::new();
     certified(&mut text, report, robot);
-    if let Some(diagnosis) = report.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()) {
+    let diagnosis = check.diagnosis();
+    if let Some(diagnosis) = diagnosis {
         diagnosed(&mut text, diagnosis, &report.tolerance, options);
     }
     if report.poses_disagree() && report.grade == Some(Grade::SameWithinDigits) {
         rounded(&mut text, report);
     }
     dynamics(&mut text, check, robot);
+    if let Some(corrected) = diagnosis.and_then(|diagnosis| diagnosis.corrected.as_ref()) {
+        let _ = writeln!(text, "  the table of {}, corrected:\n\n{}", corrected.file, corrected.table());
+    }
+    if let Some(fix) = &check.fix {
+        fixed(&mut text, fix);
+    }
     text
+}
+
+/// What `--fix` has written, and the answer of its check.
+fn fixed(text: &mut String, fix: &WrittenFix) {
+    let WrittenFix { file, statement, .. } = fix;
+    let _ = match file {
+        Some(file) => writeln!(text, "  written: {file}\n  checked again: {statement}"),
+        None => writeln!(text, "  nothing written: {statement}"),
+    };
 }
 
 /// The first checks: the pose of the TCP at zero and its motion with each joint.
