@@ -85,7 +85,7 @@ fn fix_keeps_a_file_of_somebody_else() {
 fn a_dropped_joint_is_written_into_the_table() {
     let folder = arm(|file| {
         let lines = file.lines().filter(|line| !line.starts_with("base_from_dh0"));
-        lines.map(|line| format!("{line}\n")).collect()
+        lines.collect::<Vec<_>>().join("\n")
     });
     let answer = congruent(&["check", &text(folder.path()), "--fix"]);
     assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);

@@ -88,9 +88,9 @@ causes! {
     /// The `<mimic>` of a joint differs between two files, or only one of them has it.
     Mimic = "mimic",
         "The <mimic> of a joint differs between the two URDFs, or only one of them has it. Give both the same joint, multiplier and offset.";
-    /// A joint of one URDF has another `<origin>` than in another URDF.
+    /// A joint of a URDF has another `<origin>` than in another URDF, or than the table wants.
     JointOrigin = "joint_origin",
-        "A joint has another <origin> in one URDF than in the other. Correct xyz or rpy in the file that is wrong.";
+        "A joint has another <origin> in one URDF than in the other; or one <origin> of the URDF explains what takes several corrections of the table. Correct xyz or rpy in the file that is wrong.";
     /// A joint of one URDF has another `<axis>` than in another URDF.
     JointAxis = "joint_axis",
         "A joint has another <axis> in one URDF than in the other. Correct it in the file that is wrong; a reversed axis reverses the motion.";

@@ -20,6 +20,7 @@ mod hypothesis;
 mod invariants;
 pub(crate) mod joints;
 mod nearest_table;
+mod origin_reading;
 mod reference_model;
 mod score;
 mod search;

@@ -91,6 +91,25 @@ impl ReferenceModel {
         ChainState { twists, base_from_tip: pose }
     }
 
+    /// The pose before a joint's constant transform in the base, and that of the tip behind it.
+    pub(super) fn around(&self, joint: usize, q: &ChainQ) -> (Pose, Pose) {
+        let (mut before, mut behind) = (Pose::identity(), Pose::identity());
+        let mut coordinate = 0;
+        for (at, each) in self.joints.iter().enumerate() {
+            let part = if at <= joint { &mut before } else { &mut behind };
+            if at != joint {
+                *part = *part * each.step();
+            }
+            if let Some(twist) = each.twist_in_joint {
+                // A joint moves behind its own constant transform.
+                let part = if at < joint { &mut before } else { &mut behind };
+                *part = *part * twist.exp(q[coordinate]);
+                coordinate += 1;
+            }
+        }
+        (before, behind)
+    }
+
     /// Whether a joint's constant transform changes anything.
     pub(super) fn is_identity(&self, joint: usize) -> bool {
         let Pose { rotation, translation } = self.joints[joint].parent_from_joint;

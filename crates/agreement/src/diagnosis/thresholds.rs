@@ -133,6 +133,10 @@ pub(super) const MAX_GROSS_ONE_BY_ONE: usize = 2;
 /// A further parameter must reduce the norm to less than this part. No unit; kind: choice.
 pub(super) const PARAMETER_GAIN: f64 = 0.9;
 
+/// Joints of the URDF that are named as the other place of a fault. Kind: choice; consecutive fixed joints, and offsets along
+/// one axis, have the same effect.
+pub(super) const MAX_ORIGINS: usize = 3;
+
 /// Explanations with a residual beyond the tolerance that are reported. Kind: choice.
 pub(super) const MAX_NEXT_BEST: usize = 4;
 

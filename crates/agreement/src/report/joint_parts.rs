@@ -31,10 +31,10 @@ use crate::{
 };
 
 /// An attribute of a part of a joint: its name, as the file writes it, and as it is expected.
-struct JointAttribute {
-    name: &'static str,
-    found: String,
-    expected: String,
+pub(super) struct JointAttribute {
+    pub(super) name: &'static str,
+    pub(super) found: String,
+    pub(super) expected: String,
 }
 
 impl JointAttribute {
@@ -119,7 +119,7 @@ impl CorrectionMessages<'_> {
         let joint = self.robots.robot.joint(correction.joint);
         let (part, attributes, fault) = match &correction.expected {
             JointPart::Origin(expected) => {
-                ("origin", self.origin(joint, expected), origin_fault(joint, expected))
+                ("origin", self.origin(joint, expected), origin_fault(&joint.parent_from_joint, expected))
             }
             JointPart::Axis(expected) => ("axis", self.axis(joint, expected), axis_fault(joint, expected)),
         };
@@ -186,26 +186,19 @@ impl CorrectionMessages<'_> {
     /// `xyz` and `rpy` of an origin, each if it differs.
     fn origin(&self, joint: &Joint, expected: &Isometry3<f64>) -> Vec<JointAttribute> {
         let there = self.there(joint, &JointPart::Origin(*expected));
-        let found = &joint.parent_from_joint;
-        let numbers = |name: &str, pose: &Isometry3<f64>| match name {
-            "xyz" => listed(Unit::Length, pose.translation.vector.into()),
-            _ => listed(Unit::Angle, fitted_rpy_fixed_xyz_rad(pose, Slack::default())),
-        };
-        let attribute = |name: &'static str| JointAttribute {
-            name,
-            found: self.written(0, joint, "origin", name).unwrap_or_else(|| numbers(name, found)),
-            expected: there
-                .and_then(|there| self.written(1, there, "origin", name))
-                .unwrap_or_else(|| numbers(name, expected)),
-        };
-        let [shift, turn] = off(found, expected);
-        let xyz = (shift.norm() > ROUNDING).then(|| attribute("xyz"));
-        let rpy = (turn.norm() > ROUNDING).then(|| attribute("rpy"));
-        xyz.into_iter().chain(rpy).collect()
+        let own = |name: &str| self.written(0, joint, "origin", name);
+        let mut attributes = origin_attributes([&joint.parent_from_joint, expected], Slack::default(), own);
+        for attribute in &mut attributes {
+            let written = there.and_then(|there| self.written(1, there, "origin", attribute.name));
+            attribute.expected = written.unwrap_or_else(|| attribute.expected.clone());
+        }
+        attributes
     }
 
     fn axis(&self, joint: &Joint, expected_axis: &UnitVector<Vector3<f64>>) -> Vec<JointAttribute> {
-        let numbers = |axis: &UnitVector<Vector3<f64>>| listed(Unit::Length, axis.into_inner().into());
+        let numbers = |axis: &UnitVector<Vector3<f64>>| {
+            listed(Unit::Length, axis.into_inner().into(), Slack::default())
+        };
         let found = self.written(0, joint, "axis", "xyz").unwrap_or_else(|| numbers(&joint.axis_in_joint));
         let there = self.robots.namesake(joint);
         let expected = there.and_then(|there| self.written(1, there, "axis", "xyz"));
@@ -242,7 +235,7 @@ fn sentence(fault: &Fault, joint: &str, [found, expected]: [&str; 2]) -> String 
 }
 
 /// Replaces the suggestion in words by the lines of the file with the expected attributes.
-fn advise(
+pub(super) fn advise(
     message: &mut FaultMessage,
     places: &UrdfPlaces,
     joint: &str,
@@ -258,8 +251,8 @@ fn advise(
     }
 }
 
-fn listed(unit: Unit, values: [f64; 3]) -> String {
-    values.map(|value| unit.fitted(value, UnitSystem::Si, Slack::default())).join(" ")
+fn listed(unit: Unit, values: [f64; 3], slack: Slack) -> String {
+    values.map(|value| unit.fitted(value, UnitSystem::Si, slack)).join(" ")
 }
 
 /// Found minus expected, m, and the rotation from expected to found, rad.
@@ -273,8 +266,29 @@ fn apart(one: &Isometry3<f64>, other: &Isometry3<f64>) -> f64 {
     off(one, other).iter().map(Vector3::norm).fold(0.0, f64::max)
 }
 
-fn origin_fault(joint: &Joint, expected: &Isometry3<f64>) -> Fault {
-    let [shift, turn] = off(&joint.parent_from_joint, expected);
+/// `xyz` and `rpy` of an origin that is not the expected one, each if it differs; `written` gives them as the file does.
+pub(super) fn origin_attributes(
+    [found, expected]: [&Isometry3<f64>; 2],
+    slack: Slack,
+    written: impl Fn(&str) -> Option<String>,
+) -> Vec<JointAttribute> {
+    let numbers = |name: &str, pose: &Isometry3<f64>, slack: Slack| match name {
+        "xyz" => listed(Unit::Length, pose.translation.vector.into(), slack),
+        _ => listed(Unit::Angle, fitted_rpy_fixed_xyz_rad(pose, slack), slack),
+    };
+    let attribute = |name: &'static str| JointAttribute {
+        name,
+        found: written(name).unwrap_or_else(|| numbers(name, found, Slack::default())),
+        expected: numbers(name, expected, slack),
+    };
+    let [shift, turn] = off(found, expected);
+    let xyz = (shift.norm() > ROUNDING).then(|| attribute("xyz"));
+    let rpy = (turn.norm() > ROUNDING).then(|| attribute("rpy"));
+    xyz.into_iter().chain(rpy).collect()
+}
+
+pub(super) fn origin_fault(found: &Isometry3<f64>, expected: &Isometry3<f64>) -> Fault {
+    let [shift, turn] = off(found, expected);
     Fault {
         cause: Cause::JointOrigin,
         translation_m: Some(shift.into()),
@@ -298,10 +312,10 @@ fn axis_fault(joint: &Joint, expected: &UnitVector<Vector3<f64>>) -> Fault {
     }
 }
 
-fn shift(fault: &Fault) -> f64 {
+pub(super) fn shift(fault: &Fault) -> f64 {
     fault.translation_m.map_or(0.0, |shift| Vector3::from(shift).norm())
 }
 
-fn turn(fault: &Fault) -> f64 {
+pub(super) fn turn(fault: &Fault) -> f64 {
     fault.rotation_rad.map_or(0.0, |turn| Vector3::from(turn).norm())
 }

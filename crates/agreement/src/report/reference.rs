@@ -7,12 +7,17 @@ use congruent_kinematics::rotation_log;
 
 use super::{
     content::Fault,
-    fault_message::{FaultContext, FaultMessage, FileLocation},
+    fault_message::{FaultContext, FaultMessage, FileLocation, off_by},
+    joint_parts::{JointAttribute, advise, origin_attributes, origin_fault, shift, turn},
+    values::{ReportedValue, isometry},
 };
 use crate::diagnosis::{Cause, ModelPair, thresholds::ROUNDED_QUARTER_RAD};
 
 impl FaultContext<'_> {
     pub(super) fn reference_joints(&self, joints: &[usize]) -> FaultMessage {
+        if let (Cause::JointOrigin, &[joint]) = (self.fault.cause, joints) {
+            return self.joint_origin(joint);
+        }
         let names: Vec<String> = joints.iter().map(|&joint| self.names.chain_joint(joint)).collect();
         let listed = names.join("\", \"");
         let rotation =
@@ -47,6 +52,41 @@ impl FaultContext<'_> {
             Err(names) => fault.joints = names,
         }
         FaultMessage { fault: Fault { suggestion, ..fault }, message, location }
+    }
+
+    /// An `<origin>` of the URDF that is off, with the line to write there.
+    fn joint_origin(&self, joint: usize) -> FaultMessage {
+        let name = self.names.chain_joint(joint);
+        let pose = |models: &ModelPair| models.reference.joints[joint].parent_from_joint;
+        let (found, expected) = (isometry(&pose(self.before)), isometry(&pose(self.after)));
+        let urdf = self.names.urdf;
+        let written = |attribute: &str| urdf?.joint_attribute(&name, "origin", attribute);
+        let attributes = origin_attributes([&found, &expected], self.slack, written);
+        let words = |value: fn(&JointAttribute) -> &str| {
+            let words = attributes.iter().map(|of| format!("{}=\"{}\"", of.name, value(of)));
+            words.collect::<Vec<_>>().join(" ")
+        };
+        let [was, is] = [words(|of| &of.found), words(|of| &of.expected)];
+        let origin = origin_fault(&found, &expected);
+        let off = off_by(shift(&origin), turn(&origin));
+        let message = format!("<origin> of joint \"{name}\" in the URDF: {was}, expected {is}, off by {off}");
+        let location = urdf.and_then(|urdf| {
+            Some(FileLocation { source: Arc::clone(urdf.source()), span: urdf.joint_origin(&name)? })
+        });
+        let fault = Fault {
+            parameter: Some(attributes.iter().map(|of| of.name).collect::<Vec<_>>().join(", ")),
+            suggestion: format!("write {is} in the <origin> of joint \"{name}\" of the URDF"),
+            found: Some(ReportedValue::Text(was)),
+            expected: Some(ReportedValue::Text(is)),
+            joint: Some(name.clone()),
+            ..origin
+        };
+        // Without its place until the lines are known, so that they name their file: others are of the robot file.
+        let mut message = FaultMessage { fault, message, location: None };
+        if let Some(urdf) = urdf {
+            advise(&mut message, urdf, &name, "origin", &attributes);
+        }
+        FaultMessage { location, ..message }
     }
 
     /// Quarter turns that the URDF rounds, each with its line, and how it would write them.

@@ -16,8 +16,8 @@ pub(super) fn typing_error(found: &str, expected: &str) -> Option<&'static str> 
         return None;
     }
     // One digit says little: 3 and 30 are two values, 163.9 and 16.39 are a point in the wrong place.
-    if found.digits == expected.digits && found.digits.len() > 1 {
-        return Some("the decimal point is in another place");
+    if found.digits == expected.digits {
+        return (found.digits.len() > 1).then_some("the decimal point is in another place");
     }
     found.is_transposed(&expected).then_some("two digits are transposed")
 }

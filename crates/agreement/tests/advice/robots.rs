@@ -4,6 +4,7 @@ use std::{fs, path::Path, sync::Arc};
 
 use congruent_agreement::{
     compare::{Agreement, CheckOptions, CheckReport, check},
+    diagnosis::Cause,
     report::{Fault, ReportedCause},
 };
 use congruent_description::{Tolerance, parse_robot};
@@ -81,7 +82,9 @@ impl Texts {
 
 /// Whether a robot file can say the correction, in lines of its own or in those of another fault.
 pub(crate) fn is_written(fault: &Fault) -> bool {
-    !fault.changes.is_empty() || fault.suggestion.starts_with("the lines of the other causes")
+    // The lines of a joint's origin are of the URDF.
+    (!fault.changes.is_empty() && fault.cause != Cause::JointOrigin)
+        || fault.suggestion.starts_with("the lines of the other causes")
 }
 
 /// Whether the table agrees with the URDF.

@@ -14,6 +14,7 @@ use super::{
     fit::hypothesis_fit::{FitContext, HypothesisFit},
     hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
     invariants::{self, JointDifference},
+    origin_reading::origin_readings,
     score::{ExplanationRank, is_refuted, rank},
     thresholds::{EVALUATED_BELOW, MAX_NEXT_BEST, SAME_EFFECT},
 };
@@ -88,12 +89,38 @@ pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
         let equivalence = equivalence::equivalence(models, criterion, &found[0], &other);
         (other, equivalence)
     };
-    let indistinguishable = others_alike.into_iter().map(alike).collect();
+    let mut indistinguishable: Vec<_> = others_alike.into_iter().map(alike).collect();
     if found.is_empty() {
         found.push(Explanation::without_faults(models, criterion));
     }
     found.extend(others.iter().map(|fit| search.explanation(fit)));
+    with_origins(models, criterion, &mut found, &mut indistinguishable);
     Diagnosis { explanations: found, indistinguishable, differences }
+}
+
+/// Adds the joints of the reference model whose origin alone explains what takes several corrections of the candidate: as
+/// the other reading, or first if no correction of the candidate is known.
+fn with_origins(
+    models: &ModelPair,
+    criterion: &Criterion,
+    found: &mut Vec<Explanation>,
+    indistinguishable: &mut Vec<(Explanation, Equivalence)>,
+) {
+    let is_explained = found[0].is_complete;
+    if is_explained && found[0].faults.len() < 2 {
+        return;
+    }
+    let mut origins = origin_readings(models, criterion).into_iter();
+    if !is_explained && let Some(origin) = origins.next() {
+        // Nothing was found, which is no explanation of its own.
+        found.retain(|explanation| !explanation.faults.is_empty());
+        found.insert(0, origin);
+    }
+    let alike = origins.map(|other| {
+        let equivalence = equivalence::equivalence(models, criterion, &found[0], &other);
+        (other, equivalence)
+    });
+    indistinguishable.extend(alike);
 }
 
 struct ExplanationSearch<'a> {
