@@ -285,3 +285,27 @@ fn gross_faults_of_a_modified_table_are_named_before_its_lengths() {
         ],
     );
 }
+
+/// Three wrong values hide so much of the difference that the convention alone explains nothing.
+#[test]
+fn the_convention_is_found_beneath_large_faults() {
+    let changes: [Change<'_>; 4] = [
+        ("", "\"standard\"", "\"modified\""),
+        ("shoulder_lift_joint", "a_m = -0.425", "a_m = 0.425"),
+        ("wrist_1_joint", "d_m = 0.1333", "d_m = 0.1133"),
+        ("shoulder_pan_joint", "d_m = 0.1625", "d_m = 0.1652"),
+    ];
+    let texts = changes
+        .iter()
+        .fold(Texts::named("ur5e"), |texts, (joint, from, to)| replaced(&texts, joint, from, to));
+    for tolerance in [1e-9, 1e-3] {
+        let report = texts.check(tolerance);
+        let cause = &report.diagnosis[0];
+        assert!(cause.within_tolerance, "at {tolerance:e}: {}", cause.fault.message);
+        let is_convention = |fault: &&Fault| fault.cause == Cause::ConventionSwapped;
+        let others = report.indistinguishable.iter().map(|other| &other.cause);
+        let mut all = [cause].into_iter().chain(others);
+        assert!(all.any(|cause| parts(cause).iter().any(is_convention)), "{}", cause.fault.message);
+        assert!(agrees(&texts.corrected(cause).check(tolerance)), "at {tolerance:e}");
+    }
+}

@@ -11,7 +11,7 @@ use crate::diagnosis::{
     candidate::ModelParameter,
     explanation::Criterion,
     fit::hypothesis_fit::{HypothesisFit, moved},
-    hypothesis::{Cause, PoseHypothesis},
+    hypothesis::{FaultPlace, PoseHypothesis},
     nearest_table::nearby_table,
     thresholds::{
         GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_GROSS_ONE_BY_ONE, MAX_PARAMETERS, PARAMETER_GAIN,
@@ -49,8 +49,12 @@ impl ExplanationSearch<'_> {
         // Rounding has a small effect, but one that many values would have to make up for.
         let rounding = (0..self.context.hypotheses.len()).find(|&at| self.is_rounding(at));
         let rounding = rounding.map(|at| self.context.single(at));
+        // Other large faults can hide that a mistake of the whole table explains anything: it is tried in any case.
+        let is_tried = |at: usize| gross.iter().take(MAX_GROSS).any(|fit| fit.hypotheses == [at]);
+        let whole = (0..self.context.hypotheses.len()).filter(|&at| self.is_of_table(at) && !is_tried(at));
+        let whole: Vec<HypothesisFit> = whole.map(|at| self.context.single(at)).collect();
         let starts: Vec<Option<&HypothesisFit>> =
-            gross.iter().take(MAX_GROSS).chain(&rounding).map(Some).chain([None]).collect();
+            gross.iter().take(MAX_GROSS).chain(&whole).chain(&rounding).map(Some).chain([None]).collect();
         let mut grown: Vec<HypothesisFit> =
             starts.iter().filter_map(|start| self.with_changed_values(*start)).collect();
         if grown.is_empty() {
@@ -132,6 +136,14 @@ impl ExplanationSearch<'_> {
         changes.extend(changed.iter().map(|(.., by)| *by));
         let fit = self.context.fit(hypotheses, &[changes]);
         self.accepts(&fit).then(|| self.pruned(fit, kept))
+    }
+
+    /// Whether a hypothesis corrects the whole table or whole columns, without a fit.
+    fn is_of_table(&self, hypothesis: usize) -> bool {
+        let PoseHypothesis { place, free, .. } = &self.context.hypotheses[hypothesis];
+        let is_whole =
+            matches!(place, FaultPlace::Model | FaultPlace::Column(_) | FaultPlace::ShiftedColumn(..));
+        is_whole && free.is_empty()
     }
 
     /// Whether a hypothesis is about rounded angles in the reference model's file.
