@@ -6,3 +6,4 @@
 mod pasting;
 mod robots;
 mod stages;
+mod typed_sheets;
