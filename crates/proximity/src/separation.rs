@@ -23,7 +23,9 @@ struct Corners {
 impl Corners {
     fn new(points: &[Vector3<f64>]) -> Self {
         let mut corners = Self { points: [Vector3::zeros(); 4], count: 0 };
-        points.iter().for_each(|point| corners.push(*point));
+        for point in points {
+            corners.push(*point);
+        }
         corners
     }
 
