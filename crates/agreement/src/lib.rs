@@ -6,10 +6,10 @@
 //!
 //! The physics is not part of this crate: it is handed in as [`congruent_kinematics::LinkPoses`].
 
-pub mod bound;
 pub mod compare;
 pub mod diagnosis;
 pub mod report;
 mod source_pair;
 
+pub use congruent_pose_bound as bound;
 pub use source_pair::SourcePair;

@@ -20,6 +20,7 @@ use crate::{
     ci::{CiArguments, in_repository},
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
     terminal::print::{Printer, Refusal},
+    unfinished_junit::UnfinishedJunit,
 };
 
 /// A text for people in parts of whole lines.
@@ -69,41 +70,6 @@ pub(crate) struct Batch<'a> {
     unfinished: Mutex<UnfinishedJunit>,
 }
 
-/// The JUnit file until all inputs are answered.
-struct UnfinishedJunit {
-    /// One for each input.
-    suites: Vec<TestSuite>,
-    /// How many inputs are answered.
-    answered: usize,
-    /// When it may be written again, once there are many answers.
-    next: Option<Instant>,
-}
-
-/// Up to so many answers the JUnit file is written after each. Kind: choice; a write takes a millisecond for these.
-const WRITTEN_AT_ONCE: usize = 64;
-/// With more answers, it is written again after so many times the duration of the last write, which is proportional to their
-/// number: written after each, a thousand answers took seven times as long as their runs.
-const PAUSE: u32 = 10;
-
-impl UnfinishedJunit {
-    /// Notes an answer, and writes the file unless it was written just now. An answer that is not written yet is an error in
-    /// the file of a call that is killed.
-    #[expect(clippy::disallowed_methods, reason = "when the JUnit file is written changes no result")]
-    fn keep(&mut self, input: usize, suite: TestSuite, ci: &CiArguments) {
-        if let Some(planned) = self.suites.get_mut(input) {
-            *planned = suite;
-        }
-        self.answered += 1;
-        let start = Instant::now();
-        if self.answered > WRITTEN_AT_ONCE && self.next.is_some_and(|next| start < next) {
-            return;
-        }
-        // A file that cannot be written is reported by `finish`, which writes it again.
-        let _ = ci.write_unfinished(&self.suites);
-        self.next = Some(start + start.elapsed() * (PAUSE + 1));
-    }
-}
-
 impl<'a> Batch<'a> {
     /// Finds out at once whether the files for CI can be written. Until the end the JUnit file has an error for every
     /// input, so that a call that is killed does not look successful.
@@ -121,7 +87,7 @@ impl<'a> Batch<'a> {
         // Before any work: a file that cannot be written is known at once, and a call that is killed later has
         // reported errors.
         ci.begin(inputs, &suites)?;
-        let unfinished = UnfinishedJunit { suites, answered: 0, next: None };
+        let unfinished = UnfinishedJunit::new(suites);
         Ok(Self {
             printer,
             inputs,

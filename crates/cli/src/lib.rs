@@ -20,6 +20,7 @@ mod recording;
 mod run;
 mod schema;
 mod terminal;
+mod unfinished_junit;
 
 use std::ffi::OsString;
 

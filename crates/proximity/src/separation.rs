@@ -15,12 +15,12 @@ pub(super) struct Separation {
 }
 
 /// Up to four points of the set, without an allocation: distances are measured in the loop of a run.
-struct Corners {
+struct SimplexCorners {
     points: [Vector3<f64>; 4],
     count: usize,
 }
 
-impl Corners {
+impl SimplexCorners {
     fn new(points: &[Vector3<f64>]) -> Self {
         let mut corners = Self { points: [Vector3::zeros(); 4], count: 0 };
         for point in points {
@@ -50,7 +50,7 @@ pub(super) fn nearest_to_origin(
     lowest: impl Fn(&Vector3<f64>) -> Vector3<f64>,
     start: Vector3<f64>,
 ) -> Separation {
-    let mut corners = Corners::new(&[start]);
+    let mut corners = SimplexCorners::new(&[start]);
     let mut found = Separation { least_m: 0.0, nearest: start };
     for _ in 0..MOST_STEPS {
         let length_m = found.nearest.norm();
@@ -94,11 +94,11 @@ fn surround_the_origin(corners: &[Vector3<f64>]) -> bool {
 }
 
 /// The point nearest to the origin in the hull of up to four corners that do not surround it, and the corners it is between.
-fn nearest_of_corners(corners: &[Vector3<f64>]) -> (Vector3<f64>, Corners) {
-    let mut nearest = (corners[0], Corners::new(&corners[..1]));
+fn nearest_of_corners(corners: &[Vector3<f64>]) -> (Vector3<f64>, SimplexCorners) {
+    let mut nearest = (corners[0], SimplexCorners::new(&corners[..1]));
     let mut offer = |point: Vector3<f64>, between: &[Vector3<f64>]| {
         if point.norm_squared() < nearest.0.norm_squared() {
-            nearest = (point, Corners::new(between));
+            nearest = (point, SimplexCorners::new(between));
         }
     };
     // All corners, edges and triangles: few, and none is missed where a shortcut by regions fails on thin triangles.

@@ -265,6 +265,7 @@ fn lanes_of_failed_checks_come_first() {
             "/status/fail/tracking",
             "/status/pass/agreement",
             "/status/pass/dynamics",
+            "/status/pass/effort",
             "/status/pass/limits",
             "/status/pass/power"
         ],

@@ -311,9 +311,11 @@ fn files_beside_the_scenario_are_found_and_others_are_not() {
         let expected = (0.16 + (q - 0.2).max(0.0).powi(2)).sqrt() - 0.1;
         assert!((distances["ball--cube"] - expected).abs() < 1e-7, "{distances:?} at {time_s}");
     }
-    for (mesh, code) in
-        [("../../../cube.stl", "mesh::outside"), ("tube.stl", "mesh::not_found"), ("up.csv", "mesh::invalid")]
-    {
+    for (mesh, code) in [
+        ("../../../cube.stl", "mesh::not_found"),
+        ("tube.stl", "mesh::not_found"),
+        ("up.csv", "mesh::invalid"),
+    ] {
         write("scenario.toml", &scenario(mesh));
         let found = RunSetup::load(&path, &[]).map(|_| ()).unwrap_err();
         assert!(

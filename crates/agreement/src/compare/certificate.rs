@@ -169,7 +169,7 @@ impl<'a> ComparedChain<'a> {
         let by_table = DhChain::new(table, robot);
         let chain = ScrewChain::from_dh(&by_table, robot.dof())?;
         Ok(Self {
-            driven: DrivenScrews::new(robot, by_table.coordinates(), &chain),
+            driven: driven_screws(robot, by_table.coordinates(), &chain),
             residual: PoseError::default(),
             base_from_tip: Box::new(move |q| Ok(by_table.base_from_tip(q)?)),
         })
@@ -181,7 +181,7 @@ impl<'a> ComparedChain<'a> {
             (UrdfTree::new(robot), *base, *tip, description.moving_coordinates());
         let chain = ScrewChain::from_urdf(robot, base, tip, &coordinates)?;
         Ok(Self {
-            driven: DrivenScrews::new(robot, &coordinates, &chain),
+            driven: driven_screws(robot, &coordinates, &chain),
             residual: PoseError::default(),
             base_from_tip: Box::new(move |q| {
                 Ok(tree.root_from_link(q, base)?.inverse() * tree.root_from_link(q, tip)?)
@@ -197,11 +197,7 @@ impl<'a> ComparedChain<'a> {
         let physics = RefCell::new(physics);
         let Premise { residual_m: position_m, residual_rad: orientation_rad, .. } = identified.premise;
         Self {
-            driven: DrivenScrews::new(
-                &description.robot,
-                &description.moving_coordinates(),
-                &identified.chain,
-            ),
+            driven: driven_screws(&description.robot, &description.moving_coordinates(), &identified.chain),
             residual: PoseError { position_m, orientation_rad },
             base_from_tip: Box::new(move |q| Ok(base_from_tip(description, &mut **physics.borrow_mut(), q)?)),
         }
@@ -221,7 +217,7 @@ fn certified(robot: &Robot, chains: [&ComparedChain<'_>; 2]) -> Result<Option<Ce
         return Ok(None);
     }
     let mut found = certify_driven(a, b, &ranges, Budget::default())?;
-    let rounding = a.rounding() + b.rounding();
+    let rounding = identification_rounding(a) + identification_rounding(b);
     let residual = chains.map(|side| side.residual);
     // The search bounds two screw chains. Each model differs from its chain by at most rounding and residual, so
     // the triangle inequality gives the bound of the models.
@@ -276,23 +272,21 @@ fn report(
     }))
 }
 
-impl DrivenScrews {
-    /// The driven screws of a chain whose joints are these entries of the configuration vector.
-    fn new(robot: &Robot, coordinates: &[usize], chain: &ScrewChain) -> Self {
-        let relations: Vec<MimicRelation> =
-            coordinates.iter().map(|&coordinate| MimicRelation::for_coordinate(robot, coordinate)).collect();
-        Self {
-            chain: without_offsets(&relations, chain),
-            drivers: relations.iter().map(|relation| relation.driver).collect(),
-        }
+/// The driven screws of a chain whose joints are these entries of the configuration vector.
+fn driven_screws(robot: &Robot, coordinates: &[usize], chain: &ScrewChain) -> DrivenScrews {
+    let relations: Vec<MimicRelation> =
+        coordinates.iter().map(|&coordinate| MimicRelation::for_coordinate(robot, coordinate)).collect();
+    DrivenScrews {
+        chain: without_offsets(&relations, chain),
+        drivers: relations.iter().map(|relation| relation.driver).collect(),
     }
+}
 
-    /// Bound of the rounding of the identification.
-    fn rounding(&self) -> f64 {
-        let ScrewChain { twists_in_base, base_from_tip_at_zero } = &self.chain;
-        let moments = twists_in_base.iter().map(|twist| 1.0 + twist.linear.norm());
-        IDENTIFICATION_ROUNDING * (moments.sum::<f64>() + 1.0 + base_from_tip_at_zero.translation.norm())
-    }
+/// Bound of the rounding of the identification of a chain.
+fn identification_rounding(driven: &DrivenScrews) -> f64 {
+    let ScrewChain { twists_in_base, base_from_tip_at_zero } = &driven.chain;
+    let moments = twists_in_base.iter().map(|twist| 1.0 + twist.linear.norm());
+    IDENTIFICATION_ROUNDING * (moments.sum::<f64>() + 1.0 + base_from_tip_at_zero.translation.norm())
 }
 
 /// The position of a joint: `multiplier * q[driver] + offset`.
@@ -345,16 +339,17 @@ mod tests {
             let tree = UrdfTree::new(robot);
             let by_urdf = description.moving_coordinates();
             let table = ScrewChain::from_dh(&by_table, robot.dof()).unwrap();
-            let table = DrivenScrews::new(robot, by_table.coordinates(), &table);
+            let table = driven_screws(robot, by_table.coordinates(), &table);
             let urdf = ScrewChain::from_urdf(robot, description.base, description.tip, &by_urdf).unwrap();
-            let urdf = DrivenScrews::new(robot, &by_urdf, &urdf);
+            let urdf = driven_screws(robot, &by_urdf, &urdf);
             for q in congruent_kinematics::sample_configurations(robot, 0, 50) {
                 let root_from = |link| tree.root_from_link(&q, link).unwrap();
                 let by_tree = root_from(description.base).inverse() * root_from(description.tip);
                 for (side, pose) in [(&table, by_table.base_from_tip(&q).unwrap()), (&urdf, by_tree)] {
                     let driven = q.chain_positions(&side.drivers);
                     let error = PoseError::between(&side.chain.base_from_tip(&driven).unwrap(), &pose);
-                    worst = worst.max(error.position_m.max(error.orientation_rad) / side.rounding());
+                    worst = worst
+                        .max(error.position_m.max(error.orientation_rad) / identification_rounding(side));
                 }
             }
         }

@@ -4,7 +4,7 @@
 /// keys have other units.
 pub(super) fn typing_error(found: &str, expected: &str) -> Option<&'static str> {
     let ((key, found), (other_key, expected)) = (found.split_once(" = ")?, expected.split_once(" = ")?);
-    let (found, expected) = (TypedNumber::new(found)?, TypedNumber::new(expected)?);
+    let (found, expected) = (TypedDecimal::new(found)?, TypedDecimal::new(expected)?);
     if key != other_key || found.digits.is_empty() || expected.digits.is_empty() {
         return None;
     }
@@ -23,7 +23,7 @@ pub(super) fn typing_error(found: &str, expected: &str) -> Option<&'static str> 
 }
 
 /// A number as it is typed.
-struct TypedNumber {
+struct TypedDecimal {
     is_negative: bool,
     /// Without leading and trailing zeros.
     digits: Vec<u8>,
@@ -31,7 +31,7 @@ struct TypedNumber {
     point: isize,
 }
 
-impl TypedNumber {
+impl TypedDecimal {
     /// The digits of a number in decimal notation, without an exponent.
     fn new(text: &str) -> Option<Self> {
         let text = text.trim();

@@ -102,10 +102,19 @@ fn other_chain(check: &RobotCheck) -> Option<(&OtherDescription, &str)> {
 
 /// What the digits of table and URDF allow, if the two are not identical and not written with all digits.
 fn allowed(report: &CheckReport) -> String {
-    let allowed = report.allowed_by_digits.filter(|allowed| *allowed != PoseError::default());
-    allowed.map_or_else(String::new, |PoseError { position_m, orientation_rad }| {
-        format!(", where the digits written allow {}", length_and_angle(position_m, orientation_rad))
-    })
+    let Some(allowed) = report.allowed_by_digits.filter(|allowed| *allowed != PoseError::default()) else {
+        return String::new();
+    };
+    let words = length_and_angle(allowed.position_m, allowed.orientation_rad);
+    let PoseError { position_m, orientation_rad } = report.worst.error;
+    // All values together may allow more than what was found, and still not this difference.
+    let is_less = position_m <= allowed.position_m && orientation_rad <= allowed.orientation_rad;
+    let but = if is_less && report.grade == Some(Grade::Different) {
+        ", but no rounding gives this one"
+    } else {
+        ""
+    };
+    format!(", where the digits written allow {words}{but}")
 }
 
 /// The two sources of a pair.

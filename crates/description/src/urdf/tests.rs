@@ -141,7 +141,11 @@ fn what_real_files_hold_is_no_fault() {
 #[test]
 fn joints_are_checked() {
     let absurd = format!("{LIMIT}<mimic joint='k' multiplier='1e300'/>");
-    joint_error(&absurd, "urdf::number", "mimic: multiplier 1e300, limit <= 1e6");
+    // The joint that it mimics is missing, too.
+    let found = read(&arm(&absurd, INERTIAL)).1;
+    let names: Vec<&str> = found.iter().map(|found| found.code.name).collect();
+    assert_eq!(names[0], "urdf::number", "{found:#?}");
+    assert!(found[0].message.contains("mimic: multiplier 1e300, limit <= 1e6"), "{}", found[0].message);
     joint_error("<limits lower='0'/>", "urdf::unknown_element", "did you mean <limit>?");
     joint_error(
         "<limit lower='1' upper='0' effort='1' velocity='1'/>",

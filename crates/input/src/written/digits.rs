@@ -14,6 +14,10 @@ const COARSEST_M: i32 = -3;
 const COARSEST_MM: i32 = 0;
 const COARSEST_RAD: i32 = -2;
 
+/// The most that a zero is off: most zeros are design values, and no table writes an offset of half a millimetre as 0.
+/// Unit: m and rad; kind: choice, half of the fourth decimal.
+const MOST_OF_ZERO: f64 = 5e-5;
+
 /// A number as it is typed, and the unit system of its key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TypedNumber<'a> {
@@ -26,7 +30,8 @@ pub struct TypedNumber<'a> {
 /// Half of the last place of each number, in m or rad: how far the true value may be from the typed one.
 ///
 /// `typed` are all lengths, or all angles, of one file. A zero, and a value that is no finer than a centimetre, has the
-/// finest last place of the others, since zeros at the end are usually left out; if there are no others, it is exact.
+/// finest last place of the others, since zeros at the end are usually left out; if there are no others, it is exact. A
+/// zero is off by 5e-5 at most.
 /// Whole degrees are exact, too: they are design angles, not measurements.
 ///
 /// # Examples
@@ -42,7 +47,12 @@ pub fn half_places(unit: Unit, typed: &[TypedNumber<'_>]) -> Vec<f64> {
     let typed_halves = || halves.iter().copied().flatten();
     let finest = typed_halves().fold(f64::INFINITY, f64::min);
     let finest = if finest.is_finite() { finest } else { 0.0 };
-    halves.iter().map(|half| half.unwrap_or(finest)).collect()
+    let half = |(half, number): (&Option<f64>, &TypedNumber<'_>)| match half {
+        Some(half) => *half,
+        None if number.text.parse() == Ok(0.0) => finest.min(MOST_OF_ZERO),
+        None => finest,
+    };
+    halves.iter().zip(typed).map(half).collect()
 }
 
 /// Half of the last place; `None` if zeros at the end may be left out.

@@ -56,7 +56,7 @@ impl WrittenDigits {
     }
 
     /// The change of the difference at `point` by half a place of each value: one column for each.
-    pub(super) fn effects(&self, models: &ModelPair, point: &EvaluationPoint) -> DMatrix<f64> {
+    pub(in crate::diagnosis) fn effects(&self, models: &ModelPair, point: &EvaluationPoint) -> DMatrix<f64> {
         let before = difference(models, point);
         let columns: Vec<DVector<f64>> = self
             .values

@@ -7,8 +7,7 @@ use nalgebra::Vector3;
 
 use crate::diagnosis::{
     candidate::{CandidateEffect, CandidateModel, ChainWalk},
-    digits::{Weights, WrittenDigits},
-    hypothesis::ModelPair,
+    digits::Weights,
     reference_model::{ChainState, ReferenceModel},
 };
 
@@ -37,9 +36,8 @@ impl EvaluationPoint {
         Self { q, length_m: if length_m > 0.0 { length_m } else { 1.0 }, weights: None }
     }
 
-    /// The same configuration, with differences weighted by the digits of the files.
-    pub(in crate::diagnosis) fn weighted(self, models: &ModelPair, digits: &WrittenDigits) -> Self {
-        let weights = Weights::new(digits, models, &self);
+    /// The same configuration, with differences weighted.
+    pub(in crate::diagnosis) fn weighted(self, weights: Option<Weights>) -> Self {
         Self { weights, ..self }
     }
 

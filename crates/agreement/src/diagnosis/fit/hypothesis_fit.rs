@@ -6,12 +6,13 @@ use congruent_description::Tolerance;
 
 use crate::diagnosis::{
     candidate::{CandidateModel, ModelParameter},
+    digits::Weights,
     explanation::Criterion,
     fit::evaluation_point::EvaluationPoint,
     fit::least_squares::{FitTarget, FittedCandidate},
     hypothesis::{ModelPair, PoseHypothesis},
     reference_model::ChainState,
-    thresholds::{ANGLE_STARTS_RAD, GOOD_FIT, SAME_VALUE},
+    thresholds::{ANGLE_STARTS_RAD, GOOD_FIT, MOST_WEIGHTED_JOINTS, SAME_VALUE},
 };
 
 /// Hypotheses with their free parameters fitted.
@@ -47,7 +48,11 @@ impl<'a> FitContext<'a> {
         criterion: &Criterion,
     ) -> Self {
         let unweighted = EvaluationPoint::for_reference(&models.reference);
-        let evaluation_point = unweighted.clone().weighted(models, &criterion.digits);
+        let digits = &criterion.digits;
+        // A matrix of six rows for each joint costs more than it gives for a long chain.
+        let is_weighted = !digits.values.is_empty() && unweighted.q.len() <= MOST_WEIGHTED_JOINTS;
+        let weights = is_weighted.then(|| Weights::new(&digits.effects(models, &unweighted)));
+        let evaluation_point = unweighted.clone().weighted(weights);
         let state = models.reference.state(&evaluation_point.q);
         let Tolerance { position_m, orientation_rad } = criterion.tolerance;
         let tolerated = orientation_rad.min(position_m / unweighted.length_m).max(SAME_VALUE);

@@ -100,7 +100,7 @@ fn moved([by_a, by_b]: &[Matrix4<f64>; 2], [a, b]: &[Vector4<f64>; 2]) -> [Vecto
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bound::difference_norm::AffineMotion;
+    use crate::difference_norm::AffineMotion;
 
     /// A turn about z of the point `(1, 0, 0)` shifted along x, as a slot of a joint.
     fn slot(joint: usize, rate: f64, lengths_m: [f64; 2]) -> FeatureSlot {
