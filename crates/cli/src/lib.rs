@@ -7,6 +7,7 @@ mod ci;
 mod codes;
 mod compare;
 mod completions;
+mod configurations;
 mod failure;
 mod faults;
 mod input;

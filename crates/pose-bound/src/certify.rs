@@ -85,7 +85,7 @@ pub struct Certificate {
 /// # Examples
 /// A tool that is 5 mm off is 5 mm off at every configuration:
 /// ```
-/// use congruent_agreement::bound::{Budget, certify};
+/// use congruent_pose_bound::{Budget, certify};
 /// use congruent_kinematics::{Pose, ScrewChain, Twist};
 /// use nalgebra::Vector3;
 /// let joint = |y: f64| Twist { angular: Vector3::z(), linear: Vector3::new(0., y, 0.) };
@@ -121,7 +121,7 @@ pub fn certify(
 /// # Examples
 /// Two consecutive joints that follow one position turn twice as far as one joint:
 /// ```
-/// use congruent_agreement::bound::{Budget, DrivenScrews, certify_driven};
+/// use congruent_pose_bound::{Budget, DrivenScrews, certify_driven};
 /// use congruent_kinematics::{Pose, ScrewChain, Twist};
 /// use nalgebra::Vector3;
 /// let turn = Twist { angular: Vector3::z(), linear: Vector3::zeros() };

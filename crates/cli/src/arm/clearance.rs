@@ -9,8 +9,9 @@ use congruent::{
 use super::length::positive_length;
 use crate::{
     codes,
+    configurations::ConfigurationArguments,
     failure::{FAILED, Failure, NOTHING},
-    input::{ConfigurationArguments, RobotArgument},
+    input::RobotArgument,
     terminal::print::{Printer, text_options},
 };
 

@@ -3,8 +3,9 @@
 use congruent::{analysis::forward::Source, input::Capability, text::forward_text_parts};
 
 use crate::{
+    configurations::ConfigurationArguments,
     failure::Failure,
-    input::{ArmArguments, ConfigurationArguments, named},
+    input::{ArmArguments, named},
     terminal::print::{Printer, text_options},
 };
 

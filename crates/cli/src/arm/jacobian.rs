@@ -9,8 +9,9 @@ use congruent::{
 };
 
 use crate::{
+    configurations::ConfigurationArguments,
     failure::Failure,
-    input::{ArmArguments, ConfigurationArguments, FollowerArgument, named},
+    input::{ArmArguments, FollowerArgument, named},
     terminal::print::{Printer, text_options},
 };
 

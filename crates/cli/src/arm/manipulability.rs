@@ -7,8 +7,9 @@ use congruent::{
 
 use super::length::positive_length;
 use crate::{
+    configurations::ConfigurationArguments,
     failure::Failure,
-    input::{ArmArguments, ConfigurationArguments, files_of},
+    input::{ArmArguments, files_of},
     output::plot::PlotArgument,
     terminal::print::{Printer, text_options},
 };

@@ -108,7 +108,9 @@ fn allowed(report: &CheckReport) -> String {
     let words = length_and_angle(allowed.position_m, allowed.orientation_rad);
     let PoseError { position_m, orientation_rad } = report.worst.error;
     // All values together may allow more than what was found, and still not this difference.
-    let is_less = position_m <= allowed.position_m && orientation_rad <= allowed.orientation_rad;
+    let rounding = Tolerance::default();
+    let is_less = position_m <= allowed.position_m.max(rounding.position_m)
+        && orientation_rad <= allowed.orientation_rad.max(rounding.orientation_rad);
     let but = if is_less && report.grade == Some(Grade::Different) {
         ", but no rounding gives this one"
     } else {

@@ -6,9 +6,10 @@ use congruent_input::{Diagnostic, TextLines};
 use serde::de::DeserializeOwned;
 
 use super::{
-    JointState, LIST, MOST_BYTES, WrittenConfiguration,
+    beyond_limits::{outside_limits, outside_limits_warning},
     json_list::{JsonList, is_entry},
-    outside_limits, outside_limits_warning,
+    read::{LIST, MOST_BYTES, WrittenConfiguration},
+    states::JointState,
 };
 use crate::model::Robot;
 
