@@ -24,10 +24,6 @@ const NO_INERTIA_RATIO: f64 = 1e-15;
 /// overflows; above, one may, and rapier then continues with accelerations of zero without an error.
 const LARGEST: f64 = 1e75;
 
-/// Most movable joints. A pose costs the engine 6 n^2 entries of Jacobians in time and memory, and a check sets 4 n of them:
-/// 4 s for a chain of 300, 16 s for one of 500. A humanoid with two hands has 100. Kind: choice.
-const MOST_JOINTS: usize = 300;
-
 /// A robot in physics.
 ///
 /// The world frame is the frame of the root link, which is at rest. Vectors hold one entry for
@@ -107,13 +103,12 @@ impl World {
     /// shape with contacts has no volume.
     pub fn new(robot: &Robot, settings: &WorldSettings) -> Result<Self, SimulationError> {
         check(settings)?;
-        let joints = robot.dof();
-        if joints > MOST_JOINTS {
-            return Err(SimulationError::TooManyJoints { joints, most: MOST_JOINTS });
+        let dof = robot.dof();
+        if dof > build::MOST_JOINTS {
+            return Err(SimulationError::TooManyJoints { joints: dof, most: build::MOST_JOINTS });
         }
         let bodies = Bodies::lumped(robot);
         let engine = Engine::new(build::build(robot, &bodies, settings)?, settings);
-        let dof = robot.dof();
         let movable = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
         let carried = |row: usize| robot.link(robot.joint(robot.movable_joints()[row]).child).name.clone();
         Ok(Self {
