@@ -1,6 +1,6 @@
 //! What a code of messages is, and how a crate declares those of its own messages.
 
-/// The stable number and name of a kind of finding, declared with [`codes!`](crate::codes).
+/// The stable number and name of a kind of finding, declared with [`codes!`](macro@crate::codes).
 ///
 /// # Examples
 /// ```
