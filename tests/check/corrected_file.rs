@@ -55,7 +55,7 @@ fn fix_writes_the_corrected_file_and_answers_for_it() {
         let answer = congruent(&["check", &text(folder.path()), "--fix"]);
         assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
         assert!(
-            answer.stdout.contains("robot.fixed.toml\n  checked again: same robot."),
+            answer.stdout.contains("robot.fixed.toml\n  checked again: SAME "),
             "{}",
             answer.stdout
         );

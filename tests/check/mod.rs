@@ -12,5 +12,6 @@ mod joint_origins;
 mod mimics;
 mod planted_dynamics;
 mod published_tables;
+mod second_source;
 mod stated;
 mod suggestions;

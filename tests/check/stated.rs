@@ -83,7 +83,7 @@ fn a_file_without_masses_is_no_reference_for_masses() {
     assert_eq!(compared["verdict"], "not_compared", "{compared:#}");
     assert_eq!(names(&compared["not_stated"]), ["masses of all links"]);
     assert!(compared["explanations"].as_array().unwrap().is_empty());
-    assert!(printed.contains("same geometry, masses not compared"), "{printed}");
+    assert!(printed.contains("SAME GEOMETRY, DYNAMICS NOT COMPARED"), "{printed}");
     assert!(!printed.contains("to write in"), "{printed}");
     // The other file still lacks what this one states.
     let (answer, _) = against(&without_inertials(&LINKS), ARM, &[]);
@@ -167,7 +167,7 @@ fn one_moment_is_named_alone_although_torques_show_few_of_its_body() {
 fn a_range_that_differs_is_no_difference_of_dynamics() {
     let (answer, printed) = against(ARM, &with("lower=\"-2.5\"", "lower=\"-2.4\""), &[]);
     assert_eq!(answer.code, 1);
-    assert!(printed.contains("same geometry and dynamics, different joint limits"), "{printed}");
+    assert!(printed.contains("SAME GEOMETRY AND DYNAMICS, DIFFERENT JOINT LIMITS"), "{printed}");
     assert!(
         printed.contains("  agree     dynamics of") && printed.contains("  disagree  joint limits of"),
         "{printed}"

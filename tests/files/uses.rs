@@ -174,8 +174,8 @@ fn a_check_says_which_source_it_could_not_ask() {
     let bench = ArmFolder::new(TABLE);
     let robot = bench.path("robot.toml");
     let answer = congruent(&["check", &robot]);
-    ends_with(&answer, 0, &["agree", "physics not compared: 2 links have an inertia that breaks"]);
-    assert!(!answer.stdout.contains("against physics"), "{}", answer.stdout);
+    ends_with(&answer, 0, &["agree", "not compared: physics: 2 links have an inertia that breaks"]);
+    assert!(!answer.stdout.contains("and physics agree"), "{}", answer.stdout);
     let document = congruent_json(&["check", &robot]);
     let asked = not_compared(&document);
     assert_eq!(asked[0]["source"], "simulation");
@@ -188,10 +188,10 @@ fn a_check_says_which_source_it_could_not_ask() {
     assert_eq!(stops, ["clearance", "physics"]);
     // A wrong table is diagnosed without the physics.
     bench.write("robot.toml", &format!("urdf = 'arm.urdf'\n{}", TABLE.replace("a_m = 0.5", "a_m = 0.6")));
-    ends_with(&congruent(&["check", &robot]), 1, &["disagree", "physics not compared", "expected"]);
+    ends_with(&congruent(&["check", &robot]), 1, &["disagree", "not compared: physics", "expected"]);
     // Without a table nothing is left to compare, which is no success.
     let bare = congruent(&["check", &bench.path("arm.urdf")]);
-    ends_with(&bare, 4, &["nothing was compared: there is no [dh] table, and the physics was not compared"]);
+    ends_with(&bare, 4, &["NOTHING COMPARED: there is no [dh] table, and the physics was not compared"]);
     let document = congruent_json(&["check", &bench.path("arm.urdf")]);
     assert_eq!((document.code, document.json()["verdict"].clone()), (4, "nothing_compared".into()));
     // Repaired, all are asked.

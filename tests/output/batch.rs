@@ -274,7 +274,9 @@ fn check_answers_for_every_robot() {
         assert!(message.contains(part), "no {part} in {message}");
     }
     assert_eq!(of(robots[1]).iter().map(|case| case.2.as_str()).collect::<Vec<_>>(), ["error"]);
-    assert!(of(robots[2]).len() == 4 && of(robots[2]).iter().all(|case| case.2 == "passed"));
+    let skipped = |case: &&&Case| (case.1.as_str(), case.2.as_str()) == ("dynamics", "skipped");
+    assert_eq!(of(robots[2]).iter().filter(skipped).count(), 1);
+    assert!(of(robots[2]).iter().filter(|case| !skipped(case)).all(|case| case.2 == "passed"));
     assert_eq!(congruent(&["check", robots[0], robots[2]]).code, 1);
     assert_eq!(congruent(&["check", robots[2], robots[2]]).code, 0);
 }

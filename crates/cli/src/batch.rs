@@ -36,6 +36,10 @@ pub(crate) trait BatchReport: Serialize {
     fn parts(&self) -> TextParts<'_> {
         Box::new(once_with(|| self.text()))
     }
+    /// The answer in a line with the name of the input, for --quiet; `None` if the report is no answer to a question.
+    fn one_line(&self) -> Option<String> {
+        None
+    }
     /// The report for CI; `input` names it among the others of the file.
     fn test_suite(&self, input: &str) -> TestSuite;
 }
@@ -212,11 +216,17 @@ impl<'a> Batch<'a> {
     ) -> Result<u8, Failure> {
         // The files for CI come first: standard output may be a pipe that is closed, which ends the call.
         let code = self.conclude(&answers, written);
+        let all =
+            |answers: &[Answer<R>]| if self.printer.is_quiet() { lines(answers) } else { text(answers) };
         if answers.len() > 1 {
             let entries: Vec<AnswerEntry<'_, R>> = answers.iter().map(Answer::entry).collect();
-            self.printer.result(&entries, |_| text(&answers))?;
+            self.printer.result(&entries, |_| all(&answers))?;
         } else if let Some(Answer { result, .. }) = answers.pop() {
-            self.printer.parts(&result?, R::parts)?;
+            let report = result?;
+            match report.one_line().filter(|_| self.printer.is_quiet()) {
+                Some(line) => self.printer.result(&report, |_| line + "\n")?,
+                None => self.printer.parts(&report, R::parts)?,
+            }
         }
         Ok(code)
     }
@@ -340,6 +350,15 @@ fn text<R: BatchReport>(answers: &[Answer<R>]) -> String {
     }
     let _ = writeln!(text, "{} inputs: {}", answers.len(), counts.join(", "));
     text
+}
+
+/// All answers in the order of the inputs, a line each.
+fn lines<R: BatchReport>(answers: &[Answer<R>]) -> String {
+    let line = |answer: &Answer<R>| match &answer.result {
+        Ok(report) => report.one_line().map_or_else(|| report.text(), |line| line + "\n"),
+        Err(_) => format!("{}: BAD INPUT: {}", visible_path(&answer.input), answer.text().trim_start()),
+    };
+    answers.iter().map(line).collect()
 }
 
 /// A failure as the reason of a test case, one line for each finding that is shown.

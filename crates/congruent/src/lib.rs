@@ -38,12 +38,12 @@ pub mod text;
 mod with_physics;
 
 pub use check::{
-    DeclaredSource, OtherDescription, RobotCheck, WrittenFix, check, check_against, check_suite,
+    DeclaredSource, Headline, OtherDescription, RobotCheck, WrittenFix, check, check_against, check_suite,
     checked_robot,
 };
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};
-pub use lint::{LintFinding, LintFix, LintReport, LintVerdict, lint, lint_among};
+pub use lint::{LintFinding, LintFix, LintReport, LintSummary, LintVerdict, lint, lint_among};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 

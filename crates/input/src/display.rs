@@ -14,21 +14,30 @@ const fn step(from: f64, unit: &'static str, units_in_si: f64) -> Step {
     Step { from, unit, units_in_si }
 }
 
-/// Below the last step only rounding is left, which is printed in SI units with an exponent.
-const LENGTHS: [Step; 4] =
-    [step(10.0, "m", 1.0), step(1e-4, "mm", 1e3), step(1e-6, "um", 1e6), step(1e-9, "nm", 1e9)];
+/// Below the last step only rounding is left, whose size means nothing to people.
+const LENGTHS: [Step; 5] = [
+    step(10.0, "m", 1.0),
+    step(1e-4, "mm", 1e3),
+    step(1e-6, "um", 1e6),
+    step(1e-9, "nm", 1e9),
+    step(1e-12, "pm", 1e12),
+];
 /// Below this a decimal fraction is mostly zeros.
 const SMALLEST_DECIMAL: f64 = 1e-4;
-const ANGLES: [Step; 3] =
-    [step(1e-3 * PI / 180.0, "deg", 180.0 / PI), step(1e-6, "urad", 1e6), step(1e-9, "nrad", 1e9)];
+const ANGLES: [Step; 4] = [
+    step(1e-3 * PI / 180.0, "deg", 180.0 / PI),
+    step(1e-6, "urad", 1e6),
+    step(1e-9, "nrad", 1e9),
+    step(1e-12, "prad", 1e12),
+];
 
 /// Formats a length in m, in the unit that fits its size.
 ///
 /// # Examples
 /// ```
 /// use congruent_input::display::length;
-/// let lengths = [2.687, 0.0338, 1e-3, 2.5e-5, 1e-9, 7.9e-16, 0.0].map(length);
-/// assert_eq!(lengths, ["2687 mm", "33.8 mm", "1 mm", "25 um", "1 nm", "7.9e-16 m", "0 mm"]);
+/// let lengths = [2.687, 0.0338, 1e-3, 2.5e-5, 1e-9, 2.5e-12, 7.9e-16, 0.0].map(length);
+/// assert_eq!(lengths, ["2687 mm", "33.8 mm", "1 mm", "25 um", "1 nm", "2.5 pm", "<1 pm", "0 mm"]);
 /// ```
 pub fn length(metres: f64) -> String {
     scaled(metres, &LENGTHS, "m", "mm", "")
@@ -40,21 +49,28 @@ pub fn length(metres: f64) -> String {
 /// ```
 /// use congruent_input::display::angle;
 /// let angles = [1.5707963267948966, -0.0021, 1e-6, 1e-12].map(angle);
-/// assert_eq!(angles, ["90 deg", "-0.12 deg", "1 urad", "1.0e-12 rad"]);
+/// assert_eq!(angles, ["90 deg", "-0.12 deg", "1 urad", "1 prad"]);
 /// ```
 pub fn angle(radians: f64) -> String {
     scaled(radians, &ANGLES, "rad", "deg", "")
 }
 
-/// A length with an angle beside it, as of a pose; without the angle if there is none.
+/// A length with an angle beside it, as of a pose; without the angle if it is rounding.
 ///
 /// # Examples
 /// ```
 /// use congruent_input::display::length_and_angle;
-/// assert_eq!(length_and_angle(0.005, 0.0), "5 mm");
+/// assert_eq!(length_and_angle(0.005, 0.01), "5 mm and 0.573 deg");
+/// assert_eq!(length_and_angle(0.005, 1e-16), "5 mm");
 /// ```
 pub fn length_and_angle(metres: f64, radians: f64) -> String {
-    if radians > 0.0 { format!("{} and {}", length(metres), angle(radians)) } else { length(metres) }
+    /// The smallest angle that is printed with a number.
+    const SMALLEST_RAD: f64 = 0.9995e-12;
+    if radians >= SMALLEST_RAD {
+        format!("{} and {}", length(metres), angle(radians))
+    } else {
+        length(metres)
+    }
 }
 
 /// A value in an SI unit, as reports name it: `m`, `rad`, `m/s`, `rad/s`, `N m`, or nothing for a plain number.
@@ -188,7 +204,10 @@ fn scaled(value: f64, steps: &[Step], si: &str, unit_of_zero: &str, per: &str) -
         Some(step) if value.is_finite() => {
             format!("{} {}{per}", number(value * step.units_in_si), step.unit)
         }
-        _ if value.is_finite() => format!("{value:.1e} {si}{per}"),
+        _ if value.is_finite() => {
+            let smallest = steps.last().map_or(si, |step| step.unit);
+            format!("<1 {smallest}{per}")
+        }
         _ => format!("{value} {si}{per}"),
     }
 }
@@ -242,7 +261,7 @@ mod tests {
     #[test]
     fn what_rounds_up_to_a_unit_is_printed_in_it() {
         let lengths = [1e-9 - 1e-15, 0.9996e-6, 0.999_96e-4, 9.9996, 0.999e-9].map(length);
-        assert_eq!(lengths, ["1 nm", "1 um", "0.1 mm", "10 m", "1.0e-9 m"]);
+        assert_eq!(lengths, ["1 nm", "1 um", "0.1 mm", "10 m", "999 pm"]);
     }
 
     #[test]

@@ -97,6 +97,7 @@ pub(super) fn compared(
         file: description.path.display().to_string(),
         robot: description.name.clone(),
         chain: description.reported_chain(),
+        robot_joints: description.robot.joints().iter().filter(|joint| joint.kind.is_movable()).count(),
         table_compared: description.dh.is_some(),
         verdict,
         grade: (verdict != Agreement::NothingCompared).then_some(grade),

@@ -100,6 +100,10 @@ pub enum ComparedSource {
     DeclaredDynamics,
     /// The inertias of another URDF.
     OtherDynamics,
+    /// A second description of the geometry, which the caller does not have.
+    Geometry,
+    /// A second description of the dynamics, which the caller does not have.
+    Dynamics,
 }
 
 impl ComparedSource {
@@ -112,7 +116,8 @@ impl ComparedSource {
 /// A source that could not be compared.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NotCompared {
-    /// The source: `simulation`, `simulated_dynamics`, `declared_dynamics` or `other_dynamics`.
+    /// The source: `simulation`, `simulated_dynamics`, `declared_dynamics` or `other_dynamics`; `geometry` or `dynamics` if
+    /// there is one description alone.
     #[schemars(with = "String")]
     pub source: ComparedSource,
     /// The reasons why it was not compared.
@@ -135,6 +140,8 @@ pub struct CheckReport {
     pub robot: String,
     /// Base and tip, and who named them.
     pub chain: ReportedChain,
+    /// Number of all moving joints of the robot, mimic joints included. A table is compared over those of `chain`.
+    pub robot_joints: usize,
     /// Whether a table was compared; if not, the URDF, its screws and the physics are compared with each other.
     pub table_compared: bool,
     /// Whether all sources that were compared agree.

@@ -7,6 +7,13 @@ use congruent_input::{Diagnostic, Finding, display::length_and_angle};
 use super::content::{Fault, ReportedCause, ReportedDiagnosis};
 use crate::diagnosis::Cause;
 
+impl ReportedCause {
+    /// The faults of the cause, each by itself, the one with the largest effect first.
+    pub fn faults(&self) -> &[Fault] {
+        if self.parts.is_empty() { slice::from_ref(&self.fault) } else { &self.parts }
+    }
+}
+
 impl ReportedDiagnosis {
     /// Whether a cause was found whose residual is within the tolerance.
     pub fn is_explained(&self) -> bool {
@@ -14,7 +21,7 @@ impl ReportedDiagnosis {
     }
 
     /// The first cause, unless nothing was found.
-    fn named_cause(&self) -> Option<&ReportedCause> {
+    pub fn named_cause(&self) -> Option<&ReportedCause> {
         self.causes.first().filter(|cause| cause.fault.cause != Cause::Unexplained)
     }
 
@@ -22,13 +29,12 @@ impl ReportedDiagnosis {
     /// residual after all of it. Empty if no cause was found.
     pub fn statements(&self) -> Vec<String> {
         let Some(cause) = self.named_cause() else { return Vec::new() };
-        let faults = if cause.parts.is_empty() { slice::from_ref(&cause.fault) } else { &cause.parts };
         let line = |(finding, fault): (&Diagnostic, &Fault)| {
             // Without the lines to paste: a report of a run has one line for each fault.
             let help = Some(fault.suggestion.clone());
             Finding { help, ..Finding::from(finding) }.to_string()
         };
-        let mut lines: Vec<String> = self.findings.iter().zip(faults).map(line).collect();
+        let mut lines: Vec<String> = self.findings.iter().zip(cause.faults()).map(line).collect();
         if let Some(last) = lines.last_mut() {
             let residual = length_and_angle(cause.residual_m, cause.residual_rad);
             last.push_str("; residual after the fix: ");

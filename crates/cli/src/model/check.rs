@@ -8,7 +8,7 @@ use congruent::{
     analysis::plot::errors,
     check_suite, checked_robot,
     description::{RobotDescription, RobotQList, load_robot_with, read_configurations},
-    input::{Diagnostic, Findings, Severity},
+    input::{Diagnostic, Finding, Findings, Severity},
     page::{CheckEntry, check_page},
     results::report::TestSuite,
     text::{CheckTextParts, TextOptions, check_text_parts, layout::visible_path},
@@ -45,6 +45,7 @@ use crate::{
 /// Exit code 1 if they disagree, 4 if nothing was compared, since there is neither a table nor a robot that can be
 /// simulated; with --fix that of the corrected file.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
     #[arg(required = true)]
@@ -73,6 +74,9 @@ pub(crate) struct Arguments {
     /// that is not given is taken from the file.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArgument>,
+    /// Findings of lint in the descriptions fail, too.
+    #[arg(long)]
+    strict: bool,
     /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
     #[arg(long)]
     basics: bool,
@@ -105,6 +109,7 @@ impl Serialize for Checked {
 impl BatchReport for Checked {
     fn exit_code(&self) -> u8 {
         match self.decisive().geometry.verdict {
+            Agreement::Agree if self.decisive().fails_by_lint() => FAILED,
             Agreement::Agree => 0,
             Agreement::Disagree => FAILED,
             Agreement::NothingCompared => NOTHING,
@@ -118,6 +123,11 @@ impl BatchReport for Checked {
     fn parts(&self) -> TextParts<'_> {
         let parts = CheckTextParts { with_basics: self.with_basics, with_table: self.with_table };
         Box::new(check_text_parts(&self.report, &self.description.robot, parts, &self.options))
+    }
+
+    fn one_line(&self) -> Option<String> {
+        let report = self.decisive();
+        Some(format!("{}: {}", report.geometry.file, report.headline()))
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -199,9 +209,11 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
 fn compared(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
     let mut description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
     let mut configurations = RobotQList::new(description.robot.dof());
+    // About the options, and not about the descriptions that lint examines.
+    let mut of_options = Vec::new();
     if let Some(path) = &arguments.configurations {
         let read = read_configurations(path, &description.robot)?;
-        description.warnings.extend(read.warning);
+        of_options.extend(read.warning);
         description.inputs.extend(read.input);
         configurations = read.entries;
     }
@@ -211,11 +223,11 @@ fn compared(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Che
         if !wrong.is_empty() {
             return Err(Findings::from(wrong).into());
         }
-        description.warnings.extend(wide);
+        of_options.extend(wide);
         description.tolerance = tolerance.replace(declared);
         description.tolerance_is_declared = true;
     }
-    batch.warn(path, &description.warnings);
+    batch.warn(path, &[&of_options[..], &description.warnings].concat());
     let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };
     let access = arguments.access.access()?;
     let other = arguments.against.as_ref().map(|other| load_robot_with(other, &access)).transpose()?;
@@ -238,6 +250,8 @@ fn compared(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Che
     if report.geometry.verdict == Agreement::Agree && !unusable.is_empty() {
         return Err(Findings::from(unusable).into());
     }
+    report.geometry.warnings.extend(of_options.iter().map(Finding::from));
+    report.lint.is_strict = arguments.strict;
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
     let (with_basics, with_table) = (arguments.basics, arguments.table);
     Ok(Checked { report, description, other, with_basics, with_table, options: text_options(), fixed: None })

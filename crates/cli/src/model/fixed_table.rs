@@ -49,7 +49,7 @@ pub(super) fn fix(
     let text = format!("{MARK} from {name}; without this line --fix does not replace the file\n{text}");
     let file = NewFile { option: "--fix", path: &path, force: true };
     let fixed = file.write(&text, inputs, again)?;
-    let statement = fixed.headline();
+    let statement = fixed.headline().to_string();
     let fix = WrittenFix {
         file: Some(path.display().to_string()),
         verdict: Some(fixed.geometry.verdict),

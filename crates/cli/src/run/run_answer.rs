@@ -52,6 +52,10 @@ impl BatchReport for RunAnswer {
         format!("{}  {results}\n", run_text(&self.report))
     }
 
+    fn one_line(&self) -> Option<String> {
+        run_text(&self.report).lines().next().map(str::to_owned)
+    }
+
     fn test_suite(&self, _: &str) -> TestSuite {
         let mut suite = self.report.test_suite();
         if let Err(message) = &self.results {

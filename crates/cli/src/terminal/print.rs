@@ -188,7 +188,7 @@ impl Printer {
     /// Warnings for people; beside a JSON document, which has them in full, each in one line. Of several inputs the name of
     /// theirs is in front of each. A warning that was printed in this call, as of a robot of several scenarios, is one line.
     pub(crate) fn warnings(&self, input: Option<&Path>, warnings: &[Diagnostic]) {
-        if self.verbosity == Verbosity::Quiet {
+        if self.is_quiet() {
             return;
         }
         let shown = |warning: &Diagnostic| match self.format {
@@ -201,7 +201,7 @@ impl Printer {
 
     /// Remarks beside the answer, one line each.
     pub(crate) fn notes<'a>(&self, notes: impl IntoIterator<Item = &'a str>) {
-        if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
+        if self.format == Format::Human && !self.is_quiet() {
             notes.into_iter().for_each(|note| to_stderr(&format!("note: {note}\n")));
         }
     }
@@ -235,7 +235,7 @@ impl Printer {
 
     /// How one of several inputs has ended, for people, on standard error: the results follow in the order of the inputs.
     pub(crate) fn ended(&self, input: &Path, word: &str) {
-        if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
+        if self.format == Format::Human && !self.is_quiet() {
             to_stderr(&format!("{}: {word}\n", visible_path(input)));
         }
     }
@@ -251,9 +251,14 @@ impl Printer {
         to_stderr(&error.render().to_string());
     }
 
+    /// Whether only the answer is printed (`--quiet`).
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.verbosity == Verbosity::Quiet
+    }
+
     /// Whether progress may be drawn.
     pub(crate) fn is_interactive(&self) -> bool {
-        self.format == Format::Human && self.verbosity != Verbosity::Quiet && io::stderr().is_terminal()
+        self.format == Format::Human && !self.is_quiet() && io::stderr().is_terminal()
     }
 }
 

@@ -1,5 +1,7 @@
 //! The geometry of a robot's sources, then its dynamics.
 
+use std::iter::once;
+
 use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, NotCompared},
@@ -18,7 +20,7 @@ use super::{
     poses_of_other::PosesOfOther,
     robot_check::RobotCheck,
 };
-use crate::{codes, with_physics::simulated_poses};
+use crate::{codes, lint::LintSummary, with_physics::simulated_poses};
 
 /// Compares table, URDF chain, screws and the physics twin of a robot, first their poses and then their dynamics. A robot
 /// that cannot be simulated is compared without the physics, and the report says why.
@@ -90,6 +92,9 @@ fn checked(
             }
         }
     }
+    if other.is_none() {
+        geometry.not_asked.extend(stated_once(&geometry, &compared));
+    }
     // A comparison that disagrees comes first; the order is otherwise kept.
     compared.sort_by_key(DynamicsReport::agrees);
     geometry.verdict = verdict(&geometry, against.as_ref(), &compared);
@@ -102,8 +107,31 @@ fn checked(
         declared_dynamics,
         dynamics,
         other_dynamics,
+        lint: LintSummary::from_descriptions(once(description).chain(other)),
         fix: None,
     })
+}
+
+/// What only one description states, if there is no other. Physics and screws are made of the URDF: they are no second
+/// source.
+fn stated_once(geometry: &CheckReport, dynamics: &[DynamicsReport]) -> Vec<NotCompared> {
+    let mut missing = Vec::new();
+    if geometry.chain.joints.is_empty() {
+        return missing;
+    }
+    let because =
+        |source, why| NotCompared::because(source, &Diagnostic::warning(codes::check::NO_SECOND_SOURCE, why));
+    if !geometry.table_compared {
+        let why = "there is one description: a table ([dh] in robot.toml) or --against gives a second one";
+        missing.push(because(ComparedSource::Geometry, why));
+    }
+    let is_declared = geometry.not_asked.iter().any(|of| of.source == ComparedSource::DeclaredDynamics);
+    if !is_declared && dynamics.iter().all(physics::is_of_physics) {
+        let why = "masses, friction and gravity are stated once: [[inertial]] in robot.toml or --against gives a second \
+                   source";
+        missing.push(because(ComparedSource::Dynamics, why));
+    }
+    missing
 }
 
 /// The verdict of poses and dynamics together.

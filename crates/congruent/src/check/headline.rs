@@ -1,86 +1,255 @@
-//! The first line of a check: the answer in the words of the question, what was compared, and the largest difference.
+//! The first line of a check: the answer in the words of the question, the largest difference, and the cause.
+
+use std::{
+    fmt::{self, Write},
+    path::Path,
+};
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckReport, Comparison, Grade, WorstDifference},
+    compare::{Agreement, CheckReport, Comparison, Grade},
+    report::{ReportedCause, ReportedDiagnosis},
 };
 use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
-use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
-use congruent_input::display::{length_and_angle, listed};
+use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDifference, ParameterDifference};
+use congruent_input::display::{counted, length_and_angle, listed};
 use congruent_kinematics::PoseError;
 
-use super::{against::OtherDescription, robot_check::RobotCheck};
+use super::robot_check::RobotCheck;
+
+/// The answer of a check in a line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Headline {
+    /// The answer in capitals: `SAME ROBOT`, `DIFFERENT`.
+    pub answer: String,
+    /// What it is about, how large the difference is, and its cause: what follows the answer, with the punctuation
+    /// between the two.
+    pub details: String,
+}
+
+impl fmt::Display for Headline {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", self.answer, self.details)
+    }
+}
+
+impl Headline {
+    fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
+        Self { answer: answer.into(), details: details.into() }
+    }
+}
 
 impl RobotCheck {
     /// The answer as `check` and its page give it: whether the descriptions are the same robot, by which sources, and how
-    /// far they differ; and what the robot file declares of another chain, which the answer does not cover.
-    pub fn headline(&self) -> String {
+    /// far they differ and why; and what it does not cover.
+    pub fn headline(&self) -> Headline {
+        let mut headline = self.answer();
         let mut warnings = self.geometry.warnings.iter();
-        let dropped = warnings.find(|warning| warning.code == TABLE_DROPPED.name);
-        let dropped = dropped.map_or_else(String::new, |warning| format!("; {}", warning.message));
-        self.answer() + &dropped
+        if let Some(dropped) = warnings.find(|warning| warning.code == TABLE_DROPPED.name) {
+            let _ = write!(headline.details, "; {}", dropped.message);
+        }
+        if self.fails_by_lint() {
+            let findings = counted(self.lint.findings(), "finding");
+            let _ = write!(headline.details, "; --strict: {findings} of lint");
+        }
+        headline
     }
 
-    fn answer(&self) -> String {
+    fn answer(&self) -> Headline {
         let report = &self.geometry;
-        if let Some((other, why)) = other_chain(self) {
-            let other = &other.file;
-            return format!("not the same robot as {other}: another chain, {why}; the two were not compared");
+        if let Some((other, why)) = self.other_chain() {
+            let details = format!(" from {}: another chain, {why}; the two were not compared", other.file);
+            return Headline::new("DIFFERENT", details);
         }
         if report.verdict == Agreement::NothingCompared {
-            return format!("nothing was compared: {}", Agreement::why_nothing(&report.chain));
+            let why = Agreement::why_nothing(&report.chain);
+            return Headline::new("NOTHING COMPARED", format!(": {why}"));
         }
-        let is_same_within_digits = report.grade == Some(Grade::SameWithinDigits);
-        let (answer, found) = if report.poses_disagree() {
-            let answer = if is_same_within_digits {
-                "the same within the digits written, but not within the tolerance"
-            } else {
-                "not the same robot"
-            };
-            (answer, differing(report).join(", "))
-        } else if is_same_within_digits && report.is_judged_by_digits() {
-            let worst = difference(&report.worst);
-            let found = format!("DH table against URDF: up to {worst}{}", allowed(report));
-            let answer =
-                answer_of_agreeing_poses(self).replace("same robot", "same robot within the digits written");
-            return format!(
-                "{answer}. {found} (no tolerance declared, {} configurations)",
-                report.configurations
-            );
+        if report.poses_disagree() {
+            return different_poses(self);
+        }
+        if report.verdict == Agreement::Disagree {
+            return different_dynamics(self);
+        }
+        let (answer, extent) = (self.agreeing_answer(), extent(self));
+        let details = if report.grade == Some(Grade::SameWithinDigits) && report.is_judged_by_digits() {
+            let largest = largest(report.worst.error);
+            let count = report.configurations;
+            let allowed = allowed(report);
+            format!(
+                "{extent} within the digits written. DH table against URDF: up to {largest}{allowed} (no tolerance declared, {count} configurations)"
+            )
         } else {
-            // The largest difference of sources that agree is rounding, and its place means nothing.
-            let found = format!("{} agree within {}", listed(&agreeing(report)), difference(&report.worst));
-            (answer_of_agreeing_poses(self), found)
+            format!("{extent}. {}", agreeing(report))
         };
-        format!("{answer}. {found} ({}, {} configurations)", tolerance(report), report.configurations)
+        Headline::new(answer, details)
+    }
+
+    /// The answer if everything that was compared agrees. Physics and screws are made of the URDF: they are no second
+    /// description.
+    fn agreeing_answer(&self) -> &'static str {
+        let has_geometry = self.geometry.table_compared || self.against.is_some();
+        let has_dynamics =
+            self.dynamics_of_descriptions().any(|of| of.verdict != DynamicsVerdict::NotCompared);
+        match (has_geometry, has_dynamics) {
+            (true, true) => "SAME ROBOT",
+            (true, false) => "SAME GEOMETRY, DYNAMICS NOT COMPARED",
+            (false, true) => "SAME DYNAMICS, GEOMETRY NOT COMPARED",
+            (false, false) => "NO SECOND DESCRIPTION",
+        }
     }
 }
 
-/// The answer if no pose differs. Physics and screws are made of the URDF, so that they are no second description of it.
-fn answer_of_agreeing_poses(check: &RobotCheck) -> &'static str {
+/// The part of the robot that was compared, if it is not all of it.
+fn extent(check: &RobotCheck) -> String {
     let report = &check.geometry;
-    let has_second_geometry = report.table_compared || check.against.is_some();
-    let reports = || check.all_dynamics();
-    let differ_in_limits_alone = reports().all(DynamicsReport::has_same_torques)
-        && reports().any(DynamicsReport::has_other_limits)
-        && check.against.as_ref().is_none_or(|other| other.dynamics_not_compared.is_none());
-    if report.verdict == Agreement::Disagree && differ_in_limits_alone {
-        return "same geometry and dynamics, different joint limits";
-    }
-    let has_masses_of_both = reports().all(|of| of.verdict != DynamicsVerdict::NotCompared);
-    match (report.verdict, has_second_geometry, &check.declared_dynamics) {
-        (Agreement::Agree, true, None) if !has_masses_of_both => "same geometry, masses not compared",
-        (Agreement::Disagree, true, _) => "same geometry, different dynamics",
-        (Agreement::Disagree, false, _) => "different dynamics",
-        (_, true, _) => "same robot",
-        (_, false, Some(_)) => "same dynamics, no second geometry was compared",
-        (_, false, None) => "no second description was compared",
+    let (all, of_chain) = (report.robot_joints, report.chain.joints.len());
+    match &check.against {
+        Some(against) if !against.joints_left_out.is_empty() => {
+            let compared = all.saturating_sub(against.joints_left_out.len());
+            format!(" in {compared} of {all} joints (those that move the tip)")
+        }
+        None if report.table_compared && of_chain < all => {
+            format!(" in {of_chain} of {all} joints (those of the table)")
+        }
+        _ => String::new(),
     }
 }
 
-/// The largest distance and angle.
-fn difference(worst: &WorstDifference) -> String {
-    length_and_angle(worst.error.position_m, worst.error.orientation_rad)
+/// The sources that agree, and the bound of their difference.
+fn agreeing(report: &CheckReport) -> String {
+    let sources = listed(&sources_of(report));
+    let tolerance = tolerance(report);
+    match certified(report) {
+        Some(bound) => {
+            format!("{sources} agree over the whole joint range (difference {}, {tolerance})", at_most(bound))
+        }
+        None => format!(
+            "{sources} agree at {} (difference {}, {tolerance})",
+            counted(report.configurations, "configuration"),
+            at_most(report.worst.error)
+        ),
+    }
+}
+
+/// A bound in words: `at most 0.8 pm`, or `<1 pm`.
+fn at_most(bound: PoseError) -> String {
+    let bound = largest(bound);
+    if bound.starts_with('<') { bound } else { format!("at most {bound}") }
+}
+
+/// The bound over the whole joint range, if every pair has one within the tolerance.
+fn certified(report: &CheckReport) -> Option<PoseError> {
+    let has_bound = |pair: &Comparison| {
+        let of_physics = [SourcePair::ModelSimulation, SourcePair::UrdfSimulation];
+        let mut named = report.certificates.iter();
+        named.any(|of| {
+            of.name == pair.name || (of_physics.contains(&of.name) && of_physics.contains(&pair.name))
+        })
+    };
+    let mut compared = report.comparisons.iter().filter(|of| of.name != SourcePair::PoeUrdf);
+    let bounds = report.certificates.iter().map(|of| Some(of.brackets.as_ref()?.bounds()));
+    let bounds: Option<Vec<PoseError>> = bounds.collect();
+    let bound = bounds?.into_iter().fold(PoseError::default(), PoseError::larger);
+    (compared.all(has_bound) && bound.is_within(&report.tolerance)).then_some(bound)
+}
+
+/// Poses differ: by how much, and why.
+fn different_poses(check: &RobotCheck) -> Headline {
+    let report = &check.geometry;
+    let differ = report.comparisons.iter().filter(|comparison| comparison.verdict == Agreement::Disagree);
+    let of_pair = |comparison: &Comparison| {
+        let [a, b] = sources(comparison.name);
+        let allowed = if comparison.name == SourcePair::ModelUrdf { allowed(report) } else { String::new() };
+        let worst = &comparison.worst;
+        format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
+    };
+    let pairs: Vec<String> = differ.map(of_pair).collect();
+    let found = format!("by up to {}; {}", pairs.join(", "), tolerance(report));
+    if report.grade == Some(Grade::SameWithinDigits) {
+        let advice = "declare a tolerance that the digits allow, or write more digits";
+        return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));
+    }
+    let cause = check.diagnosis().map_or_else(unknown, cause);
+    Headline::new("DIFFERENT", format!(", {found}. {cause}"))
+}
+
+fn unknown() -> String {
+    "No known cause explains it".to_owned()
+}
+
+/// The first fault with its place, and how many there are.
+fn cause(diagnosis: &ReportedDiagnosis) -> String {
+    let Some(cause) = diagnosis.named_cause() else { return unknown() };
+    let faults = cause.faults();
+    let Some(first) = faults.first() else { return unknown() };
+    let place = place(first.file.as_deref(), first.line);
+    let more = faults.len() - 1;
+    let rest = if more > 0 { format!(", and {more} more") } else { String::new() };
+    let label = match more {
+        0 => "Cause".to_owned(),
+        _ => format!("{} causes", faults.len()),
+    };
+    format!("{label}: {}{place}{rest}{}", first.message, unexplained(cause))
+}
+
+/// What the cause leaves, if that is too much.
+fn unexplained(cause: &ReportedCause) -> String {
+    if cause.within_tolerance {
+        return String::new();
+    }
+    let residual = PoseError { position_m: cause.residual_m, orientation_rad: cause.residual_rad };
+    format!("; that leaves {}", largest(residual))
+}
+
+/// Poses agree, but masses, friction, gravity or limits do not.
+fn different_dynamics(check: &RobotCheck) -> Headline {
+    let has_geometry = check.geometry.table_compared || check.against.is_some();
+    let same = if has_geometry { "SAME GEOMETRY, " } else { "" };
+    let not_compared = check.against.as_ref().and_then(|of| of.dynamics_not_compared.as_ref());
+    if let Some(why) = not_compared {
+        return Headline::new(format!("{same}DIFFERENT DYNAMICS"), format!(": {why}"));
+    }
+    let Some(report) = check.all_dynamics().find(|report| !report.agrees()) else {
+        return Headline::new("DIFFERENT", String::new());
+    };
+    if !report.has_same_torques() {
+        return Headline::new(format!("{same}DIFFERENT DYNAMICS"), format!(": {}", cause_of_torques(report)));
+    }
+    let same = if has_geometry { "SAME GEOMETRY AND DYNAMICS, " } else { "SAME DYNAMICS, " };
+    Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), limits(&report.limits))
+}
+
+fn cause_of_torques(report: &DynamicsReport) -> String {
+    let Some(first) = report.explanations.first() else { return report.headline() };
+    let (sentence, line) = match &first.parameters[..] {
+        [only] => (only.sentence(), only.line),
+        several => {
+            (first.sentence(), several.iter().find_map(|parameter: &ParameterDifference| parameter.line))
+        }
+    };
+    sentence + &place(first.file.as_deref(), line)
+}
+
+fn limits(differences: &[LimitDifference]) -> String {
+    let mut decide = differences.iter().filter(|difference| difference.decides);
+    let Some(first) = decide.next() else { return String::new() };
+    let rest = match decide.count() {
+        0 => String::new(),
+        more => format!(", and {more} more"),
+    };
+    format!(": {}{}{rest}", first.sentence(), place(first.file.as_deref(), first.line))
+}
+
+/// ` (robot.toml:8)`.
+fn place(file: Option<&str>, line: Option<usize>) -> String {
+    let name = file.and_then(|file| Path::new(file).file_name());
+    let place = name.zip(line).map(|(name, line)| format!(" ({}:{line})", name.display()));
+    place.unwrap_or_default()
+}
+
+fn largest(error: PoseError) -> String {
+    length_and_angle(error.position_m, error.orientation_rad)
 }
 
 /// The tolerance, and that of the robot file if another one was requested.
@@ -92,20 +261,11 @@ fn tolerance(report: &CheckReport) -> String {
     format!("tolerance {}{replaced}", words(&report.tolerance))
 }
 
-/// Why nothing of two descriptions was compared: they have other joints.
-fn other_chain(check: &RobotCheck) -> Option<(&OtherDescription, &str)> {
-    let against = check.against.as_ref()?;
-    let mut compared = check.geometry.comparisons.iter().map(|of| of.name);
-    let why = against.dynamics_not_compared.as_ref()?;
-    (!compared.any(|name| name == SourcePair::UrdfOther)).then_some((against, why))
-}
-
 /// What the digits of table and URDF allow, if the two are not identical and not written with all digits.
 fn allowed(report: &CheckReport) -> String {
     let Some(allowed) = report.allowed_by_digits.filter(|allowed| *allowed != PoseError::default()) else {
         return String::new();
     };
-    let words = length_and_angle(allowed.position_m, allowed.orientation_rad);
     let PoseError { position_m, orientation_rad } = report.worst.error;
     // All values together may allow more than what was found, and still not this difference.
     let rounding = Tolerance::default();
@@ -116,7 +276,7 @@ fn allowed(report: &CheckReport) -> String {
     } else {
         ""
     };
-    format!(", where the digits written allow {words}{but}")
+    format!(", where the digits written allow {}{but}", largest(allowed))
 }
 
 /// The two sources of a pair.
@@ -130,27 +290,10 @@ fn sources(pair: SourcePair) -> [&'static str; 2] {
     }
 }
 
-/// The sources that were compared: descriptions first, then what was made of them.
-fn agreeing(report: &CheckReport) -> Vec<&'static str> {
+/// The sources that were compared: descriptions first, then the physics. Screws are the URDF in another form.
+fn sources_of(report: &CheckReport) -> Vec<&'static str> {
     let compared: Vec<&str> =
         report.comparisons.iter().flat_map(|comparison| sources(comparison.name)).collect();
-    ["DH table", "URDF", "other URDF", "screws", "physics"]
-        .into_iter()
-        .filter(|source| compared.contains(source))
-        .collect()
-}
-
-/// The pairs that differ, each with its largest difference and the link that has it.
-fn differing(report: &CheckReport) -> Vec<String> {
-    let differ = report.comparisons.iter().filter(|comparison| comparison.verdict == Agreement::Disagree);
-    let words = |comparison: &Comparison| {
-        let [a, b] = sources(comparison.name);
-        let allowed = if comparison.name == SourcePair::ModelUrdf { allowed(report) } else { String::new() };
-        format!(
-            "{a} against {b}: up to {} at {}{allowed}",
-            difference(&comparison.worst),
-            comparison.worst.link
-        )
-    };
-    differ.map(words).collect()
+    let named = ["DH table", "URDF", "other URDF", "physics"].into_iter();
+    named.filter(|source| compared.contains(source)).collect()
 }

@@ -15,6 +15,7 @@ mod suite;
 pub use against::OtherDescription;
 pub use checked::{check, check_against};
 pub use declared::DeclaredSource;
+pub use headline::Headline;
 pub use page::checked_robot;
 pub use robot_check::{RobotCheck, WrittenFix};
 pub use suite::check_suite;

@@ -4,7 +4,7 @@ use congruent_agreement::SourcePair;
 use congruent_description::RobotDescription;
 use congruent_page::CheckedRobot;
 
-use super::robot_check::RobotCheck;
+use super::{headline::Headline, robot_check::RobotCheck};
 
 /// The report on a robot for [`check_page`](congruent_page::check_page), with the descriptions that it is about.
 pub fn checked_robot<'a>(
@@ -25,8 +25,14 @@ pub fn checked_robot<'a>(
             .filter(|left_out| !left_out.is_empty())
             .map(|left_out| format!("not compared (no [[inertial]] entry): {left_out}")),
     );
+    let mut findings = report.geometry.warnings.clone();
+    let further = report.lint.worst.iter().filter(|found| !report.geometry.warnings.contains(found));
+    findings.extend(further.cloned());
+    let Headline { answer, details } = report.headline();
     CheckedRobot {
-        headline: report.headline(),
+        answer,
+        details,
+        findings,
         description,
         geometry: &report.geometry,
         at_configurations: report.at_configurations.as_ref(),

@@ -12,6 +12,14 @@ use congruent_twin::source::SimulatedDynamics;
 use super::model_frames::{urdf_model, urdf_places};
 use crate::codes;
 
+/// The name of the physics in reports.
+const PHYSICS: &str = "physics";
+
+/// Whether a report is of a URDF and the physics that was built from it, which is no second description.
+pub(super) fn is_of_physics(report: &DynamicsReport) -> bool {
+    report.sides.reference == PHYSICS
+}
+
 /// Compares masses, inertias, joint terms and gravity of a URDF with those of the physics.
 pub(super) fn compared(description: &RobotDescription, seed: u64) -> Result<DynamicsReport, Diagnostic> {
     if let Some(massless) =
@@ -31,7 +39,7 @@ pub(super) fn compared(description: &RobotDescription, seed: u64) -> Result<Dyna
     let compared_at = |part_of_step: f64| {
         let simulated = SimulatedDynamics::with_part_of_step(&description.robot, part_of_step)
             .map_err(|error| refused(&error))?;
-        compare_with_source(&candidate, "physics", &mut Extrapolated(simulated), options)
+        compare_with_source(&candidate, PHYSICS, &mut Extrapolated(simulated), options)
             .map_err(|error| refused(&error))
     };
     let report = compared_at(1.0)?;

@@ -1,6 +1,7 @@
 //! The answer of `congruent check`: geometry, then dynamics.
 
 use congruent_agreement::{
+    SourcePair,
     compare::{Agreement, CheckReport, DifferenceAt, DifferencesAt},
     report::ReportedDiagnosis,
 };
@@ -8,7 +9,8 @@ use congruent_dynamics_agreement::DynamicsReport;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{against::OtherDescription, declared::DeclaredSource};
+use super::{against::OtherDescription, declared::DeclaredSource, physics};
+use crate::lint::LintSummary;
 
 /// The answer of `congruent check` for one robot.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -34,6 +36,8 @@ pub struct RobotCheck {
     /// The other comparisons of dynamics.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub other_dynamics: Vec<DynamicsReport>,
+    /// What lint finds in the descriptions: values that are suspicious whatever they are compared with.
+    pub lint: LintSummary,
     /// What --fix has written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fix: Option<WrittenFix>,
@@ -56,6 +60,29 @@ impl RobotCheck {
     /// All comparisons of dynamics.
     pub fn all_dynamics(&self) -> impl Iterator<Item = &DynamicsReport> {
         self.dynamics.iter().chain(&self.other_dynamics)
+    }
+
+    /// The comparisons of two descriptions of the dynamics.
+    pub fn dynamics_of_descriptions(&self) -> impl Iterator<Item = &DynamicsReport> {
+        self.all_dynamics().filter(|report| !physics::is_of_physics(report))
+    }
+
+    /// The URDF against the physics that was built from it: whether that was built right.
+    pub fn dynamics_of_physics(&self) -> Option<&DynamicsReport> {
+        self.all_dynamics().find(|report| physics::is_of_physics(report))
+    }
+
+    /// Whether findings of lint fail the check, by --strict.
+    pub fn fails_by_lint(&self) -> bool {
+        self.lint.is_strict && self.lint.findings() > 0
+    }
+
+    /// The other description with the reason why nothing of the two was compared: they have other joints.
+    pub(super) fn other_chain(&self) -> Option<(&OtherDescription, &str)> {
+        let against = self.against.as_ref()?;
+        let mut compared = self.geometry.comparisons.iter().map(|of| of.name);
+        let why = against.dynamics_not_compared.as_ref()?;
+        (!compared.any(|name| name == SourcePair::UrdfOther)).then_some((against, why))
     }
 
     /// The diagnosis that is reported: the first that names a cause.

@@ -33,6 +33,7 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
         .iter()
         .filter(|found| found.code == congruent_description::codes::chain::TABLE_DROPPED.name);
     cases.extend(dropped.map(|found| skipped("table", found.message.clone())));
+    cases.push(lint_case(report));
     // Nothing moves, so that no time passes but the machine's.
     TestSuite { name: name.to_owned(), cases, time_s: 0.0, clock: Clock::Wall }
 }
@@ -105,6 +106,23 @@ fn dynamics_case(report: &DynamicsReport) -> TestCase {
             .first()
             .and_then(|first| CasePlace::if_known(first.file.as_deref(), first.line)),
     }
+}
+
+/// What lint finds, which fails if the caller says so.
+fn lint_case(report: &RobotCheck) -> TestCase {
+    let worst = &report.lint.worst;
+    let lines: Vec<String> = worst.iter().map(ToString::to_string).collect();
+    let output = lines.join("\n");
+    let first = worst.first();
+    let result = if report.fails_by_lint() {
+        let kind = first.map_or_else(|| "lint".to_owned(), |found| found.code.to_string());
+        TestResult::Failed(Reason { kind, message: output.clone() })
+    } else {
+        TestResult::Passed
+    };
+    let place = first.filter(|_| report.fails_by_lint());
+    let place = place.and_then(|found| CasePlace::if_known(found.file.as_deref(), found.line));
+    TestCase { name: "lint".to_owned(), result, output, place }
 }
 
 /// The bound over the whole joint range, if the same two sources have one.

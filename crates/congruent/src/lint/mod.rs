@@ -2,6 +2,7 @@
 
 mod find_robot;
 mod report;
+mod summary;
 mod tables;
 
 use std::{
@@ -23,7 +24,10 @@ use congruent_twin::RunSetup;
 
 use crate::codes;
 
-pub use self::report::{LintFinding, LintFix, LintReport, LintVerdict};
+pub use self::{
+    report::{LintFinding, LintFix, LintReport, LintVerdict},
+    summary::LintSummary,
+};
 
 /// What was found in a file.
 struct Examined {
@@ -61,7 +65,19 @@ pub fn lint(path: &Path, access: &FileAccess) -> LintReport {
 /// Like `lint`, for one file among several: an SRDF is compared with the robot among them, as is a table of
 /// configurations, targets or measurements.
 pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintReport {
-    let Examined { kind, found, ignores } = examined(path, files, access);
+    report(examined(path, files, access))
+}
+
+/// What [`lint`] finds in a robot that has been read.
+pub(crate) fn lint_robot(description: &RobotDescription) -> LintReport {
+    let is_bare = description.path == description.urdf_path;
+    let kind = if is_bare { FileKind::Urdf } else { FileKind::RobotFile };
+    let ignores = if is_bare { Ignores::default() } else { ignores_of_robot(description) };
+    report(Examined { kind: Some(kind), found: suspicions(description), ignores })
+}
+
+fn report(examined: Examined) -> LintReport {
+    let Examined { kind, found, ignores } = examined;
     let is_unreadable = found.iter().any(|found| found.source.is_none() && found.code.is_unreadable);
     let (kept, ignored) = ignores.apply(found, &codes::all_codes());
     let diagnostics: Vec<Diagnostic> = kept.into_iter().map(judged).collect();
@@ -257,8 +273,7 @@ fn table(path: &Path, kind: FileKind, others: &[PathBuf], access: &FileAccess) -
 fn scenario(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
     match RunSetup::load_with(subject.path, &[], subject.access) {
         Ok(setup) => {
-            let robot_file = named_text(subject.path, &setup.description.path, TextKind::RobotFile);
-            let ignores = robot_file.as_ref().map_or_else(Ignores::default, ignores_of);
+            let ignores = ignores_of_robot(&setup.description);
             let mut found = setup.warnings.clone();
             found.extend(suspicions(&setup.description));
             // A run is a simulation, which needs more than a plan.
@@ -274,6 +289,12 @@ fn scenario(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
 
 fn is_same(one: &Diagnostic, other: &Diagnostic) -> bool {
     one.code == other.code && one.message == other.message
+}
+
+/// The findings that the robot file of a description ignores.
+fn ignores_of_robot(description: &RobotDescription) -> Ignores {
+    let path = &description.path;
+    named_text(path, path, TextKind::RobotFile).as_ref().map_or_else(Ignores::default, ignores_of)
 }
 
 /// The findings that a robot file ignores; none for a URDF.

@@ -214,12 +214,12 @@ impl DynamicsReport {
     /// The result in one sentence, with the relative torque difference and the number of states.
     pub fn headline(&self) -> String {
         let states = number(count(self.premise.states));
-        let [equal, percent] = [1.0, 100.0].map(|unit| number(self.difference_relative * unit));
+        let percent = number(100.0 * self.difference_relative);
         match self.verdict {
             DynamicsVerdict::Same | DynamicsVerdict::SameTorques => {
                 let seen =
                     self.identifiability_sentence().map_or_else(String::new, |seen| format!("; {seen}"));
-                format!("torques agree within {equal} (relative) at {states} states{seen}")
+                format!("torques equal at {states} states{seen}")
             }
             DynamicsVerdict::NotCompared => match &self.not_stated[..] {
                 [] => "torques are not compared: neither description states a mass".to_owned(),
@@ -286,10 +286,13 @@ impl DynamicsReport {
         says_more.then(|| what() + &self.not_stated.join("; "))
     }
 
-    /// How many inertial parameters are identifiable from joint torques; `None` if it is not computed.
+    /// On how many combinations of inertial parameters joint torques depend; `None` if it is not computed.
     pub fn identifiability_sentence(&self) -> Option<String> {
         let seen = self.seen?;
-        let all = format!("{} of {} inertial parameters are identifiable", seen.numbers, seen.of);
+        let all = format!(
+            "joint torques depend on {} combinations of the {} inertial parameters",
+            seen.numbers, seen.of
+        );
         Some(match seen.weak {
             0 => all,
             weak => format!("{all}, {} of them only through the rounding of joint axes", number(count(weak))),

@@ -74,7 +74,7 @@ fn a_fault_has_its_line_its_parameters_and_its_sentence() {
     assert!(worst.sentence().contains("certified below"), "{}", worst.sentence());
     assert_eq!(
         report.identifiability_sentence().as_deref(),
-        Some("36 of 60 inertial parameters are identifiable")
+        Some("joint torques depend on 36 combinations of the 60 inertial parameters")
     );
 }
 

@@ -3,12 +3,17 @@
 use congruent_agreement::compare::{CheckReport, DifferencesAt};
 use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::DynamicsReport;
+use congruent_input::Finding;
 
 /// The report on one robot, with the descriptions and dynamics that its page also shows.
 #[derive(Debug, Clone)]
 pub struct CheckedRobot<'a> {
-    /// The answer in words, as the command prints it.
-    pub headline: String,
+    /// The answer in capitals, as the command prints it.
+    pub answer: String,
+    /// What follows the answer, with the punctuation between the two.
+    pub details: String,
+    /// Warnings about the descriptions, and the worst findings of lint.
+    pub findings: Vec<Finding>,
     /// The robot as it was read, whose URDF the pictures draw.
     pub description: &'a RobotDescription,
     /// The report on its geometry.

@@ -10,7 +10,7 @@ use maud::{Markup, html};
 use super::{
     certificate::certificate, checked_robot::CheckedRobot, comparisons::comparisons, dynamics::dynamics,
 };
-use crate::parts::{BadgeKind, Pointer, badge, capitalised, count, diagnosis, document, value, warnings};
+use crate::parts::{BadgeKind, Pointer, badge, count, diagnosis, document, value, warnings};
 
 /// One input of a check with its result.
 #[derive(Debug, Clone)]
@@ -107,18 +107,17 @@ fn one(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
         (certificate(robot, at))
         (dynamics(robot, at))
         (requested(robot.at_configurations, at))
-        (warnings(&robot.geometry.warnings))
+        (warnings(&robot.findings))
     }
 }
 
 fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     let report = robot.geometry;
-    let (outcome, word) = outcome(report);
     html! {
         header {
             p.kind { "Do the descriptions agree?" }
             h1 { (report.robot) }
-            p.verdict { (badge(outcome, word)) " " span.sentence { (capitalised(&robot.headline)) "." } }
+            p.verdict { (badge(outcome(report).0, &robot.answer)) span.sentence { (robot.details) "." } }
             dl.facts {
                 dt { "file" } dd { code { (report.file) } }
                 @if let Some(other) = robot.other { dt { "against" } dd { code { (other.path.display()) } } }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use congruent::{
     LintReport, LintVerdict, lint_among,
     results::report::{CasePlace, Reason, TestResult, TestSuite},
-    text::lint_text,
+    text::{layout::visible_path, lint_text},
 };
 use serde::Serialize;
 
@@ -86,6 +86,11 @@ impl BatchReport for Linted {
 
     fn text(&self) -> String {
         lint_text(&self.report, &self.difference, &text_options())
+    }
+
+    fn one_line(&self) -> Option<String> {
+        let text = self.text();
+        Some(format!("{}: {}", visible_path(&self.path), text.lines().next_back()?))
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {

@@ -32,10 +32,10 @@ pub(super) fn diagnosed(
 ) {
     /// Alternatives shown to people; JSON has all of them.
     const SHOWN: usize = 6;
-    /// Next best causes are shown if their residual is less than this share of the difference.
-    const PROMISING: f64 = 0.5;
+    /// Next best causes are shown if their residual is at most so many times that of the first, or the tolerance.
+    const AS_GOOD: f64 = 10.0;
     let Some(first) = diagnosis.causes.first() else { return };
-    let faults = faults(first);
+    let faults: Vec<&Fault> = first.faults().iter().collect();
     let _ =
         writeln!(text, "\n  {}: {}", diagnosis.title, summary(first, diagnosis.findings.len(), tolerance));
     for (at, (finding, fault)) in diagnosis.findings.iter().zip(&faults).enumerate() {
@@ -45,15 +45,26 @@ pub(super) fn diagnosed(
     if diagnosis.findings.is_empty() {
         diagnosis.invariants.iter().for_each(|difference| differs(text, difference));
     }
-    for alternative in diagnosis.indistinguishable.iter().take(SHOWN) {
+    // Only where a person could choose: what asks for more lines, or for the same ones, is no alternative.
+    let lines = |faults: &[Fault]| faults.iter().map(|fault| fault.pasted.len()).sum::<usize>();
+    let most = lines(first.faults());
+    let can_be_chosen = |other: &&ReportedAlternative| {
+        let other = other.cause.faults();
+        lines(other) <= most && other.iter().any(|fault| !is_pasted(fault, &faults))
+    };
+    let choices: Vec<&ReportedAlternative> =
+        diagnosis.indistinguishable.iter().filter(can_be_chosen).collect();
+    for alternative in choices.iter().take(SHOWN) {
         equivalent(text, alternative, &faults);
     }
-    if let Some(more) = diagnosis.indistinguishable.len().checked_sub(SHOWN + 1) {
+    if let Some(more) = choices.len().checked_sub(SHOWN + 1) {
         let _ = writeln!(text, "  and {} more causes that cannot be distinguished", more + 1);
     }
-    let before = first.stages.first().map_or(f64::INFINITY, |stage| stage.before.position_m);
-    // A cause that removes less than half of the difference would be no hint.
-    for next in diagnosis.causes[1..].iter().filter(|next| next.residual_m < PROMISING * before) {
+    let is_as_good = |next: &&ReportedCause| {
+        next.residual_m <= AS_GOOD * first.residual_m.max(tolerance.position_m)
+            && next.residual_rad <= AS_GOOD * first.residual_rad.max(tolerance.orientation_rad)
+    };
+    for next in diagnosis.causes[1..].iter().filter(is_as_good) {
         let _ = writeln!(text, "  next best: {}; residual {}", next.fault.message, residual(next));
     }
     if let Some(table) = &diagnosis.table {
@@ -72,36 +83,25 @@ pub(super) fn rounded(text: &mut String, report: &CheckReport) {
     }
 }
 
-/// The faults of a cause, each on its own.
-fn faults(cause: &ReportedCause) -> Vec<&Fault> {
-    if cause.parts.is_empty() { vec![&cause.fault] } else { cause.parts.iter().collect() }
-}
-
 fn residual(cause: &ReportedCause) -> String {
     length_and_angle(cause.residual_m, cause.residual_rad)
 }
 
 /// How much of the difference is explained.
 fn summary(cause: &ReportedCause, count: usize, tolerance: &Tolerance) -> String {
-    let causes = match count {
+    let corrections = match count {
         0 => return "no known cause explains the difference".to_owned(),
-        1 => "one cause".to_owned(),
-        _ => format!("{count} causes together, the one with the largest effect first,"),
+        1 => "one correction leaves".to_owned(),
+        _ => format!("{count} corrections, the one with the largest effect first, leave"),
     };
-    let verb = if count == 1 { "explains" } else { "explain" };
     let residual_error = PoseError { position_m: cause.residual_m, orientation_rad: cause.residual_rad };
+    let residual = residual(cause);
     if cause.within_tolerance && !residual_error.is_within(tolerance) {
-        format!(
-            "{causes} {verb} the difference; the residual of {} is within the digits written",
-            residual(cause)
-        )
+        format!("{corrections} {residual}, which is within the digits written")
     } else if cause.within_tolerance {
-        format!("{causes} {verb} the difference")
+        format!("{corrections} {residual}")
     } else {
-        format!(
-            "{causes} {verb} the difference up to a residual of {}, which is above the tolerance",
-            residual(cause)
-        )
+        format!("{corrections} {residual}, which is above the tolerance")
     }
 }
 
@@ -130,17 +130,19 @@ fn indented(text: &mut String, lines: &str) {
 /// A cause that cannot be distinguished from the named one: what is other than there.
 fn equivalent(text: &mut String, alternative: &ReportedAlternative, named: &[&Fault]) {
     let is_named = |fault: &&Fault| named.iter().any(|known| known.message == fault.message);
-    let is_pasted =
-        |fault: &Fault| !fault.pasted.is_empty() && named.iter().any(|known| known.pasted == fault.pasted);
-    let all = faults(&alternative.cause);
+    let all: Vec<&Fault> = alternative.cause.faults().iter().collect();
     let others: Vec<&Fault> = all.iter().copied().filter(|fault| !is_named(fault)).collect();
     let others = if others.is_empty() { all } else { others };
     let messages: Vec<&str> = others.iter().map(|fault| fault.message.as_str()).collect();
-    let same = if others.iter().all(|fault| is_pasted(fault)) { "; the same lines correct it" } else { "" };
-    let _ = writeln!(text, "  indistinguishable: {} ({}{same})", messages.join("; "), alternative.reason);
-    for fault in others.into_iter().filter(|fault| !is_pasted(fault)) {
+    let _ = writeln!(text, "  indistinguishable: {} ({})", messages.join("; "), alternative.reason);
+    for fault in others.into_iter().filter(|fault| !is_pasted(fault, named)) {
         fault.pasted.iter().for_each(|lines| indented(text, lines));
     }
+}
+
+/// Whether the lines to write for a fault are those of another one.
+fn is_pasted(fault: &Fault, named: &[&Fault]) -> bool {
+    !fault.pasted.is_empty() && named.iter().any(|known| known.pasted == fault.pasted)
 }
 
 /// A quantity in which the chains differ.

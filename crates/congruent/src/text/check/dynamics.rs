@@ -44,10 +44,17 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
             joints.join(", ")
         );
     }
-    check.all_dynamics().for_each(|report| compared(text, report, robot));
+    let disagrees = |report: &&DynamicsReport| !report.agrees();
+    check.dynamics_of_descriptions().for_each(|report| compared(text, report, robot));
+    // Of the physics only what is wrong.
+    check
+        .dynamics_of_physics()
+        .filter(disagrees)
+        .into_iter()
+        .for_each(|report| compared(text, report, robot));
     let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
     if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
-        let _ = writeln!(text, "  not compared (no [[inertial]] entry): {}", left_out.join("; "));
+        let _ = writeln!(text, "  not compared: no [[inertial]] entry has {}", left_out.join("; "));
     }
 }
 
@@ -58,11 +65,8 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
         (false, _) => "disagree",
     };
     let (candidate, reference) = (&report.sides.candidate, &report.sides.reference);
-    let _ = writeln!(
-        text,
-        "  {verdict:9} dynamics of {candidate} against {reference}:\n    {}",
-        report.headline()
-    );
+    let _ =
+        writeln!(text, "  {verdict:9} dynamics of {candidate} against {reference}: {}", report.headline());
     for explanation in &report.explanations {
         explained(text, explanation);
     }

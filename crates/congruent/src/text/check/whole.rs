@@ -6,16 +6,20 @@ use std::{
 };
 
 use crate::{
-    RobotCheck, WrittenFix,
+    LintSummary, RobotCheck, WrittenFix,
     agreement::{
         SourcePair,
         compare::{
             Agreement, Basics, Brackets, BySource, CheckReport, ComparedSource, Comparison, CoordinateUnit,
-            Grade, NotCompared, PoseSource, Premise, ReportedBracket, ReportedCertificate,
+            Grade, LinkDifference, NotCompared, PoseSource, Premise, ReportedBracket, ReportedCertificate,
         },
     },
-    description::Robot,
-    input::display::{angle, length, length_and_angle},
+    description::{Robot, Tolerance},
+    input::{
+        Finding,
+        display::{angle, counted, length, length_and_angle, number},
+    },
+    kinematics::PoseError,
     text::{
         TextOptions,
         layout::{column_width, with_one_sign, wrapped},
@@ -54,7 +58,7 @@ pub struct CheckTextParts {
 /// let options = TextOptions::default();
 /// let text = check_text(&report, &description.robot, CheckTextParts::default(), &options);
 /// let printed = options.for_terminal(&text);
-/// assert!(printed.starts_with(&format!("{}: same robot.", report.geometry.file)));
+/// assert!(printed.starts_with(&format!("{}: SAME GEOMETRY", report.geometry.file)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn check_text(check: &RobotCheck, robot: &Robot, parts: CheckTextParts, options: &TextOptions) -> String {
@@ -75,61 +79,125 @@ pub fn check_text_parts<'a>(
         None => Box::new(empty()),
     };
     let basics = if parts.with_basics { basics(&check.geometry.basics) } else { String::new() };
-    let explained = once_with(move || explained_text(check, robot, options) + &basics);
-    once(compared_text(check, robot)).chain(at_configurations).chain(explained)
+    let last = once_with(move || last_text(check, robot, options) + &basics);
+    once(answer_text(check, robot, options)).chain(at_configurations).chain(last)
 }
 
-/// The report before the errors at requested configurations.
-fn compared_text(check: &RobotCheck, robot: &Robot) -> String {
+/// The answer, its cause, and the comparisons of poses: what is before the errors at requested configurations.
+fn answer_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> String {
     let report = &check.geometry;
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}", report.file, check.headline());
     let _ = writeln!(text, "  {}", report.chain);
-    for comparison in &report.comparisons {
-        compared(&mut text, comparison);
-    }
-    for NotCompared { source, findings } in &report.not_asked {
-        let what = match source {
-            ComparedSource::Simulation => "physics not compared:",
-            ComparedSource::SimulatedDynamics => "physics torques not compared:",
-            ComparedSource::OtherDynamics => "torques of the other URDF not compared:",
-            ComparedSource::DeclaredDynamics => "[[inertial]] not compared:",
-        };
-        let width = what.len();
-        for (index, finding) in findings.iter().enumerate() {
-            let label = if index == 0 { what } else { "" };
-            let _ = writeln!(text, "  {label:width$} {}", finding.message);
-        }
-    }
-    // Only then: the largest error of models that agree is rounding, and its place means nothing.
-    let poses_disagree = report.poses_disagree();
-    if poses_disagree {
-        let _ = writeln!(text, "  largest error at link {}, at", report.worst.link);
-        text += &wrapped(&report.worst.at.for_people(robot));
-    }
-    text
-}
-
-/// The report behind them.
-fn explained_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> String {
-    let report = &check.geometry;
-    let mut text = String::new();
-    certified(&mut text, report, robot);
-    let diagnosis = check.diagnosis();
-    if let Some(diagnosis) = diagnosis {
+    if let Some(diagnosis) = check.diagnosis() {
         diagnosed(&mut text, diagnosis, &report.tolerance, options);
     }
     if report.poses_disagree() && report.grade == Some(Grade::SameWithinDigits) {
         rounded(&mut text, report);
     }
+    poses(&mut text, report, options);
+    certified(&mut text, report, robot, options);
+    text
+}
+
+/// What follows: the dynamics, what was not compared, what lint finds, and the corrected table.
+fn last_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> String {
+    let mut text = String::new();
     dynamics(&mut text, check, robot);
-    if let Some(corrected) = diagnosis.and_then(|diagnosis| diagnosis.corrected.as_ref()) {
-        let _ = writeln!(text, "  the table of {}, corrected:\n\n{}", corrected.file, corrected.table());
+    physics(&mut text, check, options);
+    not_compared(&mut text, &check.geometry);
+    linted(&mut text, check);
+    if let Some(corrected) = check.diagnosis().and_then(|diagnosis| diagnosis.corrected.as_ref()) {
+        let _ = writeln!(text, "\n  the table of {}, corrected:\n\n{}", corrected.file, corrected.table());
     }
     if let Some(fix) = &check.fix {
         fixed(&mut text, fix);
     }
     text
+}
+
+/// Whether a comparison shows only that the program has read the URDF right.
+fn is_of_urdf_alone(comparison: &Comparison) -> bool {
+    matches!(comparison.name, SourcePair::PoeUrdf | SourcePair::UrdfSimulation)
+}
+
+/// The comparisons of poses: those of two descriptions, and every one that disagrees.
+fn poses(text: &mut String, report: &CheckReport, options: &TextOptions) {
+    let is_shown =
+        |of: &&Comparison| options.is_in_full || !is_of_urdf_alone(of) || of.verdict == Agreement::Disagree;
+    for comparison in report.comparisons.iter().filter(is_shown) {
+        compared(text, comparison, &report.tolerance, options);
+    }
+}
+
+/// That the physics is the URDF: no second description, so that a line says it.
+fn physics(text: &mut String, check: &RobotCheck, options: &TextOptions) {
+    let mut poses = check.geometry.comparisons.iter().filter(|of| of.name == SourcePair::UrdfSimulation);
+    let is_built = poses.next().is_some_and(|of| of.verdict == Agreement::Agree);
+    let torques = check.dynamics_of_physics();
+    let what = match torques {
+        Some(report) if report.has_same_torques() => "poses and torques",
+        _ => "poses",
+    };
+    if is_built {
+        let _ = writeln!(text, "  the physics is that of the URDF in {what}");
+    }
+    if let Some(report) = torques.filter(|_| options.is_in_full) {
+        let _ = writeln!(
+            text,
+            "    torques of the two differ by {} (relative); {}",
+            number(report.difference_relative),
+            report.headline()
+        );
+    }
+}
+
+/// What has no second source, or could not be compared with it, and why.
+fn not_compared(text: &mut String, report: &CheckReport) {
+    for NotCompared { source, findings } in &report.not_asked {
+        let what = match source {
+            ComparedSource::Simulation => "physics",
+            ComparedSource::SimulatedDynamics => "torques of the physics",
+            ComparedSource::OtherDynamics => "torques of the other URDF",
+            ComparedSource::DeclaredDynamics => "[[inertial]]",
+            ComparedSource::Geometry => "geometry",
+            ComparedSource::Dynamics => "dynamics",
+        };
+        for finding in findings {
+            let _ = writeln!(text, "  not compared: {what}: {}", finding.message);
+        }
+    }
+}
+
+/// What lint finds in the descriptions: how much, and the worst.
+fn linted(text: &mut String, check: &RobotCheck) {
+    let LintSummary { errors, warnings, worst, .. } = &check.lint;
+    let counts = [(*errors, "error"), (*warnings, "warning")].into_iter().filter(|(count, _)| *count > 0);
+    let counts: Vec<String> = counts.map(|(count, what)| counted(count, what)).collect();
+    if counts.is_empty() {
+        let _ = writeln!(text, "  lint: no findings");
+        return;
+    }
+    let listed = if check.lint.findings() > worst.len() { ", the worst" } else { "" };
+    let _ = writeln!(text, "  lint: {}{listed} (in full: `congruent lint`):", counts.join(" and "));
+    for Finding { file, line, message, .. } in worst {
+        let place = match (file, line) {
+            (Some(file), Some(line)) => format!("{file}:{line}: "),
+            (Some(file), None) => format!("{file}: "),
+            (None, _) => String::new(),
+        };
+        let _ = writeln!(text, "    {place}{}", clipped(message));
+    }
+}
+
+/// The beginning of a message that would fill the terminal.
+fn clipped(message: &str) -> String {
+    /// Longest message of a list. Kind: choice; two lines of a terminal.
+    const LONGEST: usize = 160;
+    match message.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", message[..end].trim_end()),
+        None => message.to_owned(),
+    }
 }
 
 /// What `--fix` has written, and the answer of its check.
@@ -191,13 +259,23 @@ fn to_mm(metres: f64) -> f64 {
     metres * 1e3
 }
 
-/// The certificate: a bound over the whole joint range, not a sample.
-fn certified(text: &mut String, report: &CheckReport, robot: &Robot) {
+/// The certificate: a bound over the whole joint range, not a sample. If all agree, the first line has it.
+fn certified(text: &mut String, report: &CheckReport, robot: &Robot, options: &TextOptions) {
     if !report.poses_disagree() {
-        report.certificates.iter().for_each(|certificate| narrow(text, certificate));
+        let unproved =
+            |of: &&ReportedCertificate| options.is_in_full || of.premise.as_ref().is_some_and(|it| !it.holds);
+        report.certificates.iter().filter(unproved).for_each(|certificate| narrow(text, certificate));
         return;
     }
-    let mut line = |what: &str, bracket: &ReportedBracket, shown: fn(f64) -> String| {
+    let Some(Brackets { position_m, orientation_rad }) = &report.certificate_bracket else {
+        let _ = writeln!(text, "  largest difference at link {}, at", report.worst.link);
+        *text += &wrapped(&report.worst.at.for_people(robot));
+        return;
+    };
+    let mut line = |what: &str, bracket: &ReportedBracket, most: f64, shown: fn(f64) -> String| {
+        if bracket.certified <= most {
+            return;
+        }
         let _ = writeln!(
             text,
             "  largest {what} difference {}, certified at most {} over the whole joint range, at",
@@ -206,17 +284,16 @@ fn certified(text: &mut String, report: &CheckReport, robot: &Robot) {
         );
         *text += &wrapped(&bracket.at.for_people(robot));
     };
-    if let Some(Brackets { position_m, orientation_rad }) = &report.certificate_bracket {
-        line("position", position_m, length);
-        line("orientation", orientation_rad, angle);
-    }
+    line("position", position_m, report.tolerance.position_m, length);
+    line("orientation", orientation_rad, report.tolerance.orientation_rad, angle);
 }
 
 /// The certificate of models that agree, with its premise.
 fn narrow(text: &mut String, certificate: &ReportedCertificate) {
     let ReportedCertificate { name, title, brackets, premise } = certificate;
-    if let Some(Brackets { position_m, orientation_rad }) = brackets {
-        let bound = length_and_angle(position_m.certified, orientation_rad.certified);
+    if let Some(brackets) = brackets {
+        let PoseError { position_m, orientation_rad } = brackets.bounds();
+        let bound = length_and_angle(position_m, orientation_rad);
         let _ = writeln!(text, "  certified  {title:32} at most {bound} over the whole joint range");
     }
     if let Some(Premise { configurations, residual_m, residual_rad, holds }) = premise {
@@ -230,30 +307,38 @@ fn narrow(text: &mut String, certificate: &ReportedCertificate) {
     }
 }
 
-fn compared(text: &mut String, comparison: &Comparison) {
-    let _ = writeln!(
-        text,
-        "  {:9} {:32} {:>12}  {:>12}  at {}",
-        comparison.verdict,
-        comparison.title,
-        length(comparison.worst.error.position_m),
-        angle(comparison.worst.error.orientation_rad),
-        comparison.worst.link
-    );
-    if comparison.verdict == Agreement::Agree {
+/// A comparison in a row; if the two disagree, with the links that show it.
+fn compared(text: &mut String, comparison: &Comparison, tolerance: &Tolerance, options: &TextOptions) {
+    let Comparison { verdict, title, worst, links, .. } = comparison;
+    let disagrees = *verdict == Agreement::Disagree;
+    let at = if disagrees { format!("  at {}", worst.link) } else { String::new() };
+    let [position, orientation] = errors(&worst.error, tolerance);
+    let _ = writeln!(text, "  {verdict:9} {title:32} {position:>12}  {orientation:>12}{at}");
+    if !disagrees {
         return;
     }
-    for link in &comparison.links {
+    let is_worst = |link: &LinkDifference| link.link == worst.link && link.error == worst.error;
+    let is_shown = |link: &&LinkDifference| {
+        let decides = link.source != PoseSource::DhFitted;
+        options.is_in_full || (decides && !is_worst(link) && !link.error.is_within(tolerance))
+    };
+    for link in links.iter().filter(is_shown) {
+        let [position, orientation] = errors(&link.error, tolerance);
         let fitted = match link.source {
-            PoseSource::DhFitted => "(the table does not define this frame: for information only)",
+            PoseSource::DhFitted => "  (the table does not define this frame: for information only)",
             _ => "",
         };
-        let _ = writeln!(
-            text,
-            "            {:32} {:>12}  {:>12}  {fitted}",
-            link.link,
-            length(link.error.position_m),
-            angle(link.error.orientation_rad)
-        );
+        let _ = writeln!(text, "            {:32} {position:>12}  {orientation:>12}{fitted}", link.link);
     }
+}
+
+/// Both parts of a difference; what is within the tolerance is not worth a number.
+fn errors(error: &PoseError, tolerance: &Tolerance) -> [String; 2] {
+    let shown = |value: f64, most: f64, shown: fn(f64) -> String| {
+        if value <= most { format!("<{}", shown(most)) } else { shown(value) }
+    };
+    [
+        shown(error.position_m, tolerance.position_m, length),
+        shown(error.orientation_rad, tolerance.orientation_rad, angle),
+    ]
 }

@@ -8,13 +8,18 @@ const RED: u8 = 31;
 const YELLOW: u8 = 33;
 
 /// Words with their colours; of two with the same beginning the longer is first.
-const WORDS: [(&str, u8); 21] = [
-    ("same robot", GREEN),
-    ("same geometry, different dynamics", RED),
-    ("different dynamics", RED),
-    ("same dynamics", GREEN),
-    ("not the same robot", RED),
-    ("no second description", YELLOW),
+const WORDS: [(&str, u8); 26] = [
+    ("SAME ROBOT", GREEN),
+    ("SAME GEOMETRY, DIFFERENT DYNAMICS", RED),
+    ("SAME GEOMETRY AND DYNAMICS, DIFFERENT JOINT LIMITS", RED),
+    ("SAME DYNAMICS, DIFFERENT JOINT LIMITS", RED),
+    ("SAME GEOMETRY, DYNAMICS NOT COMPARED", GREEN),
+    ("SAME DYNAMICS, GEOMETRY NOT COMPARED", GREEN),
+    ("DIFFERENT DYNAMICS", RED),
+    ("DIFFERENT JOINT LIMITS", RED),
+    ("DIFFERENT", RED),
+    ("NO SECOND DESCRIPTION", YELLOW),
+    ("NOTHING COMPARED", YELLOW),
     ("passed", GREEN),
     ("pass", GREEN),
     ("agree", GREEN),
@@ -91,7 +96,7 @@ mod tests {
         };
         check("ur5e_pick: pass (ur5e, 4 s)", Some("pass"));
         check("a.toml: BAD INPUT\n", Some("BAD INPUT"));
-        check("robot.toml: not the same robot. URDF and physics", Some("not the same robot"));
+        check("robot.toml: DIFFERENT, by up to 1 mm", Some("DIFFERENT"));
         check("  limits     pass    61.1 deg of margin", Some("pass"));
         check("  disagree  DH table against URDF chain", Some("disagree"));
         check("ur5e_pick: FAIL (ur5e, 4 s)", Some("FAIL"));

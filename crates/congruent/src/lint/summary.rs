@@ -1,0 +1,51 @@
+//! What lint finds in the descriptions that another command reads.
+
+use congruent_description::RobotDescription;
+use congruent_input::{Diagnostic, Finding, Severity};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::lint_robot;
+
+/// What lint finds in the descriptions of a check.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct LintSummary {
+    /// Number of findings that are errors.
+    pub errors: usize,
+    /// Number of findings that are warnings; those of one kind are one.
+    pub warnings: usize,
+    /// The worst of them, at most three.
+    pub worst: Vec<Finding>,
+    /// Whether a finding fails the check (--strict).
+    pub is_strict: bool,
+}
+
+impl LintSummary {
+    /// Most findings that are listed. Kind: choice.
+    const MOST_LISTED: usize = 3;
+
+    /// Lints descriptions that have been read.
+    pub(crate) fn from_descriptions<'a>(
+        descriptions: impl IntoIterator<Item = &'a RobotDescription>,
+    ) -> Self {
+        let (mut errors, mut warnings, mut found) = (0, 0, Vec::new());
+        for description in descriptions {
+            let report = lint_robot(description);
+            (errors, warnings) = (errors + report.errors, warnings + report.warnings);
+            found.extend(report.diagnostics);
+        }
+        found.sort_by_key(badness);
+        let worst = found.iter().take(Self::MOST_LISTED).map(Finding::from).collect();
+        Self { errors, warnings, worst, is_strict: false }
+    }
+
+    /// Number of all findings.
+    pub fn findings(&self) -> usize {
+        self.errors + self.warnings
+    }
+}
+
+/// Errors, then values in another unit, which are wrong by a large factor, then everything else in the order found.
+fn badness(found: &Diagnostic) -> (bool, bool) {
+    (found.severity != Severity::Error, !found.code.name.starts_with("units::"))
+}

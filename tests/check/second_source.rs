@@ -1,0 +1,79 @@
+//! `congruent check`: what has no second source is not said to agree, and suspicious values of what it reads are listed.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::support::{
+    command::{congruent, congruent_json, text},
+    corpus::workspace,
+};
+
+/// The sources that a report says were not compared.
+fn not_compared(report: &Value) -> Vec<&str> {
+    let all = report["not_asked"].as_array().map(Vec::as_slice).unwrap_or_default();
+    all.iter().map(|entry| entry["source"].as_str().unwrap()).collect()
+}
+
+/// The physics is built from the URDF: it is no second source.
+#[test]
+fn one_description_is_not_said_to_agree() {
+    let bare = ["check", "robots/ur5e/ur5e.urdf"];
+    let shown = congruent(&bare).stdout;
+    assert!(shown.starts_with("robots/ur5e/ur5e.urdf: NO SECOND DESCRIPTION. "), "{shown}");
+    assert!(!shown.contains("  agree"), "{shown}");
+    assert_eq!(not_compared(&congruent_json(&bare).json()), ["geometry", "dynamics"]);
+    // A table has the geometry a second time, `[[inertial]]` the dynamics.
+    let table = congruent(&["check", "robots/panda"]).stdout;
+    let answer = "SAME GEOMETRY, DYNAMICS NOT COMPARED in 7 of 9 joints (those of the table). ";
+    assert!(table.starts_with(&format!("robots/panda/robot.toml: {answer}")), "{table}");
+    assert_eq!(not_compared(&congruent_json(&["check", "robots/panda"]).json()), ["dynamics"]);
+    let both = congruent(&["check", "robots/ur5e"]).stdout;
+    assert!(both.starts_with("robots/ur5e/robot.toml: SAME ROBOT. "), "{both}");
+    assert_eq!(not_compared(&congruent_json(&["check", "robots/ur5e"]).json()), [""; 0]);
+}
+
+/// JUnit has what was not compared as skipped, with the reason.
+#[test]
+fn junit_skips_what_has_no_second_source() {
+    let folder = tempfile::tempdir().unwrap();
+    let junit = folder.path().join("junit.xml");
+    assert_eq!(congruent(&["check", "robots/panda", "--junit", &text(&junit)]).code, 0);
+    let junit = fs::read_to_string(junit).unwrap();
+    assert!(junit.contains("name=\"dynamics\"") && junit.contains("skipped=\"1\""), "{junit}");
+}
+
+/// A mass of 8058 kg agrees with the physics that is built from it.
+#[test]
+fn an_absurd_mass_is_listed_and_fails_a_strict_check() {
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = folder.path().join("heavy.urdf");
+    let own = fs::read_to_string(workspace().join("robots/ur5e/ur5e.urdf")).unwrap();
+    fs::write(&urdf, own.replacen("<mass value=\"8.058\"/>", "<mass value=\"8058\"/>", 1)).unwrap();
+    let path = text(&urdf);
+    let usual = congruent(&["check", &path]);
+    assert_eq!(usual.code, 0, "{}", usual.stderr);
+    assert!(usual.stdout.contains("  lint: 1 warning (in full: `congruent lint`):\n"), "{}", usual.stdout);
+    assert!(usual.stdout.contains("(mass 8058 kg over the volume"), "{}", usual.stdout);
+    let strict = congruent(&["check", "--strict", "--quiet", &path]);
+    assert_eq!((strict.code, strict.stdout.lines().count()), (1, 1), "{}", strict.stdout);
+    assert!(strict.stdout.ends_with("; --strict: 1 finding of lint\n"), "{}", strict.stdout);
+    let report = congruent_json(&["check", "--strict", &path]).json();
+    assert_eq!(report["lint"]["worst"][0]["code"], "units::mass");
+    let junit = folder.path().join("junit.xml");
+    congruent(&["check", "--strict", &path, "--junit", &text(&junit)]);
+    assert!(fs::read_to_string(junit).unwrap().contains("failures=\"1\""));
+    assert_eq!(congruent(&["check", "--strict", "robots/ur5e"]).code, 0);
+}
+
+/// With --quiet, each input has one line, in the order of the call.
+#[test]
+fn quiet_is_a_line_for_each_input() {
+    let wrong = "robots/ur5e/wrong_convention.toml";
+    let answer = congruent(&["check", "--quiet", wrong, "robots/ur5e"]);
+    let lines: Vec<&str> = answer.stdout.lines().collect();
+    assert_eq!((answer.code, lines.len()), (1, 2), "{}", answer.stdout);
+    assert!(lines[0].starts_with(&format!("{wrong}: DIFFERENT, by up to 1912 mm and 180 deg at tool0")));
+    assert!(lines[0].contains("Cause: the values are those of the"), "{}", lines[0]);
+    assert!(lines[1].starts_with("robots/ur5e/robot.toml: SAME ROBOT. "), "{}", lines[1]);
+}
