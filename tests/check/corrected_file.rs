@@ -54,11 +54,7 @@ fn fix_writes_the_corrected_file_and_answers_for_it() {
         // The second time it replaces its own file.
         let answer = congruent(&["check", &text(folder.path()), "--fix"]);
         assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
-        assert!(
-            answer.stdout.contains("robot.fixed.toml\n  checked again: SAME "),
-            "{}",
-            answer.stdout
-        );
+        assert!(answer.stdout.contains("robot.fixed.toml\n  checked again: SAME "), "{}", answer.stdout);
         let fixed = file(folder.path(), "robot.fixed.toml");
         let (first, rest) = fixed.split_once('\n').unwrap();
         assert!(first.starts_with("# Written by congruent check --fix from robot.toml"), "{first}");

@@ -248,3 +248,27 @@ fn frames_of_links_that_are_names_may_lie_anywhere() {
     let (answer, _) = against(ARM, &elsewhere.replace("0.3 -0.02 0.02", "0.3 -0.02 0.03"), &[]);
     assert_eq!(answer.code, 1);
 }
+
+/// The tip is what is asked about: a file in which its link has another name has it compared by its fixed joint, and
+/// refused if nothing shows which link is meant.
+#[test]
+fn a_tip_under_another_name_is_compared_or_refused() {
+    let renamed = ARM.replace("\"tool\"", "\"gripper_tcp\"");
+    let moved = renamed.replace(
+        "<origin xyz=\"0 0 0.1\"/></joint>\n</robot>",
+        "<origin xyz=\"0 0 0.2\"/></joint>\n</robot>",
+    );
+    assert_ne!(renamed, moved);
+    assert_eq!(against(ARM, &renamed, &[]).0.code, 0);
+    let (answer, printed) = against(ARM, &moved, &["--tip", "tool"]);
+    assert_eq!(answer.code, 1, "{printed}");
+    assert!(printed.contains("DIFFERENT, by up to 100 mm at tool"), "{printed}");
+    let elsewhere = moved.replace("\"mount\"", "\"screws\"");
+    let (answer, printed) = against(ARM, &elsewhere, &["--tip", "tool"]);
+    assert_eq!(answer.code, 1, "{printed}");
+    assert!(printed.contains("the other description has no link \"tool\", which is the tip"), "{printed}");
+    // Nobody has named the tip: the rest is compared, and the answer says so.
+    let (answer, printed) = against(ARM, &elsewhere, &[]);
+    assert_eq!(answer.json()["against"]["links_not_found"], json!(["tool"]));
+    assert!(printed.contains(" without the tip \"tool\", which the other description lacks"), "{printed}");
+}

@@ -52,6 +52,10 @@ impl Slide {
 
     /// Runs the motion, with these lines under the check of a kind.
     fn run(&self, check: &str, format: &str) -> Answer {
+        self.run_with(check, &["--no-recording", "--format", format])
+    }
+
+    fn run_with(&self, check: &str, options: &[&str]) -> Answer {
         let obstacle = |(name, [x, y, z], radius): (&str, [f64; 3], f64)| {
             format!("[[obstacle]]\nname = \"{name}\"\nsphere_radius_m = {radius}\nxyz_m = [{x}, {y}, {z}]\n")
         };
@@ -65,7 +69,7 @@ impl Slide {
         let path = self.0.path().join("scenario.toml");
         fs::write(&path, scenario).unwrap();
         let out = text(&self.0.path().join("out"));
-        congruent(&["run", &text(&path), "--no-recording", "--out", &out, "--format", format])
+        congruent(&[&["run", &text(&path), "--out", &out], options].concat())
     }
 
     fn check(&self, check: &str) -> Value {
@@ -114,6 +118,30 @@ fn every_pair_below_the_limit_is_listed() {
     lists(&passing, &[0]);
     let human = slide.run("kind = \"clearance\"\nminimum_m = 0.1", "human");
     assert!(human.stdout.contains("cart--lamp") && human.stdout.contains("cart--post"), "{}", human.stdout);
+}
+
+/// Two checks of distances with limits of their own: a line for each limit in the recording, and from the start the distance
+/// of the nearest pair of each.
+#[test]
+#[cfg(feature = "recording")]
+fn each_of_two_checks_has_its_limit_and_its_nearest_pair() {
+    let slide = Slide::new();
+    let ran = slide.run_with(
+        "kind = \"clearance\"\nminimum_m = 0.04\npairs = [[\"cart\", \"lamp\"]]\n\
+         [[check]]\nkind = \"clearance\"\nminimum_m = 0.3\npairs = [[\"cart\", \"wall\"]]",
+        &[],
+    );
+    assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
+    let recording = text(&slide.0.path().join("out/scenario/recording.rrd"));
+    let inspected = congruent_json(&["inspect", &recording]);
+    assert_eq!(inspected.code, 0, "{}", inspected.stdout);
+    let report = inspected.json();
+    let scalars = report["scalars"].as_array().unwrap();
+    let scalar = |name: &str| scalars.iter().find(|scalar| scalar["path"] == format!("/clearance/{name}"));
+    let limits = ["limit", "limit_2"].map(|name| number(&scalar(name).unwrap()["max"]));
+    assert_eq!(limits, [0.04, 0.3]);
+    let count = |name: &str| scalar(name).unwrap()["count"].as_u64().unwrap();
+    assert_eq!(count("cart--wall"), count("minimum"), "{scalars:#?}");
 }
 
 /// The hand points down while the arm turns: both fingers of a Panda are as far from the floor as at the start, up to

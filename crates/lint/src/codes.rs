@@ -64,6 +64,8 @@ congruent_input::codes! {
             "The effort limit of a turning joint, times its velocity limit, is a power that no motor of the robot's mass has. It is in N m, not in N mm.\n    effort=\"150000\" instead of effort=\"150\"";
         DAMPING = "CGR-UNIT-016", "units::damping",
             "The damping of a joint takes many times its effort limit at its velocity limit, so the joint could never reach that speed. It is in N m s/rad, not in N mm s/rad.";
+        FRICTION = "CGR-UNIT-017", "units::friction",
+            "The dry friction of a joint is larger than its effort limit, so its motor could never move it. It is in N m (N for a prismatic joint), not in N mm.\n    friction=\"2400\" instead of friction=\"2.4\"";
         MASS = "CGR-UNIT-008", "units::mass",
             "The mass of a link, divided by the volume of its shapes, gives a density higher than that of any material or lower than that of any foam. Masses are in kg, not in grams; or the shapes are in a wrong unit.";
         INERTIA = "CGR-UNIT-009", "units::inertia",

@@ -64,8 +64,16 @@ pub(super) fn without_recording(folder: &Path) -> Option<Diagnostic> {
     let named =
         |names: &[&str], what: &str| (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")));
     let found = [named(&gone, "gone"), named(&there, "changed"), named(&intact, "as the run wrote them")];
-    let why =
-        if gone.contains(&recording) { "is gone" } else { "was not written: the run had --no-recording" };
+    let unfinished = format!("{recording}.partial");
+    let why = if gone.contains(&recording) {
+        "is gone".to_owned()
+    } else if folder.join(&unfinished).exists() {
+        format!(
+            "was not finished: {unfinished} has what was written before the run failed, as of a full disk"
+        )
+    } else {
+        "was not written: the run had --no-recording".to_owned()
+    };
     let message = format!("{}: {recording} {why}", folder.display());
     let found: Vec<String> = found.into_iter().flatten().collect();
     let help = format!("of the results that {DIGESTS} names, {}; run the scenario again", found.join("; "));

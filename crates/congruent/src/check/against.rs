@@ -4,9 +4,9 @@ use congruent_agreement::{
     SourcePair,
     compare::{CheckError, CheckOptions, CheckReport, ComparedSource, NotCompared},
 };
-use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ};
+use congruent_description::{ChainEnd, JointIndex, Robot, RobotDescription, RobotQ};
 use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedModel};
-use congruent_input::{Diagnostic, display::length_and_angle};
+use congruent_input::{Diagnostic, display::length_and_angle, nearest};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -33,6 +33,30 @@ pub struct OtherDescription {
     /// Joints that do not move the tip which the caller named: they are not compared, and neither is what they carry.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub joints_left_out: Vec<String>,
+    /// Links of this description that the other lacks: their frames are not compared.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub links_not_found: Vec<String>,
+}
+
+impl OtherDescription {
+    /// What names alone show: what the other description lacks.
+    fn before_comparison(
+        description: &RobotDescription,
+        other: &RobotDescription,
+        poses: &PosesOfOther,
+    ) -> Self {
+        let robot = &description.robot;
+        let other_joint = other_joint(robot, &other.robot);
+        let lacking = poses.lacking(robot).map(|link| robot.link(link).name.clone());
+        Self {
+            file: other.path.display().to_string(),
+            robot: other.name.clone(),
+            dynamics_not_compared: other_joint.or_else(|| missing_tip(description, &other.robot, poses)),
+            links_in_other_frames: Vec::new(),
+            joints_left_out: Vec::new(),
+            links_not_found: lacking.collect(),
+        }
+    }
 }
 
 /// Adds the comparison of geometry to the report, and compares dynamics if the two are the same chain.
@@ -42,18 +66,12 @@ pub(super) fn compared(
     other: &RobotDescription,
     options: &CheckOptions,
 ) -> Result<(OtherDescription, Option<DynamicsReport>), CheckError> {
-    let mut against = OtherDescription {
-        file: other.path.display().to_string(),
-        robot: other.name.clone(),
-        dynamics_not_compared: other_joint(&description.robot, &other.robot),
-        links_in_other_frames: Vec::new(),
-        joints_left_out: Vec::new(),
-    };
+    let poses = PosesOfOther::new(&description.robot, &other.robot);
+    let mut against = OtherDescription::before_comparison(description, other, &poses);
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
-    let mut poses =
-        PosesOfOther::new(&description.robot, &other.robot).with_free_frames(description, &other.robot)?;
+    let mut poses = poses.with_free_frames(description, &other.robot)?;
     // Joints as if all were driven; how mimic joints follow is compared after it, with them following.
     geometry.add_other(description, other, &mut poses, options)?;
     if let Some(followed) = geometry.add_mimics(description, other, &mut poses, options)? {
@@ -176,6 +194,19 @@ fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
     others
         .find(|name| moving(robot, name).is_none())
         .map(|name| missing(name, ("this description, unlike the other,", robot)))
+}
+
+/// The tip, if the other description lacks it and nobody but the caller can say which link is meant: what the check is
+/// asked about would not be compared.
+fn missing_tip(description: &RobotDescription, other: &Robot, poses: &PosesOfOther) -> Option<String> {
+    let robot = &description.robot;
+    let is_missing = poses.lacking(robot).any(|link| link == description.tip);
+    let is_asked = description.chain_ends.tip != ChainEnd::Chosen || robot.dof() == 0;
+    let tip = &robot.link(description.tip).name;
+    let nearest = nearest(tip, other.links().iter().map(|link| link.name.as_str()));
+    let meant = nearest.map_or_else(String::new, |name| format!("; did you mean \"{name}\"?"));
+    (is_missing && is_asked)
+        .then(|| format!("the other description has no link \"{tip}\", which is the tip{meant}"))
 }
 
 fn moving(robot: &Robot, name: &str) -> Option<JointIndex> {

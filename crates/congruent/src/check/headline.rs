@@ -109,6 +109,9 @@ fn extent(check: &RobotCheck) -> String {
             let compared = all.saturating_sub(against.joints_left_out.len());
             format!(" in {compared} of {all} joints (those that move the tip)")
         }
+        Some(against) if against.links_not_found.contains(&report.chain.tip) => {
+            format!(" without the tip \"{}\", which the other description lacks", report.chain.tip)
+        }
         None if report.table_compared && of_chain < all => {
             format!(" in {of_chain} of {all} joints (those of the table)")
         }

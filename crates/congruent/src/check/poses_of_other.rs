@@ -1,6 +1,6 @@
 //! The poses of another description at the links of a robot.
 
-use congruent_description::{Link, Robot, RobotDescription, RobotQ};
+use congruent_description::{Link, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree};
 
 /// The poses of another description at the links of a robot; both have the same moving joints by name.
@@ -34,9 +34,13 @@ impl PosesOfOther {
             let joint = robot.parent_joint(link).map(|joint| robot.joint(joint));
             // A link of a moving joint is found by the name of the joint, which must be the same in both; the names
             // of links need not be.
-            let there = match joint.filter(|joint| joint.kind.is_movable()) {
-                Some(joint) => other.find_joint(&joint.name).map(|there| other.joint(there).child),
-                None => other.find_link(&robot.link(link).name),
+            let there = match joint {
+                Some(joint) if joint.kind.is_movable() => {
+                    other.find_joint(&joint.name).map(|there| other.joint(there).child)
+                }
+                _ => other
+                    .find_link(&robot.link(link).name)
+                    .or_else(|| renamed(joint.map(|joint| joint.name.as_str()), robot, other)),
             };
             match (there, joint) {
                 (Some(there), _) => LinkCorrespondence::Other(there.get()),
@@ -56,6 +60,12 @@ impl PosesOfOther {
             q: RobotQ::zeros(other.dof()),
             poses: vec![Pose::identity(); other.links().len()],
         }
+    }
+
+    /// The links of the robot that the other description lacks: nothing of them is compared.
+    pub(super) fn lacking<'a>(&'a self, robot: &'a Robot) -> impl Iterator<Item = LinkIndex> + 'a {
+        let is_lacking = |link: &LinkIndex| matches!(self.links[link.get()], LinkCorrespondence::Behind(..));
+        robot.link_indices().filter(is_lacking)
     }
 
     /// A link between joints that is but a name in the other description, without inertia and shape, has nothing that its
@@ -97,6 +107,13 @@ impl PosesOfOther {
     pub(super) fn with_mimics(robot: &Robot, other: &Robot) -> Self {
         Self { followed: Some(other.clone()), ..Self::new(robot, other) }
     }
+}
+
+/// The link that a fixed joint of this name carries in the other description, if this robot has no link of its name.
+fn renamed(joint: Option<&str>, robot: &Robot, other: &Robot) -> Option<LinkIndex> {
+    let there = other.joint(other.find_joint(joint?)?);
+    let is_known = robot.find_link(&other.link(there.child).name).is_some();
+    (!there.kind.is_movable() && !is_known).then_some(there.child)
 }
 
 impl LinkPoses for PosesOfOther {

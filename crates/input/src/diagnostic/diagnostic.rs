@@ -231,14 +231,26 @@ impl miette::Diagnostic for Diagnostic {
     }
 }
 
-/// The known name most similar to `name`; `None` if none is similar enough to be meant.
+/// The known name that `name` was probably meant to be: at most two letters are other, missing, too much or exchanged, and
+/// fewer than half of them. Of several with as few the most similar; `None` if there is none.
+///
+/// # Examples
+/// ```
+/// use congruent_input::nearest;
+/// assert_eq!(nearest("elbow_jiont", ["shoulder_joint", "elbow_joint"]), Some("elbow_joint"));
+/// assert_eq!(nearest("tool", ["base", "flange"]), None);
+/// ```
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    /// Most letters that are other. Kind: choice; two slips of the keys.
+    const MOST_EDITS: usize = 2;
+    let lower = name.to_lowercase();
+    let edits = |candidate: &str| strsim::osa_distance(&lower, &candidate.to_lowercase());
     known
         .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
-        .filter(|(similarity, _)| *similarity > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate)
+        .map(|candidate| (edits(candidate), strsim::jaro_winkler(name, candidate), candidate))
+        .filter(|(edits, _, _)| *edits <= MOST_EDITS && 2 * edits < name.chars().count())
+        .min_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)))
+        .map(|(_, _, candidate)| candidate)
 }
 
 /// Help for an unknown name: the most similar known name, then all known names.

@@ -25,6 +25,12 @@ const DAMPING: UnitMistake = UnitMistake {
     element: "dynamics",
 };
 
+const FRICTION: UnitMistake = UnitMistake {
+    code: codes::units::FRICTION,
+    words: "joints have a dry friction above their effort limit",
+    element: "dynamics",
+};
+
 /// An effort limit with what it is compared with.
 #[derive(Debug, Clone, Copy)]
 struct TorqueOfJoint {
@@ -44,9 +50,10 @@ fn effort_limit(joint: &Joint) -> Option<f64> {
 }
 
 impl UnitCheck<'_> {
-    /// Reports implausible effort limits and damping of turning joints.
+    /// Reports implausible effort limits and damping of turning joints, and friction that no joint could overcome.
     pub(super) fn efforts(&mut self) {
         let robot = self.robot;
+        robot.joints().iter().for_each(|joint| self.friction(joint));
         let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
         for joint in robot.joints() {
             // Without a speed neither a power nor a loss is known; the speed of a fast joint is examined with its torque.
@@ -92,6 +99,20 @@ impl UnitCheck<'_> {
         );
         self.warn_joint(&EFFORT, &joint.name, &what, help);
         true
+    }
+
+    /// Reports a dry friction that the effort limit cannot overcome.
+    fn friction(&mut self, joint: &Joint) {
+        let effort = joint.limit.and_then(|limit| limit.effort).filter(|effort| *effort > 0.0);
+        let Some(effort) = effort.filter(|effort| joint.friction > *effort) else { return };
+        let unit = if joint.kind.is_angular() { "N m" } else { "N" };
+        let what = format!(
+            "its dry friction is {} {unit}, more than its effort limit of {} {unit}: its motor could never move it",
+            number(joint.friction),
+            number(effort)
+        );
+        let help = format!("the friction is read in {unit}: is the value 1000 times too large, as in N mm?");
+        self.warn_joint(&FRICTION, &joint.name, &what, help);
     }
 
     /// Reports a damping that takes many times the effort limit at the velocity limit.

@@ -27,6 +27,8 @@ pub(super) struct Sizes {
     pub(super) origins_m: f64,
     /// Length of the longest joint origin, m.
     pub(super) longest_origin_m: f64,
+    /// For each link whether a joint below it moves.
+    pub(super) carries_joint: Vec<bool>,
     /// For each link an upper bound of the distance from its origin to any part below it, m.
     pub(super) below_m: Vec<f64>,
 }
@@ -54,9 +56,14 @@ impl Sizes {
             // The stretched path: an upper bound of what any configuration reaches.
             *parent = parent.max(length + child);
         }
+        let mut carries_joint = vec![false; robot.links().len()];
+        for joint in robot.joints().iter().rev() {
+            carries_joint[joint.parent.get()] |= joint.kind.is_movable() || carries_joint[joint.child.get()];
+        }
         Self {
             shapes,
             balls,
+            carries_joint,
             origins_m: lengths().sum(),
             longest_origin_m: lengths().fold(0.0, f64::max),
             below_m,

@@ -36,7 +36,7 @@ impl UnitCheck<'_> {
         let all_are_fast = middle > Some(MEDIAN_TURN_RAD_S);
         let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
         for joint in robot.joints() {
-            let is_last = self.is_last(joint);
+            let is_last = !self.sizes.carries_joint[joint.child.get()];
             let least = if is_last { LEAST_FAST_RAD_S } else { LEAST_ODD_RAD_S };
             let Some(speed) = speed(joint).filter(|speed| *speed > least) else { continue };
             if self.is_rotor(joint) && speed < FASTEST_ROTOR_RAD_S {
@@ -80,20 +80,6 @@ impl UnitCheck<'_> {
             );
             self.warn_joint(&SPEED, &joint.name, &what, help);
         }
-    }
-
-    /// Whether a joint carries no other that moves.
-    fn is_last(&self, joint: &Joint) -> bool {
-        let mut carried = vec![joint.child];
-        while let Some(link) = carried.pop() {
-            for other in self.robot.joints().iter().filter(|other| other.parent == link) {
-                if other.kind.is_movable() {
-                    return false;
-                }
-                carried.push(other.child);
-            }
-        }
-        true
     }
 
     /// Whether a joint turns a propeller, a spindle or the like. Only the names of the joint and its link distinguish it from a

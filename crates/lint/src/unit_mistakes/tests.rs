@@ -70,6 +70,21 @@ fn efforts_in_n_mm_and_damping_times_1000_are_reported() {
     }
 }
 
+#[test]
+fn friction_that_no_motor_overcomes_is_reported() {
+    let with = |friction: &str| {
+        findings(&ARM.replacen(
+            "effort='40'/>",
+            &format!("effort='40'/><dynamics friction='{friction}'/>"),
+            1,
+        ))
+    };
+    assert_eq!(with("39"), []);
+    let found = with("2400");
+    assert!(found.len() == 1 && found[0].0 == "units::friction", "{found:?}");
+    assert!(found[0].1.contains("more than its effort limit of 40 N m"), "{found:?}");
+}
+
 /// A footprint far below the arm, with a box that is to be seen.
 #[test]
 fn a_footprint_is_at_any_distance() {

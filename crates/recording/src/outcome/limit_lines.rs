@@ -37,6 +37,14 @@ pub(crate) struct LimitLines {
     ends: [SampleTime; 2],
 }
 
+/// A limit of a check of this number, and the name of its line.
+struct NamedLimit<'a> {
+    number: usize,
+    check: &'a CheckResult,
+    measure: &'a Measure,
+    name: &'a str,
+}
+
 impl LimitLines {
     /// For a run that ends at this time.
     pub(crate) fn until(end: SampleTime) -> Self {
@@ -63,47 +71,68 @@ impl LimitLines {
         writer: &mut RrdWriter,
         report: &RunReport,
     ) -> Result<(), RecordingError> {
+        let mut written = Vec::new();
         for (number, check) in report.checks.iter().enumerate() {
             for (at, measure) in check.measures.iter().enumerate() {
                 // Further pairs of a check have the same limit.
                 let is_same = |before: &Measure| before.quantity == measure.quantity;
-                if !check.measures[..at].iter().any(is_same) {
-                    self.write_limit(writer, number, check, measure)?;
+                if check.measures[..at].iter().any(is_same) {
+                    continue;
+                }
+                if let Some(name) = new_name(&mut written, check.check, measure) {
+                    self.write_limit(writer, &NamedLimit { number, check, measure, name: &name })?;
                 }
             }
         }
         Ok(())
     }
 
-    fn write_limit(
-        &self,
-        writer: &mut RrdWriter,
-        number: usize,
-        check: &CheckResult,
-        measure: &Measure,
-    ) -> Result<(), RecordingError> {
+    fn write_limit(&self, writer: &mut RrdWriter, of: &NamedLimit<'_>) -> Result<(), RecordingError> {
+        let NamedLimit { number, check, measure, name } = *of;
         let Measure { quantity, unit, limit, .. } = *measure;
         let [position, orientation] = palette::TOLERANCES;
-        let (path, name, color) = match (check.check, quantity) {
-            (CheckKind::Agreement, Quantity::Position) => {
-                (paths::position_error("tolerance"), "tolerance", position)
-            }
-            (CheckKind::Agreement, Quantity::Orientation) => {
-                (paths::orientation_error("tolerance"), "tolerance", orientation)
-            }
-            (CheckKind::Clearance, _) => (paths::clearance("limit"), "limit", palette::LIMIT),
-            (CheckKind::Zone, _) => (paths::zone_limit(), "limit", palette::LIMIT),
+        let (path, color) = match (check.check, quantity) {
+            (CheckKind::Agreement, Quantity::Position) => (paths::position_error(name), position),
+            (CheckKind::Agreement, Quantity::Orientation) => (paths::orientation_error(name), orientation),
+            (CheckKind::Clearance, _) => (paths::clearance(name), palette::LIMIT),
+            (CheckKind::Zone, _) => (paths::zone_limit(name), palette::LIMIT),
             _ if measure.first_violation.is_none() => return Ok(()),
             _ => {
                 let [check, quantity] = path_parts(number, check.check, quantity, unit);
-                (paths::check_limit(&check, &quantity), "limit", palette::LIMIT)
+                (paths::check_limit(&check, &quantity), palette::LIMIT)
             }
         };
         self.write(writer, &path, &style(name, color), limit)?;
         if check.check == CheckKind::Agreement {
-            let name = format!("{quantity} tolerance");
+            let name = format!("{quantity} {name}");
             self.write(writer, &paths::worst_of_links(&name), &style(&name, color), log10(limit))?;
         }
         Ok(())
     }
+}
+
+/// The name of the line of a limit: `limit`, or `limit_2` if an earlier check of the kind has another limit. `None` if an
+/// earlier one has the same.
+fn new_name(
+    written: &mut Vec<(CheckKind, Quantity, f64)>,
+    check: CheckKind,
+    measure: &Measure,
+) -> Option<String> {
+    let word = if check == CheckKind::Agreement { "tolerance" } else { "limit" };
+    // The lines of other kinds are below the number of their check.
+    if !matches!(check, CheckKind::Agreement | CheckKind::Clearance | CheckKind::Zone) {
+        return Some(word.to_owned());
+    }
+    let this = (check, measure.quantity, measure.limit);
+    if written.contains(&this) {
+        return None;
+    }
+    let earlier =
+        written.iter().filter(|(kind, quantity, _)| (*kind, *quantity) == (check, measure.quantity));
+    let name = match earlier.count() {
+        0 => word.to_owned(),
+        earlier => format!("{word}_{}", earlier + 1),
+    };
+    written.push(this);
+    Some(name)
 }

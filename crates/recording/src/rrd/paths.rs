@@ -109,8 +109,8 @@ pub(crate) fn zone_distance(zone: &str) -> EntityPath {
 }
 
 /// The limit of those distances.
-pub(crate) fn zone_limit() -> EntityPath {
-    path(&["zone", "limit"])
+pub(crate) fn zone_limit(name: &str) -> EntityPath {
+    path(&["zone", name])
 }
 
 /// The `upper` or the `lower` limit of a quantity of a joint.

@@ -1,7 +1,7 @@
 //! Clearance over time: the smallest distance, exact at every recorded time, and the distances of pairs that
 //! were the nearest or came close to an obstacle.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, slice::from_ref};
 
 use congruent_monitors::{JudgedPairs, RecordingError};
 use congruent_proximity::Clearance;
@@ -20,6 +20,8 @@ const MAX_PAIRS: usize = 8;
 #[derive(Debug)]
 pub(crate) struct ClearanceSeries {
     judged: JudgedPairs,
+    /// The pairs of each check by itself, if there are several: the nearest of each has a line from the start.
+    of_checks: Vec<JudgedPairs>,
     minimum: DistanceLine,
     /// Lines of pairs by the pair's index, each from the first time at which the pair was the nearest.
     pairs: BTreeMap<usize, DistanceLine>,
@@ -31,7 +33,12 @@ impl ClearanceSeries {
     /// Distances of the pairs that the checks judge.
     pub(crate) fn new(checks: &[Check]) -> Self {
         let judged = JudgedPairs::new(checks);
-        Self { judged, minimum: DistanceLine::default(), pairs: BTreeMap::new(), range_m: None }
+        let clearances = || checks.iter().filter(|check| matches!(check, Check::Clearance(_)));
+        let of_checks = match clearances().count() {
+            0 | 1 => Vec::new(),
+            _ => clearances().map(|check| JudgedPairs::new(from_ref(check))).collect(),
+        };
+        Self { judged, of_checks, minimum: DistanceLine::default(), pairs: BTreeMap::new(), range_m: None }
     }
 
     /// Adds a row, or nothing if there are no pairs. Bodies of a pair with an index below `links` are links.
@@ -39,6 +46,11 @@ impl ClearanceSeries {
         let Some(nearest) = self.judged.nearest(clearance) else { return };
         self.minimum.push(time, nearest.distance_m);
         self.follow(nearest.pair);
+        for at in 0..self.of_checks.len() {
+            if let Some(nearest) = self.of_checks[at].nearest(clearance) {
+                self.follow(nearest.pair);
+            }
+        }
         // Two links that are always close to each other must not hide an obstacle that the arm approaches.
         let judged = &self.judged;
         let closest = clearance.nearest_of(NEAR_M, |index, pair| pair.b >= links && judged.contains(index));

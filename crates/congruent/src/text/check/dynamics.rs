@@ -44,6 +44,10 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
             joints.join(", ")
         );
     }
+    if let Some(links) = against.map(|of| &of.links_not_found).filter(|links| !links.is_empty()) {
+        let _ =
+            writeln!(text, "  not compared: links that the other description lacks: {}", links.join(", "));
+    }
     let disagrees = |report: &&DynamicsReport| !report.agrees();
     check.dynamics_of_descriptions().for_each(|report| compared(text, report, robot));
     // Of the physics only what is wrong.
