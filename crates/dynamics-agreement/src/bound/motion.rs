@@ -8,14 +8,15 @@ use congruent_kinematics::Uniform;
 use super::{
     bracket::{AttainedAt, CoveredMotion, TorqueBracket, TorqueCertificate},
     function::{
-        branch::{SearchLimits, UpperBound, upper_bound},
+        branch::{SearchLimits, upper_bound},
         local_search::{self, SectionedFunction},
         measure::{LargestMotion, MotionCoefficients, ValueMeasure},
+        one_by_one::{FEWEST_BOXES, one_by_one},
         trigonometric::{Trigonometric, along},
     },
     gravity::GravityTorques,
-    rows::DifferenceRows,
-    variable_group::{TorquePart, VariableGroup},
+    rows::{DifferenceRows, TorquePart, WantedTorques},
+    variable_group::VariableGroup,
 };
 use crate::{
     model::DynamicsModel,
@@ -104,8 +105,8 @@ impl Motions<'_> {
         let count = variable_group.joints.len() * variable_group.values();
         let function = Trigonometric::sampled(variables, count, ValueMeasure::Sum, |positions| {
             places.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
-            let VariableGroup { joints, moving, .. } = variable_group;
-            self.rows.values(&q, joints, moving, &mut memory).unwrap_or_else(|found| {
+            let wanted = variable_group.wanted(TorquePart::Together);
+            self.rows.values(&q, &wanted, &mut memory).unwrap_or_else(|found| {
                 error = Err(found);
                 vec![0.0; count]
             })
@@ -205,11 +206,12 @@ impl OneJoint<'_> {
         if crude <= 0.0 {
             return Ok(None);
         }
+        // Far below the crude bound: inertias cancel, and the remainder is rounding.
+        let is_rounding = |certified: f64| certified <= NO_COEFFICIENT * crude && crude.is_finite();
         let report = |(attained, at): (f64, AttainedAt), certified: f64, boxes: usize| {
-            // Far below the crude bound: inertias cancel, and the remainder is rounding.
-            let is_rounding = certified <= NO_COEFFICIENT * crude && crude.is_finite();
             let bracket = [attained, certified];
-            Ok((!is_rounding).then(|| TorqueBracket::new(motions.rows.candidate, joint, bracket, at, boxes)))
+            Ok((!is_rounding(certified))
+                .then(|| TorqueBracket::new(motions.rows.candidate, joint, bracket, at, boxes)))
         };
         let Some(function) = self.function else {
             return report(motions.best(part, joint, self.random_motions(part))?, crude, 0);
@@ -217,6 +219,11 @@ impl OneJoint<'_> {
         let motion = self.variable_group.motion(part, motions.rows.resistance(joint));
         let values = self.variable_group.values_of(part, self.at);
         let function = function.selected(values, ValueMeasure::Motion(motion));
+        let amplitudes = function.sum_of_amplitudes() + motion.resistance;
+        // Before the search, which would take as long for rounding as for a difference.
+        if is_rounding(amplitudes) {
+            return Ok(None);
+        }
         let positions = self.local_maximum(part, &function)?;
         let largest = motion.largest(&function.at(&positions));
         let candidates = self.candidates(&motion, &function, &positions, &largest);
@@ -227,7 +234,7 @@ impl OneJoint<'_> {
             control_values: MAX_MOTION_VALUES,
         };
         // Amplitudes cost one pass; boxes are divided only if this is too wide.
-        let crude = crude.min(function.sum_of_amplitudes() + motion.resistance);
+        let crude = crude.min(amplitudes);
         if crude <= stop.below {
             return report(attained, crude, 0);
         }
@@ -247,6 +254,12 @@ impl OneJoint<'_> {
         report(attained, certified, boxes)
     }
 
+    /// What is computed for a part of this joint's torque.
+    fn wanted(&self, part: TorquePart) -> WantedTorques<'_> {
+        let joints = &self.variable_group.joints[self.at..=self.at];
+        WantedTorques { joints, ..self.variable_group.wanted(part) }
+    }
+
     /// Positions with the largest torque that a coordinate search finds.
     fn local_maximum(&self, part: TorquePart, function: &Trigonometric) -> Result<Vec<f64>, DynamicsError> {
         let (motions, variable_group) = (self.motions, self.variable_group);
@@ -261,8 +274,7 @@ impl OneJoint<'_> {
             let mut sampled = Vec::with_capacity(variable.size() * function.values);
             for position in variable.samples() {
                 at_q[variable.joint] = position;
-                let joint = &variable_group.joints[self.at..=self.at];
-                match motions.rows.values(&at_q, joint, &variable_group.moving, &mut memory) {
+                match motions.rows.values(&at_q, &self.wanted(part), &mut memory) {
                     Ok(all) => sampled.extend_from_slice(&all[values.clone()]),
                     Err(found) => {
                         error = Err(found);
@@ -295,9 +307,8 @@ impl OneJoint<'_> {
         places.iter().zip(&positions).for_each(|(&place, position)| q[place] = *position);
         let mut memory = rows.memory();
         let values = self.variable_group.values_of(part, 0);
-        let joint = &self.variable_group.joints[self.at..=self.at];
         coupling.search(&mut q, &places, |q| {
-            let all = rows.values(q, joint, &self.variable_group.moving, &mut memory)?;
+            let all = rows.values(q, &self.wanted(part), &mut memory)?;
             Ok(function.measure.value(&all[values.clone()]))
         })?;
         Ok(places.iter().map(|&place| q[place]).collect())
@@ -365,33 +376,6 @@ impl OneJoint<'_> {
     }
 }
 
-/// A bound by the sum of the largest values of each acceleration and of each product of two speeds: these maxima are at
-/// different positions, so the bound is wider, but each value depends on fewer joints.
-fn one_by_one(function: &Trigonometric) -> UpperBound {
-    let mut sum = UpperBound { value: 0.0, boxes: 0 };
-    for at in 0..function.values {
-        let one = function.selected(at..at + 1, ValueMeasure::Sum);
-        let mut bound = UpperBound { value: one.sum_of_amplitudes(), boxes: 0 };
-        if one.control_values() <= VALUES_OF_ONE / FEWEST_BOXES {
-            let control_values = VALUES_OF_ONE;
-            let stop = SearchLimits {
-                below: local_search::largest_of_three(&one) * (1.0 + CLOSED_SUM),
-                boxes: MAX_BOXES,
-                control_values,
-            };
-            let divided = upper_bound(&one, stop);
-            bound = UpperBound { value: divided.value.min(bound.value), boxes: divided.boxes };
-        }
-        sum.value += bound.value;
-        sum.boxes += bound.boxes;
-    }
-    sum
-}
-
-/// Control values of one acceleration or product of speeds. Kind: speed; some 5 ms.
-const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 12;
-/// If fewer boxes can be divided, the sum of amplitudes is the better bound. Kind: choice.
-const FEWEST_BOXES: usize = 10;
 /// Random motions for a torque with too many coefficients. Kind: choice.
 const SAMPLES: usize = 2_000;
 /// A speed at which damping is negligible against dry friction, as a share of the limit. No unit; kind: choice.

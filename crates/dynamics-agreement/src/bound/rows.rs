@@ -14,6 +14,28 @@ use super::{
 };
 use crate::{model::DynamicsModel, thresholds::SAME_VALUE};
 
+/// A part of the torque difference that has its own certificate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum TorquePart {
+    /// The torque of accelerations, armature included.
+    Inertia,
+    /// The torque of products of speeds: centrifugal and Coriolis terms.
+    Velocity,
+    /// The whole torque, with gravity, damping and dry friction.
+    Together,
+}
+
+/// The torques that are computed together: those of some joints by the motion of some.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WantedTorques<'a> {
+    /// Joints whose torques are computed.
+    pub(super) joints: &'a [usize],
+    /// Joints whose speeds and accelerations matter.
+    pub(super) moving: &'a [usize],
+    /// What of it is needed: the rest is left 0.
+    pub(super) part: TorquePart,
+}
+
 /// The difference between a candidate and a reference in the candidate's geometry.
 pub(super) struct DifferenceRows<'a> {
     pub(super) candidate: &'a DynamicsModel,
@@ -96,28 +118,59 @@ impl<'a> DifferenceRows<'a> {
         Memory { buffer, matrix, tau: [vec![0.0; n], vec![0.0; n]], qd: vec![0.0; n] }
     }
 
-    /// For each of some joints the values of [`MotionCoefficients`](super::function::measure::MotionCoefficients) at one position: gravity, and the
+    /// For each joint the values of [`MotionCoefficients`](super::function::measure::MotionCoefficients) at one position: gravity, and the
     /// coefficients of accelerations and products of speeds of the joints that move.
     pub(super) fn values(
         &self,
         q: &RobotQ,
-        joints: &[usize],
-        moving: &[usize],
+        wanted: &WantedTorques<'_>,
         memory: &mut Memory,
     ) -> Result<Vec<f64>, DynamicsError> {
-        let Memory { buffer, matrix, tau, qd } = memory;
-        let coupling = &self.dependency.coupling;
-        let products = moving.len();
-        let count = 1 + products + entries(products);
-        let mut values = vec![0.0; joints.len() * count];
+        let moving = wanted.moving.len();
+        let mut values = vec![0.0; wanted.joints.len() * (1 + moving + entries(moving))];
+        if wanted.part == TorquePart::Together {
+            self.fill_gravity(q, wanted, memory, &mut values)?;
+        }
+        if wanted.part != TorquePart::Velocity {
+            self.fill_accelerations(q, wanted, memory, &mut values)?;
+        }
+        if wanted.part != TorquePart::Inertia {
+            self.fill_products(q, wanted, memory, &mut values)?;
+        }
+        Ok(values)
+    }
+
+    fn fill_gravity(
+        &self,
+        q: &RobotQ,
+        WantedTorques { joints, moving, .. }: &WantedTorques<'_>,
+        Memory { buffer, tau, .. }: &mut Memory,
+        values: &mut [f64],
+    ) -> Result<(), DynamicsError> {
         for (tree, tau) in self.whole.iter().zip(tau.iter_mut()) {
             tree.gravity_into(q, buffer, tau)?;
         }
+        let count = 1 + moving.len() + entries(moving.len());
+        for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
+            let [found, expected] = [0, 1].map(|model| self.dependency.coupling.torque(joint, &tau[model]));
+            values[0] = found - expected;
+        }
+        Ok(())
+    }
+
+    fn fill_accelerations(
+        &self,
+        q: &RobotQ,
+        WantedTorques { joints, moving, .. }: &WantedTorques<'_>,
+        Memory { buffer, matrix, .. }: &mut Memory,
+        values: &mut [f64],
+    ) -> Result<(), DynamicsError> {
+        let coupling = &self.dependency.coupling;
         // Torques are linear in the inertial parameters, so one tree with the difference of the bodies gives the
         // difference of the torques: M(q), C(q, qd) of negative masses are well defined here.
         self.difference.mass_matrix_into(q, buffer, matrix)?;
+        let count = 1 + moving.len() + entries(moving.len());
         for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
-            values[0] = coupling.torque(joint, &tau[0]) - coupling.torque(joint, &tau[1]);
             for (&other, value) in moving.iter().zip(&mut values[1..]) {
                 let pairs = coupling
                     .group(joint)
@@ -127,6 +180,19 @@ impl<'a> DifferenceRows<'a> {
                 *value = entry * self.covered[other].acceleration;
             }
         }
+        Ok(())
+    }
+
+    fn fill_products(
+        &self,
+        q: &RobotQ,
+        WantedTorques { joints, moving, .. }: &WantedTorques<'_>,
+        Memory { buffer, tau, qd, .. }: &mut Memory,
+        values: &mut [f64],
+    ) -> Result<(), DynamicsError> {
+        let coupling = &self.dependency.coupling;
+        let products = moving.len();
+        let count = 1 + products + entries(products);
         // Index of the product of two speeds: after gravity and accelerations, upper triangle by rows.
         let place = |first: usize, second: usize| 1 + products + row(products, first) + second;
         // The square of a speed before its mixed products: these are found by subtracting the squares.
@@ -145,7 +211,7 @@ impl<'a> DifferenceRows<'a> {
                 values[place(pair[0], pair[1])] = coupling.torque(joint, &tau[0]) - known;
             }
         }
-        Ok(values)
+        Ok(())
     }
 
     /// The torque difference at a driven joint by accelerations and velocity products, without gravity, damping and friction.

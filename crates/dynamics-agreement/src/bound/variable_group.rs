@@ -11,20 +11,9 @@ use super::{
         speeds::{MAX_SPEEDS, entries},
     },
     gravity::GravityTorques,
-    rows::DifferenceRows,
+    rows::{DifferenceRows, TorquePart, WantedTorques},
 };
 use crate::thresholds::MAX_COEFFICIENTS;
-
-/// A part of the torque difference that has its own certificate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum TorquePart {
-    /// The torque of accelerations, armature included.
-    Inertia,
-    /// The torque of products of speeds: centrifugal and Coriolis terms.
-    Velocity,
-    /// The whole torque, with gravity, damping and dry friction.
-    Together,
-}
 
 /// Joints whose torques depend on the same variables, with these variables.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,6 +90,11 @@ impl VariableGroup {
     /// Number of values of one joint: gravity, one for each acceleration, one for each product of speeds.
     pub(super) fn values(&self) -> usize {
         1 + self.moving.len() + entries(self.moving.len())
+    }
+
+    /// What is computed for a part of the torques of its joints.
+    pub(super) fn wanted(&self, part: TorquePart) -> WantedTorques<'_> {
+        WantedTorques { joints: &self.joints, moving: &self.moving, part }
     }
 
     /// The range of values that a part of the torque of one joint uses.

@@ -118,15 +118,18 @@ impl Region {
 struct Work {
     array: Vec<f64>,
     next: Vec<f64>,
+    /// A cheap bound of each control value.
+    rough: Vec<f64>,
     computed: usize,
 }
 
 fn region(function: &Trigonometric, (ranges, speeds): Ranges, work: &mut Work) -> Region {
     let mut sizes = function.sizes();
-    let Work { array, next, computed } = work;
-    // Coefficients become control values one variable after the other, as a tensor product of curves does.
+    let Work { array, next, rough, computed } = work;
+    // Coefficients become control values one variable after the other, as a tensor product of curves does. The last
+    // variable first: its inner loop is the shortest, and the array has the fewest entries yet.
     array.clone_from(&function.coefficients);
-    for (at, (variable, &(lower, upper))) in function.variables.iter().zip(&ranges).enumerate() {
+    for (at, (variable, &(lower, upper))) in function.variables.iter().zip(&ranges).enumerate().rev() {
         let points = control_points(variable, lower, upper);
         along_into(array, &mut sizes, at, &points, next);
         std::mem::swap(array, next);
@@ -134,18 +137,20 @@ fn region(function: &Trigonometric, (ranges, speeds): Ranges, work: &mut Work) -
     // The effort is counted by control values, not by boxes: their number grows exponentially with the variables.
     *computed += array.len();
     let (mut largest, mut loose, mut place) = (0.0, None, 0);
+    let values = |at: usize| &array[at * function.values..][..function.values];
+    rough.clear();
+    rough.extend(
+        array.chunks_exact(function.values).map(|values| function.measure.roughly_above(values, &speeds)),
+    );
     // The control value with the largest rough bound is evaluated first: it rejects most of the others.
-    let rough = |values: &[f64]| function.measure.roughly_above(values, &speeds);
-    let all = || array.chunks_exact(function.values);
-    let first = all().map(rough).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    let first = first.and_then(|(at, _)| Some((at, all().nth(at)?)));
-    for (at, values) in first.into_iter().chain(all().enumerate()) {
+    let first = (0..rough.len()).max_by(|a, b| rough[*a].total_cmp(&rough[*b]));
+    for at in first.into_iter().chain(0..rough.len()) {
         // The exact bound visits up to 2^speeds corners of the box of speeds; the rough one is a sum, and rejects
         // most control values.
-        if rough(values) <= largest {
+        if rough[at] <= largest {
             continue;
         }
-        let above = function.measure.above(values, &speeds);
+        let above = function.measure.above(values(at), &speeds);
         if above.value > largest {
             (largest, loose, place) = (above.value, above.loose, at);
         }

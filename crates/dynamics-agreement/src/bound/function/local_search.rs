@@ -114,27 +114,28 @@ const LEAST_GAIN_SAMPLED: f64 = 1e-6;
 fn best_of_one(variable: &Variable, coefficients: &[f64], measure: ValueMeasure, q: f64) -> (f64, f64) {
     let count = coefficients.len() / variable.size();
     let mut values = vec![0.0; count];
-    let mut value = |q: f64| {
+    let mut value = |q: f64, least: f64| {
         values.fill(0.0);
         for (feature, row) in variable.features(q).iter().zip(coefficients.chunks_exact(count)) {
             values.iter_mut().zip(row).for_each(|(value, coefficient)| *value += feature * coefficient);
         }
-        measure.value(&values)
+        measure.value_above(&values, least)
     };
     let step = (variable.upper - variable.lower) / f64::from(POSITIONS);
     let grid = (0..=POSITIONS).map(|index| variable.lower + step * f64::from(index));
-    let (mut best, mut place) = (value(q), q);
+    let (mut best, mut place) = (value(q, f64::NEG_INFINITY), q);
     // The halving starts at one step of the grid, because the maximum lies within one step of the best position.
     let mut width = step;
     for candidate in grid {
-        let found = value(candidate);
+        let found = value(candidate, best);
         if found > best {
             (best, place) = (found, candidate);
         }
     }
     for _ in 0..HALVINGS {
         let beside = [place - width, place + width].map(|q| q.clamp(variable.lower, variable.upper));
-        for (found, candidate) in beside.map(|q| (value(q), q)) {
+        for candidate in beside {
+            let found = value(candidate, best);
             if found > best {
                 (best, place) = (found, candidate);
             }

@@ -43,11 +43,20 @@ pub(in crate::bound) struct LargestMotion {
 
 impl ValueMeasure {
     /// The measure of one vector of values.
+    #[inline]
     pub(in crate::bound) fn value(self, values: &[f64]) -> f64 {
         match self {
             Self::Length => values.iter().map(|value| value * value).sum::<f64>().sqrt(),
             Self::Sum => values.iter().map(|value| value.abs()).sum(),
-            Self::Motion(motion) => motion.largest_torque(values),
+            Self::Motion(motion) => motion.largest_torque_above(values, f64::NEG_INFINITY),
+        }
+    }
+
+    /// The measure if it exceeds `least`, otherwise a value that does not.
+    pub(in crate::bound) fn value_above(self, values: &[f64], least: f64) -> f64 {
+        match self {
+            Self::Motion(motion) => motion.largest_torque_above(values, least),
+            _ => self.value(values),
         }
     }
 
@@ -60,6 +69,7 @@ impl ValueMeasure {
     }
 
     /// A larger upper bound that is cheap to compute.
+    #[inline]
     pub(in crate::bound) fn roughly_above(self, values: &[f64], speeds: &[SpeedInterval]) -> f64 {
         match self {
             Self::Motion(motion) => motion.roughly_above(values, speeds),
@@ -75,6 +85,7 @@ impl ValueMeasure {
 
 impl MotionCoefficients {
     /// Splits the values into gravity, accelerations and products of speeds.
+    #[inline]
     fn parts<'a>(&self, values: &'a [f64]) -> (f64, &'a [f64], Form<'a>) {
         let (gravity, rest) = values.split_at(usize::from(self.gravity));
         let (accelerations, coefficients) = rest.split_at(self.accelerations);
@@ -82,21 +93,22 @@ impl MotionCoefficients {
         (gravity, accelerations, Form { coefficients, speeds: self.speeds })
     }
 
-    /// The largest absolute torque over all speeds and accelerations within their limits.
-    fn largest_torque(&self, values: &[f64]) -> f64 {
+    /// The largest absolute torque over all speeds and accelerations within their limits if it exceeds `least`, otherwise a
+    /// value that does not: most positions of a search are refused by the corners of the speeds alone.
+    fn largest_torque_above(&self, values: &[f64], least: f64) -> f64 {
         let (gravity, accelerations, form) = self.parts(values);
         // Each acceleration takes the sign of its coefficient: absolute values add up.
-        let pushed: f64 = accelerations.iter().map(|value| value.abs()).sum();
-        let [up, down] = form.largest();
+        let pushed = accelerations.iter().map(|value| value.abs()).sum::<f64>() + self.resistance;
+        let [up, down] = form.largest_above([least - gravity - pushed, least + gravity - pushed]);
         // The absolute value of gravity + products is largest at the top or at the bottom; accelerations and
         // resistance push whichever way that is.
-        (gravity + up.0).max(down.0 - gravity) + pushed + self.resistance
+        (gravity + up.0).max(down.0 - gravity) + pushed
     }
 
     /// The motion with the largest torque.
     pub(in crate::bound) fn largest(&self, values: &[f64]) -> LargestMotion {
         let (gravity, accelerations, form) = self.parts(values);
-        let [up, down] = form.largest();
+        let [up, down] = form.largest_above([f64::NEG_INFINITY; 2]);
         let (sign, speeds) = if gravity + up.0 >= down.0 - gravity { (1.0, up.1) } else { (-1.0, down.1) };
         LargestMotion {
             speeds: speeds[..self.speeds].to_vec(),
@@ -122,6 +134,7 @@ impl MotionCoefficients {
         Upper { value: up.max(down) + pushed, loose }
     }
 
+    #[inline]
     fn roughly_above(&self, values: &[f64], intervals: &[SpeedInterval]) -> f64 {
         let (gravity, accelerations, form) = self.parts(values);
         let pushed = accelerations.iter().map(|value| value.abs()).sum::<f64>() + self.resistance;

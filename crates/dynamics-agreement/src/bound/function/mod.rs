@@ -4,5 +4,6 @@
 pub(super) mod branch;
 pub(super) mod local_search;
 pub(super) mod measure;
+pub(super) mod one_by_one;
 pub(super) mod speeds;
 pub(super) mod trigonometric;

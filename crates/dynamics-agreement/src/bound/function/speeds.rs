@@ -12,6 +12,7 @@ pub(in crate::bound) fn entries(speeds: usize) -> usize {
 }
 
 /// Index of row `j` of the upper triangle by rows, such that entry `(j, k)` with `k >= j` is at `row + k`.
+#[inline]
 pub(in crate::bound) fn row(speeds: usize, j: usize) -> usize {
     j * speeds - j * (j + 1) / 2
 }
@@ -115,6 +116,7 @@ impl Form<'_> {
     }
 
     /// Upper bounds of the form and of its negative over a box, each product bounded by itself: wider, but cheap.
+    #[inline]
     pub(in crate::bound) fn rough_range(&self, intervals: &[SpeedInterval]) -> [f64; 2] {
         let mut products = 0.0;
         let (mut up, mut down) = (0.0, 0.0);
@@ -131,8 +133,8 @@ impl Form<'_> {
     }
 
     /// The largest value of the form and of its negative that a coordinate search from the best corners finds, each with its
-    /// speeds.
-    pub(in crate::bound) fn largest(&self) -> [(f64, Speeds); 2] {
+    /// speeds. One that cannot exceed its entry of `least` is that of a corner.
+    pub(in crate::bound) fn largest_above(&self, least: [f64; 2]) -> [(f64, Speeds); 2] {
         let mut best = [(0.0, [0.0; MAX_SPEEDS]); 2];
         self.each_corner(&[(-1.0, 1.0); MAX_SPEEDS][..self.speeds], |value, corner| {
             let [up, down] = &mut best;
@@ -144,10 +146,18 @@ impl Form<'_> {
                 down.1[..corner.len()].copy_from_slice(corner);
             }
         });
+        // A corner is the maximum if all squares are positive; otherwise a speed inside its interval may be better, by at
+        // most the squares that are negative.
+        let beyond_corners =
+            |sign: f64| (0..self.speeds).map(|j| (-sign * self.square(j)).max(0.0)).sum::<f64>();
         let [up, down] = best;
-        // A corner is the maximum if all squares are positive; otherwise a speed inside its interval may be
-        // better.
-        [self.local_maximum(1.0, up.0, up.1), self.local_maximum(-1.0, down.0, down.1)]
+        [(1.0, up, least[0]), (-1.0, down, least[1])].map(|(sign, (value, speeds), least)| {
+            if value + beyond_corners(sign) <= least {
+                (value, speeds)
+            } else {
+                self.local_maximum(sign, value, speeds)
+            }
+        })
     }
 
     /// Coordinate search for a larger value of `sign` times the form: each speed in turn is set to its exact optimum.
@@ -184,6 +194,7 @@ fn is_symmetric((lower, upper): &SpeedInterval) -> bool {
 }
 
 /// The largest distance between `x^2` and its chord over an interval: the square of half its width.
+#[inline]
 pub(in crate::bound) fn gap((lower, upper): &SpeedInterval) -> f64 {
     let half = (upper - lower) / 2.0;
     half * half
@@ -219,12 +230,25 @@ mod tests {
     #[test]
     fn the_largest_value_is_found() {
         let form = Form { coefficients: &COEFFICIENTS, speeds: 3 };
-        for (sign, (best, x)) in [1.0, -1.0].into_iter().zip(form.largest()) {
+        for (sign, (best, x)) in [1.0, -1.0].into_iter().zip(form.largest_above([f64::NEG_INFINITY; 2])) {
             assert!((sign * form.at(&x) - best).abs() < 1e-15);
             for index in 0..9261_usize {
                 let x = [index % 21, index / 21 % 21, index / 441]
                     .map(|at| f64::from(u8::try_from(at).expect("below 22")) / 10.0 - 1.0);
                 assert!(sign * form.at(&x) <= best + 1e-12, "{x:?} {best}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_what_cannot_exceed_the_least_is_left_at_a_corner() {
+        let form = Form { coefficients: &COEFFICIENTS, speeds: 3 };
+        let exact = form.largest_above([f64::NEG_INFINITY; 2]).map(|(value, _)| value);
+        for least in [0.5, 0.99, 1.0, 1.01, 2.0].map(|share| exact.map(|value| share * value)) {
+            for ((found, _), (exact, least)) in
+                form.largest_above(least).into_iter().zip(exact.into_iter().zip(least))
+            {
+                assert!(found <= exact && (found >= exact || exact <= least), "{found} {exact} {least}");
             }
         }
     }

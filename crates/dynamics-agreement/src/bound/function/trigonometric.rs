@@ -242,18 +242,37 @@ pub(in crate::bound) fn along_into(
     let before: usize = sizes[..at].iter().product();
     let after: usize = sizes[at + 1..].iter().product();
     let size = sizes[at];
-    result.clear();
     result.resize(before * rows.len() * after, 0.0);
-    for outer in 0..before {
-        for (row_at, row) in rows.iter().enumerate() {
-            let target = &mut result[(outer * rows.len() + row_at) * after..][..after];
-            for (entry, factor) in row.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
-                let source = &array[(outer * size + entry) * after..][..after];
-                target.iter_mut().zip(source).for_each(|(target, source)| *target += factor * source);
+    if array.is_empty() {
+        return;
+    }
+    let blocks = array.chunks_exact(size * after).zip(result.chunks_exact_mut(rows.len() * after));
+    for (block, targets) in blocks {
+        for (row, target) in rows.iter().zip(targets.chunks_exact_mut(after)) {
+            match row.len() {
+                // A turning joint, of first and of second degree.
+                3 => combine::<3>(row, block, target),
+                5 => combine::<5>(row, block, target),
+                _ => {
+                    target.fill(0.0);
+                    for (factor, source) in row.iter().zip(block.chunks_exact(after)) {
+                        target.iter_mut().zip(source).for_each(|(target, source)| *target += factor * source);
+                    }
+                }
             }
         }
     }
     sizes[at] = rows.len();
+}
+
+/// The sum of the parts of a block, each with its factor, in one pass.
+fn combine<const PARTS: usize>(factors: &[f64], block: &[f64], target: &mut [f64]) {
+    let factors: [f64; PARTS] = std::array::from_fn(|at| factors[at]);
+    let length = target.len();
+    let parts: [&[f64]; PARTS] = std::array::from_fn(|at| &block[at * length..][..length]);
+    for (at, target) in target.iter_mut().enumerate() {
+        *target = factors.iter().zip(&parts).map(|(factor, part)| factor * part[at]).sum();
+    }
 }
 
 #[cfg(test)]
