@@ -102,7 +102,7 @@ impl CalibrationFit {
 /// The noise of positions and orientations, estimated from the residuals of a fit.
 fn estimated_noise(problem: &Problem<'_>, kept: &[usize], fit: &CalibrationFit) -> Noise {
     let weighting = Weighting { noise: fit.noise, rows: &[] };
-    let equations = problem.normal_equations(&fit.corrections, &weighting).only(kept);
+    let equations = problem.normal_equations(&fit.corrections, kept, &weighting);
     // The share of the corrections that positions determine; orientations determine the rest.
     let by_position =
         inverse(&equations.information).map_or(0.0, |inverse| (inverse * &equations.by_position).trace());
@@ -142,7 +142,7 @@ pub(super) fn weighted_fit(
     most_iterations: usize,
 ) -> CalibrationFit {
     let mut p = start;
-    let mut equations = problem.normal_equations(&p, weighting).only(kept);
+    let mut equations = problem.normal_equations(&p, kept, weighting);
     let (mut damping, mut last_step, mut converged, mut iterations) =
         (FIRST_DAMPING, f64::INFINITY, kept.is_empty(), 0);
     while !converged && iterations < most_iterations && damping < MOST_DAMPING {
@@ -161,7 +161,7 @@ pub(super) fn weighted_fit(
         // refused.
         if cost <= equations.cost * (1.0 + COST_ROUNDING) {
             p = moved;
-            equations = problem.normal_equations(&p, weighting).only(kept);
+            equations = problem.normal_equations(&p, kept, weighting);
             // Far below the diagonal damping has no effect: zero gives the quadratic convergence of Gauss-Newton.
             damping = if damping < 1e-14 { 0.0 } else { damping / 100.0 };
             // A step that no longer shrinks below 1e-9 is the rounding of the residuals, not progress.

@@ -97,8 +97,9 @@ fn scaled_information(problem: &Problem<'_>) -> (DMatrix<f64>, f64) {
     let reach_m = problem.reach_m();
     let noise = Noise { position_m: 1.0, orientation_rad: 1.0 / reach_m };
     let weighting = Weighting { noise, rows: &[] };
+    let all: Vec<usize> = (0..parameters.len()).collect();
     let CalibrationEquations { mut information, .. } =
-        problem.normal_equations(&vec![0.0; parameters.len()], &weighting);
+        problem.normal_equations(&vec![0.0; parameters.len()], &all, &weighting);
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
     let components = problem.component_count().max(1) as f64;
     for (row, of_row) in parameters.iter().enumerate() {

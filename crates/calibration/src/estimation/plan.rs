@@ -6,7 +6,7 @@ use nalgebra::{Cholesky, DMatrix, Dyn};
 
 use super::{
     model::ParameterUnit,
-    problem::{CalibrationEquations, Linearisation, Measurement, Noise, Problem, Weighting},
+    problem::{Linearisation, Measurement, Noise, Problem, Weighting},
 };
 
 /// Standard deviation of a correction before anything is measured, as a share of the reach. It keeps the
@@ -45,19 +45,18 @@ pub fn most_informative(
 ) -> Vec<Suggestion> {
     let Some(like) = problem.measurements.first() else { return Vec::new() };
     let noise = noise.floored();
+    let all: Vec<usize> = (0..corrections.len()).collect();
     let mut information =
         // Without a prior the determinant is zero as long as one correction is not identified, and every gain
         // would be infinite.
-        prior(problem) + problem.normal_equations(corrections, &Weighting { noise, rows: &[] }).information;
-    let mut at_corrections = Linearisation::new(problem.chain, corrections);
+        prior(problem) + problem.normal_equations(corrections, &all, &Weighting { noise, rows: &[] }).information;
+    let mut linearisation = Linearisation::new(problem.chain, corrections, &all);
     // Linearised at the present estimate once: the information of a candidate does not depend on the others.
     let added: Vec<DMatrix<f64>> = candidates
         .iter()
         .map(|q| {
-            let mut equations = CalibrationEquations::zeros(corrections.len());
             let measurement = like_at(like, q, problem.chain.base_from_tip(q, corrections));
-            equations.add(&mut at_corrections, &measurement, 1.0, &noise);
-            equations.information
+            linearisation.equations([(&measurement, 1.0)].into_iter(), &noise).information
         })
         .collect();
     let ranges = ranges(candidates);

@@ -104,8 +104,7 @@ fn largest<'a>(
 }
 
 fn residuals(computed: &Computed<'_>, corrections: &[f64]) -> Vec<PoseResidual> {
-    let residual = |each: &Measurement| each.residual(&computed.chain.base_from_tip(&each.q, corrections));
-    computed.measurements.iter().map(residual).collect()
+    Problem { chain: &computed.chain, measurements: &computed.measurements }.residuals(corrections)
 }
 
 fn summary(residuals: &[PoseResidual]) -> ResidualSummary {

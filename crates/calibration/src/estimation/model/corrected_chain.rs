@@ -43,7 +43,7 @@ impl CorrectedChain {
             parameters.iter().all(|parameter| parameter.slot <= slots),
             "slots end behind the last joint"
         );
-        // `walk` visits slots in order and takes parameters as they come, without searching.
+        // `linearise` visits slots in order and takes parameters as they come, without searching.
         parameters.sort_by_key(|parameter| parameter.slot);
         Self { chain, parameters }
     }
@@ -69,7 +69,7 @@ impl CorrectedChain {
     /// # Panics
     /// If `q` or `p` has another length.
     pub fn base_from_tip(&self, q: &ChainQ, p: &[f64]) -> Pose {
-        self.walk(q, p, |_, _| {})
+        self.at(p).base_from_tip(q)
     }
 
     /// The pose, and for each correction the twist `(dT/dp_j) T^-1` of the tip, in the base.
@@ -86,29 +86,70 @@ impl CorrectedChain {
     /// # Panics
     /// If `q`, `p` or `twists_in_base` has another length.
     pub fn linearise(&self, q: &ChainQ, p: &[f64], twists_in_base: &mut [Twist]) -> Pose {
-        assert_eq!(twists_in_base.len(), self.parameters.len(), "one twist for each correction");
-        self.walk(q, p, |at, before| {
-            twists_in_base[at] = self.parameters[at].generator_in_base.transformed_by(before);
+        self.at(p).linearise(q, twists_in_base)
+    }
+
+    /// The chain at these corrections, for many configurations.
+    ///
+    /// # Panics
+    /// If `p` has another length.
+    pub(in crate::estimation) fn at(&self, p: &[f64]) -> ChainAt<'_> {
+        assert_eq!(p.len(), self.parameters.len(), "one entry for each correction");
+        let mut slots = vec![Pose::identity(); self.chain.joint_count() + 1];
+        let generator = |(parameter, p): (&CorrectionParameter, &f64)| {
+            // Before its own exponential is multiplied: the generator commutes with it.
+            let before = &mut slots[parameter.slot];
+            let generator = parameter.generator_in_base.transformed_by(before);
+            *before = *before * parameter.generator_in_base.exp(*p);
+            generator
+        };
+        let generators = self.parameters.iter().zip(p).map(generator).collect();
+        ChainAt { chain: self, slots, generators }
+    }
+}
+
+/// A corrected chain at some corrections. They are the same for all measurements, so the motions of their slots are computed
+/// once: a configuration then takes two products for each joint, however many corrections there are.
+#[derive(Debug, Clone)]
+pub(in crate::estimation) struct ChainAt<'a> {
+    chain: &'a CorrectedChain,
+    /// The motion of all corrections of each slot.
+    slots: Vec<Pose>,
+    /// The generator of each correction in the frame before its slot, moved by the corrections before it there.
+    generators: Vec<Twist>,
+}
+
+impl ChainAt<'_> {
+    /// [`CorrectedChain::base_from_tip`] at these corrections.
+    pub(in crate::estimation) fn base_from_tip(&self, q: &ChainQ) -> Pose {
+        self.walk(q, |_, _| {})
+    }
+
+    /// [`CorrectedChain::linearise`] at these corrections.
+    pub(in crate::estimation) fn linearise(&self, q: &ChainQ, twists_in_base: &mut [Twist]) -> Pose {
+        assert_eq!(twists_in_base.len(), self.generators.len(), "one twist for each correction");
+        let mut at = 0;
+        // Sorted by slot: the corrections of a slot follow those of the slots before it.
+        self.walk(q, |slot, before| {
+            while self.chain.parameters.get(at).is_some_and(|parameter| parameter.slot == slot) {
+                twists_in_base[at] = self.generators[at].transformed_by(before);
+                at += 1;
+            }
         })
     }
 
-    fn walk(&self, q: &ChainQ, p: &[f64], mut each: impl FnMut(usize, &Pose)) -> Pose {
-        assert_eq!(q.len(), self.chain.joint_count(), "one entry for each joint");
-        assert_eq!(p.len(), self.parameters.len(), "one entry for each correction");
+    /// Visits each slot with the pose before it.
+    fn walk(&self, q: &ChainQ, mut each: impl FnMut(usize, &Pose)) -> Pose {
+        let chain = &self.chain.chain;
+        assert_eq!(q.len(), chain.joint_count(), "one entry for each joint");
         let mut pose = Pose::identity();
-        let mut at = 0;
-        for slot in 0..=q.len() {
+        for (slot, corrections) in self.slots.iter().enumerate() {
             if slot > 0 {
-                pose = pose * self.chain.twists_in_base[slot - 1].exp(q[slot - 1]);
+                pose = pose * chain.twists_in_base[slot - 1].exp(q[slot - 1]);
             }
-            // Before its own exponential is multiplied: the generator commutes with it, and `pose` is then
-            // everything before the correction.
-            while at < p.len() && self.parameters[at].slot == slot {
-                each(at, &pose);
-                pose = pose * self.parameters[at].generator_in_base.exp(p[at]);
-                at += 1;
-            }
+            each(slot, &pose);
+            pose = pose * *corrections;
         }
-        pose * self.chain.base_from_tip_at_zero
+        pose * chain.base_from_tip_at_zero
     }
 }

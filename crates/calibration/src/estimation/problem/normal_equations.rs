@@ -8,7 +8,7 @@ use super::{
     measurement::{Measurement, PoseResidual},
     noise::Noise,
 };
-use crate::estimation::model::CorrectedChain;
+use crate::estimation::model::{ChainAt, CorrectedChain};
 
 /// A correction has an effect on a measured component if it moves it by more than this, per unit of both.
 /// Kind: rounding; a component that a correction does not change moves by 1e-15.
@@ -29,7 +29,8 @@ impl Problem<'_> {
     /// # Panics
     /// If `p` or a measurement's `q` has another length than the chain has parameters or joints.
     pub fn residuals(&self, p: &[f64]) -> Vec<PoseResidual> {
-        let residual = |each: &Measurement| each.residual(&self.chain.base_from_tip(&each.q, p));
+        let chain = self.chain.at(p);
+        let residual = |each: &Measurement| each.residual(&chain.base_from_tip(&each.q));
         self.measurements.iter().map(residual).collect()
     }
 
@@ -59,12 +60,12 @@ impl Problem<'_> {
     /// # Panics
     /// If a measurement's `q` has another length than the chain has joints.
     pub fn redundancy(&self, kept: &[usize]) -> usize {
-        let none = vec![0.0; self.chain.parameters().len()];
-        let mut twists = vec![Twist::zero(); none.len()];
+        let chain = self.chain.at(&vec![0.0; self.chain.parameters().len()]);
+        let mut twists = vec![Twist::zero(); self.chain.parameters().len()];
         let configuration_of = configurations(self.measurements);
         let mut has_effect = vec![[false; 6]; configuration_of.iter().max().map_or(0, |last| last + 1)];
         for (measurement, &configuration) in self.measurements.iter().zip(&configuration_of) {
-            let pose = self.chain.linearise(&measurement.q, &none, &mut twists);
+            let pose = chain.linearise(&measurement.q, &mut twists);
             for twist in kept.iter().map(|&at| twists[at]) {
                 // Velocity of the tip under a unit rate of the correction: v + w x p, for a twist at the origin
                 // of the base.
@@ -86,8 +87,8 @@ impl Problem<'_> {
     /// Largest distance of the nominal tip from the base over the measurements: the length of an angle of
     /// 1 rad if the two are to be compared.
     pub fn reach_m(&self) -> f64 {
-        let none = vec![0.0; self.chain.parameters().len()];
-        let distance = |each: &Measurement| self.chain.base_from_tip(&each.q, &none).translation.norm();
+        let chain = self.chain.at(&vec![0.0; self.chain.parameters().len()]);
+        let distance = |each: &Measurement| chain.base_from_tip(&each.q).translation.norm();
         let reach = self.measurements.iter().map(distance).fold(0.0, f64::max);
         // All tips at the base, or no measurement: any positive length avoids dividing by zero.
         if reach > 0.0 { reach } else { 1.0 }
@@ -95,25 +96,22 @@ impl Problem<'_> {
 
     /// Sum of the squared residuals in units of the noise, each row with its weight.
     pub(in crate::estimation) fn cost(&self, p: &[f64], weighting: &Weighting) -> f64 {
-        let term = |(at, each): (usize, &Measurement)| {
-            let residual = each.residual(&self.chain.base_from_tip(&each.q, p));
-            weighting.row_weight(at) * residual.whitened_squared(&weighting.noise)
+        let chain = self.chain.at(p);
+        let term = |(each, weight): (&Measurement, f64)| {
+            weight * each.residual(&chain.base_from_tip(&each.q)).whitened_squared(&weighting.noise)
         };
-        self.measurements.iter().enumerate().map(term).sum()
+        weighting.weighted(self.measurements).map(term).sum()
     }
 
-    /// Normal equations for all corrections at `p`.
+    /// Normal equations at `p` for the corrections `kept`, the others held at their values.
     pub(in crate::estimation) fn normal_equations(
         &self,
         p: &[f64],
+        kept: &[usize],
         weighting: &Weighting,
     ) -> CalibrationEquations {
-        let mut sum = CalibrationEquations::zeros(p.len());
-        let mut at_p = Linearisation::new(self.chain, p);
-        for (at, measurement) in self.measurements.iter().enumerate() {
-            sum.add(&mut at_p, measurement, weighting.row_weight(at), &weighting.noise);
-        }
-        sum
+        let mut linearisation = Linearisation::new(self.chain, p, kept);
+        linearisation.equations(weighting.weighted(self.measurements), &weighting.noise)
     }
 }
 
@@ -126,8 +124,11 @@ pub(in crate::estimation) struct Weighting<'a> {
 }
 
 impl Weighting<'_> {
-    fn row_weight(&self, at: usize) -> f64 {
-        self.rows.get(at).copied().unwrap_or(1.0)
+    /// The rows that count, each with its weight.
+    fn weighted<'a>(&'a self, rows: &'a [Measurement]) -> impl Iterator<Item = (&'a Measurement, f64)> {
+        let weight = |at: usize| self.rows.get(at).copied().unwrap_or(1.0);
+        // A robust fit holds half of the rows out at weight 0.
+        rows.iter().enumerate().map(move |(at, row)| (row, weight(at))).filter(|(_, weight)| *weight != 0.0)
     }
 }
 
@@ -141,79 +142,100 @@ pub(in crate::estimation) struct CalibrationEquations {
     pub(in crate::estimation) cost: f64,
 }
 
-/// A chain at some corrections, with space for one row of the Jacobian there.
+/// A chain at some corrections, with space for the Jacobian of one row there by some of them.
 #[derive(Debug)]
 pub(in crate::estimation) struct Linearisation<'a> {
-    chain: &'a CorrectedChain,
-    p: &'a [f64],
+    chain: ChainAt<'a>,
+    kept: &'a [usize],
     twists: Vec<Twist>,
-    row: DVector<f64>,
+    /// The rates of the three coordinates of a position or of an orientation, for each correction.
+    rates: Vec<Vector3<f64>>,
+    row: Vec<f64>,
+}
+
+/// Part of the normal equations: the lower triangle of the information.
+struct Sum {
+    information: DMatrix<f64>,
+    gradient: DVector<f64>,
 }
 
 impl<'a> Linearisation<'a> {
-    pub(in crate::estimation) fn new(chain: &'a CorrectedChain, p: &'a [f64]) -> Self {
-        Self { chain, p, twists: vec![Twist::zero(); p.len()], row: DVector::zeros(p.len()) }
+    pub(in crate::estimation) fn new(chain: &'a CorrectedChain, p: &[f64], kept: &'a [usize]) -> Self {
+        let twists = vec![Twist::zero(); p.len()];
+        let (rates, row) = (vec![Vector3::zeros(); kept.len()], vec![0.0; kept.len()]);
+        Self { chain: chain.at(p), kept, twists, rates, row }
+    }
+
+    /// The equations of measurements with their weights.
+    pub(in crate::estimation) fn equations<'m>(
+        &mut self,
+        rows: impl Iterator<Item = (&'m Measurement, f64)>,
+        noise: &Noise,
+    ) -> CalibrationEquations {
+        // Kept apart, since the noise of positions and that of orientations are estimated from their own redundancies.
+        let [mut by_position, mut by_orientation] = [(); 2].map(|()| Sum::zeros(self.kept.len()));
+        let mut cost = 0.0;
+        for (measurement, weight) in rows {
+            let pose = self.chain.linearise(&measurement.q, &mut self.twists);
+            let residual = measurement.residual(&pose);
+            cost += weight * residual.whitened_squared(noise);
+            for (rate, &at) in self.rates.iter_mut().zip(self.kept) {
+                let twist = &self.twists[at];
+                *rate = twist.linear + twist.angular.cross(&pose.translation);
+            }
+            let factor = weight / noise.position_m.powi(2);
+            // A coordinate that was not measured gives no row; a row with residual 0 would claim that it fits.
+            for at in (0..3).filter(|&at| measurement.tip_in_base_m[at].is_some()) {
+                self.fill_row(at);
+                by_position.add(factor, &self.row, residual.position_m[at]);
+            }
+            if measurement.base_from_tip.is_some() {
+                // The residual is a logarithm: its rate is not the angular velocity's if it is large.
+                let rate_of_logarithm = log_rate_by_rotation(&residual.orientation_rad);
+                for (rate, &at) in self.rates.iter_mut().zip(self.kept) {
+                    *rate = rate_of_logarithm * self.twists[at].angular;
+                }
+                let factor = weight / noise.orientation_rad.powi(2);
+                for at in 0..3 {
+                    self.fill_row(at);
+                    by_orientation.add(factor, &self.row, residual.orientation_rad[at]);
+                }
+            }
+        }
+        let gradient = by_position.gradient + by_orientation.gradient;
+        let [by_position, by_orientation] =
+            [by_position.information, by_orientation.information].map(symmetric);
+        CalibrationEquations { information: &by_position + by_orientation, by_position, gradient, cost }
+    }
+
+    fn fill_row(&mut self, coordinate: usize) {
+        self.row.iter_mut().zip(&self.rates).for_each(|(entry, rate)| *entry = rate[coordinate]);
     }
 }
 
-impl CalibrationEquations {
-    pub(in crate::estimation) fn zeros(parameters: usize) -> Self {
-        Self {
-            information: DMatrix::zeros(parameters, parameters),
-            by_position: DMatrix::zeros(parameters, parameters),
-            gradient: DVector::zeros(parameters),
-            cost: 0.0,
-        }
+impl Sum {
+    fn zeros(corrections: usize) -> Self {
+        Self { information: DMatrix::zeros(corrections, corrections), gradient: DVector::zeros(corrections) }
     }
 
-    /// Adds one measurement with its weight and noise.
-    pub(in crate::estimation) fn add(
-        &mut self,
-        at_p: &mut Linearisation<'_>,
-        measurement: &Measurement,
-        weight: f64,
-        noise: &Noise,
-    ) {
-        let Linearisation { chain, p, twists, row } = at_p;
-        let pose = chain.linearise(&measurement.q, p, twists);
-        let residual = measurement.residual(&pose);
-        self.cost += weight * residual.whitened_squared(noise);
-        // A coordinate that was not measured gives no row; a row with residual 0 would claim that it fits.
-        for at in (0..3).filter(|&at| measurement.tip_in_base_m[at].is_some()) {
-            for (entry, twist) in row.iter_mut().zip(twists.iter()) {
-                let velocity = twist.linear + twist.angular.cross(&pose.translation);
-                *entry = velocity[at];
-            }
-            let factor = weight / noise.position_m.powi(2);
-            // Kept apart, since the noise of positions and that of orientations are estimated from their own
-            // redundancies.
-            self.by_position.ger(factor, row, row, 1.0);
-            self.gradient.axpy(factor * residual.position_m[at], row, 1.0);
-            self.information.ger(factor, row, row, 1.0);
+    /// Adds one component: its row of the Jacobian, its residual and the factor of both.
+    fn add(&mut self, factor: f64, row: &[f64], residual: f64) {
+        let columns = self.information.as_mut_slice().chunks_exact_mut(row.len().max(1));
+        // The matrix is symmetric and stored by columns: of each only what is below the diagonal.
+        for (at, column) in columns.enumerate() {
+            let by = factor * row[at];
+            column[at..].iter_mut().zip(&row[at..]).for_each(|(entry, other)| *entry += by * other);
         }
-        if measurement.base_from_tip.is_some() {
-            // The residual is a logarithm: its rate is not the angular velocity's if it is large.
-            let rate = log_rate_by_rotation(&residual.orientation_rad);
-            for component in 0..3 {
-                for (entry, twist) in row.iter_mut().zip(twists.iter()) {
-                    *entry = rate.row(component).transpose().dot(&twist.angular);
-                }
-                let factor = weight / noise.orientation_rad.powi(2);
-                self.gradient.axpy(factor * residual.orientation_rad[component], row, 1.0);
-                self.information.ger(factor, row, row, 1.0);
-            }
+        for (entry, rate) in self.gradient.iter_mut().zip(row) {
+            *entry += factor * residual * rate;
         }
     }
+}
 
-    /// The equations of some corrections alone, the others held at their current values.
-    pub(in crate::estimation) fn only(&self, kept: &[usize]) -> Self {
-        Self {
-            information: self.information.select_rows(kept).select_columns(kept),
-            by_position: self.by_position.select_rows(kept).select_columns(kept),
-            gradient: self.gradient.select_rows(kept),
-            cost: self.cost,
-        }
-    }
+/// The symmetric matrix with this lower triangle.
+fn symmetric(mut lower: DMatrix<f64>) -> DMatrix<f64> {
+    lower.fill_upper_triangle_with_lower_triangle();
+    lower
 }
 
 /// Rate of the logarithm `e` of an orientation residual by a rotation of the model: the inverse of
