@@ -263,7 +263,7 @@ fn a_tip_under_another_name_is_compared_or_refused() {
     let (answer, printed) = against(ARM, &moved, &["--tip", "tool"]);
     assert_eq!(answer.code, 1, "{printed}");
     assert!(printed.contains("DIFFERENT, by up to 100 mm at tool"), "{printed}");
-    let elsewhere = moved.replace("\"mount\"", "\"screws\"");
+    let elsewhere = renamed.replace("\"mount\"", "\"screws\"");
     let (answer, printed) = against(ARM, &elsewhere, &["--tip", "tool"]);
     assert_eq!(answer.code, 1, "{printed}");
     assert!(printed.contains("the other description has no link \"tool\", which is the tip"), "{printed}");

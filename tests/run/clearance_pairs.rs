@@ -132,14 +132,15 @@ fn each_of_two_checks_has_its_limit_and_its_nearest_pair() {
         &[],
     );
     assert_eq!(ran.code, 0, "{}{}", ran.stdout, ran.stderr);
-    let recording = text(&slide.0.path().join("out/scenario/recording.rrd"));
+    let recording = text(&slide.0.path().join("out/past/recording.rrd"));
     let inspected = congruent_json(&["inspect", &recording]);
     assert_eq!(inspected.code, 0, "{}", inspected.stdout);
     let report = inspected.json();
     let scalars = report["scalars"].as_array().unwrap();
     let scalar = |name: &str| scalars.iter().find(|scalar| scalar["path"] == format!("/clearance/{name}"));
-    let limits = ["limit", "limit_2"].map(|name| number(&scalar(name).unwrap()["max"]));
-    assert_eq!(limits, [0.04, 0.3]);
+    for (name, limit_m) in [("limit", 0.04), ("limit_2", 0.3)] {
+        assert_eq!(scalar(name).unwrap()["max"], limit_m, "{name}");
+    }
     let count = |name: &str| scalar(name).unwrap()["count"].as_u64().unwrap();
     assert_eq!(count("cart--wall"), count("minimum"), "{scalars:#?}");
 }

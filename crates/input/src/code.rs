@@ -1,5 +1,7 @@
 //! What a code of messages is, and how a crate declares those of its own messages.
 
+use crate::nearest;
+
 /// The stable number and name of a kind of finding, declared with [`codes!`](macro@crate::codes).
 ///
 /// # Examples
@@ -34,9 +36,8 @@ impl Code {
 
     /// The code most similar to a word that is not a code.
     pub fn nearest(word: &str, known: &[&'static Self]) -> Option<&'static Self> {
-        let likeness = |name: &str| strsim::jaro_winkler(&name.to_lowercase(), &word.to_lowercase());
-        let best = |code: &Self| code.words().map(likeness).fold(0.0, f64::max);
-        known.iter().copied().max_by(|a, b| best(a).total_cmp(&best(b)))
+        let near = nearest(word, known.iter().flat_map(|code| code.words()))?;
+        Self::find(near, known)
     }
 
     fn words(&self) -> impl Iterator<Item = &'static str> {

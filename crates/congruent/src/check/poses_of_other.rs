@@ -38,9 +38,11 @@ impl PosesOfOther {
                 Some(joint) if joint.kind.is_movable() => {
                     other.find_joint(&joint.name).map(|there| other.joint(there).child)
                 }
-                _ => other
-                    .find_link(&robot.link(link).name)
-                    .or_else(|| renamed(joint.map(|joint| joint.name.as_str()), robot, other)),
+                _ => {
+                    let is_end = robot.joints().iter().all(|joint| joint.parent != link);
+                    let joint = joint.filter(|_| is_end).map(|joint| joint.name.as_str());
+                    other.find_link(&robot.link(link).name).or_else(|| renamed(joint, robot, other))
+                }
             };
             match (there, joint) {
                 (Some(there), _) => LinkCorrespondence::Other(there.get()),
@@ -109,7 +111,7 @@ impl PosesOfOther {
     }
 }
 
-/// The link that a fixed joint of this name carries in the other description, if this robot has no link of its name.
+/// The link at the end of a branch that a fixed joint of this name carries in the other description, if this robot has no link of its name.
 fn renamed(joint: Option<&str>, robot: &Robot, other: &Robot) -> Option<LinkIndex> {
     let there = other.joint(other.find_joint(joint?)?);
     let is_known = robot.find_link(&other.link(there.child).name).is_some();

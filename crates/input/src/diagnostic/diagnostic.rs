@@ -232,25 +232,43 @@ impl miette::Diagnostic for Diagnostic {
 }
 
 /// The known name that `name` was probably meant to be: at most two letters are other, missing, too much or exchanged, and
-/// fewer than half of them. Of several with as few the most similar; `None` if there is none.
+/// fewer than half of them; or it is the only name of which this one is some of the words, as `elbow` of `elbow_joint`, or one without its unit.
+/// `None` if there is none.
 ///
 /// # Examples
 /// ```
 /// use congruent_input::nearest;
-/// assert_eq!(nearest("elbow_jiont", ["shoulder_joint", "elbow_joint"]), Some("elbow_joint"));
-/// assert_eq!(nearest("tool", ["base", "flange"]), None);
+/// let joints = ["shoulder_joint", "elbow_joint"];
+/// assert_eq!(nearest("elbow_jiont", joints), Some("elbow_joint"));
+/// assert_eq!(nearest("elbow", joints), Some("elbow_joint"));
+/// assert_eq!(nearest("wrist", joints), None);
 /// ```
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     /// Most letters that are other. Kind: choice; two slips of the keys.
     const MOST_EDITS: usize = 2;
     let lower = name.to_lowercase();
-    let edits = |candidate: &str| strsim::osa_distance(&lower, &candidate.to_lowercase());
-    known
-        .into_iter()
-        .map(|candidate| (edits(candidate), strsim::jaro_winkler(name, candidate), candidate))
-        .filter(|(edits, _, _)| *edits <= MOST_EDITS && 2 * edits < name.chars().count())
-        .min_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)))
-        .map(|(_, _, candidate)| candidate)
+    let (mut best, mut containing) = (None, Vec::new());
+    for candidate in known {
+        let other = candidate.to_lowercase();
+        let edits = strsim::osa_distance(&lower, &other);
+        let unlike = (edits, -strsim::jaro_winkler(&lower, &other));
+        let is_meant = edits <= MOST_EDITS && 2 * edits < lower.chars().count();
+        if is_meant && best.is_none_or(|(least, _)| unlike < least) {
+            best = Some((unlike, candidate));
+        }
+        if format!("_{other}_").contains(&format!("_{lower}_")) {
+            containing.push(candidate);
+        }
+    }
+    let is_with_unit = |known: &&&str| {
+        let rest = known.to_lowercase();
+        rest.strip_prefix(&format!("{lower}_")).is_some_and(|unit| !unit.contains('_'))
+    };
+    match containing[..] {
+        _ if best.is_some() => best.map(|(_, candidate)| candidate),
+        [only] => Some(only),
+        _ => containing.iter().find(is_with_unit).copied(),
+    }
 }
 
 /// Help for an unknown name: the most similar known name, then all known names.

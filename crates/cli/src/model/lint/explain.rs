@@ -29,6 +29,10 @@ pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
         let message = format!("unknown code or cause \"{word}\"");
         let unknown = Diagnostic::error(codes::lint::CODE, message);
         let name = word.to_lowercase();
+        let numbered = codes_with_number(&name, &known);
+        if !numbered.is_empty() {
+            return unknown.with_help(format!("codes of this number: {}", numbered.join(", ")));
+        }
         // Codes of findings have an area, `urdf::axis`; causes have none, or `check`.
         let near = Some(cause_name(&name)).filter(|name| !name.contains("::"));
         let near = near.and_then(|name| nearest(name, cause_names())).map(str::to_owned);
@@ -43,6 +47,14 @@ pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
     })?;
     printer.result(&explanation, text)?;
     Ok(0)
+}
+
+/// The codes that end with a number, each with its name.
+fn codes_with_number(number: &str, known: &[&'static Code]) -> Vec<String> {
+    let Ok(number) = number.parse::<u16>() else { return Vec::new() };
+    let ending = format!("-{number:03}");
+    let has_number = |code: &&&Code| code.id.is_some_and(|id| id.ends_with(&ending));
+    known.iter().filter(has_number).map(|code| format!("{} ({})", code.id_or_name(), code.name)).collect()
 }
 
 fn explained(word: &str, known: &[&'static Code]) -> Option<CodeExplanation> {
