@@ -18,12 +18,12 @@ pub enum Grade {
 }
 
 impl Grade {
-    /// The grade in words.
+    /// The grade of table and URDF in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::Identical => "identical",
             Self::SameWithinDigits => "same within the digits written",
-            Self::Different => "different",
+            Self::Different => "different beyond the digits written",
         }
     }
 

@@ -13,26 +13,33 @@ use crate::diagnosis::{DhEntry, ModelPair, RowShift};
 impl FaultContext<'_> {
     /// Two values of one row that are exchanged.
     pub(super) fn row_exchanged(&self, row: usize, entries: &[DhEntry]) -> FaultMessage {
-        let value = |models: &ModelPair, entry| models.candidate.entry(row, entry).unwrap_or_default();
-        let both = |values: Vec<String>| ReportedValue::Text(values.join(", "));
-        let found: Vec<String> =
-            entries.iter().map(|&entry| self.given(row, entry, value(self.before, entry))).collect();
-        let expected: Vec<String> =
-            entries.iter().map(|&entry| self.written(row, entry, value(self.after, entry))).collect();
-        let joint = self.joint(row);
-        let message =
-            format!("{} of joint \"{joint}\" are exchanged: {}", names(entries, " and "), found.join(", "));
-        let fault = Fault {
-            joint: Some(joint),
-            parameter: Some(names(entries, ", ")),
-            found: Some(both(found)),
-            suggestion: expected.join("\n"),
-            expected: Some(both(expected)),
-            ..Fault::default()
-        };
+        let (joint, found) = (self.joint(row), self.row_found(row, entries));
+        let message = format!("{} of joint \"{joint}\" are exchanged: {found}", names(entries, " and "));
+        let fault = self.about_row(row, entries);
         let written = entries.iter().copied().find(|&entry| self.is_written(row, row_key(entry)));
         let location = self.location(row, row_key(written.unwrap_or(entries[0])));
         FaultMessage { fault, message, location }
+    }
+
+    /// The given values of a row, as they are written.
+    pub(super) fn row_found(&self, row: usize, entries: &[DhEntry]) -> String {
+        let value = |entry| self.before.candidate.entry(row, entry).unwrap_or_default();
+        entries.iter().map(|&entry| self.given(row, entry, value(entry))).collect::<Vec<_>>().join(", ")
+    }
+
+    /// A fault of several values of a row, with those that are found and those that are expected.
+    pub(super) fn about_row(&self, row: usize, entries: &[DhEntry]) -> Fault {
+        let value = |entry| self.after.candidate.entry(row, entry).unwrap_or_default();
+        let expected: Vec<String> =
+            entries.iter().map(|&entry| self.written(row, entry, value(entry))).collect();
+        Fault {
+            joint: Some(self.joint(row)),
+            parameter: Some(names(entries, ", ")),
+            found: Some(ReportedValue::Text(self.row_found(row, entries))),
+            suggestion: expected.join("\n"),
+            expected: Some(ReportedValue::Text(expected.join(", "))),
+            ..Fault::default()
+        }
     }
 
     /// The values of one entry in two rows that are exchanged.

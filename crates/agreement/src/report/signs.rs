@@ -4,30 +4,19 @@ use super::{
     content::Fault,
     exchanged::names,
     fault_message::{FaultContext, FaultMessage, row_key},
-    values::ReportedValue,
 };
-use crate::diagnosis::{DhEntry, ModelPair};
+use crate::diagnosis::DhEntry;
 
 impl FaultContext<'_> {
     /// Several values of a row with the opposite sign.
     pub(super) fn row_signs(&self, row: usize, entries: &[DhEntry]) -> FaultMessage {
-        let value = |models: &ModelPair, entry| models.candidate.entry(row, entry).unwrap_or_default();
-        let both = |values: Vec<String>| ReportedValue::Text(values.join(", "));
-        let found: Vec<String> =
-            entries.iter().map(|&entry| self.given(row, entry, value(self.before, entry))).collect();
-        let expected: Vec<String> =
-            entries.iter().map(|&entry| self.written(row, entry, value(self.after, entry))).collect();
-        let (joint, names) = (self.joint(row), names(entries, ", "));
-        let message = format!("joint \"{joint}\": {}, expected the opposite signs", found.join(", "));
-        let fault = Fault {
-            joint: Some(joint),
-            parameter: Some(names),
-            found: Some(both(found)),
-            suggestion: expected.join("\n"),
-            expected: Some(both(expected)),
-            ..Fault::default()
-        };
-        FaultMessage { fault, message, location: self.location(row, row_key(entries[0])) }
+        let (joint, found) = (self.joint(row), self.row_found(row, entries));
+        let message = format!("joint \"{joint}\": {found}, expected the opposite signs");
+        FaultMessage {
+            fault: self.about_row(row, entries),
+            message,
+            location: self.location(row, row_key(entries[0])),
+        }
     }
 
     /// A column whose values all have the opposite sign.

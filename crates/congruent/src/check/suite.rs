@@ -67,11 +67,7 @@ fn grade(comparison: &Comparison, report: &CheckReport) -> Option<String> {
         report.allowed_by_digits.map_or_else(String::new, |PoseError { position_m, orientation_rad }| {
             format!(", which allow {}", length_and_angle(position_m, orientation_rad))
         });
-    Some(match grade {
-        Grade::Identical => "grade: identical".to_owned(),
-        Grade::SameWithinDigits => format!("grade: same within the digits written{allowed}"),
-        Grade::Different => format!("grade: different beyond the digits written{allowed}"),
-    })
+    Some(format!("grade: {}{allowed}", grade.words()))
 }
 
 fn not_asked_case(not_asked: &NotCompared) -> TestCase {
