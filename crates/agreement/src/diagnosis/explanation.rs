@@ -7,6 +7,7 @@ use super::{
     candidate::ModelParameter,
     digits::WrittenDigits,
     hypothesis::{Cause, FaultPlace, ModelPair},
+    thresholds::{BEYOND_DIGITS, SAME_VALUE},
 };
 
 /// The tolerance, the configurations at which a residual is measured, and the digits of the files.
@@ -38,6 +39,8 @@ pub struct Explanation {
     pub faults: Vec<ExplainedFault>,
     /// Both models with the faults corrected.
     pub corrected: ModelPair,
+    /// The digits that the corrected models are typed with.
+    pub digits: WrittenDigits,
     /// The difference before any correction, then after each of `faults` is corrected, one after the other.
     pub stages: Vec<PoseError>,
     /// The remaining difference of the corrected models.
@@ -53,6 +56,7 @@ impl Explanation {
         Self {
             faults: Vec::new(),
             corrected: models.clone(),
+            digits: criterion.digits.clone(),
             stages: vec![residual],
             residual,
             is_complete: models.is_accepted(criterion),
@@ -93,6 +97,17 @@ impl ModelPair {
 }
 
 impl Criterion {
+    /// Whether a residual is within the tolerance, and far below what the digits of the files allow, if there are any.
+    pub(super) fn is_beyond_digits(&self, residual: &PoseError) -> bool {
+        let PoseError { position_m, orientation_rad } = self.digits.allowed;
+        let has_digits = !self.digits.values.is_empty();
+        let allowed = Tolerance {
+            position_m: (BEYOND_DIGITS * position_m).max(SAME_VALUE),
+            orientation_rad: (BEYOND_DIGITS * orientation_rad).max(SAME_VALUE),
+        };
+        residual.is_within(&self.tolerance) && (!has_digits || residual.is_within(&allowed))
+    }
+
     /// The residual that says nothing: the tolerance, or what the digits of the files allow, if that is more.
     pub(super) fn insignificant(&self) -> Tolerance {
         let PoseError { position_m, orientation_rad } = self.digits.allowed;

@@ -14,6 +14,7 @@ mod digits;
 mod dropped_joint;
 mod equivalence;
 mod explanation;
+mod fewest_changes;
 mod fit;
 mod from_description;
 mod hypothesis;

@@ -49,7 +49,17 @@ fn reading(models: &ModelPair, criterion: &Criterion, joint: usize) -> Option<(u
     let place = FaultPlace::ReferenceJoints(vec![joint]);
     let fault = ExplainedFault { cause: Cause::JointOrigin, place, free: Vec::new() };
     let stages = vec![models.residual(criterion), residual];
-    Some((numbers, Explanation { faults: vec![fault], corrected, stages, residual, is_complete: true }))
+    Some((
+        numbers,
+        Explanation {
+            faults: vec![fault],
+            corrected,
+            digits: criterion.digits.clone(),
+            stages,
+            residual,
+            is_complete: true,
+        },
+    ))
 }
 
 /// The origin that the candidate wants of a joint.

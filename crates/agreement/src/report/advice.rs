@@ -38,8 +38,11 @@ pub(super) fn slack(models: &ModelPair, explanation: &Explanation, criterion: &C
     // A value in another unit is not fitted: it keeps its digits, however far it is from explaining the difference.
     let noise =
         if explanation.faults.iter().all(|fault| fault.cause.is_unit()) { 0.0 } else { PART_OF_RESIDUAL };
-    // Digits below the residual are noise of the fit; with an exact fit they end where data sheets end.
-    let least = (noise * residual.position_m).max(MOST_SLACK);
+    // Digits below the residual are noise of the fit, or of the places that the file is typed with; with an exact fit they
+    // end where data sheets end.
+    let half_place = explanation.digits.coarsest_half_place(DhEntry::A);
+    let half_place = if half_place > 0.0 { half_place } else { f64::INFINITY };
+    let least = (noise * residual.position_m).min(PART_OF_RESIDUAL * half_place).max(MOST_SLACK);
     // An angle at the base moves the tip by the angle times the reach, so it needs as many more digits.
     let angle_rad = (least / reach_m).max(noise * residual.orientation_rad);
     // Nothing to stay within: the model is not accepted with all digits either, or by the digits of its files.

@@ -3,11 +3,11 @@
 use std::{fs, path::Path, sync::Arc};
 
 use congruent_agreement::{
-    compare::{Agreement, CheckOptions, CheckReport, check},
+    compare::{Agreement, CheckOptions, CheckReport, check, diagnose},
     diagnosis::Cause,
-    report::{Fault, ReportedCause},
+    report::{Fault, ReportedCause, ReportedDiagnosis},
 };
-use congruent_description::{Tolerance, parse_robot};
+use congruent_description::{RobotDescription, Tolerance, parse_robot};
 use congruent_input::SourceFile;
 use congruent_kinematics::UrdfTree;
 
@@ -52,9 +52,32 @@ impl Texts {
         all().into_iter().find(|texts| texts.name == name).unwrap()
     }
 
-    /// The report under a tolerance, in m and rad alike.
+    /// The report under a tolerance that nobody has declared, in m and rad alike.
     #[track_caller]
     pub(crate) fn check(&self, tolerance: f64) -> CheckReport {
+        let description = self.described(tolerance);
+        let mut physics = UrdfTree::new(&description.robot);
+        check(&description, Ok(&mut physics), &CheckOptions::default()).unwrap()
+    }
+
+    /// The report under a tolerance that the robot file declares.
+    #[track_caller]
+    pub(crate) fn check_declared(&self, tolerance: f64) -> CheckReport {
+        let description = RobotDescription { tolerance_is_declared: true, ..self.described(tolerance) };
+        let mut physics = UrdfTree::new(&description.robot);
+        check(&description, Ok(&mut physics), &CheckOptions::default()).unwrap()
+    }
+
+    /// The diagnosis of the table alone, without certificates.
+    #[track_caller]
+    pub(crate) fn diagnose(&self, tolerance: f64) -> Vec<ReportedDiagnosis> {
+        let description = self.described(tolerance);
+        let mut physics = UrdfTree::new(&description.robot);
+        diagnose(&description, &mut physics, CheckOptions::default().seed).unwrap()
+    }
+
+    #[track_caller]
+    fn described(&self, tolerance: f64) -> RobotDescription {
         let source = |name: &str, text: &str| {
             Arc::new(SourceFile { path: name.into(), text: text.to_owned(), is_foreign: false })
         };
@@ -62,8 +85,7 @@ impl Texts {
         let mut description = parse_robot(Some(&source("robot.toml", &self.robot_file)), &urdf)
             .unwrap_or_else(|findings| panic!("{findings:?}\n{}", self.robot_file));
         description.tolerance = Tolerance { position_m: tolerance, orientation_rad: tolerance };
-        let mut physics = UrdfTree::new(&description.robot);
-        check(&description, Ok(&mut physics), &CheckOptions::default()).unwrap()
+        description
     }
 
     /// With the lines of a cause in place of those of the file.

@@ -7,6 +7,7 @@ mod typed_value;
 mod weights;
 mod written_digits;
 
+pub(super) use nearest::most_norm;
 pub(super) use weights::Weights;
 
 pub use typed_value::{TransformPart, TypedPlace, TypedValue};

@@ -14,12 +14,21 @@ impl WrittenDigits {
     /// Whether values within half of the last place of the typed ones make the models the same, up to the rounding of
     /// an `f64`, at these configurations.
     pub(crate) fn explain(&self, models: &ModelPair, configurations: &[ChainQ]) -> bool {
+        self.explained(models, configurations).is_some()
+    }
+
+    /// The pair with values within half of the last place of the typed ones that are the same; `None` if there is none.
+    pub(in crate::diagnosis) fn explained(
+        &self,
+        models: &ModelPair,
+        configurations: &[ChainQ],
+    ) -> Option<ModelPair> {
         if self.values.is_empty() {
-            return false;
+            return None;
         }
         let same = Tolerance::default();
         let nearest = self.nearest(models);
-        configurations.iter().all(|q| nearest.residual_at(q).is_within(&same))
+        configurations.iter().all(|q| nearest.residual_at(q).is_within(&same)).then_some(nearest)
     }
 
     /// The pair with the values, each within half of its last place, that are nearest to agreement.
@@ -69,6 +78,13 @@ impl WrittenDigits {
             .collect();
         DMatrix::from_columns(&columns)
     }
+}
+
+/// The norm of the largest difference that values with these effects allow: all of them off by half a place to the worse
+/// side.
+pub(in crate::diagnosis) fn most_norm(effects: &DMatrix<f64>) -> f64 {
+    let most = effects.row_iter().map(|row| row.iter().map(|effect| effect.abs()).sum::<f64>());
+    DVector::from_iterator(effects.nrows(), most).norm()
 }
 
 fn difference(models: &ModelPair, point: &EvaluationPoint) -> DVector<f64> {

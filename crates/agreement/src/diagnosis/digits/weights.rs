@@ -23,6 +23,6 @@ impl Weights {
 
     /// The weighted difference.
     pub(in crate::diagnosis) fn apply(&self, difference: Vec<f64>) -> Vec<f64> {
-        (&self.0 * DVector::from_vec(difference)).as_slice().to_vec()
+        (&self.0 * DVector::from_vec(difference)).data.into()
     }
 }

@@ -6,7 +6,7 @@ use congruent_description::Tolerance;
 
 use crate::diagnosis::{
     candidate::{CandidateModel, ModelParameter},
-    digits::Weights,
+    digits::{Weights, WrittenDigits, most_norm},
     explanation::Criterion,
     fit::evaluation_point::EvaluationPoint,
     fit::least_squares::{FitTarget, FittedCandidate},
@@ -14,6 +14,10 @@ use crate::diagnosis::{
     reference_model::ChainState,
     thresholds::{ANGLE_STARTS_RAD, GOOD_FIT, MOST_WEIGHTED_JOINTS, SAME_VALUE},
 };
+
+/// The effects of the digits are those in the models as given; with a gross cause corrected, the same digits have other
+/// effects, at most so many times as large. No unit; kind: judgement.
+const OTHER_EFFECTS: f64 = 10.0;
 
 /// Hypotheses with their free parameters fitted.
 #[derive(Debug, Clone)]
@@ -38,6 +42,8 @@ pub(in crate::diagnosis) struct FitContext<'a> {
     unweighted: EvaluationPoint,
     /// An unweighted norm that the tolerance allows, or rounding.
     tolerated: f64,
+    /// An unweighted norm that the digits may allow.
+    by_digits: f64,
     pub(in crate::diagnosis) state: ChainState,
 }
 
@@ -49,14 +55,74 @@ impl<'a> FitContext<'a> {
     ) -> Self {
         let unweighted = EvaluationPoint::for_reference(&models.reference);
         let digits = &criterion.digits;
+        let effects = (!digits.values.is_empty()).then(|| digits.effects(models, &unweighted));
+        let by_digits = effects.as_ref().map_or(0.0, |effects| OTHER_EFFECTS * most_norm(effects));
         // A matrix of six rows for each joint costs more than it gives for a long chain.
-        let is_weighted = !digits.values.is_empty() && unweighted.q.len() <= MOST_WEIGHTED_JOINTS;
-        let weights = is_weighted.then(|| Weights::new(&digits.effects(models, &unweighted)));
+        let is_weighted = unweighted.q.len() <= MOST_WEIGHTED_JOINTS;
+        let weights = effects.filter(|_| is_weighted).map(|effects| Weights::new(&effects));
         let evaluation_point = unweighted.clone().weighted(weights);
         let state = models.reference.state(&evaluation_point.q);
         let Tolerance { position_m, orientation_rad } = criterion.tolerance;
         let tolerated = orientation_rad.min(position_m / unweighted.length_m).max(SAME_VALUE);
-        Self { models, hypotheses, evaluation_point, unweighted, tolerated, state }
+        Self { models, hypotheses, evaluation_point, unweighted, tolerated, by_digits, state }
+    }
+
+    /// The same pair as the corrected models within the digits that the correction moves with the values; fitted values are
+    /// free. `None` if the digits allow no such pair.
+    pub(in crate::diagnosis) fn within_digits(
+        &self,
+        fit: &HypothesisFit,
+        criterion: &Criterion,
+    ) -> Option<ModelPair> {
+        let corrected = self.corrected(fit);
+        let state = corrected.reference.state(&self.unweighted.q);
+        let target = FitTarget { evaluation_point: &self.unweighted, state: &state };
+        // The search for values within the digits takes a hundred times as long.
+        if target.norm(&corrected.candidate) > self.by_digits {
+            return None;
+        }
+        let mut digits = self.digits(fit, &criterion.digits).into_owned();
+        digits.free(self.fitted(fit), self.unweighted.length_m);
+        digits.explained(&corrected, &criterion.configurations)
+    }
+
+    /// The corrected models, with fitted values that the digits of the others allow.
+    pub(in crate::diagnosis) fn corrected_within_digits(
+        &self,
+        fit: &HypothesisFit,
+        criterion: &Criterion,
+    ) -> ModelPair {
+        let mut corrected = self.corrected(fit).into_owned();
+        // In directions that count little a weighted fit ends anywhere; a value that is written is one of those that
+        // agree.
+        let nearest =
+            if corrected.is_within_tolerance(criterion) { None } else { self.within_digits(fit, criterion) };
+        if let Some(nearest) = nearest {
+            for parameter in self.fitted(fit) {
+                let by = moved(&corrected.candidate, &nearest.candidate, parameter);
+                corrected.candidate.shift(parameter, by);
+            }
+        }
+        corrected
+    }
+
+    /// The fitted parameters.
+    fn fitted(&self, fit: &HypothesisFit) -> impl Iterator<Item = ModelParameter> {
+        fit.hypotheses.iter().flat_map(|&at| self.hypotheses[at].free.iter().copied())
+    }
+
+    /// The digits of the corrected models: edited values take theirs with them.
+    pub(in crate::diagnosis) fn digits<'d>(
+        &self,
+        fit: &HypothesisFit,
+        given: &'d WrittenDigits,
+    ) -> Cow<'d, WrittenDigits> {
+        let edits: Vec<&PoseHypothesis> =
+            fit.hypotheses.iter().map(|&at| &self.hypotheses[at]).filter(|it| it.edit.is_some()).collect();
+        if edits.is_empty() || given.values.is_empty() {
+            return Cow::Borrowed(given);
+        }
+        Cow::Owned(given.after(self.models, |models| edits.iter().for_each(|edit| edit.apply(models))))
     }
 
     /// Norm of the difference of two models.

@@ -1,6 +1,7 @@
 //! The search for the simplest explanation: one hypothesis, then two (`pairs.rs`) or any set of flipped joints
 //! (`flips.rs`), then a gross cause together with wrong single values (`stages.rs`).
 
+mod fewest;
 mod flips;
 mod pairs;
 mod stages;
@@ -174,11 +175,13 @@ impl ExplanationSearch<'_> {
 
     fn explaining(&self, fits: &[HypothesisFit]) -> Vec<HypothesisFit> {
         let mut accepted: Vec<&HypothesisFit> = fits.iter().filter(|fit| self.accepts(fit)).collect();
-        // If the correction of something makes the files agree, nothing is left to be explained by their digits.
-        let is_within =
-            |fit: &&HypothesisFit| self.context.corrected(fit).is_within_tolerance(self.criterion);
-        if accepted.iter().any(is_within) {
-            accepted.retain(is_within);
+        // If the correction of something makes the files agree far better than their digits say, nothing is left to be
+        // explained by the digits.
+        let is_beyond = |fit: &&HypothesisFit| {
+            self.criterion.is_beyond_digits(&self.context.corrected(fit).residual(self.criterion))
+        };
+        if accepted.iter().any(is_beyond) {
+            accepted.retain(is_beyond);
         }
         // The best residual of all shows how precise the files are; only then is a larger one known to be wrong.
         let residuals = accepted.iter().map(|fit| self.context.corrected(fit).residual(self.criterion));
@@ -232,8 +235,7 @@ impl ExplanationSearch<'_> {
         let corrected = || context.corrected(fit);
         // The norm is known, while poses at all configurations cost more than the fit itself.
         (fit.norm <= EVALUATED_BELOW * tolerance && corrected().is_within_tolerance(criterion))
-            || (fit.norm <= criterion.digits.most_norm()
-                && criterion.digits.explain(&corrected(), &criterion.configurations))
+            || context.within_digits(fit, criterion).is_some()
     }
 
     fn rank(&self, fit: &HypothesisFit) -> ExplanationRank {
@@ -259,9 +261,10 @@ impl ExplanationSearch<'_> {
                 *last = residual;
             }
         }
-        let corrected = self.context.corrected(fit).into_owned();
+        let corrected = self.context.corrected_within_digits(fit, self.criterion);
         let residual = corrected.residual(self.criterion);
-        Explanation { faults, stages, residual, is_complete: self.accepts(fit), corrected }
+        let digits = self.context.digits(fit, &self.criterion.digits).into_owned();
+        Explanation { faults, stages, residual, is_complete: self.accepts(fit), corrected, digits }
     }
 }
 

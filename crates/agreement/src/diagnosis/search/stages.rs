@@ -55,8 +55,8 @@ impl ExplanationSearch<'_> {
         let whole: Vec<HypothesisFit> = whole.map(|at| self.context.single(at)).collect();
         let starts: Vec<Option<&HypothesisFit>> =
             gross.iter().take(MAX_GROSS).chain(&whole).chain(&rounding).map(Some).chain([None]).collect();
-        let mut grown: Vec<HypothesisFit> =
-            starts.iter().filter_map(|start| self.with_changed_values(*start)).collect();
+        let nearest = starts.iter().filter_map(|start| self.with_changed_values(*start));
+        let mut grown: Vec<HypothesisFit> = self.fewest_changes().into_iter().chain(nearest).collect();
         if grown.is_empty() {
             // One by one is slower.
             let starts = gross.iter().take(MAX_GROSS_ONE_BY_ONE).map(Some).chain([None]);
@@ -139,7 +139,7 @@ impl ExplanationSearch<'_> {
     }
 
     /// Whether a hypothesis corrects the whole table or whole columns, without a fit.
-    fn is_of_table(&self, hypothesis: usize) -> bool {
+    pub(super) fn is_of_table(&self, hypothesis: usize) -> bool {
         let PoseHypothesis { place, free, .. } = &self.context.hypotheses[hypothesis];
         let is_whole =
             matches!(place, FaultPlace::Model | FaultPlace::Column(_) | FaultPlace::ShiftedColumn(..));
@@ -163,7 +163,7 @@ impl ExplanationSearch<'_> {
     }
 
     /// The fit without the parameters that are not needed; the first `kept` hypotheses stay.
-    fn pruned(&self, mut fit: HypothesisFit, kept: usize) -> HypothesisFit {
+    pub(super) fn pruned(&self, mut fit: HypothesisFit, kept: usize) -> HypothesisFit {
         // The last ones have the smallest effects.
         for at in (kept..fit.hypotheses.len()).rev() {
             if fit.hypotheses.len() <= 1 {
