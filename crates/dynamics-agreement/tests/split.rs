@@ -7,7 +7,7 @@
 mod corpus;
 
 use congruent_description::{Robot, RobotQ, load_robot};
-use congruent_dynamics::SpatialInertia;
+use congruent_dynamics::{JointResistance, SpatialInertia};
 use congruent_dynamics_agreement::{
     DynamicsCause, DynamicsModel, DynamicsReport, Inertial, NamedModel, compare,
 };
@@ -152,6 +152,75 @@ fn counted(name: &str, pairs: usize) -> [usize; 2] {
 fn two_faults_are_named_although_every_link_differs() {
     let found = counted("ur5e", 20);
     assert!(found[0] * 100 >= found[1] * 90, "{found:?}");
+}
+
+/// The damping and the dry friction of all joints of a model, by joint and term.
+fn terms(model: &DynamicsModel) -> Vec<(String, f64)> {
+    let each = model.resistances.iter().enumerate().flat_map(|(joint, of)| {
+        let name = model.frames().joint_name(joint);
+        [(format!("{name} damping"), of.damping), (format!("{name} friction"), of.friction)]
+    });
+    each.collect()
+}
+
+/// The report names each term that differs with its right value, and nothing else but these links.
+fn assert_terms_are_named(
+    [candidate, reference]: [&DynamicsModel; 2],
+    links: &[&str],
+    report: &DynamicsReport,
+) {
+    let found = || report.explanations.iter().flat_map(|of| &of.parameters);
+    let is_of_joint = |of: &str| candidate.frames().find_joint(of).is_some();
+    let named: Vec<(String, f64)> = found()
+        .filter(|of| is_of_joint(&of.of))
+        .map(|of| (format!("{} {}", of.of, of.parameter), of.expected.expect("a value")))
+        .collect();
+    let pairs = terms(candidate).into_iter().zip(terms(reference));
+    let right: Vec<(String, f64)> =
+        pairs.filter(|(of, right)| of.1.total_cmp(&right.1).is_ne()).map(|(_, right)| right).collect();
+    assert_eq!(named.len(), right.len(), "{report:#?}");
+    for (name, value) in &right {
+        assert!(named.iter().any(|of| of.0 == *name && (of.1 - value).abs() < 1e-9), "{name}: {report:#?}");
+    }
+    let of_links: Vec<&str> = found().map(|of| of.of.as_str()).filter(|of| !is_of_joint(of)).collect();
+    assert_eq!(of_links, links, "{report:#?}");
+    assert!(report.explanations.iter().all(|of| !of.sentence().contains('*')), "{report:#?}");
+}
+
+#[test]
+fn damping_and_friction_of_several_joints_are_named_together() {
+    type Change = fn(usize, &mut JointResistance);
+    let changes: [Change; 5] = [
+        |_, of| (of.damping, of.friction) = (of.damping + 0.5, of.friction + 0.3),
+        |_, of| (of.damping, of.friction) = (of.damping * 1.3, of.friction * 0.7),
+        |_, of| (of.damping, of.friction) = (0.0, of.friction + 0.1),
+        |joint, of| (of.damping, of.friction) = if joint == 3 { (1.0, 0.5) } else { (0.0, 0.0) },
+        |joint, of| match joint {
+            1 => of.damping += 0.2,
+            2 => of.damping *= 3.0,
+            4 => of.friction -= 1.0,
+            5 => of.friction += 0.01,
+            _ => {}
+        },
+    ];
+    let path = corpus::workspace().join("robots").join("ur5e");
+    let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
+    let mut reference = DynamicsModel::new(&robot).by_bodies();
+    for (of, size) in reference.resistances.iter_mut().zip([0.0, 1.0, 2.0, 3.0, 4.0, 5.0]) {
+        (of.damping, of.friction) = (1.0 / (1.0 + size), 0.5 + size);
+    }
+    for change in changes {
+        let mut candidate = reference.clone();
+        candidate.resistances.iter_mut().enumerate().for_each(|(joint, of)| change(joint, of));
+        assert_terms_are_named([&candidate, &reference], &[], &compared(&candidate, &reference));
+        // Another split of the same masses has no effect on torques.
+        let split = split_otherwise(&robot, &reference, &mut Uniform::seeded(5));
+        assert_terms_are_named([&candidate, &reference], &[], &compared(&candidate, &split));
+        let fault = Fault { cause: DynamicsCause::Mass, joint: 2 };
+        planted(&mut candidate, fault);
+        let report = compared(&candidate, &reference);
+        assert_terms_are_named([&candidate, &reference], &["forearm_link"], &report);
+    }
 }
 
 #[test]

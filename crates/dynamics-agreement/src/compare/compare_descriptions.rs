@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 
 use super::{
     compare_long::compare_long,
-    link_by_link::{complexity, is_simpler, link_by_link},
+    link_by_link::{complexity, is_simpler, joint_terms_apart, link_by_link},
     named_diagnosis::{NamedDiagnosis, NamedModel},
     statements::StatedReference,
 };
@@ -174,8 +174,8 @@ pub fn compare(
 }
 
 /// The diagnosis of the torque difference; if no single fault explains it, of each link by itself, or of pairs of faults,
-/// whichever is simpler.
-fn diagnose_with_fallbacks(
+/// or of the joint terms apart from the links, whichever is simplest.
+pub(super) fn diagnose_with_fallbacks(
     setting: &DiagnosisInput<'_>,
     files: ModelFiles<'_>,
     reference_in_candidate: &DynamicsModel,
@@ -198,6 +198,11 @@ fn diagnose_with_fallbacks(
         }
         if !by_link.is_empty() && is_simpler(&by_link, &diagnosis.explanations) {
             diagnosis.explanations = by_link;
+            diagnosis.indistinguishable.clear();
+        }
+        let apart = joint_terms_apart(setting, files, reference_in_candidate, expected)?;
+        if !apart.is_empty() && is_simpler(&apart, &diagnosis.explanations) {
+            diagnosis.explanations = apart;
             diagnosis.indistinguishable.clear();
         }
     }

@@ -2,11 +2,14 @@
 
 use congruent_dynamics::DynamicsError;
 
-use super::unmatched::Unmatched;
+use super::{
+    compare_descriptions::{CompareError, diagnose_with_fallbacks},
+    unmatched::Unmatched,
+};
 use crate::{
     diagnosis::{
         DiagnosisInput, ExactExplanation, ExplanationGroup, ReferenceTorques, diagnose_in_stages,
-        part_by_part,
+        part_by_part, term_by_term,
     },
     model::DynamicsModel,
     report::{content::DynamicsExplanation, explained::ExplanationContext, places::ModelFiles},
@@ -63,6 +66,36 @@ pub(super) fn link_by_link(
     Ok(explanations)
 }
 
+/// The joint terms by themselves, and what differs beside them, diagnosed with the right terms: values of links that only
+/// their combinations determine may be split in another manner, which has no effect on torques and is then no part of the
+/// explanation. Empty if no term differs, or if the rest has no explanation.
+pub(super) fn joint_terms_apart(
+    setting: &DiagnosisInput<'_>,
+    files: ModelFiles<'_>,
+    reference_in_candidate: &DynamicsModel,
+    expected: ReferenceTorques<'_>,
+) -> Result<Vec<DynamicsExplanation>, CompareError> {
+    let (model, states) = (setting.candidate, expected.states);
+    let right = DynamicsModel { resistances: reference_in_candidate.resistances.clone(), ..model.clone() };
+    if right.resistances == model.resistances {
+        return Ok(Vec::new());
+    }
+    let torque = ReducedTorqueDifference::new(model, states, &torques(&right, states)?)?;
+    let of_terms = DiagnosisInput { reference: Some(&right), pairs: false, ..*setting };
+    let Alone::Explained(cause) = alone(&of_terms, &right, None, &torque, states)? else {
+        return Ok(Vec::new());
+    };
+    let mut explanations = vec![ExplanationContext::new(&of_terms, files, &torque).explanation(&cause)];
+    let rest = ReducedTorqueDifference::new(&right, states, expected.torques)?;
+    let setting = DiagnosisInput { candidate: &right, ..*setting };
+    let rest = diagnose_with_fallbacks(&setting, files, reference_in_candidate, &rest, expected)?;
+    if !rest.same && rest.explanations.is_empty() {
+        return Ok(Vec::new());
+    }
+    explanations.extend(rest.explanations);
+    Ok(explanations)
+}
+
 /// The candidate with all parameters of the reference whose link or joint exists in both; and the candidate with one of
 /// them each: gravity, the joint terms, and every link with its index.
 fn one_by_one(
@@ -97,7 +130,7 @@ enum Alone {
 }
 
 /// The simplest cause that changes no equal parameter: one for the whole link, or one each for its mass, centre of mass and
-/// inertia.
+/// inertia; one for all joint terms, or one for each of them.
 fn alone(
     setting: &DiagnosisInput<'_>,
     one: &DynamicsModel,
@@ -111,9 +144,10 @@ fn alone(
         return Ok(Alone::Same);
     }
     let by_parts = match link.and_then(|link| Some((link, one.inertials[link].as_ref()?))) {
-        Some((link, right)) => part_by_part(setting, link, right, states)?.map(ExactExplanation::alone),
-        None => None,
+        Some((link, right)) => part_by_part(setting, link, right, states)?,
+        None => term_by_term(setting, &one.resistances, states)?,
     };
+    let by_parts = by_parts.map(ExactExplanation::alone);
     let whole = found.explanations.into_iter().next();
     let best = whole.into_iter().chain(by_parts).min_by(|a, b| {
         let of = |grouped: &ExplanationGroup| (grouped.named.contradicted, grouped.named.complexity);
@@ -123,11 +157,11 @@ fn alone(
     Ok(best.map_or(Alone::Unexplained, |best| Alone::Explained(Box::new(best))))
 }
 
-/// Whether the diagnosis link by link is simpler than the first explanation by torques: it has a lower complexity, or the
-/// other one changes a parameter that is equal in both files.
-pub(super) fn is_simpler(by_link: &[DynamicsExplanation], by_torque: &[DynamicsExplanation]) -> bool {
-    let Some(first) = by_torque.first() else { return true };
-    !by_link.is_empty() && (first.contradicted || complexity(by_link) < first.numbers)
+/// Whether explanations part by part are simpler than others: they have a lower complexity, or the others change a parameter
+/// that is equal in both files.
+pub(super) fn is_simpler(by_part: &[DynamicsExplanation], others: &[DynamicsExplanation]) -> bool {
+    let Some(first) = others.first() else { return true };
+    !by_part.is_empty() && (first.contradicted || complexity(by_part) < complexity(others))
 }
 
 /// The complexity of explanations that hold together.

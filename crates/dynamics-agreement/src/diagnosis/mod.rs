@@ -14,6 +14,7 @@ mod part_by_part;
 mod rank;
 mod reason;
 mod search;
+mod term_by_term;
 
 pub(crate) use cause::{rounded_damping_unit, rounded_unit};
 pub use cause_names::DynamicsCause;
@@ -24,6 +25,7 @@ pub(crate) use hypothesis::{DynamicsHypothesis, DynamicsPlace};
 pub(crate) use part_by_part::part_by_part;
 pub(crate) use rank::ExactExplanation;
 pub use reason::EquivalenceReason;
+pub(crate) use term_by_term::term_by_term;
 
 #[cfg(test)]
 mod planted;

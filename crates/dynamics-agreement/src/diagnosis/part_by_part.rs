@@ -4,7 +4,7 @@
 use congruent_dynamics::DynamicsError;
 
 use super::{
-    cause::{self, common_mistake::CommonMistake},
+    cause,
     cause_names::DynamicsCause,
     diagnose::DiagnosisInput,
     fit::{Corrected, FittedHypothesis, Target},
@@ -27,16 +27,6 @@ const FREE: [(DynamicsCause, FreeParameters); 3] = [
     (DynamicsCause::Inertia, FreeParameters::Inertia),
 ];
 
-/// One part of a link's parameters: its mass, its centre of mass or its inertia.
-struct LinkPart<'a> {
-    link: usize,
-    /// The common mistakes that may explain it.
-    mistakes: &'a [CommonMistake<'a>],
-    /// The cause if none of the specific ones has a residual within tolerance, and its parameters.
-    cause: DynamicsCause,
-    free: FreeParameters,
-}
-
 /// Causes of the parameters of a link that differ from the other description: first of the mass, then of the centre of mass
 /// with the right mass, then of the inertia with both. `None` if none of them has an effect on torques.
 pub(crate) fn part_by_part(
@@ -57,29 +47,35 @@ pub(crate) fn part_by_part(
         let mut after = before.clone();
         after.inertials[link] = Some(next);
         let torque = ReducedTorqueDifference::new(&before, states, &torques(&after, states)?)?;
-        let part = LinkPart { link, mistakes: &mistakes, cause, free };
-        parts.extend(one_part(setting, [&before, &after], &torque, &part));
+        let hypotheses = cause::link_hypotheses(&before, Some(&after), setting.faulty, &mistakes, link);
+        let place = DynamicsPlace::Links(vec![link]);
+        let off = FittedHypothesis {
+            hypothesis: DynamicsHypothesis::new(cause, "", place, Change::FreeLink { link, free }),
+            corrected: Corrected { links: vec![(link, next)], ..Corrected::default() },
+            residual_norm: 0.0,
+            rank: free.count(),
+        };
+        parts.extend(best_cause(setting, [&before, &after], &torque, &hypotheses, off));
         // Each part is compared with the one before it, so that its torque difference is that of this part alone.
         before = after;
     }
     Ok((!parts.is_empty()).then(|| ExactExplanation::new(parts, setting.candidate, setting.reference)))
 }
 
-/// The best cause of one part; `None` if it has no effect on torques.
-fn one_part(
+/// The best of some causes of one part, else `off`, with the values of `off`; `None` if the part has no effect on torques.
+pub(super) fn best_cause(
     setting: &DiagnosisInput<'_>,
     [before, after]: [&DynamicsModel; 2],
     torque: &ReducedTorqueDifference,
-    part: &LinkPart<'_>,
+    hypotheses: &[DynamicsHypothesis],
+    off: FittedHypothesis,
 ) -> Option<FittedHypothesis> {
-    let &LinkPart { link, mistakes, cause, free } = part;
     let size = libm::hypot(torque.difference.norm(), torque.outside);
     if size <= setting.precision.same * torque.torques {
         return None;
     }
     let exact = setting.precision.exact(size, torque.torques);
     let target = Target { model: before, torque, exact };
-    let hypotheses = cause::link_hypotheses(before, Some(after), setting.faulty, mistakes, link);
     let fits = hypotheses.iter().filter_map(|hypothesis| target.fit(hypothesis));
     let mut found: Vec<ExactExplanation> = fits
         .map(|fit| ExactExplanation::new(vec![fit], before, Some(after)))
@@ -88,21 +84,7 @@ fn one_part(
         .collect();
     found.sort_by(|a, b| a.rank().cmp(&b.rank()));
     let best = found.into_iter().next().and_then(|mut exact| exact.parts.pop());
-    let off = || {
-        let hypothesis = DynamicsHypothesis::new(
-            cause,
-            "",
-            DynamicsPlace::Links(vec![link]),
-            Change::FreeLink { link, free },
-        );
-        FittedHypothesis {
-            hypothesis,
-            corrected: Corrected::default(),
-            residual_norm: 0.0,
-            rank: free.count(),
-        }
-    };
     // Not every free parameter is identifiable, so the values come from the other description, not from the fit.
-    let corrected = Corrected { links: vec![(link, after.inertials[link]?)], ..Corrected::default() };
-    Some(FittedHypothesis { corrected, ..best.unwrap_or_else(off) })
+    let corrected = off.corrected.clone();
+    Some(FittedHypothesis { corrected, ..best.unwrap_or(off) })
 }

@@ -40,23 +40,26 @@ impl ParameterDifference {
 impl DynamicsExplanation {
     /// `forearm_link: the centre of mass is given in another unit (mm)`.
     pub fn sentence(&self) -> String {
-        let place = match self.place.join(", ") {
-            all if all == "*" && self.cause.is_of_joints() => "all joints".to_owned(),
-            all if all == "*" => "all links".to_owned(),
-            place => place,
-        };
         if self.cause == DynamicsCause::Several {
-            let parts = self
-                .parts
-                .iter()
-                .map(|part| format!("{}: {}", part.place.join(", "), part.cause.with_detail(&part.detail)));
+            let parts = self.parts.iter().map(|part| {
+                format!("{}: {}", part.cause.at(&part.place), part.cause.with_detail(&part.detail))
+            });
             return parts.collect::<Vec<String>>().join("; ");
         }
-        format!("{place}: {}", self.cause.with_detail(&self.detail))
+        format!("{}: {}", self.cause.at(&self.place), self.cause.with_detail(&self.detail))
     }
 }
 
 impl DynamicsCause {
+    /// The names of a place as the subject of a sentence.
+    fn at(self, place: &[String]) -> String {
+        match place.join(", ") {
+            all if all == "*" && self.is_of_joints() => "all joints".to_owned(),
+            all if all == "*" => "all links".to_owned(),
+            place => place,
+        }
+    }
+
     /// `the centre of mass is given in another unit (mm)`.
     fn with_detail(self, detail: &str) -> String {
         match (self, detail) {
