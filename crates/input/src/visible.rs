@@ -5,21 +5,23 @@ use std::borrow::Cow;
 
 /// Whether a character is invisible: a control character, a mark of direction, a separator of lines, or one without width.
 pub fn is_hidden(c: char) -> bool {
+    // Nearly all characters are below the first that is hidden without being a control character.
     c.is_control()
-        || matches!(
-            c,
-            '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}'
-                | '\u{180b}'..='\u{180f}'
-                | '\u{200b}'..='\u{200f}'
-                | '\u{2028}'..='\u{202e}'
-                | '\u{2060}'..='\u{206f}'
-                | '\u{3164}' | '\u{feff}' | '\u{ffa0}'
-                | '\u{fff0}'..='\u{fffb}'
-                | '\u{fffe}' | '\u{ffff}'
-                | '\u{1bca0}'..='\u{1bca3}'
-                | '\u{1d173}'..='\u{1d17a}'
-                | '\u{e0000}'..='\u{e0fff}'
-        )
+        || c >= '\u{ad}'
+            && matches!(
+                c,
+                '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}'
+                    | '\u{180b}'..='\u{180f}'
+                    | '\u{200b}'..='\u{200f}'
+                    | '\u{2028}'..='\u{202e}'
+                    | '\u{2060}'..='\u{206f}'
+                    | '\u{3164}' | '\u{feff}' | '\u{ffa0}'
+                    | '\u{fff0}'..='\u{fffb}'
+                    | '\u{fffe}' | '\u{ffff}'
+                    | '\u{1bca0}'..='\u{1bca3}'
+                    | '\u{1d173}'..='\u{1d17a}'
+                    | '\u{e0000}'..='\u{e0fff}'
+            )
 }
 
 /// The first hidden character, as people name it: `U+001B`.
@@ -51,7 +53,10 @@ pub fn visible_lines(text: &str) -> Cow<'_, str> {
 }
 
 fn written(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
-    let Some(first) = text.find(&is_escaped) else { return Cow::Borrowed(text) };
+    // Nearly every text is printable ASCII.
+    let printable = text.bytes().take_while(|byte| matches!(byte, b' '..=b'~')).count();
+    let Some(first) = text[printable..].find(&is_escaped) else { return Cow::Borrowed(text) };
+    let first = printable + first;
     let (plain, rest) = text.split_at(first);
     let mut written = plain.to_owned();
     for c in rest.chars() {
