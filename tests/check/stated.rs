@@ -121,26 +121,129 @@ fn a_mass_on_a_frame_at_the_tip_is_a_payload() {
     assert_eq!((&first["cause"], &first["place"]), (&json!("payload"), &json!(["tool"])), "{printed}");
 }
 
+/// A description without the `<dynamics>` of its joints.
+fn undamped(urdf: &str, dampings: &[&str]) -> String {
+    dampings.iter().fold(urdf.to_owned(), |urdf, damping| {
+        urdf.replace(&format!("<dynamics damping=\"{damping}\" friction=\"0\"/>"), "")
+    })
+}
+
 #[test]
-fn a_file_of_geometry_alone_is_no_reference_for_damping() {
-    let undamped = |urdf: &str| {
-        [" damping=\"1\"", " damping=\"0.5\"", " damping=\"0.1\""]
-            .iter()
-            .fold(urdf.to_owned(), |urdf, damping| {
-                urdf.replace(&format!("<dynamics{damping} friction=\"0\"/>"), "")
-            })
-    };
-    let (answer, printed) = against(ARM, &undamped(&without_inertials(&LINKS)), &[]);
-    assert_eq!(answer.code, 0, "{printed}");
+fn a_joint_without_dynamics_is_no_reference_for_damping() {
+    let all = ["1", "0.5", "0.1"];
+    for (masses, first) in [(without_inertials(&LINKS), Some("masses of all links")), (ARM.to_owned(), None)]
+    {
+        let silent = undamped(&masses, &all);
+        let (answer, printed) = against(ARM, &silent, &[]);
+        assert_eq!(answer.code, 0, "{printed}");
+        let report = answer.json();
+        let not_stated = names(&dynamics(&report)["not_stated"]);
+        let expected: Vec<&str> =
+            first.into_iter().chain(["damping and dry friction of all joints"]).collect();
+        assert_eq!(not_stated, expected, "{printed}");
+        assert!(!printed.contains("to write in"), "{printed}");
+        // The other file still lacks what this one states.
+        assert_eq!(against(&silent, ARM, &[]).0.code, 1);
+        // A zero that is written is a statement.
+        let zero = masses.replace("damping=\"1\"", "damping=\"0\"");
+        assert_eq!(against(ARM, &zero, &[]).0.code, 1);
+    }
+    // One silent joint, and another that differs.
+    let other = undamped(&with("damping=\"1\"", "damping=\"2\""), &["0.5"]);
+    let (answer, printed) = against(ARM, &other, &[]);
     let report = answer.json();
-    let not_stated = names(&dynamics(&report)["not_stated"]);
-    assert_eq!(not_stated, ["masses of all links", "damping and dry friction of all joints"]);
-    // With masses, the default of the format is a statement: no damping. A zero that is written is one in any case.
-    assert_eq!(against(ARM, &undamped(ARM), &[]).0.code, 1);
-    assert_eq!(
-        against(ARM, &without_inertials(&LINKS).replace("damping=\"1\"", "damping=\"0\""), &[]).0.code,
-        1
+    let compared = dynamics(&report);
+    assert_eq!(names(&compared["not_stated"]), ["damping and dry friction of lift"], "{printed}");
+    let [explanation] = &compared["explanations"].as_array().unwrap()[..] else { panic!("{compared:#}") };
+    assert_eq!((&explanation["cause"], &explanation["place"]), (&json!("damping"), &json!(["turn"])));
+    // A file that leaves most joints without an entry has no damping there by the default of the format, and so has the other.
+    let (answer, printed) = against(&undamped(ARM, &["0.5", "0.1"]), &undamped(ARM, &all), &[]);
+    let report = answer.json();
+    let first = &dynamics(&report)["explanations"][0];
+    assert_eq!((answer.code, &first["place"]), (1, &json!(["turn"])), "{printed}");
+}
+
+/// The arm with some mass on the axis of `bend` moved from the body behind this joint to the one before it.
+fn split_otherwise() -> String {
+    // 0.4 kg at the origin of the joint, (0.3, 0.03, 0.02) in the link before it: by hand, with Steiner's theorem.
+    let com = |mass: f64, at: [f64; 3], more: f64, there: [f64; 3]| -> (f64, [f64; 3], [[f64; 3]; 3]) {
+        let sum = mass + more;
+        let com: [f64; 3] = std::array::from_fn(|axis| (mass * at[axis] + more * there[axis]) / sum);
+        let about = |mass: f64, at: [f64; 3], row: usize, column: usize| {
+            let square: f64 = at.iter().map(|at| at * at).sum();
+            mass * (if row == column { square } else { 0.0 } - at[row] * at[column])
+        };
+        let shift = std::array::from_fn(|row| {
+            std::array::from_fn(|column| {
+                about(mass, at, row, column) + about(more, there, row, column) - about(sum, com, row, column)
+            })
+        });
+        (sum, com, shift)
+    };
+    let inertial = |(mass, com, shift): (f64, [f64; 3], [[f64; 3]; 3]), tensor: [f64; 6]| {
+        let [xx, yy, zz, xy, xz, yz] = tensor;
+        let xyz = com.map(|of| format!("{of:?}")).join(" ");
+        format!(
+            "<inertial><origin xyz=\"{xyz}\"/><mass value=\"{mass:?}\"/>\n<inertia ixx=\"{:?}\" iyy=\"{:?}\" izz=\"{:?}\" \
+             ixy=\"{:?}\" ixz=\"{:?}\" iyz=\"{:?}\"/></inertial></link>",
+            xx + shift[0][0],
+            yy + shift[1][1],
+            zz + shift[2][2],
+            xy + shift[0][1],
+            xz + shift[0][2],
+            yz + shift[1][2]
+        )
+    };
+    let second = inertial(
+        com(6.0, [0.1, -0.02, 0.03], 0.4, [0.3, 0.03, 0.02]),
+        [0.1, 0.12, 0.15, 0.004, 0.006, -0.002],
     );
+    let third =
+        inertial(com(2.0, [0.02, 0.01, 0.05], -0.4, [0.0; 3]), [0.01, 0.012, 0.014, 0.001, 0.0002, 0.0003]);
+    let mut urdf = ARM.to_owned();
+    for (link, inertial) in [("second", second), ("third", third)] {
+        let tag = format!("<link name=\"{link}\">");
+        let from = urdf.find(&tag).unwrap() + tag.len();
+        let to = from + urdf[from..].find("</link>").unwrap() + "</link>".len();
+        urdf.replace_range(from..to, &inertial);
+    }
+    urdf
+}
+
+#[test]
+fn what_an_unstated_mass_can_explain_is_no_difference() {
+    let split = split_otherwise();
+    let (answer, printed) = against(&split, ARM, &[]);
+    let report = answer.json();
+    assert_eq!((answer.code, &dynamics(&report)["verdict"]), (0, &json!("same_torques")), "{printed}");
+    // With some masses on `third`, the rest of the file has the torques of the other one: nothing contradicts it.
+    for lacking in ["second", "first"] {
+        let other = without_inertials(&[lacking]);
+        let (answer, printed) = against(&split, &other, &[]);
+        assert_eq!(answer.code, 0, "{lacking}: {printed}");
+        assert!(!printed.contains("to write in"), "{printed}");
+        let not_stated = format!("masses of {lacking}");
+        assert_eq!(names(&dynamics(&answer.json())["not_stated"]), [not_stated.as_str()], "{printed}");
+    }
+    // A difference that no masses there explain is one, with its cause.
+    let other = without_inertials(&["second"]).replace("mass value=\"2\"", "mass value=\"2.5\"");
+    let (answer, printed) = against(&split, &other, &[]);
+    assert_eq!(answer.code, 1, "{printed}");
+    let (answer, printed) = against(ARM, &other, &[]);
+    let report = answer.json();
+    let first = &dynamics(&report)["explanations"][0];
+    assert_eq!((&first["cause"], &first["place"]), (&json!("mass"), &json!(["third"])), "{printed}");
+}
+
+#[test]
+fn a_mass_of_zero_is_none() {
+    let zero = with("<mass value=\"6\"/>", "<mass value=\"0\"/>").replace(
+        "ixx=\"0.1\" iyy=\"0.12\" izz=\"0.15\" ixy=\"0.004\" ixz=\"0.006\" iyz=\"-0.002\"",
+        "ixx=\"0\" iyy=\"0\" izz=\"0\" ixy=\"0\" ixz=\"0\" iyz=\"0\"",
+    );
+    let (answer, printed) = against(ARM, &zero, &[]);
+    assert_eq!(answer.code, 0, "{printed}");
+    assert!(printed.contains("masses of second (0 there, which is no mass)"), "{printed}");
 }
 
 #[test]

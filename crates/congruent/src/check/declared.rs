@@ -72,7 +72,8 @@ pub(super) fn compared(
             cost(&other, reach_m, |_| false),
         ];
         let mut sides = [&by_urdf, &by_file];
-        if of_file < of_urdf {
+        // A URDF that does not state a value is no reference for it: it is the one that lacks the value.
+        if of_file < of_urdf && other.not_stated.is_empty() {
             std::mem::swap(&mut report, &mut other);
             sides = [&file_in_entries, &urdf_in_entries];
         }

@@ -104,11 +104,11 @@ impl UrdfPlaces {
         Some(place(last(document.root_element(), "joint", name)?, "dynamics"))
     }
 
-    /// Whether any joint has a `<dynamics>`: if none has one, the file says nothing about damping and dry friction.
-    pub fn has_joint_dynamics(&self) -> bool {
+    /// Whether a joint has a `<dynamics>`: if not, the file says nothing about its damping and dry friction.
+    pub fn has_joint_dynamics(&self, name: &str) -> bool {
         let document = xml::parse(&self.source.text).ok();
         document.is_some_and(|document| {
-            elements(document.root_element(), "joint").any(|joint| element(joint, "dynamics").is_some())
+            last(document.root_element(), "joint", name).and_then(|of| element(of, "dynamics")).is_some()
         })
     }
 
@@ -185,7 +185,7 @@ mod tests {
         assert_eq!(places.link_with_its_joint("b").as_deref(), Some(with_joint));
         assert_eq!(places.link_with_its_joint("a").as_deref(), Some("<link name='a'/>"));
         assert_eq!(places.link_with_its_joint("j"), None);
-        assert!(!places.has_joint_dynamics());
+        assert!(!places.has_joint_dynamics("j"));
     }
 
     #[test]

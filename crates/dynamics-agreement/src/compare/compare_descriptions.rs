@@ -5,17 +5,20 @@ use nalgebra::Matrix3;
 
 use super::{
     compare_long::compare_long,
-    link_by_link::{complexity, is_simpler, joint_terms_apart, link_by_link},
+    link_by_link::{complexity, is_simpler, joint_terms_alone, link_by_link},
     named_diagnosis::{NamedDiagnosis, NamedModel},
-    statements::StatedReference,
+    statements::{StatedReference, with_fitted_bodies},
 };
 use crate::{
     bound,
     diagnosis::{DiagnosisInput, FaultySide, ReferenceTorques},
-    differences::{hidden, invariants::invariants, limits},
+    differences::{ParameterDifference, hidden, invariants::invariants, limits},
     model::{DynamicsModel, Inertial, JointTerm},
     report::{
-        content::{ComparedModels, DynamicsPremise, DynamicsReport, DynamicsVerdict, TorqueCertificates},
+        content::{
+            ComparedModels, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict,
+            TorqueCertificates,
+        },
         places::ModelFiles,
     },
     thresholds::{COMPLEXITY_OF_PAIRS, INVARIANT_STATES, MOST_JOINTS, Precision, STATES},
@@ -72,8 +75,9 @@ pub enum CompareError {
 /// Links and joints are matched by name; frames of equal name must be equal, which is the question of the kinematic
 /// comparison before this one.
 ///
-/// What the reference does not state is not compared: the masses of a moving body without any, and damping and dry friction if
-/// it states neither a mass nor these.
+/// What the reference does not state is not compared: the masses of a moving body without any (which may be any masses, also in
+/// the torques of others), and damping and dry friction of a joint without an entry for them, if the candidate has such entries
+/// at most joints.
 ///
 /// For more than 60 joints no cause is searched: the report has the difference of torques and the parameters that differ.
 ///
@@ -106,7 +110,7 @@ pub fn compare(
     seed: u64,
 ) -> Result<DynamicsReport, CompareError> {
     let joints = comparable(candidate.model, reference.model)?;
-    let stated = StatedReference::new(candidate.model, reference, &joints);
+    let stated = StatedReference::new(candidate, reference, &joints);
     let reference = &NamedModel { model: &stated.model, ..*reference };
     let reference_in_candidate = in_geometry_of(candidate.model, reference.model, &joints);
     let states = random_states(&candidate.model.frames, seed, STATES);
@@ -117,13 +121,16 @@ pub fn compare(
         let report = compare_long(candidate, reference, &reference_in_candidate, &joints, expected)?;
         return Ok(DynamicsReport { not_stated: stated.not_stated, ..report });
     }
-    let torque = ReducedTorqueDifference::new(candidate.model, &states, &torques)?;
+    let torque_with_all = ReducedTorqueDifference::new(candidate.model, &states, &torques)?;
+    // Masses that the reference does not state may be any: what they can add to the torques is no difference.
+    let torque = torque_with_all.without_bodies(&candidate.model.frames, &stated.unstated);
     let setting = DiagnosisInput {
         candidate: candidate.model,
         reference: Some(reference.model),
         faulty: FaultySide::Candidate,
         precision: Precision::EXACT,
         pairs: false,
+        unstated: &stated.unstated,
     };
     let files = ModelFiles { found: candidate.places, expected: reference.places };
     let mut diagnosis = diagnose_with_fallbacks(&setting, files, &reference_in_candidate, &torque, expected)?;
@@ -135,18 +142,13 @@ pub fn compare(
     // differences may cancel.
     let resolution = if diagnosis.same { f64::INFINITY } else { Precision::EXACT.of_torque };
     let mut hidden_differences =
-        hidden::without_effect(candidate.model, reference.model, &torque, resolution);
+        hidden::without_effect(candidate.model, reference.model, &torque_with_all, resolution);
     files.place(&mut hidden_differences);
     let mut limits = limits::differences(candidate.model, reference.model, &joints);
     files.place_limits(&mut limits);
-    // Equal torques with differing parameters are `SameTorques`: hidden differences are reported, but do not
-    // decide.
-    let verdict = match (diagnosis.same, differences.is_empty()) {
-        (true, _) if !stated.has_mass => DynamicsVerdict::NotCompared,
-        (true, true) => DynamicsVerdict::Same,
-        _ => diagnosis.verdict(),
-    };
-    let tree = reference_in_candidate.tree().without_resistances();
+    let verdict = verdict(&diagnosis, &stated, &differences);
+    let fitted = with_fitted_bodies(&reference_in_candidate, &stated.unstated, &torque_with_all);
+    let tree = fitted.tree().without_resistances();
     Ok(DynamicsReport {
         sides: ComparedModels {
             candidate: candidate.name.to_owned(),
@@ -173,9 +175,22 @@ pub fn compare(
     })
 }
 
+/// Equal torques with differing parameters are `SameTorques`: hidden differences are reported, but do not decide.
+fn verdict(
+    diagnosis: &NamedDiagnosis,
+    stated: &StatedReference,
+    differences: &[ParameterDifference],
+) -> DynamicsVerdict {
+    match (diagnosis.same, differences.is_empty()) {
+        (true, _) if !stated.has_mass => DynamicsVerdict::NotCompared,
+        (true, true) => DynamicsVerdict::Same,
+        _ => diagnosis.verdict(),
+    }
+}
+
 /// The diagnosis of the torque difference; if no single fault explains it, of each link by itself, or of pairs of faults,
 /// or of the joint terms apart from the links, whichever is simplest.
-pub(super) fn diagnose_with_fallbacks(
+fn diagnose_with_fallbacks(
     setting: &DiagnosisInput<'_>,
     files: ModelFiles<'_>,
     reference_in_candidate: &DynamicsModel,
@@ -209,6 +224,31 @@ pub(super) fn diagnose_with_fallbacks(
     Ok(diagnosis)
 }
 
+/// The joint terms by themselves, and what differs beside them, diagnosed with the right terms: values of links that only
+/// their combinations determine may be split in another manner, which has no effect on torques and is then no part of the
+/// explanation. Empty if no term differs, or if the rest has no explanation.
+fn joint_terms_apart(
+    setting: &DiagnosisInput<'_>,
+    files: ModelFiles<'_>,
+    reference_in_candidate: &DynamicsModel,
+    expected: ReferenceTorques<'_>,
+) -> Result<Vec<DynamicsExplanation>, CompareError> {
+    let model = setting.candidate;
+    let right = DynamicsModel { resistances: reference_in_candidate.resistances.clone(), ..model.clone() };
+    if right.resistances == model.resistances {
+        return Ok(Vec::new());
+    }
+    let Some(terms) = joint_terms_alone(setting, files, &right, expected.states)? else {
+        return Ok(Vec::new());
+    };
+    let rest = setting.torque_difference(&right, expected)?;
+    let setting = DiagnosisInput { candidate: &right, ..*setting };
+    let rest = diagnose_with_fallbacks(&setting, files, reference_in_candidate, &rest, expected)?;
+    let is_explained = rest.same || !rest.explanations.is_empty();
+    let all = std::iter::once(terms).chain(rest.explanations);
+    Ok(if is_explained { all.collect() } else { Vec::new() })
+}
+
 /// Brackets the largest torque differences between two descriptions of the same chain; takes seconds for a long arm.
 ///
 /// # Errors
@@ -220,8 +260,13 @@ pub fn certify(
 ) -> Result<TorqueCertificates, CompareError> {
     let joints = comparable(candidate.model, reference.model)?;
     check_count(joints.len())?;
-    let stated = StatedReference::new(candidate.model, reference, &joints);
-    let reference = in_geometry_of(candidate.model, &stated.model, &joints);
+    let stated = StatedReference::new(candidate, reference, &joints);
+    let mut reference = in_geometry_of(candidate.model, &stated.model, &joints);
+    if !stated.unstated.is_empty() {
+        let states = random_states(&candidate.model.frames, seed, STATES);
+        let torque = ReducedTorqueDifference::new(candidate.model, &states, &torques(&reference, &states)?)?;
+        reference = with_fitted_bodies(&reference, &stated.unstated, &torque);
+    }
     let certified = bound::certify(candidate.model, &reference, seed)?;
     Ok(TorqueCertificates {
         gravity: certified.gravity,

@@ -45,6 +45,7 @@ pub fn compare_with_source(
         faulty: FaultySide::Reference,
         precision: Precision::ENGINE,
         pairs: true,
+        unstated: &[],
     };
     let expected = ReferenceTorques { states: &states, torques: &torques };
     let files = ModelFiles { found: candidate.places, expected: None };

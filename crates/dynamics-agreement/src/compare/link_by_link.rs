@@ -2,10 +2,7 @@
 
 use congruent_dynamics::DynamicsError;
 
-use super::{
-    compare_descriptions::{CompareError, diagnose_with_fallbacks},
-    unmatched::Unmatched,
-};
+use super::unmatched::Unmatched;
 use crate::{
     diagnosis::{
         DiagnosisInput, ExactExplanation, ExplanationGroup, ReferenceTorques, diagnose_in_stages,
@@ -42,7 +39,8 @@ pub(super) fn link_by_link(
     let mut explanations = unmatched.explanations(files);
     let mut causes = Vec::new();
     for (one, link) in &corrected {
-        let torque = ReducedTorqueDifference::new(model, states, &torques(one, states)?)?;
+        let torques = torques(one, states)?;
+        let torque = setting.torque_difference(model, ReferenceTorques { states, torques: &torques })?;
         // The corrected copy is the reference of this link: every cause that changes anything else is
         // contradicted.
         let setting = DiagnosisInput { reference: Some(one), pairs: false, ..*setting };
@@ -66,34 +64,24 @@ pub(super) fn link_by_link(
     Ok(explanations)
 }
 
-/// The joint terms by themselves, and what differs beside them, diagnosed with the right terms: values of links that only
-/// their combinations determine may be split in another manner, which has no effect on torques and is then no part of the
-/// explanation. Empty if no term differs, or if the rest has no explanation.
-pub(super) fn joint_terms_apart(
+/// The explanation of the joint terms alone, if `right` is the candidate with the right ones; `None` if they differ without an
+/// effect.
+pub(super) fn joint_terms_alone(
     setting: &DiagnosisInput<'_>,
     files: ModelFiles<'_>,
-    reference_in_candidate: &DynamicsModel,
-    expected: ReferenceTorques<'_>,
-) -> Result<Vec<DynamicsExplanation>, CompareError> {
-    let (model, states) = (setting.candidate, expected.states);
-    let right = DynamicsModel { resistances: reference_in_candidate.resistances.clone(), ..model.clone() };
-    if right.resistances == model.resistances {
-        return Ok(Vec::new());
-    }
-    let torque = ReducedTorqueDifference::new(model, states, &torques(&right, states)?)?;
-    let of_terms = DiagnosisInput { reference: Some(&right), pairs: false, ..*setting };
-    let Alone::Explained(cause) = alone(&of_terms, &right, None, &torque, states)? else {
-        return Ok(Vec::new());
-    };
-    let mut explanations = vec![ExplanationContext::new(&of_terms, files, &torque).explanation(&cause)];
-    let rest = ReducedTorqueDifference::new(&right, states, expected.torques)?;
-    let setting = DiagnosisInput { candidate: &right, ..*setting };
-    let rest = diagnose_with_fallbacks(&setting, files, reference_in_candidate, &rest, expected)?;
-    if !rest.same && rest.explanations.is_empty() {
-        return Ok(Vec::new());
-    }
-    explanations.extend(rest.explanations);
-    Ok(explanations)
+    right: &DynamicsModel,
+    states: &[SampledState],
+) -> Result<Option<DynamicsExplanation>, DynamicsError> {
+    let torques = torques(right, states)?;
+    let torque =
+        setting.torque_difference(setting.candidate, ReferenceTorques { states, torques: &torques })?;
+    let setting = DiagnosisInput { reference: Some(right), pairs: false, ..*setting };
+    Ok(match alone(&setting, right, None, &torque, states)? {
+        Alone::Explained(cause) => {
+            Some(ExplanationContext::new(&setting, files, &torque).explanation(&cause))
+        }
+        Alone::Same | Alone::Unexplained => None,
+    })
 }
 
 /// The candidate with all parameters of the reference whose link or joint exists in both; and the candidate with one of
@@ -177,7 +165,7 @@ fn is_same(
     setting: &DiagnosisInput<'_>,
     states: &[SampledState],
 ) -> Result<bool, DynamicsError> {
-    let torque = ReducedTorqueDifference::new(a, states, &torques(b, states)?)?;
+    let torque = setting.torque_difference(a, ReferenceTorques { states, torques: &torques(b, states)? })?;
     let size = libm::hypot(torque.difference.norm(), torque.outside);
     Ok(size <= setting.precision.same * torque.torques)
 }

@@ -25,6 +25,20 @@ pub(crate) struct DiagnosisInput<'a> {
     pub(crate) precision: Precision,
     /// Whether pairs of faults at two places are searched for.
     pub(crate) pairs: bool,
+    /// Bodies whose masses the reference does not state: whatever they can add to the torques is no difference.
+    pub(crate) unstated: &'a [usize],
+}
+
+impl DiagnosisInput<'_> {
+    /// The torque difference of a model in the candidate's frames, without what the reference does not state.
+    pub(crate) fn torque_difference(
+        &self,
+        model: &DynamicsModel,
+        expected: ReferenceTorques<'_>,
+    ) -> Result<ReducedTorqueDifference, DynamicsError> {
+        let torque = ReducedTorqueDifference::new(model, expected.states, expected.torques)?;
+        Ok(torque.without_bodies(&model.frames, self.unstated))
+    }
 }
 
 /// The result of a diagnosis: explanations, the best first.
@@ -78,7 +92,7 @@ pub(crate) fn diagnose_in_stages(
     };
     // Second stage: with the first correction applied, precision is relative to the remaining difference.
     let corrected = named.corrected.model(setting.candidate);
-    let rest = ReducedTorqueDifference::new(&corrected, expected.states, expected.torques)?;
+    let rest = setting.torque_difference(&corrected, expected)?;
     let second = diagnose(&DiagnosisInput { candidate: &corrected, ..*setting }, &rest);
     // Nothing remains, or nothing that a cause explains: the explanation of the first stage is kept.
     if second.same || second.explanations.is_empty() {

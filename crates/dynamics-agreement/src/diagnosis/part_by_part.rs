@@ -6,7 +6,7 @@ use congruent_dynamics::DynamicsError;
 use super::{
     cause,
     cause_names::DynamicsCause,
-    diagnose::DiagnosisInput,
+    diagnose::{DiagnosisInput, ReferenceTorques},
     fit::{Corrected, FittedHypothesis, Target},
     free::FreeParameters,
     hypothesis::{Change, DynamicsHypothesis, DynamicsPlace},
@@ -46,7 +46,8 @@ pub(crate) fn part_by_part(
     for (next, (cause, free)) in [with_mass, with_com, *right].into_iter().zip(FREE) {
         let mut after = before.clone();
         after.inertials[link] = Some(next);
-        let torque = ReducedTorqueDifference::new(&before, states, &torques(&after, states)?)?;
+        let torques = torques(&after, states)?;
+        let torque = setting.torque_difference(&before, ReferenceTorques { states, torques: &torques })?;
         let hypotheses = cause::link_hypotheses(&before, Some(&after), setting.faulty, &mistakes, link);
         let place = DynamicsPlace::Links(vec![link]);
         let off = FittedHypothesis {

@@ -181,8 +181,14 @@ fn diagnosed(
     expected: &[Vec<f64>],
 ) -> Diagnosed {
     let torque = ReducedTorqueDifference::new(candidate, states, expected).expect("the robot's own states");
-    let setting =
-        DiagnosisInput { candidate, reference: None, faulty, precision: Precision::EXACT, pairs: true };
+    let setting = DiagnosisInput {
+        candidate,
+        reference: None,
+        faulty,
+        precision: Precision::EXACT,
+        pairs: true,
+        unstated: &[],
+    };
     let expected = ReferenceTorques { states, torques: expected };
     diagnose_in_stages(&setting, &torque, expected).expect("the robot's own states")
 }

@@ -7,7 +7,7 @@ use congruent_dynamics::{DynamicsError, JointResistance};
 use super::{
     cause,
     cause_names::DynamicsCause,
-    diagnose::DiagnosisInput,
+    diagnose::{DiagnosisInput, ReferenceTorques},
     fit::{Corrected, FittedHypothesis},
     hypothesis::{Change, DynamicsHypothesis, DynamicsPlace},
     part_by_part::best_cause,
@@ -15,10 +15,7 @@ use super::{
 };
 use crate::{
     model::JointTerm,
-    torque::{
-        reduced_difference::{ReducedTorqueDifference, torques},
-        states::SampledState,
-    },
+    torque::{reduced_difference::torques, states::SampledState},
 };
 
 /// The cause of each term if no specific cause has a residual within tolerance.
@@ -45,7 +42,8 @@ pub(crate) fn term_by_term(
         if after.resistances == before.resistances {
             continue;
         }
-        let torque = ReducedTorqueDifference::new(&before, states, &torques(&after, states)?)?;
+        let torques = torques(&after, states)?;
+        let torque = setting.torque_difference(&before, ReferenceTorques { states, torques: &torques })?;
         let hypotheses = cause::joint_and_gravity_hypotheses(&before, setting.faulty);
         let off = values_off(cause, term, [&before.resistances, &after.resistances]);
         parts.extend(best_cause(setting, [&before, &after], &torque, &hypotheses, off));

@@ -21,8 +21,8 @@ pub trait ParameterPlaces: Debug {
     /// Place of a parameter, such as `mass` or `com_x`, in the text; `of` is the link or joint, empty for gravity.
     fn parameter(&self, of: &str, parameter: &str) -> Option<Range<usize>>;
 
-    /// Whether the file says anything about damping, dry friction or armature: if not, their zeros are no statement.
-    fn states_joint_terms(&self) -> bool {
+    /// Whether the file has an entry for damping and dry friction of a joint: if not, their zeros are no statement.
+    fn states_joint_terms(&self, _joint: &str) -> bool {
         true
     }
 
@@ -118,8 +118,8 @@ impl ParameterPlaces for UrdfPlaces {
         }
     }
 
-    fn states_joint_terms(&self) -> bool {
-        self.has_joint_dynamics()
+    fn states_joint_terms(&self, joint: &str) -> bool {
+        self.has_joint_dynamics(joint)
     }
 
     fn set_inertial(&self, link: &str, parameters: &Inertial) -> Vec<TextEdit> {

@@ -7,9 +7,12 @@ use congruent_dynamics::{DynamicsError, JointMotionState, JointResistance, PARAM
 use congruent_kinematics::Pose;
 use nalgebra::{DMatrix, DVector, SVector, Vector3};
 
-use super::states::SampledState;
+use super::{
+    least_squares::{basis, solve},
+    states::SampledState,
+};
 use crate::{
-    model::{DynamicsModel, JointTerm, frames::LinkPlace},
+    model::{DynamicsModel, Frames, JointTerm, frames::LinkPlace},
     thresholds::{IDENTIFIABLE, NO_TORQUE, WEAKLY_IDENTIFIABLE},
 };
 
@@ -140,6 +143,38 @@ impl ReducedTorqueDifference {
             gravity: reduced(&self.gravity),
             ..*self
         }
+    }
+
+    /// The same without what some bodies, whose parameters are not known, can add to the torques: of these bodies nothing has
+    /// an effect, and of the others only what they cannot hide.
+    pub(crate) fn without_bodies(&self, frames: &Frames, bodies: &[usize]) -> Self {
+        if bodies.is_empty() {
+            return self.clone();
+        }
+        let mut rest = self.without(&basis(&self.columns_of(bodies), self.scale));
+        for &body in bodies {
+            // Exactly: rounding would be the only effect.
+            rest.bodies[body].fill(0.0);
+            for link in frames.links_of(body) {
+                rest.links[link].iter_mut().for_each(|columns| columns.fill(0.0));
+            }
+        }
+        rest
+    }
+
+    /// The change of the ten parameters of each of some bodies of the reference that leaves the smallest difference.
+    pub(crate) fn closing(&self, bodies: &[usize]) -> Vec<[f64; PARAMETERS]> {
+        if bodies.is_empty() {
+            return Vec::new();
+        }
+        let change = solve(&self.columns_of(bodies), &-&self.difference, self.scale).unknowns;
+        change.as_slice().chunks_exact(PARAMETERS).map(|of| std::array::from_fn(|at| of[at])).collect()
+    }
+
+    /// The columns of some bodies, one body after another.
+    fn columns_of(&self, bodies: &[usize]) -> DMatrix<f64> {
+        let columns: Vec<_> = bodies.iter().flat_map(|&body| self.bodies[body].column_iter()).collect();
+        DMatrix::from_columns(&columns)
     }
 
     /// The same columns with another difference.
