@@ -32,8 +32,11 @@ pub(super) fn fault(
         RunFault { kind, joints, link: None, values, from_s, until_s }
     };
     let mut fits = Vec::new();
-    // An actuator that exerts the share s of its reported effort lacks (s - 1) effort: one column, one parameter.
-    if let Some((parameters, remaining)) = least_squares(std::slice::from_ref(&effort), &missing) {
+    // An actuator that exerts the share s of its reported effort lacks (s - 1) effort: one column, one parameter. One that is
+    // known to deliver what it is commanded to has no such fault.
+    let may_lack = observed.store.delivers_all(joint) != Some(true);
+    let share = least_squares(std::slice::from_ref(&effort), &missing).filter(|_| may_lack);
+    if let Some((parameters, remaining)) = share {
         let share = 1.0 + parameters[0];
         let ends = window.ends(residuals, joint, |residual| parameters[0] * residual.effort[joint]);
         let fault = if share.abs() < NO_SHARE {

@@ -193,25 +193,51 @@ impl Search<'_> {
         }
         let (mut off, mut alone) = (Vec::new(), Vec::new());
         for &joint in &self.open {
-            let of = |held: HeldSamples| self.off_window(&residuals, joint, held);
-            // Stuck first: a brake holds the joint, and exactly those samples are the evidence. For every other fault they are
-            // not, since dry friction may exert any torque in them.
-            let stuck = of(HeldSamples::Counts)
-                .and_then(|window| stuck::fault(&self.observed, joint, window.samples));
-            let window = of(if stuck.is_some() { HeldSamples::Counts } else { HeldSamples::LeftOut });
-            let Some(window) = window else { continue };
+            let Some((window, fault)) = self.of_joint(&residuals, joint) else { continue };
             off.push((joint, window));
-            alone.extend(stuck.or_else(|| actuator::fault(&self.observed, joint, &residuals, window)));
+            alone.extend(fault);
         }
         let load = payload::fault(&self.observed, run.description, &off, &residuals)?;
-        let load = load.filter(FaultFit::explains);
-        let score_alone: f64 = alone.iter().map(FaultFit::score).sum();
-        match load {
-            // One payload explains all joints with a residual, unless each has a better cause of its own: fewer causes first.
-            Some(load) if alone.len() < off.len() || load.score() < score_alone => self.found.push(load),
-            _ => self.found.extend(alone),
-        }
+        let with_others = self.load_and_others(run.description, &off, &residuals)?;
+        let score = |fits: &[FaultFit]| fits.iter().map(FaultFit::score).sum::<f64>();
+        let with_load = match load.filter(|load| load.fit.explains()) {
+            // A small fault beside the load changes little of what the load explains.
+            Some(load) if with_others.is_empty() || load.fit.score() <= score(&with_others) => vec![load.fit],
+            _ => with_others,
+        };
+        // One payload explains most joints with a residual, unless each has a better cause of its own: fewer causes first.
+        let is_load = !with_load.is_empty() && (alone.len() < off.len() || score(&with_load) < score(&alone));
+        self.found.extend(if is_load { with_load } else { alone });
         Ok(())
+    }
+
+    /// When the residual of a joint is off, and the fault of this joint alone that explains it.
+    fn of_joint(&self, residuals: &[Residual], joint: usize) -> Option<(OffWindow, Option<FaultFit>)> {
+        let of = |held: HeldSamples| self.off_window(residuals, joint, held);
+        // Stuck first: a brake holds the joint, and exactly those samples are the evidence. For every other fault they are not,
+        // since dry friction may exert any torque in them.
+        let stuck =
+            of(HeldSamples::Counts).and_then(|window| stuck::fault(&self.observed, joint, window.samples));
+        let window = of(if stuck.is_some() { HeldSamples::Counts } else { HeldSamples::LeftOut })?;
+        Some((window, stuck.or_else(|| actuator::fault(&self.observed, joint, residuals, window))))
+    }
+
+    /// A payload that explains most joints with a residual, and faults of the others beside it, whose residuals are judged
+    /// without the load; empty if there is none, or if one of the others has no explanation.
+    fn load_and_others(
+        &self,
+        description: &RobotDescription,
+        off: &[(usize, OffWindow)],
+        residuals: &[Residual],
+    ) -> Result<Vec<FaultFit>, DynamicsError> {
+        let Some((load, others)) = payload::beside_others(&self.observed, description, off, residuals)?
+        else {
+            return Ok(Vec::new());
+        };
+        let rest = load.taken_out(&self.observed, residuals)?;
+        let faults: Option<Vec<FaultFit>> =
+            others.into_iter().map(|joint| self.of_joint(&rest, joint)?.1).collect();
+        Ok(faults.map_or_else(Vec::new, |faults| [vec![load.fit], faults].concat()))
     }
 
     /// Joints that are not at their setpoints although the controller places the robot there.

@@ -8,7 +8,7 @@ use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
 use nalgebra::{DMatrix, Point3, Vector3};
 
 use super::{
-    fit::{FaultFit, norm, solve},
+    fit::{FaultFit, Window, norm, solve},
     observed::ObservedRun,
     residual::{OffWindow, Residual, body_of},
 };
@@ -26,13 +26,85 @@ const PART_OF_AXIS: f64 = 0.05;
 /// Columns of the regressor: the first moment and the mass, after the six of the tensor.
 const FIRST_MOMENT: usize = 6;
 
+/// A point mass that is not declared, with the residuals in which it acts.
+pub(super) struct Load {
+    pub(super) fit: FaultFit,
+    tree: BodyTree,
+    /// The body that carries it, and its parameters in the frame of the body.
+    body: usize,
+    parameters: [f64; PARAMETERS],
+    residuals: Window,
+}
+
+impl Load {
+    /// The residuals without what the load needs. Those of a joint that friction holds stay: they are a lower bound.
+    pub(super) fn taken_out(
+        &self,
+        observed: &ObservedRun<'_>,
+        residuals: &[Residual],
+    ) -> Result<Vec<Residual>, DynamicsError> {
+        let mut rest = residuals.to_vec();
+        let mut buffer = self.tree.buffer();
+        let mut regressor = DMatrix::zeros(self.tree.dof(), PARAMETERS * self.tree.dof());
+        for residual in &mut rest[self.residuals.samples()] {
+            self.tree.regressor_into(&motion(residual), &mut buffer, &mut regressor)?;
+            for joint in (0..self.tree.dof()).filter(|&joint| !residual.is_held[joint]) {
+                // What is missing is needed minus reported; the drive exerts what the load needs.
+                residual.missing[joint] += with_followers(observed, joint, |row| {
+                    torque(&regressor, row, self.body, &self.parameters)
+                });
+            }
+        }
+        Ok(rest)
+    }
+}
+
+/// The motion that the regressor of a residual is of.
+fn motion(residual: &Residual) -> JointMotionState<'_> {
+    JointMotionState { q: &residual.q, qd: &residual.qd[0], qdd: &residual.qdd }
+}
+
+/// The torque of a row by these parameters of a body.
+fn torque(regressor: &DMatrix<f64>, row: usize, body: usize, parameters: &[f64; PARAMETERS]) -> f64 {
+    let terms = parameters.iter().enumerate();
+    terms.map(|(at, parameter)| regressor[(row, PARAMETERS * body + at)] * parameter).sum()
+}
+
+/// The load that explains the residuals of more than half of the joints of `off`, at least two, and the others, whose residuals
+/// have another part. Those without which the load explains most are left out first.
+pub(super) fn beside_others(
+    observed: &ObservedRun<'_>,
+    description: &RobotDescription,
+    off: &[(usize, OffWindow)],
+    residuals: &[Residual],
+) -> Result<Option<(Load, Vec<usize>)>, DynamicsError> {
+    let (mut rest, mut others) = (off.to_vec(), Vec::new());
+    while rest.len() > 2 && 2 * (others.len() + 1) < off.len() {
+        let mut best: Option<(Load, usize)> = None;
+        for at in 0..rest.len() {
+            let mut without = rest.clone();
+            without.remove(at);
+            let load = fault(observed, description, &without, residuals)?;
+            let is_better =
+                |load: &Load| best.as_ref().is_none_or(|(best, _)| load.fit.remaining < best.fit.remaining);
+            best = load.filter(is_better).map(|load| (load, at)).or(best);
+        }
+        let Some((load, at)) = best else { return Ok(None) };
+        others.push(rest.remove(at).0);
+        if load.fit.explains() {
+            return Ok(Some((load, others)));
+        }
+    }
+    Ok(None)
+}
+
 /// The point mass that explains the residuals of all joints of `off`, in the window of all.
 pub(super) fn fault(
     observed: &ObservedRun<'_>,
     description: &RobotDescription,
     off: &[(usize, OffWindow)],
     residuals: &[Residual],
-) -> Result<Option<FaultFit>, DynamicsError> {
+) -> Result<Option<Load>, DynamicsError> {
     let Some(window) = off.iter().map(|&(_, window)| window).reduce(OffWindow::with) else { return Ok(None) };
     let tree = BodyTree::new(observed.robot).with_gravity(observed.clock.gravity_in_world);
     let (body, body_from_tip) = body_of(observed.robot, description.tip);
@@ -44,8 +116,7 @@ pub(super) fn fault(
     let mut buffer = tree.buffer();
     let mut regressor = DMatrix::zeros(tree.dof(), PARAMETERS * tree.dof());
     for residual in of_window.iter().step_by(every) {
-        let motion = JointMotionState { q: &residual.q, qd: &residual.qd[0], qdd: &residual.qdd };
-        tree.regressor_into(&motion, &mut buffer, &mut regressor)?;
+        tree.regressor_into(&motion(residual), &mut buffer, &mut regressor)?;
         for joint in off.iter().map(|&(joint, _)| joint).filter(|&joint| !residual.is_held[joint]) {
             // Missing is needed minus reported; the drive exerts what the load needs, so the load has the opposite sign.
             needed.push(-residual.missing[joint]);
@@ -72,15 +143,10 @@ pub(super) fn fault(
     let scratch = RefCell::new((buffer, regressor));
     let expected = |residual: &Residual, joint: usize| {
         let (buffer, regressor) = &mut *scratch.borrow_mut();
-        let motion = JointMotionState { q: &residual.q, qd: &residual.qd[0], qdd: &residual.qdd };
-        if tree.regressor_into(&motion, buffer, regressor).is_err() {
+        if tree.regressor_into(&motion(residual), buffer, regressor).is_err() {
             return 0.0;
         }
-        let torque = |row: usize| {
-            let terms = parameters.iter().enumerate();
-            terms.map(|(at, parameter)| regressor[(row, PARAMETERS * body + at)] * parameter).sum()
-        };
-        with_followers(observed, joint, torque)
+        with_followers(observed, joint, |row| torque(regressor, row, body, &parameters))
     };
     let ends = off.iter().any(|&(joint, own)| {
         own.in_place_of(window).ends(residuals, joint, |residual| expected(residual, joint))
@@ -94,7 +160,10 @@ pub(super) fn fault(
         from_s,
         until_s,
     };
-    Ok(Some(FaultFit { fault, remaining, parameters: 4 }))
+    // One without a known end still acts in what follows.
+    let end = if fault.until_s.is_none() { residuals.len() } else { window.residuals.end };
+    let fit = FaultFit { fault, remaining, parameters: 4 };
+    Ok(Some(Load { fit, tree, body, parameters, residuals: Window { end, ..window.residuals } }))
 }
 
 /// A torque of a joint with those of the joints that follow it.

@@ -118,7 +118,7 @@ impl OffWindow {
 }
 
 /// One sample with its motion and its residual.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Residual {
     /// The kept sample at the end of the step.
     pub(super) sample: usize,

@@ -22,7 +22,14 @@ pub struct SampleStore {
     /// For each sample: measured positions, speeds and efforts, setpoint positions.
     numbers: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
+    /// For each joint whether its actuator delivered all that it was commanded to, in all samples of the run; `None` as long as
+    /// no sample has both efforts.
+    delivers_all: Vec<Option<bool>>,
 }
+
+/// Delivered and commanded effort that differ by less than this part are equal. Kind: rounding; the physics delivers what is
+/// commanded to the last bit.
+const SAME_EFFORT: f64 = 1e-9;
 
 /// One kept sample, borrowed from the store.
 #[derive(Debug, Clone, Copy)]
@@ -53,11 +60,13 @@ impl SampleStore {
             steps: Vec::with_capacity(capacity),
             numbers: Vec::with_capacity(3 * dof * capacity),
             poses: Vec::with_capacity(links * capacity),
+            delivers_all: vec![None; dof],
         }
     }
 
     /// Takes a sample, or omits it.
     pub fn take(&mut self, sample: &Sample<'_>) {
+        self.compare_efforts(sample);
         if !self.keeps(sample.step) {
             return;
         }
@@ -74,6 +83,23 @@ impl SampleStore {
         self.extend_or_fill(measured.effort);
         self.extend_or_fill(sample.joints.setpoint.map_or(&[], |setpoint| setpoint.q));
         self.poses.extend_from_slice(sample.twin);
+    }
+
+    /// Also of samples that are not kept: an actuator may lack effort in a few steps only.
+    fn compare_efforts(&mut self, sample: &Sample<'_>) {
+        let commanded = sample.joints.setpoint.map_or(&[][..], |setpoint| setpoint.effort);
+        // Without a source of both efforts the lists are empty, and nothing is known.
+        let both = commanded.iter().zip(sample.joints.truth.effort);
+        for (delivers, (commanded, delivered)) in self.delivers_all.iter_mut().zip(both) {
+            let is_same = (delivered - commanded).abs() <= SAME_EFFORT * commanded.abs();
+            *delivers = Some(delivers.unwrap_or(true) && is_same);
+        }
+    }
+
+    /// Whether the actuator of a joint delivered all that it was commanded to, in all samples of the run; `None` if the source
+    /// does not know both efforts.
+    pub fn delivers_all(&self, joint: usize) -> Option<bool> {
+        self.delivers_all[joint]
     }
 
     /// Adds one number for each joint; NaN if the source has none.

@@ -289,3 +289,29 @@ fn a_payload_that_stays_has_no_end_although_friction_holds_the_joints() {
         );
     }
 }
+
+/// A load on the tool shows at every joint, and each joint has a part of it that looks like a share of its effort: with a fault
+/// of one joint beside it, both are found.
+#[test]
+fn a_payload_and_a_fault_of_one_joint_are_found_together() {
+    let joint = || "elbow_joint".to_owned();
+    let (at_s, until_s) = (0.8, None);
+    let friction = |dry: f64, viscous: f64| {
+        let (dry_n_m, viscous_n_m_s_per_rad) = (Some(dry), Some(viscous));
+        let fault =
+            AddedFrictionFault { joint: joint(), dry_n_m, viscous_n_m_s_per_rad, at_s, ..Default::default() };
+        FaultSettings::AddedFriction(fault)
+    };
+    let faults = [
+        friction(5.0, 3.0),
+        friction(1.0, 1.0),
+        FaultSettings::ScaledTorque(ScaledTorqueFault { joint: joint(), share: 0.8, at_s, until_s }),
+        FaultSettings::StuckJoint(JointFault { joint: joint(), at_s, until_s }),
+    ];
+    for (seed, fault) in (110..).zip(faults) {
+        let com_m = Some([0.02, 0.0, 0.06]);
+        let load = WrongPayloadFault { mass_kg: 2.0, com_m, at_s: 0.4, until_s };
+        let (judgement, said) = found(vec![FaultSettings::WrongPayload(load), fault.clone()], seed, |_| ());
+        assert_eq!((judgement, said.len()), (FaultVerdict::Right, 2), "{fault:?}: {said:?}");
+    }
+}
