@@ -80,6 +80,10 @@ const OF_PROGRAMS: [(&str, &[&str]); 2] = [
     ("docs/disagreement/dynamics.md", &["rpy_missing", "inertial_left_out", "joint_terms_missing"]),
 ];
 
+/// What is reported of torques that no cause explains: the values of two files are compared one by one, so that no pair of
+/// short files has it.
+const WITHOUT_EXAMPLE: &str = "unexplained";
+
 #[test]
 fn every_cause_of_poses_has_an_example() {
     let mut shown = examples("docs/disagreement/poses.md", |report| report["diagnosis"][0].clone());
@@ -96,6 +100,7 @@ fn every_cause_of_dynamics_has_an_example() {
     };
     let mut shown = examples("docs/disagreement/dynamics.md", first);
     shown.extend(OF_PROGRAMS[1].1.iter().map(|&cause| cause.to_owned()));
+    shown.insert(WITHOUT_EXAMPLE.to_owned());
     assert_eq!(shown, causes("DynamicsCause"));
 }
 

@@ -72,17 +72,16 @@ impl RobotCheck {
             return different_dynamics(self);
         }
         let (answer, extent) = (self.agreeing_answer(), extent(self));
-        let details = if report.grade == Some(Grade::SameWithinDigits) && report.is_judged_by_digits() {
-            let largest = largest(report.worst.error);
-            let count = report.configurations;
-            let allowed = allowed(report);
-            format!(
-                "{extent} within the digits written. DH table against URDF: up to {largest}{allowed} (no tolerance declared, {count} configurations)"
-            )
-        } else {
-            format!("{extent}. {}", agreeing(report))
-        };
-        Headline::new(answer, details)
+        if report.grade != Some(Grade::SameWithinDigits) || !report.is_judged_by_digits() {
+            return Headline::new(answer, format!("{extent}. {}", agreeing(report)));
+        }
+        let (same, rest) = answer.split_at(answer.find(',').unwrap_or(answer.len()));
+        let found =
+            format!("DH table against URDF: up to {}{}", largest(report.worst.error), allowed(report));
+        let at = counted(report.configurations, "configuration");
+        let details =
+            format!("{extent} within the digits written{rest}. {found} (no tolerance declared, {at})");
+        Headline::new(same, details)
     }
 
     /// The answer if everything that was compared agrees. Physics and screws are made of the URDF: they are no second
