@@ -34,6 +34,11 @@ impl Code {
         self.id.unwrap_or(self.name)
     }
 
+    /// The first half of the name: `urdf` of `urdf::axis`.
+    pub fn area(&self) -> &'static str {
+        self.name.split_once("::").map_or(self.name, |(area, _)| area)
+    }
+
     /// The code most similar to a word that is not a code.
     pub fn nearest(word: &str, known: &[&'static Self]) -> Option<&'static Self> {
         let near = nearest(word, known.iter().flat_map(|code| code.words()))?;

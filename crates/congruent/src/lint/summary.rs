@@ -2,6 +2,7 @@
 
 use congruent_description::RobotDescription;
 use congruent_input::{Diagnostic, Finding, Severity};
+use congruent_lint::codes;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -47,5 +48,5 @@ impl LintSummary {
 
 /// Errors, then values in another unit, which are wrong by a large factor, then everything else in the order found.
 fn badness(found: &Diagnostic) -> (bool, bool) {
-    (found.severity != Severity::Error, !found.code.name.starts_with("units::"))
+    (found.severity != Severity::Error, found.code.area() != codes::units::INERTIA.area())
 }
