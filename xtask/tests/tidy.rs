@@ -10,7 +10,7 @@ use support::{all_sources, code_lines, crate_names, program_sources, read, root}
 const ARROWS: &[(&str, &[&str])] = &[
     ("input", &[]),
     ("tables", &["input"]),
-    ("description", &["input"]),
+    ("description", &["input", "tables"]),
     ("lint", &["input", "description"]),
     ("kinematics", &["input", "description"]),
     ("dynamics", &["description", "kinematics"]),
@@ -19,7 +19,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("pose-bound", &["description", "kinematics"]),
     ("agreement", &["input", "description", "kinematics", "pose-bound"]),
     ("calibration", &["input", "tables", "description", "kinematics"]),
-    ("analysis", &["input", "description", "kinematics", "dynamics"]),
+    ("analysis", &["input", "tables", "description", "kinematics", "dynamics"]),
     ("scenario", &["input"]),
     ("motion", &["input", "tables", "description", "kinematics", "scenario"]),
     ("proximity", &["input", "description", "kinematics"]),

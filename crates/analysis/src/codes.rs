@@ -2,6 +2,8 @@
 
 congruent_input::codes! {
     targets {
+        TABLE = "CGR-TABLE-029", "targets::table",
+            "The file is no table of targets. Its header names the coordinates of the tool in link `base`, each with its unit, and perhaps its orientation and where the search starts in a joint.\n    x_mm,y_mm,z_mm,roll_deg,pitch_deg,yaw_deg\n    400,100,300,180,0,0";
         JSON = "CGR-TABLE-006", "targets::json",
             "The file is not a JSON array of targets.\n    [{\"translation_m\": [0.4, 0.1, 0.3]}]";
         QUATERNION_NORM = "CGR-TABLE-007", "targets::quaternion_norm",

@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::{
     arm_joints::joint_names,
     codes,
-    plot::{AXES, Curve, PLANES, PlaneView, PlotError, views},
+    plot::{AXES, Curve, PLANES, PlaneView, PlaneViews, PlotError, views},
     stream::Stream,
 };
 
@@ -177,6 +177,7 @@ pub fn plot(
             areas: Vec::new(),
             curves,
             marks: skeleton.iter().map(flat).collect(),
+            labels: Vec::new(),
         }
     };
     let legend = [("velocity", &result.linear, "m/s"), ("angular velocity", &result.angular, "rad/s")];
@@ -187,7 +188,12 @@ pub fn plot(
         )
     });
     let title = format!("{}: velocity ellipsoids of the tool, each to its own scale", description.name);
-    views(&title, &legend, &PLANES.each_ref().map(view))
+    views(&PlaneViews {
+        title,
+        series: legend.to_vec(),
+        views: PLANES.each_ref().map(view).to_vec(),
+        note: String::new(),
+    })
 }
 
 /// Outline of an ellipsoid projected onto a plane: with `B` the projected semi-axes, `(B B^T)^(1/2)` times the unit circle.

@@ -52,6 +52,8 @@ pub struct BarChart {
     pub series: Vec<String>,
     /// Names of the groups, each with a bar for each series.
     pub groups: Vec<(String, Vec<Bar>)>,
+    /// What is not drawn, below the chart; empty if everything is.
+    pub note: String,
 }
 
 /// Draws horizontal bars, the worst as the bar and the mean as a line in it.
@@ -61,7 +63,7 @@ pub struct BarChart {
 pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
     const BAR_PX: u32 = 17;
     let rows = chart.groups.iter().map(|(_, bars)| bars.len() + 1).sum::<usize>();
-    let height = TITLE_PX + 90 + u32::try_from(rows).unwrap_or(u32::MAX / 64) * BAR_PX;
+    let height = TITLE_PX + 90 + note_px(&chart.note) + u32::try_from(rows).unwrap_or(u32::MAX / 64) * BAR_PX;
     let largest =
         chart.groups.iter().flat_map(|(_, bars)| bars).fold(0.0, |most: f64, bar| most.max(bar.worst));
     let name_px = chart.groups.iter().map(|(name, _)| name.len()).max().unwrap_or(0) * 7 + 24;
@@ -71,6 +73,7 @@ pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
         let mut plane = ChartBuilder::on(&root)
             .margin(12)
             .margin_top(TITLE_PX + 22)
+            .margin_bottom(12 + note_px(&chart.note))
             .x_label_area_size(44)
             .y_label_area_size(u32::try_from(name_px).unwrap_or(200))
             .build_cartesian_2d(0.0..(largest * 1.12).max(f64::MIN_POSITIVE), as_f64(rows)..0.0)?;
@@ -92,12 +95,13 @@ pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
                 let mark = vec![(bar.mean, row + 0.06), (bar.mean, row + 0.94)];
                 plane.draw_series([PathElement::new(mark, WHITE.stroke_width(2))])?;
                 let end = plane.backend_coord(&(bar.worst, row + 0.5));
-                text(&root, &format!("{:.3}", bar.worst), end.0 + 5, end.1, HPos::Left)?;
+                text(&root, &number(bar.worst), end.0 + 5, end.1, HPos::Left)?;
                 row += 1.0;
             }
             row += 1.0;
         }
         legend(&root, &chart.series)?;
+        note(&root, &chart.note)?;
     }
     Ok(svg)
 }
@@ -208,13 +212,37 @@ pub struct PlaneView {
     pub curves: Vec<Curve>,
     /// Points that are drawn as dots.
     pub marks: Vec<[f64; 2]>,
+    /// Words in the plane.
+    pub labels: Vec<PlaneLabel>,
 }
 
-/// Draws views side by side, all at one scale.
+/// Words above a point of a plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneLabel {
+    /// The point below the middle of the words, m.
+    pub at: [f64; 2],
+    /// The words.
+    pub text: String,
+}
+
+/// Views side by side, all at one scale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneViews {
+    /// Title above the views.
+    pub title: String,
+    /// Names of the series.
+    pub series: Vec<String>,
+    /// The views from left to right.
+    pub views: Vec<PlaneView>,
+    /// What the views leave out, below them; empty if nothing.
+    pub note: String,
+}
+
+/// Draws views side by side.
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library refuses.
-pub fn views(title: &str, series: &[String], views: &[PlaneView]) -> Result<String, PlotError> {
+pub fn views(PlaneViews { title, series, views, note: below }: &PlaneViews) -> Result<String, PlotError> {
     const VIEW_PX: u32 = 430;
     /// Room for the title.
     const NARROWEST_PX: u32 = 620;
@@ -224,10 +252,12 @@ pub fn views(title: &str, series: &[String], views: &[PlaneView]) -> Result<Stri
     let mut svg = String::new();
     {
         let width = (VIEW_PX * count).max(NARROWEST_PX);
-        let root = page(&mut svg, width, VIEW_PX + TITLE_PX + 24, title)?;
+        let root = page(&mut svg, width, VIEW_PX + TITLE_PX + 24 + note_px(below), title)?;
         legend(&root, series)?;
-        let (_, below) = root.split_vertically(TITLE_PX + 20);
-        for (area, view) in below.split_evenly((1, views.len().max(1))).iter().zip(views) {
+        note(&root, below)?;
+        let (_, lower) = root.split_vertically(TITLE_PX + 20);
+        let (drawn, _) = lower.split_vertically(VIEW_PX);
+        for (area, view) in drawn.split_evenly((1, views.len().max(1))).iter().zip(views) {
             draw_view(area, view, radius)?;
         }
     }
@@ -261,6 +291,11 @@ fn draw_view(area: &PlotArea<'_>, view: &PlaneView, radius: f64) -> Result<(), P
         plane.draw_series([PathElement::new(points, style)])?;
     }
     plane.draw_series(view.marks.iter().map(|mark| Circle::new((mark[0], mark[1]), 4, GREY.filled())))?;
+    for label in &view.labels {
+        let (x, y) = plane.backend_coord(&(label.at[0], label.at[1]));
+        let (left, top) = area.get_base_pixel();
+        text(area, &label.text, x - left, y - top - 9, HPos::Center)?;
+    }
     Ok(())
 }
 
@@ -288,6 +323,16 @@ fn page<'a>(svg: &'a mut String, width: u32, height: u32, title: &str) -> Result
     let style = (FONT, 18).into_font().color(&BLACK);
     root.draw(&Text::new(title.to_owned(), (16, 14), style))?;
     Ok(root)
+}
+
+/// Height of a line below the chart.
+fn note_px(words: &str) -> u32 {
+    if words.is_empty() { 0 } else { 24 }
+}
+
+fn note(root: &PlotArea<'_>, words: &str) -> Result<(), PlotError> {
+    let bottom = i32::try_from(root.dim_in_pixel().1).unwrap_or(i32::MAX);
+    if words.is_empty() { Ok(()) } else { text(root, words, 16, bottom - 14, HPos::Left) }
 }
 
 fn legend(root: &PlotArea<'_>, series: &[String]) -> Result<(), PlotError> {

@@ -5,7 +5,7 @@ use std::fmt;
 use congruent_description::{
     ArmQ, DhRow, DhRowKind, DhTable, JointValues, ReportedChain, RobotDescription, RobotQ,
 };
-use congruent_input::Finding;
+use congruent_input::{Finding, display::counted};
 use congruent_kinematics::{
     Arm, ArmJoint, DhChain, Displacement, KinematicsError, Pose, Sampling, displacement,
 };
@@ -260,24 +260,74 @@ fn effect(
     }
 }
 
-/// The report as a figure: one bar for each parameter and arm.
+/// An error of a length displaces the tool by its own size. Kind: rounding of the displacement. Unit: mm.
+const SAME_MM: f64 = 1e-6;
+
+/// Whether the effect follows from what the parameter is: an error of 1 mm of a length is 1 mm at the tool, everywhere.
+fn is_by_definition(effect: &ParameterEffect) -> bool {
+    let is_one = |value: f64| (value - 1.0).abs() <= SAME_MM;
+    effect.error == ParameterError::OneMillimetre && is_one(effect.worst_mm) && is_one(effect.mean_mm)
+}
+
+/// The report as a figure: one bar for each parameter and arm, the largest effect first.
 ///
 /// # Errors
 /// [`PlotError`] if the drawing library refuses.
 pub fn plot(report: &SensitivityReport) -> Result<String, PlotError> {
-    let first = report.arms.first().map(|arm| arm.parameters.as_slice()).unwrap_or_default();
+    bars(&chart(&report.robot, &report.arms))
+}
+
+fn chart(robot: &str, arms: &[ArmSensitivity]) -> BarChart {
+    let first = arms.first().map(|arm| arm.parameters.as_slice()).unwrap_or_default();
+    let (left_out, mut drawn): (Vec<_>, Vec<_>) =
+        first.iter().enumerate().partition(|(_, effect)| is_by_definition(effect));
+    // Stable: equal effects keep the order of the joints.
+    drawn.sort_by(|(_, a), (_, b)| b.worst_mm.total_cmp(&a.worst_mm));
     let group = |(at, parameter): (usize, &ParameterEffect)| {
         let name = format!("{} {}, {}", parameter.joint, parameter.parameter, parameter.error);
         let bar = |arm: &ArmSensitivity| Bar {
             worst: arm.parameters[at].worst_mm,
             mean: arm.parameters[at].mean_mm,
         };
-        (name, report.arms.iter().map(bar).collect())
+        (name, arms.iter().map(bar).collect())
     };
-    bars(&BarChart {
-        title: format!("{}: displacement of the tool by an error of one parameter", report.robot),
+    let note = match left_out.len() {
+        0 => String::new(),
+        count => format!(
+            "Not drawn: {} (a, d, zeros of prismatic joints), of which 1 mm is 1 mm at the tool, everywhere.",
+            counted(count, "length")
+        ),
+    };
+    BarChart {
+        title: format!("{robot}: displacement of the tool by an error of one parameter"),
         axis: "mm at the tool: worst over the joint range (bar) and mean (white line)".to_owned(),
-        series: report.arms.iter().map(|arm| format!("lengths x {}", arm.length_factor)).collect(),
-        groups: first.iter().enumerate().map(group).collect(),
-    })
+        series: arms.iter().map(|arm| format!("lengths x {}", arm.length_factor)).collect(),
+        groups: drawn.into_iter().map(group).collect(),
+        note,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_plot_has_the_largest_effect_first_and_nothing_that_is_1_by_definition() {
+        let effect = |joint: &str, error: ParameterError, worst_mm: f64| ParameterEffect {
+            joint: joint.to_owned(),
+            parameter: PerturbedParameter::Zero,
+            error,
+            worst_mm,
+            mean_mm: if error == ParameterError::OneMillimetre { worst_mm } else { worst_mm / 2.0 },
+            worst_deg: 1.0,
+            worst_at: JointValues::new(&[], &[]),
+        };
+        let (turn, length) = (ParameterError::OneDegree, ParameterError::OneMillimetre);
+        let parameters =
+            vec![effect("small", turn, 3.0), effect("length", length, 1.0), effect("large", turn, 17.0)];
+        let chart = chart("arm", &[ArmSensitivity { length_factor: 1.0, parameters }]);
+        let names: Vec<&str> = chart.groups.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["large zero, 1 deg", "small zero, 1 deg"]);
+        assert!(chart.note.starts_with("Not drawn: 1 length"), "{}", chart.note);
+    }
 }

@@ -12,21 +12,25 @@ use congruent::{
         RobotDescription, RobotQList, configuration, outside_limits, outside_limits_warning,
         read_configurations, read_configurations_from, read_states, read_states_from,
     },
-    input::{Diagnostic, TextLines, is_standard_input, units::WrittenUnit},
+    input::{Diagnostic, TextLines, is_standard_input},
 };
 
-use crate::{codes, failure::Failure, terminal::print::Printer};
+use crate::{
+    codes,
+    failure::Failure,
+    quantity::{Dimension, QuantityArgument},
+    terminal::print::Printer,
+};
 
 /// Configurations on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConfigurationArguments {
-    /// A file with one {"q": {"joint": value}} per line (JSON Lines), or a JSON array of at most 100,000 of them, in rad and
-    /// m; - is standard input, of which `fk`, `jacobian` and `dynamics` answer each line at once, with --format json by a
+    /// A table (.csv) with a column for each joint, such as elbow_deg or lift_mm, as a run writes, too; or a file with one
+    /// {"q": {"joint": value}} per line (JSON Lines), or a JSON array of at most 100,000 of them, in rad and m; - is standard input, of which `fk`, `jacobian` and `dynamics` answer each line at once, with --format json by a
     /// document in one line. Joints that are not named are at 0.
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
     configurations: Option<PathBuf>,
-    /// One joint's position in rad or m, or with a unit as 90deg, 1.57rad, 0.1m, 100mm; may be given several
-    /// times.
+    /// One joint's position: 90deg or 1.57rad if it turns, 100mm or 0.1 (m) if it slides; may be given several times.
     #[arg(long, value_name = "JOINT=VALUE")]
     at: Vec<String>,
 }
@@ -191,28 +195,16 @@ pub(crate) fn with_warning<List>(
 /// `JOINT=VALUE` as a name and a position in rad or m.
 fn position(assignment: &str, robot: &Robot) -> Result<(String, f64), Diagnostic> {
     let refused = |why: &str| {
-        Diagnostic::error(codes::cli::AT, format!("--at \"{assignment}\" {why}")).with_help(
-            "for example --at elbow_joint=1.57 or --at elbow_joint=90deg, --at lift=0.1 or --at lift=100mm",
-        )
+        Diagnostic::error(codes::cli::AT, format!("--at \"{assignment}\": {why}"))
+            .with_help("for example --at elbow_joint=90deg or --at elbow_joint=1.57rad, --at lift=100mm")
     };
-    let (joint, written) = assignment.split_once('=').ok_or_else(|| refused("is not JOINT=VALUE"))?;
+    let (joint, written) = assignment.split_once('=').ok_or_else(|| refused("it is not JOINT=VALUE"))?;
     let (joint, written) = (joint.trim(), written.trim());
-    let (number, unit) = match WrittenUnit::at_end(written) {
-        Some((number, unit)) => (number.trim_end(), Some(unit)),
-        None => (written, None),
-    };
-    let value: f64 = number.parse().map_err(|_| refused("is not JOINT=VALUE"))?;
-    let value = unit.map_or(value, |unit| unit.to_si(value));
-    if !value.is_finite() {
-        return Err(refused("is not a finite number"));
-    }
     // An unknown joint is reported with the known ones, by whoever uses the name.
-    let coordinate = robot.find_joint(joint).map_or("", |joint| robot.joint(joint).kind.unit());
-    if let Some(unit) = unit
-        && !coordinate.is_empty()
-        && unit.unit.names()[0] != coordinate
-    {
-        return Err(refused(&format!("is in {}, but the joint's position is in {coordinate}", unit.name())));
-    }
-    Ok((joint.to_owned(), value))
+    let value = match robot.find_joint(joint).map_or("", |joint| robot.joint(joint).kind.unit()) {
+        "rad" => QuantityArgument::of(written, Dimension::Angle),
+        "m" => QuantityArgument::of(written, Dimension::Length),
+        _ => QuantityArgument::parse(written).map(|quantity| quantity.value),
+    };
+    Ok((joint.to_owned(), value.map_err(|why| refused(&why))?))
 }

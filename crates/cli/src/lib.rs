@@ -9,18 +9,22 @@ mod compare;
 mod completions;
 mod configurations;
 mod failure;
-mod faults;
+mod help;
 mod input;
 mod interrupt;
+mod invocation;
 mod man;
 mod model;
 mod new;
+mod old_names;
 mod output;
+mod quantity;
 #[cfg(feature = "recording")]
 mod recording;
 mod run;
 mod schema;
 mod terminal;
+mod tolerance;
 mod unfinished_junit;
 
 use std::ffi::OsString;
@@ -30,6 +34,7 @@ use congruent::input::Diagnostic;
 
 use crate::{
     failure::{BAD_INPUT, Failure},
+    old_names::{Renamed, with_command},
     terminal::print::{Color, Format, Printer, Verbosity},
 };
 
@@ -62,29 +67,26 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Run(run::Arguments),
-    Faults(faults::Arguments),
     Check(model::check::Arguments),
     Lint(model::lint::Arguments),
     Describe(model::describe::Arguments),
-    Fk(arm::fk::Arguments),
-    Jacobian(arm::jacobian::Arguments),
-    Ik(arm::ik::Arguments),
-    Dynamics(arm::dynamics::Arguments),
-    Manipulability(arm::manipulability::Arguments),
-    Workspace(arm::workspace::Arguments),
-    Sensitivity(arm::sensitivity::Arguments),
-    Clearance(arm::clearance::Arguments),
-    Acm(arm::acm::Arguments),
-    Calibrate(model::calibrate::Arguments),
+    Run(run::Arguments),
     New(new::Arguments),
-    Derive(model::derive::Arguments),
-    Convert(model::convert::Arguments),
-    #[cfg(feature = "recording")]
-    Inspect(recording::inspect::Arguments),
     #[cfg(feature = "recording")]
     View(recording::view::Arguments),
+    #[cfg(feature = "recording")]
+    Inspect(recording::inspect::Arguments),
     Compare(compare::Arguments),
+    Fk(arm::fk::Arguments),
+    Ik(arm::ik::Arguments),
+    Jacobian(arm::jacobian::Arguments),
+    Dynamics(arm::dynamics::Arguments),
+    Clearance(arm::clearance::Arguments),
+    Workspace(arm::workspace::Arguments),
+    Manipulability(arm::manipulability::Arguments),
+    Sensitivity(arm::sensitivity::Arguments),
+    Convert(model::convert::Arguments),
+    Calibrate(model::calibrate::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
@@ -121,7 +123,9 @@ impl Arguments {
 /// ```
 pub fn run<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> u8 {
     let words: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
-    let arguments = match input::shown_arguments(&words).map(|()| parse(&words)) {
+    invocation::note(&words);
+    let Renamed { words, hints } = Renamed::from_words(&words);
+    let arguments = match input::shown_arguments(&words).map(|()| parse(words)) {
         Ok(Ok(arguments)) => arguments,
         Ok(Err(error)) => return not_parsed(&error),
         Err(failure) => {
@@ -132,6 +136,10 @@ pub fn run<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> u8 {
     interrupt::watch_signals();
     arguments.color.apply();
     let printer = Printer::new(arguments.format, arguments.verbosity());
+    let hints = hints.into_iter().map(|hint| {
+        Diagnostic::warning(codes::cli::RENAMED, hint).with_help("the old name is gone in the next version")
+    });
+    printer.warnings(None, &hints.collect::<Vec<_>>());
     if arguments.format == Format::Sarif && !matches!(arguments.command, Command::Lint(_)) {
         let only = Diagnostic::error(codes::cli::FORMAT, "--format sarif works with `lint` only");
         Printer::explain(None, &Failure::from(only.with_help("use --format json")));
@@ -143,9 +151,15 @@ pub fn run<T: Into<OsString>>(arguments: impl IntoIterator<Item = T>) -> u8 {
     })
 }
 
+/// All commands, as they are parsed and printed.
+fn all_commands() -> clap::Command {
+    help::with_groups_and_examples(Arguments::command())
+}
+
 /// The arguments; help is as wide as the terminal, up to what is read with ease.
-fn parse(words: &[OsString]) -> Result<Arguments, clap::Error> {
-    let command = Arguments::command();
+fn parse(words: Vec<OsString>) -> Result<Arguments, clap::Error> {
+    let command = all_commands();
+    let words = with_command(words, |word| word == "help" || command.find_subcommand(word).is_some());
     let mut command = match terminal::columns() {
         Some(columns) => command.term_width(columns.min(WIDEST_HELP)),
         None => command,
@@ -168,7 +182,6 @@ fn not_parsed(error: &clap::Error) -> u8 {
 fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
     match command {
         Command::Run(arguments) => run::run(&arguments, printer),
-        Command::Faults(arguments) => faults::run(&arguments, printer),
         Command::Check(arguments) => model::check::run(&arguments, printer),
         Command::Lint(arguments) => model::lint::run(&arguments, printer),
         Command::Describe(arguments) => model::describe::run(&arguments, printer),
@@ -181,9 +194,7 @@ fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
         Command::Workspace(arguments) => arm::workspace::run(&arguments, printer),
         Command::Sensitivity(arguments) => arm::sensitivity::run(&arguments, printer),
         Command::Clearance(arguments) => arm::clearance::run(&arguments, printer),
-        Command::Acm(arguments) => arm::acm::run(&arguments, printer),
         Command::New(arguments) => new::run(&arguments, printer),
-        Command::Derive(arguments) => model::derive::run(&arguments, printer),
         Command::Convert(arguments) => model::convert::run(&arguments, printer),
         #[cfg(feature = "recording")]
         Command::Inspect(arguments) => recording::inspect::run(&arguments, printer),
@@ -191,7 +202,7 @@ fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
         Command::View(arguments) => recording::view::run(&arguments, printer),
         Command::Compare(arguments) => compare::run(&arguments, printer),
         Command::Schema(arguments) => schema::run(&arguments, printer),
-        Command::Completions(arguments) => completions::run(&arguments, Arguments::command(), printer),
-        Command::Man(arguments) => man::run(&arguments, Arguments::command(), printer),
+        Command::Completions(arguments) => completions::run(&arguments, all_commands(), printer),
+        Command::Man(arguments) => man::run(&arguments, all_commands(), printer),
     }
 }

@@ -2,6 +2,8 @@
 
 congruent_input::codes! {
     load {
+        SCENARIO = "CGR-FILE-020", "load::scenario" unreadable,
+            "The file is a scenario, and the command takes a robot.\n    congruent run scenarios/first.toml";
         NO_ROBOT_FILE = "CGR-FILE-015", "load::no_robot_file" unreadable,
             "The folder has no robot.toml, so it is not a robot. Give a folder with a robot.toml, a robot file or a .urdf.";
     }
@@ -144,6 +146,8 @@ congruent_input::codes! {
     configurations {
         JSON = "CGR-TABLE-001", "configurations::json",
             "The file is not a list of configurations: one on each line (JSON Lines), or a JSON array of at most 100,000.\n    {\"q\": {\"elbow_joint\": 0.1}}\n    {\"q\": {\"elbow_joint\": 0.2}}";
+        TABLE = "CGR-TABLE-028", "configurations::table",
+            "The file is no table of configurations. Its header names joints, each with its unit; the tables that a run writes are read, too.\n    shoulder_pan_joint_deg,elbow_joint_deg\n    30,90";
         NONE = "CGR-TABLE-002", "configurations::none",
             "The list of configurations is empty. One configuration with all joints at 0 is:\n    [{\"q\": {}}]";
         UNKNOWN_JOINT = "CGR-TABLE-003", "configurations::unknown_joint",

@@ -2,13 +2,14 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet},
+    fs,
     ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
 };
 
 use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of,
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, TomlKind, folder_of,
     not_found, toml_text::parse_toml,
 };
 use toml::Spanned;
@@ -61,7 +62,13 @@ pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescript
 fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
     let path = file_of_robot(path)?;
     let most_bytes = if is_toml(&path) { ROBOT_FILE_BYTES } else { URDF_BYTES };
-    load_source(&open(&path, access, most_bytes)?, access)
+    let source = open(&path, access, most_bytes)?;
+    if is_toml(&path) && TomlKind::from_text(&source.text) == Some(TomlKind::Scenario) {
+        let message = format!("{} is a scenario, not a robot", path.display());
+        let help = format!("to run it: congruent run {}", path.display());
+        return Err(Diagnostic::error(codes::load::SCENARIO, message).with_help(help).into());
+    }
+    load_source(&source, access)
 }
 
 /// The same from a robot file or a URDF that was opened already.
@@ -100,7 +107,14 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
         return Ok(robot_file);
     }
     let message = format!("{} is a directory without a {ROBOT_FILE}", path.display());
-    Err(Diagnostic::error(codes::load::NO_ROBOT_FILE, message).with_help(ACCEPTED))
+    let has_robots = fs::read_dir(path)
+        .is_ok_and(|entries| entries.flatten().any(|entry| entry.path().join(ROBOT_FILE).is_file()));
+    let help = if has_robots {
+        format!("for the robots in it: {}", path.join("*/").display())
+    } else {
+        ACCEPTED.to_owned()
+    };
+    Err(Diagnostic::error(codes::load::NO_ROBOT_FILE, message).with_help(help))
 }
 
 /// Opens a file that a person gives as a robot. If it does not exist and no similar name does, the help lists what is accepted.

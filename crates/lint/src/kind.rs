@@ -3,7 +3,7 @@
 use std::{path::Path, sync::Arc};
 
 use congruent_description::{URDF_BYTES, file_of_robot, open};
-use congruent_input::{Diagnostic, FileAccess, SourceFile, head_of, xml};
+use congruent_input::{Diagnostic, FileAccess, SourceFile, TomlKind, head_of, xml};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -38,10 +38,6 @@ pub struct FileToLint {
     pub source: Option<Arc<SourceFile>>,
 }
 
-/// Keys at the top of a robot file, and of a scenario.
-const ROBOT_KEYS: [&str; 7] = ["urdf", "dh", "tcp", "inertia", "inertial", "packages", "tolerance"];
-const SCENARIO_KEYS: [&str; 7] =
-    ["schema_version", "simulation", "motion", "controller", "check", "robot", "start"];
 /// Elements at the top of an SRDF.
 const SRDF_ELEMENTS: [&str; 6] =
     ["disable_collisions", "group", "group_state", "end_effector", "virtual_joint", "passive_joint"];
@@ -84,7 +80,10 @@ impl FileToLint {
             "srdf" => FileKind::Srdf,
             "urdf" | "xacro" => FileKind::Urdf,
             "toml" if path.is_dir() => FileKind::RobotFile,
-            "toml" => FileKind::from_toml_text(&source.text),
+            "toml" => match TomlKind::from_text(&source.text) {
+                Some(TomlKind::Scenario) => FileKind::Scenario,
+                Some(TomlKind::RobotFile) | None => FileKind::RobotFile,
+            },
             _ if begin.starts_with('<') || begin.is_empty() => FileKind::from_xml_text(&source.text),
             _ => return Err(no_kind(path, "the text is not XML")),
         };
@@ -133,24 +132,6 @@ fn is_configuration(line: &str) -> bool {
 }
 
 impl FileKind {
-    /// By the keys at the top of the text. Lines are searched instead of parsed, so that the kind of a file with a syntax error
-    /// is found, too.
-    fn from_toml_text(text: &str) -> Self {
-        let count = |keys: &[&str]| {
-            let is_key = |line: &str| {
-                let word: String = line
-                    .trim_start_matches('[')
-                    .chars()
-                    .take_while(|c| c.is_ascii_alphanumeric() || *c == '_')
-                    .collect();
-                keys.contains(&word.as_str())
-            };
-            text.lines().filter(|line| is_key(line.trim_start())).count()
-        };
-        // Counted by lines, since a file with a mistake is not TOML and needs the right messages all the same.
-        if count(&SCENARIO_KEYS) > count(&ROBOT_KEYS) { Self::Scenario } else { Self::RobotFile }
-    }
-
     fn from_xml_text(text: &str) -> Self {
         // What is no XML gets the messages of a URDF.
         let Ok(document) = xml::parse(text) else { return Self::Urdf };

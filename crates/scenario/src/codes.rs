@@ -2,6 +2,8 @@
 
 congruent_input::codes! {
     scenario {
+        ROBOT_GIVEN = "CGR-SCENARIO-089", "scenario::robot_given" unreadable,
+            "The file or folder is a robot, and the command takes a scenario.\n    congruent new scenario robots/ur5e --to first.toml";
         VERSION = "CGR-SCENARIO-001", "scenario::version",
             "This program cannot read the format version of the scenario. Set it to 1, the only version.\n    schema_version = 1";
         NAME = "CGR-SCENARIO-002", "scenario::name",

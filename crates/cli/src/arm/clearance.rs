@@ -6,18 +6,20 @@ use congruent::{
     text::clearance_text_parts,
 };
 
-use super::length::positive_length;
+use super::disabled_pairs::DisabledPairsArguments;
 use crate::{
     codes,
     configurations::ConfigurationArguments,
     failure::{FAILED, Failure, NOTHING},
     input::RobotArgument,
+    quantity::positive_length,
     terminal::print::{Printer, text_options},
 };
 
 /// Distances between the convex hulls of links.
 ///
-/// Pairs on the same or on neighbouring moving bodies and pairs that an SRDF disables are left out.
+/// Pairs on the same or on neighbouring moving bodies and pairs that an SRDF disables are left out. --write-srdf proposes
+/// such an SRDF.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -39,6 +41,8 @@ pub(crate) struct Arguments {
     /// Smallest distance that is allowed; exit code 1 if a pair is nearer.
     #[arg(long, value_name = "LENGTH", value_parser = positive_length, allow_hyphen_values = true)]
     limit: Option<f64>,
+    #[command(flatten)]
+    disabled_pairs: DisabledPairsArguments,
 }
 
 fn pair(text: &str) -> Result<[String; 2], String> {
@@ -50,6 +54,9 @@ fn pair(text: &str) -> Result<[String; 2], String> {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.robot.load_for(Capability::Clearance, printer)?;
+    if let Some(file) = arguments.disabled_pairs.file() {
+        return arguments.disabled_pairs.write(file, &description, printer);
+    }
     let configurations = arguments.configurations.read(&mut description, printer)?;
     let options = DistanceOptions {
         choice: if arguments.all_pairs { PairChoice::All } else { PairChoice::Usual },

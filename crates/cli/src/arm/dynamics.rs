@@ -7,10 +7,12 @@ use congruent::{
     text::joint_dynamics_text_parts,
 };
 
+use super::base_parameters::base_parameters;
 use crate::{
     configurations::ConfigurationArguments,
     failure::Failure,
     input::{ArmArguments, FollowerArgument, named},
+    quantity::{Dimension, QuantityArgument, three_lengths},
     terminal::print::Printer,
 };
 
@@ -32,30 +34,32 @@ pub(crate) struct Arguments {
     friction: bool,
     #[command(flatten)]
     followers: FollowerArgument,
-    /// A mass at the tool centre point, in kg; with X,Y,Z in m it is there in the frame of the TCP.
-    #[arg(long, value_name = "KG[,X,Y,Z]", value_parser = payload, allow_hyphen_values = true)]
+    /// A mass at the tool centre point, 3kg; with X,Y,Z it is there in the frame of the TCP: 3kg,0,0,50mm. Without units
+    /// in kg and m.
+    #[arg(long, value_name = "MASS[,X,Y,Z]", value_parser = payload, allow_hyphen_values = true)]
     payload: Option<PointPayload>,
+    /// Print the base parameters instead: the sums of masses, first moments and inertias that are identifiable from
+    /// joint torques, with the parameters grouped in each, and the parameters that change no torque.
+    #[arg(long, conflicts_with_all = ["source", "configurations", "at", "friction", "payload"])]
+    base_parameters: bool,
 }
 
 fn payload(text: &str) -> Result<PointPayload, String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse::<f64>()).collect();
-    let numbers =
-        numbers.map_err(|_| "expected KG or KG,X,Y,Z, for example 2.5 or 2.5,0,0,0.05".to_owned())?;
-    let (mass_kg, position_m) = match numbers[..] {
-        [mass_kg] => (mass_kg, [0.0; 3]),
-        [mass_kg, x, y, z] => (mass_kg, [x, y, z]),
-        _ => return Err(format!("{} numbers, expected KG or KG,X,Y,Z", numbers.len())),
-    };
-    let is_possible = mass_kg > 0.0 && numbers.iter().all(|number| number.is_finite());
-    is_possible
-        .then_some(PointPayload { mass_kg, position_m })
-        .ok_or_else(|| format!("payload mass must be > 0 and its position finite, not {mass_kg} kg"))
+    let (mass, position) = text.split_once(',').map_or((text, None), |(mass, at)| (mass, Some(at)));
+    let refused = |why| format!("{why}; for example 3kg or 3kg,0,0,50mm");
+    Ok(PointPayload {
+        mass_kg: QuantityArgument::positive(mass, Dimension::Mass).map_err(refused)?,
+        position_m: position.map_or(Ok([0.0; 3]), three_lengths).map_err(refused)?,
+    })
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load_urdf(printer)?;
     let &Arguments { source, friction, payload, .. } = arguments;
     let followers = arguments.followers.followers();
+    if arguments.base_parameters {
+        return base_parameters(&description, followers, printer);
+    }
     let options = DynamicsOptions { source, friction, payload, followers };
     description.check_capability(Capability::Physics)?;
     let robot = robot_with_options(&description, &options)?;

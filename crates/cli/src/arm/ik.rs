@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use congruent::{
     analysis::inverse::{
-        IkMethod, IkOptions, InverseTargets, LiveTargets, TargetPart, inverse, read_targets,
+        IkMethod, IkOptions, InverseTarget, InverseTargets, LiveTargets, TargetPart, inverse, read_targets,
         read_targets_from,
     },
-    description::{LiveInput, RobotDescription},
-    input::{Diagnostic, Findings, Severity, is_standard_input, units::Unit},
+    description::{LiveInput, RobotDescription, Tolerance},
+    input::{Diagnostic, Findings, is_standard_input},
     text::inverse_text,
 };
 
@@ -16,7 +16,9 @@ use crate::{
     codes,
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, named},
+    quantity::{three_angles, three_lengths},
     terminal::print::{Printer, text_options},
+    tolerance::ToleranceArgument,
 };
 
 /// Joint positions that bring the tip, or the TCP if one is declared, to given poses.
@@ -27,11 +29,19 @@ use crate::{
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
-    /// A file with a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
+    /// Position of the tool in link `base`: `0.4,0.1,0.3` in m, or `400mm,100mm,300mm`.
+    #[arg(long, value_name = "X,Y,Z", value_parser = three_lengths, allow_hyphen_values = true)]
+    xyz: Option<[f64; 3]>,
+    /// Its orientation as roll, pitch and yaw about the fixed axes x, y, z of the base, each with its unit: `180deg,0,90deg`.
+    /// Without it any orientation will do.
+    #[arg(long, value_name = "ROLL,PITCH,YAW", requires = "xyz", value_parser = three_angles, allow_hyphen_values = true)]
+    rpy: Option<[f64; 3]>,
+    /// A table (.csv) with columns x_mm, y_mm, z_mm (or _m), perhaps roll_deg, pitch_deg, yaw_deg (or qw, qx, qy, qz) and joints
+    /// where the search starts; or a file with a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
     /// value}}`; without a quaternion any orientation will do. Poses are in link `base`. - is standard input, where one target per
     /// line (JSON Lines) is answered at once, with --format json by a document in one line.
-    #[arg(long, value_name = "FILE")]
-    targets: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present = "xyz", conflicts_with = "xyz")]
+    targets: Option<PathBuf>,
     /// Method by which steps are found.
     #[arg(long, default_value = "lm", value_parser = named::<IkMethod>())]
     method: IkMethod,
@@ -41,86 +51,95 @@ pub(crate) struct Arguments {
     /// Seed of the restarts.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Largest distance in m and largest angle in rad that count as reached.
-    #[arg(long, default_value_t = IkOptions::default().tolerance_m, value_parser = tolerance)]
-    tolerance: f64,
+    /// Largest distance, largest angle, or both that count as reached: 1mm, or 1mm,0.1deg. By default 1nm,1nrad.
+    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
+    tolerance: Option<ToleranceArgument>,
     /// Steps that are tried for each target, restarts included.
     #[arg(long, default_value_t = IkOptions::default().max_iterations)]
     iterations: usize,
 }
 
-fn tolerance(text: &str) -> Result<f64, String> {
-    let value = text.parse().map_err(|error: std::num::ParseFloatError| error.to_string())?;
-    if value > 0.0 { Ok(value) } else { Err("it must be above 0".to_owned()) }
-}
-
-/// Refuses a tolerance within which every pose counts as reached, and warns of a wide one.
-fn examine_tolerance(
-    tolerance: f64,
-    description: &RobotDescription,
-    printer: &Printer,
-) -> Result<(), Failure> {
-    let scale = description.tolerance_scale();
-    let found = [Unit::Length, Unit::Angle]
-        .into_iter()
-        .filter_map(|unit| scale.examine(unit, "--tolerance", tolerance));
-    let (wrong, wide): (Vec<_>, Vec<_>) = found.partition(|found| found.severity == Severity::Error);
-    printer.warnings(None, &wide);
-    if wrong.is_empty() { Ok(()) } else { Err(Findings::from(wrong).into()) }
-}
-
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
-    examine_tolerance(arguments.tolerance, &description, printer)?;
-    if !is_standard_input(&arguments.targets) {
-        let targets = read_targets(&arguments.targets, &description.robot)?;
-        return answer(arguments, &description, targets, 1, printer);
+    let search = arguments.search(&description, printer)?;
+    let answer = |targets, first| search.answer(&description, targets, first, printer);
+    let Some(file) = &arguments.targets else {
+        let target = arguments.xyz.map(|xyz_m| InverseTarget::new(xyz_m, arguments.rpy));
+        return answer(InverseTargets { targets: target.into_iter().collect(), warnings: Vec::new() }, 1);
+    };
+    if !is_standard_input(file) {
+        return answer(read_targets(file, &description.robot)?, 1);
     }
-    let mut lines = match LiveTargets::open(&arguments.targets)? {
+    let mut lines = match LiveTargets::open(file)? {
         LiveInput::Lines(lines) => lines,
         LiveInput::Whole(lines) => {
-            let targets = read_targets_from(*lines, &description.robot)?;
-            return answer(arguments, &description, targets, 1, printer);
+            return answer(read_targets_from(*lines, &description.robot)?, 1);
         }
     };
     let mut code = NOTHING;
     while let Some((number, targets)) = lines.next_target(&description.robot)? {
-        let answered = answer(arguments, &description, targets, number, printer)?;
+        let answered = answer(targets, number)?;
         // Nothing was answered before the first; a target that is not reached decides.
         code = if code == NOTHING { answered } else { code.max(answered) };
     }
     Ok(code)
 }
 
-/// Prints the answer to targets, of which the first has this number; the exit code.
-fn answer(
-    arguments: &Arguments,
-    description: &RobotDescription,
-    mut targets: InverseTargets,
-    first: usize,
-    printer: &Printer,
-) -> Result<u8, Failure> {
-    printer.warnings(None, &targets.warnings);
-    if arguments.position_only {
-        for target in &mut targets.targets {
-            target.target.part = TargetPart::Position;
+impl Arguments {
+    /// What is searched; refuses a tolerance within which every pose counts as reached, and warns of a wide one.
+    fn search(&self, description: &RobotDescription, printer: &Printer) -> Result<Search, Failure> {
+        let usual = IkOptions::default();
+        let usual_tolerance =
+            Tolerance { position_m: usual.tolerance_m, orientation_rad: usual.tolerance_rad };
+        let given = self.tolerance.unwrap_or_default();
+        let (wrong, wide) = given.examine(description.tolerance_scale());
+        printer.warnings(None, &wide);
+        if !wrong.is_empty() {
+            return Err(Findings::from(wrong).into());
         }
+        let Tolerance { position_m: tolerance_m, orientation_rad: tolerance_rad } =
+            given.replace(usual_tolerance);
+        let options = IkOptions {
+            method: self.method,
+            tolerance_m,
+            tolerance_rad,
+            max_iterations: self.iterations,
+            seed: self.seed,
+        };
+        Ok(Search { options, is_position_only: self.position_only })
     }
-    let options = IkOptions {
-        method: arguments.method,
-        tolerance_m: arguments.tolerance,
-        tolerance_rad: arguments.tolerance,
-        max_iterations: arguments.iterations,
-        seed: arguments.seed,
-    };
-    let report = inverse(description, &targets, &options)
-        .map_err(|error| Diagnostic::error(codes::ik::ROBOT, error.to_string()))?;
-    printer.result(&report, |report| {
-        inverse_text(report, &description.robot, arguments.tolerance, first, &text_options())
-    })?;
-    Ok(match &report.results[..] {
-        [] => NOTHING,
-        results if results.iter().all(|result| result.converged) => 0,
-        _ => FAILED,
-    })
+}
+
+/// How targets are reached.
+struct Search {
+    options: IkOptions,
+    is_position_only: bool,
+}
+
+impl Search {
+    /// Prints the answer to targets, of which the first has this number; the exit code.
+    fn answer(
+        &self,
+        description: &RobotDescription,
+        mut targets: InverseTargets,
+        first: usize,
+        printer: &Printer,
+    ) -> Result<u8, Failure> {
+        printer.warnings(None, &targets.warnings);
+        if self.is_position_only {
+            for target in &mut targets.targets {
+                target.target.part = TargetPart::Position;
+            }
+        }
+        let report = inverse(description, &targets, &self.options)
+            .map_err(|error| Diagnostic::error(codes::ik::ROBOT, error.to_string()))?;
+        printer.result(&report, |report| {
+            inverse_text(report, &description.robot, &self.options, first, &text_options())
+        })?;
+        Ok(match &report.results[..] {
+            [] => NOTHING,
+            results if results.iter().all(|result| result.converged) => 0,
+            _ => FAILED,
+        })
+    }
 }

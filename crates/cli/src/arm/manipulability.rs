@@ -5,12 +5,12 @@ use congruent::{
     text::manipulability_text_parts,
 };
 
-use super::length::positive_length;
 use crate::{
     configurations::ConfigurationArguments,
     failure::Failure,
     input::{ArmArguments, files_of},
     output::plot::PlotArgument,
+    quantity::positive_length,
     terminal::print::{Printer, text_options},
 };
 

@@ -7,13 +7,15 @@ congruent::input::codes! {
         HIDDEN_CHARACTER = "CGR-COMMAND-002", "cli::hidden_character",
             "An argument has a control character or a line break. Terminals do not show it, and it would be copied into the outputs. Type the argument again.";
         NOISE = "CGR-COMMAND-003", "cli::noise",
-            "Only one of the two noises of a measurement (--noise-mm and --noise-deg) is given. Give both or neither.";
+            "--noise gives only one of the two noises of a measurement, that of a coordinate and that of an orientation, and both are measured. Give both or neither.\n    --noise 0.1mm,0.05deg";
         VALUE = "CGR-COMMAND-005", "cli::value",
             "The option takes a positive number, and another value was given. The message names the option and the value.";
         VELOCITIES = "CGR-COMMAND-006", "cli::velocities",
             "The result needs joint velocities, which are read from a file of configurations (key `v`), and no such file was given.";
         FORMAT = "CGR-COMMAND-007", "cli::format",
             "SARIF output is available from `lint` only.";
+        RENAMED = "CGR-COMMAND-073", "cli::renamed",
+            "A command or an option has another name now. The old name works in this version and not in the next. The message has the new one.";
     }
     lint {
         CODE = "CGR-COMMAND-008", "lint::code",
@@ -39,10 +41,6 @@ congruent::input::codes! {
         URDF = "CGR-COMMAND-017", "output::urdf",
             "The URDF came from standard input, so the written file could not refer to it by a path. Give the URDF as a file.";
     }
-    acm {
-        SHAPE = "CGR-COMMAND-018", "acm::shape",
-            "Distances cannot be computed for a shape of the robot; the message has the reason.";
-    }
     clearance {
         SHAPE = "CGR-COMMAND-019", "clearance::shape",
             "Distances cannot be computed for a shape of the robot; the message has the reason.";
@@ -58,6 +56,10 @@ congruent::input::codes! {
     compare {
         NOT_COMPARABLE = "CGR-COMMAND-029", "compare::not_comparable",
             "The two inputs are of different kinds and cannot be compared. Compare two reports, two trajectories, two recordings, or two folders of results.";
+    }
+    convert {
+        TO = "CGR-COMMAND-072", "convert::to",
+            "--to names neither a model nor a .urdf file, or names two models or two files. A table is written in one convention, which must be chosen, since the same values are another robot in the other.\n    congruent convert arm.urdf --to dh --to arm.toml";
     }
     derive {
         BASE_PARAMETERS = "CGR-COMMAND-037", "derive::base_parameters",

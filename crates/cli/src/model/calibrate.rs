@@ -2,7 +2,7 @@
 
 #![expect(clippy::doc_markdown, reason = "the comments are printed as help, where backticks are noise")]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use congruent::{
     calibration::{
@@ -11,8 +11,8 @@ use congruent::{
         needed_coordinates,
         report::{CalibrationVerdict, plot},
     },
-    input::{Diagnostic, units::Unit},
-    page::calibration_page,
+    input::{Diagnostic, FileAccess, InputFile, is_standard_input},
+    page::{CalibrationSource, calibration_page},
     text::calibration_text,
 };
 
@@ -20,8 +20,10 @@ use crate::{
     codes,
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, files_of, named},
+    invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{print::Printer, progress::waiting},
+    tolerance::ToleranceArgument,
 };
 
 /// Corrections of a robot's model from measured poses or points of its tip (or TCP) in the base.
@@ -54,12 +56,10 @@ pub(crate) struct Arguments {
     /// Smallest ratio of singular values at which corrections count as identified.
     #[arg(long, default_value_t = CalibrationOptions::default().threshold)]
     threshold: f64,
-    /// Known noise of one measured coordinate; otherwise it is estimated.
-    #[arg(long, value_name = "MM")]
-    noise_mm: Option<f64>,
-    /// Known noise of one component of a measured orientation.
-    #[arg(long, value_name = "DEG")]
-    noise_deg: Option<f64>,
+    /// Known noise of one measured coordinate, and of one component of a measured orientation: 0.1mm, or 0.1mm,0.05deg.
+    /// Without it, it is estimated.
+    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
+    noise: Option<ToleranceArgument>,
     /// Number of configurations that are suggested for the next measurements, at most 400.
     #[arg(long, default_value_t = 5)]
     next: usize,
@@ -86,7 +86,11 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let report = waiting(printer, "calibrating", || calibrate(&description, &rows, &options))?;
     printer.result(&report, |report| calibration_text(report, &description.robot))?;
     let plotted = arguments.plot.write(|| plot::svg(&report), &inputs);
-    arguments.page.write(|| calibration_page(&report, &description.robot), &inputs).and(plotted)?;
+    let page = || {
+        let (command, measurements) = (invocation::command(), read_file(&arguments.measurements));
+        calibration_page(&report, &description, &CalibrationSource { command, measurements })
+    };
+    arguments.page.write(page, &inputs).and(plotted)?;
     Ok(match report.verdict {
         CalibrationVerdict::Explained
         | CalibrationVerdict::UnexplainedRows
@@ -99,36 +103,35 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     })
 }
 
+/// The file with its digest; standard input has been read and is none.
+fn read_file(path: &Path) -> Option<InputFile> {
+    let access = FileAccess::default();
+    let _ = (!is_standard_input(path)).then(|| access.read_named_text(path, u64::MAX));
+    access.files().pop()
+}
+
 impl Arguments {
     fn options(&self, rows: &[MeasuredRow]) -> Result<CalibrationOptions, Diagnostic> {
         let has_orientation = rows.iter().any(|row| row.orientation.is_some());
-        let positive = |name: &str, value: f64| {
-            if value.is_finite() && value > 0.0 {
-                return Ok(value);
-            }
-            Err(Diagnostic::error(codes::cli::VALUE, format!("--{name} {value} is not a positive number")))
-        };
-        let noise = match (self.noise_mm, self.noise_deg) {
-            (None, None) => None,
-            (Some(millimetres), degrees) if degrees.is_some() || !has_orientation => {
-                let position_m = Unit::Length.convert(positive("noise-mm", millimetres)?);
-                let degrees = positive("noise-deg", degrees.unwrap_or(1.0))?;
-                let orientation_rad = Unit::Angle.convert(degrees);
-                Some(Noise { position_m, orientation_rad })
-            }
-            _ => {
-                return Err(Diagnostic::error(
-                    codes::cli::NOISE,
-                    "only one of --noise-mm and --noise-deg is given",
-                )
-                .with_help("give both --noise-mm and --noise-deg, or neither"));
+        if !(self.threshold.is_finite() && self.threshold > 0.0) {
+            let message = format!("--threshold {} is not a positive number", self.threshold);
+            return Err(Diagnostic::error(codes::cli::VALUE, message));
+        }
+        let noise = match self.noise.map(ToleranceArgument::parts) {
+            None => None,
+            // Without measured orientations their noise is of no use.
+            Some((Some(position_m), None)) if !has_orientation => Some(Noise { position_m, orientation_rad: 1.0 }),
+            Some((Some(position_m), Some(orientation_rad))) => Some(Noise { position_m, orientation_rad }),
+            Some(_) => {
+                let message = "--noise has only one of a length and an angle, and both are measured";
+                return Err(Diagnostic::error(codes::cli::NOISE, message).with_help("for example --noise 0.1mm,0.05deg"));
             }
         };
         Ok(CalibrationOptions {
             free: self.free.clone(),
             hold: self.hold.clone(),
             loss: self.loss,
-            threshold: positive("threshold", self.threshold)?,
+            threshold: self.threshold,
             noise,
             suggestions: self.next,
             seed: self.seed,

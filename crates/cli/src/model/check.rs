@@ -18,7 +18,6 @@ use serde::{Serialize, Serializer};
 use super::{
     errors_at::chart,
     fixed_table::{FixArgument, fix},
-    tolerance::ToleranceArgument,
 };
 use crate::{
     batch::{Answer, Batch, BatchReport, TextParts},
@@ -26,11 +25,13 @@ use crate::{
     codes,
     failure::{FAILED, Failure, NOTHING},
     input::{AccessArguments, ChainArguments, files_of},
+    invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{
         print::{Printer, text_options},
         progress::waiting,
     },
+    tolerance::ToleranceArgument,
 };
 
 /// Checks whether a robot's DH table, its URDF and its physics simulation describe the same robot, in geometry and in
@@ -167,7 +168,7 @@ fn draw(answer: &Answer<Checked>, arguments: &Arguments, batch: &Batch<'_>) -> R
 }
 
 fn page(answers: &[Answer<Checked>]) -> String {
-    check_page(&answers.iter().map(entry).collect::<Vec<_>>())
+    check_page(&answers.iter().map(entry).collect::<Vec<_>>(), &invocation::command())
 }
 
 fn entry(answer: &Answer<Checked>) -> CheckEntry<'_> {

@@ -1,40 +1,102 @@
 //! `congruent convert`: one model of a robot written as another.
 
+use std::{
+    path::{Path, PathBuf},
+    str::FromStr,
+};
+
 use congruent::{
     analysis::conversion::{Conversion, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes},
     input::Diagnostic,
 };
 
 use crate::{
+    codes,
     failure::Failure,
     input::{ArmArguments, named},
     model::written_model::answer,
-    output::file::OutputArgument,
+    output::file::NewFile,
     terminal::print::Printer,
 };
 
 /// Converts a robot's model between DH tables, screws and URDF, proved by comparing back.
 ///
-/// Converts the declared table, or the chain of the URDF if no table is declared.
+/// Converts the declared table, or the chain of the URDF if no table is declared: `--to dh` of a URDF derives a table from its axes,
+/// with the free choices as comments. Axes that are parallel or intersect except for rounding in the URDF are taken as exactly so,
+/// and reported.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
-    /// The model that the robot is converted to.
-    #[arg(long, value_parser = named::<ConversionTarget>())]
-    to: ConversionTarget,
+    /// The model, the file, or both in two options: `dh` (the same as `standard`) for rows Rz(theta) Tz(d) Tx(a) Rx(alpha),
+    /// `modified` for rows Rx(alpha) Tx(a) Rz(theta) Tz(d) (Craig), `poe` for screws, `urdf`; a name with a point is a file, of
+    /// which .urdf says the model. A table in a file is a whole robot file (.toml). Without a file, the model is printed.
+    #[arg(long, value_name = "MODEL|FILE", required = true)]
+    to: Vec<WrittenTarget>,
     /// Which model is converted.
     #[arg(long, value_parser = named::<ConversionSource>())]
     from: Option<ConversionSource>,
     #[command(flatten)]
     accuracy: AccuracyArguments,
-    #[command(flatten)]
-    output: OutputArgument,
+    /// Replace the file of --to if it exists.
+    #[arg(long)]
+    force: bool,
+}
+
+/// One value of --to.
+#[derive(Debug, Clone, PartialEq)]
+enum WrittenTarget {
+    Model(ConversionTarget),
+    File(PathBuf),
+}
+
+impl FromStr for WrittenTarget {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Ok(Self::Model(match text {
+            "dh" | "standard" => ConversionTarget::Standard,
+            "modified" => ConversionTarget::Modified,
+            "poe" => ConversionTarget::Poe,
+            "urdf" => ConversionTarget::Urdf,
+            file if file.contains(['.', '/']) => return Ok(Self::File(file.into())),
+            _ => return Err("expected dh, standard, modified, poe, urdf, or the name of a file".to_owned()),
+        }))
+    }
+}
+
+impl Arguments {
+    /// The model and the file that --to names.
+    fn target(&self) -> Result<(ConversionTarget, Option<&Path>), Diagnostic> {
+        let refused = |message: String, help: &str| {
+            Err(Diagnostic::error(codes::convert::TO, message).with_help(help))
+        };
+        let (mut model, mut file) = (None, None);
+        for written in &self.to {
+            let is_second = match written {
+                WrittenTarget::Model(named) => model.replace(*named).is_some(),
+                WrittenTarget::File(path) => file.replace(path.as_path()).is_some(),
+            };
+            if is_second {
+                return refused("--to gives two models or two files".to_owned(), "give one model and one file at most");
+            }
+        }
+        let is_urdf = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("urdf"));
+        match (model, file) {
+            (Some(model), file) => Ok((model, file)),
+            (None, Some(path)) if is_urdf(path) => Ok((ConversionTarget::Urdf, file)),
+            (None, path) => {
+                let path = path.unwrap_or(Path::new("")).display();
+                let message = format!("--to {path} does not say which model is written: a table in which convention, or screws");
+                refused(message, &format!("for example --to dh --to {path}"))
+            }
+        }
+    }
 }
 
 /// How exact a conversion must be.
 #[derive(Debug, Clone, Copy, clap::Args)]
-pub(crate) struct AccuracyArguments {
+struct AccuracyArguments {
     /// Largest error of the result, rad and m; a coarser one takes nearly parallel axes as parallel.
     #[arg(long, default_value_t = DEFAULT_ACCURACY, value_parser = accuracy)]
     accuracy: f64,
@@ -47,7 +109,7 @@ pub(crate) struct AccuracyArguments {
 }
 
 impl AccuracyArguments {
-    pub(crate) fn conversion(self, from: Option<ConversionSource>, to: ConversionTarget) -> Conversion {
+    fn conversion(self, from: Option<ConversionSource>, to: ConversionTarget) -> Conversion {
         let rounded_axes = if self.exact { RoundedAxes::Kept } else { RoundedAxes::Corrected };
         Conversion { from, to, accuracy: self.accuracy, seed: self.seed, rounded_axes }
     }
@@ -62,7 +124,16 @@ fn accuracy(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.arm.load(printer)?;
+    let (to, file) = arguments.target()?;
+    if arguments.force && file.is_none() {
+        let message = "--force replaces a file, and --to names none";
+        return Err(Diagnostic::error(codes::convert::TO, message).with_help("for example --to dh --to arm.toml --force").into());
+    }
+    // The table that is derived from a URDF has nothing to do with a declared one.
+    let description = match arguments.from {
+        Some(ConversionSource::Urdf) => arguments.arm.load_urdf(printer)?,
+        _ => arguments.arm.load(printer)?,
+    };
     let dropped = description
         .warnings
         .iter()
@@ -75,6 +146,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         .with_help("omit --base and --tip, or convert the chosen chain with --from urdf")
         .into());
     }
-    let conversion = arguments.accuracy.conversion(arguments.from, arguments.to);
-    answer(&description, &conversion, &arguments.output, printer)
+    let conversion = arguments.accuracy.conversion(arguments.from, to);
+    let file = file.map(|path| NewFile { option: "--to", path, force: arguments.force });
+    answer(&description, &conversion, file, printer)
 }

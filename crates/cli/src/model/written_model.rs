@@ -13,7 +13,7 @@ use crate::{
     codes,
     failure::Failure,
     input::{allowing_inputs, files_of},
-    output::file::{OutputArgument, folder_of},
+    output::file::{NewFile, folder_of},
     terminal::print::Printer,
 };
 
@@ -25,30 +25,31 @@ const TOLERANCE_MARGIN: f64 = 3.0;
 pub(super) fn answer(
     description: &RobotDescription,
     conversion: &Conversion,
-    output: &OutputArgument,
+    file: Option<NewFile<'_>>,
     printer: &Printer,
 ) -> Result<u8, Failure> {
     let report = convert(description, conversion)?;
     printer.warnings(None, &report.findings);
-    let Some(path) = &output.out else {
+    let Some(file) = file else {
         printer.verbatim(&report, conversion_text)?;
         return Ok(0);
     };
+    let path = file.path;
     let inputs = files_of(description);
     if let Some(section) = &report.robot_toml {
         if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
-            let message = format!("--out {}: the name of a robot file must end in .toml", path.display());
+            let message = format!("--to {}: the name of a robot file must end in .toml", path.display());
             return Err(Diagnostic::error(codes::output::NAME, message).into());
         }
         let text =
             conversion_comments(&report) + &robot_file(description, &report, section, &folder_of(path)?)?;
-        output.write(path, &text, &inputs, |written| {
+        file.write(&text, &inputs, |written| {
             let access = allowing_inputs(FileAccess::default(), description);
             Ok(load_robot_with(written, &access).map(drop)?)
         })?;
     } else {
         folder_of(path)?;
-        output.write(path, &conversion_text(&report), &inputs, |_| Ok(()))?;
+        file.write(&conversion_text(&report), &inputs, |_| Ok(()))?;
     }
     printer
         .result(&report, |report| format!("{}written to {}\n", conversion_remarks(report), path.display()))?;

@@ -31,14 +31,14 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     /// The scenario file, whose name without .toml is that of the scenario.
     #[arg(long, value_name = "FILE.toml")]
-    out: PathBuf,
-    /// Replace the file of --out if it exists.
+    to: PathBuf,
+    /// Replace the file of --to if it exists.
     #[arg(long)]
     force: bool,
 }
 
 pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let out = &arguments.out;
+    let to = &arguments.to;
     let refused = |message: String, help: &str| {
         Diagnostic::error(congruent::codes::new::SCENARIO, message).with_help(help)
     };
@@ -47,16 +47,16 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             "the robot came from standard input, but a scenario must name its robot by a path".to_owned();
         return Err(refused(message, "give the robot as a file").into());
     }
-    if out.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
-        let message = format!("--out {}: the name of a scenario file must end in .toml", out.display());
-        return Err(refused(message, "for example --out scenarios/first.toml").into());
+    if to.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
+        let message = format!("--to {}: the name of a scenario file must end in .toml", to.display());
+        return Err(refused(message, "for example --to scenarios/first.toml").into());
     }
     let description = arguments.robot.load_for(Capability::Physics, printer)?;
     let inputs = files_of(&description);
-    let file = NewFile { option: "--out", path: out, force: arguments.force };
-    let folder = folder_of(out)?;
+    let file = NewFile { option: "--to", path: to, force: arguments.force };
+    let folder = folder_of(to)?;
     file.may_be_written(&inputs)?;
-    let name = out.file_name().unwrap_or_default();
+    let name = to.file_name().unwrap_or_default();
     let find = || scenario(&description, &folder.join(name));
     let draft = waiting(printer, "trying motions", find)?;
     let (setup, outcome) = file.write(&draft.text, &inputs, |written| {
@@ -67,7 +67,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         Ok((setup, outcome))
     })?;
     let mut report = report(arguments, &description, draft, &setup, outcome);
-    if let Some(warning) = needs_to_be_allowed(&arguments.robot.access()?, out, &description.path) {
+    if let Some(warning) = needs_to_be_allowed(&arguments.robot.access()?, to, &description.path) {
         printer.warnings(None, std::slice::from_ref(&warning));
         report.warnings.push(Finding::from(&warning));
     }
@@ -97,7 +97,7 @@ fn report(
     outcome: Outcome,
 ) -> NewScenario {
     NewScenario {
-        file: arguments.out.display().to_string(),
+        file: arguments.to.display().to_string(),
         robot: description.name.clone(),
         chain: description.reported_chain(),
         joints: draft.joints,

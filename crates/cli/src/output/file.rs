@@ -1,4 +1,4 @@
-//! Files that a command makes, such as the model of `--out FILE`. A file appears whole or not at all, and nothing is
+//! Files that a command makes, such as the model of `convert --to FILE`. A file appears whole or not at all, and nothing is
 //! overwritten that the user did not mean.
 
 use std::{
@@ -15,31 +15,6 @@ use crate::{
     codes,
     failure::{self, Failure},
 };
-
-/// Where a model is written.
-#[derive(Debug, clap::Args)]
-pub(crate) struct OutputArgument {
-    /// Write the model to this file instead of printing it: a table as a whole robot file (.toml).
-    #[arg(long, alias = "output", value_name = "FILE")]
-    pub(crate) out: Option<PathBuf>,
-    /// Replace the file of --out if it exists.
-    #[arg(long, requires = "out")]
-    force: bool,
-}
-
-impl OutputArgument {
-    /// Writes `text` to `path`, which is none of the files `inputs`; if `accept` refuses the written file, what
-    /// was there before is there again.
-    pub(crate) fn write(
-        &self,
-        path: &Path,
-        text: &str,
-        inputs: &[PathBuf],
-        accept: impl FnOnce(&Path) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        NewFile { option: "--out", path, force: self.force }.write(text, inputs, accept)
-    }
-}
 
 /// A file that a command makes, at a place that the user gives.
 #[derive(Debug, Clone, Copy)]

@@ -40,11 +40,27 @@ pub(crate) struct Arguments {
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX.unsigned_abs()))]
     seed: Option<u64>,
     #[command(flatten)]
+    pub(super) faults: FaultArguments,
+    #[command(flatten)]
     recording: RecordingArguments,
     #[command(flatten)]
     pub(super) ci: CiArguments,
     #[command(flatten)]
     pub(super) access: AccessArguments,
+}
+
+/// What is shown of scenarios that inject faults.
+#[derive(Debug, clap::Args)]
+pub(super) struct FaultArguments {
+    /// Write no results; show which checks detect which injected fault, after what time, and what the diagnosis finds.
+    ///
+    /// Exit code 1 if a fault is detected by no check or is not diagnosed, or if a check fails in a scenario without a
+    /// fault.
+    #[arg(long, conflicts_with_all = ["out", "resume", "jobs", "no_recording", "junit", "summary", "annotate"])]
+    pub(super) faults: bool,
+    /// Also write the table of --faults into this file, between the lines `<!-- faults: begin -->` and `<!-- faults: end -->`.
+    #[arg(long, value_name = "FILE", requires = "faults")]
+    pub(super) markdown: Option<PathBuf>,
 }
 
 /// Whether a recording is written, and whether it is shown.

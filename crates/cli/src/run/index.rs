@@ -11,6 +11,7 @@ use super::run_answer::RunAnswer;
 use crate::{
     batch::Answer,
     failure::{Failure, unwritable},
+    invocation,
 };
 
 /// The page over several scenarios.
@@ -28,7 +29,7 @@ pub(super) fn write_index(answers: &[Answer<RunAnswer>], out: &Path) -> Result<(
         return Ok(());
     }
     let entries: Vec<IndexEntry<'_>> = answers.iter().map(entry).collect();
-    let page = index_page(&entries);
+    let page = index_page(&entries, &invocation::command());
     write_whole(&out.join(INDEX), page.as_bytes())
         .map_err(|error| unwritable(&error, "choose a folder that can be written with --out"))
 }

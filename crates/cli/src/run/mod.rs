@@ -1,6 +1,7 @@
 //! `congruent run`: runs scenario files without a display.
 
 mod arguments;
+mod faults;
 mod index;
 mod resumed;
 mod run_answer;
@@ -29,6 +30,9 @@ pub(crate) use self::{
 };
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    if arguments.faults.faults {
+        return faults::run(arguments, printer);
+    }
     let recording = recording_format(arguments, printer)?;
     let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
     let recordings = recordings(recording.as_deref());

@@ -14,7 +14,7 @@ use congruent::{
     input::{Diagnostic, Finding, serde_name, visible},
     text::{
         MOST_FINDINGS, TextOptions, finding_text,
-        layout::{for_people, visible_path},
+        layout::{fitted, for_people, visible_path},
         listed_findings,
     },
 };
@@ -185,15 +185,21 @@ impl Printer {
         }
     }
 
-    /// Warnings for people; beside a JSON document, which has them in full, each in one line. Of several inputs the name of
-    /// theirs is in front of each. A warning that was printed in this call, as of a robot of several scenarios, is one line.
+    /// Warnings, each in one line; with --verbose in full, with the text of the file. Of several inputs the name of theirs is in
+    /// front of each. A warning that was printed in this call, as of a robot of several scenarios, is shorter.
     pub(crate) fn warnings(&self, input: Option<&Path>, warnings: &[Diagnostic]) {
         if self.is_quiet() {
             return;
         }
         let shown = |warning: &Diagnostic| match self.format {
-            Format::Human if is_first(warning) => labelled(input, warning),
-            Format::Human => format!("{}warning, as above: {}\n", named(input), visible(&warning.message)),
+            Format::Human if !is_first(warning) => {
+                format!("{}warning, as above: {}\n", named(input), visible(&warning.message))
+            }
+            Format::Human if self.verbosity == Verbosity::Verbose => labelled(input, warning),
+            Format::Human => {
+                let line = in_one_line(input, warning);
+                text_options().columns.map_or(line.clone(), |columns| fitted(&line, columns))
+            }
             Format::Json | Format::Sarif => in_one_line(input, warning),
         };
         to_stderr(&warnings.iter().map(shown).collect::<String>());
@@ -289,7 +295,7 @@ fn is_first(warning: &Diagnostic) -> bool {
 fn in_one_line(input: Option<&Path>, finding: &Diagnostic) -> String {
     let text = Finding::from(finding).to_string();
     let text = text.lines().map(str::trim).collect::<Vec<_>>().join(" ");
-    format!("{}{}: {text}\n", named(input), serde_name(&finding.severity))
+    format!("{}{} {}: {text}\n", named(input), serde_name(&finding.severity), finding.code.id_or_name())
 }
 
 /// The name of an input in front of what is said of it.

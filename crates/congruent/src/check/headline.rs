@@ -274,7 +274,7 @@ fn allowed(report: &CheckReport) -> String {
     let is_less = position_m <= allowed.position_m.max(rounding.position_m)
         && orientation_rad <= allowed.orientation_rad.max(rounding.orientation_rad);
     let but = if is_less && report.grade == Some(Grade::Different) {
-        ", but no rounding gives this one"
+        ", but the difference is not rounding"
     } else {
         ""
     };

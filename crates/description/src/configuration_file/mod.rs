@@ -1,4 +1,4 @@
-//! Configurations by joint name, as batch commands read them: JSON, SI units.
+//! Configurations by joint name, as batch commands read them: JSON in SI units, or a table whose columns have units.
 
 mod beyond_limits;
 mod json_list;
@@ -6,6 +6,7 @@ mod live;
 mod read;
 mod rows;
 mod states;
+mod table;
 mod unique;
 
 pub use self::{

@@ -16,6 +16,7 @@ use super::{
     json_list::JsonList,
     rows::RobotQList,
     states::{JointState, JointStateList},
+    table::{is_table, read_rows},
     unique::unique_names,
 };
 
@@ -41,10 +42,10 @@ pub(super) struct WrittenConfiguration {
     pub(super) q: BTreeMap<String, f64>,
     /// Velocities in rad/s and m/s.
     #[serde(default, deserialize_with = "unique_names")]
-    v: BTreeMap<String, f64>,
+    pub(super) v: BTreeMap<String, f64>,
     /// Torques in N m and forces in N.
     #[serde(default, deserialize_with = "unique_names")]
-    tau: BTreeMap<String, f64>,
+    pub(super) tau: BTreeMap<String, f64>,
     /// Accelerations in rad/s² and m/s².
     #[serde(default, deserialize_with = "unique_names")]
     a: BTreeMap<String, f64>,
@@ -79,7 +80,8 @@ pub struct Configurations<List> {
 }
 
 /// Reads a file of configurations in rad and m, missing joints 0: `{"q": {joint: value}, ...}` on each line (JSON Lines), or
-/// a JSON array of at most 100,000 of them. Lines are read once and not kept: memory is taken by the values alone.
+/// a JSON array of at most 100,000 of them. Lines are read once and not kept: memory is taken by the values alone. A file whose
+/// name ends in .csv is a table, with columns such as `elbow_deg` or those of a run's table.
 ///
 /// # Errors
 /// The file cannot be read, is no such list, is empty, or names an unknown joint.
@@ -148,7 +150,15 @@ fn read(
         }
         add(&written)
     };
-    let (input, source) = LIST.read_file(lines, entry)?;
+    let (input, source) = if is_table(lines.path()) {
+        let (input, source) = lines.whole()?;
+        let in_file = |fault: Diagnostic| fault.in_file(&source);
+        read_rows(&source.text, robot, entry)
+            .map_err(|faults| faults.into_iter().map(in_file).collect::<Findings>())?;
+        (input, source)
+    } else {
+        LIST.read_file(lines, entry)?
+    };
     if index == 0 {
         return Err(no_entry().in_file(&source).into());
     }

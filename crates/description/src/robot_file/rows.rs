@@ -34,6 +34,12 @@ pub(super) fn check(
     (!rows.is_empty()).then_some(rows)
 }
 
+/// Whether a finding is about this quantity under a key without a unit.
+fn is_without_unit(found: &Diagnostic, quantity: &str) -> bool {
+    found.code == congruent_input::codes::toml::UNKNOWN_KEY
+        && found.message.starts_with(&format!("\"{quantity}\" needs a unit"))
+}
+
 fn row(
     written: &Spanned<WrittenRow>,
     context: &ChainContext<'_>,
@@ -49,6 +55,10 @@ fn row(
     let d_m = value("d", Unit::Length, &row.d_m, &row.d_mm);
     let theta_rad = value("theta", Unit::Angle, &row.theta_rad, &row.theta_deg);
     let mut needed = |quantity, unit: Unit, value: Option<Option<f64>>| {
+        // It is written under a key without a unit, which is reported already.
+        if value == Some(None) && diagnostics.any(|found| is_without_unit(found, quantity)) {
+            return None;
+        }
         diagnostics.keep(value?.ok_or_else(|| {
             let [si, engineering] = unit.keys(quantity);
             let message =

@@ -39,6 +39,11 @@ impl Diagnostics {
         Self(self.0.into_iter().map(change).collect())
     }
 
+    /// Whether one of them is as `is_meant` says.
+    pub fn any(&self, is_meant: impl FnMut(&Diagnostic) -> bool) -> bool {
+        self.0.iter().any(is_meant)
+    }
+
     /// Whether a finding inside a byte range blocks physics.
     pub fn blocks_physics_within(&self, range: &Range<usize>) -> bool {
         let within = |found: &Diagnostic| found.span.as_ref().is_some_and(|span| range.contains(&span.start));
@@ -164,7 +169,7 @@ fn occurrences(found: Diagnostic) -> Vec<Occurrence> {
 
 /// One message for all: their number and their names, or the first message and the lines of the others.
 fn headline(found: &Diagnostic) -> String {
-    const MOST_LISTED: usize = 20;
+    const MOST_LISTED: usize = 6;
     let Grouping { plural_and_name, occurrences, .. } = &*found.kind;
     let listed = |words: Vec<String>| {
         let rest = words.len().saturating_sub(MOST_LISTED);

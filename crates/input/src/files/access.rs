@@ -14,6 +14,7 @@ use sha2::{Digest, Sha256};
 use super::{
     kind::TextKind,
     open::{decode_text, folder_of, read_named_bytes, read_regular_bytes},
+    portable::portable_path,
     project::{normalised, project_folder},
     ros_packages::RosPackages,
 };
@@ -47,7 +48,7 @@ pub struct FileAccess {
 /// A file that was read.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct InputFile {
-    /// The file as it was named: a path, or the address of a mesh.
+    /// The file as it was named: a path, never an absolute one, or the address of a mesh.
     pub file: String,
     /// SHA-256 of its bytes.
     pub sha256: String,
@@ -271,7 +272,9 @@ impl FileAccess {
 
     fn note(&self, name: &dyn Display, path: &Path, bytes: &[u8]) {
         let sha256 = format!("{:x}", Sha256::digest(bytes));
-        self.add(&[InputFile { file: name.to_string(), sha256, path: path.to_owned() }]);
+        // An address, as `package://`, is no absolute path.
+        let file = portable_path(Path::new(&name.to_string())).display().to_string();
+        self.add(&[InputFile { file, sha256, path: path.to_owned() }]);
     }
 }
 
@@ -410,7 +413,9 @@ mod tests {
             access.read_named_text(&file, 99).unwrap();
         }
         let sha256 = "982d9e3eb996f559e633f4d194def3761d909f5a3b647d1a851fead67c32c9d1".to_owned();
-        assert_eq!(access.files(), [InputFile { file: file.display().to_string(), sha256, path: file }]);
+        let named = portable_path(&file).display().to_string();
+        assert!(!named.starts_with('/'), "{named}");
+        assert_eq!(access.files(), [InputFile { file: named, sha256, path: file }]);
         assert!(access.fresh().files().is_empty());
     }
 }

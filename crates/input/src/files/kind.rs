@@ -1,7 +1,7 @@
 //! What is expected of a text that another file names, outside of its project: anything else could be a secret, of which the
 //! messages of a reader would show words.
 
-use std::sync::Arc;
+use std::{cmp::Ordering, sync::Arc};
 
 use crate::{
     codes,
@@ -50,6 +50,43 @@ impl TextKind {
                 line.strip_prefix("urdf").is_some_and(has_urdf) || line.starts_with("[dh")
             }),
             Self::Table => lines.nth(1).is_some_and(|line| line.split([',', ';', '\t']).all(is_number)),
+        }
+    }
+}
+
+/// Which of the two files in TOML a text is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TomlKind {
+    /// A robot file.
+    RobotFile,
+    /// A scenario.
+    Scenario,
+}
+
+/// Keys at the top of a robot file, and of a scenario.
+const ROBOT_KEYS: [&str; 7] = ["urdf", "dh", "tcp", "inertia", "inertial", "packages", "tolerance"];
+const SCENARIO_KEYS: [&str; 7] =
+    ["schema_version", "simulation", "motion", "controller", "check", "robot", "start"];
+
+impl TomlKind {
+    /// By the keys at the top of the text; `None` if it has as many of the one as of the other. Lines are searched instead of
+    /// parsed, so that the kind of a file with a syntax error is found, too.
+    pub fn from_text(text: &str) -> Option<Self> {
+        let count = |keys: &[&str]| {
+            let is_key = |line: &str| {
+                let word: String = line
+                    .trim_start_matches('[')
+                    .chars()
+                    .take_while(|c| c.is_ascii_alphanumeric() || *c == '_')
+                    .collect();
+                keys.contains(&word.as_str())
+            };
+            text.lines().filter(|line| is_key(line.trim_start())).count()
+        };
+        match count(&SCENARIO_KEYS).cmp(&count(&ROBOT_KEYS)) {
+            Ordering::Greater => Some(Self::Scenario),
+            Ordering::Less => Some(Self::RobotFile),
+            Ordering::Equal => None,
         }
     }
 }

@@ -4,13 +4,15 @@ mod access;
 mod kind;
 mod open;
 mod packages;
+mod portable;
 mod project;
 mod ros_packages;
 mod text_lines;
 
 pub use access::{FileAccess, InputFile};
-pub use kind::TextKind;
+pub use kind::{TextKind, TomlKind};
 pub use open::{folder_of, head_of, is_standard_input, not_found, read_text};
 pub use packages::{Packages, Resolved};
+pub use portable::portable_path;
 pub use ros_packages::RosPackages;
 pub use text_lines::TextLines;

@@ -98,8 +98,15 @@ impl Packages {
             }
         }
         let message = format!("mesh file \"{uri}\" not found");
-        let fault =
-            Diagnostic::error(codes::mesh::NOT_FOUND, message).one_of("mesh files are not found", uri);
+        let fault = Diagnostic::error(codes::mesh::NOT_FOUND, message);
+        // The names of files tell meshes of one package apart.
+        let fault = match package_of(uri) {
+            Some((package, rest)) => {
+                let name = rest.rsplit('/').next().unwrap_or(rest);
+                fault.one_of(format!("mesh files of package \"{package}\" are not found"), name)
+            }
+            None => fault.one_of("mesh files are not found", uri),
+        };
         let tried = tried.join(", ");
         Err(fault.with_help(match package_of(uri) {
             Some((package, _)) => format!(

@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use super::{
     access::InputFile,
     open::{decode, open_named, too_large, unreadable, valid_text},
+    portable::portable_path,
 };
 use crate::diagnostic::{Diagnostic, SourceFile};
 
@@ -50,6 +51,11 @@ impl TextLines {
             kept: String::new(),
             kept_count: 0,
         })
+    }
+
+    /// The path as given.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Reads on to the next line that is not blank; `false` at the end of the file.
@@ -131,7 +137,7 @@ impl TextLines {
     pub fn close(mut self) -> Result<(InputFile, Arc<SourceFile>), Diagnostic> {
         while self.advance()? {}
         let Self { path, digest, kept: text, .. } = self;
-        let file = path.display().to_string();
+        let file = portable_path(&path).display().to_string();
         let sha256 = format!("{:x}", digest.finalize());
         Ok((
             InputFile { file, sha256, path: path.clone() },

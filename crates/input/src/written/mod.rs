@@ -5,6 +5,7 @@ pub(crate) mod digits;
 pub(crate) mod name;
 pub mod number;
 pub(crate) mod rpy;
+pub(crate) mod serde_message;
 pub mod toml_text;
 pub(crate) mod transform;
 pub use rpy::{rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad};

@@ -14,7 +14,9 @@ use toml::{
 use crate::{
     codes,
     diagnostic::{Diagnostic, Diagnostics, known_names},
+    units::WrittenUnit,
     visible::hidden_character,
+    written::serde_message::in_words,
 };
 
 /// Parses `text`; faults go to `diagnostics`.
@@ -138,15 +140,23 @@ pub fn diagnostic(error: &Error) -> Diagnostic {
     let known: Vec<&str> = names.collect();
     let known_help = |what: &str| known_names(first, what, known.iter().copied());
     let found = if text.starts_with(UNKNOWN_KEY) {
-        Diagnostic::error(codes::toml::UNKNOWN_KEY, format!("unknown key \"{first}\""))
-            .with_help(known_help("keys"))
+        let with_units: Vec<&str> =
+            known.iter().copied().filter(|key| WrittenUnit::split(key).is_some_and(|(stem, _)| stem == first)).collect();
+        let message = match with_units[..] {
+            [] => format!("unknown key \"{first}\""),
+            _ => format!("\"{first}\" needs a unit: {}", with_units.join(" or ")),
+        };
+        let found = Diagnostic::error(codes::toml::UNKNOWN_KEY, message);
+        if with_units.is_empty() { found.with_help(known_help("keys")) } else { found }
     } else if text.starts_with("unknown variant ") {
         Diagnostic::error(codes::toml::UNKNOWN_VALUE, format!("unknown value \"{first}\""))
             .with_help(known_help("values"))
     } else if text.starts_with("missing field ") {
         Diagnostic::error(codes::toml::MISSING_KEY, format!("missing key \"{first}\""))
     } else {
-        Diagnostic::error(codes::toml::INVALID, text.replace('\n', ", "))
+        let (message, help) = in_words(&text.replace('\n', ", "));
+        let found = Diagnostic::error(codes::toml::INVALID, message);
+        if let Some(help) = help { found.with_help(help) } else { found }
     };
     found.at(error.span().unwrap_or(0..0))
 }
@@ -227,7 +237,7 @@ mod tests {
             ["2:8: unknown value \"revolut\" (did you mean \"revolute\"? known values: revolute, prismatic)"]
         );
         assert_eq!(read("\n[[row]]").1, ["2:1: missing key \"kind\""]);
-        assert_eq!(read("duration = \"2\"").1, ["1:12: invalid type: string \"2\", expected f64"]);
+        assert_eq!(read("duration = \"2\"").1, ["1:12: must be a number, not the text \"2\" (write it without quotes)"]);
         assert_eq!(read("duration = = 2").1.len(), 1);
     }
 

@@ -3,17 +3,18 @@
 use std::fmt::Write;
 
 use crate::{
-    analysis::inverse::{InverseReport, InverseSolution},
+    analysis::inverse::{IkOptions, InverseReport, InverseSolution, NotReached},
     description::{Joint, Robot},
     input::display::{length, length_and_angle, position},
     text::{TextOptions, layout::Table},
 };
 
-/// What `congruent ik` prints: for each target whether it is reached within the tolerance (in m), and the joint positions. `first` is the number of the first target; the chain is left out if that is not 1.
+/// What `congruent ik` prints: for each target whether it is reached within the tolerances, and the joint positions. `first` is the
+/// number of the first target; the chain is left out if that is not 1.
 pub fn inverse_text(
     report: &InverseReport,
     robot: &Robot,
-    tolerance_m: f64,
+    searched: &IkOptions,
     first: usize,
     options: &TextOptions,
 ) -> String {
@@ -26,14 +27,30 @@ pub fn inverse_text(
             text,
             "target {}: {} after {} steps, residual {}, tolerance {}",
             first + index,
-            if result.converged { "reached" } else { "NOT REACHED" },
+            reached(result),
             result.iterations,
             length_and_angle(result.residual_position_m, result.residual_orientation_rad),
-            length(tolerance_m)
+            length_and_angle(searched.tolerance_m, searched.tolerance_rad)
         );
         joints(&mut text, result, robot, options);
     }
     text
+}
+
+/// Whether a target is reached, and if not, why.
+fn reached(result: &InverseSolution) -> String {
+    match result.not_reached {
+        _ if result.converged => "reached".to_owned(),
+        None => "NOT REACHED".to_owned(),
+        Some(NotReached::Orientation) => {
+            "NOT REACHED: the position can be reached, but not in this orientation;".to_owned()
+        }
+        Some(NotReached::OutOfReach { distance_m, reach_m }) => format!(
+            "OUT OF REACH: {} from the first joint, the arm reaches at most {};",
+            length(distance_m),
+            length(reach_m)
+        ),
+    }
 }
 
 /// Each joint with its position, its margin to the nearer limit, and its range.

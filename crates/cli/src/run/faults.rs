@@ -1,4 +1,4 @@
-//! `congruent faults`: which check sees which fault, and what the diagnosis says.
+//! `congruent run --faults`: which check sees which fault, and what the diagnosis says.
 
 use std::{
     fs,
@@ -13,10 +13,10 @@ use congruent::{
     twin::{Run, RunSetup},
 };
 
+use super::arguments::Arguments;
 use crate::{
     codes,
     failure::{BROKEN, FAILED, Failure, worse},
-    input::AccessArguments,
     output::file::replace,
     terminal::{
         print::Printer,
@@ -24,35 +24,19 @@ use crate::{
     },
 };
 
-/// Runs scenarios that inject faults and shows which checks detect them, after what time, and what the diagnosis
-/// finds.
-///
-/// Exit code 1 if a fault is detected by no check or is not diagnosed, or if a check fails in a scenario without a
-/// fault.
-#[derive(Debug, clap::Args)]
-pub(crate) struct Arguments {
-    /// Scenario files, with one [[fault]] or more, or with none for comparison.
-    #[arg(required = true)]
-    scenarios: Vec<PathBuf>,
-    /// Also write the table into this file, between the lines `<!-- faults: begin -->` and `<!-- faults: end -->`.
-    #[arg(long, value_name = "FILE")]
-    markdown: Option<PathBuf>,
-    #[command(flatten)]
-    access: AccessArguments,
-}
-
 const BEGIN: &str = "<!-- faults: begin -->\n";
 const END: &str = "<!-- faults: end -->";
 
-pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let overrides = arguments.overrides();
     let access = arguments.access.access()?;
     let load = |path: &PathBuf| -> Result<RunSetup, Failure> {
-        let setup = RunSetup::load_with(path, &[], &access).and_then(RunSetup::for_simulation)?;
+        let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation)?;
         printer.warnings(Some(path), &setup.description.warnings);
         printer.warnings(Some(path), &setup.warnings);
         Ok(setup)
     };
-    let document = arguments.markdown.as_deref().map(MarkdownDocument::read).transpose()?;
+    let document = arguments.faults.markdown.as_deref().map(MarkdownDocument::read).transpose()?;
     let progress = ProgressLines::new(printer);
     let (mut reports, mut exit_code) = (Vec::new(), 0);
     for path in &arguments.scenarios {

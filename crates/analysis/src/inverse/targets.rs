@@ -1,22 +1,18 @@
-//! `congruent ik`: joint positions that bring the tool to given poses.
+//! Targets of inverse kinematics: poses of the tool in link `base`, as a person or a file gives them.
 
 use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path, sync::Arc};
 
-use congruent_description::{
-    ArmQ, JointValues, JsonList, LiveEntries, LiveInput, ReportedChain, Robot, RobotDescription,
-    configuration, unique_names,
-};
+use congruent_description::{JsonList, LiveEntries, LiveInput, Robot, configuration, unique_names};
 use congruent_input::{
-    Diagnostic, Finding, Findings, SourceFile, TextLines, display::limit_number, read_text, units::LARGEST,
+    Diagnostic, Findings, SourceFile, TextLines, display::limit_number, read_text, rotation_from_rpy_fixed_xyz,
+    units::LARGEST,
 };
-use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
+use congruent_kinematics::{IkTarget, Pose, TargetPart};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use crate::{arm_joints::joint_names, codes};
-
-pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
+use super::table::read_rows;
+use crate::codes;
 
 /// A file of targets as a list.
 const LIST: JsonList = JsonList {
@@ -32,11 +28,11 @@ const QUATERNION_NORM: f64 = 1e-6;
 /// One target as written.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct WrittenTarget {
-    translation_m: [f64; 3],
-    quaternion_wxyz: Option<[f64; 4]>,
+pub(super) struct WrittenTarget {
+    pub(super) translation_m: [f64; 3],
+    pub(super) quaternion_wxyz: Option<[f64; 4]>,
     #[serde(default, deserialize_with = "unique_names")]
-    start: BTreeMap<String, f64>,
+    pub(super) start: BTreeMap<String, f64>,
 }
 
 /// A pose to be reached, and the start of the search.
@@ -48,6 +44,17 @@ pub struct InverseTarget {
     pub start: BTreeMap<String, f64>,
 }
 
+impl InverseTarget {
+    /// The tool at `tcp_in_base_m`, turned by roll, pitch and yaw about the fixed axes of the base; without them in any
+    /// orientation.
+    pub fn new(tcp_in_base_m: [f64; 3], rpy_fixed_xyz_rad: Option<[f64; 3]>) -> Self {
+        let part = if rpy_fixed_xyz_rad.is_some() { TargetPart::Pose } else { TargetPart::Position };
+        let rotation = rotation_from_rpy_fixed_xyz(rpy_fixed_xyz_rad.unwrap_or_default());
+        let pose = Isometry3::from_parts(Translation3::from(tcp_in_base_m), rotation);
+        Self { target: IkTarget { base_from_tcp: Pose::from(pose), part }, start: BTreeMap::new() }
+    }
+}
+
 /// A file of targets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseTargets {
@@ -57,42 +64,7 @@ pub struct InverseTargets {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// The answer of `congruent ik`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct InverseReport {
-    /// Name of the robot.
-    pub robot: String,
-    /// Base and tip, and who named them.
-    pub chain: ReportedChain,
-    /// The arm's independent joints, base to tip.
-    pub joints: Vec<String>,
-    /// The method of the solver.
-    pub method: IkMethod,
-    /// One entry for each target, in input order.
-    pub results: Vec<InverseSolution>,
-    /// Warnings about the input, among them starts outside the limits.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub warnings: Vec<Finding>,
-}
-
-/// The result for one target.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct InverseSolution {
-    /// Whether the residuals are within tolerance.
-    pub converged: bool,
-    /// The best positions that were found, rad or m, always within the limits.
-    pub q: JointValues,
-    /// Distance from the target.
-    pub residual_position_m: f64,
-    /// Angle from the target; 0 for a target without orientation.
-    pub residual_orientation_rad: f64,
-    /// Steps that were taken.
-    pub iterations: usize,
-    /// Joints at a limit.
-    pub limits_held: Vec<String>,
-}
-
-/// Reads a file of targets: a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [...],
+/// Reads a file of targets: a table (.csv) with columns such as `x_mm` and `yaw_deg`, or a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [...],
 /// "start": {joint: value}}`, the last two optional; poses of the tool in link `base`.
 ///
 /// # Errors
@@ -118,7 +90,12 @@ fn read_targets_of(source: &Arc<SourceFile>, robot: &Robot) -> Result<InverseTar
         warnings.extend(start_warnings(&target, index, robot).map(|warning| warning.at(place.clone())));
         Ok(target)
     };
-    let targets = LIST.read(&source.text, entry);
+    let is_table = source.path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    let targets = if is_table {
+        read_rows(&source.text, robot, entry)
+    } else {
+        LIST.read(&source.text, entry)
+    };
     let targets = targets.map_err(|faults| faults.into_iter().map(in_file).collect::<Findings>())?;
     Ok(InverseTargets { targets, warnings: warnings.into_iter().map(in_file).collect() })
 }
@@ -204,44 +181,4 @@ fn unit_quaternion([w, x, y, z]: [f64; 4]) -> Result<UnitQuaternion<f64>, Diagno
     Err(Diagnostic::error(codes::targets::QUATERNION_NORM, message).with_help(
         "write the quaternion with more digits, in the order w, x, y, z: it is not normalised for you",
     ))
-}
-
-/// Solves all targets for the robot's arm, the URDF chain from `base` to `tip` with its tool.
-///
-/// # Errors
-/// [`KinematicsError::NoJoint`] if the robot has no arm.
-pub fn inverse(
-    description: &RobotDescription,
-    InverseTargets { targets, warnings }: &InverseTargets,
-    options: &IkOptions,
-) -> Result<InverseReport, KinematicsError> {
-    let arm = Arm::from_description(description)?;
-    let joints = joint_names(description, &arm);
-    let middle = arm.middle();
-    let mut solver = IkSolver::new(arm);
-    let mut results = Vec::with_capacity(targets.len());
-    for target in targets {
-        let start = joints.iter().zip(&middle);
-        let start: ArmQ = start.map(|(joint, middle)| *target.start.get(joint).unwrap_or(middle)).collect();
-        results.push(solution(&solver.solve(&target.target, &start, options, || true)?, &joints));
-    }
-    Ok(InverseReport {
-        robot: description.name.clone(),
-        chain: description.reported_chain(),
-        joints,
-        method: options.method,
-        results,
-        warnings: description.warnings.iter().chain(warnings).map(Finding::from).collect(),
-    })
-}
-
-fn solution(result: &IkResult<'_>, joints: &[String]) -> InverseSolution {
-    InverseSolution {
-        converged: result.converged,
-        q: JointValues::new(joints, result.q),
-        residual_position_m: result.residual_position_m,
-        residual_orientation_rad: result.residual_orientation_rad,
-        iterations: result.iterations,
-        limits_held: result.limits_held.iter().map(|&joint| joints[joint].clone()).collect(),
-    }
 }

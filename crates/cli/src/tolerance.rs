@@ -1,4 +1,4 @@
-//! The tolerance on the command line: `1mm`, or `1mm,0.1deg`.
+//! A tolerance on the command line: `1mm`, or `1mm,0.1deg`.
 
 use std::str::FromStr;
 
@@ -7,16 +7,18 @@ use congruent::{
     input::{Diagnostic, Severity, units::Unit},
 };
 
-/// A tolerance that replaces the one of the robot file; a part that is not given is not replaced.
+use crate::quantity::{Dimension, QuantityArgument};
+
+/// A tolerance that replaces another, such as that of the robot file; a part that is not given is not replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct ToleranceArgument {
+pub(crate) struct ToleranceArgument {
     position_m: Option<f64>,
     orientation_rad: Option<f64>,
 }
 
 impl ToleranceArgument {
     /// The tolerance to check with.
-    pub(super) fn replace(self, declared: Tolerance) -> Tolerance {
+    pub(crate) fn replace(self, declared: Tolerance) -> Tolerance {
         Tolerance {
             position_m: self.position_m.unwrap_or(declared.position_m),
             orientation_rad: self.orientation_rad.unwrap_or(declared.orientation_rad),
@@ -25,8 +27,13 @@ impl ToleranceArgument {
 }
 
 impl ToleranceArgument {
+    /// The length in m and the angle in rad.
+    pub(crate) fn parts(self) -> (Option<f64>, Option<f64>) {
+        (self.position_m, self.orientation_rad)
+    }
+
     /// What is wrong with it for a robot of this scale: errors, and warnings.
-    pub(super) fn examine(self, scale: ToleranceScale) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+    pub(crate) fn examine(self, scale: ToleranceScale) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
         let parts = [(Unit::Length, self.position_m), (Unit::Angle, self.orientation_rad)];
         let examined =
             parts.into_iter().filter_map(|(unit, value)| scale.examine(unit, "--tolerance", value?));
@@ -54,34 +61,17 @@ impl FromStr for ToleranceArgument {
     }
 }
 
-/// A number with its unit, in m or rad.
+/// A length or an angle above 0, with its unit.
 fn quantity(text: &str) -> Result<(Unit, f64), String> {
-    let start = text.find(|c: char| c.is_alphabetic() && c != 'e' && c != 'E').unwrap_or(text.len());
-    let (number, name) = text.split_at(start);
-    let number = number.trim();
-    let (unit, in_si): (Unit, fn(f64) -> f64) = match name {
-        "m" => (Unit::Length, |value| value),
-        "mm" => (Unit::Length, |value| Unit::Length.convert(value)),
-        "um" => (Unit::Length, |value| value / 1e6),
-        "nm" => (Unit::Length, |value| value / 1e9),
-        "rad" => (Unit::Angle, |value| value),
-        "mrad" => (Unit::Angle, |value| value / 1e3),
-        "urad" => (Unit::Angle, |value| value / 1e6),
-        "nrad" => (Unit::Angle, |value| value / 1e9),
-        "deg" => (Unit::Angle, |value| Unit::Angle.convert(value)),
-        _ => {
-            return Err(format!(
-                "\"{text}\" is not a number with a unit: m, mm, um, nm, deg, rad, mrad, urad or nrad, as in 1mm,0.1deg"
-            ));
-        }
+    const UNITS: &str = "m, mm, um, nm, deg, rad, mrad, urad or nrad, as in 1mm,0.1deg";
+    let found = QuantityArgument::parse(text)
+        .map_err(|_| format!("\"{text}\" is not a number with a unit: {UNITS}"))?;
+    let unit = match found.dimension {
+        Some(Dimension::Length) => Unit::Length,
+        Some(Dimension::Angle) => Unit::Angle,
+        Some(Dimension::Mass) | None => return Err(format!("\"{text}\" is not a number with a unit: {UNITS}")),
     };
-    let value = number.parse().map_err(|_| format!("\"{text}\": \"{number}\" is not a number"))?;
-    let value = in_si(value);
-    if value.is_finite() && value > 0.0 {
-        Ok((unit, value))
-    } else {
-        Err(format!("\"{text}\" must be greater than 0 and finite"))
-    }
+    if found.value > 0.0 { Ok((unit, found.value)) } else { Err(format!("\"{text}\" must be greater than 0 and finite")) }
 }
 
 #[cfg(test)]
@@ -109,7 +99,7 @@ mod tests {
         for (text, message) in [
             ("0mm", "must be greater than 0"),
             ("-1mm", "must be greater than 0"),
-            ("1e999mm", "must be greater than 0 and finite"),
+            ("1e999mm", "is not a number with a unit"),
             ("1e-400mm", "must be greater than 0"),
             ("nanmm", "is not a number"),
             ("infm", "is not a number"),

@@ -1,0 +1,208 @@
+//! Targets as a table in CSV: a column for each coordinate with its unit, one target in each row.
+
+use std::{collections::BTreeMap, ops::Range};
+
+use congruent_description::Robot;
+use congruent_input::{
+    Diagnostic, Findings, known_names, rotation_from_rpy_fixed_xyz,
+    units::{Unit, WrittenUnit},
+};
+use congruent_tables::{Header, Row, WrittenTable};
+
+use super::targets::WrittenTarget;
+use crate::codes;
+
+/// Most faults that are listed: one wrong column gives a fault in every row.
+const MOST_FAULTS: usize = 20;
+
+/// What a column gives.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum Given {
+    /// Coordinate x, y or z of the tool in link `base`.
+    Position(usize),
+    /// Component w, x, y or z of its orientation as a quaternion.
+    Quaternion(usize),
+    /// Roll, pitch or yaw about the fixed axes of the base.
+    Rpy(usize),
+    /// Where the search starts in a joint.
+    Start(String),
+}
+
+/// Gives each row of a table to `add`, with its place.
+pub(super) fn read_rows<T>(
+    text: &str,
+    robot: &Robot,
+    mut add: impl FnMut(WrittenTarget, Range<usize>) -> Result<T, Diagnostic>,
+) -> Result<Vec<T>, Findings> {
+    let empty = || Diagnostic::error(codes::targets::TABLE, "the table is empty").at(0..0);
+    let WrittenTable { header, rows } = WrittenTable::read(text, codes::targets::TABLE).ok_or_else(empty)?;
+    let columns = columns(&header, robot)?;
+    let (mut targets, mut faults) = (Vec::new(), Vec::new());
+    for row in rows {
+        let read = row.and_then(|row| {
+            let written = target(&header, &columns, &row)?;
+            add(written, row.span.clone()).map_err(|fault| Diagnostic {
+                message: format!("line {}: {}", row.line, fault.message),
+                ..fault.at(row.span.clone())
+            })
+        });
+        match read {
+            Ok(target) => targets.push(target),
+            Err(fault) => faults.push(fault),
+        }
+        if faults.len() >= MOST_FAULTS {
+            break;
+        }
+    }
+    if faults.is_empty() { Ok(targets) } else { Err(faults.into()) }
+}
+
+fn target(header: &Header, columns: &[(Given, Option<WrittenUnit>)], row: &Row) -> Result<WrittenTarget, Diagnostic> {
+    let (mut translation_m, mut wxyz, mut rpy_rad) = ([0.0; 3], [None; 4], [None; 3]);
+    let mut start = BTreeMap::new();
+    for (cell, (given, unit)) in columns.iter().enumerate() {
+        let to_si = |value: f64| unit.map_or(value, |unit| unit.to_si(value));
+        let code = codes::targets::TABLE;
+        match given {
+            Given::Position(at) => translation_m[*at] = to_si(header.needed_number(code, row, cell)?),
+            Given::Quaternion(at) => wxyz[*at] = header.number(code, row, cell)?,
+            Given::Rpy(at) => rpy_rad[*at] = header.number(code, row, cell)?.map(to_si),
+            Given::Start(joint) => {
+                start.extend(header.number(code, row, cell)?.map(|value| (joint.clone(), to_si(value))));
+            }
+        }
+    }
+    let incomplete = || row.fault(codes::targets::TABLE, "the orientation is incomplete");
+    let quaternion_wxyz = match (complete(wxyz), complete(rpy_rad)) {
+        (None, _) | (_, None) => return Err(incomplete()),
+        (Some(Some(wxyz)), _) => Some(wxyz),
+        (_, Some(Some(rpy_rad))) => {
+            let rotation = rotation_from_rpy_fixed_xyz(rpy_rad);
+            Some([rotation.w, rotation.i, rotation.j, rotation.k])
+        }
+        // Rows may differ in whether they have an orientation.
+        (Some(None), Some(None)) => None,
+    };
+    Ok(WrittenTarget { translation_m, quaternion_wxyz, start })
+}
+
+/// All values; inside, `None` if no value is given; `None` if some are missing.
+fn complete<const N: usize>(values: [Option<f64>; N]) -> Option<Option<[f64; N]>> {
+    match values.iter().flatten().count() {
+        0 => Some(None),
+        count if count == N => Some(Some(values.map(Option::unwrap_or_default))),
+        _ => None,
+    }
+}
+
+fn columns(header: &Header, robot: &Robot) -> Result<Vec<(Given, Option<WrittenUnit>)>, Findings> {
+    let (mut columns, mut faults) = (Vec::new(), Vec::new());
+    for (cell, name) in header.names().enumerate() {
+        match column(name, robot) {
+            Ok(column) if columns.iter().any(|(given, _)| *given == column.0) => {
+                let message = format!("column \"{name}\": the same quantity has two columns");
+                faults.push(Diagnostic::error(codes::targets::TABLE, message).at(header.row.cells[cell].span.clone()));
+            }
+            Ok(column) => columns.push(column),
+            Err(fault) => faults.push(fault.at(header.row.cells[cell].span.clone())),
+        }
+    }
+    let count = |is_part: fn(&Given) -> bool| columns.iter().filter(|(given, _)| is_part(given)).count();
+    let position = count(|given| matches!(given, Given::Position(_)));
+    let quaternion = count(|given| matches!(given, Given::Quaternion(_)));
+    let rpy = count(|given| matches!(given, Given::Rpy(_)));
+    let help = if position != 3 {
+        Some(("a target needs three coordinates", "name columns x_m, y_m, z_m, or x_mm, y_mm, z_mm"))
+    } else if ![0, 4].contains(&quaternion) || ![0, 3].contains(&rpy) || (quaternion > 0 && rpy > 0) {
+        let help = "give all of qw, qx, qy, qz, or all of roll_deg, pitch_deg, yaw_deg, or none of them";
+        Some(("the orientation is incomplete or given twice", help))
+    } else {
+        None
+    };
+    if let Some((message, help)) = help.filter(|_| faults.is_empty()) {
+        let fault = Diagnostic::error(codes::targets::TABLE, message).with_help(help);
+        faults.push(fault.at(header.row.span.clone()));
+    }
+    if faults.is_empty() { Ok(columns) } else { Err(faults.into()) }
+}
+
+fn column(name: &str, robot: &Robot) -> Result<(Given, Option<WrittenUnit>), Diagnostic> {
+    if let Some(at) = ["qw", "qx", "qy", "qz"].iter().position(|known| *known == name) {
+        return Ok((Given::Quaternion(at), None));
+    }
+    let refused = |message: String| Diagnostic::error(codes::targets::TABLE, message);
+    let (stem, unit) = WrittenUnit::split(name).map_or((name, None), |(stem, unit)| (stem, Some(unit)));
+    let joint = robot.find_joint(stem).map(|joint| robot.joint(joint)).filter(|joint| joint.kind.is_movable());
+    let place = |names: [&str; 3]| names.iter().position(|known| *known == stem);
+    let (given, expected) = if let Some(joint) = joint {
+        let expected = if joint.kind.is_angular() { Unit::Angle } else { Unit::Length };
+        (Given::Start(stem.to_owned()), expected)
+    } else if let Some(at) = place(["x", "y", "z"]) {
+        (Given::Position(at), Unit::Length)
+    } else if let Some(at) = place(["roll", "pitch", "yaw"]) {
+        (Given::Rpy(at), Unit::Angle)
+    } else {
+        let joints = robot.movable_joint_names();
+        let known = ["x", "y", "z", "roll", "pitch", "yaw", "qw", "qx", "qy", "qz"].into_iter().chain(joints);
+        let message = format!("column \"{name}\" is neither a coordinate nor a joint of robot \"{}\"", robot.name());
+        return Err(refused(message).with_help(known_names(stem, "columns (with units)", known.collect::<Vec<_>>())));
+    };
+    if unit.is_none_or(|unit| unit.unit != expected) {
+        let [si, engineering] = expected.keys(stem);
+        return Err(refused(format!("column \"{name}\" has no unit, or one that does not fit"))
+            .with_help(format!("write {engineering} or {si}")));
+    }
+    Ok((given, unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use congruent_description::parse_urdf;
+
+    use super::super::{TargetPart, read_targets};
+    use super::*;
+
+    fn read(text: &str) -> Result<Vec<super::super::InverseTarget>, String> {
+        let robot = parse_urdf(
+            r#"<robot name="r"><link name="a"/><link name="b"/>
+            <joint name="turn" type="continuous"><parent link="a"/><child link="b"/></joint></robot>"#,
+        )
+        .unwrap();
+        let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        let read = read_targets(file.path(), &robot).map_err(|faults| {
+            faults.iter().map(|fault| fault.message.clone()).collect::<Vec<_>>().join("; ")
+        });
+        Ok(read?.targets)
+    }
+
+    #[test]
+    fn rows_are_targets() {
+        let targets = read("x_mm,y_m,z_m,roll_deg,pitch_deg,yaw_deg,turn_deg\n400,0.1,0.3,0,0,90,45\n1,2,3,,,,\n").unwrap();
+        assert_eq!(targets.len(), 2);
+        let [first, second] = &targets[..] else { unreachable!() };
+        assert_eq!(first.target.base_from_tcp.translation.as_slice(), [0.4, 0.1, 0.3]);
+        let wxyz = first.target.base_from_tcp.quaternion_wxyz();
+        assert!((2.0 * wxyz[3].atan2(wxyz[0]) - FRAC_PI_2).abs() < 1e-12, "{wxyz:?}");
+        assert_eq!(first.start["turn"], FRAC_PI_2 / 2.0);
+        assert_eq!((second.target.part, second.start.len()), (TargetPart::Position, 0));
+    }
+
+    #[test]
+    fn what_is_no_target_is_reported() {
+        for (text, message) in [
+            ("x_m,y_m\n1,2\n", "a target needs three coordinates"),
+            ("x,y_m,z_m\n1,2,3\n", "column \"x\" has no unit, or one that does not fit"),
+            ("x_m,y_m,z_m,qw,qx\n1,2,3,1,0\n", "the orientation is incomplete or given twice"),
+            ("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n1,2,3,4,,5\n", "line 2: the orientation is incomplete"),
+            ("x_m,y_m,z_m,trun_deg\n1,2,3,4\n", "column \"trun_deg\" is neither a coordinate nor a joint"),
+            ("x_m,y_m,z_m\n1,,3\n", "line 2, column \"y_m\": the cell is empty"),
+            ("x_m,y_m,z_m\n1e9,2,3\n", "line 2: translation_m has 1000000000"),
+        ] {
+            let found = read(text).unwrap_err();
+            assert!(found.contains(message), "{text}: {found}");
+        }
+    }
+}
