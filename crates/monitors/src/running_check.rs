@@ -148,7 +148,7 @@ impl<'a> RunningCheck<'a> {
             let all = samples + not_evaluated;
             notes.insert(
                 0,
-                format!("inconclusive: {samples} of {all} samples evaluated, fewer than one in {FEWEST_ARE_ONE_IN}"),
+                format!("{samples} of {all} samples evaluated, fewer than one in {FEWEST_ARE_ONE_IN}"),
             );
         }
         let Self { kind: check, line, is_default, .. } = *self;

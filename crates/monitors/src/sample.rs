@@ -49,12 +49,16 @@ pub struct Sample<'a> {
 }
 
 impl Sample<'_> {
+    /// Whether the source knows the forces of contacts in the step that led here.
+    pub fn knows_contact_forces(&self) -> bool {
+        self.step > 0 && self.forces != StepForces::Unknown
+    }
+
     /// Normal force of a pair of a link and an obstacle in the step that led here, N. `None` between links, and if the source
     /// knows no forces, as at the start.
     pub fn contact_force_n(&self, Pair { a, b }: Pair) -> Option<f64> {
         let links = self.twin.len();
-        let is_known = self.step > 0 && self.forces != StepForces::Unknown;
-        let obstacle = b.checked_sub(links).filter(|_| is_known && a < links)?;
+        let obstacle = b.checked_sub(links).filter(|_| self.knows_contact_forces() && a < links)?;
         let acts = |force: &&ContactForce| force.link == a && force.obstacle == obstacle;
         Some(self.contact_forces.iter().filter(acts).map(|force| force.force_n).sum())
     }

@@ -31,7 +31,8 @@ impl NotEvaluated {
             .map(|(count, why)| format!("{count} of {} samples not evaluated: {why}", sum + compared))
             .collect();
         if sum > compared && compared > 0 {
-            notes.push(format!("only {compared} samples evaluated: weak check"));
+            let samples = if compared == 1 { "sample" } else { "samples" };
+            notes.push(format!("only {compared} {samples} evaluated: weak check"));
         }
         notes
     }

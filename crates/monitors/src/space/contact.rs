@@ -1,11 +1,11 @@
 //! Contact between links and with obstacles: which pair, from when to when, how deep, and with which force. Meshes are replaced by
 //! their convex hulls; the depth is the smallest translation that would separate two hulls.
 
-use congruent_input::{Quantity, SiUnit};
+use congruent_input::{Quantity, SiUnit, display::length};
 use congruent_proximity::{Clearance, Pair, PairNames};
 use congruent_scenario::ContactCheck;
 
-use super::clearance::notes_on;
+use super::{clearance::notes_on, unforced::UnforcedOverlap};
 use crate::{
     CheckContext, Names,
     monitor::{Monitor, Observed},
@@ -23,6 +23,8 @@ pub(crate) struct ContactMonitor {
     distance: Watch,
     /// The normal force, if it has a limit.
     force: Option<Watch>,
+    /// The distance of pairs that overlap without a force, of which a limit of the force says nothing.
+    unforced: Watch,
     /// Whether a link may touch an obstacle: a force is limited, and no depth.
     may_touch: bool,
     step_s: f64,
@@ -40,6 +42,7 @@ struct EvaluatedPair {
     pair: usize,
     subjects: Pair,
     touch: TouchNow,
+    unforced: UnforcedOverlap,
 }
 
 #[derive(Clone, Copy)]
@@ -88,6 +91,7 @@ impl ContactMonitor {
             step_s: context.clock.step_s,
             names: PairNames { pairs: check.pairs.clone(), ignore: check.ignore.clone() },
             distance: Watch::new(Quantity::Distance, SiUnit::Metre, bound, limit_m, context.dof()),
+            unforced: Watch::new(Quantity::Distance, SiUnit::Metre, Bound::Above, 0.0, context.dof()),
             measured: Vec::new(),
             pairs: Vec::new(),
             contacts: Vec::with_capacity(MOST_CONTACTS),
@@ -101,13 +105,19 @@ impl ContactMonitor {
         self.measured = all.clone().map(|pair| clearance.names(pair).map(str::to_owned)).collect();
         let chosen = all.filter(|&pair| self.names.is_evaluated(clearance.names(pair)));
         let subjects: Vec<Pair> = clearance.pairs().collect();
-        let evaluated = |pair| EvaluatedPair { pair, subjects: subjects[pair], touch: TouchNow::None };
+        let evaluated = |pair| EvaluatedPair {
+            pair,
+            subjects: subjects[pair],
+            touch: TouchNow::None,
+            unforced: UnforcedOverlap::default(),
+        };
         self.pairs = chosen.map(evaluated).collect();
     }
 
     /// Begins or continues the contact of a pair.
     fn touches(&mut self, at: usize, depth_m: f64, sample: &Sample<'_>) {
-        let EvaluatedPair { pair, subjects, touch } = &mut self.pairs[at];
+        self.look_for_force(at, depth_m, sample);
+        let EvaluatedPair { pair, subjects, touch, .. } = &mut self.pairs[at];
         let (time_s, force_n) = (sample.time_s, sample.contact_force_n(*subjects));
         match *touch {
             TouchNow::Unlisted => {}
@@ -131,6 +141,28 @@ impl ContactMonitor {
         }
     }
 
+    /// A pair that overlaps without a force cannot be within a limit of the force.
+    fn look_for_force(&mut self, at: usize, depth_m: f64, sample: &Sample<'_>) {
+        let EvaluatedPair { pair, subjects, unforced, .. } = &mut self.pairs[at];
+        if self.force.is_none() || subjects.b < sample.twin.len() || !sample.knows_contact_forces() {
+            return;
+        }
+        // A body that a link carries has no force at all: it touches nothing in the physics.
+        let force_n = sample.contact_force_n(*subjects).unwrap_or(0.0);
+        if let Some(depth_m) = unforced.take(depth_m, force_n, sample.is_last) {
+            self.unforced.observe(-depth_m, *pair, sample);
+        }
+    }
+
+    /// Ends the contact of a pair, if it touched.
+    fn ends_contact(&mut self, at: usize, sample: &Sample<'_>) {
+        let EvaluatedPair { pair, touch, unforced, .. } = &mut self.pairs[at];
+        if let Some(depth_m) = unforced.end() {
+            self.unforced.observe(-depth_m, *pair, sample);
+        }
+        *touch = TouchNow::None;
+    }
+
     /// Compares the forces of this instant with their limit.
     fn observe_forces(&mut self, sample: &Sample<'_>) {
         let Some(watch) = &mut self.force else { return };
@@ -144,7 +176,24 @@ impl ContactMonitor {
     /// Distance and force; no distance if all pairs may touch.
     fn measured_quantities(&self) -> impl Iterator<Item = &Watch> {
         let distance = Some(&self.distance).filter(|watch| !self.may_touch || watch.worst().is_some());
-        distance.into_iter().chain(&self.force)
+        let unforced = Some(&self.unforced).filter(|watch| watch.worst().is_some());
+        unforced.into_iter().chain(distance).chain(&self.force)
+    }
+
+    /// The pairs that overlap without a force, with the deepest overlap.
+    fn note_on_unforced(&self, names: &Names) -> Option<String> {
+        let deepest = |pair: &EvaluatedPair| {
+            let depth_m = pair.unforced.deepest_m()?;
+            Some(format!("{}, {} deep", names.pairs[pair.pair], length(depth_m)))
+        };
+        let pairs: Vec<String> = self.pairs.iter().filter_map(deepest).collect();
+        (!pairs.is_empty()).then(|| {
+            format!(
+                "the physics has no force for this overlap ({}): a link yields to a push only where its joints let it, a fixed link \
+                 and a carried body never, and what is inside another body at once is not pushed out. `force_n` cannot be judged",
+                pairs.join(", ")
+            )
+        })
     }
 
     /// Compares the distance of a pair with its limit, if it may not simply touch.
@@ -181,7 +230,7 @@ impl Monitor for ContactMonitor {
                 continue;
             }
             let Some(distance_m) = sample.clearance.measure_below(pair, threshold_m) else {
-                self.pairs[at].touch = TouchNow::None;
+                self.ends_contact(at, sample);
                 continue;
             };
             // The depth is costly, and only shapes that overlap have one.
@@ -189,7 +238,7 @@ impl Monitor for ContactMonitor {
             self.observe_distance(at, signed_m, sample);
             threshold_m = threshold_m.min(distance_m.max(f64::MIN_POSITIVE));
             if distance_m > 0.0 {
-                self.pairs[at].touch = TouchNow::None;
+                self.ends_contact(at, sample);
             } else {
                 self.touches(at, -signed_m, sample);
             }
@@ -197,16 +246,21 @@ impl Monitor for ContactMonitor {
     }
 
     fn finish(&self, names: &Names) -> Observed {
+        let is_unforced = |pair: usize| {
+            self.pairs.iter().any(|known| known.pair == pair && known.unforced.deepest_m().is_some())
+        };
         let contact = |touch: &Touch| Contact {
             pair: self.measured[touch.pair].clone(),
             from_s: touch.from_s,
             until_s: touch.until_s,
             // -0.0 would print as a negative depth.
             depth_m: touch.depth_m.max(0.0),
-            force: touch.force,
+            // A force that the physics does not have is not one of 0 N.
+            force: touch.force.filter(|load| load.peak_n > 0.0 || !is_unforced(touch.pair)),
         };
         let name = |pair: usize| names.pairs[pair].clone();
-        let mut notes = notes_on(&self.names, &self.measured);
+        let mut notes: Vec<String> = self.note_on_unforced(names).into_iter().collect();
+        notes.extend(notes_on(&self.names, &self.measured));
         if self.more_contacts > 0 {
             notes.push(format!("{} further contacts are not listed", self.more_contacts));
         }

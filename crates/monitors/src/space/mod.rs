@@ -3,6 +3,7 @@
 mod clearance;
 mod contact;
 mod judged_pairs;
+mod unforced;
 mod zone;
 
 pub(super) use clearance::{ClearanceMonitor, examine_minimum, examine_pairs};

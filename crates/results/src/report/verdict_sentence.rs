@@ -22,8 +22,11 @@ pub fn verdict_sentence(
 ) -> String {
     let mut failed: Vec<CheckKind> = Vec::new();
     let mut is_inconclusive = false;
+    let mut count = Count::default();
     for (kind, status) in results {
         is_inconclusive |= status == Status::Inconclusive;
+        count.passed += usize::from(status == Status::Pass);
+        count.not_evaluated += usize::from(!status.is_conclusive());
         if status == Status::Fail && !failed.contains(&kind) {
             failed.push(kind);
         }
@@ -32,10 +35,32 @@ pub fn verdict_sentence(
         Verdict::NothingChecked if is_inconclusive => "no check could evaluate enough samples".to_owned(),
         Verdict::NothingChecked => "no check of the scenario was evaluated: add a [[check]]".to_owned(),
         Verdict::Broken => "the run ended with an error".to_owned(),
-        Verdict::AsExpected if failed.is_empty() => "every check passes, as expected".to_owned(),
+        Verdict::AsExpected if failed.is_empty() => count.passing("every check passes, as expected"),
         Verdict::AsExpected => format!("{}, as expected", failing(&failed)),
-        Verdict::NotAsExpected if failed.is_empty() => "unexpected pass: every check passed".to_owned(),
+        Verdict::NotAsExpected if failed.is_empty() => {
+            format!("unexpected pass: {}", count.passing("every check passed"))
+        }
         Verdict::NotAsExpected => against_expectation(expected, failed),
+    }
+}
+
+/// Numbers of checks of a run of which none failed.
+#[derive(Default)]
+struct Count {
+    passed: usize,
+    /// With too few samples, or with nothing to check.
+    not_evaluated: usize,
+}
+
+impl Count {
+    /// `all` if every check passes, or else how many do: a check that was not evaluated says nothing about the run.
+    fn passing(&self, all: &str) -> String {
+        let Self { passed, not_evaluated } = *self;
+        if not_evaluated == 0 {
+            return all.to_owned();
+        }
+        let passes = if passed == 1 { "passes" } else { "pass" };
+        format!("{passed} of {} checks {passes}, {not_evaluated} could not be evaluated", passed + not_evaluated)
     }
 }
 
@@ -65,6 +90,25 @@ fn words(kinds: &[CheckKind]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn checks_that_were_not_evaluated_are_counted() {
+        use CheckKind::{Dynamics, Limits, Power, Tracking};
+        let sentence = |verdict, statuses: &[(CheckKind, Status)]| {
+            verdict_sentence(verdict, &Expectation::Pass, statuses.iter().copied())
+        };
+        let few = [(Dynamics, Status::Inconclusive), (Power, Status::Skipped), (Limits, Status::Pass)];
+        assert_eq!(
+            sentence(Verdict::AsExpected, &few),
+            "1 of 3 checks passes, 2 could not be evaluated"
+        );
+        assert_eq!(
+            sentence(Verdict::NotAsExpected, &few),
+            "unexpected pass: 1 of 3 checks passes, 2 could not be evaluated"
+        );
+        let all = [(Tracking, Status::Pass), (Limits, Status::Pass)];
+        assert_eq!(sentence(Verdict::AsExpected, &all), "every check passes, as expected");
+    }
 
     #[test]
     fn the_sentence_names_what_was_not_expected() {

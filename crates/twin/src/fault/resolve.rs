@@ -92,10 +92,8 @@ impl Resolver<'_> {
         let duration_s = self.clock.duration_s();
         let refused = |key: &str, message: String| {
             let help = format!("a fault must begin before the end of the run at {duration_s} s");
-            Err(self
-                .place
-                .key(key)
-                .mark(Diagnostic::error(codes::scenario::FAULT_TIME, message).with_help(help)))
+            let error = Diagnostic::error(codes::scenario::FAULT_TIME, message).with_help(help);
+            Err(self.place.key(key).mark(error))
         };
         if !(at_s.is_finite() && at_s >= 0.0 && at_s < duration_s) {
             return refused("at_s", format!("at_s = {at_s} is outside [0, {duration_s})"));
@@ -106,6 +104,9 @@ impl Resolver<'_> {
         }
         let step = |time_s: f64| nearest_step(time_s, self.clock.step_s);
         let (from, until) = (step(at_s), until_s.map_or(u64::MAX, step));
+        if from >= self.clock.steps {
+            return refused("at_s", format!("at_s = {at_s} is rounded to the end of the run, {duration_s} s"));
+        }
         // Both times may be rounded to the same sample.
         if from >= until {
             return refused("until_s", "the fault is shorter than a step".to_owned());

@@ -14,14 +14,16 @@ pub(crate) const PATH_MM: f64 = 20.0;
 pub(crate) const TRAVEL_SHARE: f64 = 0.5;
 
 /// The checks that are added to those of the scenario: `tracking` if it has motions, `limits` if its robot declares some, and
-/// `effort` if actuators drive it. A check of the scenario replaces the default check of the same kind.
+/// `effort` if actuators drive it. A check of the scenario replaces the default check of the same kind; one that limits only the
+/// overshoot does not, since an arm that never arrives has none.
 pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Vec<Check> {
     let has = |kind: CheckKind| scenario.check.iter().any(|check| check.kind() == kind);
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let turns = joints().any(|joint| joint.kind.is_angular());
     let slides = joints().any(|joint| !joint.kind.is_angular());
     // Without motions the arm has nothing to follow; a scenario that drops an arm is legitimate.
-    let follows = !scenario.motion.is_empty() && (turns || slides) && !has(CheckKind::Tracking);
+    let is_followed = scenario.check.iter().any(limits_following);
+    let follows = !scenario.motion.is_empty() && (turns || slides) && !is_followed;
     let tracking = follows.then(|| {
         Check::Tracking(TrackingCheck {
             path_deg: turns.then_some(PATH_DEG),
@@ -35,6 +37,14 @@ pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Ve
     let is_driven = scenario.controller.kind.has_actuators();
     let effort = (is_driven && !has(CheckKind::Effort)).then(|| Check::Effort(EffortCheck::default()));
     tracking.into_iter().chain(limits).chain(effort).collect()
+}
+
+/// Whether a check limits how far the arm may be from its setpoint, on the path, at the end or in its travel.
+fn limits_following(check: &Check) -> bool {
+    let Check::Tracking(check) = check else { return false };
+    let [path_rad, path_m, path_tcp_m, goal_rad, goal_m, goal_tcp_m, ..] = check.unit_keys();
+    let errors = [path_rad, path_m, path_tcp_m, goal_rad, goal_m, goal_tcp_m];
+    check.travel_share.is_some() || errors.iter().any(|keys| keys.value().is_some())
 }
 
 /// Whether a joint has a limit; a velocity or an effort of zero means unknown.
