@@ -1,6 +1,7 @@
 //! What people and other programs read: text, JSON, JUnit, annotations, pages, schemas, terminals.
 
 mod batch;
+mod browser;
 mod ci;
 mod escapes;
 mod pages;

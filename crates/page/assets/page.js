@@ -11,7 +11,10 @@
   addEventListener("error", (event) => explain(event.message));
 
   // Okabe and Ito: colour-blind readers can distinguish these.
-  const COLORS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7f00", "#7f7f7f"];
+  const ON_LIGHT = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7f00", "#7f7f7f"];
+  // The same hues, light enough for a dark page.
+  const ON_DARK = ["#4aa3e0", "#f0b429", "#2bbf93", "#e29fc6", "#8fd0f7", "#ff8a4c", "#c9bd3a", "#a9a9a9"];
+  const colors = () => (matchMedia("(prefers-color-scheme: dark)").matches && !document.documentElement.classList.contains("on-paper") ? ON_DARK : ON_LIGHT);
   // An error below any rounding error has a place on a logarithmic axis.
   const FLOOR = 1e-18;
   // A limit widens a plot up to this many times.
@@ -30,24 +33,13 @@
     const size = Math.abs(value);
     return size < 1e-4 || size >= 1e7 ? value.toExponential(1).replace(".0e", "e") : String(Number(value.toPrecision(3)));
   };
-  // From a value on, the unit in which it is shown and how many there are of it.
-  const DEGREES = 180 / Math.PI;
-  const LENGTHS = [[10, "m", 1], [1e-4, "mm", 1e3], [1e-6, "um", 1e6], [1e-9, "nm", 1e9]];
-  const ANGLES = [[1e-3 / DEGREES, "deg", DEGREES], [1e-6, "urad", 1e6], [1e-9, "nrad", 1e9]];
-  // Powers of ten are round in radians alone.
-  const STEPS = { m: LENGTHS, rad: ANGLES, "rad on an axis": [[1e-4, "rad", 1], ...ANGLES.slice(1)] };
-  const withUnit = (value, unit, place = "") => {
-    const step = STEPS[unit + place].find(([from]) => Math.abs(value) >= from * 0.9995);
-    return step ? digits(value * step[2]) + " " + step[1] : digits(value) + " " + unit;
-  };
-
   // Each line on the times of all lines of its chart.
   const aligned = (chart) => {
     const lines = chart.lines.map((line) => {
       const values = floats(line.values);
       const shown = Array.from(values, (value) => {
         if (!Number.isFinite(value)) return null;
-        return chart.log ? Math.max(value, FLOOR) : value * chart.scale;
+        return (chart.log ? Math.max(value, FLOOR) : value) * chart.scale;
       });
       return { x: Array.from(line.times_s ? floats(line.times_s) : times), shown };
     });
@@ -56,10 +48,10 @@
     return uPlot.join(lines.map((line) => [line.x, line.shown]));
   };
 
-  // What the vertical axis spans: all that is shown, and limits that are near.
+  // What the vertical axis spans: all that is shown, and limits that are near or that the chart is about.
   const spanned = (chart, low, high) => {
     if (!Number.isFinite(low) || !Number.isFinite(high)) return chart.log ? [1e-16, 1] : [-1, 1];
-    const limits = chart.limits.map((limit) => limit.value * (chart.log ? 1 : chart.scale));
+    const limits = chart.limits.map((limit) => limit.value * chart.scale);
     if (chart.log) {
       const all = limits.filter((limit) => limit > 0).concat(low, high);
       return [10 ** Math.floor(Math.log10(Math.min(...all))), 10 ** Math.ceil(Math.log10(Math.max(...all) * 1.01))];
@@ -68,9 +60,9 @@
     const beyond = (limit) => Math.max(low - limit, limit - high, 0);
     for (const limit of limits.sort((a, b) => beyond(a) - beyond(b))) {
       const [lower, upper] = [Math.min(low, limit), Math.max(high, limit)];
-      if (upper - lower <= WIDEST * span) [low, high] = [lower, upper];
+      if (chart.has_all_limits || upper - lower <= WIDEST * span) [low, high] = [lower, upper];
     }
-    const free = Math.max(0.06 * (high - low), 0.5 * (span - (high - low)));
+    const free = Math.max(0.1 * (high - low), 0.5 * (span - (high - low)));
     return [low - free, high + free];
   };
 
@@ -88,7 +80,31 @@
     return Array.from({ length: Math.floor((last - first) / step) + 1 }, (_, index) => 10 ** (first + index * step));
   };
 
-  // Limits across, and instants down.
+  // Writes words where no others are: at the first free of some places, on the colour of the page.
+  const writer = (ctx, ratio) => {
+    const taken = [];
+    return (text, places, color) => {
+      const [width, height] = [ctx.measureText(text).width + 6 * ratio, 14 * ratio];
+      const boxes = places.map(([x, y, side]) => [side === "right" ? x - width : x, y - height, width, height]);
+      const meets = (a, b) => a[0] < b[0] + b[2] && b[0] < a[0] + a[2] && a[1] < b[1] + b[3] && b[1] < a[1] + a[3];
+      const { x, y, w, h } = writer.inside;
+      const fits = (box) => box[0] >= x - 1 && box[1] >= y - 1 && box[0] + box[2] <= x + w + 1 && box[1] + box[3] <= y + h + 1;
+      const box = boxes.find((box) => fits(box) && !taken.some((other) => meets(box, other)));
+      if (!box) return;
+      taken.push(box);
+      ctx.globalAlpha = 0.82;
+      ctx.fillStyle = css("--paper");
+      ctx.fillRect(...box);
+      ctx.globalAlpha = 1;
+      ctx.fillStyle = color;
+      ctx.textAlign = "left";
+      ctx.fillText(text, box[0] + 3 * ratio, box[1] + 11 * ratio);
+    };
+  };
+
+  const MARKS = { violation: "--bad", stop: "--bad", fault: "--unclear", event: "--faint", motion: "--grid" };
+
+  // Limits across, instants down, and the points that are named.
   const annotate = (chart, small) => (plot) => {
     const { ctx, bbox } = plot;
     ctx.save();
@@ -96,6 +112,7 @@
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
     const ratio = devicePixelRatio || 1;
+    const [right, bottom] = [bbox.left + bbox.width, bbox.top + bbox.height];
     const line = (x0, y0, x1, y1, color, width, dash) => {
       ctx.strokeStyle = color;
       ctx.lineWidth = width * ratio;
@@ -107,35 +124,37 @@
     };
     ctx.font = 11 * ratio + "px system-ui, sans-serif";
     ctx.textBaseline = "alphabetic";
-    // Where the words in each row end: words that would meet are below each other.
-    const rows = [];
-    const free = (from) => {
-      const row = rows.findIndex((end) => end < from);
-      return row < 0 ? rows.length : row;
-    };
-    for (const mark of data.marks) {
-      const x = Math.round(plot.valToPos(mark.time_s, "x", true));
-      const strong = mark.kind !== "motion";
-      line(x, bbox.top, x, bbox.top + bbox.height, css(strong ? "--bad" : "--grid"), strong ? 1.5 : 1, strong ? [4, 3] : []);
-      if (strong && !small) {
-        const left = x > bbox.left + bbox.width - 90 * ratio;
-        ctx.fillStyle = css("--bad");
-        ctx.textAlign = left ? "right" : "left";
-        const length = ctx.measureText(mark.text).width + 10 * ratio;
-        const from = left ? x - length : x;
-        const row = free(from);
-        rows[row] = from + length;
-        ctx.fillText(mark.text, x + (left ? -5 : 5) * ratio, bbox.top + (12 + 13 * row) * ratio);
-      }
-    }
-    for (const limit of chart.limits) {
-      const y = plot.valToPos(limit.value * (chart.log ? 1 : chart.scale), "y", true);
-      line(bbox.left, y, bbox.left + bbox.width, y, css("--bad"), 1.5, [7, 4]);
+    writer.inside = { x: bbox.left, y: bbox.top, w: bbox.width, h: bbox.height };
+    const write = writer(ctx, ratio);
+    const across = chart.limits.map((limit) => [limit, plot.valToPos(limit.value * chart.scale, "y", true)]);
+    for (const [, y] of across) line(bbox.left, y, right, y, css("--bad"), 1.5, [7, 4]);
+    const down = data.marks.map((mark) => [mark, Math.round(plot.valToPos(mark.time_s, "x", true))]);
+    for (const [mark, x] of down) line(x, bbox.top, x, bottom, css(MARKS[mark.kind]), mark.kind === "motion" ? 1 : 1.25, mark.kind === "motion" ? [] : [4, 3]);
+    // The point of the chart first: it has its place before others.
+    for (const point of chart.points || []) {
+      const [x, y] = [plot.valToPos(point.time_s, "x", true), plot.valToPos(point.value * chart.scale, "y", true)];
       ctx.fillStyle = css("--bad");
-      ctx.textAlign = "right";
-      if (y >= bbox.top - 1 && y <= bbox.top + bbox.height + 1) {
-        const above = y - bbox.top > 16 * ratio;
-        ctx.fillText(limit.name, bbox.left + bbox.width - 4 * ratio, y + (above ? -4 : 13) * ratio);
+      ctx.strokeStyle = css("--paper");
+      ctx.setLineDash([]);
+      ctx.lineWidth = 2 * ratio;
+      ctx.beginPath();
+      ctx.arc(x, y, 5 * ratio, 0, 2 * Math.PI);
+      ctx.fill();
+      ctx.stroke();
+      const [near, far] = [x + 9 * ratio, x - 9 * ratio];
+      const heights = [-5, 20, -22, 37, 60, -45].map((away) => y + away * ratio);
+      write(point.text, heights.flatMap((height) => [[near, height, "left"], [far, height, "right"]]), css("--bad"));
+    }
+    // Of several limits at one height, one name.
+    for (const [limit, y] of across) {
+      if (y < bbox.top - 1 || y > bottom + 1) continue;
+      const heights = [y - 2 * ratio, y + 15 * ratio];
+      write(limit.name, heights.flatMap((height) => [[right - 2 * ratio, height, "right"], [bbox.left + 4 * ratio, height, "left"]]), css("--bad"));
+    }
+    if (!small) {
+      for (const [mark, x] of down.filter(([mark]) => mark.text)) {
+        const rows = [3, 18, 33, 48].map((away) => bottom - away * ratio);
+        write(mark.text, rows.flatMap((row) => [[x + 3 * ratio, row, "left"], [x - 3 * ratio, row, "right"]]), css(MARKS[mark.kind] === "--grid" ? "--faint" : MARKS[mark.kind]));
       }
     }
     ctx.restore();
@@ -144,15 +163,16 @@
   const built = [];
   const build = (place, chart) => {
     const small = place.closest(".plots") !== null;
+    const palette = colors();
     const ink = css("--ink"), grid = css("--grid");
-    const shown = (value) => (chart.log ? withUnit(value, chart.unit) : digits(value) + " " + chart.unit);
+    const shown = (value) => digits(value) + " " + chart.unit;
     const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1 }, font: "11px system-ui, sans-serif" };
     const series = chart.lines.map((line, index) => ({
       label: line.name,
       show: !line.hidden,
-      stroke: COLORS[index % COLORS.length],
+      stroke: palette[index % palette.length],
       width: line.dashed ? 1.25 : 1.6,
-      dash: line.dashed ? [6, 4] : index >= COLORS.length ? [2, 3] : undefined,
+      dash: line.dashed ? [6, 4] : index >= palette.length ? [2, 3] : undefined,
       spanGaps: true,
       points: { show: false },
       value: (plot, value, _, at) => {
@@ -163,9 +183,10 @@
     }));
     const options = {
       width: place.clientWidth,
-      height: small ? 150 : 260,
+      height: small ? 150 : place.closest(".first") ? 340 : 240,
       cursor: { sync: { key: "run" }, y: false, drag: { x: true, y: false } },
-      legend: { show: true, live: true },
+      // A single line is what the caption says.
+      legend: { show: series.length > 1 || chart.lines.some((line) => line.subjects), live: true },
       scales: {
         x: { time: false },
         y: { distr: chart.log ? 3 : 1, range: (plot, low, high) => spanned(chart, low, high) },
@@ -174,16 +195,15 @@
         { ...axis, size: small ? 28 : 34, values: (plot, ticks) => ticks.map((tick) => digits(tick) + " s") },
         {
           ...axis,
-          size: chart.log ? 82 : 58,
+          size: chart.log ? 66 : 58,
           space: small ? 18 : 30,
           filter: (plot, ticks) => ticks,
           splits: chart.log ? (plot, _, low, high) => decades(low, high) : undefined,
           values: (plot, ticks, axis, space, distance) => {
-            const onLog = (tick) => withUnit(tick, chart.unit, chart.unit === "rad" ? " on an axis" : "");
-            const written = chart.log ? onLog : decimals(distance);
+            const written = chart.log ? digits : decimals(distance);
             return ticks.map((tick) => (tick == null ? "" : written(tick)));
           },
-          label: chart.log ? undefined : chart.unit,
+          label: chart.unit,
           labelSize: 16,
           labelFont: "11px system-ui, sans-serif",
           labelGap: 0,
@@ -192,7 +212,14 @@
       series: [{ label: "time", value: (plot, value) => (value == null ? "" : digits(value) + " s") }, ...series],
       hooks: { draw: [annotate(chart, small)] },
     };
-    return new uPlot(options, aligned(chart), place);
+    const plot = new uPlot(options, aligned(chart), place);
+    const legend = plot.root.querySelector(".u-legend");
+    if (legend && chart.others) {
+      const others = document.createElement("caption");
+      others.textContent = chart.others === 1 ? "and 1 other, which is less" : "and " + chart.others + " others, which are less";
+      legend.append(others);
+    }
+    return plot;
   };
 
   const draw = (figure) => {
@@ -218,7 +245,8 @@
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
   addEventListener("beforeprint", () => {
     document.documentElement.classList.add("on-paper");
-    document.querySelectorAll("details").forEach((details) => (details.open = true));
+    // Of what is folded, tables are printed; plots of everything else only if the reader has opened them.
+    document.querySelectorAll("details:not(.part)").forEach((details) => (details.open = true));
     drawAll();
     again();
   });

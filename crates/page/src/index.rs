@@ -1,12 +1,14 @@
 //! The index over the runs of one call: the worst first, each with a link to its page.
 
-use congruent_input::display::quantity;
+use std::path::Path;
+
+use congruent_input::{display::quantity, portable_path};
 use congruent_monitors::verdict::{Bound, Measure, Status, Verdict};
-use congruent_results::report::{RunReport, lines};
+use congruent_results::report::{RunReport, lines, quantity_words};
 use maud::{Markup, html};
 
 use crate::{
-    parts::{BadgeKind, badge, capitalised, document},
+    parts::{BadgeKind, Provenance, badge, capitalised, document, provenance},
     run::outcome,
 };
 
@@ -40,8 +42,8 @@ impl IndexEntry<'_> {
     }
 }
 
-/// The page; entries keep their order if they are equally good.
-pub fn index_page(entries: &[IndexEntry<'_>]) -> String {
+/// The page; entries keep their order if they are equally good. `command` is the call that made it.
+pub fn index_page(entries: &[IndexEntry<'_>], command: &str) -> String {
     let mut order: Vec<&IndexEntry<'_>> = entries.iter().collect();
     order.sort_by(|a, b| {
         let ((a, a_share), (b, b_share)) = (a.rank(), b.rank());
@@ -64,13 +66,16 @@ pub fn index_page(entries: &[IndexEntry<'_>]) -> String {
                 tbody { @for entry in order { (row(entry)) } }
             }
         }
+        (provenance(&Provenance { command: Some(command.to_owned()), ..Provenance::default() }))
+        p.small { "The page of each run has its inputs with their digests." }
     };
     document(&title, &body, None)
 }
 
 fn row(entry: &IndexEntry<'_>) -> Markup {
     let (outcome, word) = entry.outcome();
-    let name = entry.result.as_ref().map_or(entry.input.as_str(), |report| report.scenario.as_str());
+    let input = portable_path(Path::new(&entry.input)).display().to_string();
+    let name = entry.result.as_ref().map_or(input.as_str(), |report| report.scenario.as_str());
     html! {
         tr {
             th scope="row" {
@@ -105,14 +110,14 @@ fn nearest(report: &RunReport) -> Markup {
     let has_failed = report.checks.iter().any(|check| check.status == Status::Fail);
     html! {
         @if let Some((check, measure, share)) = tightest(report).filter(|_| !has_failed) {
-            (check) ": " (format!("{:.0} % of the limit", 100.0 * share))
+            (check) ": " (quantity_words(measure.quantity)) (format!(", {:.0} % of the limit", 100.0 * share))
             @if let Some(worst) = &measure.worst { p.small { (worst.subject) } }
         }
     }
 }
 
 /// The quantity that uses most of its limit, of the checks that passed; quantities of no size, as rounding, do not count.
-fn tightest(report: &RunReport) -> Option<(&'static str, &Measure, f64)> {
+pub(crate) fn tightest(report: &RunReport) -> Option<(&'static str, &Measure, f64)> {
     let passed = report.checks.iter().filter(|check| check.status == Status::Pass);
     let measures =
         passed.flat_map(|check| check.measures.iter().map(|measure| (check.check.word(), measure)));

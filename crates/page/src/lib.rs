@@ -12,7 +12,7 @@ mod picture;
 mod run;
 mod series;
 
-pub use calibration::calibration_page;
+pub use calibration::{CalibrationSource, calibration_page};
 pub use check::{CheckEntry, CheckedRobot, check_page};
 pub use index::{IndexEntry, index_page};
 pub use run::PageFormat;

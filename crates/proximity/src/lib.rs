@@ -4,6 +4,7 @@
 mod bodies;
 mod clearance;
 pub mod codes;
+mod constant_pairs;
 mod disabled_pairs;
 mod disabled_srdf;
 mod distances;

@@ -76,32 +76,45 @@ fn cost(
     let parameter = &report.parameters[curve.parameter];
     let (scale, unit) = (parameter.unit.for_people(1.0), parameter.unit.name_for_people());
     let (lower, upper) = (first(&curve.values) * scale, last(&curve.values) * scale);
-    let highest = curve.least_squares_m2.iter().chain(&curve.robust_m2).copied().fold(0.0, f64::max);
+    let top = |costs: &[f64]| positive(costs.iter().copied().fold(0.0, f64::max));
+    let highest = top(&curve.least_squares_m2);
     // Square millimetres unless the residuals are beyond a decimetre or so.
     let (cost_scale, cost_unit) = if highest < 1e-2 { (1e6, "mm²") } else { (1.0, "m²") };
-    let top = positive(highest * cost_scale) * 1.08;
+    let (top, robust_top) = (highest * cost_scale * 1.08, top(&curve.robust_m2) * cost_scale * 1.08);
+    let loss = report.loss.to_string();
+    let (x, y) = (format!("{} in {unit}", parameter.name), format!("least squares, cost in {cost_unit}"));
     let mut chart = ChartBuilder::on(area)
         .margin(14 * FINE)
         .caption(format!("{}: cost over {}", report.robot, parameter.name), (FONT, CAPTION))
         .set_label_area_size(LabelAreaPosition::Left, 78 * FINE)
+        .set_label_area_size(LabelAreaPosition::Right, 78 * FINE)
         .set_label_area_size(LabelAreaPosition::Bottom, 46 * FINE)
-        .build_cartesian_2d(wide(lower, upper), 0.0..top)?;
-    let (x, y) = (format!("{} in {unit}", parameter.name), format!("cost in {cost_unit}"));
+        .build_cartesian_2d(wide(lower, upper), 0.0..top)?
+        // The robust loss levels off: on the axis of the squares its minimum would be flat.
+        .set_secondary_coord(wide(lower, upper), 0.0..robust_top);
     mesh(&mut chart, &x, &y)?;
-    let loss = report.loss.to_string();
-    let series = [
-        ("least squares", LEAST_SQUARES, &curve.least_squares_m2, parameter.correction),
-        (loss.as_str(), ROBUST, &curve.robust_m2, parameter.robust_correction),
-    ];
-    for (name, colour, costs, estimate) in series {
-        let points = curve.values.iter().zip(costs).map(|(value, cost)| (value * scale, cost * cost_scale));
-        let label = format!("{name}: {:.4} {unit}", estimate * scale);
-        chart
-            .draw_series(LineSeries::new(points, colour.stroke_width(2 * FINE)))?
-            .label(label)
-            .legend(line(colour));
-        upright(&mut chart, estimate * scale, top, colour)?;
-    }
+    chart
+        .configure_secondary_axes()
+        .set_all_tick_mark_size(5 * FINE)
+        .axis_style(NOMINAL.stroke_width(FINE))
+        .y_desc(format!("{loss}, cost in {cost_unit}"))
+        .label_style((FONT, LABEL))
+        .axis_desc_style((FONT, DESCRIPTION))
+        .draw()?;
+    let points = |costs: &[f64]| -> Vec<(f64, f64)> {
+        curve.values.iter().zip(costs).map(|(value, cost)| (value * scale, cost * cost_scale)).collect()
+    };
+    let label = |name: &str, estimate: f64| format!("{name}: {:.4} {unit}", estimate * scale);
+    chart
+        .draw_series(LineSeries::new(points(&curve.least_squares_m2), LEAST_SQUARES.stroke_width(2 * FINE)))?
+        .label(label("least squares, left", parameter.correction))
+        .legend(line(LEAST_SQUARES));
+    chart
+        .draw_secondary_series(LineSeries::new(points(&curve.robust_m2), ROBUST.stroke_width(2 * FINE)))?
+        .label(label(&format!("{loss}, right"), parameter.robust_correction))
+        .legend(line(ROBUST));
+    upright(&mut chart, parameter.correction * scale, top, LEAST_SQUARES)?;
+    upright(&mut chart, parameter.robust_correction * scale, top, ROBUST)?;
     upright(&mut chart, 0.0, top, NOMINAL)?.label("nominal").legend(line(NOMINAL));
     legend(&mut chart, SeriesLabelPosition::UpperMiddle)
 }

@@ -1,23 +1,23 @@
-//! The certificates: the largest difference that was found and the bound that no configuration exceeds, and the arm where
-//! the difference is largest.
+//! The certificates: the largest difference that was found and the bound that no configuration exceeds; and the picture of the
+//! arm where the difference is largest.
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Brackets, CheckReport, Model, ReportedBracket, ReportedCertificate},
+    compare::{CheckReport, Model, ReportedBracket, ReportedCertificate},
 };
 use congruent_description::{JointValues, RobotDescription, RobotQ};
-use congruent_input::display::{angle, length};
+use congruent_input::display::length;
 use congruent_kinematics::{Pose, UrdfTree, move_inside_limits};
 use maud::{Markup, html};
 use nalgebra::Isometry3;
 
 use super::checked_robot::CheckedRobot;
 use crate::{
-    parts::{Pointer, value},
+    parts::{Pointer, UnitColumn, value},
     picture::{DrawnArm, Figure, PictureBody, Skeleton, TwoArms, shapes},
 };
 
-/// The section on certificates: attained difference and certified bound, with a picture of the arm there.
+/// The section on certificates: attained difference and certified bound.
 pub(super) fn certificate(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     let report = robot.geometry;
     html! {
@@ -25,15 +25,23 @@ pub(super) fn certificate(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
             h2 { "Over the whole joint range" }
             @if report.certificates.is_empty() { p { "There is no chain of joints to bound." } }
             @else { (table(&report.certificates, &at.key("certificates"))) }
-            (picture(robot))
         }
     }
 }
 
 fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
+    let brackets = || certificates.iter().filter_map(|of| of.brackets.as_ref());
+    let lengths = brackets().flat_map(|of| [of.position_m.attained, of.position_m.certified]);
+    let angles = brackets().flat_map(|of| [of.orientation_rad.attained, of.orientation_rad.certified]);
+    let columns = [UnitColumn::of_lengths(lengths), UnitColumn::of_angles(angles)];
+    let [position, orientation] = columns.map(|column| column.unit);
     html! {
         table {
-            thead { tr { th { "compared" } th { "largest difference found" } th { "certified bound over all configurations" } } }
+            thead { tr {
+                th { "compared" }
+                th { "largest found, " (position) } th { "certified bound, " (position) }
+                th { "largest found, " (orientation) } th { "certified bound, " (orientation) }
+            } }
             tbody {
                 @for (index, certificate) in certificates.iter().enumerate() {
                     @let at = at.key(index);
@@ -41,14 +49,14 @@ fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
                         th scope="row" { (certificate.title) }
                         @match &certificate.brackets {
                             Some(brackets) => {
-                                td data-label="largest found" { (both(brackets, &at, "attained", |of| of.attained)) }
-                                td data-label="certified" { (both(brackets, &at, "certified", |of| of.certified)) }
+                                (cells(&brackets.position_m, &columns[0], &at.key("position_m")))
+                                (cells(&brackets.orientation_rad, &columns[1], &at.key("orientation_rad")))
                             }
-                            None => { td colspan="2" { "no bound: a joint has no limits, or its motion is not a pure screw motion" } }
+                            None => { td colspan="4" { "no bound: a joint has no limits, or its motion is not a pure screw motion" } }
                         }
                     }
                     @if let Some(premise) = &certificate.premise {
-                        tr.notes { td {} td colspan="2" {
+                        tr.notes { td {} td colspan="4" {
                             "its joints are " @if !premise.holds { "not " } "pure screw motions: residual "
                             (value(&at.keys(&["premise", "residual_m"]), premise.residual_m, &length(premise.residual_m)))
                         } }
@@ -59,13 +67,12 @@ fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
     }
 }
 
-/// A value of both brackets, by its name in the report.
-fn both(brackets: &Brackets, at: &Pointer, key: &str, of: fn(&ReportedBracket) -> f64) -> Markup {
-    let (metres, radians) = (of(&brackets.position_m), of(&brackets.orientation_rad));
-    html! {
-        (value(&at.keys(&["position_m", key]), metres, &length(metres))) " and "
-        (value(&at.keys(&["orientation_rad", key]), radians, &angle(radians)))
-    }
+/// What was found and what is certified, in the unit of the column.
+fn cells(of: &ReportedBracket, column: &UnitColumn, at: &Pointer) -> Markup {
+    let cell = |name: &str, key: &str, exact: f64| {
+        html! { td data-label=(format!("{name}, {}", column.unit)) { (value(&at.key(key), exact, &column.words(exact))) } }
+    };
+    html! { (cell("largest found", "attained", of.attained)) (cell("certified", "certified", of.certified)) }
 }
 
 /// Where the arm is drawn, and why there.
@@ -101,7 +108,8 @@ fn drawn_at(robot: &CheckedRobot<'_>) -> Option<DrawnAt> {
     Some(DrawnAt { q, pair, what: "Where the largest difference was found" })
 }
 
-fn picture(robot: &CheckedRobot<'_>) -> Markup {
+/// The arm where the difference is largest; nothing if it has no such configuration.
+pub(super) fn picture(robot: &CheckedRobot<'_>) -> Markup {
     let Some(drawn) = drawn_at(robot) else { return html! {} };
     let DrawnAt { q, pair, what } = &drawn;
     let description = robot.description;

@@ -2,25 +2,71 @@
 
 use congruent_agreement::compare::{Agreement, CheckReport, Comparison, PoseSource};
 use congruent_description::Tolerance;
-use congruent_input::display::{angle, length};
 use congruent_kinematics::PoseError;
 use maud::{Markup, html};
 
-use crate::parts::{BadgeKind, Pointer, badge, value};
+use crate::parts::{BadgeKind, BarScale, Pointer, UnitColumn, badge, value};
+
+/// Units and scale of the bars of a table of pose errors.
+struct Columns<'a> {
+    position: UnitColumn,
+    orientation: UnitColumn,
+    tolerance: &'a Tolerance,
+    scale: BarScale,
+}
+
+impl<'a> Columns<'a> {
+    fn new(errors: &[PoseError], tolerance: &'a Tolerance) -> Self {
+        let shares = errors.iter().flat_map(|of| {
+            [of.position_m / tolerance.position_m, of.orientation_rad / tolerance.orientation_rad]
+        });
+        Self {
+            position: UnitColumn::of_lengths(errors.iter().map(|of| of.position_m)),
+            orientation: UnitColumn::of_angles(errors.iter().map(|of| of.orientation_rad)),
+            tolerance,
+            scale: BarScale::for_shares(shares),
+        }
+    }
+
+    /// The headings of both parts.
+    fn headings(&self) -> Markup {
+        html! { th { "position, " (self.position.unit) } th { "orientation, " (self.orientation.unit) } }
+    }
+
+    /// Both parts of a difference, each with how much of the tolerance it uses.
+    fn cells(&self, error: &PoseError, at: &Pointer) -> Markup {
+        let Tolerance { position_m, orientation_rad } = *self.tolerance;
+        let cell = |name: &str, key: &str, error: f64, tolerance: f64, column: &UnitColumn| {
+            html! {
+                td data-label=(format!("{name}, {}", column.unit)) {
+                    (value(&at.key(key), error, &column.words(error)))
+                    @if tolerance > 0.0 { (self.scale.bar(error / tolerance, error <= tolerance)) }
+                }
+            }
+        };
+        html! {
+            (cell("position", "position_m", error.position_m, position_m, &self.position))
+            (cell("orientation", "orientation_rad", error.orientation_rad, orientation_rad, &self.orientation))
+        }
+    }
+}
 
 /// The section on poses; `at` is the place of the report in the document.
 pub(super) fn comparisons(report: &CheckReport, at: &Pointer) -> Markup {
+    let errors: Vec<PoseError> = report.comparisons.iter().map(|of| of.worst.error).collect();
+    let columns = Columns::new(&errors, &report.tolerance);
     html! {
         section {
             h2 { "Poses" }
             table {
-                thead { tr { th { "compared" } th { "result" } th { "position" } th { "orientation" } th { "largest at" } } }
+                thead { tr { th { "compared" } th { "result" } (columns.headings()) th { "largest at" } } }
                 tbody {
                     @for (index, comparison) in report.comparisons.iter().enumerate() {
-                        (row(comparison, &report.tolerance, &at.key("comparisons").key(index)))
+                        (row(comparison, &columns, &at.key("comparisons").key(index)))
                     }
                 }
             }
+            (columns.scale.words())
             @for (index, comparison) in report.comparisons.iter().enumerate() {
                 @let differs = comparison.verdict == Agreement::Disagree;
                 details open[differs] {
@@ -32,32 +78,35 @@ pub(super) fn comparisons(report: &CheckReport, at: &Pointer) -> Markup {
     }
 }
 
-fn row(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup {
+fn row(comparison: &Comparison, columns: &Columns<'_>, at: &Pointer) -> Markup {
     let agrees = comparison.verdict == Agreement::Agree;
     let (outcome, word) = if agrees { (BadgeKind::Good, "agree") } else { (BadgeKind::Bad, "disagree") };
     html! {
         tr {
             th scope="row" { (comparison.title) }
             td { (badge(outcome, word)) }
-            (cells(&comparison.worst.error, tolerance, &at.key("worst")))
+            (columns.cells(&comparison.worst.error, &at.key("worst")))
             td data-label="largest at" { (comparison.worst.link) }
         }
     }
 }
 
 fn links(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup {
+    let errors: Vec<PoseError> = comparison.links.iter().map(|of| of.error).collect();
+    let columns = Columns::new(&errors, tolerance);
+    let is_fitted = comparison.links.iter().any(|of| of.source == PoseSource::DhFitted);
     html! {
         table {
-            thead { tr { th { "link" } th { "position" } th { "orientation" } th { "pose of the first" } } }
+            thead { tr { th { "link" } (columns.headings()) th { "pose of the first" } } }
             tbody {
                 @for (index, link) in comparison.links.iter().enumerate() {
                     tr {
                         th scope="row" { (link.link) }
-                        (cells(&link.error, tolerance, &at.key(index)))
+                        (columns.cells(&link.error, &at.key(index)))
                         td data-label="pose of the first" {
                             @match link.source {
                                 PoseSource::Dh => "table",
-                                PoseSource::DhFitted => "table (the table does not define this frame: for information only)",
+                                PoseSource::DhFitted => "table *",
                                 PoseSource::Urdf => "URDF",
                             }
                         }
@@ -65,37 +114,6 @@ fn links(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup
                 }
             }
         }
-    }
-}
-
-/// Both parts of a difference, each with how much of the tolerance it uses.
-fn cells(error: &PoseError, tolerance: &Tolerance, at: &Pointer) -> Markup {
-    html! {
-        td data-label="position" {
-            (value(&at.key("position_m"), error.position_m, &length(error.position_m)))
-            (bar(error.position_m, tolerance.position_m))
-        }
-        td data-label="orientation" {
-            (value(&at.key("orientation_rad"), error.orientation_rad, &angle(error.orientation_rad)))
-            (bar(error.orientation_rad, tolerance.orientation_rad))
-        }
-    }
-}
-
-fn bar(error: f64, tolerance: f64) -> Markup {
-    let holds = error <= tolerance;
-    let percent = if holds && tolerance > 0.0 {
-        100.0 * error / tolerance
-    } else if holds {
-        0.0
-    } else {
-        100.0
-    };
-    let label =
-        if holds { format!("{percent:.0} % of the tolerance") } else { "above the tolerance".to_owned() };
-    html! {
-        div.bar.(if holds { "good" } else { "bad" }) role="img" aria-label=(label) {
-            div style=(format!("width:{percent:.1}%")) {}
-        }
+        @if is_fitted { p.small { "* The table does not define this frame: for information only." } }
     }
 }

@@ -1,16 +1,28 @@
 //! The page of a check: one robot, or several below a table of them.
 
+use std::path::Path;
+
 use congruent_agreement::{
     compare::{Agreement, CheckReport, DifferencesAt},
-    report::foremost,
+    report::{ReportedDiagnosis, foremost},
 };
-use congruent_input::display::{angle, length, length_and_angle};
+use congruent_input::{
+    InputFile,
+    display::{angle, length, length_and_angle},
+    portable_path,
+};
 use maud::{Markup, html};
 
 use super::{
-    certificate::certificate, checked_robot::CheckedRobot, comparisons::comparisons, dynamics::dynamics,
+    certificate::{certificate, picture},
+    checked_robot::CheckedRobot,
+    comparisons::comparisons,
+    dynamics::dynamics,
 };
-use crate::parts::{BadgeKind, Pointer, badge, count, diagnosis, document, value, warnings};
+use crate::parts::{
+    BadgeKind, Pointer, Provenance, badge, capitalised, count, diagnosis, document, provenance, value,
+    warnings,
+};
 
 /// One input of a check with its result.
 #[derive(Debug, Clone)]
@@ -21,11 +33,11 @@ pub struct CheckEntry<'a> {
     pub result: Result<CheckedRobot<'a>, String>,
 }
 
-/// The page over all inputs, the worst first.
-pub fn check_page(entries: &[CheckEntry<'_>]) -> String {
+/// The page over all inputs, the worst first; `command` is the call that made it.
+pub fn check_page(entries: &[CheckEntry<'_>], command: &str) -> String {
     // A single robot needs no table, and its values are at the root of the report.
     if let [CheckEntry { result: Ok(robot), .. }] = entries {
-        let body = one(robot, &Pointer::root());
+        let body = html! { (one(robot, &Pointer::root())) (provenance_of(&[robot], command)) };
         let title = format!("{}: {}", robot.geometry.robot, outcome(robot.geometry).1);
         return document(&title, &body, None);
     }
@@ -34,6 +46,8 @@ pub fn check_page(entries: &[CheckEntry<'_>]) -> String {
     order.sort_by_key(|&entry| (entries[entry].result.is_ok(), entry_outcome(&entries[entry]).0));
     let disagree = entries.iter().filter(|entry| entry_outcome(entry).0 != BadgeKind::Good).count();
     let title = format!("{} robots checked", entries.len());
+    let checked: Vec<&CheckedRobot<'_>> =
+        entries.iter().filter_map(|entry| entry.result.as_ref().ok()).collect();
     let body = html! {
         header {
             p.kind { "Do the descriptions agree?" }
@@ -49,6 +63,7 @@ pub fn check_page(entries: &[CheckEntry<'_>]) -> String {
                 article id=(format!("robot-{at}")) { (one(robot, &Pointer::root().key(at))) }
             }
         }
+        (provenance_of(&checked, command))
     };
     document(&title, &body, None)
 }
@@ -100,27 +115,38 @@ fn outcome(report: &CheckReport) -> (BadgeKind, &'static str) {
 
 /// The report on one robot, at a place of the document.
 fn one(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
+    let differs = robot.geometry.verdict == Agreement::Disagree;
     html! {
         (header(robot, at))
-        (why(robot.geometry, at))
+        @if differs { (why(robot, at)) }
         (comparisons(robot.geometry, at))
         (certificate(robot, at))
         (dynamics(robot, at))
+        @if !differs {
+            @let picture = picture(robot);
+            @if !picture.0.is_empty() { section { h2 { "The arm" } (picture) } }
+        }
         (requested(robot.at_configurations, at))
         (warnings(&robot.findings))
     }
 }
 
+/// What follows the answer, as a sentence of its own.
+fn sentence(details: &str) -> String {
+    capitalised(details.trim_start_matches([',', ';', ':', ' ']))
+}
+
 fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     let report = robot.geometry;
+    let named = |path: &Path| portable_path(path).display().to_string();
     html! {
         header {
             p.kind { "Do the descriptions agree?" }
             h1 { (report.robot) }
-            p.verdict { (badge(outcome(report).0, &robot.answer)) span.sentence { (robot.details) "." } }
+            p.verdict { (badge(outcome(report).0, &robot.answer)) @if !robot.details.is_empty() { span.sentence { (sentence(&robot.details)) "." } } }
             dl.facts {
-                dt { "file" } dd { code { (report.file) } }
-                @if let Some(other) = robot.other { dt { "against" } dd { code { (other.path.display()) } } }
+                dt { "file" } dd { code { (named(Path::new(&report.file))) } }
+                @if let Some(other) = robot.other { dt { "against" } dd { code { (named(&other.path)) } } }
                 dt { "compared" } dd { (report.chain) }
                 dt { "at" } dd { (count(&at.key("configurations"), report.configurations)) " configurations, seed " (count(&at.key("seed"), report.seed)) }
                 dt { "tolerance" }
@@ -140,14 +166,31 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     }
 }
 
-/// Why the poses disagree.
-fn why(report: &CheckReport, at: &Pointer) -> Markup {
-    let Some(shown) = foremost(&report.diagnoses) else { return html! {} };
-    let index = report.diagnoses.iter().position(|other| std::ptr::eq(other, shown)).unwrap_or_default();
+/// The command, and the files of all robots, each once.
+fn provenance_of(robots: &[&CheckedRobot<'_>], command: &str) -> Markup {
+    let descriptions = robots.iter().flat_map(|robot| [Some(robot.description), robot.other]).flatten();
+    let mut inputs: Vec<&InputFile> = Vec::new();
+    for input in descriptions.flat_map(|description| &description.inputs) {
+        if !inputs.contains(&input) {
+            inputs.push(input);
+        }
+    }
+    provenance(&Provenance { command: Some(command.to_owned()), inputs, remarks: Vec::new() })
+}
+
+/// Why the poses disagree, beside the arm where they do most.
+fn why(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
+    let shown = foremost(&robot.geometry.diagnoses);
+    let index_of = |shown: &ReportedDiagnosis| {
+        robot.geometry.diagnoses.iter().position(|other| std::ptr::eq(other, shown)).unwrap_or_default()
+    };
     html! {
         section {
             h2 { "Why they differ" }
-            (diagnosis(shown, &at.key("diagnoses").key(index)))
+            div.first {
+                @if let Some(shown) = shown { div { (diagnosis(shown, &at.key("diagnoses").key(index_of(shown)))) } }
+                (picture(robot))
+            }
         }
     }
 }
@@ -179,5 +222,16 @@ fn requested(differences: Option<&DifferencesAt>, at: &Pointer) -> Markup {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_follows_the_answer_is_a_sentence() {
+        let details = ", by up to 5 mm at tool0; tolerance 1 pm";
+        assert_eq!(sentence(details), "By up to 5 mm at tool0; tolerance 1 pm");
     }
 }

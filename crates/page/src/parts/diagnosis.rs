@@ -1,11 +1,14 @@
 //! Why two models differ: each fault at its lines of the file, what to write there, and the difference before and after.
 
+use std::path::Path;
+
 use congruent_agreement::report::{
     Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedStage,
 };
 use congruent_input::{
     Diagnostic,
     display::{angle, length, length_and_angle},
+    portable_path,
 };
 use maud::{Markup, html};
 
@@ -32,7 +35,7 @@ pub(crate) fn diagnosis(diagnosis: &ReportedDiagnosis, at: &Pointer) -> Markup {
             }
         }
         @if let Some(corrected) = &diagnosis.corrected {
-            details { summary { "the table of " (corrected.file) ", corrected" } pre { (corrected.table()) } }
+            details { summary { "the table of " (portable_path(Path::new(&corrected.file)).display()) ", corrected, to paste" } pre.paste { (corrected.table()) } }
         }
         @if !diagnosis.indistinguishable.is_empty() {
             details {

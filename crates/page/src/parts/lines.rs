@@ -1,6 +1,6 @@
 //! Lines of a file: the marked ones with their neighbours, and lines to write instead.
 
-use congruent_input::{ChangedLines, Diagnostic, SourceFile};
+use congruent_input::{ChangedLines, Diagnostic, SourceFile, portable_path};
 use maud::{Markup, html};
 
 /// Lines before and after the marked ones.
@@ -22,7 +22,7 @@ pub(crate) fn marked(finding: &Diagnostic) -> Markup {
     let last = first + marked.min(MOST_LINES) - 1;
     let shown = (first.saturating_sub(AROUND).max(1))..=(last + AROUND);
     html! {
-        p.place { code { (source.path.display()) ":" (first) } }
+        p.place { code { (portable_path(&source.path).display()) ":" (first) } }
         pre.file {
             @for (number, line) in (1..).zip(quotable(source).lines()).filter(|(number, _)| shown.contains(number)) {
                 @if (first..=last).contains(&number) {

@@ -1,31 +1,41 @@
 //! The table of checks: the worst value of each quantity beside its limit, and how much of the limit it uses.
 
-use congruent_input::display::quantity;
+use congruent_input::display::{counted, quantity};
 use congruent_monitors::verdict::{Bound, CheckResult, Measure, Moment, Status};
 use congruent_results::report::{RunReport, is_not_reached, limit_words, margin_words, quantity_words};
 use maud::{Markup, html};
 
-use crate::parts::{BadgeKind, Pointer, badge, value};
+use super::content::RunContent;
+use crate::parts::{BadgeKind, BarScale, Pointer, badge, value};
 
 /// Quantities of a check that are in the table; the report has all, as of every pair below a clearance.
 const MOST_MEASURES: usize = 12;
 
-/// The table, checks that failed first.
-pub(super) fn checks(report: &RunReport) -> Markup {
-    let index = |check: &CheckResult| {
-        report.checks.iter().position(|other| std::ptr::eq(other, check)).unwrap_or_default()
-    };
+/// The tables: of the checks that failed, and of the others, which are folded if any failed.
+pub(super) fn checks(report: &RunReport, run: &RunContent) -> Markup {
+    let (failed, others): (Vec<_>, Vec<_>) = report
+        .checks_failed_first()
+        .into_iter()
+        .partition(|check| matches!(check.status, Status::Fail | Status::Error));
+    let passed = others.iter().filter(|check| check.status == Status::Pass).count();
+    let scale =
+        BarScale::for_shares(report.checks.iter().flat_map(|check| &check.measures).filter_map(share));
+    let table = |checks: &[&CheckResult]| table(checks, &Rows { report, run, scale });
     html! {
         section {
-            h2 { "Checks" }
-            @if report.checks.is_empty() { p { "The scenario has no check." } }
-            @else {
-                table.checks {
-                    thead { tr {
-                        th { "check" } th { "result" } th { "worst value" } th { "limit" } th { "margin" } th { "where" } th { "when" }
-                    } }
-                    @for check in report.checks_failed_first() {
-                        (rows(check, &Pointer::root().key("checks").key(index(check))))
+            @if report.checks.is_empty() { h2 { "Checks" } p { "The scenario has no check." } }
+            @else if failed.is_empty() {
+                h2 { "What was checked" }
+                (table(&others))
+                (scale.words())
+            } @else {
+                h2 { "The checks that failed" }
+                (table(&failed))
+                (scale.words())
+                @if !others.is_empty() {
+                    details {
+                        summary { "what passed (" (counted(passed, "check")) ")" @if passed < others.len() { ", and what says nothing (" (others.len() - passed) ")" } }
+                        (table(&others))
                     }
                 }
             }
@@ -33,22 +43,45 @@ pub(super) fn checks(report: &RunReport) -> Markup {
     }
 }
 
-fn rows(check: &CheckResult, at: &Pointer) -> Markup {
+/// What the rows of a table need.
+struct Rows<'a> {
+    report: &'a RunReport,
+    run: &'a RunContent,
+    scale: BarScale,
+}
+
+fn table(checks: &[&CheckResult], of: &Rows<'_>) -> Markup {
+    let index = |check: &CheckResult| {
+        of.report.checks.iter().position(|other| std::ptr::eq(other, check)).unwrap_or_default()
+    };
+    html! {
+        table.checks {
+            thead { tr {
+                th { "check" } th { "result" } th { "worst value" } th { "of its limit" } th { "limit" } th { "margin" } th { "where" } th { "when" }
+            } }
+            @for check in checks {
+                (rows(check, of, &Pointer::root().key("checks").key(index(check))))
+            }
+        }
+    }
+}
+
+fn rows(check: &CheckResult, of: &Rows<'_>, at: &Pointer) -> Markup {
     let shown = check.measures.iter().take(MOST_MEASURES).enumerate();
     let further = check.measures.len().saturating_sub(MOST_MEASURES);
     html! {
         tbody {
-            @if check.measures.is_empty() { tr { (name(check)) td colspan="5" { "no value" } } }
+            @if check.measures.is_empty() { tr { (name(check)) td colspan="6" { "no value" } } }
             @for (index, measure) in shown {
                 tr {
                     @if index == 0 { (name(check)) } @else { td.again {} td.again {} }
-                    (cells(measure, &at.key("measures").key(index)))
+                    (cells(measure, of, &at.key("measures").key(index)))
                 }
             }
-            @if further > 0 { tr { td.again {} td.again {} td colspan="5" { "and " (further) " more in the report" } } }
+            @if further > 0 { tr { td.again {} td.again {} td colspan="6" { "and " (further) " more in the report" } } }
             // Those of a check that failed stand above the table.
             @if !check.notes.is_empty() && check.status != Status::Fail {
-                tr.notes { td.again {} td colspan="6" { @for note in &check.notes { p { (note) } } } }
+                tr.notes { td.again {} td colspan="7" { @for note in &check.notes { p { (note) } } } }
             }
         }
     }
@@ -66,17 +99,18 @@ fn name(check: &CheckResult) -> Markup {
     }
 }
 
-fn cells(measure: &Measure, at: &Pointer) -> Markup {
+fn cells(measure: &Measure, of: &Rows<'_>, at: &Pointer) -> Markup {
     let what = quantity_words(measure.quantity);
     let Some(worst) = &measure.worst else {
-        return html! { td data-label="worst value" { (what) ": no value" } td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };
+        return html! { td data-label="worst value" { (what) ": no value" } td {} td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };
     };
     let at_worst = at.key("worst");
     html! {
-        td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) (bar(measure, worst.value)) }
+        td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) }
+        td data-label="of its limit" { @if let Some(share) = share(measure) { (of.scale.bar(share, measure.bound.holds(worst.value, measure.limit))) } }
         td data-label="limit" { (limit(measure, at)) }
         td data-label="margin" { (margin_words(measure, worst.value)) }
-        td data-label="where" { (worst.subject) }
+        td data-label="where" { (worst.subject) @if let Some(why) = why_constant(&worst.subject, of.run) { " " span.small { (why) } } }
         td data-label="when" {
             (value(&at_worst.key("time_s"), worst.time_s, &quantity(worst.time_s, "s")))
             @if let Some(first) = measure.first_violation.as_ref().filter(|first| first.time_s < worst.time_s) {
@@ -99,21 +133,20 @@ fn limit(measure: &Measure, at: &Pointer) -> Markup {
     value(&at.key("limit"), measure.limit, &limit_words(measure))
 }
 
-/// How much of its limit a value uses, as a bar: full at the limit.
-fn bar(measure: &Measure, worst: f64) -> Markup {
-    let share = match measure.bound {
-        _ if measure.limit <= 0.0 || !worst.is_finite() => return html! {},
+/// Why the distance that a value is about never changes; `None` if it does, or is none.
+fn why_constant(subject: &str, run: &RunContent) -> Option<&'static str> {
+    run.series.nearest.why_constant(run.names.pairs.iter().position(|pair| pair == subject)?)
+}
+
+/// How much of its limit the worst value uses; `None` if that says nothing.
+fn share(measure: &Measure) -> Option<f64> {
+    let worst = measure.worst.as_ref()?.value;
+    match measure.bound {
+        _ if measure.limit <= 0.0 || !worst.is_finite() => None,
         // A joint inside its range is not near a limit of zero, which has no shares.
-        Bound::AtMost if worst < 0.0 => return html! {},
-        Bound::AtMost => worst / measure.limit,
-        Bound::AtLeast | Bound::Above if worst <= 0.0 => 1.0,
-        Bound::AtLeast | Bound::Above => measure.limit / worst,
-    };
-    let holds = measure.bound.holds(worst, measure.limit);
-    let percent = if holds { (100.0 * share).clamp(0.0, 100.0) } else { 100.0 };
-    html! {
-        div.bar.(if holds { "good" } else { "bad" }) role="img" aria-label=(format!("{percent:.0} % of the limit")) {
-            div style=(format!("width:{percent:.1}%")) {}
-        }
+        Bound::AtMost if worst < 0.0 => None,
+        Bound::AtMost => Some(worst / measure.limit),
+        Bound::AtLeast | Bound::Above if worst <= 0.0 => Some(f64::INFINITY),
+        Bound::AtLeast | Bound::Above => Some(measure.limit / worst),
     }
 }

@@ -1,39 +1,15 @@
-//! What went wrong, in sentences: the checks that failed, what the samples show, and why the models differ.
+//! Why a run failed: why the models differ, what the samples show beside what was injected, and what became of servos.
 
 use congruent_agreement::report::foremost;
 use congruent_fault_diagnosis::RunDiagnosis;
-use congruent_monitors::verdict::Status;
-use congruent_results::report::{RunReport, lines};
+use congruent_results::report::RunReport;
 use maud::{Markup, html};
 
 use crate::parts::{Pointer, diagnosis};
 
-/// Lines of a check that failed which are shown above the table.
-const SHOWN: usize = 8;
-
-/// The section; nothing if no check failed and nothing is injected.
-pub(super) fn what_is_wrong(report: &RunReport) -> Markup {
-    html! { (failures(report)) (cause(report)) (found(report)) (servos(report)) }
-}
-
-fn failures(report: &RunReport) -> Markup {
-    let checks = report.checks_failed_first().into_iter();
-    let failed: Vec<_> = checks.filter(|check| check.status == Status::Fail).collect();
-    html! {
-        @if !failed.is_empty() {
-            section {
-                h2 { "What failed" }
-                @for check in failed {
-                    div.card.bad {
-                        h3 { (check.check) @if let Some(line) = check.line { span.small { " line " (line) " of the scenario" } } }
-                        @let lines = lines(check);
-                        ul { @for line in lines.iter().take(SHOWN) { li { (line) } } }
-                        @if lines.len() > SHOWN { p.small { "and " (lines.len() - SHOWN) " more in the report" } }
-                    }
-                }
-            }
-        }
-    }
+/// The sections; nothing if nothing differs and nothing is injected.
+pub(super) fn causes(report: &RunReport) -> Markup {
+    html! { (cause(report)) (found(report)) (servos(report)) }
 }
 
 /// Why model and twin differ, if a check of their agreement failed.

@@ -1,13 +1,14 @@
 //! The top of the page, verdict and files, and its end: how to run the same again.
 
-use std::path::Path;
+use std::{fmt::Write, path::Path};
 
-use congruent_input::display::quantity;
-use congruent_monitors::verdict::Verdict;
-use congruent_results::report::{RunReport, verdict_word};
+use congruent_input::display::{counted, quantity};
+use congruent_monitors::verdict::{Status, Verdict};
+use congruent_results::report::{RunReport, quantity_words, verdict_word};
 use maud::{Markup, html};
 
-use crate::parts::{BadgeKind, Pointer, badge, capitalised, count, value};
+use crate::index::tightest;
+use crate::parts::{BadgeKind, Pointer, Provenance, badge, capitalised, count, provenance, value};
 
 /// Files of the results that may be there, with what they are. The first two are written before the page.
 const FILES: [(&str, &str); 6] = [
@@ -43,8 +44,10 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
             h1 { (report.scenario) }
             p.verdict { (badge(outcome, word)) " " span.sentence { (capitalised(&report.sentence())) "." } }
             @if let Some(error) = &report.error { p.error { (error) } }
+            @if let Some(proved) = proved(report) { p { (proved) } }
             dl.facts {
                 dt { "robot" } dd { (report.robot) }
+                @if let Some(file) = &report.scenario_file { dt { "scenario file" } dd { code { (file) } } }
                 dt { "simulated" }
                 dd {
                     (value(&at.key("duration_s"), clock.duration_s, &quantity(clock.duration_s, "s"))) " in "
@@ -69,16 +72,39 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
     }
 }
 
-/// The command that repeats the run, the versions, and the hash of the trajectory.
-pub(super) fn reproduction(report: &RunReport) -> Markup {
-    html! {
-        section {
-            h2 { "The same again" }
-            pre.command { (report.command()) }
-            p.small {
-                "congruent " (report.versions.congruent) ", physics " (report.versions.physics)
-                "; a repeated run gives the same trajectory, SHA-256 " code.hash { (report.trajectory_sha256) }
-            }
-        }
+/// What a run without a violation shows, in two sentences: how much was checked, and what is nearest to its limit.
+fn proved(report: &RunReport) -> Option<String> {
+    let conclusive = || report.checks.iter().filter(|check| check.status.is_conclusive());
+    if conclusive().next().is_none() || conclusive().any(|check| check.status != Status::Pass) {
+        return None;
     }
+    let measures = conclusive().map(|check| check.measures.len()).sum::<usize>();
+    let samples = conclusive().map(|check| check.samples).max().unwrap_or_default();
+    let quantities = if measures == 1 { "quantity is" } else { "quantities are" };
+    let mut text = format!(
+        "{measures} {quantities} within the limits, in {} at {samples} samples.",
+        counted(conclusive().count(), "check")
+    );
+    if let Some((check, measure, share)) = tightest(report) {
+        let subject = measure.worst.as_ref().map_or("", |worst| worst.subject.as_str());
+        let what = quantity_words(measure.quantity);
+        let _ = write!(
+            text,
+            " Nearest to its limit: {what} of {subject} ({check}), {:.0} % of it.",
+            100.0 * share
+        );
+    }
+    Some(text)
+}
+
+/// The command that repeats the run, the inputs with their digests, the versions, and the hash of the trajectory.
+pub(super) fn provenance_of(report: &RunReport) -> Markup {
+    provenance(&Provenance {
+        command: Some(report.command()),
+        inputs: report.inputs.iter().collect(),
+        remarks: vec![
+            html! { "physics " (report.versions.physics) },
+            html! { "a repeated run gives the same trajectory, SHA-256 " code.hash { (report.trajectory_sha256) } },
+        ],
+    })
 }

@@ -66,8 +66,23 @@ fn chart(plotted: JointQuantity, joint: usize, run: &RunContent) -> Chart {
             }
         }
     }
+    // An effort that is 0 all the time is not known: the source of the run plays positions back.
+    let range = run.series.range_of_joint(plotted, joint);
+    if plotted == JointQuantity::Effort && range == Some((0.0, 0.0)) {
+        lines.clear();
+    }
     let limits = limits(plotted, of).into_iter().map(|value| PlotLimit { name: "limit".to_owned(), value });
-    Chart { id: id(plotted, joint), unit, scale, log: false, lines, limits: limits.collect() }
+    // How much of its actuator a joint uses is what its effort is plotted for; a range of positions may be far away.
+    let has_all_limits = plotted == JointQuantity::Effort;
+    Chart {
+        id: id(plotted, joint),
+        unit,
+        scale,
+        lines,
+        limits: limits.collect(),
+        has_all_limits,
+        ..Chart::default()
+    }
 }
 
 /// The limits of a joint that a description states; a limit of zero is none.
@@ -82,7 +97,7 @@ fn limits(quantity: JointQuantity, joint: &Joint) -> Vec<f64> {
     }
 }
 
-/// The section: joints that move, then the others.
+/// The plots: of joints that move, then the others, folded.
 pub(super) fn joints(run: &RunContent, plots: &Plots) -> Markup {
     let moves = |joint: &usize| {
         let range = run.series.range_of_joint(JointQuantity::Position, *joint);
@@ -93,14 +108,11 @@ pub(super) fn joints(run: &RunContent, plots: &Plots) -> Markup {
         return html! {};
     }
     html! {
-        section {
-            h2 { "Joints" }
-            @for &joint in &moving { (one(joint, run, plots)) }
-            @if !still.is_empty() {
-                details {
-                    summary { (still.len()) @if still.len() == 1 { " joint that does not move" } @else { " joints that do not move" } }
-                    @for &joint in &still { (one(joint, run, plots)) }
-                }
+        @for &joint in &moving { (one(joint, run, plots)) }
+        @if !still.is_empty() {
+            details {
+                summary { (still.len()) @if still.len() == 1 { " joint that does not move" } @else { " joints that do not move" } }
+                @for &joint in &still { (one(joint, run, plots)) }
             }
         }
     }

@@ -3,6 +3,9 @@
 mod actuators;
 mod checks;
 mod content;
+mod curves;
+mod events;
+mod failures;
 mod faults;
 mod header;
 mod joints;

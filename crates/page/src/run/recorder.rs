@@ -9,7 +9,7 @@ use congruent_monitors::{Recorder, RecordingError, RunClock, Sample, agreement_t
 use congruent_results::{IfIncomplete, Recording, RecordingFormat, report::RunReport};
 use congruent_twin::Run;
 
-use super::{content::RunContent, page};
+use super::{content::RunContent, events::Events, page};
 use crate::series::{NearestOverTime, RunSeries};
 
 /// The page of a run, `report.html`.
@@ -35,6 +35,7 @@ impl RecordingFormat for PageFormat {
                 description: setup.description.clone(),
                 obstacles: setup.obstacles.clone(),
                 obstacles_move: !setup.bodies.is_empty(),
+                events: Events::new(&setup.scenario),
                 zones: setup.zones.iter().map(|zone| zone.space.clone()).collect(),
                 series: RunSeries::new(
                     &setup.description,
@@ -54,7 +55,7 @@ struct PageRecorder {
 
 impl Recorder for PageRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
-        self.run.series.push(sample);
+        self.run.series.push(sample, &self.run.description);
         Ok(())
     }
 }

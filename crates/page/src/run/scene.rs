@@ -1,40 +1,34 @@
-//! The picture of a run: model and twin where they differ most, or the twin at the worst of another check that failed; with
-//! the obstacles and zones around it and the path of the TCP.
+//! The picture of a run: model and twin where they differ most, or the twin where another check was violated first; with the
+//! obstacles and zones around it and the path of the TCP.
 
 use congruent_description::{Obstacle, Robot, RobotQ};
 use congruent_input::display::{angle, length, quantity};
 use congruent_kinematics::{Pose, UrdfTree};
-use congruent_monitors::verdict::{CheckResult, Measure, Moment, Status};
+use congruent_monitors::verdict::{CheckResult, Measure, Moment};
 use congruent_results::report::{RunReport, sentence_at};
 use congruent_scenario::CheckKind;
 use maud::{Markup, html};
 use nalgebra::Isometry3;
 
-use super::content::RunContent;
+use super::{content::RunContent, failures::violated};
 use crate::picture::{DrawnArm, Figure, PictureBody, Skeleton, TwoArms, corners, shapes};
 
-/// The section with the picture of the arm, its caption and its legend.
+/// The picture of the arm, with its caption and its legend.
 pub(super) fn scene(report: &RunReport, run: &RunContent) -> Markup {
     // Without poses of that moment there is still the picture of model and twin.
-    let violated = violation(report).and_then(|found| Some((found, poses(run, found.2)?)));
-    let picture = match violated {
+    let violated = first_violation(report).and_then(|found| Some((found, poses(run, found.2)?)));
+    match violated {
         Some(((check, measure, moment), poses)) => at_violation(check, measure, moment, &poses, run),
         None => at_largest_difference(run),
-    };
-    html! { section { h2 { "The arm" } (picture) } }
+    }
 }
 
-/// The worst of the quantity that was violated first; `None` if model and twin differ, which is shown instead.
-fn violation(report: &RunReport) -> Option<(&CheckResult, &Measure, &Moment)> {
-    let mut failed = report.checks.iter().filter(|check| check.status == Status::Fail);
-    if failed.any(|check| check.check == CheckKind::Agreement) {
-        return None;
-    }
-    let check = report.checks_failed_first().into_iter().find(|check| check.status == Status::Fail)?;
-    let violated =
-        check.measures.iter().filter_map(|measure| Some((measure, measure.first_violation.as_ref()?)));
-    let (measure, _) = violated.min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s))?;
-    Some((check, measure, measure.worst.as_ref()?))
+/// The quantity that was violated first, at that instant; `None` if it is that model and twin differ, which is shown where it
+/// is largest.
+fn first_violation(report: &RunReport) -> Option<(&CheckResult, &Measure, &Moment)> {
+    let first = *violated(report).first()?;
+    let moment = first.measure.first_violation.as_ref()?;
+    (first.check.check != CheckKind::Agreement).then_some((first.check, first.measure, moment))
 }
 
 /// Poses of the twin at the configuration of a moment.
@@ -60,7 +54,7 @@ fn at_violation(
     let arms = vec![arm("twin", "twin (physics)", poses, run)];
     let figure = Figure { bodies: bodies(poses, run, &subjects), arms, path: run.series.tcp_path.points() };
     let caption = html! {
-        "At " (quantity(moment.time_s, "s")) ", the worst of check " (check.check) ": "
+        "The robot at " (quantity(moment.time_s, "s")) ", where check " (check.check) " is violated first: "
         (sentence_at(measure, moment)) "." (moving(run))
     };
     TwoArms { figure, tips_apart_m: 0.0 }.markup(&caption)

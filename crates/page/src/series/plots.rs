@@ -14,7 +14,7 @@ pub(crate) struct Plots {
 }
 
 /// One plot: lines over time in one unit, with limits drawn across.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub(crate) struct Chart {
     /// Name of the figure in the page.
     pub(crate) id: String,
@@ -26,6 +26,20 @@ pub(crate) struct Chart {
     pub(crate) log: bool,
     pub(crate) lines: Vec<PlotLine>,
     pub(crate) limits: Vec<PlotLimit>,
+    /// Whether the axis reaches to the limits, however far they are.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) has_all_limits: bool,
+    /// Points that are marked and named, such as the first violation.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) points: Vec<PlotPoint>,
+    /// Lines that were left out, since others are worse.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub(crate) others: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// A line of a plot.
@@ -56,12 +70,21 @@ pub(crate) struct PlotLimit {
     pub(crate) value: f64,
 }
 
+/// A point of a plot that is marked.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct PlotPoint {
+    pub(crate) time_s: f64,
+    /// In SI units.
+    pub(crate) value: f64,
+    pub(crate) text: String,
+}
+
 /// An instant to mark.
 #[derive(Debug, Serialize)]
 pub(crate) struct PlotMark {
     pub(crate) time_s: f64,
     pub(crate) text: String,
-    /// `violation`, `stop` or `motion`.
+    /// `violation`, `stop`, `motion`, `event` or `fault`.
     pub(crate) kind: &'static str,
 }
 

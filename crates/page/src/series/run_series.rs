@@ -6,7 +6,7 @@ use congruent_kinematics::{Pose, PoseError};
 use congruent_monitors::{JointSample, Sample};
 use nalgebra::{Isometry3, Point3};
 
-use super::{buckets::Buckets, distances::NearestOverTime, plots::Floats};
+use super::{buckets::Buckets, check_values::CheckValues, distances::NearestOverTime, plots::Floats};
 
 /// Most buckets of a series. Each has up to two values: a wide screen has no more points.
 const MOST_BUCKETS: usize = 750;
@@ -75,6 +75,8 @@ pub(crate) struct RunSeries {
     tip_from_tcp: Isometry3<f64>,
     buckets: Buckets,
     pub(crate) nearest: NearestOverTime,
+    /// What the checks measured.
+    pub(crate) checked: CheckValues,
     pub(crate) tcp_path: DrawnPath,
     pub(crate) largest: LargestDifference,
 }
@@ -97,6 +99,7 @@ impl RunSeries {
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             buckets: Buckets::new(series, MOST_BUCKETS.min(MOST_VALUES / (2 * series))),
             nearest,
+            checked: CheckValues::default(),
             tcp_path: DrawnPath::default(),
             largest: LargestDifference {
                 rank: [f64::NEG_INFINITY; 2],
@@ -110,7 +113,7 @@ impl RunSeries {
     }
 
     /// Takes the sample of one instant into every series.
-    pub(crate) fn push(&mut self, sample: &mut Sample<'_>) {
+    pub(crate) fn push(&mut self, sample: &mut Sample<'_>, description: &RobotDescription) {
         let time_s = sample.time_s;
         let (errors, joints, dof) = (sample.errors, &sample.joints, self.joints);
         let of_links = errors.iter().map(|error| error.position_m);
@@ -124,7 +127,8 @@ impl RunSeries {
         let root_from_tcp = sample.twin[self.tip.get()] * self.tip_from_tcp;
         self.tcp_path.push(root_from_tcp.translation.vector.into());
         self.keep_largest(sample);
-        self.nearest.observe(sample);
+        self.checked.push(time_s, sample.values);
+        self.nearest.observe(sample, description);
     }
 
     fn keep_largest(&mut self, sample: &Sample<'_>) {
@@ -150,6 +154,7 @@ impl RunSeries {
     /// Closes the open buckets: no sample follows.
     pub(crate) fn finish(&mut self) {
         self.buckets.finish();
+        self.checked.finish();
     }
 
     pub(crate) fn times_s(&self) -> Floats {

@@ -1,8 +1,10 @@
 //! The report of one run.
 
+use std::path::Path;
+
 use congruent_agreement::{compare::PoseSource, report::ReportedDiagnosis};
 use congruent_fault_diagnosis::RunDiagnosis;
-use congruent_input::{Finding, InputFile};
+use congruent_input::{Finding, InputFile, portable_path};
 use congruent_monitors::verdict::{CheckResult, RunStop, Status, Verdict, judge};
 use congruent_motion::{ServoResult, SlowedMotion};
 use congruent_scenario::{Expectation, RunFault};
@@ -19,7 +21,7 @@ pub struct RunReport {
     pub format: String,
     /// Name of the scenario.
     pub scenario: String,
-    /// The scenario file, as it was named.
+    /// The scenario file as it was named; relative to the current folder if that was an absolute path.
     pub scenario_file: Option<String>,
     /// Values that replaced those of the file, `KEY=VALUE`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -123,6 +125,15 @@ pub struct Versions {
     pub physics: String,
 }
 
+/// A path as a report names it: none is absolute.
+fn portable(path: &Path) -> String {
+    portable_path(path).display().to_string()
+}
+
+fn portable_finding(finding: Finding) -> Finding {
+    Finding { file: finding.file.map(|file| portable(Path::new(&file))), ..finding }
+}
+
 /// The motions as they were: one that was made slower in the run delays those after it.
 fn motions(setup: &RunSetup, slowed: &[SlowedMotion]) -> Vec<MotionTimes> {
     let kinds = setup.scenario.motion.iter().map(|motion| motion.kind().to_owned()).enumerate();
@@ -161,7 +172,7 @@ impl RunReport {
         Self {
             format: "congruent-report/1".to_owned(),
             scenario: setup.scenario.name.clone(),
-            scenario_file: setup.path.as_ref().map(|path| path.display().to_string()),
+            scenario_file: setup.path.as_deref().map(portable),
             overrides: setup.overrides.clone(),
             robot: setup.description.name.clone(),
             verdict,
@@ -189,7 +200,7 @@ impl RunReport {
                 congruent: env!("CARGO_PKG_VERSION").to_owned(),
                 physics: congruent_simulation::ENGINE.to_owned(),
             },
-            warnings: warnings.map(Finding::from).collect(),
+            warnings: warnings.map(|warning| portable_finding(warning.into())).collect(),
         }
     }
 
