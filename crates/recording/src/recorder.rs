@@ -12,7 +12,12 @@ use re_log_types::{StoreId, StoreKind};
 
 use crate::{
     blueprint::layout::ViewerLayout,
-    outcome::{joint_limits, limit_lines::LimitLines, summary, timeline},
+    outcome::{
+        joint_limits,
+        limit_lines::LimitLines,
+        summary,
+        timeline::{self, CarriedFor},
+    },
     rrd::{
         identity,
         times::{SampleTime, stride},
@@ -45,6 +50,7 @@ pub struct RerunRecorder {
     description: RobotDescription,
     obstacles: Vec<Obstacle>,
     moving: Vec<String>,
+    carried: Vec<CarriedFor>,
     zones: Vec<Obstacle>,
     bodies: Vec<SceneBody>,
     /// The body of each link: the link that a joint moves and that it is fixed to.
@@ -110,6 +116,7 @@ impl RerunRecorder {
             description: description.clone(),
             obstacles: setup.obstacles.clone(),
             moving: moving_names(setup),
+            carried: CarriedFor::of_scenario(&setup.scenario),
             zones: setup.zones.iter().map(|zone| zone.space.clone()).collect(),
             body_of_link: robot.link_indices().map(|link| robot.body(link).get()).collect(),
             are_violating: vec![false; bodies.len()],
@@ -212,7 +219,7 @@ impl Recording for RerunRecorder {
                 styles::write_measured(&mut self.writer, robot, number, name)?;
             }
         }
-        timeline::write(&mut self.writer, report)?;
+        timeline::write(&mut self.writer, report, &self.carried)?;
         summary::write(&mut self.writer, report)?;
         let layout = ViewerLayout {
             description: &self.description,

@@ -1,5 +1,5 @@
 //! The layout of the viewer: the three-dimensional view on the left with the statuses of the checks below it;
-//! on the right the plots, and the summary and the events below them.
+//! on the right the plots, that of what failed first, and the summary and the events below them.
 
 use congruent_agreement::compare::PoseSource;
 use congruent_description::RobotDescription;
@@ -14,14 +14,12 @@ use congruent_scenario::CheckKind;
 use re_sdk_types::{
     blueprint::{
         archetypes::{
-            Background, EyeControls3D, LineGrid3D, PanelBlueprint, TextLogColumns, TimePanelBlueprint,
-            ViewportBlueprint,
+            Background, EyeControls3D, LineGrid3D, PanelBlueprint, TimePanelBlueprint, ViewportBlueprint,
         },
         components::{
             AbsoluteTimeRange, AutoLayout, AutoViews, BackgroundKind, LoopMode, PanelState, PlayState,
-            RootContainer, TextLogColumn,
+            RootContainer,
         },
-        datatypes::{TextLogColumn as Column, TextLogColumnKind},
     },
     datatypes::{AbsoluteTimeRange as Range, TimeInt},
 };
@@ -29,12 +27,13 @@ use re_sdk_types::{
 use super::{
     joints::JointPlots,
     plots::PlotFrame,
+    texts::{events, statuses},
     tree::{BlueprintWriter, LayoutNode, View},
 };
 use crate::{
     outcome::{
         joint_limits::NearLimit,
-        measures::{first_violation_s, measures_of_kind},
+        measures::{first_violation, first_violation_s, measures_of_kind},
     },
     rrd::{
         convert::vector,
@@ -65,8 +64,10 @@ const PLOT_PIXELS: f32 = 80.0;
 const CURVES: (usize, usize) = (4, 7);
 /// The fewest and the most lanes that are in the picture.
 const LANES: (usize, usize) = (3, 9);
-/// The most links with a curve of their own.
-const MAX_LINKS: usize = 10;
+/// Height of the plots of what failed, at the top.
+const FAILED_PIXELS: f32 = 240.0;
+/// The most links with a curve of their own: the worst, as in the page.
+const MAX_LINKS: usize = 5;
 /// Time that is played before and after a violation.
 const AROUND_VIOLATION_S: f64 = 0.5;
 
@@ -141,25 +142,57 @@ impl ViewerLayout<'_> {
     fn root(&self) -> LayoutNode {
         let lanes = self.lanes_pixels();
         let left = LayoutNode::Rows(vec![(WINDOW_PIXELS - lanes, self.scene()), (lanes, statuses())]);
-        let mut right = vec![(self.agreement_pixels(), self.agreement())];
-        if let Some(distances) = self.distances() {
-            right.push((self.distances_pixels(), distances));
-        }
-        if let Some(joints) = self.joints() {
-            // The joints get the height that errors, distances and summary do not need.
-            let others: f32 = right.iter().map(|(pixels, _)| pixels).sum();
-            right.push((WINDOW_PIXELS - SUMMARY_PIXELS - others, joints));
-        }
+        let mut right = self.plots();
         let summary = View::new("TextDocument", "Summary", paths::summary());
         right.push((SUMMARY_PIXELS, LayoutNode::Columns(vec![(1.0, summary.into()), (1.0, events())])));
         LayoutNode::Columns(vec![(1.0, left), (1.0, LayoutNode::Rows(right))])
     }
 
+    /// The plots from top to bottom, with their heights: what was violated first is at the top. Errors within their tolerance,
+    /// most often rounding, are behind the distances.
+    fn plots(&self) -> Vec<(f32, LayoutNode)> {
+        let (mut failed, mut agreement) = (self.failed_plots(), self.agreement());
+        let (mut behind, mut distance_row) = (Vec::new(), self.distances());
+        let first = self.first_violated();
+        let mut rows = Vec::new();
+        if !first.is_some_and(has_own_plot) {
+            rows.extend(in_tabs(std::mem::take(&mut failed)).map(|tabs| (FAILED_PIXELS, tabs)));
+        }
+        if self.is_violated(CheckKind::Agreement) {
+            rows.extend(in_tabs(agreement).map(|tabs| (self.agreement_pixels(), tabs)));
+        } else if distance_row.is_empty() {
+            behind.append(&mut agreement);
+        } else {
+            distance_row.append(&mut agreement);
+        }
+        rows.extend(in_tabs(distance_row).map(|tabs| (self.distances_pixels(), tabs)));
+        if first.is_some_and(|kind| kind != CheckKind::Agreement && has_own_plot(kind)) {
+            // The distances, above errors that came outside their tolerance later.
+            rows.rotate_right(1);
+        }
+        let joints = failed.into_iter().chain(self.joints()).chain(behind).collect();
+        if let Some(joints) = in_tabs(joints) {
+            // The joints get the height that errors, distances and summary do not need.
+            let others: f32 = rows.iter().map(|(pixels, _)| pixels).sum();
+            rows.push((WINDOW_PIXELS - SUMMARY_PIXELS - others, joints));
+        }
+        rows
+    }
+
+    /// The kind of the check that was violated first.
+    fn first_violated(&self) -> Option<CheckKind> {
+        let violated =
+            self.report.checks.iter().filter_map(|check| Some((check.check, first_violation(check)?.1)));
+        violated.min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s)).map(|(kind, _)| kind)
+    }
+
+    fn is_violated(&self, kind: CheckKind) -> bool {
+        measures_of_kind(self.report, kind).any(|measure| measure.first_violation.is_some())
+    }
+
     /// Height of the plot of errors: with a curve for each link if they are outside their tolerance.
     fn agreement_pixels(&self) -> f32 {
-        let is_violated = measures_of_kind(self.report, CheckKind::Agreement)
-            .any(|measure| measure.first_violation.is_some());
-        plot_pixels(if is_violated { self.shown_links().count() + 1 } else { 0 })
+        plot_pixels(if self.is_violated(CheckKind::Agreement) { self.shown_links().count() + 1 } else { 0 })
     }
 
     /// Height of the plot of distances.
@@ -202,7 +235,7 @@ impl ViewerLayout<'_> {
 
     /// Plots of errors in tabs: in front the plot with a violated limit, or the logarithms of the largest
     /// errors.
-    fn agreement(&self) -> LayoutNode {
+    fn agreement(&self) -> Vec<LayoutNode> {
         let of = |quantity: Quantity| {
             measures_of_kind(self.report, CheckKind::Agreement)
                 .find(move |measure| measure.quantity == quantity)
@@ -234,7 +267,7 @@ impl ViewerLayout<'_> {
             // The violated plot to the front; the others keep their order behind it.
             tabs[..=violated + 1].rotate_right(1);
         }
-        LayoutNode::Tabs(tabs)
+        tabs
     }
 
     /// The links with the largest errors, in the robot's order: of those that the table moves, if there is one.
@@ -256,8 +289,8 @@ impl ViewerLayout<'_> {
         links.into_iter()
     }
 
-    /// Plots of distances, a violated one in front; `None` if there is nothing to be near to.
-    fn distances(&self) -> Option<LayoutNode> {
+    /// Plots of distances, a violated one in front; none if there is nothing to be near to.
+    fn distances(&self) -> Vec<LayoutNode> {
         let frame = self.frame();
         let is_checked = [CheckKind::Clearance, CheckKind::Contact]
             .into_iter()
@@ -276,17 +309,14 @@ impl ViewerLayout<'_> {
             frame.plot(view, Some((low.min(0.0), high)))
         });
         let mut tabs: Vec<LayoutNode> = clearance.into_iter().chain(zones).collect();
-        let is_violated = |kind: CheckKind| {
-            measures_of_kind(self.report, kind).any(|measure| measure.first_violation.is_some())
-        };
-        if is_violated(CheckKind::Zone) && !is_violated(CheckKind::Clearance) {
+        if self.is_violated(CheckKind::Zone) && !self.is_violated(CheckKind::Clearance) {
             tabs.reverse();
         }
-        if tabs.len() > 1 { Some(LayoutNode::Tabs(tabs)) } else { tabs.pop() }
+        tabs
     }
 
-    /// Plots of the joints, behind those of the checks that failed; `None` without joints.
-    fn joints(&self) -> Option<LayoutNode> {
+    /// Plots of the joints.
+    fn joints(&self) -> Vec<LayoutNode> {
         let plots = JointPlots {
             robot: &self.description.robot,
             names: self.names,
@@ -294,15 +324,12 @@ impl ViewerLayout<'_> {
             limits: self.near_limits,
             frame: self.frame(),
         };
-        let mut tabs = self.failed_plots();
-        tabs.extend(plots.all());
-        if tabs.len() > 1 { Some(LayoutNode::Tabs(tabs)) } else { tabs.pop() }
+        plots.all()
     }
 
     /// What checks without a plot of their own have measured outside a limit, the first violation first.
     fn failed_plots(&self) -> Vec<LayoutNode> {
-        let own = [CheckKind::Agreement, CheckKind::Clearance, CheckKind::Contact, CheckKind::Zone];
-        let checks = self.report.checks.iter().enumerate().filter(|(_, check)| !own.contains(&check.check));
+        let checks = self.report.checks.iter().enumerate().filter(|(_, check)| !has_own_plot(check.check));
         let violated = checks.flat_map(|(number, check)| {
             check.measures.iter().filter_map(move |measure| {
                 Some((measure.first_violation.as_ref()?.time_s, number, check.check, measure))
@@ -329,6 +356,16 @@ impl ViewerLayout<'_> {
     }
 }
 
+/// Whether a check is in the plots of errors or of distances, whatever its result is.
+fn has_own_plot(kind: CheckKind) -> bool {
+    matches!(kind, CheckKind::Agreement | CheckKind::Clearance | CheckKind::Contact | CheckKind::Zone)
+}
+
+/// Nodes one behind another; `None` if there is none.
+fn in_tabs(mut nodes: Vec<LayoutNode>) -> Option<LayoutNode> {
+    if nodes.len() > 1 { Some(LayoutNode::Tabs(nodes)) } else { nodes.pop() }
+}
+
 /// Height of a plot with this number of curves, so that its whole legend is visible.
 fn plot_pixels(curves: usize) -> f32 {
     let (fewest, most) = CURVES;
@@ -338,22 +375,6 @@ fn plot_pixels(curves: usize) -> f32 {
 
 fn has_failed(check: &CheckResult) -> bool {
     matches!(check.status, Status::Fail | Status::Error)
-}
-
-fn statuses() -> LayoutNode {
-    View::new("StateTimeline", "Checks", paths::path(&["status"])).into()
-}
-
-fn events() -> LayoutNode {
-    let column = |kind: TextLogColumnKind, is_visible: bool| {
-        TextLogColumn(Column { visible: is_visible.into(), kind })
-    };
-    let columns = TextLogColumns::new().with_text_log_columns([
-        column(TextLogColumnKind::EntityPath, false),
-        column(TextLogColumnKind::LogLevel, false),
-        column(TextLogColumnKind::Body, true),
-    ]);
-    View::new("TextLog", "Events", paths::log()).with("TextLogColumns", &columns).into()
 }
 
 /// A range of time.

@@ -3,4 +3,5 @@
 mod joints;
 pub(crate) mod layout;
 mod plots;
+mod texts;
 mod tree;

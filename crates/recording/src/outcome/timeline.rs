@@ -5,6 +5,7 @@ use congruent_monitors::{
     verdict::{CheckResult, Status},
 };
 use congruent_results::report::{RunReport, sentence_at};
+use congruent_scenario::Scenario;
 use re_log_types::EntityPath;
 use re_sdk_types::{
     archetypes::{StateChange, StateConfiguration, TextLog},
@@ -18,11 +19,15 @@ use crate::{
 };
 
 /// Writes statuses and events.
-pub(crate) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
+pub(crate) fn write(
+    writer: &mut RrdWriter,
+    report: &RunReport,
+    carried: &[CarriedFor],
+) -> Result<(), RecordingError> {
     for (check, name) in report.checks.iter().zip(status_names(report)) {
         write_status(writer, report, check, &paths::status(check.status.word(), &name))?;
     }
-    write_events(writer, report)
+    write_events(writer, report, carried)
 }
 
 /// A time of the run.
@@ -72,11 +77,59 @@ fn write_status(
     Ok(())
 }
 
-/// Writes the events in order of time: start, first violation of each check, stop or error, verdict.
-fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
+/// A body that is carried for a time: a grasp or a payload.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CarriedFor {
+    words: String,
+    from_s: f64,
+    until_s: Option<f64>,
+}
+
+impl CarriedFor {
+    /// The grasps and payloads of a scenario.
+    pub(crate) fn of_scenario(scenario: &Scenario) -> Vec<Self> {
+        let grasps = scenario.grasp.iter().map(|of| Self {
+            words: format!("grasp of {}", of.body),
+            from_s: of.from_s,
+            until_s: of.until_s,
+        });
+        let payloads = scenario.payload.iter().map(|of| Self {
+            words: format!("payload {}", of.name),
+            from_s: of.from_s,
+            until_s: of.until_s,
+        });
+        grasps.chain(payloads).collect()
+    }
+}
+
+type RunEvent = (f64, &'static str, String);
+
+/// What the scenario makes happen, as far as the run went: motions, grasps, payloads and faults, where they begin and end.
+fn planned_events(report: &RunReport, carried: &[CarriedFor]) -> Vec<RunEvent> {
+    let motions = (1..).zip(&report.motions).map(|(number, motion)| {
+        (motion.starts_s, TextLogLevel::INFO, format!("motion {number}, {}, begins", motion.kind))
+    });
+    let faults = report.faults.iter().map(|of| (of.words(), of.from_s, of.until_s, TextLogLevel::WARN));
+    let carried = carried.iter().map(|of| (of.words.clone(), of.from_s, of.until_s, TextLogLevel::INFO));
+    let lasting = faults.chain(carried).flat_map(|(words, from_s, until_s, level)| {
+        let begins = (from_s, level, format!("{words}: begins"));
+        std::iter::once(begins).chain(until_s.map(|until_s| (until_s, level, format!("{words}: ends"))))
+    });
+    let is_in_run = |(time_s, ..): &RunEvent| *time_s <= report.simulation.duration_s;
+    motions.chain(lasting).filter(is_in_run).collect()
+}
+
+/// Writes the events in order of time: start, what the scenario makes happen, first violation of each check, stop or error,
+/// verdict.
+fn write_events(
+    writer: &mut RrdWriter,
+    report: &RunReport,
+    carried: &[CarriedFor],
+) -> Result<(), RecordingError> {
     let end_s = report.simulation.duration_s;
     let start = format!("{} starts, seed {}", report.scenario, report.seed);
     let mut events = vec![(0.0, TextLogLevel::INFO, start)];
+    events.extend(planned_events(report, carried));
     for check in &report.checks {
         if let Some((measure, moment)) = first_violation(check) {
             // The subject comes first: a narrow table cuts off the rest.
@@ -107,5 +160,9 @@ fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
 }
 
 fn color(level: &str) -> Color {
-    if level == TextLogLevel::INFO { palette::NEUTRAL } else { palette::LIMIT }
+    match level {
+        TextLogLevel::INFO => palette::NEUTRAL,
+        TextLogLevel::WARN => palette::TOLERANCES[1],
+        _ => palette::LIMIT,
+    }
 }

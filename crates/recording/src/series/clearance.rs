@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// The most pairs with a line of their own, so that the plot stays readable.
-const MAX_PAIRS: usize = 8;
+const MAX_PAIRS: usize = 5;
 
 /// Distances of one run until they are written.
 #[derive(Debug)]
