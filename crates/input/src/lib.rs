@@ -25,7 +25,7 @@ pub use diagnostic::{
 pub use edits::{ChangedLines, TextEdit, changed_lines, edited, line_end};
 pub use files::{
     FileAccess, InputFile, Packages, Resolved, RosPackages, TextKind, TomlKind, TextLines, folder_of, head_of,
-    is_standard_input, not_found, portable_path, read_text,
+    is_standard_input, not_found, portable_path, portable_text, read_text,
 };
 pub use quantity::{Quantity, SiUnit};
 pub use visible::{hidden_character, is_hidden, visible, visible_lines};

@@ -17,6 +17,11 @@
   const colors = () => (matchMedia("(prefers-color-scheme: dark)").matches && !document.documentElement.classList.contains("on-paper") ? ON_DARK : ON_LIGHT);
   // An error below any rounding error has a place on a logarithmic axis.
   const FLOOR = 1e-18;
+  // Where a logarithmic axis begins: a thousandth of the limit, below which there is only rounding.
+  const floor = (chart) => {
+    const limits = chart.limits.map((limit) => limit.value).filter((limit) => limit > 0);
+    return limits.length > 0 ? 1e-3 * Math.min(...limits) : FLOOR;
+  };
   // A limit widens a plot up to this many times.
   const WIDEST = 3;
 
@@ -39,7 +44,7 @@
       const values = floats(line.values);
       const shown = Array.from(values, (value) => {
         if (!Number.isFinite(value)) return null;
-        return (chart.log ? Math.max(value, FLOOR) : value) * chart.scale;
+        return (chart.log ? Math.max(value, floor(chart)) : value) * chart.scale;
       });
       return { x: Array.from(line.times_s ? floats(line.times_s) : times), shown };
     });
@@ -147,7 +152,12 @@
     }
     // Of several limits at one height, one name.
     for (const [limit, y] of across) {
-      if (y < bbox.top - 1 || y > bottom + 1) continue;
+      if (y < bbox.top - 1 || y > bottom + 1) {
+        const edge = y < bbox.top ? bbox.top + 15 * ratio : bottom - 2 * ratio;
+        if (limit.name) write(limit.name + (y < bbox.top ? ", above" : ", below"), [[right - 2 * ratio, edge, "right"], [bbox.left + 4 * ratio, edge, "left"]], css("--faint"));
+        continue;
+      }
+      if (!limit.name) continue;
       const heights = [y - 2 * ratio, y + 15 * ratio];
       write(limit.name, heights.flatMap((height) => [[right - 2 * ratio, height, "right"], [bbox.left + 4 * ratio, height, "left"]]), css("--bad"));
     }

@@ -39,8 +39,12 @@ pub fn calibration_page(
     description: &RobotDescription,
     source: &CalibrationSource,
 ) -> String {
-    let inputs = description.inputs.iter().chain(&source.measurements).collect();
-    let origin = Provenance { command: Some(source.command.clone()), inputs, remarks: Vec::new() };
+    let inputs: Vec<InputFile> = description.inputs.iter().chain(&source.measurements).cloned().collect();
+    let origin = Provenance {
+        command: Some(source.command.clone()),
+        inputs: inputs.iter().collect(),
+        remarks: Vec::new(),
+    };
     let body = html! {
         (header(report, description))
         (corrections(report))
@@ -52,7 +56,7 @@ pub fn calibration_page(
         (provenance(&origin))
         (warnings(&report.warnings))
     };
-    document(&format!("{}: calibration", report.robot), &body, None)
+    document(&format!("{}: calibration", report.robot), &body, None, &inputs)
 }
 
 fn outcome(verdict: CalibrationVerdict) -> (BadgeKind, &'static str) {

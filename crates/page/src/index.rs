@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use congruent_input::{display::quantity, portable_path};
+use congruent_input::{InputFile, display::quantity, portable_path};
 use congruent_monitors::verdict::{Bound, Measure, Status, Verdict};
 use congruent_results::report::{RunReport, lines, quantity_words};
 use maud::{Markup, html};
@@ -69,7 +69,12 @@ pub fn index_page(entries: &[IndexEntry<'_>], command: &str) -> String {
         (provenance(&Provenance { command: Some(command.to_owned()), ..Provenance::default() }))
         p.small { "The page of each run has its inputs with their digests." }
     };
-    document(&title, &body, None)
+    let inputs: Vec<InputFile> = entries
+        .iter()
+        .filter_map(|entry| entry.result.as_ref().ok())
+        .flat_map(|report| report.inputs.iter().cloned())
+        .collect();
+    document(&title, &body, None, &inputs)
 }
 
 fn row(entry: &IndexEntry<'_>) -> Markup {

@@ -45,7 +45,7 @@ pub struct Clearance {
     /// Whether a link carries the subject now.
     is_carried: Vec<bool>,
     /// Whether the subject can move; true for every link.
-    can_move: Vec<bool>,
+    pub(super) can_move: Vec<bool>,
     links: usize,
     watches: Vec<WatchedPair>,
     /// Pairs in which both subjects can move: one path length does not order them, so each is examined every time.

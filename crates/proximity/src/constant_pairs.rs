@@ -1,5 +1,5 @@
-//! Pairs of links whose distance no motion changes: they are near because the arm is built that way, and a plot of the
-//! smallest distance must not show them instead of what comes near.
+//! Pairs whose distance no motion changes, of links and of a link with an obstacle at rest: they are near because arm and cell
+//! are built that way, and a plot of the smallest distance must not show them instead of what comes near.
 
 use congruent_description::RobotDescription;
 use congruent_kinematics::{Pose, UrdfTree, random_configurations};
@@ -15,14 +15,16 @@ const CONFIGURATIONS: usize = 12;
 const CONSTANT_M: f64 = 1e-6;
 
 impl Clearance {
-    /// For each pair whether it is of two links that keep their distance in all configurations. The instant of `self` stays.
+    /// For each pair whether it keeps its distance in all configurations, as links beside each other do, or the first link above
+    /// its table. The instant of `self` stays.
     pub fn constant_pairs(&self, description: &RobotDescription) -> Vec<bool> {
         let robot = &description.robot;
         let links = robot.links().len();
         // A copy: the bounds of the run follow the motion of the run.
         let mut copy = self.clone();
         let pairs: Vec<Pair> = self.pairs().collect();
-        let mut is_constant: Vec<bool> = pairs.iter().map(|pair| pair.a < links && pair.b < links).collect();
+        let may_be = |pair: &Pair| pair.a < links && (pair.b < links || !self.can_move[pair.b]);
+        let mut is_constant: Vec<bool> = pairs.iter().map(may_be).collect();
         let mut first_m = vec![f64::NAN; pairs.len()];
         let (tree, mut poses) = (UrdfTree::new(robot), vec![Pose::identity(); links]);
         for q in random_configurations(robot, 0, CONFIGURATIONS) {

@@ -312,3 +312,27 @@ fn neighbours_and_the_root_before_obstacles_are_left_out() {
     assert_eq!(all.len(), 10 + 4, "{all:?}");
     assert!(!all.contains(&"link_0 wall".to_owned()), "{all:?}");
 }
+
+/// Links that turn about an axis through the middle of a ball on the root keep their distance from it; others do not.
+#[test]
+fn a_pair_that_no_motion_brings_nearer_is_constant() {
+    let mut description = description();
+    let ball = |y: f64| Shape {
+        link_from_shape: Isometry3::translation(0.0, y, 0.0),
+        geometry: Geometry::Sphere { radius_m: 0.1 },
+        color_rgba: None,
+    };
+    let link =
+        |(name, y): (&str, f64)| Link { name: name.to_owned(), collisions: vec![ball(y)], ..Link::default() };
+    let links: Vec<Link> = [("root", 0.0), ("around", 0.5), ("aside", 0.3)].into_iter().map(link).collect();
+    let joint = |name: &str, child: &str, y: f64| {
+        JointParts::new(name, JointKind::Continuous, "root", child, Isometry3::translation(0.0, y, 0.0))
+    };
+    description.robot =
+        Robot::new("turning", links, vec![joint("a", "around", 0.0), joint("b", "aside", 1.0)]).unwrap();
+    let clearance = Clearance::new(&description, &[], PairChoice::All).unwrap();
+    let constant = clearance.constant_pairs(&description);
+    let named = |pair: usize| clearance.names(pair).join("--");
+    let found: Vec<String> = (0..constant.len()).filter(|&pair| constant[pair]).map(named).collect();
+    assert_eq!(found, ["root--around"]);
+}

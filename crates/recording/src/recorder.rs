@@ -199,7 +199,7 @@ impl Recorder for RerunRecorder {
         self.mark_links(sample.values);
         self.colors.push(time, &self.are_violating);
         self.checks.push(time);
-        self.clearance.push(time, sample.clearance, sample.twin.len());
+        self.clearance.push(time, sample.clearance, &self.description);
         self.zone_distances.push(time, sample.zones, sample.twin.len());
         Ok(())
     }
@@ -208,6 +208,7 @@ impl Recorder for RerunRecorder {
 impl Recording for RerunRecorder {
     fn finish(mut self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
         self.write_batch()?;
+        self.clearance.name_constant(&mut self.writer, &self.names.pairs)?;
         shapes::write_names(&mut self.writer, &self.obstacles, &self.moving, &self.zones, self.robot_box)?;
         let lines = LimitLines::until(timeline::time(report, report.simulation.duration_s));
         lines.write_checks(&mut self.writer, report)?;

@@ -253,6 +253,30 @@ fn a_joint_that_sags_turns_red_and_its_plots_explain_it() {
 }
 
 #[test]
+fn what_failed_first_is_the_first_plot() {
+    for (scenario, plot) in [
+        ("ur5e_soft_servos", "tracking: path error of angle [rad]"),
+        ("ur5e_into_table", "Clearance [m]"),
+        ("ur5e_wrong_convention", "Position errors [m]"),
+    ] {
+        let views = Recorded::of_scenario(scenario, &[]).views();
+        let after = views.iter().position(|view| view == "Checks").unwrap() + 1;
+        assert_eq!(views[after], plot, "{views:?}");
+    }
+}
+
+#[test]
+fn grasps_and_motions_are_events() {
+    let run = Recorded::of_scenario("ur5e_grasp", &[]);
+    let events = run.texts("/log", "TextLog:text");
+    for event in ["motion 4, path_tcp, begins", "grasp of part: begins", "grasp of part: ends"] {
+        assert!(events.contains(&event.to_owned()), "{event}: {events:?}");
+    }
+    let names = run.texts("/clearance/wrist_1_link--wrist_3_link", "SeriesLines:names");
+    assert_eq!(names.last().unwrap(), "wrist_1_link--wrist_3_link (constant in this run)");
+}
+
+#[test]
 fn lanes_of_failed_checks_come_first() {
     let run = Recorded::of_scenario("ur5e_soft_servos", &[]);
     let mut lanes: Vec<&str> =

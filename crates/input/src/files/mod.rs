@@ -13,6 +13,6 @@ pub use access::{FileAccess, InputFile};
 pub use kind::{TextKind, TomlKind};
 pub use open::{folder_of, head_of, is_standard_input, not_found, read_text};
 pub use packages::{Packages, Resolved};
-pub use portable::portable_path;
+pub use portable::{portable_path, portable_text};
 pub use ros_packages::RosPackages;
 pub use text_lines::TextLines;

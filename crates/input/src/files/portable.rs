@@ -2,6 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use super::access::InputFile;
+
 /// A path as a result names it: an absolute one relative to the current folder, so that a command with it still works there;
 /// only its last part if there is no way from one to the other, as between drives.
 pub fn portable_path(path: &Path) -> PathBuf {
@@ -10,6 +12,37 @@ pub fn portable_path(path: &Path) -> PathBuf {
     }
     let current = std::env::current_dir().unwrap_or_default();
     relative(path, &current).unwrap_or_else(|| path.file_name().map_or_else(PathBuf::new, PathBuf::from))
+}
+
+/// A text of a result in which every absolute path of an input is written as results name it; of JSON, too.
+pub fn portable_text(text: &str, inputs: &[InputFile]) -> String {
+    let mut paths: Vec<&Path> =
+        inputs.iter().map(|input| input.path.as_path()).filter(|path| path.is_absolute()).collect();
+    // The longest first: one path may begin with another.
+    paths.sort_by_key(|path| std::cmp::Reverse(path.as_os_str().len()));
+    let in_json = |path: &Path| path.display().to_string().replace('\\', r"\\");
+    paths.into_iter().fold(text.to_owned(), |text, path| {
+        let named = portable_path(path);
+        let text = with_path(&text, &path.display().to_string(), &named.display().to_string());
+        with_path(&text, &in_json(path), &in_json(&named))
+    })
+}
+
+/// A text with another path in place of an absolute one; of a longer path that only contains it, nothing is replaced: it may be
+/// the relative one.
+fn with_path(text: &str, absolute: &str, named: &str) -> String {
+    let (mut replaced, mut done) = (String::with_capacity(text.len()), 0);
+    for (at, _) in text.match_indices(absolute) {
+        let before = text[..at].chars().next_back();
+        let begins = before.is_none_or(|letter| !(letter.is_alphanumeric() || "./\\_-".contains(letter)));
+        if begins {
+            replaced.push_str(&text[done..at]);
+            replaced.push_str(named);
+            done = at + absolute.len();
+        }
+    }
+    replaced.push_str(&text[done..]);
+    replaced
 }
 
 /// An absolute path relative to a folder; `None` if they have no root in common.
@@ -31,6 +64,19 @@ fn relative(path: &Path, folder: &Path) -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_text_names_inputs_without_the_root() {
+        let input = |path: &str| InputFile { file: String::new(), sha256: String::new(), path: path.into() };
+        let inputs = [input("/nowhere/arm"), input("/nowhere/arm.urdf"), input("cell.toml")];
+        let text = portable_text("/nowhere/arm.urdf:7 and \"/nowhere/arm\" and cell.toml", &inputs);
+        assert!(!text.contains(" /nowhere") && !text.starts_with('/') && !text.contains("\"/"), "{text}");
+        assert!(
+            text.contains("nowhere/arm.urdf:7 and \"") && text.ends_with("nowhere/arm\" and cell.toml"),
+            "{text}"
+        );
+    }
 
     #[cfg(unix)]
     #[test]

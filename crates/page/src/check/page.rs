@@ -39,7 +39,7 @@ pub fn check_page(entries: &[CheckEntry<'_>], command: &str) -> String {
     if let [CheckEntry { result: Ok(robot), .. }] = entries {
         let body = html! { (one(robot, &Pointer::root())) (provenance_of(&[robot], command)) };
         let title = format!("{}: {}", robot.geometry.robot, outcome(robot.geometry).1);
-        return document(&title, &body, None);
+        return document(&title, &body, None, &inputs_of(&[robot]));
     }
     let mut order: Vec<usize> = (0..entries.len()).collect();
     // Inputs without a report first, since `false` comes before `true`; then by outcome, from bad to good.
@@ -65,7 +65,7 @@ pub fn check_page(entries: &[CheckEntry<'_>], command: &str) -> String {
         }
         (provenance_of(&checked, command))
     };
-    document(&title, &body, None)
+    document(&title, &body, None, &inputs_of(&checked))
 }
 
 fn table(entries: &[CheckEntry<'_>], order: &[usize]) -> Markup {
@@ -133,7 +133,7 @@ fn one(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
 
 /// What follows the answer, as a sentence of its own.
 fn sentence(details: &str) -> String {
-    capitalised(details.trim_start_matches([',', ';', ':', ' ']))
+    capitalised(details.trim_start_matches([',', ';', ':', '.', ' ']))
 }
 
 fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
@@ -166,15 +166,22 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     }
 }
 
-/// The command, and the files of all robots, each once.
-fn provenance_of(robots: &[&CheckedRobot<'_>], command: &str) -> Markup {
+/// The files of all robots, each once.
+fn inputs_of(robots: &[&CheckedRobot<'_>]) -> Vec<InputFile> {
     let descriptions = robots.iter().flat_map(|robot| [Some(robot.description), robot.other]).flatten();
-    let mut inputs: Vec<&InputFile> = Vec::new();
+    let mut inputs: Vec<InputFile> = Vec::new();
     for input in descriptions.flat_map(|description| &description.inputs) {
-        if !inputs.contains(&input) {
-            inputs.push(input);
+        if !inputs.contains(input) {
+            inputs.push(input.clone());
         }
     }
+    inputs
+}
+
+/// The command, and the files that were read.
+fn provenance_of(robots: &[&CheckedRobot<'_>], command: &str) -> Markup {
+    let inputs = inputs_of(robots);
+    let inputs = inputs.iter().collect();
     provenance(&Provenance { command: Some(command.to_owned()), inputs, remarks: Vec::new() })
 }
 
@@ -233,5 +240,6 @@ mod tests {
     fn what_follows_the_answer_is_a_sentence() {
         let details = ", by up to 5 mm at tool0; tolerance 1 pm";
         assert_eq!(sentence(details), "By up to 5 mm at tool0; tolerance 1 pm");
+        assert_eq!(sentence(". DH table and URDF agree"), "DH table and URDF agree");
     }
 }

@@ -1,6 +1,6 @@
 //! The document around a page. It carries its style and its scripts, and forbids every request.
 
-use congruent_input::{visible, visible_lines};
+use congruent_input::{InputFile, portable_text, visible, visible_lines};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::{assets, series::Plots};
@@ -9,10 +9,10 @@ use crate::{assets, series::Plots};
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; \
                       base-uri 'none'; form-action 'none'";
 
-/// The whole text of a page.
-pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>) -> String {
+/// The whole text of a page about these inputs.
+pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>, inputs: &[InputFile]) -> String {
     // A mark that turns the direction of a text makes a name or a command look like another.
-    let body = PreEscaped(visible_lines(&body.0));
+    let body = PreEscaped(portable_text(&visible_lines(&body.0), inputs));
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -22,7 +22,7 @@ pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>) -> Str
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="referrer" content="no-referrer";
-                title { (visible(title)) }
+                title { (visible(&portable_text(title, inputs))) }
                 @if plots.is_some() { style { (PreEscaped(assets::UPLOT_CSS)) } }
                 style { (PreEscaped(assets::PAGE_CSS)) }
             }

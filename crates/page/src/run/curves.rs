@@ -131,16 +131,7 @@ pub(super) fn tracking(unit: SiUnit, report: &RunReport, run: &RunContent) -> Op
     limits.extend(mirrored.collect::<Vec<_>>());
     let (lines, others) = worst(lines);
     let ((unit, scale), id) = (axis(unit), tracking_id(unit).to_owned());
-    Some(Curve::Plot(Chart {
-        id,
-        unit,
-        scale,
-        lines,
-        limits,
-        others,
-        has_all_limits: true,
-        ..Chart::default()
-    }))
+    Some(Curve::Plot(Chart { id, unit, scale, lines, limits, others, ..Chart::default() }))
 }
 
 /// The name of the plot of tracking errors.

@@ -110,7 +110,12 @@ fn mark(chart: &mut Chart, measure: &Measure, times_s: &Floats) {
     if is_goal {
         let mut limit = limit_of(measure);
         limit.name = format!("goal {}", limit.name);
+        // On an axis that reaches to the limits on the way, an error at the goal would be a flat line.
+        chart.has_all_limits = !chart.points.is_empty();
         chart.limits.push(limit);
+    }
+    if !is_goal {
+        chart.has_all_limits = true;
     }
     let (unit, scale) = axis(measure.unit);
     let which = if is_goal { "goal" } else { "first" };

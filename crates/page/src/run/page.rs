@@ -45,7 +45,8 @@ pub(super) fn run_page(report: &RunReport, run: &RunContent, folder: &Path) -> S
         (provenance_of(report))
         (warnings(&report.warnings))
     };
-    document(&format!("{}: {}", report.scenario, report.sentence()), &body, Some(&plots.plots))
+    let title = format!("{}: {}", report.scenario, report.sentence());
+    document(&title, &body, Some(&plots.plots), &report.inputs)
 }
 
 /// A part of the page that a reader opens.

@@ -24,7 +24,7 @@ pub(crate) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Re
 fn properties(report: &RunReport) -> AnyValues {
     let text = |text: &str| -> ArrayRef { Arc::new(StringArray::from(vec![text])) };
     let number = |number: u64| -> ArrayRef { Arc::new(UInt64Array::from(vec![number])) };
-    let json = serde_json::to_string(report).expect("every report can be written as JSON");
+    let json = report.portable(&serde_json::to_string(report).expect("every report can be written as JSON"));
     let word = serde_json::to_value(report.verdict).expect("a verdict is a word");
     AnyValues::default()
         .with_component_from_data("scenario", text(&report.scenario))

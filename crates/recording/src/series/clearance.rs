@@ -3,8 +3,9 @@
 
 use std::{collections::BTreeMap, slice::from_ref};
 
+use congruent_description::RobotDescription;
 use congruent_monitors::{JudgedPairs, RecordingError};
-use congruent_proximity::Clearance;
+use congruent_proximity::{Clearance, Pair};
 use congruent_scenario::Check;
 
 use super::{distance_line::DistanceLine, pairs::NEAR_M};
@@ -25,6 +26,8 @@ pub(crate) struct ClearanceSeries {
     minimum: DistanceLine,
     /// Lines of pairs by the pair's index, each from the first time at which the pair was the nearest.
     pairs: BTreeMap<usize, DistanceLine>,
+    /// For each pair whether no motion changes its distance; empty before the first row.
+    is_built: Vec<bool>,
     /// Range of the smallest distance over the run; `None` without pairs.
     pub(crate) range_m: Option<(f64, f64)>,
 }
@@ -38,12 +41,23 @@ impl ClearanceSeries {
             0 | 1 => Vec::new(),
             _ => clearances().map(|check| JudgedPairs::new(from_ref(check))).collect(),
         };
-        Self { judged, of_checks, minimum: DistanceLine::default(), pairs: BTreeMap::new(), range_m: None }
+        Self {
+            judged,
+            of_checks,
+            minimum: DistanceLine::default(),
+            pairs: BTreeMap::new(),
+            is_built: Vec::new(),
+            range_m: None,
+        }
     }
 
-    /// Adds a row, or nothing if there are no pairs. Bodies of a pair with an index below `links` are links.
-    pub(crate) fn push(&mut self, time: SampleTime, clearance: &mut Clearance, links: usize) {
+    /// Adds a row, or nothing if there are no pairs. Bodies of a pair with an index below the number of links are links.
+    pub(crate) fn push(&mut self, time: SampleTime, clearance: &mut Clearance, of: &RobotDescription) {
         let Some(nearest) = self.judged.nearest(clearance) else { return };
+        let links = of.robot.links().len();
+        if self.is_built.len() != clearance.pairs().len() {
+            self.is_built = clearance.constant_pairs(of);
+        }
         self.minimum.push(time, nearest.distance_m);
         self.follow(nearest.pair);
         for at in 0..self.of_checks.len() {
@@ -52,8 +66,10 @@ impl ClearanceSeries {
             }
         }
         // Two links that are always close to each other must not hide an obstacle that the arm approaches.
-        let judged = &self.judged;
-        let closest = clearance.nearest_of(NEAR_M, |index, pair| pair.b >= links && judged.contains(index));
+        let (judged, is_built) = (&self.judged, &self.is_built);
+        let can_approach =
+            |index: usize, pair: Pair| pair.b >= links && judged.contains(index) && !is_built[index];
+        let closest = clearance.nearest_of(NEAR_M, can_approach);
         if let Some(closest) = closest {
             self.follow(closest.pair);
         }
@@ -76,7 +92,16 @@ impl ClearanceSeries {
     /// Names of all curves, with that of the limit.
     pub(crate) fn curves(&self, pairs: &[String]) -> Vec<String> {
         let of_all = ["limit", "minimum"].map(str::to_owned).into_iter();
-        of_all.chain(self.pairs.keys().map(|&pair| pairs[pair].clone())).collect()
+        of_all.chain(self.pairs.iter().map(|(&pair, values)| self.name(pair, values, pairs))).collect()
+    }
+
+    /// The name of a pair, with whether its distance never changes.
+    fn name(&self, pair: usize, values: &DistanceLine, pairs: &[String]) -> String {
+        match (values.is_constant(), self.is_built[pair]) {
+            (true, true) => format!("{} (constant: built that way)", pairs[pair]),
+            (true, false) => format!("{} (constant in this run)", pairs[pair]),
+            (false, _) => pairs[pair].clone(),
+        }
     }
 
     /// Writes all rows and removes them.
@@ -86,6 +111,20 @@ impl ClearanceSeries {
         for (&pair, values) in &mut self.pairs {
             let (name, color) = (pairs[pair].as_str(), palette::link(values.number));
             values.write(writer, &paths::clearance(name), &line(name, color, 1.2))?;
+        }
+        Ok(())
+    }
+
+    /// After the last row: says of pairs that kept their distance that they did, so that nobody takes them for what came near.
+    pub(crate) fn name_constant(
+        &self,
+        writer: &mut RrdWriter,
+        pairs: &[String],
+    ) -> Result<(), RecordingError> {
+        for (&pair, values) in self.pairs.iter().filter(|(_, values)| values.is_constant()) {
+            let name = self.name(pair, values, pairs);
+            let style = line(&name, palette::link(values.number), 0.8);
+            writer.log_static(&paths::clearance(&pairs[pair]), &style)?;
         }
         Ok(())
     }

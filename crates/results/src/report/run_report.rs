@@ -4,7 +4,7 @@ use std::path::Path;
 
 use congruent_agreement::{compare::PoseSource, report::ReportedDiagnosis};
 use congruent_fault_diagnosis::RunDiagnosis;
-use congruent_input::{Finding, InputFile, portable_path};
+use congruent_input::{Finding, InputFile, portable_path, portable_text};
 use congruent_monitors::verdict::{CheckResult, RunStop, Status, Verdict, judge};
 use congruent_motion::{ServoResult, SlowedMotion};
 use congruent_scenario::{Expectation, RunFault};
@@ -160,6 +160,9 @@ impl RunReport {
     ) -> Self {
         let robot = &setup.description.robot;
         let mut checks = outcome.checks;
+        for note in checks.iter_mut().flat_map(|check| &mut check.notes) {
+            *note = portable_text(note, &setup.inputs);
+        }
         if error.is_some() {
             for check in checks.iter_mut().filter(|check| check.status == Status::Pass) {
                 check.status = Status::Error; // it was not checked to the end
@@ -209,9 +212,14 @@ impl RunReport {
     /// # Errors
     /// A value is no JSON, which none is.
     pub fn to_json(&self) -> serde_json::Result<Vec<u8>> {
-        let mut json = serde_json::to_vec_pretty(self)?;
-        json.push(b'\n');
-        Ok(json)
+        let mut json = self.portable(&serde_json::to_string_pretty(self)?);
+        json.push('\n');
+        Ok(json.into_bytes())
+    }
+
+    /// A text about the run without absolute paths of its inputs.
+    pub fn portable(&self, text: &str) -> String {
+        portable_text(text, &self.inputs)
     }
 
     /// The reason for the verdict as a sentence.
