@@ -61,7 +61,7 @@ pub fn index_page(entries: &[IndexEntry<'_>], command: &str) -> String {
             }
         }
         section {
-            table {
+            table.index {
                 thead { tr { th { "scenario" } th { "result" } th { "what happened" } th { "nearest to its limit" } th { "robot" } } }
                 tbody { @for entry in order { (row(entry)) } }
             }

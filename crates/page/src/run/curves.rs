@@ -183,7 +183,7 @@ mod tests {
     fn a_plot_has_the_worst_five_lines() {
         let line = |name: &str| PlotLine { name: name.to_owned(), ..PlotLine::default() };
         let all = [("a", 1.0), ("b", 7.0), ("c", 3.0), ("d", 2.0), ("e", 9.0), ("f", 4.0), ("g", 0.5)];
-        let (lines, others) = worst(all.map(|(name, largest)| (largest, line(name))).to_vec());
+        let (lines, others) = worst(Vec::from(all.map(|(name, largest)| (largest, line(name)))));
         let names: Vec<&str> = lines.iter().map(|line| line.name.as_str()).collect();
         assert_eq!((names, others), (vec!["e", "b", "f", "c", "d"], 2));
     }

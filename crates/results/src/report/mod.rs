@@ -6,6 +6,7 @@ mod causes;
 mod earlier;
 mod fault_table;
 mod junit;
+mod portable;
 mod run_report;
 mod sentence;
 mod step_summary;

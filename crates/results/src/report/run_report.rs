@@ -1,10 +1,8 @@
 //! The report of one run.
 
-use std::path::Path;
-
 use congruent_agreement::{compare::PoseSource, report::ReportedDiagnosis};
 use congruent_fault_diagnosis::RunDiagnosis;
-use congruent_input::{Finding, InputFile, portable_path, portable_text};
+use congruent_input::{Finding, InputFile, portable_text};
 use congruent_monitors::verdict::{CheckResult, RunStop, Status, Verdict, judge};
 use congruent_motion::{ServoResult, SlowedMotion};
 use congruent_scenario::{Expectation, RunFault};
@@ -12,7 +10,11 @@ use congruent_twin::{Outcome, RunError, RunSetup, source::ActuatorUse};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de::IgnoredAny};
 
-use super::{causes::Causes, verdict_sentence::verdict_sentence};
+use super::{
+    causes::Causes,
+    portable::{portable, portable_diagnosis, portable_finding},
+    verdict_sentence::verdict_sentence,
+};
 
 /// The whole report of one scenario.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -125,15 +127,6 @@ pub struct Versions {
     pub physics: String,
 }
 
-/// A path as a report names it: none is absolute.
-fn portable(path: &Path) -> String {
-    portable_path(path).display().to_string()
-}
-
-fn portable_finding(finding: Finding) -> Finding {
-    Finding { file: finding.file.map(|file| portable(Path::new(&file))), ..finding }
-}
-
 /// The motions as they were: one that was made slower in the run delays those after it.
 fn motions(setup: &RunSetup, slowed: &[SlowedMotion]) -> Vec<MotionTimes> {
     let kinds = setup.scenario.motion.iter().map(|motion| motion.kind().to_owned()).enumerate();
@@ -186,7 +179,7 @@ impl RunReport {
             motions: motions(setup, &outcome.slowed),
             servos: outcome.servos,
             actuators: outcome.actuators,
-            diagnoses: causes.poses,
+            diagnoses: causes.poses.into_iter().map(portable_diagnosis).collect(),
             faults: setup.faults.iter().map(|fault| fault.described().clone()).collect(),
             diagnosis: causes.samples,
             error: error.map(ToString::to_string),
