@@ -1,6 +1,6 @@
 //! Compares masses, inertia tensors and centres of mass with each other and with the shapes of their links.
 
-use congruent_description::{Inertia, LARGEST_GYRATION_M, LinkIndex};
+use congruent_description::{Inertia, LARGEST_GYRATION_M, Link, LinkIndex};
 use congruent_input::{
     display::{length, quantity},
     units::LARGEST_PLAUSIBLE_M,
@@ -10,9 +10,9 @@ use super::{
     UnitCheck, UnitMistake,
     features::{LinkInertiaFeatures, median},
     thresholds::{
-        FARTHEST_COM, FARTHEST_COM_IN_ORIGINS, GYRATION_TO_DIAGONAL, LEAST_COM_M, LEAST_MASS_KG,
-        MEDIAN_BOX_DENSITY, MOST_BOX_DENSITY, PLACEHOLDER_GYRATION_TO_DIAGONAL, PLACEHOLDER_SPHERE_DENSITY,
-        SPHERE_DENSITY,
+        FARTHEST_COM, FARTHEST_COM_IN_ORIGINS, GYRATION_OUTSIDE, GYRATION_TO_DIAGONAL, LEAST_COM_M,
+        LEAST_FOAM_DENSITY, LEAST_MASS_KG, MEDIAN_BOX_DENSITY, MOST_BOX_DENSITY,
+        PLACEHOLDER_GYRATION_TO_DIAGONAL, PLACEHOLDER_SPHERE_DENSITY, SPHERE_DENSITY,
     },
 };
 use crate::codes;
@@ -82,7 +82,8 @@ impl UnitCheck<'_> {
             })
             .collect();
         let whole = UnusualMedians::over(&bodies);
-        for body in &bodies {
+        let too_light: Vec<LinkIndex> = robot.link_indices().filter(|&link| self.too_light(link)).collect();
+        for body in bodies.iter().filter(|body| !too_light.contains(&body.link)) {
             self.body(body, &whole);
         }
         for link in robot.link_indices() {
@@ -130,6 +131,35 @@ impl UnitCheck<'_> {
             ),
         };
         self.warn_link(&INERTIA, name, &what, guess(body));
+    }
+
+    /// Reports a mass that is far too small for the shapes and for the tensor alike; whether it did.
+    fn too_light(&mut self, link: LinkIndex) -> bool {
+        let Link { name, inertia, .. } = self.robot.link(link);
+        let features = |inertia: &Inertia| LinkInertiaFeatures::of_any_mass(link, inertia, &self.sizes);
+        // A typed tensor says nothing about the mass; frames with a mass that only is not zero have one.
+        let Some(body) = inertia.as_ref().and_then(features).filter(|body| !body.is_placeholder) else {
+            return false;
+        };
+        let (Some(shapes), Some(density), Some(share)) =
+            (body.shapes, body.box_density(), body.gyration_share())
+        else {
+            return false;
+        };
+        if density >= LEAST_FOAM_DENSITY || share <= GYRATION_OUTSIDE {
+            return false;
+        }
+        let what = format!(
+            "its mass is {}, a density of {} in the box around its shapes, and its radius of gyration {}, but the diagonal of its \
+             shapes is {}",
+            quantity(body.mass_kg, "kg"),
+            quantity(density, "kg/m^3"),
+            length(body.gyration_m),
+            length(shapes.diagonal_m())
+        );
+        let help = "the mass is read in kg: is the value in tonnes, 1000 times too small?".to_owned();
+        self.warn_link(&MASS, name, &what, help);
+        true
     }
 
     /// Reports the placeholder tensor of 1 kg m^2 about every axis on a link that is far too small for it.

@@ -9,7 +9,7 @@ use super::{
     speeds::speed,
     thresholds::{
         LEAST_FAST_RAD_S, LEAST_MASS_KG, LEAST_PLACEHOLDER_N_M, MOST_DAMPING_TO_EFFORT,
-        MOST_PLACEHOLDER_POWER_W_KG, MOST_TORQUE_POWER_W_KG, MOST_TORQUE_TO_OTHERS,
+        MOST_PLACEHOLDER_POWER_W_KG, MOST_ROTOR_W, MOST_TORQUE_POWER_W_KG, MOST_TORQUE_TO_OTHERS,
     },
 };
 use crate::codes;
@@ -57,11 +57,15 @@ impl UnitCheck<'_> {
         let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
         for joint in robot.joints() {
             // Without a speed neither a power nor a loss is known; the speed of a fast joint is examined with its torque.
-            let Some(speed) = speed(joint).filter(|speed| *speed <= LEAST_FAST_RAD_S) else { continue };
+            let Some(speed) = speed(joint) else { continue };
             let Some(effort) = joint.limit.and_then(|limit| limit.effort).filter(|effort| *effort > 0.0)
             else {
                 continue;
             };
+            // A rotor may have any speed, and propellers are written with any torque, but not with the power of a ship.
+            if speed > LEAST_FAST_RAD_S && (!self.is_rotor(joint) || effort * speed < MOST_ROTOR_W) {
+                continue;
+            }
             let of_others =
                 robot.joints().iter().filter(|other| other.name != joint.name).filter_map(effort_limit);
             let others = of_others.fold(0.0, f64::max);

@@ -107,8 +107,13 @@ impl LinkInertiaFeatures {
     /// `None` for a link that is too light for a body, for a tensor of zero, and for the placeholder of 1 kg m^2, which is no
     /// mistake of a unit and is reported separately.
     pub(super) fn from_inertia(link: LinkIndex, inertia: &Inertia, sizes: &Sizes) -> Option<Self> {
+        Self::of_any_mass(link, inertia, sizes).filter(|_| inertia.mass_kg >= LEAST_BODY_KG)
+    }
+
+    /// The same of any link with a mass, also of one that is too light for a body.
+    pub(super) fn of_any_mass(link: LinkIndex, inertia: &Inertia, sizes: &Sizes) -> Option<Self> {
         let trace = inertia.tensor_kg_m2.trace();
-        if !(inertia.mass_kg >= LEAST_BODY_KG && trace > 0.0) || inertia.is_example() {
+        if !(inertia.mass_kg > 0.0 && trace > 0.0) || inertia.is_example() {
             return None;
         }
         let gyration_m = (trace / 3.0 / inertia.mass_kg).sqrt();

@@ -1,6 +1,6 @@
 //! Compares joint origins with the rest of the robot, and the ranges of prismatic joints with its size.
 
-use congruent_description::{Geometry, Joint, JointKind, Shape};
+use congruent_description::{Extent, Geometry, Joint, JointKind, Shape};
 use congruent_input::{
     display::{length, number, quantity},
     units::LARGEST_PLAUSIBLE_M,
@@ -9,8 +9,8 @@ use congruent_input::{
 use super::{
     UnitCheck, UnitMistake,
     thresholds::{
-        FARTHEST_JOINT, FASTEST_SLIDE_M_S, LEAST_ORIGIN_M, LEAST_TRAVEL_M, LONGEST_ORIGIN, LONGEST_TRACK_M,
-        LONGEST_TRAVEL_M, TRACK_TO_SIZE, TRAVEL_TO_SHAPES, TRAVEL_TO_SIZE,
+        FARTHEST_JOINT, FASTEST_SLIDE_M_S, JOINT_AT_SHAPE, LEAST_ORIGIN_M, LEAST_TRAVEL_M, LONGEST_ORIGIN,
+        LONGEST_TRACK_M, LONGEST_TRAVEL_M, TRACK_TO_SIZE, TRAVEL_TO_SHAPES, TRAVEL_TO_SIZE,
     },
 };
 use crate::codes;
@@ -71,8 +71,13 @@ impl UnitCheck<'_> {
                 ));
             }
         }
-        if self.sizes.shapes[joint.parent.get()].is_some_and(|shapes| shapes.diagonal_m() > length_m) {
-            return None; // The origin lies within the extent of a large link.
+        // The origin lies within the extent of a large link, or at its end.
+        let is_confirmed = |shapes: Extent| {
+            let diagonal_m = shapes.diagonal_m();
+            diagonal_m > length_m || shapes.distance_m(origin) <= JOINT_AT_SHAPE * diagonal_m
+        };
+        if self.sizes.shapes[joint.parent.get()].is_some_and(is_confirmed) {
+            return None;
         }
         let others = self.robot.joints().iter().filter(|other| {
             other.name != joint.name

@@ -9,7 +9,8 @@ use super::{
     lengths::is_real,
     thresholds::{
         FASTEST_CONTINUOUS_RAD_S, FASTEST_ROTOR_RAD_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG,
-        LEAST_ODD_RAD_S, MEDIAN_TURN_RAD_S, MOST_LAST_SPEED_TO_MEDIAN, MOST_POWER_W_KG, MOST_SPEED_TO_MEDIAN,
+        LEAST_ODD_RAD_S, MEDIAN_TURN_RAD_S, MOST_LAST_SPEED_TO_MEDIAN, MOST_POWER_OF_FAST, MOST_POWER_W_KG,
+        MOST_SPEED_TO_MEDIAN,
     },
 };
 use crate::codes;
@@ -25,6 +26,12 @@ pub(super) fn speed(joint: &Joint) -> Option<f64> {
     (is_real(speed) && speed > 0.0).then_some(speed)
 }
 
+/// Torque times speed of a joint of usual speed, W.
+fn usual_power_w(joint: &Joint) -> Option<f64> {
+    let effort = joint.limit?.effort.filter(|effort| is_real(*effort))?;
+    Some(effort * speed(joint).filter(|speed| *speed <= LEAST_ODD_RAD_S)?)
+}
+
 impl UnitCheck<'_> {
     /// Reports implausible velocity limits. `fastest_tip_m_s` is the largest plausible speed of a carried point; `None` if the
     /// lengths of the file are not reliable.
@@ -35,6 +42,7 @@ impl UnitCheck<'_> {
         let middle = median(speeds()).filter(|_| speeds().count() >= 4);
         let all_are_fast = middle > Some(MEDIAN_TURN_RAD_S);
         let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
+        let usual_w = robot.joints().iter().filter_map(usual_power_w).fold(0.0, f64::max);
         for joint in robot.joints() {
             let is_last = !self.sizes.carries_joint[joint.child.get()];
             let least = if is_last { LEAST_FAST_RAD_S } else { LEAST_ODD_RAD_S };
@@ -53,7 +61,8 @@ impl UnitCheck<'_> {
             // Only joints with a range are compared with the median: wheels and rotors may be far faster than the arm beside them.
             let most_to_median = if is_last { MOST_LAST_SPEED_TO_MEDIAN } else { MOST_SPEED_TO_MEDIAN };
             let is_odd = joint.kind == JointKind::Revolute
-                && middle.is_some_and(|middle| speed > most_to_median * middle);
+                && middle.is_some_and(|middle| speed > most_to_median * middle)
+                && !(power_w > 0.0 && power_w <= MOST_POWER_OF_FAST * usual_w);
             let why = if speed > most || (all_are_fast && speed > MEDIAN_TURN_RAD_S) {
                 String::new()
             } else if let (true, Some(middle)) = (is_odd, middle) {
@@ -84,7 +93,7 @@ impl UnitCheck<'_> {
 
     /// Whether a joint turns a propeller, a spindle or the like. Only the names of the joint and its link distinguish it from a
     /// wrist.
-    fn is_rotor(&self, joint: &Joint) -> bool {
+    pub(super) fn is_rotor(&self, joint: &Joint) -> bool {
         let carries_none = self.robot.joints().iter().all(|other| other.parent != joint.child);
         let names = [&joint.name, &self.robot.link(joint.child).name].map(|name| name.to_lowercase());
         carries_none && ROTORS.iter().any(|rotor| names.iter().any(|name| name.contains(rotor)))

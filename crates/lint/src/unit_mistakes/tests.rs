@@ -61,6 +61,8 @@ fn efforts_in_n_mm_and_damping_times_1000_are_reported() {
         findings(&ARM.replacen("effort='40'/>", &format!("effort='40'/><dynamics damping='{damping}'/>"), 1))
     };
     assert_eq!(damped("12"), []);
+    let found = damped("30");
+    assert!(found.len() == 1 && found[0].1.contains("takes 93 N m, 2.33 times"), "{found:?}");
     let found = damped("12000");
     assert!(found.len() == 1 && found[0].0 == "units::damping", "{found:?}");
     assert!(found[0].1.contains("takes 37200 N m, 930 times its effort limit"), "{found:?}");
@@ -83,6 +85,52 @@ fn friction_that_no_motor_overcomes_is_reported() {
     let found = with("2400");
     assert!(found.len() == 1 && found[0].0 == "units::friction", "{found:?}");
     assert!(found[0].1.contains("more than its effort limit of 40 N m"), "{found:?}");
+}
+
+/// A wrist of small motors is many times faster than the arm, as of fast industrial arms; with the torque of the others it is a speed in
+/// another unit.
+#[test]
+fn a_wrist_of_little_power_may_be_fast() {
+    let wrist = |effort: &str| {
+        let joint = |(at, velocity): (usize, &str)| {
+            let (parent, child) = (if at == 0 { "lower".to_owned() } else { format!("w{at}") }, at + 1);
+            format!(
+                "<link name='w{child}'/><joint name='w{child}' type='revolute'><origin xyz='0 0 0.02'/><parent link='{parent}'/>\
+                 <child link='w{child}'/><limit lower='-2' upper='2' velocity='{velocity}' effort='{effort}'/></joint>"
+            )
+        };
+        let joints: String = ["4", "30", "4"].into_iter().enumerate().map(joint).collect();
+        findings(&ARM.replace("</robot>", &format!("{joints}</robot>")))
+    };
+    assert_eq!(wrist("1"), []);
+    let found = wrist("15");
+    assert!(found.len() == 1 && found[0].0 == "units::speed", "{found:?}");
+}
+
+/// The shape of the parent reaches to the joint, however long it is beside the others.
+#[test]
+fn an_origin_at_the_end_of_its_parents_shape_is_not_reported() {
+    let mast = |length_m: f64| {
+        let chain: String = ["0.05", "0.08", "0.05"]
+            .into_iter()
+            .enumerate()
+            .map(|(at, z)| {
+                let (parent, child) = (if at == 0 { "finger".to_owned() } else { format!("l{at}") }, at + 1);
+                format!(
+                    "<link name='l{child}'><visual><origin xyz='0 0 {0}'/><geometry><box size='0.1 0.1 {length_m}'/></geometry>\
+                     </visual></link><joint name='j{child}' type='continuous'><origin xyz='0 0 {z}'/><parent link='{parent}'/>\
+                     <child link='l{child}'/></joint>",
+                    length_m / 2.0
+                )
+            })
+            .collect();
+        let head = "<link name='head'/><joint name='tilt' type='continuous'><origin xyz='0 0 1.9'/><parent link='l3'/>\
+                    <child link='head'/></joint></robot>";
+        findings(&ARM.replace("</robot>", &format!("{chain}{head}")))
+    };
+    let of_tilt = |found: Vec<(&str, String)>| found.into_iter().any(|(_, said)| said.contains("\"tilt\""));
+    assert!(!of_tilt(mast(1.8)));
+    assert!(of_tilt(mast(0.2)));
 }
 
 /// A footprint far below the arm, with a box that is to be seen.
@@ -116,6 +164,9 @@ fn one_length_in_inches_is_reported() {
 fn what_belongs_together_reveals_a_mistake() {
     check("mass value='2'", "mass value='2000'", "units::mass", "781250 kg/m^3");
     check("mass value='0.06'", "mass value='60'", "units::mass", "link \"finger\"");
+    // Masses in t: far too light for the shapes and for the tensor alike, whatever their size.
+    check("mass value='0.06'", "mass value='0.00006'", "units::mass", "link \"finger\": its mass is 0.06 g");
+    check("mass value='2'", "mass value='0.002'", "units::mass", "link \"upper\": its mass is 2 g");
     check(
         "ixx='0.0009' ixy='0' ixz='0' iyy='0.0098' iyz='0' izz='0.0098'",
         "ixx='900' ixy='0' ixz='0' iyy='9800' iyz='0' izz='9800'",

@@ -19,6 +19,11 @@ pub(super) const PLACEHOLDER_SPHERE_DENSITY: [f64; 2] = [1e-7, 3e10];
 pub(super) const MOST_BOX_DENSITY: f64 = 4e4;
 /// The same for the median of all links of a robot, which no single simplified shape moves. Seen: 30 to 2e3.
 pub(super) const MEDIAN_BOX_DENSITY: [f64; 2] = [0.5, 2e4];
+/// Density of the box and radius of gyration against the diagonal of the shapes that together say that a mass is too small, of links of any
+/// mass: no body of a robot is lighter than foam, and none has its mass outside of itself. In t instead of kg a mass is 1000 times too small.
+/// Seen: 20 kg/m^3 and 0.96, never of one link.
+pub(super) const LEAST_FOAM_DENSITY: f64 = 10.0;
+pub(super) const GYRATION_OUTSIDE: f64 = 1.2;
 /// Lighter links are markers and frames, whose mass means nothing. Seen: 1 g on a box of 1 mm.
 pub(super) const LEAST_MASS_KG: f64 = 0.05;
 /// Lighter links are frames, with an inertia that only is not zero. Seen: cameras of 10 mg; the lightest fingertips weigh 5 g.
@@ -36,6 +41,8 @@ pub(super) const LEAST_COM_M: f64 = 0.3;
 
 /// Distance of a joint from the shapes of the link that carries it, in their diagonals. Seen: up to 2.2.
 pub(super) const FARTHEST_JOINT: f64 = 6.0;
+/// The same of a joint whose origin the shapes confirm, however long it is. Kind: choice; a flange or a bearing beyond the end of a tube.
+pub(super) const JOINT_AT_SHAPE: f64 = 0.1;
 /// Length of a joint origin against the sum of all others. Seen: up to 1; in inches instead of metres it is 39 times as long.
 pub(super) const LONGEST_ORIGIN: f64 = 1.8;
 /// Joint origins shorter than this, m, are not reported.
@@ -69,6 +76,9 @@ pub(super) const MEDIAN_TURN_RAD_S: f64 = 45.0;
 /// 4.7 of last axes, 2.7 of others; revolutions per minute instead of rad/s are 9.5 times as many.
 pub(super) const MOST_LAST_SPEED_TO_MEDIAN: f64 = 15.0;
 pub(super) const MOST_SPEED_TO_MEDIAN: f64 = 7.0;
+/// Torque times speed against the largest of the robot's usual joints, up to which a joint may be many times faster than these: a light
+/// wrist has a small motor. Seen: 0.25 to 0.45 of the wrists of small arms; a speed in revolutions per minute gives 9.5 times as much.
+pub(super) const MOST_POWER_OF_FAST: f64 = 0.5;
 /// Slower joints, rad/s, are not compared with other values; with the median, if they carry others, from the second on.
 pub(super) const LEAST_FAST_RAD_S: f64 = 20.0;
 pub(super) const LEAST_ODD_RAD_S: f64 = 8.0;
@@ -81,6 +91,9 @@ pub(super) const MOST_POWER_W_KG: f64 = 250.0;
 /// Torque times speed of one slow joint over the mass of the robot, W/kg, for its torque: no motor alone has more. Seen: up to 220.
 /// In N mm instead of N m it is 1000 times as much.
 pub(super) const MOST_TORQUE_POWER_W_KG: f64 = 1000.0;
+/// Torque times speed of propellers, spindles and the like, W, from which on it is compared with the mass of the robot. Kind: choice; the
+/// largest spindles of machine tools have 0.1 MW.
+pub(super) const MOST_ROTOR_W: f64 = 1e6;
 /// The same of torques that are probably placeholders: one digit, and 1000 or more. Seen: 500, of 2000 N m for a light arm.
 pub(super) const MOST_PLACEHOLDER_POWER_W_KG: f64 = 4_000.0;
 /// From here on a torque of one digit, N m, is probably a placeholder.
@@ -88,7 +101,7 @@ pub(super) const LEAST_PLACEHOLDER_N_M: f64 = 1000.0;
 /// Torque against the largest of the robot's other turning joints, placeholders aside. Seen: up to 2.
 pub(super) const MOST_TORQUE_TO_OTHERS: f64 = 50.0;
 /// Damping times speed limit over effort limit: above 1 the joint cannot reach its speed. Seen: up to 1.4.
-pub(super) const MOST_DAMPING_TO_EFFORT: f64 = 10.0;
+pub(super) const MOST_DAMPING_TO_EFFORT: f64 = 2.0;
 
 /// Diagonal of a mesh, m: a smaller one is dust. Seen: from 24 mm.
 pub(super) const LEAST_MESH_M: f64 = 3e-3;
