@@ -37,7 +37,7 @@ pub struct ObstacleSettings {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cylinder: Option<CylinderSettings>,
     /// A mesh file (STL, OBJ, COLLADA), relative to the scenario; its convex hull is used. With --fence no file outside the
-    /// project folder (the nearest at or above the scenario with .git, package.xml or robot.toml) is opened.
+    /// project folder (the nearest at or above the scenario with .git or package.xml) is opened.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<String>,
     /// Factors for the coordinates of the mesh: 0.001 for a mesh in millimetres.

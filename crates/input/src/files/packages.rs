@@ -1,7 +1,7 @@
 //! Resolves the path or URI of a mesh in a URDF to a file inside the folders that may hold meshes.
 //!
 //! One is the project folder. It is not the URDF's own, since real robots say `../meshes/x.stl`, but the
-//! nearest folder at or above the URDF that holds `package.xml`, `robot.toml` or `.git`; if none does,
+//! nearest folder at or above the URDF that holds `package.xml` or `.git`, as for every other file; if none does,
 //! it is the folder above the URDF's. It is never `/` or a home folder. The others are the folders that
 //! a robot file or the command line declares, ROS packages, and folders that the user allows. Behind a fence
 //! nothing outside of them is opened; symbolic links are resolved before a path is compared with these folders.
@@ -20,7 +20,7 @@ use super::{
 use crate::{codes, diagnostic::Diagnostic};
 
 /// Names that mark the top folder of a project.
-const MARKS: [&str; 3] = ["package.xml", "robot.toml", ".git"];
+const MARKS: [&str; 2] = ["package.xml", ".git"];
 
 /// The folders in which the meshes of one URDF may be; all canonical.
 #[derive(Debug)]
@@ -302,6 +302,25 @@ mod tests {
         let mut packages =
             Packages::new(&top.path().join("robot/urdf"), declared, &FileAccess::default().fenced()).unwrap();
         found(&mut packages, "package://far/c.stl", "outside/c.stl");
+    }
+
+    /// A repository with a folder for each robot, which has its robot file beside its URDF, and meshes that they share.
+    #[test]
+    fn a_robot_file_beside_the_urdf_is_no_top_of_a_project() {
+        let top = tempfile::tempdir().unwrap();
+        for folder in [".git", "robots/a", "meshes"] {
+            fs::create_dir_all(top.path().join(folder)).unwrap();
+        }
+        let robot_file = top.path().join("robots/a/robot.toml");
+        for file in [&robot_file, &top.path().join("meshes/m.obj")] {
+            fs::write(file, "").unwrap();
+        }
+        let fenced = FileAccess::default().fenced();
+        for access in [fenced.inside_project_of(&robot_file).unwrap(), fenced] {
+            let mut packages = Packages::new(&top.path().join("robots/a"), BTreeMap::new(), &access).unwrap();
+            found(&mut packages, "../../meshes/m.obj", "meshes/m.obj");
+            refused(&mut packages, "../../../etc/hosts", "mesh::outside");
+        }
     }
 
     #[test]
