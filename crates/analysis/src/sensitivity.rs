@@ -108,13 +108,14 @@ struct Perturbation {
 /// length does not depend on them, so arms of other lengths need no sampling of their own.
 ///
 /// # Errors
-/// [`KinematicsError::NoJoint`] if the robot has no arm.
+/// [`KinematicsError::NoJoint`] if the robot has no arm, [`KinematicsError::SearchedJoints`] if the arm has too many joints.
 pub fn sensitivity(
     description: &RobotDescription,
     length_factors: &[f64],
     sampling: Sampling,
 ) -> Result<SensitivityReport, KinematicsError> {
     let arm = Arm::from_description(description)?;
+    arm.check_search()?;
     let names = joint_names(description, &arm);
     let mut effects = zero_effects(&arm, &names, sampling);
     if let Some(table) = &description.dh {

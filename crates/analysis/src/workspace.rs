@@ -58,12 +58,13 @@ pub struct ReachExtreme {
 /// The workspace of the robot's arm, as values for the report and as points for the plot.
 ///
 /// # Errors
-/// [`KinematicsError::NoJoint`] if the robot has no arm.
+/// [`KinematicsError::NoJoint`] if the robot has no arm, [`KinematicsError::SearchedJoints`] if the arm has too many joints.
 pub fn workspace(
     description: &RobotDescription,
     sampling: Sampling,
 ) -> Result<(WorkspaceReport, Workspace), KinematicsError> {
     let mut arm = Arm::from_description(description)?;
+    arm.check_search()?;
     let names = joint_names(description, &arm);
     let found = arm.workspace(sampling);
     let size = found.size;

@@ -39,6 +39,16 @@ pub enum KinematicsError {
     /// Nothing moves between the two ends of an arm.
     #[error("no joint moves between base and tip")]
     NoJoint,
+    /// A search over the joint range has too many joints to end in time.
+    #[error(
+        "{found} joints move between base and tip, limit <= {most} for a search over the whole joint range"
+    )]
+    SearchedJoints {
+        /// Number of joints of the arm.
+        found: usize,
+        /// Largest number of joints.
+        most: usize,
+    },
     /// A table has no frame of this number.
     #[error("there is no frame dh{index}: the last frame of the table is dh{last}")]
     FrameIndex {

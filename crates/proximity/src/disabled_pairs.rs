@@ -1,4 +1,4 @@
-//! `congruent acm suggest`: pairs of links to exclude from collision checking, with the reasons that MoveIt's setup
+//! `congruent clearance --write-srdf`: pairs of links to exclude from collision checking, with the reasons that MoveIt's setup
 //! assistant writes into an SRDF (Coleman, Sucan, Chitta, Correll, "Reducing the Barrier to Entry of Complex Robotic
 //! Software", 2014, and its `compute_default_collisions`): adjacent, touching in the default position, touching in nearly
 //! all sampled configurations, or in none.
@@ -13,6 +13,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{distances::DistanceError, hulls::Hulls};
+
+/// Most pairs of links with collision shapes. Kind: memory; a pair takes about 0.3 kB with its names in the answer.
+const MOST_PAIRS: usize = 2_500_000;
 
 /// Share of the samples from which a pair counts as always touching, as in MoveIt.
 pub const ALWAYS_SHARE: f64 = 0.95;
@@ -58,7 +61,7 @@ pub struct DeclaredPairs {
     pub without_shape: usize,
 }
 
-/// The answer of `congruent acm suggest`.
+/// The answer of `congruent clearance --write-srdf`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DisabledPairs {
     /// Name of the robot, as the SRDF must have it.
@@ -127,7 +130,7 @@ pub fn suggest_disabled(
         by_tree: vec![Pose::identity(); robot.links().len()],
         root_from_links: vec![Isometry3::identity(); robot.links().len()],
     };
-    let mut candidates = shapes.candidates(robot);
+    let mut candidates = shapes.candidates(robot)?;
     // Structure first, then the default position, then samples: each stage decides without the cost of the next one, and
     // this is MoveIt's order, so that a pair gets the same reason as there.
     let adjacent = adjacent(robot, |link| !shapes.hulls[link.get()].is_empty());
@@ -136,7 +139,8 @@ pub fn suggest_disabled(
     }
     shapes.move_to(&default_position(robot))?;
     for candidate in candidates.iter_mut().filter(|candidate| candidate.reason.is_none()) {
-        let touches = shapes.distance_below_m(candidate.pair, f64::INFINITY) <= 0.0;
+        // Whether they touch is all that is asked, so that bounding balls decide on most pairs of a large robot.
+        let touches = shapes.distance_below_m(candidate.pair, f64::MIN_POSITIVE) <= 0.0;
         // Two links on one body keep their distance: the default position decides for all configurations.
         candidate.reason = match (touches, candidate.is_rigid) {
             (true, true) => Some(DisableReason::Always),
@@ -166,10 +170,15 @@ struct Shapes {
 }
 
 impl Shapes {
-    /// All pairs of links with shapes.
-    fn candidates(&self, robot: &Robot) -> Vec<SampledPair> {
+    /// All pairs of links with shapes; none of a robot that cannot move, which needs no collision checking.
+    fn candidates(&self, robot: &Robot) -> Result<Vec<SampledPair>, DistanceError> {
+        let can_move = robot.dof() > 0;
         let solid: Vec<LinkIndex> =
-            robot.link_indices().filter(|link| !self.hulls[link.get()].is_empty()).collect();
+            robot.link_indices().filter(|link| can_move && !self.hulls[link.get()].is_empty()).collect();
+        let count = solid.len() * solid.len().saturating_sub(1) / 2;
+        if count > MOST_PAIRS {
+            return Err(DistanceError::Pairs { links: solid.len(), pairs: count, most: MOST_PAIRS });
+        }
         let pairs =
             solid.iter().enumerate().flat_map(|(at, &a)| solid[at + 1..].iter().map(move |&b| [a, b]));
         let candidate = |pair: [LinkIndex; 2]| SampledPair {
@@ -181,7 +190,7 @@ impl Shapes {
             least_m: f64::INFINITY,
             nearest: None,
         };
-        pairs.map(candidate).collect()
+        Ok(pairs.map(candidate).collect())
     }
 
     fn move_to(&mut self, q: &RobotQ) -> Result<(), KinematicsError> {

@@ -25,7 +25,7 @@ pub fn srdf_text(pairs: &DisabledPairs) -> String {
 
 fn comment(pairs: &DisabledPairs) -> String {
     let DisabledPairs { urdf, samples, seed, .. } = pairs;
-    let mut text = format!("Suggested by `congruent acm suggest` from {urdf}:\n");
+    let mut text = format!("Suggested by `congruent clearance --write-srdf` from {urdf}:\n");
     let _ = writeln!(
         text,
         "{samples} random configurations within the limits, seed {seed}; meshes as convex hulls."

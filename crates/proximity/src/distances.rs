@@ -109,6 +109,16 @@ pub enum DistanceError {
         /// The width of its range, rad or m.
         width: f64,
     },
+    /// The robot has too many pairs of links to examine.
+    #[error("{links} links with collision shapes are {pairs} pairs, limit <= {most}")]
+    Pairs {
+        /// Number of links with collision shapes.
+        links: usize,
+        /// Number of pairs of these.
+        pairs: usize,
+        /// Largest number of pairs.
+        most: usize,
+    },
     /// The names of pairs do not fit the pairs that can be measured.
     #[error("{}", .0.diagnostic)]
     Pair(Box<PairFault>),

@@ -12,6 +12,9 @@ use self::polytope::Polytope;
 /// Most points of a hull; a mesh with fewer vertices is used as it is. Kind: speed; a distance costs 10 ns for each point, and a
 /// ball with so many is 0.05 % of its diameter too small.
 const MOST_POINTS: usize = 4000;
+/// Most comparisons of a point with a facet, after which no point is added. Kind: speed; some 10 s. A part as it is built needs a
+/// hundredth of them for a million vertices, most of which are soon inside; of a million on a ball all stay outside.
+const MOST_TESTS: usize = 100_000_000;
 /// Points are added until no vertex is farther than this outside the hull, as a share of the size. No unit; kind: choice, below the digits of a mesh
 /// file and below what a distance of shapes of 10 m is off, 1e-7 m.
 const NEGLIGIBLE: f64 = 1e-8;
@@ -52,6 +55,11 @@ impl HullPoints {
 
     /// The same with at most `most` points; the four points of the first tetrahedron are always included.
     fn at_most(vertices_m: &[Point3<f64>], most: usize) -> Self {
+        Self::limited(vertices_m, most, MOST_TESTS)
+    }
+
+    /// The same with the work that is given: it ends with fewer points and a larger error.
+    fn limited(vertices_m: &[Point3<f64>], most: usize, most_tests: usize) -> Self {
         let size_m = size(vertices_m);
         let Some(mut polytope) = Polytope::new(vertices_m, size_m) else {
             // All on one line: there is no hull, and the caller that builds one refuses these points with its own message.
@@ -60,7 +68,10 @@ impl HullPoints {
         // Farthest point first: each added point removes the largest error, so the loop may end at any time with the smallest
         // error for this number of points.
         let mut outside_m = polytope.farthest_m();
-        while outside_m > NEGLIGIBLE * size_m && polytope.corner_count() < most {
+        while outside_m > NEGLIGIBLE * size_m
+            && polytope.corner_count() < most
+            && polytope.tests() < most_tests
+        {
             polytope.add_farthest();
             outside_m = polytope.farthest_m();
         }
@@ -128,6 +139,14 @@ mod tests {
         assert!(hull.error_m > 0.0);
         check(&ball(20_000, 0.0), MOST_POINTS, 4e-4);
         check(&ball(20_000, 0.05), MOST_POINTS, NEGLIGIBLE);
+    }
+
+    #[test]
+    fn a_hull_that_takes_too_long_has_fewer_points_and_a_larger_stated_error() {
+        let vertices = ball(20_000, 0.0);
+        let [short, long] = [200_000, MOST_TESTS].map(|tests| HullPoints::limited(&vertices, 1000, tests));
+        assert!(short.points_m.len() < long.points_m.len() && short.error_m > long.error_m);
+        assert!(outside(&vertices, &short.points_m) <= short.error_m + 1e-12, "{}", short.error_m);
     }
 
     #[test]

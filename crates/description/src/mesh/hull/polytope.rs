@@ -63,6 +63,8 @@ pub(super) struct Polytope {
     facets: Vec<Facet>,
     next: BinaryHeap<QueuedFacet>,
     added: usize,
+    /// Number of times that a point was compared with a facet.
+    tests: usize,
     /// The largest distance of a point that could not be added.
     skipped_distance_m: f64,
 }
@@ -97,6 +99,7 @@ impl Polytope {
             facets: Vec::new(),
             next: BinaryHeap::new(),
             added: 4,
+            tests: 0,
             skipped_distance_m: 0.0,
         };
         // Counterclockwise in a view from outside: the fourth point must be below the first facet.
@@ -177,6 +180,11 @@ impl Polytope {
         self.added
     }
 
+    /// The work so far: how many times a point was compared with a facet.
+    pub(super) fn tests(&self) -> usize {
+        self.tests
+    }
+
     /// Indices of the given points that are corners, in ascending order.
     pub(super) fn corners(&self) -> Vec<usize> {
         let facets = self.facets.iter().filter(|facet| !facet.is_removed);
@@ -218,6 +226,7 @@ impl Polytope {
     /// Assigns each point to the facet, from index `first` on, that it is highest above. Points above no facet are inside and
     /// are dropped.
     fn share(&mut self, points: Vec<usize>, first: usize) {
+        self.tests += points.len() * (self.facets.len() - first);
         let areas: Vec<f64> = self.facets[first..].iter().map(|facet| self.area(facet.corners)).collect();
         for point in points {
             let height = |(number, facet): (usize, &Facet)| {
