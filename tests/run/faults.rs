@@ -47,7 +47,7 @@ fn every_scenario_goes_as_it_expects() {
 #[test]
 fn every_kind_has_a_scenario_and_every_check_sees_a_fault() {
     let names = scenarios();
-    let mut call = vec!["faults"];
+    let mut call = vec!["run", "--faults"];
     call.extend(names.iter().map(String::as_str));
     let answer = congruent_json(&call);
     assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
@@ -75,7 +75,7 @@ fn the_table_of_the_documentation_is_the_one_of_the_command() {
     let (_, after) = rest.split_once("<!-- faults: end -->").unwrap();
     fs::write(&copy, format!("{before}<!-- faults: begin -->\n<!-- faults: end -->{after}")).unwrap();
     let (names, copied) = (scenarios(), text(&copy));
-    let mut call = vec!["faults", "--markdown", &copied];
+    let mut call = vec!["run", "--faults", "--markdown", &copied];
     call.extend(names.iter().map(String::as_str));
     assert_eq!(congruent(&call).code, 0);
     let help = "regenerate it: congruent faults scenarios/faults/*.toml --markdown docs/faults.md";
@@ -100,7 +100,7 @@ fn a_fault_that_no_check_sees_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
     let unseen = "[[fault]]\nkind = \"encoder_offset\"\njoint = \"elbow_joint\"\nvalue_mm = 1\n[[check]]\nkind = \"limits\"\n";
     let path = written(folder.path(), "kinematic", &unseen.replace("value_mm", "value_deg"));
-    let answer = congruent(&["faults", &path]);
+    let answer = congruent(&["run", "--faults", &path]);
     assert_eq!(answer.code, 1, "{}", answer.stderr);
     for expected in ["not detected by any check: made", "checks that detect none of these faults: limits"] {
         assert!(answer.stdout.contains(expected), "{}", answer.stdout);
@@ -142,6 +142,8 @@ fn a_wrong_fault_is_refused_at_its_place() {
     refused("kinematic", &zero, "scenario::fault_value", "value_deg", "");
     let late = format!("{offset}value_deg = 1\nat_s = 7.0");
     refused("kinematic", &late, "scenario::fault_time", "at_s", "0.2 s");
+    let rounded = format!("{offset}value_deg = 1\nat_s = 0.1999");
+    refused("kinematic", &rounded, "scenario::fault_time", "at_s", "0.2 s");
     let ended = format!("{offset}value_deg = 1\nat_s = 0.1\nuntil_s = 0.1");
     refused("kinematic", &ended, "scenario::fault_time", "until_s", "");
     let lost = "kind = \"lost_torque\"\njoint = \"elbow_joint\"";

@@ -38,6 +38,8 @@ congruent_input::codes! {
             "A size or a coordinate of an obstacle exceeds 100,000 m. Give lengths in metres, or coordinates in millimetres under `xyz_mm`.";
         OBSTACLE_PATH = "CGR-SCENARIO-060", "scenario::obstacle_path",
             "The path of an obstacle cannot be followed.";
+        OBSTACLE_JUMPS = "CGR-SCENARIO-090", "scenario::obstacle_jumps",
+            "An obstacle moves farther than its size in a step, so it may pass through a link between two samples without a contact or a small distance. Give a shorter `step_s`, or more time between the poses of its path.";
         OBSTACLE_OVERLAP = "CGR-SCENARIO-061", "scenario::obstacle_overlap",
             "An obstacle overlaps the robot at the start; the contact forces would throw them apart. Move the obstacle or change [start]. Meshes are replaced by their convex hulls, which are larger. The controller \"kinematic\" moves the robot without forces.";
         ZONE_NAME = "CGR-SCENARIO-062", "scenario::zone_name",

@@ -151,6 +151,22 @@ fn what_overlaps_a_link_at_the_start_is_refused_if_the_physics_acts_on_it() {
     assert_eq!(of_physics("pd", path, Vec::new()).unwrap_err().len(), 1);
 }
 
+/// A ball of 0.2 m: 0.1 m in a step is seen in every sample it is near, 2 m in a step may pass through a link unseen.
+#[test]
+fn an_obstacle_that_jumps_over_links_is_reported() {
+    let warned = |until_s: f64| {
+        let path = along("bullet", 0.1, &[(1.0, [-1.0, 0.0, 0.5]), (until_s, [1.0, 0.0, 0.5])]);
+        let (_folder, description) = lift();
+        let setup = RunSetup::new(scenario("pd", vec![path], Vec::new()), description).unwrap();
+        let jumps =
+            setup.warnings.into_iter().filter(|warning| warning.code.name == "scenario::obstacle_jumps");
+        jumps.map(|warning| warning.message).collect::<Vec<_>>()
+    };
+    assert_eq!(warned(1.02), [""; 0]);
+    let found = warned(1.001);
+    assert!(found.len() == 1 && found[0].contains("\"bullet\" moves up to 2000 mm in a step"), "{found:?}");
+}
+
 #[test]
 fn distances_to_an_obstacle_on_a_path_are_those_of_spheres() {
     let drone = along("drone", 0.2, &[(0.5, [-1.0, 0.4, 0.5]), (2.5, [1.0, 0.4, 0.5])]);

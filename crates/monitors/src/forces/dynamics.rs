@@ -6,7 +6,7 @@
 //! joint accelerates all joints, but appears at its own joint alone. It is relative to the torques that act at the joint, so
 //! that a wrist counts as much as a shoulder. It is of first order in the step, as the physics is.
 
-use congruent_description::RobotQ;
+use congruent_description::{JointIndex, RobotQ};
 use congruent_dynamics::DrivenState;
 use congruent_input::{Quantity, SiUnit};
 use congruent_kinematics::larger;
@@ -16,6 +16,7 @@ use nalgebra::DMatrix;
 use super::not_evaluated::NotEvaluated;
 use crate::{
     CheckContext, Names, RunDynamics, StepForces,
+    joints::LARGEST_VELOCITY_SHARE,
     monitor::{Monitor, Observed},
     sample::Sample,
     verdict::{Bound, InstantValue},
@@ -48,6 +49,8 @@ pub(crate) struct DynamicsMonitor<'a> {
     drivers: Vec<(usize, f64)>,
     torque: Watch,
     frictions: Vec<f64>,
+    /// Speeds up to which the error of the step is known, rad/s and m/s; infinite without a velocity limit.
+    fastest: Vec<f64>,
     compared: u64,
     not_evaluated: NotEvaluated,
 }
@@ -71,7 +74,14 @@ impl<'a> DynamicsMonitor<'a> {
         let mut dynamics = context.dynamics.clone();
         let frictions = dynamics.at(0.0).0.resistances().iter().map(|resistance| resistance.friction);
         let limit = check.relative.unwrap_or(RELATIVE_PER_S * context.clock.step_s);
+        let velocity = |&joint: &JointIndex| {
+            let velocity = robot.joint(joint).limit.and_then(|limit| limit.velocity);
+            velocity
+                .filter(|&limit| limit > 0.0)
+                .map_or(f64::INFINITY, |limit| limit * LARGEST_VELOCITY_SHARE)
+        };
         Self {
+            fastest: robot.movable_joints().iter().map(velocity).collect(),
             frictions: frictions.collect(),
             dynamics,
             mass_matrix: DMatrix::zeros(dof, dof),
@@ -151,6 +161,12 @@ impl<'a> DynamicsMonitor<'a> {
     }
 }
 
+/// Whether a joint is faster than it may be. The difference of the two schemes grows with the square of the speeds, and its limit is
+/// that of arms within their velocity limits; without actuators a wrist whips at many times its own.
+fn is_too_fast(qd: &[f64], fastest: &[f64]) -> bool {
+    qd.iter().zip(fastest).any(|(qd, fastest)| qd.abs() > *fastest)
+}
+
 /// Whether a joint with dry friction is at rest in the step, or turns round in it.
 fn sticks(friction: f64, before: f64, after: f64, at_rest: f64) -> bool {
     friction > 0.0 && (before * after <= 0.0 || before.abs().min(after.abs()) < at_rest)
@@ -187,6 +203,12 @@ impl Monitor for DynamicsMonitor<'_> {
         let has_all = truth.qd.len() == truth.q.len() && truth.effort.len() == truth.q.len();
         if self.before.is_set {
             match sample.forces {
+                StepForces::Declared
+                    if has_all
+                        && [truth.qd, &self.before.qd].iter().any(|qd| is_too_fast(qd, &self.fastest)) =>
+                {
+                    self.not_evaluated.fast += 1;
+                }
                 StepForces::Declared if has_all => self.compare(sample),
                 StepForces::Constrained | StepForces::Contact => self.not_evaluated.constrained += 1,
                 StepForces::Declared | StepForces::Unknown => self.not_evaluated.unknown += 1,

@@ -5,6 +5,8 @@
 pub(super) struct NotEvaluated {
     /// Contact, or a joint at its stop.
     pub(super) constrained: u64,
+    /// A joint faster than its velocity limit.
+    pub(super) fast: u64,
     /// The source of joint states has no forces.
     pub(super) unknown: u64,
     /// The equations of motion have no solution.
@@ -14,13 +16,14 @@ pub(super) struct NotEvaluated {
 impl NotEvaluated {
     /// Number of samples that were not evaluated, for any reason.
     pub(super) fn count(&self) -> u64 {
-        self.constrained + self.unknown + self.refused
+        self.constrained + self.fast + self.unknown + self.refused
     }
 
     /// Remarks on the samples that were not evaluated; `compared` samples were.
     pub(super) fn notes(&self, compared: u64) -> Vec<String> {
         let whole = [
             (self.constrained, "contact, or a joint at its stop"),
+            (self.fast, "a joint faster than its velocity limit"),
             (self.unknown, "no forces known, as in playback"),
             (self.refused, "a joint without inertia, or a value that is not a number"),
         ];

@@ -221,14 +221,17 @@ impl CoordinateLimits {
     fn notes(&self, joints: &[String]) -> Vec<String> {
         let name = &joints[self.coordinate];
         let shown = |value: f64| quantity(value, if self.kind.is_angular() { "rad" } else { "m" });
-        let rest = self.rest.as_ref().map(|RestOnStop { time_s, setpoint_inside }| {
-            let why = if *setpoint_inside <= AT_THE_LIMIT {
-                "its setpoint is at the limit".to_owned()
-            } else {
-                format!("it sags, its setpoint is {} inside the range", shown(*setpoint_inside))
-            };
-            format!("{name} rests on its stop from {} on: {why}", quantity(*time_s, "s"))
-        });
+        // A joint that was driven beyond its limit has failed by that: where else it rested explains nothing.
+        let rest = self.rest.as_ref().filter(|_| self.drive.is_none()).map(
+            |RestOnStop { time_s, setpoint_inside }| {
+                let why = if *setpoint_inside <= AT_THE_LIMIT {
+                    "its setpoint is at the limit".to_owned()
+                } else {
+                    format!("it sags, its setpoint is {} inside the range", shown(*setpoint_inside))
+                };
+                format!("{name} rests on its stop from {} on: {why}", quantity(*time_s, "s"))
+            },
+        );
         let drive = self.drive.as_ref().map(|DrivenBeyond { time_s, setpoint_outside, is_commanded }| {
             let why = match setpoint_outside {
                 Some(outside) => format!("its setpoint is {} outside the range", shown(*outside)),

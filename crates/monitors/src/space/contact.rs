@@ -177,7 +177,10 @@ impl ContactMonitor {
     fn measured_quantities(&self) -> impl Iterator<Item = &Watch> {
         let distance = Some(&self.distance).filter(|watch| !self.may_touch || watch.worst().is_some());
         let unforced = Some(&self.unforced).filter(|watch| watch.worst().is_some());
-        unforced.into_iter().chain(distance).chain(&self.force)
+        // A force of 0 N beside an overlap without a force would read as a value.
+        let has_force = |watch: &&Watch| unforced.is_none() || watch.worst() > Some(0.0);
+        let force = self.force.as_ref().filter(has_force);
+        unforced.into_iter().chain(distance).chain(force)
     }
 
     /// The pairs that overlap without a force, with the deepest overlap.

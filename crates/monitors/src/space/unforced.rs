@@ -71,7 +71,11 @@ mod tests {
     fn an_overlap_without_a_force_is_found() {
         assert_eq!(deepest_mm(&[(2.0, 0.0), (3.0, 0.0), (150.0, 0.0)]), Some(150.0));
         assert_eq!(deepest_mm(&[(60.0, 0.0)]), Some(60.0), "shot through");
-        assert_eq!(deepest_mm(&[(0.0, 20.0), (0.5, 20.0), (4.0, 0.0), (9.0, 0.0)]), Some(9.0), "pushed first");
+        assert_eq!(
+            deepest_mm(&[(0.0, 20.0), (0.5, 20.0), (4.0, 0.0), (9.0, 0.0)]),
+            Some(9.0),
+            "pushed first"
+        );
     }
 
     #[test]

@@ -24,7 +24,7 @@ use super::{
     cost::long_run,
     default_values::write_out,
     output,
-    surroundings::{FirstStep, Surroundings, mobility},
+    surroundings::{FirstStep, Surroundings, jumps, mobility},
     written_at::WrittenAt,
 };
 use crate::{
@@ -241,8 +241,9 @@ impl RunSetup {
         self
     }
 
-    /// Finds the obstacles that overlap the robot at the start; the controller `kinematic` moves it without forces.
+    /// Finds obstacles that are too fast, and those that overlap the robot at the start; the controller `kinematic` moves it without forces.
     fn with_overlaps(mut self, places: FilePlace<'_>) -> Self {
+        self.warnings.extend(jumps(&self.bodies, &self.obstacles, self.clock.step_s, places));
         if self.scenario.controller.kind != ControllerKind::Kinematic {
             let Self { start, obstacles, bodies, clock, .. } = &self;
             let first = FirstStep { q: start, obstacles, moving: bodies, step_s: clock.step_s };

@@ -3,6 +3,7 @@
 mod actuators;
 mod braking;
 mod carried;
+mod friction_at_rest;
 mod joint_states;
 mod sensors;
 mod simulated_dynamics;

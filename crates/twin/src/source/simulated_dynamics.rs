@@ -6,6 +6,8 @@ use congruent_input::display::quantity;
 use congruent_simulation::{Setpoint, SimulationError, Torque, World, WorldSettings};
 use nalgebra::DMatrix;
 
+use super::friction_at_rest::{coupled_inverse, hold};
+
 /// The physics twin of a robot as a source of dynamics: it is stepped once from each state, with several lengths of
 /// step, and the accelerations are extrapolated to a step of no length.
 ///
@@ -149,12 +151,18 @@ impl Stepped {
         if let Some(joint) = self.first_stopped(&yielding, state.qd) {
             return Err(self.stopped(joint, state.qd));
         }
+        let at_rest: Vec<usize> = (0..state.qd.len())
+            .filter(|&joint| self.frictions[joint] > 0.0 && state.qd[joint] == 0.0)
+            .collect();
+        let frictions = self.frictions.clone();
         let mut stopped = None;
         for shortened in 0..=MOST_SHORTENED {
             let step_s = self.step_s * (0..shortened).map(|_| SHORTER).product::<f64>();
             let mut changes: Vec<f64> = by_all.iter().map(|braking| braking * step_s).collect();
             if self.first_stopped(&changes, state.qd).is_none() {
                 let worlds = self.worlds_of(shortened, step_s).map_err(JointDynamicsError::source)?;
+                // Steps would show how the engine's friction creeps; `hold` below adds that of joints at rest.
+                release(worlds, &at_rest, &frictions).map_err(JointDynamicsError::source)?;
                 changes =
                     extrapolated_into(worlds, step_s, state, qdd).map_err(JointDynamicsError::source)?;
             }
@@ -163,7 +171,17 @@ impl Stepped {
                 break;
             }
         }
-        stopped.map_or(Ok(()), |joint| Err(self.stopped(joint, state.qd)))
+        if let Some(joint) = stopped {
+            return Err(self.stopped(joint, state.qd));
+        }
+        if !at_rest.is_empty() {
+            let mass_matrix = self.placed(state.q)?.mass_matrix();
+            // A singular matrix: the step itself has reported the joint without inertia.
+            if let Some(inverse) = coupled_inverse(&self.robot, &mass_matrix) {
+                hold(qdd, &at_rest, &self.frictions, &inverse);
+            }
+        }
+        Ok(())
     }
 
     fn stopped(&self, joint: usize, qd: &[f64]) -> JointDynamicsError {
@@ -207,6 +225,16 @@ impl Stepped {
             })
             .map(|(joint, _)| joint)
     }
+}
+
+/// Gives every joint its dry friction except those at rest.
+fn release(worlds: &mut [World], at_rest: &[usize], frictions: &[f64]) -> Result<(), SimulationError> {
+    for world in worlds {
+        for (joint, &friction) in frictions.iter().enumerate().filter(|(_, friction)| **friction > 0.0) {
+            world.set_dry_friction(joint, if at_rest.contains(&joint) { 0.0 } else { friction })?;
+        }
+    }
+    Ok(())
 }
 
 /// The polynomial in the length of the step, at a length of zero. Returns the changes of speeds in the longest step.
@@ -269,7 +297,37 @@ fn world(robot: &Robot, step_s: f64) -> Result<World, SimulationError> {
 
 #[cfg(test)]
 mod tests {
+    use congruent_description::parse_robot;
+    use congruent_input::SourceFile;
+
     use super::*;
+
+    /// Two links in a plane, 2 kg and 1 kg, with frictions of 5 and 2 N m.
+    const PENDULUM: &str = r#"<robot name="p"><link name="b"/>
+      <link name="a"><inertial><origin xyz="0.5 0 0"/><mass value="2"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+      <link name="c"><inertial><origin xyz="0.3 0 0"/><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+      <joint name="j" type="continuous"><parent link="b"/><child link="a"/><axis xyz="0 0 1"/><dynamics friction="5" damping="1"/></joint>
+      <joint name="k" type="continuous"><parent link="a"/><child link="c"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/>
+        <dynamics friction="2" damping="1"/></joint></robot>"#;
+
+    #[test]
+    fn a_joint_that_friction_holds_has_no_acceleration() {
+        /// rad/s^2. Kind: rounding of the extrapolation; worst seen 1e-9.
+        const ACCELERATION: f64 = 1e-7;
+        let source = SourceFile { path: "p.urdf".into(), text: PENDULUM.to_owned(), is_foreign: false };
+        let robot = parse_robot(None, &source.into()).unwrap().robot;
+        let mut physics = SimulatedDynamics::new(&robot).unwrap();
+        let q = RobotQ::zeros(2);
+        let mut found = |tau: [f64; 2]| {
+            let mut qdd = [0.0; 2];
+            physics.forward_into(&DrivenState { q: &q, qd: &[0.0; 2], tau: &tau }, &mut qdd).unwrap();
+            qdd
+        };
+        assert_eq!(found([3.0, 0.0]), [0.0, 0.0]);
+        // The inertia about the first axis, with the second joint held: 2 (0.5^2) + 0.01 + 1.3^2 + 0.01.
+        let moved = found([10.0, 1.9]);
+        assert!((moved[0] - 5.0 / 2.21).abs() < ACCELERATION && moved[1] == 0.0, "{moved:?}");
+    }
 
     #[test]
     fn a_damped_speed_is_extrapolated_to_a_step_of_zero() {

@@ -233,6 +233,25 @@ fn a_small_motion_that_nobody_follows_fails() {
     passes(&by_default(slack(), [("shoulder", 0.0005), ("elbow", 0.0)]));
 }
 
+/// Overshoot of an arm that never arrives is none: the default check of the motion stays beside one that limits only that.
+#[test]
+fn a_check_of_overshoot_alone_keeps_the_default_tracking() {
+    let tracked = |controller, tracking| {
+        let outcome = crate::support::outcome(&tracked(&tracking, controller), None);
+        let mut found = outcome.checks;
+        found.retain(|check| check.check == congruent_scenario::CheckKind::Tracking);
+        found
+    };
+    let overshoot = TrackingCheck { overshoot_deg: Some(5.0), ..TrackingCheck::default() };
+    let slack = tracked(controlled("gravity_compensation", 0.0, 0.0), overshoot);
+    let failing: Vec<_> = slack.iter().filter(|check| check.status == Status::Fail).collect();
+    assert!(slack.len() == 2 && failing.len() == 1 && failing[0].is_default, "{slack:#?}");
+    tracked(servo(), overshoot).iter().for_each(passes);
+    // Its own limit of the travel, or of an error, replaces the default check as before.
+    let of_travel = TrackingCheck { travel_share: Some(0.9), ..overshoot };
+    assert_eq!(tracked(servo(), of_travel).len(), 1);
+}
+
 #[test]
 fn a_motion_that_is_cut_short_is_not_judged_by_its_travel() {
     let tracking = TrackingCheck { travel_share: Some(0.9), ..TrackingCheck::default() };

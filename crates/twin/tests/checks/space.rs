@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 
 use congruent_monitors::verdict::{CheckResult, Status};
-use congruent_scenario::{Check, ContactCheck, MotionSettings, ObstacleSettings, ZoneCheck, ZoneSettings};
+use congruent_scenario::{
+    Check, ContactCheck, MotionSettings, ObstacleSettings, PathPoseSettings, ZoneCheck, ZoneSettings,
+};
 use congruent_twin::RunSetup;
 
-use crate::support::{arm, controlled, measure, passes, result, scenario, setup};
+use crate::support::{arm, controlled, measure, notes, passes, result, scenario, setup, worst};
 
 /// The finger, a ball of 50 mm, slides from 20 mm to 90 mm out and stays; the block's face is 60 mm away from the middle
 /// of the ball at its start.
@@ -83,6 +85,41 @@ fn the_force_on_an_obstacle_has_a_peak_an_impulse_and_a_limit() {
     // Playback has no forces: nothing was checked.
     let check = ContactCheck { force_n: Some(1.0), ..ContactCheck::default() };
     assert_eq!(result(&slid(check)).status, Status::Skipped);
+}
+
+/// A cart runs 150 mm into the fixed base, which cannot yield: the physics has no force for the two, which is not one of 0 N.
+#[test]
+fn an_overlap_without_a_force_is_not_within_a_limit_of_the_force() {
+    let shape =
+        "<link name=\"base\"><collision><geometry><box size=\"0.2 0.2 0.2\"/></geometry></collision></link>";
+    let into_base = |check: ContactCheck, end_m: f64| {
+        let mut scenario = scenario(controlled("pd", 400.0, 60.0), Check::Contact(check));
+        let at = |(at_s, x_m): (f64, f64)| PathPoseSettings {
+            at_s,
+            xyz_m: Some([x_m, 0.0, 0.0]),
+            ..PathPoseSettings::default()
+        };
+        scenario.obstacle = vec![ObstacleSettings {
+            name: "cart".to_owned(),
+            box_m: Some([0.2, 0.2, 0.2]),
+            path: [(0.0, -0.4), (1.0, end_m)].map(at).into(),
+            ..ObstacleSettings::default()
+        }];
+        result(&setup(scenario, &arm(&[("<link name=\"base\"/>", shape)])))
+    };
+    let limited = || ContactCheck { force_n: Some(1.0), ..ContactCheck::default() };
+    let pressed = into_base(limited(), -0.05);
+    assert_eq!(pressed.status, Status::Fail, "{pressed:#?}");
+    // First of the two distances: that of links has no violation.
+    let violation = measure(&pressed, "distance").first_violation.as_ref().unwrap();
+    assert_eq!(violation.subject, "base--cart");
+    assert!((worst(&pressed, "distance") + 0.15).abs() < 1e-6, "{pressed:#?}");
+    assert_eq!(pressed.contacts[0].force, None, "{pressed:#?}");
+    notes(&pressed, "the physics has no force for this overlap (base--cart, 150 mm deep)");
+    // A depth that is allowed does not make a force of what has none.
+    let deep = into_base(ContactCheck { depth_mm: Some(200.0), ..limited() }, -0.05);
+    assert_eq!(deep.status, Status::Fail, "{deep:#?}");
+    passes(&into_base(limited(), -0.21));
 }
 
 #[test]
