@@ -281,8 +281,8 @@ fn draw_view(area: &PlotArea<'_>, view: &PlaneView, radius: f64) -> Result<(), P
         .light_line_style(TRANSPARENT)
         .x_labels(7)
         .y_labels(7)
-        .x_label_formatter(&tick)
-        .y_label_formatter(&tick)
+        .x_label_formatter(&|at| tick(*at))
+        .y_label_formatter(&|at| tick(*at))
         .label_style((FONT, 13))
         .draw()?;
     let fill = COLOURS[0].mix(0.45).filled();
@@ -302,7 +302,7 @@ fn draw_view(area: &PlotArea<'_>, view: &PlaneView, radius: f64) -> Result<(), P
 }
 
 /// A tick of an axis in metres; steps of the axis add up to nearly 0, which must not read -0.0.
-fn tick(value: &f64) -> String {
+fn tick(value: f64) -> String {
     number((value * 1e9).round() / 1e9 + 0.0)
 }
 

@@ -1,5 +1,7 @@
 //! The page of a calibration.
 
+use std::fmt::Write;
+
 use base64::{Engine, prelude::BASE64_STANDARD};
 use congruent_calibration::{
     estimation::ParameterUnit,
@@ -203,7 +205,7 @@ fn with_changes(section: &str, nominal: &str) -> String {
     for (line, before) in section.lines().zip(nominal.lines().chain(std::iter::repeat(""))) {
         let was = before.split_once(" = ").map_or("", |(_, value)| value);
         let comment = if line == before || was.is_empty() { String::new() } else { format!("  # was {was}") };
-        text += &format!("{line}{comment}\n");
+        let _ = writeln!(text, "{line}{comment}");
     }
     text
 }

@@ -53,7 +53,8 @@ fn relative(path: &Path, folder: &Path) -> Option<PathBuf> {
     }
     let (mut steps, mut parts) = (folder.components().peekable(), path.components().peekable());
     while steps.peek().is_some() && steps.peek() == parts.peek() {
-        (steps.next(), parts.next());
+        steps.next();
+        parts.next();
     }
     let up = steps.map(|_| Component::ParentDir);
     let found: PathBuf = up.chain(parts).collect();

@@ -5,7 +5,7 @@ use congruent_description::Tolerance;
 use congruent_kinematics::PoseError;
 use maud::{Markup, html};
 
-use crate::parts::{BadgeKind, BarScale, Pointer, UnitColumn, badge, value};
+use crate::parts::{BadgeKind, BarScale, Pointer, UnitColumn, UsedShare, badge, value};
 
 /// Units and scale of the bars of a table of pose errors.
 struct Columns<'a> {
@@ -40,7 +40,7 @@ impl<'a> Columns<'a> {
             html! {
                 td data-label=(format!("{name}, {}", column.unit)) {
                     (value(&at.key(key), error, &column.words(error)))
-                    @if tolerance > 0.0 { (self.scale.bar(error / tolerance, error <= tolerance)) }
+                    @if tolerance > 0.0 { (self.scale.bar(UsedShare { share: error / tolerance, holds: error <= tolerance })) }
                 }
             }
         };
@@ -66,7 +66,7 @@ pub(super) fn comparisons(report: &CheckReport, at: &Pointer) -> Markup {
                     }
                 }
             }
-            (columns.scale.words())
+            (BarScale::words())
             @for (index, comparison) in report.comparisons.iter().enumerate() {
                 @let differs = comparison.verdict == Agreement::Disagree;
                 details open[differs] {

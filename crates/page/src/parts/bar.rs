@@ -8,6 +8,13 @@ const BELOW: f64 = 3.0;
 /// Fewest and most decades above the limit. Kind: choice.
 const ABOVE: (f64, f64) = (1.0, 15.0);
 
+/// How much of its limit a value uses, and whether it is within.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct UsedShare {
+    pub(crate) share: f64,
+    pub(crate) holds: bool,
+}
+
 /// The scale of the bars of one table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BarScale {
@@ -32,7 +39,7 @@ impl BarScale {
     }
 
     /// The bar of a value that uses this share of its limit; outside of it for a share above 1.
-    pub(crate) fn bar(self, share: f64, holds: bool) -> Markup {
+    pub(crate) fn bar(self, UsedShare { share, holds }: UsedShare) -> Markup {
         let label = if holds {
             format!("{:.0} % of the limit", 100.0 * share)
         } else {
@@ -47,7 +54,7 @@ impl BarScale {
     }
 
     /// What the bars of a table mean.
-    pub(crate) fn words(self) -> Markup {
+    pub(crate) fn words() -> Markup {
         html! {
             p.small { "Bars are logarithmic, from 1/1000 of the limit; the mark is the limit." }
         }
@@ -65,7 +72,7 @@ mod tests {
             [0.0, 1e-9, 1e-3, 1.0, 10.0, 100.0, f64::INFINITY].map(|share| scale.percent(share)),
             [0.0, 0.0, 0.0, 60.0, 80.0, 100.0, 100.0]
         );
-        let bar = scale.bar(10.0, false).into_string();
+        let bar = scale.bar(UsedShare { share: 10.0, holds: false }).into_string();
         assert!(
             bar.contains("width:80.0%") && bar.contains("left:60.0%") && bar.contains("outside"),
             "{bar}"

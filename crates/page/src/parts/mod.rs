@@ -12,7 +12,7 @@ mod value;
 mod warnings;
 
 pub(crate) use badge::{BadgeKind, badge};
-pub(crate) use bar::BarScale;
+pub(crate) use bar::{BarScale, UsedShare};
 pub(crate) use diagnosis::diagnosis;
 pub(crate) use document::{capitalised, document};
 pub(crate) use lines::changed;

@@ -6,7 +6,7 @@ use congruent_results::report::{RunReport, is_not_reached, limit_words, margin_w
 use maud::{Markup, html};
 
 use super::content::RunContent;
-use crate::parts::{BadgeKind, BarScale, Pointer, badge, value};
+use crate::parts::{BadgeKind, BarScale, Pointer, UsedShare, badge, value};
 
 /// Quantities of a check that are in the table; the report has all, as of every pair below a clearance.
 const MOST_MEASURES: usize = 12;
@@ -27,11 +27,11 @@ pub(super) fn checks(report: &RunReport, run: &RunContent) -> Markup {
             @else if failed.is_empty() {
                 h2 { "What was checked" }
                 (table(&others))
-                (scale.words())
+                (BarScale::words())
             } @else {
                 h2 { "The checks that failed" }
                 (table(&failed))
-                (scale.words())
+                (BarScale::words())
                 @if !others.is_empty() {
                     details {
                         summary { "what passed (" (counted(passed, "check")) ")" @if passed < others.len() { ", and what says nothing (" (others.len() - passed) ")" } }
@@ -107,7 +107,7 @@ fn cells(measure: &Measure, of: &Rows<'_>, at: &Pointer) -> Markup {
     let at_worst = at.key("worst");
     html! {
         td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) }
-        td data-label="of its limit" { @if let Some(share) = share(measure) { (of.scale.bar(share, measure.bound.holds(worst.value, measure.limit))) } }
+        td data-label="of its limit" { @if let Some(share) = share(measure) { (of.scale.bar(UsedShare { share, holds: measure.bound.holds(worst.value, measure.limit) })) } }
         td data-label="limit" { (limit(measure, at)) }
         td data-label="margin" { (margin_words(measure, worst.value)) }
         td data-label="where" { (worst.subject) @if let Some(why) = why_constant(&worst.subject, of.run) { " " span.small { (why) } } }
