@@ -105,10 +105,7 @@ impl Resolver<'_> {
         let step = |time_s: f64| nearest_step(time_s, self.clock.step_s);
         let (from, until) = (step(at_s), until_s.map_or(u64::MAX, step));
         if from >= self.clock.steps {
-            return refused(
-                "at_s",
-                format!("at_s = {at_s} is rounded to the end of the run, {duration_s} s"),
-            );
+            return refused("at_s", format!("at_s = {at_s} s is rounded to the end of the run"));
         }
         // Both times may be rounded to the same sample.
         if from >= until {
