@@ -217,7 +217,7 @@ fn a_stated_noise_that_is_exceeded_is_a_failed_check() {
     let scratch = ScratchFolder::new();
     let file = scratch.write("poses.json", &Value::from(poses(40)).to_string());
     let run = |millimetres: &str| {
-        let noise = ["--noise-mm", millimetres, "--noise-deg", "0.0115"];
+        let noise = ["--noise", &format!("{millimetres}mm,0.0115deg")];
         congruent(&[&["calibrate", "robots/ur5e", &file, "--free", "dh"], &noise[..]].concat())
     };
     assert_eq!(run("0.1").code, 0);

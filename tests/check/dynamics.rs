@@ -367,14 +367,14 @@ fn base_parameters_are_those_that_torques_identify() {
     for (robot, seen, of) in [("ur5e", 36, 60), ("panda", 51, 90), ("rrr_arm", 30, 60)] {
         let path = workspace().join("robots").join(robot);
         let report =
-            congruent_json(&["derive", &text(&path), "--base-parameters", "--free-followers"]).json();
+            congruent_json(&["dynamics", &text(&path), "--base-parameters", "--free-followers"]).json();
         assert_eq!(report["base_parameters"].as_array().unwrap().len(), seen, "{robot}");
         assert_eq!(report["of"], of, "{robot}");
         let checked = congruent_json(&["check", &text(&path)]).json();
         assert_eq!(checked["dynamics"]["seen"]["numbers"], seen, "{robot}");
     }
-    let printed = congruent(&["derive", "robots/ur5e", "--base-parameters"]).stdout;
+    let printed = congruent(&["dynamics", "robots/ur5e", "--base-parameters"]).stdout;
     assert!(printed.contains("wrist_2_link my + wrist_3_link mz + 0.0996 wrist_3_link m"), "{printed}");
-    let both = congruent(&["derive", "robots/ur5e", "--base-parameters", "--convention", "standard"]);
+    let both = congruent(&["dynamics", "robots/ur5e", "--base-parameters", "--friction"]);
     assert_eq!(both.code, 2);
 }

@@ -177,7 +177,7 @@ fn base_parameters_are_as_many_as_another_program_finds() {
             .unwrap();
     for (name, expected) in golden["robots"].as_object().unwrap() {
         let path = text(&corpus.join("robots").join(name).join("robot.urdf"));
-        let report = congruent_json(&["derive", &path, "--base-parameters", "--free-followers"]).json();
+        let report = congruent_json(&["dynamics", &path, "--base-parameters", "--free-followers"]).json();
         let found = report["base_parameters"].as_array().unwrap().len();
         assert_eq!(Some(found as u64), expected["base_parameters"].as_u64(), "{name}");
     }

@@ -1,4 +1,4 @@
-//! `congruent derive` and `congruent convert`: their output is parsed again and checked by `congruent check`.
+//! `congruent convert`: their output is parsed again and checked by `congruent check`.
 
 use std::{fs, path::Path};
 
@@ -43,7 +43,7 @@ fn proved(answer: &Answer) -> Value {
 fn goes_round(urdf: &Path, chain: &[&str]) {
     for convention in CONVENTIONS {
         let path = text(urdf);
-        let mut arguments = vec!["derive", &path, "--convention", convention, "--exact"];
+        let mut arguments = vec!["convert", &path, "--from", "urdf", "--to", convention, "--exact"];
         arguments.extend(chain);
         let report = proved(&congruent_json(&arguments));
         let printed = congruent(&arguments).stdout;
@@ -148,12 +148,12 @@ fn two_joints(roll: &str) -> (tempfile::TempDir, String) {
 #[test]
 fn nearly_parallel_axes_are_refused_and_simplified_only_on_demand() {
     let (_folder, path) = two_joints("3.14159265");
-    let refused = congruent(&["derive", &path, "--convention", "standard", "--exact"]);
+    let refused = congruent(&["convert", &path, "--from", "urdf", "--to", "standard", "--exact"]);
     assert_eq!(refused.code, 2, "{}", refused.stdout);
     for word in ["shoulder", "elbow", "3.59 nrad from parallel", "--accuracy"] {
         assert!(refused.stderr.contains(word), "no {word:?} in {}", refused.stderr);
     }
-    let coarse = ["derive", &path, "--convention", "standard", "--exact", "--accuracy", "1e-7"];
+    let coarse = ["convert", &path, "--from", "urdf", "--to", "standard", "--exact", "--accuracy", "1e-7"];
     let coarse = congruent_json(&coarse).json();
     assert_eq!(coarse["axes"][0]["relation"], "anti_parallel");
     let worst = coarse["proof"]["worst"].as_f64().unwrap();
@@ -168,11 +168,11 @@ fn nearly_parallel_axes_are_refused_and_simplified_only_on_demand() {
 fn axes_that_are_parallel_up_to_rounding_are_taken_as_parallel() {
     for (roll, off_by) in [("3.14159", 2.653_589_793_2e-6), ("-3.1415", 9.265_358_979_3e-5)] {
         let (_folder, path) = two_joints(roll);
-        let answer = congruent_json(&["derive", &path, "--convention", "standard"]);
+        let answer = congruent_json(&["convert", &path, "--from", "urdf", "--to", "standard"]);
         assert_eq!(answer.code, 0, "{}", answer.stderr);
         for word in ["convert::rounded_axes", "shoulder and elbow", "--exact"] {
             assert!(
-                congruent(&["derive", &path, "--convention", "standard"]).stderr.contains(word),
+                congruent(&["convert", &path, "--from", "urdf", "--to", "standard"]).stderr.contains(word),
                 "{word}"
             );
         }
@@ -202,7 +202,7 @@ fn a_robot_file_that_is_derived_agrees_at_once() {
     fs::create_dir(folder.path().join("models")).unwrap();
     let output = text(&folder.path().join("models/robot.toml"));
     let derive = |more: &[&str]| {
-        let mut arguments = vec!["derive", &path, "--convention", "modified", "--out", &output];
+        let mut arguments = vec!["convert", &path, "--from", "urdf", "--to", "modified", "--to", &output];
         arguments.extend(more);
         congruent(&arguments)
     };
@@ -235,23 +235,26 @@ fn nothing_that_exists_is_lost_by_an_output() {
         (path.clone(), "must end in .toml"),
         (text(&folder.path().join("nowhere/robot.toml")), "cannot write"),
     ] {
-        let refused = congruent(&["derive", &path, "--convention", "standard", "--force", "--out", &output]);
+        let refused =
+            congruent(&["convert", &path, "--from", "urdf", "--to", "standard", "--force", "--to", &output]);
         assert_eq!(refused.code, 2, "{output}: {}", refused.stdout);
         assert!(refused.stderr.contains(says), "{output}: {}", refused.stderr);
     }
-    let urdf = congruent(&["convert", &path, "--to", "urdf", "--force", "--out", &path]);
+    let urdf = congruent(&["convert", &path, "--to", "urdf", "--force", "--to", &path]);
     assert!(urdf.code == 2 && urdf.stderr.contains("is an input file"), "{}", urdf.stderr);
     // A robot file beside the URDF of another robot's meshes that it cannot reach.
     let output = folder.path().join("robot.toml");
     fs::write(&output, "kept").unwrap();
     let refused = congruent(&[
-        "derive",
+        "convert",
         &path,
-        "--convention",
+        "--from",
+        "urdf",
+        "--to",
         "standard",
         "--tip",
         "base",
-        "--out",
+        "--to",
         &text(&output),
         "--force",
     ]);
@@ -264,7 +267,7 @@ fn nothing_that_exists_is_lost_by_an_output() {
 #[test]
 fn lengths_that_no_arm_has_are_warned_of() {
     let (_folder, path) = two_joints("0.001");
-    let answer = congruent(&["derive", &path, "--convention", "standard", "--accuracy", "1e-9"]);
+    let answer = congruent(&["convert", &path, "--from", "urdf", "--to", "standard", "--accuracy", "1e-9"]);
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     // Lines 0.5 m apart in projection that differ by 0.001 rad meet some 400 m away.
     for word in ["convert::far_normal", "d of shoulder is 400 m", "0.0573 deg from parallel"] {
@@ -275,14 +278,16 @@ fn lengths_that_no_arm_has_are_warned_of() {
 #[test]
 fn a_chain_that_does_not_move_has_no_table() {
     let (_folder, path) = two_joints("0.3");
-    let refused =
-        congruent(&["derive", &path, "--convention", "modified", "--base", "lower", "--tip", "tip"]);
+    let refused = congruent(&[
+        "convert", &path, "--from", "urdf", "--to", "modified", "--base", "lower", "--tip", "tip",
+    ]);
     assert_eq!(refused.code, 2);
     assert!(refused.stderr.contains("no moving joint"), "{}", refused.stderr);
     let poe = proved(&congruent_json(&["convert", &path, "--to", "poe", "--base", "lower", "--tip", "tip"]));
     assert_eq!(poe["poe"]["space_screws"].as_array().unwrap().len(), 0);
-    let upwards =
-        congruent(&["derive", &path, "--convention", "modified", "--base", "tip", "--tip", "upper"]);
+    let upwards = congruent(&[
+        "convert", &path, "--from", "urdf", "--to", "modified", "--base", "tip", "--tip", "upper",
+    ]);
     assert_eq!(upwards.code, 2);
     assert!(upwards.stderr.contains("is not a descendant of"), "{}", upwards.stderr);
     let unknown = congruent(&["convert", &path, "--to", "poe", "--tip", "tipp"]);
@@ -293,7 +298,7 @@ fn a_chain_that_does_not_move_has_no_table() {
 fn a_mimic_joint_in_the_chain_is_noted() {
     let Some(corpus) = corpus() else { return };
     let urdf = text(&corpus.join("robots/xarm7_gripper/robot.urdf"));
-    let derive = ["derive", &urdf, "--convention", "standard", "--tip", "left_finger", "--exact"];
+    let derive = ["convert", &urdf, "--from", "urdf", "--to", "standard", "--tip", "left_finger", "--exact"];
     let report = proved(&congruent_json(&derive));
     let notes = report["notes"].to_string();
     assert!(notes.contains("left_finger_joint") && notes.contains("drive_joint"), "{notes}");

@@ -1,5 +1,5 @@
-//! Files that are made from other files: `derive`, `convert`, `new` and `acm suggest`.
+//! Files that are made from other files: `convert`, `new` and `clearance --write-srdf`.
 
-mod acm;
 mod conversions;
+mod disabled_pairs;
 mod new_files;

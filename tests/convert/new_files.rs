@@ -108,7 +108,7 @@ fn what_is_no_urdf_is_refused_and_nothing_stays_behind() {
         if robot.starts_with("robots") {
             continue;
         }
-        assert_eq!(congruent(&["new", "scenario", robot, "--out", &file]).code, 2, "{robot}");
+        assert_eq!(congruent(&["new", "scenario", robot, "--to", &file]).code, 2, "{robot}");
         assert!(!Path::new(&file).exists(), "{robot}");
     }
     let file = write(folder.path(), "file", "");
@@ -149,7 +149,7 @@ fn behind_a_fence_a_robot_file_that_would_hide_meshes_is_refused() {
 /// Checks that a scenario for this robot passes, or that the refusal says why; returns whether it passes.
 fn new_scenario(folder: &Path, robot: &str, name: &str) -> bool {
     let file = text(&folder.join(format!("{name}.toml")));
-    let made = congruent_json(&["new", "scenario", robot, "--out", &file]);
+    let made = congruent_json(&["new", "scenario", robot, "--to", &file]);
     if made.code != 0 {
         assert_eq!(made.code, 2, "{robot}: {}{}", made.stdout, made.stderr);
         assert!(!Path::new(&file).exists());
@@ -192,7 +192,7 @@ fn a_robot_that_cannot_pass_gets_no_scenario() {
     let folder = tempfile::tempdir().unwrap();
     let file = text(&folder.path().join("s.toml"));
     let refused = |robot: &str, words: &str| {
-        let answer = congruent(&["new", "scenario", robot, "--out", &file]);
+        let answer = congruent(&["new", "scenario", robot, "--to", &file]);
         assert_eq!(answer.code, 2, "{}", answer.stdout);
         assert!(answer.stderr.contains(words), "no {words:?} in {}", answer.stderr);
         assert!(!Path::new(&file).exists());
@@ -204,7 +204,7 @@ fn a_robot_that_cannot_pass_gets_no_scenario() {
                    <joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>";
     refused(&write(folder.path(), "negative.urdf", no_mass), "mass");
     let robot = text(&workspace().join("robots/ur5e/robot.toml"));
-    let over = congruent(&["new", "scenario", "robots/ur5e", "--out", &robot, "--force"]);
+    let over = congruent(&["new", "scenario", "robots/ur5e", "--to", &robot, "--force"]);
     assert_eq!(over.code, 2);
     assert!(over.stderr.contains("is an input file"), "{}", over.stderr);
 }
@@ -218,7 +218,7 @@ fn a_joint_without_limits_has_no_check_of_limits() {
                 <joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>";
     let urdf = write(folder.path(), "free.urdf", free);
     let file = text(&folder.path().join("free.toml"));
-    let made = congruent(&["new", "scenario", &urdf, "--out", &file]);
+    let made = congruent(&["new", "scenario", &urdf, "--to", &file]);
     assert_eq!(made.code, 0, "{}", made.stderr);
     let written = fs::read_to_string(&file).unwrap();
     assert!(!written.contains("kind = \"limits\"") && written.contains("# - no check limits:"), "{written}");
@@ -240,7 +240,7 @@ fn ranges_without_end_are_no_trouble() {
     );
     let urdf = write(folder.path(), "wide.urdf", &wide);
     assert!(new_scenario(folder.path(), &urdf, "wide"));
-    let acm = congruent(&["acm", "suggest", &urdf]);
+    let acm = congruent(&["clearance", &urdf, "--write-srdf", "-"]);
     assert_eq!(acm.code, 2, "{}", acm.stdout);
     assert!(acm.stderr.contains("joint \"j\" has a range of"), "{}", acm.stderr);
     assert_eq!(congruent(&["describe", &urdf]).code, 0);
@@ -268,8 +268,8 @@ fn malformed_urdfs_are_refused_or_used_without_what_is_wrong() {
         let commands: [&[&str]; 4] = [
             &["describe", &urdf],
             &["new", "robot", &urdf, "--out", &robot],
-            &["new", "scenario", &urdf, "--out", &scenario],
-            &["acm", "suggest", &urdf, "--samples", "100"],
+            &["new", "scenario", &urdf, "--to", &scenario],
+            &["clearance", &urdf, "--samples", "100", "--write-srdf", "-"],
         ];
         let answers = commands.map(congruent);
         for (command, answer) in commands.iter().zip(&answers) {

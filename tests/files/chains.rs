@@ -36,7 +36,7 @@ fn commands(folder: &std::path::Path) -> Vec<Vec<String>> {
         with("workspace", &samples),
         with("sensitivity", &samples),
         with("calibrate", &[text(&measurements)]),
-        with("derive", &["--convention", "standard"].map(str::to_owned)),
+        with("convert", &["--from", "urdf", "--to", "standard"].map(str::to_owned)),
         with("convert", &["--to", "poe"].map(str::to_owned)),
         with("check", &[]),
     ]
@@ -91,7 +91,7 @@ fn declared_ends_are_declared_and_another_chain_loses_the_table() {
 #[test]
 fn inverse_kinematics_of_a_bare_urdf_places_the_tool() {
     let joints = [("joint_1", 0.4), ("joint_2", 0.3), ("joint_3", 0.5), ("joint_4", 0.2)];
-    let at: Vec<String> = joints.iter().map(|(joint, value)| format!("--at={joint}={value}")).collect();
+    let at: Vec<String> = joints.iter().map(|(joint, value)| format!("--at={joint}={value}rad")).collect();
     let mut fk: Vec<&str> = vec!["fk", RRR_ARM];
     fk.extend(at.iter().map(String::as_str));
     let pose = congruent_json(&fk).json()["results"][0]["links"]["gripper_frame_cp"].clone();
@@ -114,16 +114,22 @@ fn positions_may_have_units_and_are_held_against_the_limits() {
         assert_eq!(answer.code, 0, "{}", answer.stderr);
         answer.json()["results"][0]["links"]["flange"]["translation_m"].clone()
     };
-    let by_si = translation(&["--at", "joint_1=1.5707963267948966", "--at", "joint_2=0.1"]);
+    let by_si = translation(&["--at", "joint_1=1.5707963267948966rad", "--at", "joint_2=0.1"]);
     for (angle, shift) in [("90deg", "100mm"), ("90 deg", "0.1m"), ("1.5707963267948966rad", "1e2 mm")] {
         let found = translation(&["--at", &format!("joint_1={angle}"), "--at", &format!("joint_2={shift}")]);
         assert_eq!(found, by_si, "{angle} {shift}");
     }
-    refused(&congruent(&["fk", "robots/cylindrical_rpp", "--at", "joint_2=90deg"]), &["in deg", "in m"]);
-    refused(&congruent(&["fk", "robots/cylindrical_rpp", "--at", "joint_1=deg"]), &["is not JOINT=VALUE"]);
+    refused(
+        &congruent(&["fk", "robots/cylindrical_rpp", "--at", "joint_2=90deg"]),
+        &["\"90deg\" is an angle, expected a length"],
+    );
+    refused(
+        &congruent(&["fk", "robots/cylindrical_rpp", "--at", "joint_1=deg"]),
+        &["\"deg\" is not a number"],
+    );
     refused(
         &congruent(&["fk", "robots/cylindrical_rpp", "--at", "joint_1=infrad"]),
-        &["not a finite number"],
+        &["\"infrad\" is not a number"],
     );
     let outside = ["fk", "robots/ur5e", "--at", "elbow_joint=200deg"];
     let answer = congruent(&outside);
@@ -170,8 +176,10 @@ fn a_robot_may_come_from_standard_input_but_only_one_argument() {
     }
     let both = congruent_with_input(&["fk", "-", "--configurations", "-"], &urdf);
     refused(&both, &["has already read standard input"]);
-    let output =
-        congruent_with_input(&["derive", "-", "--convention", "standard", "--out", "no.toml"], &urdf);
+    let output = congruent_with_input(
+        &["convert", "-", "--from", "urdf", "--to", "standard", "--to", "no.toml"],
+        &urdf,
+    );
     refused(&output, &["standard input"]);
 }
 

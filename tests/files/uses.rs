@@ -92,7 +92,7 @@ fn kinematics_goes_on_with_each_warning_once() {
     let document = congruent_json(&["fk", &robot]).json();
     assert_eq!(document["warnings"].as_array().map(Vec::len), Some(7), "{document:#}");
     ends_with(&congruent(&["convert", &robot, "--to", "urdf"]), 0, &words);
-    ends_with(&congruent(&["derive", &robot, "--convention", "standard"]), 0, &words);
+    ends_with(&congruent(&["convert", &robot, "--from", "urdf", "--to", "standard"]), 0, &words);
 }
 
 #[test]

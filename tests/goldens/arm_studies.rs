@@ -86,12 +86,12 @@ fn an_empty_list_is_no_check_and_an_error_has_its_line() {
 fn a_tolerance_that_every_pose_meets_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let targets = targets(&folder, r#"[{"translation_m": [0, 0, 1]}]"#);
-    for tolerance in ["inf", "1e9", "4"] {
+    for tolerance in ["1e9m", "4m", "4rad"] {
         let answer = congruent_json(&["ik", "robots/ur5e", "--targets", &targets, "--tolerance", tolerance]);
         let finding = answer.json()["findings"][0].clone();
         assert_eq!((answer.code, &finding["code"]), (2, &"tolerance::meaningless".into()), "{finding}");
     }
-    let answer = congruent(&["ik", "robots/ur5e", "--targets", &targets, "--tolerance", "0.5"]);
+    let answer = congruent(&["ik", "robots/ur5e", "--targets", &targets, "--tolerance", "0.5m"]);
     assert!(answer.stderr.contains("more than a tenth of the reach"), "{}", answer.stderr);
 }
 
@@ -230,7 +230,7 @@ fn an_axis_of_any_length_is_normalised_or_refused() {
 #[test]
 fn case_12_manipulability_of_the_planar_arm() {
     let names = congruent_json(&["fk", "robots/planar_2r"]).json()["joints"].clone();
-    let elbow = |q: f64| format!("{}={q}", names[1].as_str().unwrap());
+    let elbow = |q: f64| format!("{}={q}rad", names[1].as_str().unwrap());
     let linear = |q: f64| {
         let at = elbow(q);
         congruent_json(&["manipulability", "robots/planar_2r", "--at", &at]).json()["results"][0]["linear"]
@@ -322,7 +322,7 @@ fn the_jacobian_of_the_tcp_is_the_derivative_of_its_pose() {
         joints
             .iter()
             .zip(q)
-            .flat_map(|(joint, q)| ["--at".to_owned(), format!("{joint}={q}")])
+            .flat_map(|(joint, q)| ["--at".to_owned(), format!("{joint}={q}rad")])
             .collect::<Vec<_>>()
     };
     let run = |command: &[&str], q: [f64; 6]| {

@@ -12,7 +12,7 @@ use crate::support::{
 
 /// Rounding: quaternions to matrices and back, on an arm of 1 m; worst seen 4e-16.
 const ROUNDING: f64 = 1e-13;
-const AT: [&str; 4] = ["--at", "elbow_joint=1.2", "--at", "wrist_2_joint=-0.7"];
+const AT: [&str; 4] = ["--at", "elbow_joint=1.2rad", "--at", "wrist_2_joint=-0.7rad"];
 
 fn pose(document: &Value, name: &str) -> ([f64; 3], [f64; 4]) {
     let pose = &document["results"][0]["links"][name];

@@ -154,7 +154,7 @@ fn the_derivative_of_a_stretched_arm_by_hand() {
 
 #[test]
 fn a_derivative_without_speeds_or_with_speeds_that_cannot_be_is_refused() {
-    let answer = congruent(&["jacobian", "robots/planar_2r", "--derivative", "--at", "joint_1=1"]);
+    let answer = congruent(&["jacobian", "robots/planar_2r", "--derivative", "--at", "joint_1=1rad"]);
     assert_eq!(answer.code, 2);
     assert!(answer.stderr.contains("--configurations FILE"), "{}", answer.stderr);
     let folder = tempfile::tempdir().unwrap();
@@ -178,7 +178,7 @@ fn a_derivative_without_speeds_or_with_speeds_that_cannot_be_is_refused() {
 #[test]
 fn kinds_differ_by_frame_and_point() {
     let check = |kind: &str, linear_x: [f64; 2], linear_y: [f64; 2]| {
-        let quarter_turn = format!("joint_1={}", std::f64::consts::FRAC_PI_2);
+        let quarter_turn = format!("joint_1={}rad", std::f64::consts::FRAC_PI_2);
         let answer = congruent_json(&["jacobian", "robots/planar_2r", "--kind", kind, "--at", &quarter_turn]);
         let blocks = &answer.json()["results"][0];
         assert_eq!(numbers(&blocks["angular"][2]), [1.0, 1.0]);

@@ -42,7 +42,7 @@ fn every_robot_agrees_with_its_own_table() {
 fn case_21_rrr_arm_gripper_at_the_courses_configuration() {
     const DIGITS_M: f64 = 5e-9;
     for source in ["dh", "urdf", "poe", "simulation"] {
-        let at = ["joint_1=1.0", "joint_2=1.0", "joint_3=1.5", "joint_4=1.5"];
+        let at = ["joint_1=1rad", "joint_2=1rad", "joint_3=1.5rad", "joint_4=1.5rad"];
         let mut arguments = vec!["fk", "robots/rrr_arm", "--source", source];
         arguments.extend(at.iter().flat_map(|value| ["--at", value]));
         let answer = congruent_json(&arguments);
@@ -64,7 +64,7 @@ fn case_05_joint_states_by_name_in_tcp_out() {
     let check = |[joint_1, joint_2, joint_3]: [f64; 3], position: [f64; 3], wxyz: [f64; 4]| {
         // By name: the order on the command line does not count.
         let at = [("joint_3", joint_3), ("joint_1", joint_1), ("joint_2", joint_2)]
-            .map(|(joint, degrees)| format!("{joint}={}", degrees.to_radians()));
+            .map(|(joint, degrees)| format!("{joint}={}rad", degrees.to_radians()));
         for source in ["dh", "urdf", "poe", "simulation"] {
             let mut arguments = vec!["fk", "robots/spatial_3r", "--source", source];
             arguments.extend(at.iter().flat_map(|value| ["--at", value]));

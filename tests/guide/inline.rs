@@ -33,9 +33,9 @@ fn commands_in_the_text_exist() {
             let Some(command) = words.first().map(|word| word.trim_end_matches(',')).filter(is_name) else {
                 continue;
             };
-            // `new` and `acm` have commands of their own.
+            // `new` has commands of its own.
             let mut command = command.to_owned();
-            if let ("new" | "acm", Some(sub)) = (command.as_str(), words.get(1)) {
+            if let ("new", Some(sub)) = (command.as_str(), words.get(1)) {
                 command = format!("{command} {sub}");
             }
             let help = helps.entry(command.clone()).or_insert_with(|| {

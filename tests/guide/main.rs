@@ -7,9 +7,11 @@
 
 mod alignment;
 mod causes;
+mod examples;
 mod figures;
 mod inline;
 mod page;
+mod reference;
 mod sandbox;
 
 use std::{fs, thread};

@@ -16,7 +16,7 @@ const SCENARIO: &str = "schema_version = 1\nname = \"still\"\nrobot = \"planar_2
 /// Every command that reads a robot; names of files are those of the scratch folder.
 const COMMANDS: [&[&str]; 18] = [
     &["run", "scenario.toml", "--no-recording", "--out", "out"],
-    &["faults", "scenario.toml"],
+    &["run", "--faults", "scenario.toml"],
     &["check", "planar_2r"],
     &["check", "planar_2r", "--configurations", "configurations.json"],
     &["describe", "planar_2r"],
@@ -29,10 +29,10 @@ const COMMANDS: [&[&str]; 18] = [
     &["workspace", "planar_2r"],
     &["sensitivity", "planar_2r"],
     &["calibrate", "planar_2r", "measured.csv"],
-    &["derive", "planar_2r", "--convention", "standard"],
-    &["derive", "planar_2r", "--base-parameters"],
+    &["convert", "planar_2r", "--from", "urdf", "--to", "standard"],
+    &["dynamics", "planar_2r", "--base-parameters"],
     &["convert", "planar_2r", "--to", "poe"],
-    &["new", "scenario", "planar_2r", "--out", "new.toml"],
+    &["new", "scenario", "planar_2r", "--to", "new.toml"],
 ];
 
 fn scratch_folder() -> ScratchFolder {

@@ -95,7 +95,7 @@ fn files_that_are_wrong_do_not_follow_their_schemas() {
 
 #[test]
 fn documents_follow_their_schemas() {
-    let at = "--at=elbow_joint=1.2";
+    let at = "--at=elbow_joint=1.2rad";
     let folder = tempfile::tempdir().unwrap();
     let targets = folder.path().join("targets.json");
     fs::write(&targets, r#"[{"translation_m": [0.7, 0.2, 0]}, {"translation_m": [1.5, 0, 0]}]"#).unwrap();
@@ -110,9 +110,9 @@ fn documents_follow_their_schemas() {
         ("check", &["check", "robots/planar_2r", "--configurations", &configurations]),
         ("describe", &["describe", "robots/panda"]),
         ("describe", &["describe", "robots/rrr_arm/rrr_arm.urdf"]),
-        ("acm", &["acm", "suggest", "robots/rrr_arm", "--samples", "100"]),
+        ("acm", &["clearance", "robots/rrr_arm", "--samples", "100", "--write-srdf", "-"]),
         ("new_robot", &["new", "robot", "robots/ur5e/ur5e.urdf", "--out", &robot]),
-        ("new_scenario", &["new", "scenario", "robots/planar_2r", "--out", &scenario]),
+        ("new_scenario", &["new", "scenario", "robots/planar_2r", "--to", &scenario]),
         ("fk", &["fk", "robots/ur5e", at]),
         ("fk", &["fk", "robots/ur5e", "--from", "tool0", "--to", "forearm_link"]),
         ("dynamics", &["dynamics", "robots/ur5e", "--payload", "2.5", at]),
@@ -123,7 +123,7 @@ fn documents_follow_their_schemas() {
         ("sensitivity", &["sensitivity", "robots/rrr_arm"]),
         ("clearance", &["clearance", "robots/ur5e", at]),
         ("convert", &["convert", "robots/ur5e", "--to", "modified"]),
-        ("convert", &["derive", "robots/ur5e", "--convention", "standard"]),
+        ("convert", &["convert", "robots/ur5e", "--from", "urdf", "--to", "standard"]),
     ];
     for (name, arguments) in commands {
         let answer = congruent_json(arguments);

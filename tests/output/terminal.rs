@@ -8,7 +8,7 @@ const ESCAPE: char = '\u{1b}';
 
 /// A robot file with a warning, and a wrong one.
 fn refused(more: &[&str]) -> String {
-    let answer = congruent(&[&["fk", "robots/ur5e", "--at", "elbow=1.2"], more].concat());
+    let answer = congruent(&[&["fk", "robots/ur5e", "--at", "elbow=1.2rad"], more].concat());
     assert_eq!(answer.code, 2);
     answer.stderr
 }
@@ -33,7 +33,7 @@ fn quiet_is_the_answer_alone_and_verbose_says_more() {
         verbose.stderr
     );
     // A warning is said usually, an error always.
-    let outside = ["fk", "robots/ur5e", "--at", "elbow_joint=9"];
+    let outside = ["fk", "robots/ur5e", "--at", "elbow_joint=9rad"];
     assert!(congruent(&outside).stderr.contains("elbow_joint"));
     assert!(congruent(&[&outside[..], &["--quiet"]].concat()).stderr.is_empty());
     assert!(refused(&["-q"]).contains("elbow_joint"), "what is near is said");
@@ -90,13 +90,9 @@ fn there_is_a_manual_page_for_each_command() {
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     let main = fs::read_to_string(out.join("congruent.1")).unwrap();
     assert_eq!(congruent(&["man"]).stdout, main);
-    for page in [
-        "congruent-run",
-        "congruent-inspect",
-        "congruent-new-robot",
-        "congruent-acm-suggest",
-        "congruent-man",
-    ] {
+    for page in
+        ["congruent-run", "congruent-inspect", "congruent-new-robot", "congruent-clearance", "congruent-man"]
+    {
         let written = fs::read_to_string(out.join(format!("{page}.1"))).unwrap();
         assert!(written.contains(".SH NAME") && written.contains(&page.replace('-', "\\-")), "{page}");
     }

@@ -117,7 +117,7 @@ fn run(servo: &Servo<'_>) -> Reached {
 fn gripper_at(q_rad: &[f64]) -> Value {
     let mut arguments: Vec<String> = ["fk", "robots/rrr_arm", "--source", "dh"].map(str::to_owned).into();
     for (at, q) in q_rad.iter().enumerate() {
-        arguments.extend(["--at".to_owned(), format!("joint_{}={q:?}", at + 1)]);
+        arguments.extend(["--at".to_owned(), format!("joint_{}={q:?}rad", at + 1)]);
     }
     let answer = congruent_json(&arguments);
     assert_eq!(answer.code, 0, "{}", answer.stderr);

@@ -116,8 +116,11 @@ pub(crate) fn congruent_json<S: AsRef<OsStr>>(arguments: &[S]) -> Answer {
 
 /// The commands that a help lists, without `help` itself.
 pub(crate) fn commands_in(help: &str) -> Vec<&str> {
-    let listed =
-        help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    // Below `Commands:`, or of all commands in groups: below a line that ends in `:`, until the options.
+    let listed = help
+        .lines()
+        .skip_while(|line| !["Commands:", "Check:"].contains(line))
+        .take_while(|line| *line != "Options:");
     // A line that goes on with a description is indented further, and has an empty first word.
     let names = listed.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
     names.filter(|name| !["", "help"].contains(name)).collect()

@@ -1,4 +1,4 @@
-//! `congruent derive --base-parameters`: the combinations of inertial parameters that are identifiable from joint torques.
+//! `congruent dynamics --base-parameters`: the combinations of inertial parameters that are identifiable from joint torques.
 
 use congruent_description::{DrivenCoordinates, Followers, JointIndex, RobotDescription, RobotQ};
 use congruent_dynamics::{BodyTree, DynamicsError, InertialParameter, JointMotionState};
@@ -45,7 +45,7 @@ pub struct ReportedBaseParameter {
     pub unit: &'static str,
 }
 
-/// The answer of `congruent derive --base-parameters`.
+/// The answer of `congruent dynamics --base-parameters`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BaseParameterReport {
     /// Path of the URDF.

@@ -20,27 +20,129 @@ const GROUPS: [(&str, &[&str]); 6] = [
 
 /// Two examples or more of each command, by its name, in the root of the project.
 const EXAMPLES: [(&str, &[&str]); 21] = [
-    ("check", &["congruent check robots/ur5e", "congruent check robots/rrr_arm --tolerance 1mm,0.1deg --junit check.xml", "congruent check robots/ur5e/ur5e.urdf --against robots/ur5e"]),
+    (
+        "check",
+        &[
+            "congruent check robots/ur5e",
+            "congruent check robots/rrr_arm --tolerance 1mm,0.1deg --junit check.xml",
+            "congruent check robots/ur5e/ur5e.urdf --against robots/ur5e",
+        ],
+    ),
     ("lint", &["congruent lint robots/ur5e", "congruent lint --explain CGR-URDF-018"]),
-    ("describe", &["congruent describe robots/ur5e", "congruent describe robots/ur5e/ur5e.urdf --tip flange"]),
-    ("run", &["congruent run scenarios/ur5e_pick.toml", "congruent run scenarios/ur5e_pick.toml --set simulation.step_s=0.002 --out fine", "congruent run --faults scenarios/ur5e_pick.toml"]),
-    ("view", &["congruent view robots/ur5e --no-viewer", "congruent view robots/planar_2r/planar_2r.urdf --no-viewer --out shown"]),
-    ("inspect", &["congruent run scenarios/ur5e_pick.toml -q && congruent inspect out/ur5e_pick", "congruent inspect out/ur5e_pick/recording.rrd --csv joints.csv"]),
-    ("compare", &["congruent run scenarios/ur5e_pick.toml -q && congruent compare out/ur5e_pick out/ur5e_pick", "congruent compare out/ur5e_pick/report.json out/ur5e_pick/report.json --tolerance 1e-9"]),
-    ("fk", &["congruent fk robots/ur5e --at shoulder_pan_joint=30deg --at elbow_joint=90deg", "congruent fk robots/ur5e --source dh --from base_link --to tool0"]),
-    ("ik", &["congruent ik robots/ur5e --xyz 0.4,0.1,0.3 --rpy 180deg,0,0", "congruent ik robots/ur5e --xyz 400mm,100mm,300mm --tolerance 1mm,0.1deg"]),
-    ("jacobian", &["congruent jacobian robots/ur5e --at elbow_joint=90deg", "congruent jacobian robots/ur5e --link tool0 --kind body"]),
-    ("dynamics", &["congruent dynamics robots/ur5e --at shoulder_lift_joint=-90deg --payload 3kg,0,0,50mm", "congruent dynamics robots/ur5e --base-parameters"]),
-    ("clearance", &["congruent clearance robots/ur5e --at elbow_joint=90deg", "congruent clearance robots/ur5e --write-srdf ur5e.srdf"]),
-    ("workspace", &["congruent workspace robots/ur5e --plot workspace.svg", "congruent workspace robots/ur5e --samples 10000 --format json"]),
-    ("manipulability", &["congruent manipulability robots/ur5e --at elbow_joint=90deg", "congruent manipulability robots/planar_2r --at joint_2=90deg --plot ellipse.svg"]),
-    ("sensitivity", &["congruent sensitivity robots/ur5e", "congruent sensitivity robots/ur5e --plot sensitivity.svg"]),
-    ("convert", &["congruent convert robots/ur5e/ur5e.urdf --to dh", "congruent convert robots/ur5e --to modified --to ur5e_modified.toml", "congruent convert robots/ur5e --to ur5e_from_table.urdf"]),
-    ("calibrate", &["congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv", "congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv --noise 0.1mm"]),
+    (
+        "describe",
+        &["congruent describe robots/ur5e", "congruent describe robots/ur5e/ur5e.urdf --tip flange"],
+    ),
+    (
+        "run",
+        &[
+            "congruent run scenarios/ur5e_pick.toml",
+            "congruent run scenarios/ur5e_pick.toml --set simulation.step_s=0.002 --out fine",
+            "congruent run --faults scenarios/ur5e_pick.toml",
+        ],
+    ),
+    (
+        "view",
+        &[
+            "congruent view robots/ur5e --no-viewer",
+            "congruent view robots/planar_2r/planar_2r.urdf --no-viewer --out shown",
+        ],
+    ),
+    (
+        "inspect",
+        &[
+            "congruent run scenarios/ur5e_pick.toml -q && congruent inspect out/ur5e_pick",
+            "congruent inspect out/ur5e_pick/recording.rrd --csv joints.csv",
+        ],
+    ),
+    (
+        "compare",
+        &[
+            "congruent run scenarios/ur5e_pick.toml -q && congruent compare out/ur5e_pick out/ur5e_pick",
+            "congruent compare out/ur5e_pick/report.json out/ur5e_pick/report.json --tolerance 1e-9",
+        ],
+    ),
+    (
+        "fk",
+        &[
+            "congruent fk robots/ur5e --at shoulder_pan_joint=30deg --at elbow_joint=90deg",
+            "congruent fk robots/ur5e --source dh --from base_link --to tool0",
+        ],
+    ),
+    (
+        "ik",
+        &[
+            "congruent ik robots/ur5e --xyz 0.4,0.1,0.3 --rpy 180deg,0,0",
+            "congruent ik robots/ur5e --xyz 400mm,100mm,300mm --tolerance 1mm,0.1deg",
+        ],
+    ),
+    (
+        "jacobian",
+        &[
+            "congruent jacobian robots/ur5e --at elbow_joint=90deg",
+            "congruent jacobian robots/ur5e --link tool0 --kind body",
+        ],
+    ),
+    (
+        "dynamics",
+        &[
+            "congruent dynamics robots/ur5e --at shoulder_lift_joint=-90deg --payload 3kg,0,0,50mm",
+            "congruent dynamics robots/ur5e --base-parameters",
+        ],
+    ),
+    (
+        "clearance",
+        &[
+            "congruent clearance robots/ur5e --at elbow_joint=90deg",
+            "congruent clearance robots/ur5e --write-srdf ur5e.srdf",
+        ],
+    ),
+    (
+        "workspace",
+        &[
+            "congruent workspace robots/ur5e --plot workspace.svg",
+            "congruent workspace robots/ur5e --samples 10000 --format json",
+        ],
+    ),
+    (
+        "manipulability",
+        &[
+            "congruent manipulability robots/ur5e --at elbow_joint=90deg",
+            "congruent manipulability robots/planar_2r --at joint_2=90deg --plot ellipse.svg",
+        ],
+    ),
+    (
+        "sensitivity",
+        &["congruent sensitivity robots/ur5e", "congruent sensitivity robots/ur5e --plot sensitivity.svg"],
+    ),
+    (
+        "convert",
+        &[
+            "congruent convert robots/ur5e/ur5e.urdf --to dh",
+            "congruent convert robots/ur5e --to modified --to ur5e_modified.toml",
+            "congruent convert robots/ur5e --to ur5e_from_table.urdf",
+        ],
+    ),
+    (
+        "calibrate",
+        &[
+            "congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv",
+            "congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv --noise 0.1mm",
+        ],
+    ),
     ("schema", &["congruent schema robot", "congruent schema scenario > scenario.json"]),
-    ("completions", &["congruent completions bash > congruent.bash", "congruent completions zsh > _congruent"]),
+    (
+        "completions",
+        &["congruent completions bash > congruent.bash", "congruent completions zsh > _congruent"],
+    ),
     ("man", &["congruent man > congruent.1", "congruent man --out man1"]),
-    ("new", &["congruent new robot robots/rrr_arm/rrr_arm.urdf --out my_arm", "congruent new scenario robots/ur5e --to first.toml"]),
+    (
+        "new",
+        &[
+            "congruent new robot robots/rrr_arm/rrr_arm.urdf --out my_arm",
+            "congruent new scenario robots/ur5e --to first.toml",
+        ],
+    ),
 ];
 
 /// The command with its commands in groups and with examples.
@@ -75,7 +177,8 @@ fn groups(command: &Command) -> String {
                 (_, None) => continue,
             };
             let first = about.lines().next().unwrap_or_default().trim_end_matches('.');
-            let _ = writeln!(text, "  {name:<width$}{}", paragraph(first, NAME, NAME).trim(), width = NAME - 2);
+            let _ =
+                writeln!(text, "  {name:<width$}{}", paragraph(first, NAME, NAME).trim(), width = NAME - 2);
         }
         text.push('\n');
     }
@@ -96,7 +199,8 @@ mod tests {
             let name = below.get_name();
             let groups = GROUPS.iter().filter(|(_, names)| names.contains(&name)).count();
             assert_eq!(groups, 1, "{name}");
-            let examples = EXAMPLES.iter().find(|(known, _)| *known == name).map_or(0, |(_, lines)| lines.len());
+            let examples =
+                EXAMPLES.iter().find(|(known, _)| *known == name).map_or(0, |(_, lines)| lines.len());
             assert!(examples >= 2, "{name}: {examples} examples");
         }
     }

@@ -102,6 +102,11 @@ impl Arguments {
     }
 }
 
+/// The codes of all messages of the command, with what `lint --explain` says of them.
+pub fn codes() -> Vec<&'static congruent::input::Code> {
+    codes::all_codes()
+}
+
 /// Does what the command `congruent` does with these arguments, and returns its exit code. The first argument is the
 /// name of the program, as the operating system gives it.
 ///

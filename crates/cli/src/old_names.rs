@@ -35,7 +35,11 @@ impl Renamed {
 
     fn derive(&mut self, at: usize) {
         if self.words.iter().any(|word| word == "--base-parameters") {
-            return self.replace(at..=at, &["dynamics"], "`derive --base-parameters` is now `dynamics --base-parameters`");
+            return self.replace(
+                at..=at,
+                &["dynamics"],
+                "`derive --base-parameters` is now `dynamics --base-parameters`",
+            );
         }
         let hint = "`derive --convention standard` is now `convert --to dh`";
         self.replace(at..=at, &["convert", "--from", "urdf"], hint);
@@ -91,7 +95,8 @@ impl Renamed {
     fn take_value(&mut self, option: &str) -> Option<OsString> {
         let at = self.words.iter().position(|word| renamed(word, option, option).is_some())?;
         let word = self.words.remove(at);
-        let behind = word.to_str().and_then(|word| word.split_once('=')).map(|(_, value)| OsString::from(value));
+        let behind =
+            word.to_str().and_then(|word| word.split_once('=')).map(|(_, value)| OsString::from(value));
         behind.or_else(|| (at < self.words.len()).then(|| self.words.remove(at)))
     }
 }
@@ -99,7 +104,8 @@ impl Renamed {
 /// Puts `check` before a robot that is given without a command: `congruent ROBOT`.
 pub(crate) fn with_command(mut words: Vec<OsString>, is_command: impl Fn(&str) -> bool) -> Vec<OsString> {
     let at = position_of_command(&words);
-    let is_robot = |word: &OsStr| !word.to_str().is_some_and(&is_command) && std::path::Path::new(word).exists();
+    let is_robot =
+        |word: &OsStr| !word.to_str().is_some_and(&is_command) && std::path::Path::new(word).exists();
     if let Some(at) = at.filter(|&at| is_robot(&words[at])) {
         words.insert(at, OsString::from("check"));
     }
@@ -157,7 +163,10 @@ mod tests {
         check("c faults a.toml b.toml", "c run --faults a.toml b.toml");
         check("c new scenario r --out s.toml", "c new scenario r --to s.toml");
         check("c convert r --to poe --out p.txt", "c convert r --to poe --to p.txt");
-        check("c calibrate r m.csv --noise-deg=0.05 --noise-mm 0.1 -v", "c calibrate r m.csv -v --noise=0.1mm,0.05deg");
+        check(
+            "c calibrate r m.csv --noise-deg=0.05 --noise-mm 0.1 -v",
+            "c calibrate r m.csv -v --noise=0.1mm,0.05deg",
+        );
     }
 
     #[test]

@@ -98,7 +98,8 @@ impl QuantityArgument {
     /// A value above 0.
     pub(crate) fn positive(text: &str, dimension: Dimension) -> Result<f64, String> {
         let value = Self::of(text, dimension)?;
-        let refused = || format!("\"{text}\": {} must be above 0, in {}", dimension.name(), dimension.units());
+        let refused =
+            || format!("\"{text}\": {} must be above 0, in {}", dimension.name(), dimension.units());
         if value > 0.0 { Ok(value) } else { Err(refused()) }
     }
 }
@@ -123,7 +124,11 @@ fn three(text: &str, dimension: Dimension, example: &str) -> Result<[f64; 3], St
     let [x, y, z] = parts[..] else {
         return Err(format!("{} values, expected three, as in {example}", parts.len()));
     };
-    Ok([QuantityArgument::of(x, dimension)?, QuantityArgument::of(y, dimension)?, QuantityArgument::of(z, dimension)?])
+    Ok([
+        QuantityArgument::of(x, dimension)?,
+        QuantityArgument::of(y, dimension)?,
+        QuantityArgument::of(z, dimension)?,
+    ])
 }
 
 #[cfg(test)]

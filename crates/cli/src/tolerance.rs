@@ -69,9 +69,15 @@ fn quantity(text: &str) -> Result<(Unit, f64), String> {
     let unit = match found.dimension {
         Some(Dimension::Length) => Unit::Length,
         Some(Dimension::Angle) => Unit::Angle,
-        Some(Dimension::Mass) | None => return Err(format!("\"{text}\" is not a number with a unit: {UNITS}")),
+        Some(Dimension::Mass) | None => {
+            return Err(format!("\"{text}\" is not a number with a unit: {UNITS}"));
+        }
     };
-    if found.value > 0.0 { Ok((unit, found.value)) } else { Err(format!("\"{text}\" must be greater than 0 and finite")) }
+    if found.value > 0.0 {
+        Ok((unit, found.value))
+    } else {
+        Err(format!("\"{text}\" must be greater than 0 and finite"))
+    }
 }
 
 #[cfg(test)]

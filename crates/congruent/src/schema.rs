@@ -57,7 +57,11 @@ impl Document {
             configurations_schema,
         ),
         Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
-        Self::new("faults", "table of faults against checks, printed by `faults`", written::<FaultTable>),
+        Self::new(
+            "faults",
+            "table of faults against checks, printed by `run --faults`",
+            written::<FaultTable>,
+        ),
         Self::new("check", "report of one robot, printed by `check`", written::<RobotCheck>),
         Self::new("lint", "findings about one file, printed by `lint`", written::<LintReport>),
         Self::new(
@@ -85,7 +89,7 @@ impl Document {
         Self::new("workspace", "reach, printed by `workspace`", written::<WorkspaceReport>),
         Self::new("sensitivity", "sensitivities, printed by `sensitivity`", written::<SensitivityReport>),
         Self::new("clearance", "distances, printed by `clearance`", written::<DistanceReport>),
-        Self::new("acm", "pairs to disable, printed by `acm suggest`", written::<DisabledPairs>),
+        Self::new("acm", "pairs to disable, printed by `clearance --write-srdf`", written::<DisabledPairs>),
         Self::new("calibrate", "corrections, printed by `calibrate`", written::<CalibrationReport>),
         Self::new(
             "convert",

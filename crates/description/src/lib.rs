@@ -10,6 +10,7 @@ mod description;
 mod load;
 mod mesh;
 mod model;
+mod named_robot;
 mod robot_file;
 mod robot_file_text;
 mod srdf;
@@ -23,7 +24,7 @@ pub use configuration_file::{
     read_configurations, read_configurations_from, read_states, read_states_from, unique_names,
 };
 pub use description::{NamedFiles, Places, RobotDescription};
-pub use load::{file_of_robot, load_opened_robot, load_robot, load_robot_with, open, parse_robot};
+pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
 pub use mesh::{HullPoints, read_mesh};
 pub use model::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
@@ -31,6 +32,7 @@ pub use model::{
     Mesh, Mimic, Obstacle, Robot, RobotError, RobotQ, SPEED_MARGIN, Shape, Tolerance, ToleranceScale,
     principal_moments,
 };
+pub use named_robot::{file_of_robot, open};
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint,
     RobotFilePlaces, RowKey, TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text,

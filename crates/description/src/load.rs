@@ -2,14 +2,13 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet},
-    fs,
     ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
 };
 
 use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, TomlKind, folder_of,
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of,
     not_found, toml_text::parse_toml,
 };
 use toml::Spanned;
@@ -20,15 +19,11 @@ use crate::{
     description::{NamedFiles, Places, RobotDescription},
     mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
-    robot_file::{
-        self, Declared, InertialPlaces, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot,
-    },
+    named_robot::{file_of_robot, is_toml, open, refuse_scenario},
+    robot_file::{self, Declared, InertialPlaces, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
     srdf::{self, SRDF_BYTES},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
 };
-
-const ACCEPTED: &str =
-    "give a folder with robot.toml, a robot file (.toml), a .urdf, or - for a URDF on standard input";
 
 /// Loads a robot: a folder with `robot.toml`, that file under any name, or a bare `.urdf`, which may come from
 /// a pipe or as `-` from standard input.
@@ -63,11 +58,7 @@ fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> 
     let path = file_of_robot(path)?;
     let most_bytes = if is_toml(&path) { ROBOT_FILE_BYTES } else { URDF_BYTES };
     let source = open(&path, access, most_bytes)?;
-    if is_toml(&path) && TomlKind::from_text(&source.text) == Some(TomlKind::Scenario) {
-        let message = format!("{} is a scenario, not a robot", path.display());
-        let help = format!("to run it: congruent run {}", path.display());
-        return Err(Diagnostic::error(codes::load::SCENARIO, message).with_help(help).into());
-    }
+    refuse_scenario(&source)?;
     load_source(&source, access)
 }
 
@@ -88,46 +79,6 @@ pub fn load_opened_robot(
 
 fn load_source(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
     if is_toml(&source.path) { load_robot_file(source, access) } else { load_bare_urdf(source, access) }
-}
-
-fn is_toml(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
-}
-
-/// The file that the path of a robot means: `robot.toml` in a folder, otherwise the path itself.
-///
-/// # Errors
-/// The folder has no `robot.toml`.
-pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
-    if !path.is_dir() {
-        return Ok(path.to_owned());
-    }
-    let robot_file = path.join(ROBOT_FILE);
-    if robot_file.exists() {
-        return Ok(robot_file);
-    }
-    let message = format!("{} is a directory without a {ROBOT_FILE}", path.display());
-    let has_robots = fs::read_dir(path)
-        .is_ok_and(|entries| entries.flatten().any(|entry| entry.path().join(ROBOT_FILE).is_file()));
-    let help = if has_robots {
-        format!("for the robots in it: {}", path.join("*/").display())
-    } else {
-        ACCEPTED.to_owned()
-    };
-    Err(Diagnostic::error(codes::load::NO_ROBOT_FILE, message).with_help(help))
-}
-
-/// Opens a file that a person gives as a robot. If it does not exist and no similar name does, the help lists what is accepted.
-///
-/// # Errors
-/// The file cannot be read, may not be opened, or is longer than `most_bytes`.
-pub fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
-    let kind = if is_toml(path) { TextKind::RobotFile } else { TextKind::Robot };
-    // A scenario may name it.
-    access.read_named_text(path, most_bytes).and_then(|source| kind.check(source)).map_err(|fault| {
-        let is_helpless = fault.code == congruent_input::codes::file::NOT_FOUND && fault.help.is_none();
-        if is_helpless { fault.with_help(ACCEPTED) } else { fault }
-    })
 }
 
 /// The same from texts alone, whose paths only name them: nothing is opened.

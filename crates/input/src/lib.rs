@@ -24,8 +24,8 @@ pub use diagnostic::{
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines, edited, line_end};
 pub use files::{
-    FileAccess, InputFile, Packages, Resolved, RosPackages, TextKind, TomlKind, TextLines, folder_of, head_of,
-    is_standard_input, not_found, portable_path, portable_text, read_text,
+    FileAccess, InputFile, Packages, Resolved, RosPackages, TextKind, TextLines, TomlKind, folder_of,
+    head_of, is_standard_input, not_found, portable_path, portable_text, read_text,
 };
 pub use quantity::{Quantity, SiUnit};
 pub use visible::{hidden_character, is_hidden, visible, visible_lines};
@@ -36,6 +36,6 @@ pub use written::{
     number::{self, Slack, fitted_number},
     rotation_from_rpy_fixed_xyz,
     rpy::fitted_rpy_fixed_xyz_rad,
-    rpy_fixed_xyz_rad, toml_text,
+    rpy_fixed_xyz_rad, serde_in_words, toml_text,
     transform::{WrittenTransform, fitted_transform},
 };

@@ -1,4 +1,4 @@
-//! The answer of `congruent derive` and `congruent convert`.
+//! The answer of `congruent convert`.
 
 use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, ReportedChain, Robot};
 use congruent_input::{Diagnostic, Finding};

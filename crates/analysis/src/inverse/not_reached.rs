@@ -33,7 +33,8 @@ impl Reach {
     pub(super) fn new(description: &RobotDescription) -> Self {
         let robot = &description.robot;
         let chain = robot.chain(description.base, description.tip).unwrap_or_default();
-        let moving = chain.iter().position(|&joint| robot.joint(joint).kind.is_movable()).unwrap_or(chain.len());
+        let moving =
+            chain.iter().position(|&joint| robot.joint(joint).kind.is_movable()).unwrap_or(chain.len());
         let mut base_from_first = chain.first().map_or(Pose::identity(), |&first| {
             // The first joint may hang from another link of the body of `base`.
             let path = SerialChain::from_urdf(robot, description.base, robot.joint(first).parent);

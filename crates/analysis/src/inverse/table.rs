@@ -57,7 +57,11 @@ pub(super) fn read_rows<T>(
     if faults.is_empty() { Ok(targets) } else { Err(faults.into()) }
 }
 
-fn target(header: &Header, columns: &[(Given, Option<WrittenUnit>)], row: &Row) -> Result<WrittenTarget, Diagnostic> {
+fn target(
+    header: &Header,
+    columns: &[(Given, Option<WrittenUnit>)],
+    row: &Row,
+) -> Result<WrittenTarget, Diagnostic> {
     let (mut translation_m, mut wxyz, mut rpy_rad) = ([0.0; 3], [None; 4], [None; 3]);
     let mut start = BTreeMap::new();
     for (cell, (given, unit)) in columns.iter().enumerate() {
@@ -101,7 +105,9 @@ fn columns(header: &Header, robot: &Robot) -> Result<Vec<(Given, Option<WrittenU
         match column(name, robot) {
             Ok(column) if columns.iter().any(|(given, _)| *given == column.0) => {
                 let message = format!("column \"{name}\": the same quantity has two columns");
-                faults.push(Diagnostic::error(codes::targets::TABLE, message).at(header.row.cells[cell].span.clone()));
+                faults.push(
+                    Diagnostic::error(codes::targets::TABLE, message).at(header.row.cells[cell].span.clone()),
+                );
             }
             Ok(column) => columns.push(column),
             Err(fault) => faults.push(fault.at(header.row.cells[cell].span.clone())),
@@ -132,7 +138,8 @@ fn column(name: &str, robot: &Robot) -> Result<(Given, Option<WrittenUnit>), Dia
     }
     let refused = |message: String| Diagnostic::error(codes::targets::TABLE, message);
     let (stem, unit) = WrittenUnit::split(name).map_or((name, None), |(stem, unit)| (stem, Some(unit)));
-    let joint = robot.find_joint(stem).map(|joint| robot.joint(joint)).filter(|joint| joint.kind.is_movable());
+    let joint =
+        robot.find_joint(stem).map(|joint| robot.joint(joint)).filter(|joint| joint.kind.is_movable());
     let place = |names: [&str; 3]| names.iter().position(|known| *known == stem);
     let (given, expected) = if let Some(joint) = joint {
         let expected = if joint.kind.is_angular() { Unit::Angle } else { Unit::Length };
@@ -144,8 +151,13 @@ fn column(name: &str, robot: &Robot) -> Result<(Given, Option<WrittenUnit>), Dia
     } else {
         let joints = robot.movable_joint_names();
         let known = ["x", "y", "z", "roll", "pitch", "yaw", "qw", "qx", "qy", "qz"].into_iter().chain(joints);
-        let message = format!("column \"{name}\" is neither a coordinate nor a joint of robot \"{}\"", robot.name());
-        return Err(refused(message).with_help(known_names(stem, "columns (with units)", known.collect::<Vec<_>>())));
+        let message =
+            format!("column \"{name}\" is neither a coordinate nor a joint of robot \"{}\"", robot.name());
+        return Err(refused(message).with_help(known_names(
+            stem,
+            "columns (with units)",
+            known.collect::<Vec<_>>(),
+        )));
     };
     if unit.is_none_or(|unit| unit.unit != expected) {
         let [si, engineering] = expected.keys(stem);
@@ -180,7 +192,9 @@ mod tests {
 
     #[test]
     fn rows_are_targets() {
-        let targets = read("x_mm,y_m,z_m,roll_deg,pitch_deg,yaw_deg,turn_deg\n400,0.1,0.3,0,0,90,45\n1,2,3,,,,\n").unwrap();
+        let targets =
+            read("x_mm,y_m,z_m,roll_deg,pitch_deg,yaw_deg,turn_deg\n400,0.1,0.3,0,0,90,45\n1,2,3,,,,\n")
+                .unwrap();
         assert_eq!(targets.len(), 2);
         let [first, second] = &targets[..] else { unreachable!() };
         assert_eq!(first.target.base_from_tcp.translation.as_slice(), [0.4, 0.1, 0.3]);

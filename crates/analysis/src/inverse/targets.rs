@@ -4,8 +4,8 @@ use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path, sync:
 
 use congruent_description::{JsonList, LiveEntries, LiveInput, Robot, configuration, unique_names};
 use congruent_input::{
-    Diagnostic, Findings, SourceFile, TextLines, display::limit_number, read_text, rotation_from_rpy_fixed_xyz,
-    units::LARGEST,
+    Diagnostic, Findings, SourceFile, TextLines, display::limit_number, read_text,
+    rotation_from_rpy_fixed_xyz, units::LARGEST,
 };
 use congruent_kinematics::{IkTarget, Pose, TargetPart};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
@@ -91,11 +91,8 @@ fn read_targets_of(source: &Arc<SourceFile>, robot: &Robot) -> Result<InverseTar
         Ok(target)
     };
     let is_table = source.path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-    let targets = if is_table {
-        read_rows(&source.text, robot, entry)
-    } else {
-        LIST.read(&source.text, entry)
-    };
+    let targets =
+        if is_table { read_rows(&source.text, robot, entry) } else { LIST.read(&source.text, entry) };
     let targets = targets.map_err(|faults| faults.into_iter().map(in_file).collect::<Findings>())?;
     Ok(InverseTargets { targets, warnings: warnings.into_iter().map(in_file).collect() })
 }

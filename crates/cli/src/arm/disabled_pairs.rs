@@ -54,7 +54,8 @@ impl DisabledPairsArguments {
         printer: &Printer,
     ) -> Result<u8, Failure> {
         let inputs = files_of(description);
-        let file = (!is_standard_input(path)).then_some(NewFile { option: "--write-srdf", path, force: self.force });
+        let file =
+            (!is_standard_input(path)).then_some(NewFile { option: "--write-srdf", path, force: self.force });
         if let Some(file) = &file {
             folder_of(file.path)?;
             file.may_be_written(&inputs)?;

@@ -1,5 +1,12 @@
 //! The codes of the messages of this crate, with what `lint --explain` says about them.
 
+use congruent::input::Code;
+
+/// The codes of all messages: those of the library and of this crate.
+pub(crate) fn all_codes() -> Vec<&'static Code> {
+    [congruent::codes::all_codes(), ALL.to_vec()].concat()
+}
+
 congruent::input::codes! {
     cli {
         AT = "CGR-COMMAND-001", "cli::at",

@@ -10,7 +10,7 @@ use congruent::input::Code;
 use regex_lite::Regex;
 
 fn all() -> Vec<&'static Code> {
-    [congruent::codes::all_codes(), super::ALL.to_vec()].concat()
+    super::all_codes()
 }
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

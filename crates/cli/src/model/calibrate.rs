@@ -120,11 +120,14 @@ impl Arguments {
         let noise = match self.noise.map(ToleranceArgument::parts) {
             None => None,
             // Without measured orientations their noise is of no use.
-            Some((Some(position_m), None)) if !has_orientation => Some(Noise { position_m, orientation_rad: 1.0 }),
+            Some((Some(position_m), None)) if !has_orientation => {
+                Some(Noise { position_m, orientation_rad: 1.0 })
+            }
             Some((Some(position_m), Some(orientation_rad))) => Some(Noise { position_m, orientation_rad }),
             Some(_) => {
                 let message = "--noise has only one of a length and an angle, and both are measured";
-                return Err(Diagnostic::error(codes::cli::NOISE, message).with_help("for example --noise 0.1mm,0.05deg"));
+                return Err(Diagnostic::error(codes::cli::NOISE, message)
+                    .with_help("for example --noise 0.1mm,0.05deg"));
             }
         };
         Ok(CalibrationOptions {

@@ -68,9 +68,8 @@ impl FromStr for WrittenTarget {
 impl Arguments {
     /// The model and the file that --to names.
     fn target(&self) -> Result<(ConversionTarget, Option<&Path>), Diagnostic> {
-        let refused = |message: String, help: &str| {
-            Err(Diagnostic::error(codes::convert::TO, message).with_help(help))
-        };
+        let refused =
+            |message: String, help: &str| Err(Diagnostic::error(codes::convert::TO, message).with_help(help));
         let (mut model, mut file) = (None, None);
         for written in &self.to {
             let is_second = match written {
@@ -78,16 +77,22 @@ impl Arguments {
                 WrittenTarget::File(path) => file.replace(path.as_path()).is_some(),
             };
             if is_second {
-                return refused("--to gives two models or two files".to_owned(), "give one model and one file at most");
+                return refused(
+                    "--to gives two models or two files".to_owned(),
+                    "give one model and one file at most",
+                );
             }
         }
-        let is_urdf = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("urdf"));
+        let is_urdf =
+            |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("urdf"));
         match (model, file) {
             (Some(model), file) => Ok((model, file)),
             (None, Some(path)) if is_urdf(path) => Ok((ConversionTarget::Urdf, file)),
             (None, path) => {
                 let path = path.unwrap_or(Path::new("")).display();
-                let message = format!("--to {path} does not say which model is written: a table in which convention, or screws");
+                let message = format!(
+                    "--to {path} does not say which model is written: a table in which convention, or screws"
+                );
                 refused(message, &format!("for example --to dh --to {path}"))
             }
         }
@@ -127,7 +132,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let (to, file) = arguments.target()?;
     if arguments.force && file.is_none() {
         let message = "--force replaces a file, and --to names none";
-        return Err(Diagnostic::error(codes::convert::TO, message).with_help("for example --to dh --to arm.toml --force").into());
+        return Err(Diagnostic::error(codes::convert::TO, message)
+            .with_help("for example --to dh --to arm.toml --force")
+            .into());
     }
     // The table that is derived from a URDF has nothing to do with a declared one.
     let description = match arguments.from {

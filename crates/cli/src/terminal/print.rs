@@ -3,6 +3,7 @@
 
 use std::{
     collections::BTreeSet,
+    fmt::Write as _,
     io::{self, BufWriter, IsTerminal, Write},
     iter::once_with,
     path::Path,
@@ -293,9 +294,17 @@ fn is_first(warning: &Diagnostic) -> bool {
 
 /// `robot.toml: warning: robot.urdf:12: link "tool" has no mass; ...`.
 fn in_one_line(input: Option<&Path>, finding: &Diagnostic) -> String {
-    let text = Finding::from(finding).to_string();
+    let mut shown = Finding::from(finding);
+    if let Some(stopped) = finding.stops {
+        let _ = write!(shown.message, " (needed only for {})", serde_name(&stopped));
+    }
+    let text = shown.to_string();
     let text = text.lines().map(str::trim).collect::<Vec<_>>().join(" ");
-    format!("{}{} {}: {text}\n", named(input), serde_name(&finding.severity), finding.code.id_or_name())
+    let code = match finding.code.id {
+        Some(id) => format!("{id} {}", finding.code.name),
+        None => finding.code.name.to_owned(),
+    };
+    format!("{}{} {code}: {text}\n", named(input), serde_name(&finding.severity))
 }
 
 /// The name of an input in front of what is said of it.

@@ -93,7 +93,7 @@ pub fn robot_file(description: &RobotDescription, to: ConversionTarget, folder: 
 /// Keys whose values no URDF has.
 const OPTIONAL: &str = "To be completed, if the robot has them:
 tcp = { xyz_m = [0, 0, 0.1], rpy_deg = [0, 0, 0] } # the tool centre point in link tip
-srdf = \"robot.srdf\" # pairs of links that cannot collide: congruent acm suggest
+srdf = \"robot.srdf\" # pairs of links that cannot collide: congruent clearance --write-srdf
 packages = { my_description = \"../my_description\" } # folders of package:// meshes";
 
 fn head(description: &RobotDescription) -> String {

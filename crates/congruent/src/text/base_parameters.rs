@@ -1,4 +1,4 @@
-//! What `congruent derive --base-parameters` prints.
+//! What `congruent dynamics --base-parameters` prints.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use crate::{
     text::layout::wrapped,
 };
 
-/// What `congruent derive --base-parameters` prints: each sum of parameters with its value, and the parameters that change no torque.
+/// What `congruent dynamics --base-parameters` prints: each sum of parameters with its value, and the parameters that change no torque.
 pub fn base_parameters_text(report: &BaseParameterReport) -> String {
     let (identifiable, all) = (report.base_parameters.len(), report.of);
     let mut text = format!(

@@ -1,10 +1,10 @@
-//! What `congruent faults` prints of scenarios that inject faults.
+//! What `congruent run --faults` prints of scenarios that inject faults.
 
 use std::fmt::Write;
 
 use crate::results::report::FaultTable;
 
-/// What `congruent faults` prints: for each scenario what is injected, which checks detect it and after what time, and
+/// What `congruent run --faults` prints: for each scenario what is injected, which checks detect it and after what time, and
 /// what the diagnosis finds.
 pub fn fault_table_text(table: &FaultTable) -> String {
     let mut text = String::new();

@@ -55,7 +55,7 @@ impl OutsideLimits {
         let message = format!("outside the joint limits: {}{more}", self.listed.join(", "));
         (self.count > 0).then(|| {
             Diagnostic::warning(codes::configurations::OUTSIDE_LIMITS, message)
-                .with_help("the result is computed, but the robot cannot reach these positions; numbers without a unit are in rad or m")
+                .with_help("the result is computed, but the robot cannot reach these positions; JSON has values in rad and m")
         })
     }
 }

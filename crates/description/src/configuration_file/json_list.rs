@@ -2,7 +2,7 @@
 
 use std::{fmt, ops::Range, sync::Arc};
 
-use congruent_input::{Code, Diagnostic, Findings, InputFile, SourceFile, TextLines};
+use congruent_input::{Code, Diagnostic, Findings, InputFile, SourceFile, TextLines, serde_in_words};
 use serde::{
     Deserializer as _,
     de::{DeserializeOwned, Error, SeqAccess, Visitor},
@@ -165,7 +165,7 @@ impl JsonList {
     fn not_read(&self, error: &serde_json::Error) -> Diagnostic {
         let said = error.to_string();
         let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
-        Diagnostic::error(self.code, said).with_help(self.help)
+        Diagnostic::error(self.code, serde_in_words(said).0).with_help(self.help)
     }
 }
 

@@ -65,7 +65,11 @@ pub(super) fn read_rows(
     if faults.is_empty() { Ok(()) } else { Err(faults.into()) }
 }
 
-fn configuration(header: &Header, columns: &[Column<'_>], row: &Row) -> Result<WrittenConfiguration, Diagnostic> {
+fn configuration(
+    header: &Header,
+    columns: &[Column<'_>],
+    row: &Row,
+) -> Result<WrittenConfiguration, Diagnostic> {
     let mut written = WrittenConfiguration::default();
     for column in columns {
         // Runs leave cells empty of what a robot without actuators does not have.
@@ -100,7 +104,8 @@ fn columns<'a>(header: &'a Header, robot: &Robot) -> Result<Vec<Column<'a>>, Fin
         }
     }
     if faults.is_empty() && !columns.iter().any(|column| column.given == Given::Position) {
-        let fault = Diagnostic::error(codes::configurations::TABLE, "no column gives the position of a joint");
+        let fault =
+            Diagnostic::error(codes::configurations::TABLE, "no column gives the position of a joint");
         faults.push(fault.with_help("name columns <joint>_deg, <joint>_rad, <joint>_mm or <joint>_m"));
     }
     let placed = |fault: Diagnostic| fault.at(header.row.span.clone());
@@ -110,14 +115,18 @@ fn columns<'a>(header: &'a Header, robot: &Robot) -> Result<Vec<Column<'a>>, Fin
 /// The column with this name; `None` if it is one of a run's table that is not needed.
 fn column<'a>(cell: usize, name: &'a str, robot: &Robot) -> Result<Option<Column<'a>>, Diagnostic> {
     let refused = |message: String| Diagnostic::error(codes::configurations::TABLE, message);
-    if let Some((joint, quantity)) = name.rsplit_once('.').filter(|(joint, _)| robot.find_joint(joint).is_some()) {
+    if let Some((joint, quantity)) =
+        name.rsplit_once('.').filter(|(joint, _)| robot.find_joint(joint).is_some())
+    {
         let given = match quantity {
             // What followers do follows from their masters.
             "qd_rad_s" | "qd_m_s" if is_follower(joint, robot) => return Ok(None),
             "qd_rad_s" | "qd_m_s" => Given::Velocity,
             "effort_n_m" | "effort_n" => Given::Effort,
-            _ => return position(cell, joint, quantity.strip_prefix(&format!("{POSITION}_")), robot)
-                .map_err(|why| refused(format!("column \"{name}\": {why}"))),
+            _ => {
+                return position(cell, joint, quantity.strip_prefix(&format!("{POSITION}_")), robot)
+                    .map_err(|why| refused(format!("column \"{name}\": {why}")));
+            }
         };
         return Ok(Some(Column { cell, joint, given, unit: None }));
     }
@@ -202,7 +211,10 @@ mod tests {
         );
         let states = read_states(&file, &robot()).unwrap().entries;
         let state = states.iter().next().unwrap();
-        assert_eq!((&state.q[..], &state.qd[..], &state.tau[..]), (&[0.5, 0.1][..], &[-2.0, 0.0][..], &[3.0, 7.0][..]));
+        assert_eq!(
+            (&state.q[..], &state.qd[..], &state.tau[..]),
+            (&[0.5, 0.1][..], &[-2.0, 0.0][..], &[3.0, 7.0][..])
+        );
     }
 
     #[test]

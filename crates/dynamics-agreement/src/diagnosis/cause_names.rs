@@ -69,7 +69,7 @@ const JOINT_TERMS: &str = "damping is in N m s/rad (N s/m of a sliding joint), f
 const GRAVITY: &str = "Gravity is along -z of the base, 9.81 m/s^2, unless another is declared: a robot on a wall or a \
     ceiling needs its own.";
 const SEVERAL: &str = "Correct one value after the other, and check again after each.";
-const UNEXPLAINED: &str = "Compare <inertial> link by link with the other file; `congruent derive --base-parameters` lists what joint \
+const UNEXPLAINED: &str = "Compare <inertial> link by link with the other file; `congruent dynamics --base-parameters` lists what joint \
     torques depend on.";
 
 causes! {

@@ -9,3 +9,4 @@ pub(crate) mod serde_message;
 pub mod toml_text;
 pub(crate) mod transform;
 pub use rpy::{rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad};
+pub use serde_message::in_words as serde_in_words;

@@ -2,7 +2,7 @@
 
 /// A message such as `invalid type: string "270", expected f64` as `must be a number, not the text "270"`; other messages stay
 /// as they are. With it, what to do, if that is clear.
-pub(crate) fn in_words(message: &str) -> (String, Option<&'static str>) {
+pub fn in_words(message: &str) -> (String, Option<&'static str>) {
     let said = message.strip_prefix("invalid type: ").or_else(|| message.strip_prefix("invalid value: "));
     let Some((found, expected)) = said.and_then(|said| said.rsplit_once(", expected ")) else {
         return (message.to_owned(), None);
@@ -74,12 +74,32 @@ mod tests {
             "must be a number, not the text \"270\"",
             Some("write it without quotes"),
         );
-        check("invalid type: string \"a, expected b\", expected f64", "must be a number, not the text \"a, expected b\"", None);
-        check("invalid type: floating point `1.5`, expected u64", "must be a whole number that is not negative, not 1.5", None);
-        check("invalid value: integer `-1`, expected usize", "must be a whole number that is not negative, not -1", None);
+        check(
+            "invalid type: string \"a, expected b\", expected f64",
+            "must be a number, not the text \"a, expected b\"",
+            None,
+        );
+        check(
+            "invalid type: floating point `1.5`, expected u64",
+            "must be a whole number that is not negative, not 1.5",
+            None,
+        );
+        check(
+            "invalid value: integer `-1`, expected usize",
+            "must be a whole number that is not negative, not -1",
+            None,
+        );
         check("invalid type: integer `3`, expected a string", "must be a text in quotes, not 3", None);
-        check("invalid type: map, expected an array of length 3", "must be a list of 3 values, not a table", None);
-        check("invalid type: sequence, expected struct Written", "must be a table of keys and values, not a list", None);
+        check(
+            "invalid type: map, expected an array of length 3",
+            "must be a list of 3 values, not a table",
+            None,
+        );
+        check(
+            "invalid type: sequence, expected struct Written",
+            "must be a table of keys and values, not a list",
+            None,
+        );
         check("duplicate key", "duplicate key", None);
     }
 }

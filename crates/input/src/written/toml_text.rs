@@ -140,8 +140,11 @@ pub fn diagnostic(error: &Error) -> Diagnostic {
     let known: Vec<&str> = names.collect();
     let known_help = |what: &str| known_names(first, what, known.iter().copied());
     let found = if text.starts_with(UNKNOWN_KEY) {
-        let with_units: Vec<&str> =
-            known.iter().copied().filter(|key| WrittenUnit::split(key).is_some_and(|(stem, _)| stem == first)).collect();
+        let with_units: Vec<&str> = known
+            .iter()
+            .copied()
+            .filter(|key| WrittenUnit::split(key).is_some_and(|(stem, _)| stem == first))
+            .collect();
         let message = match with_units[..] {
             [] => format!("unknown key \"{first}\""),
             _ => format!("\"{first}\" needs a unit: {}", with_units.join(" or ")),
@@ -237,7 +240,10 @@ mod tests {
             ["2:8: unknown value \"revolut\" (did you mean \"revolute\"? known values: revolute, prismatic)"]
         );
         assert_eq!(read("\n[[row]]").1, ["2:1: missing key \"kind\""]);
-        assert_eq!(read("duration = \"2\"").1, ["1:12: must be a number, not the text \"2\" (write it without quotes)"]);
+        assert_eq!(
+            read("duration = \"2\"").1,
+            ["1:12: must be a number, not the text \"2\" (write it without quotes)"]
+        );
         assert_eq!(read("duration = = 2").1.len(), 1);
     }
 

@@ -165,7 +165,12 @@ fn what_belongs_together_reveals_a_mistake() {
     check("mass value='2'", "mass value='2000'", "units::mass", "781250 kg/m^3");
     check("mass value='0.06'", "mass value='60'", "units::mass", "link \"finger\"");
     // Masses in t: far too light for the shapes and for the tensor alike, whatever their size.
-    check("mass value='0.06'", "mass value='0.00006'", "units::mass", "link \"finger\": its mass is 6.0e-5 kg");
+    check(
+        "mass value='0.06'",
+        "mass value='0.00006'",
+        "units::mass",
+        "link \"finger\": its mass is 6.0e-5 kg",
+    );
     check("mass value='2'", "mass value='0.002'", "units::mass", "link \"upper\": its mass is 0.002 kg");
     check(
         "ixx='0.0009' ixy='0' ixz='0' iyy='0.0098' iyz='0' izz='0.0098'",

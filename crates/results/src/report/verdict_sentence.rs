@@ -60,7 +60,10 @@ impl Count {
             return all.to_owned();
         }
         let passes = if passed == 1 { "passes" } else { "pass" };
-        format!("{passed} of {} checks {passes}, {not_evaluated} could not be evaluated", passed + not_evaluated)
+        format!(
+            "{passed} of {} checks {passes}, {not_evaluated} could not be evaluated",
+            passed + not_evaluated
+        )
     }
 }
 
@@ -98,10 +101,7 @@ mod tests {
             verdict_sentence(verdict, &Expectation::Pass, statuses.iter().copied())
         };
         let few = [(Dynamics, Status::Inconclusive), (Power, Status::Skipped), (Limits, Status::Pass)];
-        assert_eq!(
-            sentence(Verdict::AsExpected, &few),
-            "1 of 3 checks passes, 2 could not be evaluated"
-        );
+        assert_eq!(sentence(Verdict::AsExpected, &few), "1 of 3 checks passes, 2 could not be evaluated");
         assert_eq!(
             sentence(Verdict::NotAsExpected, &few),
             "unexpected pass: 1 of 3 checks passes, 2 could not be evaluated"

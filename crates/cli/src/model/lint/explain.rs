@@ -24,7 +24,7 @@ struct CodeExplanation {
 }
 
 pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
-    let known = [congruent::codes::all_codes(), codes::ALL.to_vec()].concat();
+    let known = codes::all_codes();
     let explanation = explained(word, &known).ok_or_else(|| {
         let message = format!("unknown code or cause \"{word}\"");
         let unknown = Diagnostic::error(codes::lint::CODE, message);

@@ -1,4 +1,4 @@
-//! What `congruent acm suggest` prints.
+//! What `congruent clearance --write-srdf` prints.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use crate::{
     text::layout::paragraph,
 };
 
-/// What `congruent acm suggest` prints below the SRDF: how many pairs have which reason, and what to examine before it is used.
+/// What `congruent clearance --write-srdf` prints below the SRDF: how many pairs have which reason, and what to examine before it is used.
 pub fn disabled_pairs_text(pairs: &DisabledPairs) -> String {
     let mut text = String::new();
     let (of_links, links) = (counted(pairs.pairs, "pair"), counted(pairs.links, "link"));

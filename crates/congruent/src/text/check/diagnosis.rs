@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::{
     agreement::{
         compare::CheckReport,
-        diagnosis::Invariant,
+        diagnosis::{Cause, Invariant},
         report::{
             ComparedValue, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
             ReportedStage, TableComparison,
@@ -48,9 +48,14 @@ pub(super) fn diagnosed(
     // Only where a person could choose: what asks for more lines, or for the same ones, is no alternative.
     let lines = |faults: &[Fault]| faults.iter().map(|fault| fault.pasted.len()).sum::<usize>();
     let most = lines(first.faults());
+    // An exchange of two values is one mistake in two lines.
+    let changes = |fault: &Fault| match fault.cause {
+        Cause::ParametersExchanged if fault.pasted.len() == 2 => 1,
+        _ => fault.pasted.len(),
+    };
     let can_be_chosen = |other: &&ReportedAlternative| {
         let other = other.cause.faults();
-        lines(other) <= most && other.iter().any(|fault| !is_pasted(fault, &faults))
+        other.iter().map(changes).sum::<usize>() <= most && other.iter().any(|fault| !is_pasted(fault, &faults))
     };
     let choices: Vec<&ReportedAlternative> =
         diagnosis.indistinguishable.iter().filter(can_be_chosen).collect();
@@ -60,8 +65,15 @@ pub(super) fn diagnosed(
     if let Some(more) = choices.len().checked_sub(SHOWN + 1) {
         let _ = writeln!(text, "  and {} more causes that cannot be distinguished", more + 1);
     }
+    let found_error = first.stages.first().map_or(
+        PoseError { position_m: first.residual_m, orientation_rad: first.residual_rad },
+        |stage| stage.before,
+    );
     let is_as_good = |next: &&ReportedCause| {
-        next.residual_m <= AS_GOOD * first.residual_m.max(tolerance.position_m)
+        // A correction that makes the difference larger is none.
+        next.residual_m <= found_error.position_m
+            && next.residual_rad <= found_error.orientation_rad
+            && next.residual_m <= AS_GOOD * first.residual_m.max(tolerance.position_m)
             && next.residual_rad <= AS_GOOD * first.residual_rad.max(tolerance.orientation_rad)
     };
     for next in diagnosis.causes[1..].iter().filter(is_as_good) {
@@ -97,7 +109,8 @@ fn summary(cause: &ReportedCause, count: usize, tolerance: &Tolerance) -> String
     let residual_error = PoseError { position_m: cause.residual_m, orientation_rad: cause.residual_rad };
     let residual = residual(cause);
     if cause.within_tolerance && !residual_error.is_within(tolerance) {
-        format!("{corrections} {residual}, which is within the digits written")
+        // The check of the corrected file has other configurations, the worst of its own certificates among them.
+        format!("{corrections} {residual} at the configurations of this check, which is within the digits written")
     } else if cause.within_tolerance {
         format!("{corrections} {residual}")
     } else {
@@ -174,7 +187,9 @@ fn quantity(invariant: Invariant, value: f64) -> String {
         Invariant::Kind => if value > 0.0 { "prismatic" } else { "revolute" }.to_owned(),
         Invariant::AxisDistance | Invariant::Offset => length(value),
         Invariant::AxisAngle | Invariant::Zero => angle(value),
-        Invariant::Ratio | Invariant::Sign | Invariant::Base | Invariant::Tool => number(value),
+        Invariant::Ratio | Invariant::Sign => number(value),
+        // The norm of both parts of a pose, which has neither of their units alone.
+        Invariant::Base | Invariant::Tool => format!("{} (m and rad)", number(value)),
     }
 }
 

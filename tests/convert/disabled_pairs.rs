@@ -1,4 +1,4 @@
-//! `congruent acm suggest`: an SRDF of pairs that need not be looked at, read back by the program.
+//! `congruent clearance --write-srdf`: an SRDF of pairs that need not be looked at, read back by the program.
 
 use std::{collections::BTreeSet, fs};
 
@@ -19,7 +19,8 @@ fn pairs(report: &Value, reason: &str) -> BTreeSet<(String, String)> {
 #[test]
 fn what_never_touches_is_apart_where_others_measured() {
     let folder = tempfile::tempdir().unwrap();
-    let report = congruent_json(&["acm", "suggest", "robots/panda", "--samples", "3000"]).json();
+    let report =
+        congruent_json(&["clearance", "robots/panda", "--samples", "3000", "--write-srdf", "-"]).json();
     let never = pairs(&report, "Never");
     assert!(never.len() > 10, "{never:?}");
     // 200 random configurations that the samples do not contain.
@@ -58,7 +59,7 @@ fn what_never_touches_is_apart_where_others_measured() {
 fn the_srdf_is_read_by_the_program() {
     let folder = tempfile::tempdir().unwrap();
     let srdf = folder.path().join("ur5e.srdf");
-    let arguments = ["acm", "suggest", "robots/ur5e", "--samples", "500", "--out", &text(&srdf)];
+    let arguments = ["clearance", "robots/ur5e", "--samples", "500", "--write-srdf", &text(&srdf)];
     let made = congruent(&arguments);
     assert_eq!(made.code, 0, "{}", made.stderr);
     assert!(made.stdout.contains("which is no proof"), "{}", made.stdout);
@@ -78,21 +79,26 @@ fn the_srdf_is_read_by_the_program() {
     let again = congruent(&arguments);
     assert_eq!(again.code, 2);
     assert!(again.stderr.contains("--force"), "{}", again.stderr);
-    let over = congruent(&["acm", "suggest", &text(&robot), "--out", &text(&srdf), "--force"]);
+    let over = congruent(&["clearance", &text(&robot), "--write-srdf", &text(&srdf), "--force"]);
     assert!(over.code == 2 && over.stderr.contains("is an input file"), "{}", over.stderr);
 }
 
 /// The fingers of the arm touch at the ends of their travel alone: an SRDF that disables them is warned of.
 #[test]
 fn the_declared_srdf_is_compared_and_not_applied() {
-    let report = congruent_json(&["acm", "suggest", "robots/rrr_arm", "--samples", "2000"]).json();
+    let report =
+        congruent_json(&["clearance", "robots/rrr_arm", "--samples", "2000", "--write-srdf", "-"]).json();
     assert_eq!(report["declared"]["pairs"], 1);
     assert_eq!(report["declared"]["hidden"], json!([["gripper_link_1", "gripper_link_2"]]));
-    let printed = congruent(&["acm", "suggest", "robots/rrr_arm", "--samples", "2000"]).stdout;
+    let printed =
+        congruent(&["clearance", "robots/rrr_arm", "--samples", "2000", "--write-srdf", "-"]).stdout;
     assert!(printed.contains("pairs that the robot's SRDF disables: 1;"), "{printed}");
     assert!(roxmltree::Document::parse(&printed).is_ok(), "{printed}");
     // The same seed, the same answer.
-    assert_eq!(report, congruent_json(&["acm", "suggest", "robots/rrr_arm", "--samples", "2000"]).json());
+    assert_eq!(
+        report,
+        congruent_json(&["clearance", "robots/rrr_arm", "--samples", "2000", "--write-srdf", "-"]).json()
+    );
 }
 
 #[test]
@@ -100,7 +106,7 @@ fn a_robot_without_shapes_has_nothing_to_suggest() {
     let folder = tempfile::tempdir().unwrap();
     let urdf = folder.path().join("r.urdf");
     fs::write(&urdf, "<robot name='r'><link name='a'/></robot>").unwrap();
-    let answer = congruent(&["acm", "suggest", &text(&urdf)]);
+    let answer = congruent(&["clearance", &text(&urdf), "--write-srdf", "-"]);
     assert_eq!(answer.code, 4, "{}", answer.stdout);
     assert!(answer.stdout.contains("no pair to examine"), "{}", answer.stdout);
 }

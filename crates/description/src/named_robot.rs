@@ -1,0 +1,64 @@
+//! Which file the path of a robot means, and whether it is one.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind, TomlKind};
+
+use crate::{codes, robot_file::ROBOT_FILE};
+
+const ACCEPTED: &str =
+    "give a folder with robot.toml, a robot file (.toml), a .urdf, or - for a URDF on standard input";
+
+/// The file that the path of a robot means: `robot.toml` in a folder, otherwise the path itself.
+///
+/// # Errors
+/// The folder has no `robot.toml`.
+pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
+    if !path.is_dir() {
+        return Ok(path.to_owned());
+    }
+    let robot_file = path.join(ROBOT_FILE);
+    if robot_file.exists() {
+        return Ok(robot_file);
+    }
+    let message = format!("{} is a directory without a {ROBOT_FILE}", path.display());
+    let has_robots = fs::read_dir(path)
+        .is_ok_and(|entries| entries.flatten().any(|entry| entry.path().join(ROBOT_FILE).is_file()));
+    let help = if has_robots {
+        format!("for the robots in it: {}", path.join("*/").display())
+    } else {
+        ACCEPTED.to_owned()
+    };
+    Err(Diagnostic::error(codes::load::NO_ROBOT_FILE, message).with_help(help))
+}
+
+/// Opens a file that a person gives as a robot. If it does not exist and no similar name does, the help lists what is accepted.
+///
+/// # Errors
+/// The file cannot be read, may not be opened, or is longer than `most_bytes`.
+pub fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
+    let kind = if is_toml(path) { TextKind::RobotFile } else { TextKind::Robot };
+    // A scenario may name it.
+    access.read_named_text(path, most_bytes).and_then(|source| kind.check(source)).map_err(|fault| {
+        let is_helpless = fault.code == congruent_input::codes::file::NOT_FOUND && fault.help.is_none();
+        if is_helpless { fault.with_help(ACCEPTED) } else { fault }
+    })
+}
+
+/// Refuses a scenario in the place of a robot file, before each of its keys is reported as unknown.
+pub(crate) fn refuse_scenario(source: &SourceFile) -> Result<(), Diagnostic> {
+    if !is_toml(&source.path) || TomlKind::from_text(&source.text) != Some(TomlKind::Scenario) {
+        return Ok(());
+    }
+    let path = source.path.display();
+    Err(Diagnostic::error(codes::load::SCENARIO, format!("{path} is a scenario, not a robot"))
+        .with_help(format!("to run it: congruent run {path}")))
+}
+
+pub(crate) fn is_toml(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
