@@ -55,7 +55,8 @@ pub(super) fn diagnosed(
     };
     let can_be_chosen = |other: &&ReportedAlternative| {
         let other = other.cause.faults();
-        other.iter().map(changes).sum::<usize>() <= most && other.iter().any(|fault| !is_pasted(fault, &faults))
+        other.iter().map(changes).sum::<usize>() <= most
+            && other.iter().any(|fault| !is_pasted(fault, &faults))
     };
     let choices: Vec<&ReportedAlternative> =
         diagnosis.indistinguishable.iter().filter(can_be_chosen).collect();
@@ -65,10 +66,11 @@ pub(super) fn diagnosed(
     if let Some(more) = choices.len().checked_sub(SHOWN + 1) {
         let _ = writeln!(text, "  and {} more causes that cannot be distinguished", more + 1);
     }
-    let found_error = first.stages.first().map_or(
-        PoseError { position_m: first.residual_m, orientation_rad: first.residual_rad },
-        |stage| stage.before,
-    );
+    let found_error =
+        first.stages.first().map_or(
+            PoseError { position_m: first.residual_m, orientation_rad: first.residual_rad },
+            |stage| stage.before,
+        );
     let is_as_good = |next: &&ReportedCause| {
         // A correction that makes the difference larger is none.
         next.residual_m <= found_error.position_m
@@ -110,7 +112,9 @@ fn summary(cause: &ReportedCause, count: usize, tolerance: &Tolerance) -> String
     let residual = residual(cause);
     if cause.within_tolerance && !residual_error.is_within(tolerance) {
         // The check of the corrected file has other configurations, the worst of its own certificates among them.
-        format!("{corrections} {residual} at the configurations of this check, which is within the digits written")
+        format!(
+            "{corrections} {residual} at the configurations of this check, which is within the digits written"
+        )
     } else if cause.within_tolerance {
         format!("{corrections} {residual}")
     } else {
