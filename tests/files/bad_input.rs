@@ -193,10 +193,7 @@ fn case_23_a_servo_that_cannot_be() {
         ),
         ("servo_tcp = { xyz_m = [1, 0, 0] }\ngain_per_s = -1", ["above 0", "-1"]),
         ("servo_tcp = { xyz_m = [1, 0, nan] }", ["xyz_m", "NaN"]),
-        (
-            "servo_tcp = { xyz = [1, 0, 0] }",
-            ["\"xyz\" needs a unit: xyz_m or xyz_mm", "did you mean \"xyz_m\"?"],
-        ),
+        ("servo_tcp = { xyz = [1, 0, 0] }", ["\"xyz\" needs a unit", "xyz_m or xyz_mm"]),
         ("servo_tcp = { xyz_m = [1, 0, 0] }\nprofile = \"cubic\"", ["unknown key \"profile\"", "gain_per_s"]),
     ] {
         let bench = Workbench::new();

@@ -24,7 +24,8 @@ fn commands_in_the_text_exist() {
     let sandbox = Sandbox::new();
     let mut helps: BTreeMap<String, String> = BTreeMap::new();
     let mut found = 0;
-    for page in pages() {
+    // The history has the names of its time.
+    for page in pages().into_iter().filter(|page| page.name != "docs/history.md") {
         for piece in pieces(&page.text) {
             let Some(rest) = piece.strip_prefix("congruent ") else { continue };
             let is_name =

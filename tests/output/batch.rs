@@ -221,7 +221,7 @@ fn warnings_of_several_scenarios_name_theirs() {
     let answer = congruent(&["run", &quiet, &cut, "--no-recording", "--out", &out]);
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     assert!(
-        answer.stderr.starts_with(&format!("{cut}: warning\nCGR-SCENARIO-021 scenario::cut_short")),
+        answer.stderr.starts_with(&format!("{cut}: warning CGR-SCENARIO-021 scenario::cut_short")),
         "{}",
         answer.stderr
     );

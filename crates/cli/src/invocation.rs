@@ -43,11 +43,17 @@ mod tests {
 
     #[test]
     fn a_command_is_quoted_and_names_no_absolute_path() {
-        let words =
-            ["/usr/bin/congruent", "check", "my robot.toml", "--html=/tmp/x.html", "--tolerance", "1mm"];
+        let words = [
+            "/usr/bin/congruent",
+            "check",
+            "my robot.toml",
+            "--html=/elsewhere/x.html",
+            "--tolerance",
+            "1mm",
+        ];
         note(&words.map(OsString::from));
         let shown = command();
         assert!(shown.starts_with("congruent check 'my robot.toml' --html="), "{shown}");
-        assert!(shown.ends_with("tmp/x.html --tolerance 1mm") && !shown.contains("=/tmp"), "{shown}");
+        assert!(shown.ends_with("elsewhere/x.html --tolerance 1mm") && !shown.contains("=/"), "{shown}");
     }
 }

@@ -98,7 +98,7 @@ congruent::input::codes! {
         OUTSIDE = "CGR-COMMAND-057", "new::outside",
             "A new file would lie outside the project of the files that it names, and could not open them. Move the file into the project, or allow the other folder with --allow in each call.";
         PROJECT = "CGR-COMMAND-058", "new::project",
-            "A robot file in that folder would become the top of a new project, and files above it could no longer be opened.";
+            "A robot file in that folder would belong to another project, and with --fence files that the URDF names could no longer be opened. Choose a folder in the project of the URDF.";
         URDF = "CGR-COMMAND-062", "new::urdf",
             "The URDF of a new robot file must be a file; standard input has no path. Give the URDF as a file.";
     }

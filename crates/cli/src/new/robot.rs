@@ -153,13 +153,13 @@ fn checked(written: &Path, before: &RobotDescription, arguments: &Arguments) -> 
     let access = allowing_inputs(arguments.arm.robot.access()?, before);
     let description = load_robot_with(written, &access)?;
     for each in [Capability::Clearance, Capability::Physics] {
-        // A robot.toml marks the top of a project: meshes above the new file would no longer be opened, and the
-        // robot lose a use.
+        // The new file may be in another project than the URDF, whose meshes are then not opened behind a fence, and the
+        // robot would lose a use.
         if before.check_capability(each).is_ok()
             && let Err(mut lost) = description.check_capability(each)
         {
             let message = format!(
-                "a robot.toml in {} would make that folder the project, and files outside of it could not be opened",
+                "a robot.toml in {} would belong to another project, and files that the URDF names could not be opened",
                 arguments.out.display()
             );
             lost.extend([Diagnostic::error(codes::new::PROJECT, message)
