@@ -156,7 +156,7 @@ fn a_joint_without_dynamics_is_no_reference_for_damping() {
     assert_eq!(names(&compared["not_stated"]), ["damping and dry friction of lift"], "{printed}");
     let [explanation] = &compared["explanations"].as_array().unwrap()[..] else { panic!("{compared:#}") };
     assert_eq!((&explanation["cause"], &explanation["place"]), (&json!("damping"), &json!(["turn"])));
-    // A file that leaves most joints without an entry has no damping there by the default of the format, and so has the other.
+    // A file in which most joints have no entry has no damping there by the default of the format, and so has the other.
     let (answer, printed) = against(&undamped(ARM, &["0.5", "0.1"]), &undamped(ARM, &all), &[]);
     let report = answer.json();
     let first = &dynamics(&report)["explanations"][0];

@@ -102,13 +102,6 @@ impl KeyPage<'_> {
         target.map_or(value, |name| &self.schema["$defs"][name])
     }
 
-    /// What a key takes, without null.
-    fn variants<'b>(&'b self, value: &'b Value) -> Vec<&'b Value> {
-        let several = value["oneOf"].as_array().or_else(|| value["anyOf"].as_array());
-        let several = several.map(|several| several.iter().filter(|one| one["type"] != "null").collect());
-        several.unwrap_or_default()
-    }
-
     /// The table or list of tables below a key: the schemas of what may be there.
     fn tables<'b>(&'b self, value: &'b Value) -> Vec<&'b Value> {
         let value = self.resolved(value);
@@ -118,7 +111,7 @@ impl KeyPage<'_> {
         if value["properties"].is_object() {
             return vec![value];
         }
-        self.variants(value).into_iter().flat_map(|one| self.tables(one)).collect()
+        variants(value).into_iter().flat_map(|one| self.tables(one)).collect()
     }
 
     fn is_list<'b>(&'b self, value: &'b Value) -> bool {
@@ -171,7 +164,7 @@ impl KeyPage<'_> {
         if let Some(words) = value["enum"].as_array() {
             return listed(words.iter());
         }
-        let variants = self.variants(value);
+        let variants = variants(value);
         let words: Vec<&Value> =
             variants.iter().map(|one| &one["const"]).filter(|word| !word.is_null()).collect();
         if !words.is_empty() {
@@ -199,11 +192,18 @@ impl KeyPage<'_> {
     }
 }
 
+/// What a key takes, without null.
+fn variants(value: &Value) -> Vec<&Value> {
+    let several = value["oneOf"].as_array().or_else(|| value["anyOf"].as_array());
+    several.into_iter().flatten().filter(|one| one["type"] != "null").collect()
+}
+
 fn listed<'a>(words: impl Iterator<Item = &'a Value>) -> String {
     words.map(|word| format!("`{}`", word.to_string().replace('"', ""))).collect::<Vec<_>>().join(", ")
 }
 
 /// `[dh]`, `[[dh.row]]`.
+#[expect(clippy::fn_params_excessive_bools, reason = "a key is of a table or of a list of tables")]
 fn heading_of(path: &str, is_list: bool) -> String {
     if is_list { format!("[[{path}]]") } else { format!("[{path}]") }
 }

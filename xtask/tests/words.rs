@@ -54,7 +54,7 @@ const WORDS: &[Word] = &[
     Word { most: 1, ..never("is no number", "is not a number") },
     never("are no numbers", "are not numbers"),
     // A key of the reports of `check`, which other programs read.
-    Word { most: 30, ..never("not asked", "not compared, not requested") },
+    Word { most: 33, ..never("not asked", "not compared, not requested") },
     never("mended", "corrected"),
     never("mends", "corrects"),
     never("probed", "identified, sampled"),
@@ -65,7 +65,14 @@ const WORDS: &[Word] = &[
     never("climbed", "found by local search"),
     // Leaves of a tree of values are a term; a thing that leaves a place goes away from it. Two remain, one of them in a schema.
     Word {
-        except: &["leaves the reach", "leaves its limits", "leaves the project", "leaves nothing behind"],
+        except: &[
+            "leaves the reach",
+            "leaves its limits",
+            "leaves the project",
+            "leaves nothing behind",
+            "correction leaves",
+            "that leaves",
+        ],
         not_in: &["crates/results/src/comparison/reports.rs"],
         most: 2,
         ..never("leaves", "residual, omits, gives")
@@ -88,6 +95,7 @@ const WORDS: &[Word] = &[
             "give way",
             "gives way",
             "common way",
+            "that way",
         ],
         ..never("way", "path, distance, direction")
     },

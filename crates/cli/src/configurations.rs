@@ -1,6 +1,8 @@
 //! Configurations on the command line: `--at`, `--configurations`, and lines on standard input that are answered while they
 //! come.
 
+#![expect(clippy::doc_markdown, reason = "the comments are printed as help, where backticks are noise")]
+
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},

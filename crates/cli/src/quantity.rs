@@ -33,19 +33,29 @@ impl Dimension {
     }
 }
 
-/// The units, with what makes SI units of them.
-const UNITS: [(&str, Dimension, fn(f64) -> f64); 11] = [
-    ("m", Dimension::Length, |value| value),
-    ("mm", Dimension::Length, |value| Unit::Length.convert(value)),
-    ("um", Dimension::Length, |value| value / 1e6),
-    ("nm", Dimension::Length, |value| value / 1e9),
-    ("rad", Dimension::Angle, |value| value),
-    ("mrad", Dimension::Angle, |value| value / 1e3),
-    ("urad", Dimension::Angle, |value| value / 1e6),
-    ("nrad", Dimension::Angle, |value| value / 1e9),
-    ("deg", Dimension::Angle, |value| Unit::Angle.convert(value)),
-    ("kg", Dimension::Mass, |value| value),
-    ("g", Dimension::Mass, |value| value / 1e3),
+/// A unit of the command line.
+struct ArgumentUnit {
+    name: &'static str,
+    dimension: Dimension,
+    to_si: fn(f64) -> f64,
+}
+
+const fn unit(name: &'static str, dimension: Dimension, to_si: fn(f64) -> f64) -> ArgumentUnit {
+    ArgumentUnit { name, dimension, to_si }
+}
+
+const UNITS: [ArgumentUnit; 11] = [
+    unit("m", Dimension::Length, |value| value),
+    unit("mm", Dimension::Length, |value| Unit::Length.convert(value)),
+    unit("um", Dimension::Length, |value| value / 1e6),
+    unit("nm", Dimension::Length, |value| value / 1e9),
+    unit("rad", Dimension::Angle, |value| value),
+    unit("mrad", Dimension::Angle, |value| value / 1e3),
+    unit("urad", Dimension::Angle, |value| value / 1e6),
+    unit("nrad", Dimension::Angle, |value| value / 1e9),
+    unit("deg", Dimension::Angle, |value| Unit::Angle.convert(value)),
+    unit("kg", Dimension::Mass, |value| value),
+    unit("g", Dimension::Mass, |value| value / 1e3),
 ];
 
 /// A finite number, in SI units if it is written with a unit.
@@ -64,7 +74,7 @@ impl QuantityArgument {
         // The exponent of 1e-6 is no unit.
         let start = text.find(|c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E')).unwrap_or(text.len());
         let (number, name) = text.split_at(start);
-        let unit = UNITS.iter().find(|(known, ..)| *known == name);
+        let unit = UNITS.iter().find(|unit| unit.name == name);
         if unit.is_none() && !name.is_empty() {
             return Err(match number.trim().parse::<f64>() {
                 Ok(_) => format!("\"{text}\": the unit \"{name}\" is not known"),
@@ -72,9 +82,9 @@ impl QuantityArgument {
             });
         }
         let value: f64 = number.trim().parse().map_err(|_| format!("\"{text}\" is not a number"))?;
-        let value = unit.map_or(value, |(.., to_si)| to_si(value));
+        let value = unit.map_or(value, |unit| (unit.to_si)(value));
         if value.is_finite() {
-            Ok(Self { dimension: unit.map(|(_, dimension, _)| *dimension), value })
+            Ok(Self { dimension: unit.map(|unit| unit.dimension), value })
         } else {
             Err(format!("\"{text}\" is not a finite number"))
         }

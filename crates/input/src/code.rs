@@ -1,6 +1,6 @@
 //! What a code of messages is, and how a crate declares those of its own messages.
 
-use crate::nearest;
+use crate::nearest::nearest;
 
 /// The stable number and name of a kind of finding, declared with [`codes!`](macro@crate::codes).
 ///

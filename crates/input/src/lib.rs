@@ -10,6 +10,7 @@ mod diagnostic;
 pub mod display;
 mod edits;
 mod files;
+mod nearest;
 mod quantity;
 pub mod units;
 mod visible;
@@ -20,13 +21,14 @@ pub use catch_panic::catch_panic;
 pub use code::Code;
 pub use diagnostic::{
     Capability, Diagnostic, Diagnostics, Finding, FindingPlace, Findings, Grouping, LineCounter, Occurrence,
-    Severity, SourceFile, known_names, line_column, nearest,
+    Severity, SourceFile, line_column,
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines, edited, line_end};
 pub use files::{
     FileAccess, InputFile, Packages, Resolved, RosPackages, TextKind, TextLines, TomlKind, folder_of,
     head_of, is_standard_input, not_found, portable_path, portable_text, read_text,
 };
+pub use nearest::{known_names, nearest};
 pub use quantity::{Quantity, SiUnit};
 pub use visible::{hidden_character, is_hidden, visible, visible_lines};
 pub use written::{

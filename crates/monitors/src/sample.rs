@@ -21,7 +21,7 @@ pub struct Sample<'a> {
     /// Whether no step follows. For monitors this is the end of the scenario, for recorders also the end
     /// by a check at this instant.
     pub is_last: bool,
-    /// Whether a check stops the run: from its violation on the setpoint leaves the motions and comes to rest.
+    /// Whether a check stops the run: from its violation on the setpoint departs from the motions and comes to rest.
     pub is_stopping: bool,
     /// Number of checks that have been violated by now; none for the checks themselves.
     pub violated_checks: usize,

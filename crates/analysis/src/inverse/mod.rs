@@ -3,6 +3,7 @@
 mod not_reached;
 mod table;
 mod targets;
+mod written_target;
 
 use congruent_description::{ArmQ, JointValues, ReportedChain, RobotDescription};
 use congruent_input::Finding;

@@ -2,16 +2,15 @@
 
 use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path, sync::Arc};
 
-use congruent_description::{JsonList, LiveEntries, LiveInput, Robot, configuration, unique_names};
+use congruent_description::{JsonList, LiveEntries, LiveInput, Robot, configuration};
 use congruent_input::{
     Diagnostic, Findings, SourceFile, TextLines, display::limit_number, read_text,
     rotation_from_rpy_fixed_xyz, units::LARGEST,
 };
 use congruent_kinematics::{IkTarget, Pose, TargetPart};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
-use serde::Deserialize;
 
-use super::table::read_rows;
+use super::{table::read_rows, written_target::WrittenTarget};
 use crate::codes;
 
 /// A file of targets as a list.
@@ -24,16 +23,6 @@ const LIST: JsonList = JsonList {
 const MOST_BYTES: u64 = 256 << 20;
 /// How far the norm of a written quaternion may be from 1. Kind: six digits in the file.
 const QUATERNION_NORM: f64 = 1e-6;
-
-/// One target as written.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct WrittenTarget {
-    pub(super) translation_m: [f64; 3],
-    pub(super) quaternion_wxyz: Option<[f64; 4]>,
-    #[serde(default, deserialize_with = "unique_names")]
-    pub(super) start: BTreeMap<String, f64>,
-}
 
 /// A pose to be reached, and the start of the search.
 #[derive(Debug, Clone, PartialEq)]

@@ -173,7 +173,7 @@ pub struct CorrectedTableEntry {
     pub nominal: f64,
     /// Its corrected value, rad or m.
     pub corrected: f64,
-    /// Its line in the robot file; that of its row if the file leaves it out.
+    /// Its line in the robot file; that of its row if the file omits it.
     pub line: usize,
 }
 

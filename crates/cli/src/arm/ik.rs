@@ -1,5 +1,7 @@
 //! `congruent ik`: joint positions that bring the tool to given poses.
 
+#![expect(clippy::doc_markdown, reason = "the comments are printed as help, where backticks are noise")]
+
 use std::path::PathBuf;
 
 use congruent::{
@@ -87,7 +89,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 
 impl Arguments {
     /// What is searched; refuses a tolerance within which every pose counts as reached, and warns of a wide one.
-    fn search(&self, description: &RobotDescription, printer: &Printer) -> Result<Search, Failure> {
+    fn search(&self, description: &RobotDescription, printer: &Printer) -> Result<IkSearch, Failure> {
         let usual = IkOptions::default();
         let usual_tolerance =
             Tolerance { position_m: usual.tolerance_m, orientation_rad: usual.tolerance_rad };
@@ -106,17 +108,17 @@ impl Arguments {
             max_iterations: self.iterations,
             seed: self.seed,
         };
-        Ok(Search { options, is_position_only: self.position_only })
+        Ok(IkSearch { options, is_position_only: self.position_only })
     }
 }
 
 /// How targets are reached.
-struct Search {
+struct IkSearch {
     options: IkOptions,
     is_position_only: bool,
 }
 
-impl Search {
+impl IkSearch {
     /// Prints the answer to targets, of which the first has this number; the exit code.
     fn answer(
         &self,

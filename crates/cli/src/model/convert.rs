@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     /// `modified` for rows Rx(alpha) Tx(a) Rz(theta) Tz(d) (Craig), `poe` for screws, `urdf`; a name with a point is a file, of
     /// which .urdf says the model. A table in a file is a whole robot file (.toml). Without a file, the model is printed.
     #[arg(long, value_name = "MODEL|FILE", required = true)]
-    to: Vec<WrittenTarget>,
+    to: Vec<ConversionOutput>,
     /// Which model is converted.
     #[arg(long, value_parser = named::<ConversionSource>())]
     from: Option<ConversionSource>,
@@ -45,12 +45,12 @@ pub(crate) struct Arguments {
 
 /// One value of --to.
 #[derive(Debug, Clone, PartialEq)]
-enum WrittenTarget {
+enum ConversionOutput {
     Model(ConversionTarget),
     File(PathBuf),
 }
 
-impl FromStr for WrittenTarget {
+impl FromStr for ConversionOutput {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -73,8 +73,8 @@ impl Arguments {
         let (mut model, mut file) = (None, None);
         for written in &self.to {
             let is_second = match written {
-                WrittenTarget::Model(named) => model.replace(*named).is_some(),
-                WrittenTarget::File(path) => file.replace(path.as_path()).is_some(),
+                ConversionOutput::Model(named) => model.replace(*named).is_some(),
+                ConversionOutput::File(path) => file.replace(path.as_path()).is_some(),
             };
             if is_second {
                 return refused(

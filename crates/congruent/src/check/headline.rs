@@ -195,7 +195,7 @@ fn cause(diagnosis: &ReportedDiagnosis) -> String {
     format!("{label}: {}{place}{rest}{}", first.message, unexplained(cause))
 }
 
-/// What the cause leaves, if that is too much.
+/// The residual of the cause, if that is too much.
 fn unexplained(cause: &ReportedCause) -> String {
     if cause.within_tolerance {
         return String::new();

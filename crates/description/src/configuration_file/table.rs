@@ -25,7 +25,7 @@ pub(super) fn is_table(path: &Path) -> bool {
 
 /// What a column of a joint gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Given {
+enum ConfigurationQuantity {
     Position,
     Velocity,
     Effort,
@@ -34,7 +34,7 @@ enum Given {
 struct Column<'a> {
     cell: usize,
     joint: &'a str,
-    given: Given,
+    given: ConfigurationQuantity,
     unit: Option<WrittenUnit>,
 }
 
@@ -76,9 +76,9 @@ fn configuration(
         let Some(value) = header.number(codes::configurations::TABLE, row, column.cell)? else { continue };
         let value = column.unit.map_or(value, |unit| unit.to_si(value));
         let group = match column.given {
-            Given::Position => &mut written.q,
-            Given::Velocity => &mut written.v,
-            Given::Effort => &mut written.tau,
+            ConfigurationQuantity::Position => &mut written.q,
+            ConfigurationQuantity::Velocity => &mut written.v,
+            ConfigurationQuantity::Effort => &mut written.tau,
         };
         group.insert(column.joint.to_owned(), value);
     }
@@ -103,7 +103,7 @@ fn columns<'a>(header: &'a Header, robot: &Robot) -> Result<Vec<Column<'a>>, Fin
             Err(fault) => faults.push(fault),
         }
     }
-    if faults.is_empty() && !columns.iter().any(|column| column.given == Given::Position) {
+    if faults.is_empty() && !columns.iter().any(|column| column.given == ConfigurationQuantity::Position) {
         let fault =
             Diagnostic::error(codes::configurations::TABLE, "no column gives the position of a joint");
         faults.push(fault.with_help("name columns <joint>_deg, <joint>_rad, <joint>_mm or <joint>_m"));
@@ -121,8 +121,8 @@ fn column<'a>(cell: usize, name: &'a str, robot: &Robot) -> Result<Option<Column
         let given = match quantity {
             // What followers do follows from their masters.
             "qd_rad_s" | "qd_m_s" if is_follower(joint, robot) => return Ok(None),
-            "qd_rad_s" | "qd_m_s" => Given::Velocity,
-            "effort_n_m" | "effort_n" => Given::Effort,
+            "qd_rad_s" | "qd_m_s" => ConfigurationQuantity::Velocity,
+            "effort_n_m" | "effort_n" => ConfigurationQuantity::Effort,
             _ => {
                 return position(cell, joint, quantity.strip_prefix(&format!("{POSITION}_")), robot)
                     .map_err(|why| refused(format!("column \"{name}\": {why}")));
@@ -163,7 +163,7 @@ fn position<'a>(
         let (what, keys) = if turns { ("slides", "_mm or _m") } else { ("turns", "_deg or _rad") };
         return Err(format!("the joint {what}, so its column must end in {keys}"));
     }
-    let column = Column { cell, joint: name, given: Given::Position, unit: Some(unit) };
+    let column = Column { cell, joint: name, given: ConfigurationQuantity::Position, unit: Some(unit) };
     // After the check of its unit, which applies to a follower's column as well.
     Ok((!is_follower(name, robot)).then_some(column))
 }

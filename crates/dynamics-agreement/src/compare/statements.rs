@@ -54,7 +54,7 @@ impl StatedReference {
         }
     }
 
-    /// A joint without any entry for damping and dry friction says nothing about them, unless the candidate leaves out those of
+    /// A joint without any entry for damping and dry friction says nothing about them, unless the candidate omits those of
     /// most joints itself: then no entry means none in both files.
     fn take_joint_terms(&mut self, candidate: &NamedModel<'_>, reference: &NamedModel<'_>, joints: &[usize]) {
         let Some(places) = reference.places else { return };

@@ -162,7 +162,7 @@ impl ReducedTorqueDifference {
         rest
     }
 
-    /// The change of the ten parameters of each of some bodies of the reference that leaves the smallest difference.
+    /// The change of the ten parameters of each of some bodies of the reference that gives the smallest residual.
     pub(crate) fn closing(&self, bodies: &[usize]) -> Vec<[f64; PARAMETERS]> {
         if bodies.is_empty() {
             return Vec::new();

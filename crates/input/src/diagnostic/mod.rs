@@ -7,9 +7,7 @@ mod finding;
 mod findings;
 mod line_counter;
 
-pub use diagnostic::{
-    Capability, Diagnostic, Grouping, Occurrence, Severity, SourceFile, known_names, line_column, nearest,
-};
+pub use diagnostic::{Capability, Diagnostic, Grouping, Occurrence, Severity, SourceFile, line_column};
 pub use diagnostics::Diagnostics;
 pub use finding::{Finding, FindingPlace};
 pub use findings::Findings;

@@ -16,7 +16,8 @@ use std::{
 
 use crate::{
     codes,
-    diagnostic::{Diagnostic, SourceFile, line_column, nearest},
+    diagnostic::{Diagnostic, SourceFile, line_column},
+    nearest::nearest,
 };
 
 /// The names of standard input.

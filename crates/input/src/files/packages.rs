@@ -99,7 +99,7 @@ impl Packages {
         }
         let message = format!("mesh file \"{uri}\" not found");
         let fault = Diagnostic::error(codes::mesh::NOT_FOUND, message);
-        // The names of files tell meshes of one package apart.
+        // The names of files distinguish meshes of one package.
         let fault = match package_of(uri) {
             Some((package, rest)) => {
                 let name = rest.rsplit('/').next().unwrap_or(rest);

@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use super::access::InputFile;
 
 /// A path as a result names it: an absolute one relative to the current folder, so that a command with it still works there;
-/// only its last part if there is no way from one to the other, as between drives.
+/// only its last part if there is no path from one to the other, as between drives.
 pub fn portable_path(path: &Path) -> PathBuf {
     if !path.is_absolute() {
         return path.to_owned();

@@ -13,7 +13,8 @@ use toml::{
 
 use crate::{
     codes,
-    diagnostic::{Diagnostic, Diagnostics, known_names},
+    diagnostic::{Diagnostic, Diagnostics},
+    nearest::known_names,
     units::WrittenUnit,
     visible::hidden_character,
     written::serde_message::in_words,

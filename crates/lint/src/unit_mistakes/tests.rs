@@ -111,7 +111,7 @@ fn a_wrist_of_little_power_may_be_fast() {
 #[test]
 fn an_origin_at_the_end_of_its_parents_shape_is_not_reported() {
     let mast = |length_m: f64| {
-        let chain: String = ["0.05", "0.08", "0.05"]
+        let chain: Vec<String> = ["0.05", "0.08", "0.05"]
             .into_iter()
             .enumerate()
             .map(|(at, z)| {
@@ -126,7 +126,7 @@ fn an_origin_at_the_end_of_its_parents_shape_is_not_reported() {
             .collect();
         let head = "<link name='head'/><joint name='tilt' type='continuous'><origin xyz='0 0 1.9'/><parent link='l3'/>\
                     <child link='head'/></joint></robot>";
-        findings(&ARM.replace("</robot>", &format!("{chain}{head}")))
+        findings(&ARM.replace("</robot>", &format!("{}{head}", chain.concat())))
     };
     let of_tilt = |found: Vec<(&str, String)>| found.into_iter().any(|(_, said)| said.contains("\"tilt\""));
     assert!(!of_tilt(mast(1.8)));

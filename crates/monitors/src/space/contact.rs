@@ -5,7 +5,10 @@ use congruent_input::{Quantity, SiUnit, display::length};
 use congruent_proximity::{Clearance, Pair, PairNames};
 use congruent_scenario::ContactCheck;
 
-use super::{clearance::notes_on, unforced::UnforcedOverlap};
+use super::{
+    clearance::notes_on,
+    unforced::{PairOverlap, UnforcedOverlap},
+};
 use crate::{
     CheckContext, Names,
     monitor::{Monitor, Observed},
@@ -149,7 +152,7 @@ impl ContactMonitor {
         }
         // A body that a link carries has no force at all: it touches nothing in the physics.
         let force_n = sample.contact_force_n(*subjects).unwrap_or(0.0);
-        if let Some(depth_m) = unforced.take(depth_m, force_n, sample.is_last) {
+        if let Some(depth_m) = unforced.take(PairOverlap { depth_m, force_n, is_last: sample.is_last }) {
             self.unforced.observe(-depth_m, *pair, sample);
         }
     }

@@ -7,6 +7,7 @@ const NEEDS_FORCE_M: f64 = 1e-3;
 
 /// How far one pair overlaps without a force.
 #[derive(Debug, Clone, Copy, Default)]
+#[expect(clippy::struct_field_names, reason = "all are depths in m, and names end in their unit")]
 pub(super) struct UnforcedOverlap {
     /// The depth at which a force last acted in this contact, m: a pair that separates after an impact overlaps by less without a force.
     borne_m: f64,
@@ -16,9 +17,19 @@ pub(super) struct UnforcedOverlap {
     deepest_m: Option<f64>,
 }
 
+/// One pair in one sample.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PairOverlap {
+    pub(super) depth_m: f64,
+    /// Of the step to the sample.
+    pub(super) force_n: f64,
+    /// Whether the run ends with it.
+    pub(super) is_last: bool,
+}
+
 impl UnforcedOverlap {
-    /// Takes the depth of a sample and the force of the step to it; returns the depth for which there is no force.
-    pub(super) fn take(&mut self, depth_m: f64, force_n: f64, is_last: bool) -> Option<f64> {
+    /// Takes a sample; returns the depth for which there is no force.
+    pub(super) fn take(&mut self, PairOverlap { depth_m, force_n, is_last }: PairOverlap) -> Option<f64> {
         if force_n > 0.0 {
             (self.borne_m, self.undecided_m) = (depth_m, None);
             return None;
@@ -61,7 +72,7 @@ mod tests {
     fn deepest_mm(samples: &[(f64, f64)]) -> Option<f64> {
         let mut overlap = UnforcedOverlap::default();
         for &(depth_mm, force_n) in samples {
-            overlap.take(depth_mm * 1e-3, force_n, false);
+            overlap.take(PairOverlap { depth_m: depth_mm * 1e-3, force_n, is_last: false });
         }
         overlap.end();
         overlap.deepest_m().map(|depth_m| (depth_m * 1e3).round())

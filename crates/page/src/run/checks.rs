@@ -20,7 +20,7 @@ pub(super) fn checks(report: &RunReport, run: &RunContent) -> Markup {
     let passed = others.iter().filter(|check| check.status == Status::Pass).count();
     let scale =
         BarScale::for_shares(report.checks.iter().flat_map(|check| &check.measures).filter_map(share));
-    let table = |checks: &[&CheckResult]| table(checks, &Rows { report, run, scale });
+    let table = |checks: &[&CheckResult]| table(checks, &CheckRows { report, run, scale });
     html! {
         section {
             @if report.checks.is_empty() { h2 { "Checks" } p { "The scenario has no check." } }
@@ -44,13 +44,13 @@ pub(super) fn checks(report: &RunReport, run: &RunContent) -> Markup {
 }
 
 /// What the rows of a table need.
-struct Rows<'a> {
+struct CheckRows<'a> {
     report: &'a RunReport,
     run: &'a RunContent,
     scale: BarScale,
 }
 
-fn table(checks: &[&CheckResult], of: &Rows<'_>) -> Markup {
+fn table(checks: &[&CheckResult], of: &CheckRows<'_>) -> Markup {
     let index = |check: &CheckResult| {
         of.report.checks.iter().position(|other| std::ptr::eq(other, check)).unwrap_or_default()
     };
@@ -66,7 +66,7 @@ fn table(checks: &[&CheckResult], of: &Rows<'_>) -> Markup {
     }
 }
 
-fn rows(check: &CheckResult, of: &Rows<'_>, at: &Pointer) -> Markup {
+fn rows(check: &CheckResult, of: &CheckRows<'_>, at: &Pointer) -> Markup {
     let shown = check.measures.iter().take(MOST_MEASURES).enumerate();
     let further = check.measures.len().saturating_sub(MOST_MEASURES);
     html! {
@@ -99,7 +99,7 @@ fn name(check: &CheckResult) -> Markup {
     }
 }
 
-fn cells(measure: &Measure, of: &Rows<'_>, at: &Pointer) -> Markup {
+fn cells(measure: &Measure, of: &CheckRows<'_>, at: &Pointer) -> Markup {
     let what = quantity_words(measure.quantity);
     let Some(worst) = &measure.worst else {
         return html! { td data-label="worst value" { (what) ": no value" } td {} td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };

@@ -19,7 +19,7 @@ const MOST_LINES: usize = 5;
 const ROUNDING: f32 = 1e-12;
 
 /// A plot, or the sentence that says why there is none.
-pub(super) enum Curve {
+pub(super) enum PlottedCurve {
     Plot(Chart),
     Text(String),
 }
@@ -44,7 +44,7 @@ fn worst(mut lines: Vec<(f32, PlotLine)>) -> (Vec<PlotLine>, usize) {
 }
 
 /// Errors of the links, those whose pose is the URDF's in model and twin left out: their error is rounding.
-pub(super) fn errors(quantity: Quantity, report: &RunReport, run: &RunContent) -> Option<Curve> {
+pub(super) fn errors(quantity: Quantity, report: &RunReport, run: &RunContent) -> Option<PlottedCurve> {
     let is_position = quantity == Quantity::Position;
     let agreement =
         |check: CheckKind, measure: &Measure| check == CheckKind::Agreement && measure.quantity == quantity;
@@ -68,14 +68,14 @@ pub(super) fn errors(quantity: Quantity, report: &RunReport, run: &RunContent) -
     let largest = lines.iter().map(|(largest, _)| *largest).reduce(f32::max)?;
     if largest <= ROUNDING {
         let (what, limit) = if is_position { ("distance", length(1e-12)) } else { ("angle", angle(1e-12)) };
-        return Some(Curve::Text(format!(
+        return Some(PlottedCurve::Text(format!(
             "The {what} between model and twin is never above {limit} at any link: rounding, not plotted."
         )));
     }
     let (lines, others) = worst(lines);
     let (unit, scale) = axis(if is_position { SiUnit::Metre } else { SiUnit::Radian });
     let (id, limits) = (quantity.name().to_owned(), limits(report, agreement));
-    Some(Curve::Plot(Chart { id, unit, scale, log: true, lines, limits, others, ..Chart::default() }))
+    Some(PlottedCurve::Plot(Chart { id, unit, scale, log: true, lines, limits, others, ..Chart::default() }))
 }
 
 /// The smallest distances between links and to obstacles, of pairs whose distance can change.
@@ -106,7 +106,7 @@ fn distances(id: &str, lines: Vec<PlotLine>, limits: Vec<PlotLimit>) -> Option<C
 }
 
 /// Tracking errors of the joints with this unit.
-pub(super) fn tracking(unit: SiUnit, report: &RunReport, run: &RunContent) -> Option<Curve> {
+pub(super) fn tracking(unit: SiUnit, report: &RunReport, run: &RunContent) -> Option<PlottedCurve> {
     let robot = &run.description.robot;
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind.si_unit());
     let line = |joint: usize| {
@@ -121,7 +121,9 @@ pub(super) fn tracking(unit: SiUnit, report: &RunReport, run: &RunContent) -> Op
     let turns = unit == SiUnit::Radian;
     if largest <= ROUNDING {
         let which = if turns { "turns" } else { "slides" };
-        return Some(Curve::Text(format!("Every joint that {which} is at its setpoint all the time.")));
+        return Some(PlottedCurve::Text(format!(
+            "Every joint that {which} is at its setpoint all the time."
+        )));
     }
     let quantity = if turns { Quantity::PathErrorOfAngle } else { Quantity::PathErrorOfShift };
     let mut limits =
@@ -131,7 +133,7 @@ pub(super) fn tracking(unit: SiUnit, report: &RunReport, run: &RunContent) -> Op
     limits.extend(mirrored.collect::<Vec<_>>());
     let (lines, others) = worst(lines);
     let ((unit, scale), id) = (axis(unit), tracking_id(unit).to_owned());
-    Some(Curve::Plot(Chart { id, unit, scale, lines, limits, others, ..Chart::default() }))
+    Some(PlottedCurve::Plot(Chart { id, unit, scale, lines, limits, others, ..Chart::default() }))
 }
 
 /// The name of the plot of tracking errors.

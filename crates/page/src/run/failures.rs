@@ -110,7 +110,7 @@ fn mark(chart: &mut Chart, measure: &Measure, times_s: &Floats) {
     if is_goal {
         let mut limit = limit_of(measure);
         limit.name = format!("goal {}", limit.name);
-        // On an axis that reaches to the limits on the way, an error at the goal would be a flat line.
+        // On an axis that reaches to the limits on the path, an error at the goal would be a flat line.
         chart.has_all_limits = !chart.points.is_empty();
         chart.limits.push(limit);
     }

@@ -7,7 +7,7 @@ use congruent_monitors::verdict::{Status, Verdict};
 use congruent_results::report::{RunReport, quantity_words, verdict_word};
 use maud::{Markup, html};
 
-use crate::index::tightest;
+use super::tightest::tightest;
 use crate::parts::{BadgeKind, Pointer, Provenance, badge, capitalised, count, provenance, value};
 
 /// Files of the results that may be there, with what they are. The first two are written before the page.

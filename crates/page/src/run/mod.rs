@@ -13,6 +13,8 @@ mod over_time;
 mod page;
 mod recorder;
 mod scene;
+mod tightest;
 
 pub(crate) use header::outcome;
 pub use recorder::PageFormat;
+pub(crate) use tightest::tightest;

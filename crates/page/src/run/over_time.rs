@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 use super::{
     content::RunContent,
-    curves::{Curve, clearance, errors, tracking, zones},
+    curves::{PlottedCurve, clearance, errors, tracking, zones},
     failures::{FailedPlot, failed_plots},
     joints,
 };
@@ -46,16 +46,16 @@ impl RunPlots {
         let curves = [
             errors(Quantity::Position, report, run),
             errors(Quantity::Orientation, report, run),
-            clearance(report, run).map(Curve::Plot),
-            zones(report, run).map(Curve::Plot),
+            clearance(report, run).map(PlottedCurve::Plot),
+            zones(report, run).map(PlottedCurve::Plot),
             tracking(SiUnit::Radian, report, run),
             tracking(SiUnit::Metre, report, run),
         ];
         let (mut charts, mut unplotted) = (Vec::<Chart>::new(), Vec::new());
         for curve in curves.into_iter().flatten() {
             match curve {
-                Curve::Plot(chart) => charts.push(chart),
-                Curve::Text(text) => unplotted.push(text),
+                PlottedCurve::Plot(chart) => charts.push(chart),
+                PlottedCurve::Text(text) => unplotted.push(text),
             }
         }
         unplotted.extend(constant(run));

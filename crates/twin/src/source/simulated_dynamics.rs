@@ -323,7 +323,8 @@ mod tests {
             physics.forward_into(&DrivenState { q: &q, qd: &[0.0; 2], tau: &tau }, &mut qdd).unwrap();
             qdd
         };
-        assert_eq!(found([3.0, 0.0]), [0.0, 0.0]);
+        let held = found([3.0, 0.0]);
+        assert!(held.iter().all(|qdd| *qdd == 0.0), "{held:?}");
         // The inertia about the first axis, with the second joint held: 2 (0.5^2) + 0.01 + 1.3^2 + 0.01.
         let moved = found([10.0, 1.9]);
         assert!((moved[0] - 5.0 / 2.21).abs() < ACCELERATION && moved[1] == 0.0, "{moved:?}");

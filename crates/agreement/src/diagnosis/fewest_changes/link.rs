@@ -7,12 +7,12 @@ use super::same_within::SameWithin;
 
 /// The axis of a joint with its positive direction, at position zero.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct AxisLine {
+pub(super) struct JointLine {
     pub(super) through: Vector3<f64>,
     pub(super) direction: Vector3<f64>,
 }
 
-impl AxisLine {
+impl JointLine {
     /// The z axis of a frame.
     pub(super) fn along_z(frame: &Pose) -> Self {
         Self { through: frame.translation, direction: frame.rotation.column(2).into_owned() }
@@ -39,8 +39,13 @@ pub(super) struct LinkValues {
 ///
 /// Source: Denavit and Hartenberg (1955). Parallel lines have any number of common normals: the one at `given.d_m` is taken,
 /// and if they are the same line the direction at `given.theta_rad`, too.
-pub(super) fn links_onto(line: &AxisLine, frame: &Pose, given: &AboutZ, same: SameWithin) -> Vec<LinkValues> {
-    let AxisLine { through, direction: z } = AxisLine::along_z(frame);
+pub(super) fn links_onto(
+    line: &JointLine,
+    frame: &Pose,
+    given: &AboutZ,
+    same: SameWithin,
+) -> Vec<LinkValues> {
+    let JointLine { through, direction: z } = JointLine::along_z(frame);
     let normal = z.cross(&line.direction);
     let sine = normal.norm();
     let between = line.through - through;

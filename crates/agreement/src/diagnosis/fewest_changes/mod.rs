@@ -11,7 +11,7 @@ mod same_within;
 
 use congruent_description::{ChainQ, DhConvention, DhRowKind};
 use congruent_kinematics::{Pose, Twist, rotation_exp};
-use link::{AboutZ, AxisLine, LinkValues, links_onto};
+use link::{AboutZ, JointLine, LinkValues, links_onto};
 use nalgebra::{Matrix3, Vector3};
 pub(super) use same_within::SameWithin;
 
@@ -38,7 +38,7 @@ pub(super) struct ChangedTable {
 
 /// The axes of the reference model that a table has to meet.
 pub(super) struct WantedAxes {
-    axes: Vec<AxisLine>,
+    axes: Vec<JointLine>,
     base_from_tip: Pose,
     pub(super) same: SameWithin,
 }
@@ -50,12 +50,12 @@ impl WantedAxes {
         let axis = |twist: &Twist| {
             let turn = twist.angular.norm();
             // w x v / w^2 is the point of the axis nearest to the origin.
-            (turn > NO_TURN).then(|| AxisLine {
+            (turn > NO_TURN).then(|| JointLine {
                 through: twist.angular.cross(&twist.linear) / (turn * turn),
                 direction: twist.angular / turn,
             })
         };
-        let axes = state.twists.iter().map(axis).collect::<Option<Vec<AxisLine>>>()?;
+        let axes = state.twists.iter().map(axis).collect::<Option<Vec<JointLine>>>()?;
         Some(Self { axes, base_from_tip: state.base_from_tip, same })
     }
 
@@ -113,16 +113,16 @@ impl TableSearch<'_> {
     }
 
     /// The axis of a row's joint with the sign of the row.
-    fn line(&self, candidate: &CandidateModel, row: usize) -> AxisLine {
+    fn line(&self, candidate: &CandidateModel, row: usize) -> JointLine {
         let row = &candidate.rows[row];
         let axis = self.wanted.axes[row.joint];
-        AxisLine { direction: axis.direction * row.rate, ..axis }
+        JointLine { direction: axis.direction * row.rate, ..axis }
     }
 
     /// The given base, turned and shifted no more than its z axis needs to be on a line.
-    fn moved_base(&self, line: &AxisLine) -> Pose {
+    fn moved_base(&self, line: &JointLine) -> Pose {
         let base = self.given.base.pose;
-        let z = AxisLine::along_z(&base).direction;
+        let z = JointLine::along_z(&base).direction;
         let turn = Vector3::from(z.cross(&line.direction));
         let angle = libm::atan2(turn.norm(), z.dot(&line.direction));
         // Of opposite directions any axis at right angles will do.
@@ -143,7 +143,7 @@ impl TableSearch<'_> {
         if next == self.given.rows.len() {
             // The last row as it is: the transform behind it makes up for everything.
             self.finish(&behind_row(at, frame, &table.candidate), table);
-            let end = AxisLine::along_z(&self.given_end());
+            let end = JointLine::along_z(&self.given_end());
             return self.extend_onto(&end, at, frame, table);
         }
         for table in self.turned_around(next, table) {
@@ -152,7 +152,7 @@ impl TableSearch<'_> {
         }
     }
 
-    fn extend_onto(&mut self, line: &AxisLine, at: usize, frame: &Pose, table: &ChangedTable) {
+    fn extend_onto(&mut self, line: &JointLine, at: usize, frame: &Pose, table: &ChangedTable) {
         // The row of theta and d of this link; of modified rows the one before.
         let about_z = if self.is_standard() { Some(at) } else { at.checked_sub(1) };
         let entry = |row: usize, entry| self.given.entry(row, entry).unwrap_or_default();

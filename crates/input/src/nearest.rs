@@ -1,0 +1,53 @@
+//! The known name that an unknown one was probably meant to be.
+
+/// The known name that `name` was probably meant to be: at most two letters are other, missing, too much or exchanged, and
+/// fewer than half of them; or it is the only name of which this one is some of the words, as `elbow` of `elbow_joint`, or one without its unit.
+/// `None` if there is none.
+///
+/// # Examples
+/// ```
+/// use congruent_input::nearest;
+/// let joints = ["shoulder_joint", "elbow_joint"];
+/// assert_eq!(nearest("elbow_jiont", joints), Some("elbow_joint"));
+/// assert_eq!(nearest("elbow", joints), Some("elbow_joint"));
+/// assert_eq!(nearest("wrist", joints), None);
+/// ```
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    /// Most letters that are other. Kind: choice; two mistyped keys.
+    const MOST_EDITS: usize = 2;
+    let lower = name.to_lowercase();
+    let (mut best, mut containing) = (None, Vec::new());
+    for candidate in known {
+        let other = candidate.to_lowercase();
+        let edits = strsim::osa_distance(&lower, &other);
+        let unlike = (edits, -strsim::jaro_winkler(&lower, &other));
+        let is_meant = edits <= MOST_EDITS && 2 * edits < lower.chars().count();
+        if is_meant && best.is_none_or(|(least, _)| unlike < least) {
+            best = Some((unlike, candidate));
+        }
+        if format!("_{other}_").contains(&format!("_{lower}_")) {
+            containing.push(candidate);
+        }
+    }
+    let is_with_unit = |known: &&&str| {
+        let rest = known.to_lowercase();
+        rest.strip_prefix(&format!("{lower}_")).is_some_and(|unit| !unit.contains('_'))
+    };
+    match containing[..] {
+        _ if best.is_some() => best.map(|(_, candidate)| candidate),
+        [only] => Some(only),
+        _ => containing.iter().find(is_with_unit).copied(),
+    }
+}
+
+/// Help for an unknown name: the most similar known name, then all known names.
+pub fn known_names<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> String {
+    const MOST_LISTED: usize = 40;
+    let guess =
+        nearest(name, known.clone()).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
+    let all: Vec<&str> = known.into_iter().collect();
+    let listed = all[..all.len().min(MOST_LISTED)].join(", ");
+    let rest = all.len().saturating_sub(MOST_LISTED);
+    let more = if rest == 0 { String::new() } else { format!(" and {rest} more") };
+    format!("{guess}known {what}: {listed}{more}")
+}
