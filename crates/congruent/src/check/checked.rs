@@ -20,7 +20,11 @@ use super::{
     poses_of_other::PosesOfOther,
     robot_check::RobotCheck,
 };
-use crate::{codes, lint::LintSummary, with_physics::simulated_poses};
+use crate::{
+    codes,
+    lint::{LintSummary, lint_robot},
+    with_physics::simulated_poses,
+};
 
 /// Compares table, URDF chain, screws and the physics twin of a robot, first their poses and then their dynamics. A robot
 /// that cannot be simulated is compared without the physics, and the report says why.
@@ -107,7 +111,7 @@ fn checked(
         declared_dynamics,
         dynamics,
         other_dynamics,
-        lint: LintSummary::from_descriptions(once(description).chain(other)),
+        lint: LintSummary::from_reports(once(description).chain(other).map(lint_robot)),
         fix: None,
     })
 }

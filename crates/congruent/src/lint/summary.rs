@@ -1,12 +1,11 @@
 //! What lint finds in the descriptions that another command reads.
 
-use congruent_description::RobotDescription;
 use congruent_input::{Diagnostic, Finding, Severity};
 use congruent_lint::codes;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::lint_robot;
+use super::report::LintReport;
 
 /// What lint finds in the descriptions of a check.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -25,13 +24,10 @@ impl LintSummary {
     /// Most findings that are listed. Kind: choice.
     const MOST_LISTED: usize = 3;
 
-    /// Lints descriptions that have been read.
-    pub(crate) fn from_descriptions<'a>(
-        descriptions: impl IntoIterator<Item = &'a RobotDescription>,
-    ) -> Self {
+    /// What the reports of several descriptions have together.
+    pub(crate) fn from_reports(reports: impl IntoIterator<Item = LintReport>) -> Self {
         let (mut errors, mut warnings, mut found) = (0, 0, Vec::new());
-        for description in descriptions {
-            let report = lint_robot(description);
+        for report in reports {
             (errors, warnings) = (errors + report.errors, warnings + report.warnings);
             found.extend(report.diagnostics);
         }

@@ -8,8 +8,9 @@ use serde::de::DeserializeOwned;
 use super::{
     beyond_limits::{outside_limits, outside_limits_warning},
     json_list::{JsonList, is_entry},
-    read::{LIST, MOST_BYTES, WrittenConfiguration},
+    read::{LIST, MOST_BYTES},
     states::JointState,
+    written::WrittenConfiguration,
 };
 use crate::model::Robot;
 

@@ -8,6 +8,7 @@ mod rows;
 mod states;
 mod table;
 mod unique;
+mod written;
 
 pub use self::{
     beyond_limits::{outside_limits, outside_limits_warning},

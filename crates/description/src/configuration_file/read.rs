@@ -3,8 +3,7 @@
 use std::{collections::BTreeMap, ops::Range, path::Path};
 
 use congruent_input::{Diagnostic, Findings, InputFile, TextLines, known_names};
-use schemars::{JsonSchema, Schema, schema_for};
-use serde::Deserialize;
+use schemars::{Schema, schema_for};
 
 use crate::{
     codes,
@@ -17,7 +16,7 @@ use super::{
     rows::RobotQList,
     states::{JointState, JointStateList},
     table::{is_table, read_rows},
-    unique::unique_names,
+    written::WrittenConfiguration,
 };
 
 /// How far a given mimic position (rad, m) or speed may be from the value that follows from its master. Kind: digits of the
@@ -31,25 +30,6 @@ pub(super) const LIST: JsonList = JsonList {
 };
 /// Size limit of a file of configurations, bytes.
 pub(super) const MOST_BYTES: u64 = 256 << 20;
-
-/// One entry of a batch, joints by name; joints of groups that a command does not use are checked too.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "Configuration")]
-pub(super) struct WrittenConfiguration {
-    /// Positions in rad and m; joints that are not named are at 0.
-    #[serde(default, deserialize_with = "unique_names")]
-    pub(super) q: BTreeMap<String, f64>,
-    /// Velocities in rad/s and m/s.
-    #[serde(default, deserialize_with = "unique_names")]
-    pub(super) v: BTreeMap<String, f64>,
-    /// Torques in N m and forces in N.
-    #[serde(default, deserialize_with = "unique_names")]
-    pub(super) tau: BTreeMap<String, f64>,
-    /// Accelerations in rad/s² and m/s².
-    #[serde(default, deserialize_with = "unique_names")]
-    a: BTreeMap<String, f64>,
-}
 
 impl WrittenConfiguration {
     /// The state; joints of all groups must be known, also of those that a command does not use.

@@ -12,7 +12,7 @@ use congruent_tables::{
     run_columns::{POSITION, TIME, is_other_quantity},
 };
 
-use super::read::WrittenConfiguration;
+use super::written::WrittenConfiguration;
 use crate::{codes, model::Robot};
 
 /// Most faults that are listed: one wrong column gives a fault in every row.
