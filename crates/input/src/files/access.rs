@@ -57,6 +57,13 @@ pub struct InputFile {
     pub path: PathBuf,
 }
 
+/// Its path.
+impl AsRef<Path> for InputFile {
+    fn as_ref(&self) -> &Path {
+        &self.path
+    }
+}
+
 impl FileAccess {
     /// With the ROS packages to search, and with further folders that may be opened.
     ///

@@ -2,8 +2,6 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::access::InputFile;
-
 /// A path as a result names it: an absolute one relative to the current folder, so that a command with it still works there;
 /// only its last part if there is no path from one to the other, as between drives.
 pub fn portable_path(path: &Path) -> PathBuf {
@@ -15,9 +13,8 @@ pub fn portable_path(path: &Path) -> PathBuf {
 }
 
 /// A text of a result in which every absolute path of an input is written as results name it; of JSON, too.
-pub fn portable_text(text: &str, inputs: &[InputFile]) -> String {
-    let mut paths: Vec<&Path> =
-        inputs.iter().map(|input| input.path.as_path()).filter(|path| path.is_absolute()).collect();
+pub fn portable_text(text: &str, inputs: &[impl AsRef<Path>]) -> String {
+    let mut paths: Vec<&Path> = inputs.iter().map(AsRef::as_ref).filter(|path| path.is_absolute()).collect();
     // The longest first: one path may begin with another.
     paths.sort_by_key(|path| std::cmp::Reverse(path.as_os_str().len()));
     let in_json = |path: &Path| path.display().to_string().replace('\\', r"\\");
@@ -69,7 +66,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn a_text_names_inputs_without_the_root() {
-        let input = |path: &str| InputFile { file: String::new(), sha256: String::new(), path: path.into() };
+        let input = |path: &str| PathBuf::from(path);
         let inputs = [input("/nowhere/arm"), input("/nowhere/arm.urdf"), input("cell.toml")];
         let text = portable_text("/nowhere/arm.urdf:7 and \"/nowhere/arm\" and cell.toml", &inputs);
         assert!(!text.contains(" /nowhere") && !text.starts_with('/') && !text.contains("\"/"), "{text}");
