@@ -13,7 +13,7 @@ use maud::{Markup, html};
 use super::{
     content::RunContent,
     curves::{axis, limit_of, of_check, tracking_id},
-    over_time::{RunPlots, caption},
+    figures::caption,
     scene::scene,
 };
 use crate::{
@@ -136,11 +136,11 @@ fn value_at(line: &PlotLine, times_s: &Floats, time_s: f64) -> Option<f32> {
 }
 
 /// The section; nothing if no check failed.
-pub(super) fn what_failed(report: &RunReport, run: &RunContent, plots: &RunPlots) -> Markup {
+pub(super) fn what_failed(report: &RunReport, run: &RunContent, plots: &[FailedPlot]) -> Markup {
     let checks = report.checks_failed_first().into_iter();
     let failed: Vec<_> = checks.filter(|check| check.status == Status::Fail).collect();
     let Some((first, others)) = failed.split_first() else { return html! {} };
-    let mut figures = plots.failed.iter();
+    let mut figures = plots.iter();
     html! {
         section {
             h2 { "What failed" }

@@ -7,6 +7,7 @@ mod curves;
 mod events;
 mod failures;
 mod faults;
+mod figures;
 mod header;
 mod joints;
 mod over_time;

@@ -9,6 +9,7 @@ use super::{
     content::RunContent,
     curves::{PlottedCurve, clearance, errors, tracking, zones},
     failures::{FailedPlot, failed_plots},
+    figures::FIGURES,
     joints,
 };
 use crate::{
@@ -23,21 +24,6 @@ pub(super) struct RunPlots {
     pub(super) failed: Vec<FailedPlot>,
     /// What is not plotted, since it is rounding or never changes.
     unplotted: Vec<String>,
-}
-
-/// Plots that are not of single joints, with what they show.
-const FIGURES: [(&str, &str); 6] = [
-    ("position", "Distance between model and twin, of the links with the largest"),
-    ("orientation", "Angle between model and twin, of the links with the largest"),
-    ("clearance", "Smallest distance, of pairs whose distance can change"),
-    ("zones", "Smallest distance from forbidden zones"),
-    ("tracking_angle", "Setpoint minus position, of joints that turn"),
-    ("tracking_shift", "Setpoint minus position, of joints that slide"),
-];
-
-/// What a plot shows, by its name.
-pub(super) fn caption(id: &str) -> Option<&'static str> {
-    FIGURES.iter().find(|(name, _)| *name == id).map(|(_, caption)| *caption)
 }
 
 impl RunPlots {

@@ -27,7 +27,7 @@ pub(super) fn run_page(report: &RunReport, run: &RunContent, folder: &Path) -> S
         (header(report, folder))
         (without_script())
         @if has_failed {
-            (what_failed(report, run, &plots))
+            (what_failed(report, run, &plots.failed))
             (causes(report))
             (checks(report, run))
             (run.events.section(report))
