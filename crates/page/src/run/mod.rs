@@ -15,6 +15,7 @@ mod page;
 mod recorder;
 mod scene;
 mod tightest;
+mod violated;
 
 pub(crate) use header::outcome;
 pub use recorder::PageFormat;

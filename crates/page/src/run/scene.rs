@@ -10,7 +10,7 @@ use congruent_scenario::CheckKind;
 use maud::{Markup, html};
 use nalgebra::Isometry3;
 
-use super::{content::RunContent, failures::violated};
+use super::{content::RunContent, violated::violated};
 use crate::picture::{DrawnArm, Figure, PictureBody, Skeleton, TwoArms, corners, shapes};
 
 /// The picture of the arm, with its caption and its legend.
