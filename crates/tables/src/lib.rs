@@ -13,5 +13,5 @@ mod table;
 
 pub use read::read_table;
 pub use row_reader::{RowReader, Value};
-pub use stream::{TableError, open};
-pub use table::{Cell, Header, Row, TableRows, WrittenTable};
+pub use stream::{TableError, is_csv, open};
+pub use table::{Cell, Header, MOST_FAULTS, Row, TableRows, WrittenTable};

@@ -55,7 +55,16 @@ pub fn open(path: &Path) -> Result<Box<dyn RowReader>, TableError> {
 }
 
 pub(crate) fn is_parquet(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"))
+    has_ending(path, "parquet")
+}
+
+/// Whether the name of a file says that it is a table in CSV.
+pub fn is_csv(path: &Path) -> bool {
+    has_ending(path, "csv")
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
 }
 
 struct CsvRows {

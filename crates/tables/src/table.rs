@@ -2,8 +2,11 @@
 
 use std::ops::Range;
 
-use congruent_input::{Code, Diagnostic, LineCounter};
+use congruent_input::{Code, Diagnostic, Findings, LineCounter};
 use csv::{Reader, ReaderBuilder, StringRecord};
+
+/// Most faults that are listed: one wrong column gives a fault in every row, one wrong header in every column.
+pub const MOST_FAULTS: usize = 20;
 
 /// A cell with its place in the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,6 +29,15 @@ pub struct Row {
 }
 
 impl Row {
+    /// An error about what the row says, with its line and its place.
+    #[must_use]
+    pub fn mark(&self, fault: Diagnostic) -> Diagnostic {
+        Diagnostic {
+            message: format!("line {}: {}", self.line, fault.message),
+            ..fault.at(self.span.clone())
+        }
+    }
+
     /// An error of the whole row.
     pub fn fault(&self, code: &'static Code, message: &str) -> Diagnostic {
         Diagnostic::error(code, format!("line {}: {message}", self.line)).at(self.span.clone())
@@ -124,6 +136,28 @@ impl Iterator for TableRows<'_> {
 }
 
 impl TableRows<'_> {
+    /// Makes a value of each row.
+    ///
+    /// # Errors
+    /// The faults of the first rows that have one.
+    pub fn read_each<T>(
+        self,
+        mut read: impl FnMut(Row) -> Result<T, Diagnostic>,
+    ) -> Result<Vec<T>, Findings> {
+        let (mut values, mut faults) = (Vec::new(), Vec::new());
+        for row in self {
+            match row.and_then(&mut read) {
+                Ok(value) => values.push(value),
+                Err(fault) => faults.push(fault),
+            }
+            // More of the same would hide the first message.
+            if faults.len() >= MOST_FAULTS {
+                break;
+            }
+        }
+        if faults.is_empty() { Ok(values) } else { Err(faults.into()) }
+    }
+
     fn next_row(&mut self) -> Option<Row> {
         loop {
             // Text in memory cannot fail to be read, and rows may have any number of cells.

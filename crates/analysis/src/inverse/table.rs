@@ -12,9 +12,6 @@ use congruent_tables::{Header, Row, WrittenTable};
 use super::written_target::WrittenTarget;
 use crate::codes;
 
-/// Most faults that are listed: one wrong column gives a fault in every row.
-const MOST_FAULTS: usize = 20;
-
 /// What a column gives.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum TargetColumn {
@@ -37,24 +34,10 @@ pub(super) fn read_rows<T>(
     let empty = || Diagnostic::error(codes::targets::TABLE, "the table is empty").at(0..0);
     let WrittenTable { header, rows } = WrittenTable::read(text, codes::targets::TABLE).ok_or_else(empty)?;
     let columns = columns(&header, robot)?;
-    let (mut targets, mut faults) = (Vec::new(), Vec::new());
-    for row in rows {
-        let read = row.and_then(|row| {
-            let written = target(&header, &columns, &row)?;
-            add(written, row.span.clone()).map_err(|fault| Diagnostic {
-                message: format!("line {}: {}", row.line, fault.message),
-                ..fault.at(row.span.clone())
-            })
-        });
-        match read {
-            Ok(target) => targets.push(target),
-            Err(fault) => faults.push(fault),
-        }
-        if faults.len() >= MOST_FAULTS {
-            break;
-        }
-    }
-    if faults.is_empty() { Ok(targets) } else { Err(faults.into()) }
+    rows.read_each(|row| {
+        let written = target(&header, &columns, &row)?;
+        add(written, row.span.clone()).map_err(|fault| row.mark(fault))
+    })
 }
 
 fn target(

@@ -8,6 +8,7 @@ use congruent_input::{
     rotation_from_rpy_fixed_xyz, units::LARGEST,
 };
 use congruent_kinematics::{IkTarget, Pose, TargetPart};
+use congruent_tables::is_csv;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::{table::read_rows, written_target::WrittenTarget};
@@ -53,8 +54,8 @@ pub struct InverseTargets {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Reads a file of targets: a table (.csv) with columns such as `x_mm` and `yaw_deg`, or a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [...],
-/// "start": {joint: value}}`, the last two optional; poses of the tool in link `base`.
+/// Reads a file of targets: a table (.csv) with columns such as `x_mm` and `yaw_deg`, or a JSON array of
+/// `{"translation_m": [x, y, z], "quaternion_wxyz": [...], "start": {joint: value}}`, the last two optional; poses of the tool in link `base`.
 ///
 /// # Errors
 /// The file cannot be read, is no such array, names an unknown joint or has a quaternion not of unit length.
@@ -79,9 +80,11 @@ fn read_targets_of(source: &Arc<SourceFile>, robot: &Robot) -> Result<InverseTar
         warnings.extend(start_warnings(&target, index, robot).map(|warning| warning.at(place.clone())));
         Ok(target)
     };
-    let is_table = source.path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-    let targets =
-        if is_table { read_rows(&source.text, robot, entry) } else { LIST.read(&source.text, entry) };
+    let targets = if is_csv(&source.path) {
+        read_rows(&source.text, robot, entry)
+    } else {
+        LIST.read(&source.text, entry)
+    };
     let targets = targets.map_err(|faults| faults.into_iter().map(in_file).collect::<Findings>())?;
     Ok(InverseTargets { targets, warnings: warnings.into_iter().map(in_file).collect() })
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use congruent_description::{Robot, RobotQ};
 use congruent_input::{Diagnostic, Findings};
-use congruent_tables::{Header, Row, WrittenTable};
+use congruent_tables::{Header, MOST_FAULTS, Row, WrittenTable};
 
 use super::{
     checks::{missing_joints, no_rows, plausible},
@@ -14,26 +14,12 @@ use super::{
 };
 use crate::codes;
 
-/// Most faults that are listed: one wrong column gives a fault in every row, one wrong header in every column.
-const MOST_FAULTS: usize = 20;
-
 /// Parses a whole file.
 pub(super) fn parse(text: &str, robot: &Robot, needed: &[usize]) -> Result<Vec<MeasuredRow>, Findings> {
     let WrittenTable { header, rows: records } =
         WrittenTable::read(text, codes::measurements::CELLS).ok_or_else(no_rows)?;
     let columns = columns(&header, robot, needed)?;
-    let (mut rows, mut faults) = (Vec::new(), Vec::new());
-    for record in records {
-        match record.and_then(|record| row(&record, &header, &columns, robot)) {
-            Ok(row) => rows.push(row),
-            Err(fault) => faults.push(fault),
-        }
-        // More of the same would hide the first message.
-        if faults.len() >= MOST_FAULTS {
-            break;
-        }
-    }
-    if faults.is_empty() { Ok(rows) } else { Err(faults.into()) }
+    records.read_each(|record| row(&record, &header, &columns, robot))
 }
 
 /// The help for two columns of one quantity. For a gantry they may be a joint and a coordinate.

@@ -3,6 +3,7 @@
 use std::{collections::BTreeMap, ops::Range, path::Path};
 
 use congruent_input::{Diagnostic, Findings, InputFile, TextLines, known_names};
+use congruent_tables::is_csv;
 use schemars::{Schema, schema_for};
 
 use crate::{
@@ -15,7 +16,7 @@ use super::{
     json_list::JsonList,
     rows::RobotQList,
     states::{JointState, JointStateList},
-    table::{is_table, read_rows},
+    table::read_rows,
     written::WrittenConfiguration,
 };
 
@@ -130,7 +131,7 @@ fn read(
         }
         add(&written)
     };
-    let (input, source) = if is_table(lines.path()) {
+    let (input, source) = if is_csv(lines.path()) {
         let (input, source) = lines.whole()?;
         let in_file = |fault: Diagnostic| fault.in_file(&source);
         read_rows(&source.text, robot, entry)

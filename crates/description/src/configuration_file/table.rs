@@ -1,7 +1,7 @@
 //! Configurations as a table in CSV: a column for each joint with its unit, one configuration in each row. Tables that a run
 //! has written are read as well.
 
-use std::{ops::Range, path::Path};
+use std::ops::Range;
 
 use congruent_input::{
     Diagnostic, Findings, known_names,
@@ -14,14 +14,6 @@ use congruent_tables::{
 
 use super::written::WrittenConfiguration;
 use crate::{codes, model::Robot};
-
-/// Most faults that are listed: one wrong column gives a fault in every row.
-const MOST_FAULTS: usize = 20;
-
-/// Whether the name of a file says that it is a table.
-pub(super) fn is_table(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
-}
 
 /// What a column of a joint gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,21 +40,11 @@ pub(super) fn read_rows(
     let WrittenTable { header, rows } =
         WrittenTable::read(text, codes::configurations::TABLE).ok_or_else(empty)?;
     let columns = columns(&header, robot)?;
-    let mut faults = Vec::new();
-    for row in rows {
-        let read = row.and_then(|row| {
-            let written = configuration(&header, &columns, &row)?;
-            add(written, &mut || row.span.clone()).map_err(|fault| Diagnostic {
-                message: format!("line {}: {}", row.line, fault.message),
-                ..fault.at(row.span.clone())
-            })
-        });
-        faults.extend(read.err());
-        if faults.len() >= MOST_FAULTS {
-            break;
-        }
-    }
-    if faults.is_empty() { Ok(()) } else { Err(faults.into()) }
+    let read = rows.read_each(|row| {
+        let written = configuration(&header, &columns, &row)?;
+        add(written, &mut || row.span.clone()).map_err(|fault| row.mark(fault))
+    });
+    read.map(drop)
 }
 
 fn configuration(
