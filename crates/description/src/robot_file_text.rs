@@ -1,9 +1,6 @@
 //! Writes a robot file and its `[dh]` section as text that the reader of this crate reads back to the same values.
 
-use std::{
-    fmt::Write,
-    path::{Component, Path},
-};
+use std::{fmt::Write, path::Path};
 
 use congruent_input::{
     number::{number, numbers, short_degrees},
@@ -82,15 +79,12 @@ pub fn robot_file_values(
 
 /// `path` relative to `folder`, with `/` between its parts as in every robot file.
 pub fn relative_path(folder: &Path, path: &Path) -> String {
-    let shared = folder.components().zip(path.components()).take_while(|(a, b)| a == b).count();
     // Without a common root, as on two Windows drives, no relative path exists.
-    if shared == 0 && path.is_absolute() {
+    let Some(relative) = congruent_input::relative_path(folder, path) else {
         return path.display().to_string();
-    }
-    let up = folder.components().skip(shared).map(|_| Component::ParentDir);
-    let parts = up.chain(path.components().skip(shared)).map(|part| part.as_os_str().to_string_lossy());
-    let parts: Vec<_> = parts.collect();
-    if parts.is_empty() { ".".to_owned() } else { parts.join("/") }
+    };
+    let parts: Vec<_> = relative.components().map(|part| part.as_os_str().to_string_lossy()).collect();
+    parts.join("/")
 }
 
 fn angle(quantity: &str, angle_rad: f64) -> String {

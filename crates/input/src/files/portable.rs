@@ -1,6 +1,8 @@
 //! Paths as results name them: none begins at the root of a machine, so that a result can be shown to others.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
+
+use super::relative_path::relative_path;
 
 /// A path as a result names it: an absolute one relative to the current folder, so that a command with it still works there;
 /// only its last part if there is no path from one to the other, as between drives.
@@ -9,7 +11,7 @@ pub fn portable_path(path: &Path) -> PathBuf {
         return path.to_owned();
     }
     let current = std::env::current_dir().unwrap_or_default();
-    relative(path, &current).unwrap_or_else(|| path.file_name().map_or_else(PathBuf::new, PathBuf::from))
+    relative_path(&current, path).unwrap_or_else(|| path.file_name().map_or_else(PathBuf::new, PathBuf::from))
 }
 
 /// A text of a result in which every absolute path of an input is written as results name it; of JSON, too.
@@ -42,23 +44,6 @@ fn with_path(text: &str, absolute: &str, named: &str) -> String {
     replaced
 }
 
-/// An absolute path relative to a folder; `None` if they have no root in common.
-fn relative(path: &Path, folder: &Path) -> Option<PathBuf> {
-    let root = |path: &Path| path.components().next().map(|first| first.as_os_str().to_owned());
-    if root(path) != root(folder) {
-        return None;
-    }
-    let (mut steps, mut parts) = (folder.components().peekable(), path.components().peekable());
-    while steps.peek().is_some() && steps.peek() == parts.peek() {
-        steps.next();
-        parts.next();
-    }
-    let up = steps.map(|_| Component::ParentDir);
-    let found: PathBuf = up.chain(parts).collect();
-    // The folder itself.
-    Some(if found.as_os_str().is_empty() { PathBuf::from(".") } else { found })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -86,7 +71,11 @@ mod tests {
             ("/tmp/arm.toml", "../../../tmp/arm.toml"),
             ("/home/ann/cell", "."),
         ] {
-            assert_eq!(relative(Path::new(path), folder).as_deref(), Some(Path::new(expected)), "{path}");
+            assert_eq!(
+                relative_path(folder, Path::new(path)).as_deref(),
+                Some(Path::new(expected)),
+                "{path}"
+            );
         }
         assert_eq!(portable_path(Path::new("scenarios/a.toml")), Path::new("scenarios/a.toml"));
         assert!(portable_path(Path::new("/somewhere/else/a.toml")).is_relative());
