@@ -78,14 +78,12 @@ pub fn inverse(
         let start: ArmQ = start.map(|(joint, middle)| *target.start.get(joint).unwrap_or(middle)).collect();
         let mut solved = solution(&solver.solve(&target.target, &start, options, || true)?, &joints);
         if !solved.converged {
-            solved.not_reached = match reach.beyond(&target.target) {
-                None if target.target.part == TargetPart::Pose => {
-                    let position = IkTarget { part: TargetPart::Position, ..target.target };
-                    let alone = solver.solve(&position, &start, options, || true)?;
-                    alone.converged.then_some(NotReached::Orientation)
-                }
-                found => found,
-            };
+            solved.not_reached = reach.beyond(&target.target);
+            if solved.not_reached.is_none() && target.target.part == TargetPart::Pose {
+                let position = IkTarget { part: TargetPart::Position, ..target.target };
+                let is_reached = solver.solve(&position, &start, options, || true)?.converged;
+                solved.not_reached = is_reached.then_some(NotReached::Orientation);
+            }
         }
         results.push(solved);
     }

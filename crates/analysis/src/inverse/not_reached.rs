@@ -1,6 +1,6 @@
 //! Why a target is not reached.
 
-use congruent_description::{ChainQ, JointKind, RobotDescription};
+use congruent_description::{ChainQ, RobotDescription};
 use congruent_kinematics::{IkTarget, Pose, SerialChain};
 use nalgebra::Point3;
 use schemars::JsonSchema;
@@ -48,11 +48,7 @@ impl Reach {
             } else {
                 reach_m += joint.parent_from_joint.translation.vector.norm();
             }
-            reach_m += match (joint.kind, joint.position_range()) {
-                (JointKind::Prismatic, Some((lower, upper))) => lower.abs().max(upper.abs()),
-                (JointKind::Prismatic, None) => f64::INFINITY,
-                _ => 0.0,
-            };
+            reach_m += joint.largest_shift_m();
         }
         Self { first_joint_in_base: Point3::from(base_from_first.translation), reach_m }
     }

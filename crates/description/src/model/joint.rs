@@ -124,6 +124,15 @@ impl Joint {
         let limit = self.limit.filter(|_| matches!(self.kind, JointKind::Revolute | JointKind::Prismatic))?;
         Some((limit.lower, limit.upper))
     }
+
+    /// The largest distance from its position 0 to which a joint slides, m: 0 if it does not, infinite without a range.
+    pub fn largest_shift_m(&self) -> f64 {
+        match (self.kind, self.position_range()) {
+            (JointKind::Prismatic, Some((lower, upper))) => lower.abs().max(upper.abs()),
+            (JointKind::Prismatic, None) => f64::INFINITY,
+            _ => 0.0,
+        }
+    }
 }
 
 /// A joint before its robot exists: links and mimicked joint by name, the rest as in [`Joint`].

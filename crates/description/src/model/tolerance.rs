@@ -9,7 +9,7 @@ use nalgebra::Isometry3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{joint::JointKind, link::LinkIndex, robot::Robot};
+use super::{link::LinkIndex, robot::Robot};
 use crate::codes;
 
 /// How far two poses may be apart and still count as the same.
@@ -120,12 +120,7 @@ fn distances(robot: &Robot, start: DistanceStart) -> Vec<f64> {
     for joint in robot.joints() {
         let (parent, child) = (joint.parent.get(), joint.child.get());
         let origin_m = if moves[parent] { joint.parent_from_joint.translation.vector.norm() } else { 0.0 };
-        let shift_m = match (joint.kind, joint.position_range()) {
-            (JointKind::Prismatic, Some((lower, upper))) => lower.abs().max(upper.abs()),
-            (JointKind::Prismatic, None) => f64::INFINITY,
-            _ => 0.0,
-        };
-        distances_m[child] = distances_m[parent] + origin_m + shift_m;
+        distances_m[child] = distances_m[parent] + origin_m + joint.largest_shift_m();
         moves[child] = moves[parent] || joint.kind.is_movable();
     }
     distances_m
