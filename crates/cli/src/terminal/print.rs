@@ -3,7 +3,6 @@
 
 use std::{
     collections::BTreeSet,
-    fmt::Write as _,
     io::{self, BufWriter, IsTerminal, Write},
     iter::once_with,
     path::Path,
@@ -14,7 +13,7 @@ use clap::ValueEnum;
 use congruent::{
     input::{Diagnostic, Finding, serde_name, visible},
     text::{
-        MOST_FINDINGS, TextOptions, finding_text,
+        MOST_FINDINGS, TextOptions, finding_line, finding_text,
         layout::{fitted, for_people, visible_path},
         listed_findings,
     },
@@ -292,19 +291,9 @@ fn is_first(warning: &Diagnostic) -> bool {
     PRINTED.lock().map_or(true, |mut printed| printed.insert(text))
 }
 
-/// `robot.toml: warning: robot.urdf:12: link "tool" has no mass; ...`.
+/// A finding in one line, behind the name of the input that it belongs to.
 fn in_one_line(input: Option<&Path>, finding: &Diagnostic) -> String {
-    let mut shown = Finding::from(finding);
-    if let Some(stopped) = finding.stops {
-        let _ = write!(shown.message, " (needed only for {})", serde_name(&stopped));
-    }
-    let text = shown.to_string();
-    let text = text.lines().map(str::trim).collect::<Vec<_>>().join(" ");
-    let code = match finding.code.id {
-        Some(id) => format!("{id} {}", finding.code.name),
-        None => finding.code.name.to_owned(),
-    };
-    format!("{}{} {code}: {text}\n", named(input), serde_name(&finding.severity))
+    format!("{}{}\n", named(input), finding_line(finding))
 }
 
 /// The name of an input in front of what is said of it.

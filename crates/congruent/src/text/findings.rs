@@ -8,7 +8,7 @@ use super::{
     layout::{visible_path, with_visible_lines},
     options::TextOptions,
 };
-use crate::input::{Diagnostic, SourceFile, serde_name};
+use crate::input::{Diagnostic, Finding, SourceFile, serde_name};
 
 /// Most findings that are shown; the others appear once these are corrected.
 pub const MOST_FINDINGS: usize = 100;
@@ -62,16 +62,39 @@ pub fn finding_text(finding: &Diagnostic, options: &TextOptions) -> String {
     text
 }
 
+/// A finding in one line: `warning CGR-URDF-018 urdf::axis: arm.urdf:12: ...`, with what to do behind it.
+///
+/// # Examples
+/// ```
+/// use congruent::{input::Diagnostic, text::finding_line};
+///
+/// let found = Diagnostic::warning(congruent::description::codes::urdf::TREE, "link \"tool\" has no parent");
+/// assert!(finding_line(&found).ends_with(" urdf::tree: link \"tool\" has no parent"));
+/// ```
+pub fn finding_line(finding: &Diagnostic) -> String {
+    let line = Finding { message: message_with_use(finding), ..Finding::from(finding) }.to_string();
+    let text = line.lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    let severity = serde_name(&finding.severity);
+    match finding.code.id {
+        Some(id) => format!("{severity} {id} {}: {text}", finding.code.name),
+        None => format!("{severity} {}: {text}", finding.code.name),
+    }
+}
+
+/// What is wrong, and the use that it is needed for, if that is not every one.
+fn message_with_use(finding: &Diagnostic) -> String {
+    match finding.stops {
+        Some(stopped) => format!("{} (needed only for {})", finding.message, serde_name(&stopped)),
+        None => finding.message.clone(),
+    }
+}
+
 /// The finding without what would fill the terminal: no snippet if its lines are long, and long messages
 /// are cut.
 fn shortened(finding: &Diagnostic, options: &TextOptions) -> Diagnostic {
     let mut shortened = finding.clone();
     // Beside the sign, which not everybody sees or knows.
-    shortened.message.insert_str(0, ": ");
-    shortened.message.insert_str(0, serde_name(&finding.severity));
-    if let Some(stopped) = finding.stops {
-        let _ = write!(shortened.message, " (needed only for {})", serde_name(&stopped));
-    }
+    shortened.message = format!("{}: {}", serde_name(&finding.severity), message_with_use(finding));
     if options.is_in_full && finding.source.as_ref().is_none_or(|source| !source.is_foreign) {
         return shortened;
     }

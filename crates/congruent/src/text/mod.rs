@@ -34,7 +34,7 @@ pub use comparison::comparison_text;
 pub use conversion::{conversion_comments, conversion_remarks, conversion_text};
 pub use description::description_text;
 pub use fault_table::fault_table_text;
-pub use findings::{MOST_FINDINGS, finding_text, listed_findings};
+pub use findings::{MOST_FINDINGS, finding_line, finding_text, listed_findings};
 #[cfg(feature = "recording")]
 pub use joint_sweep::joint_sweep_text;
 pub use lint::lint_text;
