@@ -10,10 +10,8 @@ fn examples(help: &str) -> Vec<String> {
 
 #[test]
 fn the_examples_of_every_command_run() {
-    const COMMANDS: &str = "check lint describe run new view inspect compare fk ik jacobian dynamics clearance workspace \
-                            manipulability sensitivity convert calibrate schema completions man";
     let (mut count, mut faults) = (0, Vec::new());
-    for command in COMMANDS.split(' ') {
+    for command in Sandbox::new().commands() {
         // Those of one command are read one after another.
         let sandbox = Sandbox::new();
         let examples = examples(&sandbox.run(&format!("congruent {command} --help")).printed);

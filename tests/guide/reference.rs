@@ -241,15 +241,9 @@ fn reference_of_the_commands() {
     let sandbox = Sandbox::new();
     let help = |command: &str| sandbox.run(&format!("congruent {command} --help")).printed;
     let all = help("");
-    let names = all
-        .lines()
-        .skip_while(|line| *line != "Check:")
-        .take_while(|line| *line != "Options:")
-        .filter_map(|line| line.strip_prefix("  ")?.split(' ').next())
-        .filter(|name| !["", "help"].contains(name));
     let mut text = format!("{MADE}\n# All commands and options\n\n```text\n{}\n```\n", all.trim_end());
-    for name in names {
-        let _ = writeln!(text, "\n## congruent {name}\n\n```text\n{}\n```", help(name).trim_end());
+    for name in sandbox.commands() {
+        let _ = writeln!(text, "\n## congruent {name}\n\n```text\n{}\n```", help(&name).trim_end());
         if name == "new" {
             for below in ["new robot", "new scenario"] {
                 let _ = writeln!(text, "\n## congruent {below}\n\n```text\n{}\n```", help(below).trim_end());

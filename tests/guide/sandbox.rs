@@ -68,6 +68,15 @@ impl Sandbox {
         paths.filter(|path| path.extension().is_some_and(|found| found == extension)).collect()
     }
 
+    /// The names of all commands, in the groups of the help.
+    pub(crate) fn commands(&self) -> Vec<String> {
+        let help = self.run("congruent --help").printed;
+        let listed = help.lines().skip_while(|line| *line != "Check:").take_while(|line| *line != "Options:");
+        // A line that goes on with a description is indented further.
+        let names = listed.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+        names.filter(|name| !["", "help"].contains(name)).map(str::to_owned).collect()
+    }
+
     pub(crate) fn run(&self, command: &str) -> Answer {
         let command = command.trim();
         if NOT_RUN.iter().any(|beginning| command.starts_with(beginning)) {

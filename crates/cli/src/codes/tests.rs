@@ -9,9 +9,7 @@ use std::{
 use congruent::input::Code;
 use regex_lite::Regex;
 
-fn all() -> Vec<&'static Code> {
-    super::all_codes()
-}
+use super::all_codes as all;
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a readable folder") {
