@@ -88,7 +88,12 @@ impl ModelPair {
 
     /// Whether the residual is within the tolerance; stops at the first configuration at which it is not.
     pub(crate) fn is_within_tolerance(&self, criterion: &Criterion) -> bool {
-        criterion.configurations.iter().all(|q| self.residual_at(q).is_within(&criterion.tolerance))
+        self.is_within(&criterion.tolerance, criterion)
+    }
+
+    /// Whether the residual is within another tolerance than the criterion's.
+    pub(crate) fn is_within(&self, tolerance: &Tolerance, criterion: &Criterion) -> bool {
+        criterion.configurations.iter().all(|q| self.residual_at(q).is_within(tolerance))
     }
 
     pub(super) fn residual_at(&self, q: &ChainQ) -> PoseError {

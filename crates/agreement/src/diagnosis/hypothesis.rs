@@ -195,6 +195,11 @@ impl PoseHypothesis {
         self.edit.is_none() && self.free.len() == 1 && self.cause != Cause::Ratio
     }
 
+    /// Whether it is an edit with a value that is neither in the table nor in the reference model, so that it is fitted.
+    pub(super) fn is_fitted_edit(&self) -> bool {
+        self.edit.is_some() && !self.free.is_empty()
+    }
+
     /// Applies the correction, except for the fit.
     pub(super) fn apply(&self, models: &mut ModelPair) {
         if let Some(edit) = &self.edit {

@@ -16,6 +16,7 @@ use super::{
     hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
     thresholds::{
         BELOW_TOLERANCE, CERTAIN, EVIDENT, FAR_BELOW_TOLERANCE, QUARTER_TURNS, REFUTED, ROUNDING_RESIDUAL,
+        SAME_VALUE,
     },
 };
 
@@ -30,6 +31,9 @@ pub(super) struct ExplanationRank {
     unlikely: usize,
     /// Faults of the reference model's file.
     in_reference: usize,
+    /// Fitted values that neither file has: of values along parallel axes, each of which makes up for the wrong one, that
+    /// which is written elsewhere is the likelier one.
+    unfamiliar: usize,
     /// The causes, in the catalogue's order.
     causes: Vec<Cause>,
     /// The hypotheses, so that the order is the same on every machine.
@@ -69,6 +73,9 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
         unlikely: given_as_zero + in_place_of_base + unproven,
         // The reference counts as correct, so a fault in its file is named only if nothing simpler fits.
         in_reference: hypotheses().filter(|hypothesis| is_in_reference(hypothesis)).count(),
+        unfamiliar: hypotheses()
+            .filter(|hypothesis| is_unfamiliar(context, fit, criterion, hypothesis))
+            .count(),
         causes,
         hypotheses: fit.hypotheses.clone(),
     }
@@ -107,12 +114,16 @@ impl Criterion {
     }
 }
 
-/// The number of free choices of a hypothesis: its free parameters. Another order of angles in the reference
-/// model's file counts as one; as three for quarter turns, since every order of them gives quarter turns.
+/// The number of free choices of a hypothesis: its free parameters, and one for an edit that needs them. Another order of
+/// angles in the reference model's file counts as one; as three for quarter turns, since every order of them gives quarter
+/// turns.
 fn choices(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &PoseHypothesis) -> usize {
-    let FaultPlace::ReferenceJoints(joints) = &hypothesis.place else { return hypothesis.free.len() };
+    // A shifted column with a value that is fitted explains any single value: along parallel axes one offset makes up for
+    // whatever the others sum up to.
+    let fitted = hypothesis.free.len() + usize::from(hypothesis.is_fitted_edit());
+    let FaultPlace::ReferenceJoints(joints) = &hypothesis.place else { return fitted };
     if !is_in_reference(hypothesis) {
-        return hypothesis.free.len();
+        return fitted;
     }
     let by_quarters = |models: &ModelPair| {
         let mut rotations =
@@ -215,6 +226,30 @@ fn is_given_as_zero(candidate: &CandidateModel, hypothesis: &PoseHypothesis) -> 
         [ModelParameter::Tool(component)] => is_zero(&candidate.tool.pose, component),
         _ => false,
     }
+}
+
+/// Whether a hypothesis fits one length of a row to a value that is written nowhere, up to the digits.
+fn is_unfamiliar(
+    context: &FitContext<'_>,
+    fit: &HypothesisFit,
+    criterion: &Criterion,
+    hypothesis: &PoseHypothesis,
+) -> bool {
+    let [ModelParameter::Row(row, entry)] = hypothesis.free[..] else { return false };
+    let Some(fitted) = context.corrected(fit).candidate.entry(row, entry).filter(|_| !entry.is_angle())
+    else {
+        return false;
+    };
+    let ModelPair { candidate, reference } = context.models;
+    let within = criterion.digits.coarsest_half_place(entry).max(SAME_VALUE);
+    let is_same = |written: f64| (written.abs() - fitted.abs()).abs() <= within;
+    let rows = 0..candidate.rows.len();
+    let mut of_table =
+        rows.flat_map(|row| [DhEntry::A, DhEntry::D].map(|entry| candidate.entry(row, entry))).flatten();
+    let mut origins = reference.joints.iter().filter(|joint| joint.is_written);
+    !is_same(0.0)
+        && !of_table.any(is_same)
+        && !origins.any(|joint| joint.parent_from_joint.translation.iter().any(|&written| is_same(written)))
 }
 
 /// Whether the declared base is missing and should be a rotation by quarter turns: data sheets give tables without

@@ -78,13 +78,26 @@ pub(super) const DIGITS_MARGIN: f64 = 1e-4;
 /// gives some fifth of what is allowed.
 pub(super) const BEYOND_DIGITS: f64 = 1e-2;
 
-/// Passes and steps of the search for values within the digits. Kind: loop bounds; some three passes of ten steps are
-/// needed.
-pub(super) const BOX_PASSES: usize = 6;
-pub(super) const BOX_STEPS: usize = 60;
+/// Passes of the search for values within the digits. Kind: loop bound; some four are needed.
+pub(super) const BOX_PASSES: usize = 16;
 
-/// Damping of these steps, relative to the diagonal. No unit; kind: solver.
-pub(super) const BOX_DAMPING: f64 = 1e-9;
+/// Damping of these passes, relative to the largest effect of a value. No unit; kind: solver.
+pub(super) const BOX_DAMPING: DampingSchedule =
+    DampingSchedule { first: 1e-9, least: 1e-14, most: 1e-2, after_success: 0.1, after_failure: 100.0 };
+
+/// The search ends below this norm. Without unit; kind: choice, a thousandth of what counts as the same.
+pub(super) const ENOUGH: f64 = 1e-12;
+
+/// Steps of the interior-point method of a pass. Kind: loop bound; some twenty are needed.
+pub(super) const BARRIER_STEPS: usize = 60;
+
+/// The barrier of a step, as part of the one that the multipliers have, and at its end, as part of the largest effect.
+/// No unit; kind: solver. An angle of eight digits has 1e-10 of the effect of a length of three.
+pub(super) const BARRIER_FACTOR: f64 = 0.1;
+pub(super) const BARRIER_END: f64 = 1e-15;
+
+/// The part of the way to the nearest bound that a step goes. No unit; kind: solver, as in the literature.
+pub(super) const BARRIER_STEP: f64 = 0.995;
 
 // Choice between explanations.
 
@@ -173,6 +186,10 @@ pub(super) const MAX_TABLES: usize = 12;
 /// A value is independent of others if more than this part of its effect is not a combination of theirs. No unit;
 /// kind: rounding of directions of axes in a file with six digits.
 pub(super) const INDEPENDENT: f64 = 1e-5;
+
+/// The same for a table that agrees within the digits of its files. No unit; kind: rounding of files, of which the coarsest
+/// write quarter turns as 1.57.
+pub(super) const INDEPENDENT_IN_DIGITS: f64 = 1e-3;
 
 /// Most fits of all values, each with the values that are independent there. Kind: loop bound.
 pub(super) const MAX_PASSES: usize = 4;

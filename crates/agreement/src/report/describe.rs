@@ -5,6 +5,7 @@ use congruent_kinematics::PoseError;
 
 use super::{
     advice::{self, FileCorrection, file_correction},
+    as_written::is_same_as_written,
     content::{
         CorrectedFile, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
         ReportedStage,
@@ -23,17 +24,23 @@ pub(super) fn reported_diagnosis(
     pair: SourcePair,
     models: &ModelPair,
     criterion: &Criterion,
-    diagnosis: &Diagnosis,
+    diagnosis: Diagnosis,
     names: &ModelNames<'_>,
 ) -> ReportedDiagnosis {
     let described = |explanation: &Explanation| describe(explanation, models, criterion, names);
+    let (diagnosis, others) = with_fix_that_agrees(diagnosis, models, criterion, names);
     let causes: Vec<DescribedCause> = diagnosis.explanations.iter().map(described).collect();
     let others: Vec<(DescribedCause, Equivalence)> =
-        diagnosis.indistinguishable.iter().map(|(other, why)| (described(other), *why)).collect();
+        others.into_iter().zip(diagnosis.indistinguishable.iter().map(|(_, why)| *why)).collect();
     let findings = causes.first().map(|first| first.findings.clone()).unwrap_or_default();
-    // The named cause, or if the file cannot say its correction one that cannot be distinguished from it.
-    let mut named = causes.iter().take(1).chain(others.iter().map(|(other, _)| other));
-    let corrected = named.find_map(|cause| cause.corrected.clone());
+    // The named cause, or if the file cannot say its correction one that cannot be distinguished from it, rather one that
+    // the next check will agree with.
+    let named = || causes.iter().take(1).chain(others.iter().map(|(other, _)| other));
+    let mut files = named().filter_map(|cause| cause.corrected.as_ref());
+    let agrees = |file: &&CorrectedFile| is_same_as_written(file, models, criterion, names) == Some(true);
+    let is_held = causes.first().is_some_and(|first| first.corrected.is_some());
+    let agreeing = if is_held { None } else { files.clone().find(agrees) };
+    let corrected = agreeing.or_else(|| files.next()).cloned();
     // Beside a cause with a residual above the tolerance, or if the digits explain a difference that is not tolerated.
     let rounded = || Explanation::without_faults(models, criterion);
     let unexplained = match diagnosis.explanations.first() {
@@ -55,6 +62,36 @@ pub(super) fn reported_diagnosis(
         corrected,
         findings,
     }
+}
+
+/// The diagnosis with a cause first whose correction, as it is written, makes the models the same, if one of those that cannot
+/// be distinguished does and the named one does not; and the causes that are not named, described.
+fn with_fix_that_agrees(
+    diagnosis: Diagnosis,
+    models: &ModelPair,
+    criterion: &Criterion,
+    names: &ModelNames<'_>,
+) -> (Diagnosis, Vec<DescribedCause>) {
+    let described = |explanation: &Explanation| describe(explanation, models, criterion, names);
+    let agrees = |cause: &DescribedCause| {
+        cause.corrected.as_ref().and_then(|file| is_same_as_written(file, models, criterion, names))
+    };
+    let mut others: Vec<DescribedCause> =
+        diagnosis.indistinguishable.iter().map(|(other, _)| described(other)).collect();
+    let Some(first) = diagnosis.explanations.first().filter(|first| first.is_complete && !others.is_empty())
+    else {
+        return (diagnosis, others);
+    };
+    let first = described(first);
+    if agrees(&first) != Some(false) {
+        return (diagnosis, others);
+    }
+    let Some(better) = others.iter().position(|other| agrees(other) == Some(true)) else {
+        return (diagnosis, others);
+    };
+    others.remove(better);
+    others.insert(0, first);
+    (diagnosis.preferring(better, models, criterion), others)
 }
 
 /// A cause with its findings, and the robot file without it, if the file can say the correction.

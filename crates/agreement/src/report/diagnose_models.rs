@@ -41,7 +41,7 @@ pub fn diagnose_models(
             Some(of_urdf) if is_same_reference(&pairs, &criterion) => {
                 ReportedDiagnosis { name: *pair, title: pair.title(), ..of_urdf.clone() }
             }
-            _ => reported_diagnosis(*pair, models, &criterion, &diagnose(models, &criterion), &names),
+            _ => reported_diagnosis(*pair, models, &criterion, diagnose(models, &criterion), &names),
         });
     }
     diagnoses
@@ -151,7 +151,7 @@ fn within_a_turn(robot: &Robot, moving: &[JointIndex], mut q: ChainQ) -> ChainQ 
 }
 
 /// The table with the roll, pitch and yaw of its declared transforms as the file writes them.
-fn candidate(names: &ModelNames<'_>) -> Option<CandidateModel> {
+pub(super) fn candidate(names: &ModelNames<'_>) -> Option<CandidateModel> {
     use congruent_description::ConstantKey::{BaseFromDh0, DhnFromTip};
     let candidate = CandidateModel::from_table(names.description.dh.as_ref()?, &names.moving)?;
     let written = |transform: DeclaredTransform, key| DeclaredTransform {

@@ -1,6 +1,7 @@
 //! A diagnosis in names, lines and values of the robot file.
 
 mod advice;
+mod as_written;
 mod content;
 mod describe;
 mod diagnose_models;

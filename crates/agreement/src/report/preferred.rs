@@ -2,9 +2,22 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use congruent_description::Tolerance;
+use congruent_kinematics::PoseError;
+
 use crate::diagnosis::{
     Criterion, DhEntry, Explanation, FaultPlace, ModelPair, ModelParameter, RowConstants,
 };
+
+/// A value that is written elsewhere, or a rounded one, may leave this many times what the fitted one leaves. No unit; kind:
+/// choice, since a fit also takes away some of the rounding of the other values.
+const AS_GOOD: f64 = 3.0;
+
+/// A residual up to which models count as the same. Unit: m or rad; kind: rounding of files from programs.
+const SAME_VALUE: f64 = 1e-9;
+
+/// The part of a value by which rounding may change it. No unit; kind: choice: of two significant digits, half of the last.
+const SIGNIFICANT: f64 = 0.01;
 
 /// The explanation with each value of a row that is fitted, or converted from another unit, replaced by the value of the
 /// same kind, from the table or the URDF, that is within the digits, if there is one and the models are still accepted.
@@ -25,20 +38,59 @@ pub(super) fn with_known_values(
             known_values(models, entry).into_iter().filter(|value| distance(value) <= within).collect();
         near.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
         near.dedup();
-        let with = |known: f64| {
+        let with = |value: f64| {
             let mut corrected = preferred.corrected.clone();
-            corrected.candidate.set_entry(
-                row,
-                entry,
-                if known == 0.0 { 0.0 } else { known.abs().copysign(fitted) },
-            );
+            corrected.candidate.set_entry(row, entry, value);
             corrected
         };
-        if let Some(known) = near.into_iter().map(with).find(|corrected| corrected.is_accepted(criterion)) {
-            preferred.corrected = known;
+        let known =
+            near.into_iter().map(|value| if value == 0.0 { 0.0 } else { value.abs().copysign(fitted) });
+        let values = known.chain(rounded_values(fitted, entry, criterion, within));
+        let as_good = as_good_as(&preferred.corrected, criterion);
+        if let Some(better) =
+            values.map(with).find(|it| it.is_within(&as_good, criterion) && it.is_accepted(criterion))
+        {
+            preferred.corrected = better;
         }
     }
+    // What remains is that of the values which are written.
+    preferred.residual = preferred.corrected.residual(criterion);
+    if let Some(last) = preferred.stages.last_mut() {
+        *last = preferred.residual;
+    }
     preferred
+}
+
+/// The residual up to which another value is as good as a fitted one: what remains is the rounding of the other values, of
+/// which a value that is right leaves as much. An exact fit leaves nothing, so every digit of it counts.
+fn as_good_as(corrected: &ModelPair, criterion: &Criterion) -> Tolerance {
+    let PoseError { position_m, orientation_rad } = corrected.residual(criterion);
+    Tolerance {
+        position_m: (AS_GOOD * position_m).max(SAME_VALUE),
+        orientation_rad: (AS_GOOD * orientation_rad).max(SAME_VALUE),
+    }
+}
+
+/// A fitted value as data sheets print it, in the fewest digits first: those of the file and up to three more, as far as
+/// they keep two significant ones.
+fn rounded_values(fitted: f64, entry: DhEntry, criterion: &Criterion, within: f64) -> Vec<f64> {
+    const PLACES: i32 = 4;
+    let unit = if entry.is_angle() { 1.0_f64.to_radians() } else { 1.0 };
+    let half_place = criterion.digits.coarsest_half_place(entry) / unit;
+    if half_place <= 0.0 {
+        return Vec::new();
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a count of digits")]
+    let decimals = -libm::round(libm::log10(2.0 * half_place)) as i32;
+    // The text of a number with so many decimals is its nearest one; products would add rounding of their own.
+    let rounded = |decimals: i32| {
+        let decimals = usize::try_from(decimals).ok()?;
+        let value: f64 = format!("{:.decimals$}", fitted / unit).parse().ok()?;
+        Some(value * unit)
+    };
+    let values = (decimals..decimals + PLACES).filter_map(rounded);
+    let within = within.min(SIGNIFICANT * fitted.abs());
+    values.filter(|value| (value - fitted).abs() <= within).collect()
 }
 
 /// The largest distance of the tip from the base.

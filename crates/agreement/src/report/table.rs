@@ -36,7 +36,7 @@ pub(super) fn table_comparison(
         ModelPair { reference: models.reference.clone(), candidate: first.corrected.candidate.clone() };
     // From the corrected candidate: with a gross cause still in it, most values of the nearest table would be
     // different.
-    let nearest = nearest_table(&corrected, &preferred)?;
+    let nearest = nearest_table(&corrected, &preferred, criterion)?;
     let slack = Slack {
         length_m: (PART_OF_TOLERANCE * criterion.tolerance.position_m).max(SAME),
         angle_rad: (PART_OF_TOLERANCE * criterion.tolerance.orientation_rad).max(SAME),

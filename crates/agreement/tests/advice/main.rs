@@ -3,6 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
+mod inline_arms;
 mod pasting;
 mod robots;
 mod stages;

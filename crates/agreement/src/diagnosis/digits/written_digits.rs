@@ -148,6 +148,12 @@ impl WrittenDigits {
         halves.reduce(f64::min).unwrap_or_default()
     }
 
+    /// The digits of the reference model's values alone.
+    pub(in crate::diagnosis) fn of_reference(&self) -> Self {
+        let of_reference = self.values.iter().filter(|value| value.is_in_reference()).copied();
+        Self { values: of_reference.collect(), allowed: self.allowed }
+    }
+
     /// The candidate's values, each with the finest half place of its kind.
     pub(in crate::diagnosis) fn finest_of_candidate(&self) -> Vec<TypedValue> {
         let of_candidate = self.values.iter().filter(|value| !value.is_in_reference());

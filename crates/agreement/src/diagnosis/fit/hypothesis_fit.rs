@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use congruent_description::Tolerance;
 
 use crate::diagnosis::{
-    candidate::{CandidateModel, ModelParameter},
+    candidate::{CandidateModel, DhEntry, ModelParameter},
     digits::{Weights, WrittenDigits, most_norm},
     explanation::Criterion,
     fit::evaluation_point::EvaluationPoint,
@@ -31,6 +31,8 @@ pub(in crate::diagnosis) struct HypothesisFit {
     pub(in crate::diagnosis) norm: f64,
     /// The change of each free parameter.
     pub(in crate::diagnosis) changes: Vec<f64>,
+    /// Free parameters that keep their given values: only rounding had moved them.
+    kept: Vec<ModelParameter>,
 }
 
 /// The models, the hypotheses and the target of all fits.
@@ -108,7 +110,73 @@ impl<'a> FitContext<'a> {
 
     /// The fitted parameters.
     fn fitted(&self, fit: &HypothesisFit) -> impl Iterator<Item = ModelParameter> {
+        self.free(fit).filter(|parameter| !fit.kept.contains(parameter))
+    }
+
+    /// The free parameters, in the order of the changes.
+    fn free(&self, fit: &HypothesisFit) -> impl Iterator<Item = ModelParameter> {
         fit.hypotheses.iter().flat_map(|&at| self.hypotheses[at].free.iter().copied())
+    }
+
+    /// The fit with those components of a declared transform at their given values that only the rounding of other values
+    /// has moved: all that are, or else one by one.
+    pub(in crate::diagnosis) fn without_rounding(
+        &self,
+        fit: &HypothesisFit,
+        criterion: &Criterion,
+    ) -> HypothesisFit {
+        let digits = &criterion.digits;
+        if digits.values.is_empty() {
+            return fit.clone();
+        }
+        let length_m = self.unweighted.length_m;
+        let of_rounding = |entry| digits.coarsest_effect(entry, length_m);
+        let (length, angle) = (of_rounding(DhEntry::A), of_rounding(DhEntry::Alpha));
+        let is_small = |(parameter, by): &(ModelParameter, f64)| {
+            let most = match parameter {
+                ModelParameter::Base(_) | ModelParameter::Tool(_) if parameter.is_angle() => angle,
+                ModelParameter::Base(_) | ModelParameter::Tool(_) => length,
+                _ => 0.0,
+            };
+            by.abs() <= most
+        };
+        let moved = self.free(fit).zip(fit.changes.iter().copied());
+        let mut small: Vec<(ModelParameter, f64)> = moved.filter(is_small).collect();
+        // One component alone is the fault itself.
+        if small.is_empty() || small.len() == fit.changes.len() {
+            return fit.clone();
+        }
+        small.sort_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
+        let small: Vec<ModelParameter> = small.into_iter().map(|(parameter, _)| parameter).collect();
+        let accepted = |kept: &[ModelParameter]| {
+            let fit = self.with_kept(fit, kept);
+            let is_accepted = self.corrected(&fit).is_within_tolerance(criterion)
+                || self.within_digits(&fit, criterion).is_some();
+            is_accepted.then_some(fit)
+        };
+        accepted(&small).unwrap_or_else(|| {
+            let mut best = fit.clone();
+            for parameter in small {
+                let kept = [&best.kept[..], &[parameter]].concat();
+                if let Some(fit) = accepted(&kept) {
+                    best = fit;
+                }
+            }
+            best
+        })
+    }
+
+    /// A fit with these parameters at the values that they have before it.
+    fn with_kept(&self, fit: &HypothesisFit, kept: &[ModelParameter]) -> HypothesisFit {
+        let mut models = self.edited(&fit.hypotheses);
+        let mut changes = fit.changes.clone();
+        for (parameter, by) in self.free(fit).zip(&mut changes) {
+            *by = if kept.contains(&parameter) { 0.0 } else { *by };
+            models.candidate.shift(parameter, *by);
+        }
+        let norm = self.norm(&models);
+        let hypotheses = fit.hypotheses.clone();
+        HypothesisFit { hypotheses, fitted: Some(models), norm, changes, kept: kept.to_vec() }
     }
 
     /// The digits of the corrected models: edited values take theirs with them.
@@ -216,6 +284,7 @@ impl<'a> FitContext<'a> {
             fitted: (!free.is_empty()).then_some(ModelPair { candidate, reference: models.reference }),
             norm,
             changes,
+            kept: Vec::new(),
         }
     }
 

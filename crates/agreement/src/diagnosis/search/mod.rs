@@ -9,6 +9,7 @@ mod stages;
 use congruent_kinematics::PoseError;
 
 use super::{
+    candidate::CandidateModel,
     cause,
     equivalence::{self, Equivalence},
     explanation::{Criterion, ExplainedFault, Explanation},
@@ -79,7 +80,8 @@ pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
     if models.is_accepted(criterion) {
         return Diagnosis { explanations: Vec::new(), indistinguishable: Vec::new(), differences };
     }
-    let hypotheses = cause::hypotheses(models);
+    let mut hypotheses = cause::hypotheses(models);
+    hypotheses.retain(|it| !it.is_rounding() || !is_within_digits(it, models, criterion));
     let context = FitContext::new(models, &hypotheses, criterion);
     let search = ExplanationSearch { context: &context, criterion };
     let (explained, others) = search.run();
@@ -97,6 +99,17 @@ pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
     found.extend(others.iter().map(|fit| search.explanation(fit)));
     with_origins(models, criterion, &mut found, &mut indistinguishable);
     Diagnosis { explanations: found, indistinguishable, differences }
+}
+
+/// Whether angles that a hypothesis takes for rounded are so within half of their last place: the digits account for them
+/// already, and rounding is no cause. `3.1415` is not: it is cut off.
+fn is_within_digits(rounding: &PoseHypothesis, models: &ModelPair, criterion: &Criterion) -> bool {
+    let mut exact = models.clone();
+    rounding.apply(&mut exact);
+    // The file beside itself with exact angles, whatever else differs from the table.
+    let candidate = CandidateModel::from_screws(&exact.reference.screws());
+    let own = ModelPair { candidate, reference: models.reference.clone() };
+    criterion.digits.of_reference().explain(&own, &criterion.configurations)
 }
 
 /// Adds the joints of the reference model whose origin alone explains what takes several corrections of the candidate: as
@@ -122,6 +135,22 @@ fn with_origins(
         (other, equivalence)
     });
     indistinguishable.extend(alike);
+}
+
+impl Diagnosis {
+    /// The diagnosis with another of the explanations that cannot be distinguished named first, and the one that was named
+    /// behind it.
+    pub(crate) fn preferring(mut self, other: usize, models: &ModelPair, criterion: &Criterion) -> Self {
+        let (named, _) = self.indistinguishable.remove(other);
+        let before = std::mem::replace(&mut self.explanations[0], named);
+        let named = &self.explanations[0];
+        let others = self.indistinguishable.into_iter().map(|(other, _)| other);
+        let alike = [before].into_iter().chain(others).map(|other| {
+            let equivalence = equivalence::equivalence(models, criterion, named, &other);
+            (other, equivalence)
+        });
+        Self { indistinguishable: alike.collect(), ..self }
+    }
 }
 
 struct ExplanationSearch<'a> {
@@ -174,10 +203,14 @@ impl ExplanationSearch<'_> {
     }
 
     fn explaining(&self, fits: &[HypothesisFit]) -> Vec<HypothesisFit> {
-        let mut accepted: Vec<&HypothesisFit> = fits.iter().filter(|fit| self.accepts(fit)).collect();
+        // Without what rounding alone has moved: a whole transform that also absorbs the rounding of the other values is no
+        // better evidence than one value.
+        let accepted = fits.iter().filter(|fit| self.accepts(fit));
+        let mut accepted: Vec<HypothesisFit> =
+            accepted.map(|fit| self.context.without_rounding(fit, self.criterion)).collect();
         // If the correction of something makes the files agree far better than their digits say, nothing is left to be
         // explained by the digits.
-        let is_beyond = |fit: &&HypothesisFit| {
+        let is_beyond = |fit: &HypothesisFit| {
             self.criterion.is_beyond_digits(&self.context.corrected(fit).residual(self.criterion))
         };
         if accepted.iter().any(is_beyond) {
@@ -192,7 +225,7 @@ impl ExplanationSearch<'_> {
         let refuted = |fit: &HypothesisFit| is_refuted(self.context, fit, self.criterion, &best);
         let mut explaining: Vec<(bool, ExplanationRank, &HypothesisFit)> =
             // Refuted ones last, not removed: they still show what would fit within the tolerance.
-            accepted.iter().map(|fit| (refuted(fit), self.rank(fit), *fit)).collect();
+            accepted.iter().map(|fit| (refuted(fit), self.rank(fit), fit)).collect();
         explaining.sort_by(|(a, rank_a, _), (b, rank_b, _)| (a, rank_a).cmp(&(b, rank_b)));
         // Of one fault with different free parameters only the first is kept.
         explaining.into_iter().map(|(.., fit)| fit).filter(self.distinct_faults()).cloned().collect()

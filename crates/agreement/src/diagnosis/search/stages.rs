@@ -64,9 +64,13 @@ impl ExplanationSearch<'_> {
         }
         // Fewer wrong values are likelier than many; the residual does not decide, since each value added makes it
         // smaller.
-        let Some(fewest) = grown.iter().map(|fit| fit.hypotheses.len()).min() else { return Vec::new() };
-        let simplest: Vec<HypothesisFit> =
-            grown.into_iter().filter(|fit| fit.hypotheses.len() == fewest).collect();
+        let changes = |fit: &HypothesisFit| {
+            let fitted_edits =
+                fit.hypotheses.iter().filter(|&&at| self.context.hypotheses[at].is_fitted_edit());
+            fit.hypotheses.len() + fitted_edits.count()
+        };
+        let Some(fewest) = grown.iter().map(changes).min() else { return Vec::new() };
+        let simplest: Vec<HypothesisFit> = grown.into_iter().filter(|fit| changes(fit) == fewest).collect();
         self.explaining(&simplest)
     }
 
