@@ -209,3 +209,38 @@ fn a_section_that_declares_nothing_is_not_compared() {
     assert!(message.contains("there is nothing to compare"), "{message}");
     assert!(report["declared_dynamics"].is_null());
 }
+
+/// A hand at a fixed joint is part of the last link's body: an origin that is the same within the tolerance shifts its mass, which
+/// is no difference of masses; and a mass that differs beside it is still named.
+#[test]
+fn a_tolerated_origin_of_a_fixed_joint_is_no_difference_of_torques() {
+    let original = workspace().join("robots/panda/panda.urdf");
+    let urdf = fs::read_to_string(&original).unwrap();
+    let hand = "<origin xyz=\"0 0 0\" rpy=\"0 0 -0.7853981633974483\"/>";
+    assert_eq!(urdf.matches(hand).count(), 1);
+    let shifted = urdf.replace(hand, "<origin xyz=\"0 0 0.00005\" rpy=\"0 0 -0.7854\"/>");
+    let folder = tempfile::tempdir().unwrap();
+    let check = |urdf: &str| {
+        let path = folder.path().join("panda.urdf");
+        fs::write(&path, urdf).unwrap();
+        congruent_json(&[
+            "check",
+            &text(&path),
+            "--against",
+            &text(&original),
+            "--tolerance",
+            "0.1mm,0.01deg",
+        ])
+    };
+    let same = check(&shifted);
+    assert_eq!(same.code, 0, "{}", same.stdout);
+    let mass = "<mass value=\"";
+    let at = shifted.find("<link name=\"panda_link5\"").unwrap();
+    let at = at + shifted[at..].find(mass).unwrap() + mass.len();
+    let heavier = format!("{}1{}", &shifted[..at], &shifted[at..]);
+    let answer = check(&heavier);
+    assert_eq!(answer.code, 1, "{}", answer.stdout);
+    let report = answer.json();
+    let cause = &report["dynamics"]["explanations"][0];
+    assert_eq!(names(&cause["place"]), ["panda_link5"], "{report:#}");
+}

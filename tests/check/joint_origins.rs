@@ -283,3 +283,47 @@ fn people_see_both_lines_and_what_to_write() {
         assert!(printed.contains(expected), "{printed}");
     }
 }
+
+/// A file without inertias and shapes, as many kinematic descriptions are: its frames may lie anywhere only if the joints move
+/// all links alike, and an origin that is off is none of them.
+#[test]
+fn an_origin_of_a_bare_file_is_named_beside_rounded_quarter_turns() {
+    let joint = |number: usize, xyz: &str, rpy: &str| {
+        format!(
+            "<link name='link_{number}'/><joint name='joint_{number}' type='revolute'><parent link='link_{}'/><child \
+             link='link_{number}'/><origin xyz='{xyz}' rpy='{rpy}'/><axis xyz='0 0 1'/><limit lower='-2.6' upper='2.5' effort='9' \
+             velocity='2'/></joint>",
+            number - 1
+        )
+    };
+    // Lengths of the TM5-900: https://www.tm-robot.com, hardware manual.
+    let arm = |elbow: &str, quarter: &str| {
+        let turns = |rpy: &str| rpy.replace('q', quarter);
+        [
+            joint(1, "0 0 0.1452", "0 0 0"),
+            joint(2, "0 0 0", &turns("-q -q 0")),
+            joint(3, elbow, "0 0 0"),
+            joint(4, "0.4115 0 -0.1222", &turns("0 0 q")),
+            joint(5, "0 -0.106 0", &turns("q 0 0")),
+            joint(6, "0 0.1144 0", &turns("-q 0 0")),
+        ]
+        .join("\n")
+    };
+    let robot = |joints: &str| {
+        format!(
+            "<robot name='arm'>\n<link name='link_0'/>\n{joints}\n<link name='tool0'/><joint name='flange' \
+             type='fixed'><parent link='link_6'/><child link='tool0'/></joint></robot>"
+        )
+    };
+    let right = robot(&arm("0.429 0 0", "1.5707963267948966"));
+    for quarter in ["1.5707963267948966", "1.570796", "1.5708"] {
+        let pair = Pair::new(&robot(&arm("0.429 0.01 0", quarter)), &right);
+        let faults = pair.faults();
+        assert_eq!((&faults[0]["cause"], &faults[0]["joint"]), (&json!("joint_origin"), &json!("joint_3")));
+        assert_eq!(faults.len() == 1, quarter.len() > 9, "{faults:?}");
+        let tolerance = ["check", &pair.wrong, "--against", &pair.right, "--tolerance", "0.1mm,0.01deg"];
+        let report = congruent_json(&tolerance).json();
+        assert_eq!(report["diagnosis"][0]["joint"], "joint_3", "{quarter}");
+        assert_eq!(report["diagnosis"][0]["cause"], "joint_origin", "{quarter}");
+    }
+}

@@ -16,13 +16,14 @@ use super::{
 
 /// The nearest table that agrees, from the candidate of `models`: as given, or with a gross cause corrected, of which
 /// `preferred` are the fitted values. From the axes of the reference model alone if no table near the candidate agrees;
-/// `None` for a candidate in screws, and if a joint fits no row.
+/// `None` for a candidate in screws, and if a joint fits no row. With a criterion a table suffices that it accepts.
 pub(crate) fn nearest_table(
     models: &ModelPair,
     preferred: &[ModelParameter],
-    criterion: &Criterion,
+    criterion: Option<&Criterion>,
 ) -> Option<CandidateModel> {
-    let nearby = within_digits(models, preferred, criterion).or_else(|| nearby_table(models, preferred));
+    let within = criterion.and_then(|criterion| within_digits(models, preferred, criterion));
+    let nearby = within.or_else(|| nearby_table(models, preferred));
     nearby.or_else(|| derived(models))
 }
 

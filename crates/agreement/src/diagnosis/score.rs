@@ -59,7 +59,7 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
         .count();
     let in_place_of_base =
         hypotheses().filter(|hypothesis| is_zero_in_place_of_base(context, fit, hypothesis)).count();
-    let choices: usize = hypotheses().map(|hypothesis| choices(context, fit, hypothesis)).sum();
+    let choices: usize = hypotheses().map(|hypothesis| choices(context, fit, criterion, hypothesis)).sum();
     ExplanationRank {
         // One for each further fault: two faults without parameters must not win against one fault with one
         // parameter.
@@ -117,10 +117,18 @@ impl Criterion {
 /// The number of free choices of a hypothesis: its free parameters, and one for an edit that needs them. Another order of
 /// angles in the reference model's file counts as one; as three for quarter turns, since every order of them gives quarter
 /// turns.
-fn choices(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &PoseHypothesis) -> usize {
+fn choices(
+    context: &FitContext<'_>,
+    fit: &HypothesisFit,
+    criterion: &Criterion,
+    hypothesis: &PoseHypothesis,
+) -> usize {
     // A shifted column with a value that is fitted explains any single value: along parallel axes one offset makes up for
     // whatever the others sum up to.
     let fitted = hypothesis.free.len() + usize::from(hypothesis.is_fitted_edit());
+    if is_half_superfluous(context, fit, criterion, hypothesis) {
+        return fitted + HALF_SUPERFLUOUS;
+    }
     let FaultPlace::ReferenceJoints(joints) = &hypothesis.place else { return fitted };
     if !is_in_reference(hypothesis) {
         return fitted;
@@ -227,6 +235,34 @@ fn is_given_as_zero(candidate: &CandidateModel, hypothesis: &PoseHypothesis) -> 
         _ => false,
     }
 }
+
+/// Whether an exchange of two values explains no more than one of the two changes: under a loose tolerance a wrong value can
+/// be exchanged with any other one that matters little.
+fn is_half_superfluous(
+    context: &FitContext<'_>,
+    fit: &HypothesisFit,
+    criterion: &Criterion,
+    hypothesis: &PoseHypothesis,
+) -> bool {
+    let (Cause::ParametersExchanged, FaultPlace::Entries(entry, rows)) =
+        (hypothesis.cause, &hypothesis.place)
+    else {
+        return false;
+    };
+    let corrected = context.corrected(fit);
+    let in_tolerances = |models: &ModelPair| criterion.in_tolerances(&models.residual(criterion));
+    let whole = in_tolerances(&corrected);
+    rows.iter().any(|&row| {
+        let Some(given) = context.models.candidate.entry(row, *entry) else { return false };
+        let mut half = corrected.clone().into_owned();
+        half.candidate.set_entry(row, *entry, given);
+        // A residual that is larger by rounding alone is no reason for the other change.
+        in_tolerances(&half) <= whole * (1.0 + SAME_VALUE)
+    })
+}
+
+/// What an exchange costs of which one half would do: more than a single value. Kind: choice.
+const HALF_SUPERFLUOUS: usize = 2;
 
 /// Whether a hypothesis fits one length of a row to a value that is written nowhere, up to the digits.
 fn is_unfamiliar(

@@ -96,7 +96,8 @@ pub(super) fn compared(
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
-    let [found, mut expected] = [description, other].map(urdf_model);
+    let found = urdf_model(description);
+    let mut expected = urdf_model(other).with_tolerated_places_of(&found, &description.tolerance);
     if !in_other_frames.is_empty() {
         // The written numbers are equal and only the frames differ: the fault is in the geometry, which is reported
         // already.

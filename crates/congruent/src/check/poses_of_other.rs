@@ -1,7 +1,10 @@
 //! The poses of another description at the links of a robot.
 
 use congruent_description::{Link, LinkIndex, Robot, RobotDescription, RobotQ};
-use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree};
+use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree, sample_configurations};
+
+/// Random positions at which links are found to move alike. Kind: choice.
+const POSITIONS: usize = 50;
 
 /// The poses of another description at the links of a robot; both have the same moving joints by name.
 pub(super) struct PosesOfOther {
@@ -71,8 +74,8 @@ impl PosesOfOther {
     }
 
     /// A link between joints that is but a name in the other description, without inertia and shape, has nothing that its
-    /// frame could misplace: there it may lie anywhere, if the joints move it alike. The pose at zero is taken; base, tip and
-    /// the ends of branches keep their frames.
+    /// frame could misplace: there it may lie anywhere, if the joints move all links alike. The pose at zero is taken; base,
+    /// tip and the ends of branches keep their frames.
     pub(super) fn with_free_frames(
         mut self,
         description: &RobotDescription,
@@ -97,7 +100,28 @@ impl PosesOfOther {
                 self.there_from_links[at] = there[at].inverse() * here[at];
             }
         }
+        // Behind an origin that is off, links move otherwise: taken at their poses at zero they would hide its displacement
+        // there, and show it twice elsewhere.
+        if self.has_free_frames() && !self.moves_alike(description)? {
+            self.there_from_links.fill(Pose::identity());
+        }
         Ok(self)
+    }
+
+    /// Whether the links have the poses of the robot's own description.
+    fn moves_alike(&mut self, description: &RobotDescription) -> Result<bool, LinkPosesError> {
+        let robot = &description.robot;
+        let [mut here, mut there] = [robot, robot].map(|robot| vec![Pose::identity(); robot.links().len()]);
+        let tree = UrdfTree::new(robot);
+        for q in sample_configurations(robot, 0, POSITIONS) {
+            tree.root_from_links_into(&q, &mut here)?;
+            self.root_from_links_into(&q, &mut there)?;
+            let is_same = |(here, there)| PoseError::between(here, there).is_within(&description.tolerance);
+            if !here.iter().zip(&there).all(is_same) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Whether a link is where the other description does not have its frame.

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use congruent_kinematics::Pose;
+use congruent_description::Tolerance;
+use congruent_kinematics::{Pose, PoseError};
 
 use super::{
     DynamicsModel,
@@ -43,6 +44,26 @@ impl DynamicsModel {
 }
 
 impl DynamicsModel {
+    /// The same inertias with links of fixed joints where the other description has them, as far as the two places are equal
+    /// within the tolerance: a tolerated difference of an `<origin>` is none of masses.
+    #[must_use]
+    pub fn with_tolerated_places_of(&self, other: &Self, tolerance: &Tolerance) -> Self {
+        let mut frames = (*self.frames).clone();
+        for place in &mut frames.links {
+            let Some(there) = other.frames.find_link(&place.name).map(|there| &other.frames.links[there])
+            else {
+                continue;
+            };
+            let name = |of: &Self, body: Option<usize>| body.map(|body| of.frames.joints[body].name.clone());
+            let has_same_body = name(self, place.body) == name(other, there.body);
+            let error = PoseError::between(&place.body_from_link, &there.body_from_link);
+            if has_same_body && error.is_within(tolerance) {
+                place.body_from_link = there.body_from_link;
+            }
+        }
+        Self { frames: Arc::new(frames), ..self.clone() }
+    }
+
     /// Replaces the inertials of a body by those of the same body of another description. Links that only the other one
     /// has are added.
     pub(crate) fn replace_body(&mut self, body: usize, other: &Self, other_body: usize) {

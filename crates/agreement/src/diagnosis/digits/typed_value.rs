@@ -47,6 +47,19 @@ pub enum TypedPlace {
     Axis(usize, usize),
 }
 
+impl TypedPlace {
+    /// The place of a parameter; `None` for one that no file has.
+    pub(super) fn of(parameter: ModelParameter) -> Option<Self> {
+        let part = |component: usize| TransformPart::ALL[component];
+        match parameter {
+            ModelParameter::Row(row, entry) => Some(Self::Row(row, entry)),
+            ModelParameter::Base(component) => Some(Self::Base(part(component))),
+            ModelParameter::Tool(component) => Some(Self::Tool(part(component))),
+            ModelParameter::Rate(_) => None,
+        }
+    }
+}
+
 /// A value of a file that is right within half of its last place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TypedValue {

@@ -86,18 +86,18 @@ impl WrittenDigits {
     pub(in crate::diagnosis) fn free(&mut self, fitted: impl Iterator<Item = ModelParameter>, length_m: f64) {
         let free = |entry| FREE * self.coarsest_effect(entry, length_m);
         let (length, angle) = (free(DhEntry::A), free(DhEntry::Alpha));
-        let part = |component: usize| TransformPart::ALL[component];
         for parameter in fitted {
-            let place = match parameter {
-                ModelParameter::Row(row, entry) => TypedPlace::Row(row, entry),
-                ModelParameter::Base(component) => TypedPlace::Base(part(component)),
-                ModelParameter::Tool(component) => TypedPlace::Tool(part(component)),
-                ModelParameter::Rate(_) => continue,
-            };
+            let Some(place) = TypedPlace::of(parameter) else { continue };
             self.values.retain(|value| value.place != place);
             let half_place = if parameter.is_angle() { angle } else { length };
             self.values.push(TypedValue { place, half_place });
         }
+    }
+
+    /// Takes their digits from these values.
+    pub(in crate::diagnosis) fn fix(&mut self, parameters: impl Iterator<Item = ModelParameter>) {
+        let places: Vec<TypedPlace> = parameters.filter_map(TypedPlace::of).collect();
+        self.values.retain(|value| !places.contains(&value.place));
     }
 
     /// What the coarsest half place, of an angle or of a length, changes in an entry, of an arm of this size.

@@ -150,8 +150,12 @@ impl<'a> FitContext<'a> {
         let small: Vec<ModelParameter> = small.into_iter().map(|(parameter, _)| parameter).collect();
         let accepted = |kept: &[ModelParameter]| {
             let fit = self.with_kept(fit, kept);
-            let is_accepted = self.corrected(&fit).is_within_tolerance(criterion)
-                || self.within_digits(&fit, criterion).is_some();
+            // The transform is written anew, so that its own digits allow nothing.
+            let mut digits = self.digits(&fit, &criterion.digits).into_owned();
+            digits.fix(self.free(&fit));
+            let corrected = self.corrected(&fit);
+            let is_accepted = corrected.is_within_tolerance(criterion)
+                || digits.explain(&corrected, &criterion.configurations);
             is_accepted.then_some(fit)
         };
         accepted(&small).unwrap_or_else(|| {
