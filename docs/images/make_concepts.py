@@ -437,11 +437,15 @@ def constants():
     picture.polyline([view(point) for point in ur5e.bones([0] * 6)[:2]], PALE, 26)
     base = shift(0, 0, 0)
     picture.frame(
-        view, base, 0.4, names={"x": ("x of base_link", -10, 26), "y": ("y", 14, 4), "z": ("", 0, 0)}, dashes="7 5", with_y=True
+        view, base, 0.4, names={"x": ("x of base_link", -10, 26), "y": ("y of base_link", 62, 4), "z": ("", 0, 0)}, dashes="7 5", with_y=True
     )
     picture.frame(
-        view, ur5e.base_from_dh0, 0.3, names={"x": ("x of dh0", 6, -12), "y": ("y", -12, 4), "z": ("z of both", 46, 14)}, with_y=True
+        view, ur5e.base_from_dh0, 0.3, names={"x": ("x of dh0", 6, -12), "y": ("y of dh0", -42, 4), "z": ("z of both", 46, 14)}, with_y=True
     )
+    picture.line((60, 536), (96, 536), INK, 2.4)
+    picture.text((104, 541), "dh0, frame 0 of the table", INK, 15, "start")
+    picture.line((310, 536), (346, 536), INK, 2.4, "7 5")
+    picture.text((354, 541), "base_link of the URDF", INK, 15, "start")
     # The flange and the hand of the Panda.
     panda = Table("panda")
     picture.text((825, 165), "Panda: dhn_from_tip = { xyz_m = [0, 0, 0.107] }", INK, 17, weight="bold")
@@ -512,11 +516,19 @@ def compared():
             colour, y = X if is_tip else INK, top + 24 * (number + 1)
             picture.text((left + 60, y), words, colour, 15, "start", "bold" if is_tip else "normal")
             picture.text((left + 330, y), f"{1000 * distance_m:.1f} mm", colour, 15, "end", "bold" if is_tip else "normal")
-            words = "decides" if is_tip else ("fitted here" if q is zero else "for information")
+            words = "decides" if is_tip else ("fitted here" if q is zero else "does not decide")
             picture.text((left + 350, y), words, colour, 15, "start", "bold" if is_tip else "normal")
     picture.line((550, 24), (550, 616), PALE, 2)
     picture.text((60, 80), "grey: URDF", "#5b636b", 16, "start")
     picture.text((60, 104), "orange: table, theta of elbow_joint 12° off", THETA, 16, "start")
+    picture.dot((66, 123), 5, GREY, "#ffffff")
+    picture.text((84, 128), "frame of a link in the URDF", "#5b636b", 16, "start")
+    picture.dot((66, 147), 3.5, THETA)
+    picture.text((84, 152), "the same frame by the table, with its fitted constant", THETA, 16, "start")
+    picture.line((58, 171), (76, 171), THETA, 1.6, "3 4")
+    picture.text((84, 176), "distance of the two; 0 where the constants are fitted", THETA, 16, "start")
+    picture.dot((66, 195), 5, X)
+    picture.text((84, 200), "tip by the table: nothing is fitted", X, 16, "start")
     picture.write("dh_compared.svg")
 
 
