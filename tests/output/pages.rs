@@ -171,6 +171,51 @@ fn what_failed_comes_first_with_its_limit_and_its_first_violation() {
     }
 }
 
+/// The numbers of a line: 32 bits each, in base64.
+fn numbers(written: &Value) -> Vec<f32> {
+    const DIGITS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let digits = written.as_str().unwrap().trim_end_matches('=').bytes();
+    let bits = digits.flat_map(|digit| {
+        let value = DIGITS.iter().position(|known| *known == digit).unwrap();
+        (0..6).rev().map(move |bit| value >> bit & 1 == 1)
+    });
+    let bits: Vec<bool> = bits.collect();
+    // The first bit of a byte is its highest, the first byte of a number its lowest.
+    let byte = |bits: &[bool]| bits.iter().fold(0_u8, |byte, bit| byte << 1 | u8::from(*bit));
+    let bytes: Vec<u8> = bits.chunks_exact(8).map(byte).collect();
+    bytes.chunks_exact(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect()
+}
+
+#[test]
+fn a_short_approach_is_in_the_plot_of_distances() {
+    let scratch = ScratchFolder::new();
+    // Distances are plotted every 60 ms of such a run; the ball passes twice, within 50 ms.
+    let scenario = format!(
+        "schema_version = 1\nname = 'passing'\nrobot = '{}'\n[simulation]\nduration_s = 20.0\n\
+         [controller]\nkind = 'kinematic'\n[[obstacle]]\nname = 'ball'\nsphere_radius_m = 0.05\n\
+         path = [{{at_s = 10.005, xyz_m = [1.2, -2, 0.2]}}, {{at_s = 10.055, xyz_m = [1.2, 2, 0.2]}}, \
+         {{at_s = 15.005, xyz_m = [1.4, 2, 0.2]}}, {{at_s = 15.055, xyz_m = [1.4, -2, 0.2]}}]\n\
+         [[check]]\nkind = 'clearance'\nminimum_m = 0.02\npairs = [['*', 'ball']]\n",
+        workspace().join("robots/ur5e").display()
+    );
+    let (_, html, report) = run(&scratch, &scratch.write("passing.toml", &scenario));
+    let worst = &report["checks"][0]["measures"][0]["worst"];
+    let [least_m, at_s] = ["value", "time_s"].map(|key| worst[key].as_f64().unwrap());
+    let line = &charts(&html)["clearance"]["lines"][0];
+    let (times_s, values_m) = (numbers(&line["times_s"]), numbers(&line["values"]));
+    let least_near = |time_s: f64| {
+        let near =
+            times_s.iter().zip(&values_m).filter(|(at_s, _)| (f64::from(**at_s) - time_s).abs() < 0.03);
+        near.map(|(_, value_m)| f64::from(*value_m)).fold(f64::INFINITY, f64::min)
+    };
+    assert!((10.0..10.06).contains(&at_s), "{worst}");
+    let first_m = least_near(at_s);
+    assert!((least_m * 0.999..least_m * 1.12).contains(&first_m), "{first_m} m of {least_m} m");
+    // 200 mm farther away.
+    let second_m = least_near(15.03);
+    assert!((least_m..(least_m + 0.2) * 1.12).contains(&second_m), "{second_m} m");
+}
+
 #[test]
 fn events_of_a_run_are_in_its_page() {
     let scratch = ScratchFolder::new();

@@ -7,7 +7,7 @@ crate::codes! {
         DIRECTORY = "CGR-FILE-002", "file::directory" unreadable,
             "A folder is given where a file is expected. Give a file in this folder.";
         NOT_REGULAR = "CGR-FILE-003", "file::not_regular" unreadable,
-            "The path is a pipe, a socket or a device. Only regular files are read, because reading the others may never end. Save its content as a file and give that.";
+            "The path is a pipe, a socket or a device, or a file of /proc, /sys or /dev. Only regular files are read, because reading the others may never end. Save its content as a file and give that.";
         NO_WRITER = "CGR-FILE-004", "file::no_writer" unreadable,
             "The path is a pipe that no program writes to, so reading would never end. Start the program that writes to it, or give a file.";
         TOO_LARGE = "CGR-FILE-005", "file::too_large" unreadable,

@@ -5,16 +5,17 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
-    IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyLink,
-    PhysicsPipeline, RigidBodyHandle, Vector,
+    IntegrationParameters, MotorModel, Multibody, MultibodyIndex, MultibodyJoint, PhysicsPipeline,
+    RigidBodyHandle, Vector,
 };
 
 use crate::{
     adapter,
     build::Built,
     commands::Commands,
+    contact::left_out::LeftOut,
     drive::{CoordinateState, JointDrive, Linear, Saturation},
-    sets::{EngineSets, EngineSlot},
+    sets::{EngineSets, EngineSlot, ObstacleMove},
     settings::WorldSettings,
 };
 
@@ -51,6 +52,10 @@ pub(crate) struct Engine {
     pub(crate) drives: Vec<JointDrive>,
     /// Whether some body carries a force of the step before: rapier's forces persist.
     pub(crate) is_forced: bool,
+    /// Obstacles that move in the next step.
+    pub(crate) moves: Vec<ObstacleMove>,
+    /// Contacts that do not act in the present step.
+    pub(crate) left_out: LeftOut,
     /// Whether a joint was beyond its limits at the beginning of the last step, which brings it back.
     pub(crate) is_beyond_limits: bool,
 }
@@ -80,6 +85,8 @@ impl Engine {
             gravity,
             drives,
             is_forced: false,
+            moves: Vec::new(),
+            left_out: LeftOut::default(),
             is_beyond_limits: false,
         };
         engine.choose_sweeps();
@@ -161,6 +168,16 @@ impl Engine {
 
     /// One step from `q`, `qd` under the commands, which hold finite numbers.
     pub(crate) fn step(&mut self, commands: &Commands, q: &[f64], qd: &[f64]) {
+        self.step_within_limits(commands, q, qd);
+        // Rare: a link cannot yield to an obstacle. Each round repeats the step without one more contact.
+        while self.leave_out_contact(q, qd) {
+            self.step_within_limits(commands, q, qd);
+        }
+        self.end_step();
+    }
+
+    /// One step under the commands within the limits of the actuators.
+    fn step_within_limits(&mut self, commands: &Commands, q: &[f64], qd: &[f64]) {
         let step_s = self.step_s();
         for (coordinate, (drive, slot)) in self.drives.iter_mut().zip(&self.slots).enumerate() {
             let state = CoordinateState { q: q[coordinate], qd: qd[coordinate] };
@@ -175,7 +192,7 @@ impl Engine {
             if !self.correct_drives() {
                 break;
             }
-            self.place(q, qd);
+            self.return_to(q, qd);
             self.step_drives();
         }
     }
@@ -193,7 +210,7 @@ impl Engine {
         is_corrected
     }
 
-    fn step_drives(&mut self) {
+    pub(crate) fn step_drives(&mut self) {
         self.clear_forces();
         self.set_servos_and_limits();
         self.apply_torques();
@@ -211,44 +228,9 @@ impl Engine {
             &mut sets.multibody_joints,
             &mut sets.soft_bodies,
             &mut sets.ccd,
-            &(),
+            &self.left_out,
             &(),
         );
-    }
-
-    fn clear_forces(&mut self) {
-        if !std::mem::take(&mut self.is_forced) {
-            return;
-        }
-        for &handle in &self.handles {
-            let body = self.sets.bodies.get_mut(handle).expect("the body exists");
-            body.reset_forces(false);
-            body.reset_torques(false);
-        }
-    }
-
-    /// Each torque acts on the child and, with the opposite sign, on the parent. The torque of a constrained servo is part of it.
-    fn apply_torques(&mut self) {
-        let Some(index) = self.multibody else { return };
-        let multibody = self.sets.multibody_joints.get_multibody(index).expect("the multibody exists");
-        for (coordinate, (slot, drive)) in self.slots.iter().zip(&self.drives).enumerate() {
-            // A constrained servo has the torque in its target (`combined`), within one common limit.
-            let torque = if drive.is_constrained { 0.0 } else { drive.linear().torque };
-            if torque == 0.0 {
-                continue;
-            }
-            self.is_forced = true;
-            let (parent, child) = parent_and_child(multibody, coordinate);
-            let force = axis_in_world(parent, child) * torque;
-            let point = child.local_to_world().translation;
-            for (link, force) in [(child, force), (parent, -force)] {
-                let body = self.sets.bodies.get_mut(link.rigid_body_handle()).expect("the body exists");
-                match slot.axis {
-                    JointAxis::AngX => body.add_torque(force, false),
-                    _ => body.add_force_at_point(force, point, false),
-                }
-            }
-        }
     }
 
     fn set_servos_and_limits(&mut self) {
@@ -321,21 +303,6 @@ impl Engine {
         }
     }
 
-    /// Adds the torques that hold the robot: minus the sum of `J' m g` over the bodies.
-    pub(crate) fn add_gravity_torque(&self, torque: &mut [f64]) {
-        assert_eq!(torque.len(), self.slots.len(), "one entry for each movable joint");
-        let Some(multibody) = self.multibody() else { return };
-        for link in multibody.links().skip(1) {
-            let body = self.sets.bodies.get(link.rigid_body_handle()).expect("the body exists");
-            let weight = self.gravity * body.mass();
-            let jacobian = multibody.body_jacobian(link.link_id());
-            // Rows 0 to 2 are linear in rapier, opposite to this project's order.
-            for (torque, column) in torque.iter_mut().zip(jacobian.column_iter()) {
-                *torque -= column[0] * weight.x + column[1] * weight.y + column[2] * weight.z;
-            }
-        }
-    }
-
     /// Joint-space inertia, from rapier's own factorisation of it.
     pub(crate) fn mass_matrix(&self) -> DMatrix<f64> {
         let Some(multibody) = self.multibody() else { return DMatrix::zeros(0, 0) };
@@ -357,6 +324,7 @@ impl Engine {
         // A new pipeline: the old one keeps contacts and islands of the state before, and steps would not repeat bit by bit.
         self.pipeline = new_pipeline();
         self.is_forced = true;
+        self.moves.clear();
     }
 }
 
@@ -375,15 +343,4 @@ fn new_pipeline() -> PhysicsPipeline {
     let mut pipeline = PhysicsPipeline::new();
     pipeline.counters.disable();
     pipeline
-}
-
-fn parent_and_child(multibody: &Multibody, coordinate: usize) -> (&MultibodyLink, &MultibodyLink) {
-    let child = multibody.link(coordinate + 1).expect("one link for each coordinate");
-    let parent = child.parent_id().and_then(|parent| multibody.link(parent));
-    (parent.expect("only the root has no parent"), child)
-}
-
-fn axis_in_world(parent: &MultibodyLink, child: &MultibodyLink) -> Vector {
-    let joint_in_world = parent.local_to_world().rotation * child.joint().data.local_frame1.rotation;
-    joint_in_world * Vector::X
 }

@@ -3,7 +3,7 @@
 use congruent_description::Inertia;
 use nalgebra::Isometry3;
 
-use crate::{adapter, engine::Engine, settings::Touches};
+use crate::{adapter, engine::Engine, sets::ObstacleMove, settings::Touches};
 
 impl Engine {
     pub(crate) fn set_damping(&mut self, coordinate: usize, damping: f64) {
@@ -47,12 +47,14 @@ impl Engine {
         let body = sets.bodies.get_mut(handle).expect("the body exists");
         let pose = adapter::pose(pose);
         let was_enabled = body.is_enabled();
+        self.moves.retain(|before| before.body != handle);
         match touches {
             Touches::Links => {
                 body.set_enabled(true);
                 // By its next position rapier knows a velocity, with which it pushes links; put there at once, it
                 // would appear inside them.
                 if was_enabled {
+                    self.moves.push(ObstacleMove { body: handle, before: *body.position(), after: pose });
                     body.set_next_kinematic_position(pose);
                 } else {
                     // Released: the jump from where it was carried is no motion.
@@ -64,6 +66,22 @@ impl Engine {
                 body.set_position(pose, true);
             }
         }
+    }
+
+    /// Returns to the start of a step: joints and obstacles are where they were, and the obstacles move again.
+    pub(crate) fn return_to(&mut self, q: &[f64], qd: &[f64]) {
+        self.place(q, qd);
+        for step in &self.moves {
+            let body = self.sets.bodies.get_mut(step.body).expect("the body exists");
+            body.set_position(step.before, true);
+            body.set_next_kinematic_position(step.after);
+        }
+    }
+
+    /// To be called after a step that is not repeated.
+    pub(crate) fn end_step(&mut self) {
+        self.moves.clear();
+        self.let_contacts_act();
     }
 
     /// To be called after inertias have changed: Jacobians are those of the centres of mass.

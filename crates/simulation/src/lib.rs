@@ -13,6 +13,7 @@ mod drive;
 mod engine;
 mod engine_changes;
 mod engine_contacts;
+mod engine_forces;
 mod error;
 mod joints_view;
 mod lumping;

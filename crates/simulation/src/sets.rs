@@ -2,7 +2,7 @@
 
 use rapier3d_f64::prelude::{
     BroadPhaseBvh, CCDSolver, ColliderSet, ImpulseJointSet, IslandManager, JointAxis, MultibodyJointSet,
-    NarrowPhase, RigidBodySet, SoftBodySet,
+    NarrowPhase, Pose, RigidBodyHandle, RigidBodySet, SoftBodySet,
 };
 
 use crate::{contact::near::NearShapes, drive::DriveCapability};
@@ -32,4 +32,12 @@ pub(crate) struct EngineSlot {
     pub upper: f64,
     pub capability: DriveCapability,
     pub is_mimic: bool,
+}
+
+/// An obstacle that moves in the next step, by its poses before and after.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ObstacleMove {
+    pub body: RigidBodyHandle,
+    pub before: Pose,
+    pub after: Pose,
 }

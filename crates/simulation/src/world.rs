@@ -270,6 +270,7 @@ impl World {
     fn apply(&mut self, setpoint: &Setpoint<'_>) -> Result<(), SimulationError> {
         if self.commands.placed {
             self.state.step_count += 1;
+            self.engine.end_step();
             return self.set_state(setpoint.q, setpoint.qd);
         }
         if let Some(link) = &self.massless {

@@ -1,5 +1,7 @@
 //! The reasons why links and joints do not form a robot; `tree.rs` detects them.
 
+use congruent_input::units::LARGEST;
+
 /// Why links and joints do not make a robot.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -83,6 +85,20 @@ pub enum RobotError {
         /// The joints of the loop after it.
         through: Vec<String>,
     },
+    /// A joint follows one that follows another, and its position is too large a multiple of the last one's.
+    #[error(
+        "joint \"{joint}\": mimic: {what} {value:e} with those of the joints that \"{master}\" follows, limit <= {LARGEST:e}"
+    )]
+    MimicTooLarge {
+        /// Name of the joint.
+        joint: String,
+        /// The joint that it follows, which follows another.
+        master: String,
+        /// `multiplier` or `offset`.
+        what: &'static str,
+        /// The product of the multipliers, or the offset that follows from them.
+        value: f64,
+    },
 }
 
 impl RobotError {
@@ -94,7 +110,8 @@ impl RobotError {
             | Self::SelfJoint { joint, .. }
             | Self::Loop { joint, .. }
             | Self::UnknownMimic { joint, .. }
-            | Self::MimicLoop { joint, .. } => Some(joint),
+            | Self::MimicLoop { joint, .. }
+            | Self::MimicTooLarge { joint, .. } => Some(joint),
             Self::TwoParents { second, .. } => Some(second),
             Self::NoLink | Self::DuplicateLink { .. } | Self::SeveralRoots { .. } => None,
         }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use congruent_input::units::LARGEST;
+
 use super::{
     error::RobotError,
     joint::{Joint, JointIndex, JointParts, Mimic},
@@ -46,6 +48,23 @@ struct ResolvedMimic {
     master: usize,
     multiplier: f64,
     offset: f64,
+}
+
+impl ResolvedMimic {
+    /// This joint follows one that follows another: what the first has to do with the last.
+    fn through(self, further: Self) -> Self {
+        Self {
+            master: further.master,
+            multiplier: self.multiplier * further.multiplier,
+            offset: self.multiplier * further.offset + self.offset,
+        }
+    }
+
+    /// The value whose products with positions would lose all digits, or overflow.
+    fn too_large(self) -> Option<(&'static str, f64)> {
+        let values = [("multiplier", self.multiplier), ("offset", self.offset)];
+        values.into_iter().find(|(_, value)| value.is_nan() || value.abs() > LARGEST)
+    }
 }
 
 fn index_links(links: &[Link]) -> Result<BTreeMap<&str, usize>, RobotError> {
@@ -263,14 +282,17 @@ fn compose(
             at = next.master;
         }
         for &joint in path.iter().rev() {
-            composed[joint] = direct[joint].map(|own| match composed[own.master] {
-                Some(further) => ResolvedMimic {
-                    master: further.master,
-                    multiplier: own.multiplier * further.multiplier,
-                    offset: own.multiplier * further.offset + own.offset,
-                },
-                None => own,
-            });
+            let Some(own) = direct[joint] else { continue };
+            let resolved = composed[own.master].map(|further| own.through(further));
+            if let Some((what, value)) = resolved.and_then(ResolvedMimic::too_large) {
+                return Err(RobotError::MimicTooLarge {
+                    joint: joints[joint].joint.name.clone(),
+                    master: joints[own.master].joint.name.clone(),
+                    what,
+                    value,
+                });
+            }
+            composed[joint] = Some(resolved.unwrap_or(own));
         }
     }
     Ok(composed)
@@ -302,4 +324,48 @@ fn assemble(mut links: Vec<Link>, joints: Vec<JointParts>, layout: &Layout) -> (
         })
         .collect();
     (sorted_links, sorted_joints)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::parse_urdf;
+
+    /// Four joints in a chain; all but the first follow the one before.
+    fn followers(mimic: &str) -> String {
+        let part = |at: usize| {
+            let mimic = if at > 1 { format!("<mimic joint='j{}' {mimic}/>", at - 1) } else { String::new() };
+            format!(
+                "<link name='l{at}'/>\n<joint name='j{at}' type='continuous'>\
+                 <parent link='l{}'/><child link='l{at}'/>\n{mimic}</joint>",
+                at - 1
+            )
+        };
+        format!("<robot name='r'><link name='l0'/>{}</robot>", (1..5).map(part).collect::<String>())
+    }
+
+    #[test]
+    fn what_a_chain_of_followers_multiplies_to_is_limited() {
+        let check = |mimic: &str, expected: &str| {
+            let found = parse_urdf(&followers(mimic)).unwrap_err();
+            let fault = found.first();
+            assert_eq!(found.len(), 1, "{found:#?}");
+            assert_eq!((fault.code.name, fault.message.as_str()), ("urdf::number", expected));
+            let place = fault.span.clone().expect("the element of the joint");
+            assert!(followers(mimic)[place].starts_with("<mimic"), "{fault:#?}");
+        };
+        check(
+            "multiplier='1e6'",
+            "joint \"j3\": mimic: multiplier 1e12 with those of the joints that \"j2\" follows, limit <= 1e6",
+        );
+        check(
+            "multiplier='-1e3' offset='900'",
+            "joint \"j4\": mimic: multiplier -1e9 with those of the joints that \"j3\" follows, limit <= 1e6",
+        );
+        check(
+            "multiplier='90' offset='1e4'",
+            "joint \"j4\": mimic: offset 8.191e7 with those of the joints that \"j3\" follows, limit <= 1e6",
+        );
+        let robot = parse_urdf(&followers("multiplier='100'")).unwrap();
+        assert_eq!(robot.joints()[3].mimic.map(|mimic| mimic.multiplier), Some(1e6));
+    }
 }

@@ -198,13 +198,18 @@ fn tree_fault(error: &RobotError, root: Node<'_, '_>) -> Diagnostic {
     // The element inside the joint that names what is not there.
     let part = match error {
         RobotError::UnknownLink { role, .. } => role,
-        RobotError::UnknownMimic { .. } | RobotError::MimicLoop { .. } => "mimic",
+        RobotError::UnknownMimic { .. } | RobotError::MimicLoop { .. } | RobotError::MimicTooLarge { .. } => {
+            "mimic"
+        }
         _ => "",
     };
     let joint = error.joint().and_then(|name| last(root, "joint", name)).map(|node| place(node, part));
     let link = error.link().and_then(|name| last(root, "link", name)).map(tag);
-    let fault = Diagnostic::error(codes::urdf::TREE, error.to_string())
-        .at(joint.or(link).unwrap_or_else(|| tag(root)));
+    let code = match error {
+        RobotError::MimicTooLarge { .. } => codes::urdf::NUMBER,
+        _ => codes::urdf::TREE,
+    };
+    let fault = Diagnostic::error(code, error.to_string()).at(joint.or(link).unwrap_or_else(|| tag(root)));
     match error {
         RobotError::UnknownLink { link, known, .. } => {
             fault.with_help(known_names(link, "links", known.iter().map(String::as_str)))

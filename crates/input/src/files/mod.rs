@@ -6,6 +6,7 @@ mod open;
 mod packages;
 mod portable;
 mod project;
+mod pseudo;
 mod relative_path;
 mod ros_packages;
 mod text_lines;

@@ -14,6 +14,7 @@ use std::{
     time::Duration,
 };
 
+use super::pseudo::pseudo_folder;
 use crate::{
     codes,
     diagnostic::{Diagnostic, SourceFile, line_column},
@@ -50,6 +51,9 @@ fn open_regular(path: &Path, most_bytes: u64) -> Result<File, Diagnostic> {
     let metadata = metadata(path)?;
     if !metadata.is_file() {
         return Err(not_regular(path));
+    }
+    if let Some(folder) = pseudo_folder(path, &metadata) {
+        return Err(made_up(path, folder));
     }
     if metadata.len() > most_bytes {
         return Err(too_large(path, metadata.len(), most_bytes));
@@ -140,6 +144,15 @@ fn read_at_most(from: impl Read, path: &Path, most_bytes: u64) -> Result<Vec<u8>
 fn not_regular(path: &Path) -> Diagnostic {
     let message = format!("{} is not a regular file but a pipe, socket or device", path.display());
     Diagnostic::error(codes::file::NOT_REGULAR, message)
+}
+
+fn made_up(path: &Path, folder: &str) -> Diagnostic {
+    let message = format!(
+        "{} is a file of {folder}, whose content the system makes up while it is read: it is not opened",
+        path.display()
+    );
+    Diagnostic::error(codes::file::NOT_REGULAR, message)
+        .with_help("save its content as a file, and give that")
 }
 
 pub(super) fn too_large(path: &Path, length: u64, most_bytes: u64) -> Diagnostic {
@@ -288,6 +301,17 @@ mod tests {
     #[cfg(unix)]
     fn a_device_is_not_opened() {
         assert_eq!(read_text(Path::new("/dev/zero"), 9).unwrap_err().code.name, "file::not_regular");
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_file_of_proc_is_not_opened() {
+        for path in ["/proc/kmsg", "/proc/version"].map(Path::new) {
+            for fault in [read_text(path, 9).unwrap_err(), head_of(path, 9).unwrap_err()] {
+                assert_eq!(fault.code.name, "file::not_regular");
+                assert!(fault.message.contains("is a file of /proc, whose content"), "{fault:?}");
+            }
+        }
     }
 
     #[test]
