@@ -11,7 +11,7 @@ use congruent_kinematics::move_inside_limits;
 use congruent_monitors::{
     ActuatorLimits, CheckContext, RunClock, RunDynamics, RunPayload, RunningCheck, taken_too_late,
 };
-use congruent_motion::{JointTargets, MotionInput, Trajectory, motion_limits};
+use congruent_motion::{JointTargets, MotionInput, Trajectory, codes::scenario::TARGET_LIMIT, motion_limits};
 use congruent_proximity::{MovingBody, ObstacleMobility, Zone, simplified_hulls};
 use congruent_scenario::{
     ControllerKind, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile, ScenarioFolder,
@@ -194,10 +194,10 @@ impl RunSetup {
         let (Some(trajectory), Some(clock), Some(actuation), Some(obstacles), Some(zones), Some(faults)) =
             (trajectory, clock, actuation, obstacles, zones, faults)
         else {
-            return Err(found.into());
+            return Err(beside_ranges(found, warnings));
         };
         if found.has_error() {
-            return Err(found.into());
+            return Err(beside_ranges(found, warnings));
         }
         // After all checks: messages refer to what the user has written.
         write_out(&mut scenario, &description, &clock, &start, folder);
@@ -299,6 +299,12 @@ impl RunSetup {
     pub fn actuator_limits(&self) -> Vec<ActuatorLimits> {
         ActuatorLimits::for_joints(&self.description.robot, &self.scenario.joints)
     }
+}
+
+/// The errors beside the targets outside of their ranges: such a target is often the reason why a later motion fails.
+fn beside_ranges(mut found: Diagnostics, warnings: Vec<Diagnostic>) -> Findings {
+    found.extend(warnings.into_iter().filter(|warning| warning.code == TARGET_LIMIT));
+    found.into()
 }
 
 /// The motions, planned one after another.
