@@ -263,7 +263,9 @@ fn declared(
     let inertials = dynamics
         .is_some()
         .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));
-    let table = written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh)));
+    let tolerance_span = written.tolerance.as_ref().and_then(|tolerance| tolerance.span());
+    let table =
+        written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh, tolerance_span)));
     let tolerance_is_declared = written.tolerance.is_some();
     Some(RobotDescription {
         path: robot_file.path.clone(),
