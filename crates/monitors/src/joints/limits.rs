@@ -42,6 +42,8 @@ struct CoordinateLimits {
     beyond_before: f64,
     rest: Option<RestOnStop>,
     drive: Option<DrivenBeyond>,
+    /// Whether its position was beyond the limit, which is then what fails.
+    was_beyond: bool,
     /// Samples in which its effort was at the limit.
     saturated: u64,
 }
@@ -176,17 +178,19 @@ impl LimitsMonitor {
         let outside = setpoint.filter(|_| !is_commanded_inside);
         // A stop that the joint has reached gently holds it exactly at its limit, however far its setpoint goes on: the
         // position alone would make the push look like rest.
+        limits.was_beyond |= beyond > tolerance;
         let held_back = outside.filter(|&outside| {
-            beyond.abs() <= ON_THE_STOP && beyond <= tolerance && outside > tolerance.max(ON_THE_STOP)
+            !limits.was_beyond && beyond.abs() <= ON_THE_STOP && outside > tolerance.max(ON_THE_STOP)
         });
         if beyond > tolerance || held_back.is_some() {
-            let drive = limits.drive.get_or_insert(DrivenBeyond {
+            limits.drive.get_or_insert(DrivenBeyond {
                 time_s: sample.time_s,
                 setpoint_outside: outside,
                 is_commanded: setpoint.is_some(),
             });
-            drive.setpoint_outside =
-                drive.setpoint_outside.map(|before| outside.map_or(before, |now| now.max(before)));
+        }
+        if let (Some(drive), Some(now)) = (&mut limits.drive, outside) {
+            drive.setpoint_outside = drive.setpoint_outside.map(|before| before.max(now));
         }
         if let Some(outside) = held_back {
             self.held_back.of(kind).observe(outside, coordinate, sample);
@@ -316,6 +320,7 @@ fn coordinates(description: &RobotDescription) -> Vec<CoordinateLimits> {
         beyond_before: 0.0,
         rest: None,
         drive: None,
+        was_beyond: false,
         saturated: 0,
     });
     limits.collect()
