@@ -260,10 +260,10 @@ fn declared(
     // Only here is the reach known (tip and tool are resolved), with which a tolerance is compared.
     let scale = ToleranceScale::with_tool(&robot, tip, tip_from_tcp.as_ref());
     diagnostics.extend(written.tolerance.iter().flat_map(|tolerance| tolerance.examine(scale)));
+    let tolerance_span = written.tolerance_span();
     let inertials = dynamics
         .is_some()
         .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));
-    let tolerance_span = written.tolerance.as_ref().and_then(|tolerance| tolerance.span());
     let table =
         written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh, tolerance_span)));
     let tolerance_is_declared = written.tolerance.is_some();

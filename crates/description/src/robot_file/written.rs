@@ -87,6 +87,11 @@ pub struct WrittenRobot {
 }
 
 impl WrittenRobot {
+    /// Byte range of the first value of the tolerance; `None` if there is none.
+    pub(crate) fn tolerance_span(&self) -> Option<Range<usize>> {
+        self.tolerance.as_ref()?.span()
+    }
+
     /// The links whose inertia is to be repaired.
     pub(crate) fn repairs(&self, source: &Arc<SourceFile>) -> Repairs {
         let links = self.inertia.iter().map(|(link, choice)| match choice.get_ref() {
@@ -206,7 +211,7 @@ pub(crate) struct WrittenTolerance {
 
 impl WrittenTolerance {
     /// Byte range of its first value; `None` if it has none.
-    pub(crate) fn span(&self) -> Option<Range<usize>> {
+    fn span(&self) -> Option<Range<usize>> {
         let values = [&self.position_m, &self.position_mm, &self.orientation_rad, &self.orientation_deg];
         values.into_iter().flatten().map(Spanned::span).min_by_key(|span| span.start)
     }

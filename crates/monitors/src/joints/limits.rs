@@ -166,6 +166,8 @@ impl LimitsMonitor {
         let grows = limits.beyond_before > 0.0 && beyond > limits.beyond_before;
         let is_commanded_inside = setpoint.is_some_and(|outside| outside <= tolerance.min(AT_THE_LIMIT));
         let rests = margin == 0.0 && is_commanded_inside && !grows && beyond <= ON_THE_STOP;
+        // A joint that only lags behind its setpoint still moves.
+        let is_at_rest = (beyond - limits.beyond_before).abs() <= AT_THE_LIMIT;
         limits.beyond_before = beyond;
         if rests && beyond > tolerance {
             limits.rest.get_or_insert(RestOnStop {
@@ -180,7 +182,10 @@ impl LimitsMonitor {
         // position alone would make the push look like rest.
         limits.was_beyond |= beyond > tolerance;
         let held_back = outside.filter(|&outside| {
-            !limits.was_beyond && beyond.abs() <= ON_THE_STOP && outside > tolerance.max(ON_THE_STOP)
+            !limits.was_beyond
+                && is_at_rest
+                && beyond.abs() <= ON_THE_STOP
+                && outside > tolerance.max(ON_THE_STOP)
         });
         if beyond > tolerance || held_back.is_some() {
             limits.drive.get_or_insert(DrivenBeyond {

@@ -28,9 +28,9 @@ pub(crate) fn marked(finding: &Diagnostic) -> Markup {
         pre.file {
             @for (number, line) in (1..).zip(quotable(source).lines()).filter(|(number, _)| shown.contains(number)) {
                 @if (first..=last).contains(&number) {
-                    mark { (row(number, html! { (emphasised(line, within(source, span, number))) })) }
+                    mark { (row(number, &html! { (emphasised(line, within(source, span, number))) })) }
                 } @else {
-                    span { (row(number, html! { (shortened(line)) })) }
+                    span { (row(number, &html! { (shortened(line)) })) }
                 }
             }
         }
@@ -42,7 +42,7 @@ fn quotable(source: &SourceFile) -> &str {
     if source.is_foreign { "" } else { &source.text }
 }
 
-fn row(number: usize, line: Markup) -> Markup {
+fn row(number: usize, line: &Markup) -> Markup {
     html! { b { (format!("{number:>4}")) } "  " (line) "\n" }
 }
 
@@ -94,7 +94,7 @@ fn changed_lines(change: &ChangedLines, text: &str) -> Markup {
             p.place { "write below line " (to_line) ":" }
             pre.file.new {
                 @for (number, line) in (to_line + 1..).zip(added.lines()) {
-                    ins { (row(number, html! { (shortened(line)) })) }
+                    ins { (row(number, &html! { (shortened(line)) })) }
                 }
             }
         };
@@ -110,7 +110,7 @@ fn changed_lines(change: &ChangedLines, text: &str) -> Markup {
             ":"
         }
         pre.file.new {
-            @for (at, new) in new.lines().enumerate() { ins { (row(from_line + at, line(at, new))) } }
+            @for (at, new) in new.lines().enumerate() { ins { (row(from_line + at, &line(at, new))) } }
         }
     }
 }
