@@ -80,6 +80,30 @@ fn base_tip_and_convention_are_taken_from_the_call() {
     assert_eq!(congruent(&[&arguments[..], &["--force"]].concat()).code, 0);
 }
 
+/// The table will be replaced by one of a data sheet: a declared tolerance would then count its rounding as a difference.
+#[test]
+fn the_digits_decide_about_a_table_that_replaces_the_derived_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = text(folder.path());
+    let made = congruent(&["new", "robot", "robots/ur5e/ur5e.urdf", "--out", &out]);
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    let file = folder.path().join("robot.toml");
+    let written = fs::read_to_string(&file).unwrap();
+    assert!(!written.lines().any(|line| line.starts_with("tolerance")), "{written}");
+    let rounded = written.replace("a_m = 0.3922", "a_m = 0.392");
+    assert_ne!(rounded, written);
+    fs::write(&file, &rounded).unwrap();
+    let answer = congruent(&["check", &text(&file)]);
+    assert_eq!(answer.code, 0, "{}", answer.stdout);
+    assert!(answer.stdout.contains("within the digits written"), "{}", answer.stdout);
+    // A tolerance that is finer than the digits is named with its line.
+    fs::write(&file, format!("tolerance = {{ position_m = 1e-9 }}\n{rounded}")).unwrap();
+    let answer = congruent(&["check", &text(&file)]);
+    assert_eq!(answer.code, 1, "{}", answer.stdout);
+    let advice = "without it (robot.toml:1) the digits decide";
+    assert!(answer.stdout.contains(advice), "{}", answer.stdout);
+}
+
 const FIXED: &str = "<robot name='stand'><link name='base'/><link name='top'/>\
     <joint name='j' type='fixed'><parent link='base'/><child link='top'/></joint></robot>";
 

@@ -4,6 +4,7 @@ mod bad_input;
 mod chains;
 mod describe;
 mod fence;
+mod first_mistakes;
 #[cfg(target_os = "linux")]
 mod large_inputs;
 mod live_lines;

@@ -79,14 +79,22 @@ fn inline(value: &toml::Value) -> String {
     match value {
         toml::Value::Table(table) => {
             let parts: Vec<String> =
-                table.iter().map(|(key, value)| format!("{key} = {}", inline(value))).collect();
+                table.iter().map(|(key, value)| format!("{} = {}", as_key(key), inline(value))).collect();
             format!("{{ {} }}", parts.join(", "))
         }
         toml::Value::Array(values) => {
             format!("[{}]", values.iter().map(inline).collect::<Vec<_>>().join(", "))
         }
+        // As files write it: 1e-12, and not twelve zeros.
+        toml::Value::Float(value) if *value != 0.0 && value.abs() < 1e-4 => format!("{value:e}"),
         other => other.to_string(),
     }
+}
+
+/// A key as TOML needs it.
+fn as_key(key: &str) -> String {
+    let is_bare = key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'));
+    if is_bare { key.to_owned() } else { format!("\"{key}\"") }
 }
 
 /// The keys of a file in tables, a section for each table of the file.
@@ -149,10 +157,17 @@ impl KeyPage<'_> {
             let _ = writeln!(self.text, "| `{key}` | {takes} | {default} | {example} | {meaning} |");
             below.extend(tables.into_iter().map(|table| (key_path.clone(), self.is_list(value), table)));
         }
+        let paths: Vec<String> = below.iter().map(|(path, ..)| path.clone()).collect();
+        let alike = |path: &String| paths.iter().filter(|other| *other == path).count();
         for (path, is_list, table) in below {
             let kind = table["properties"]["kind"]["const"].as_str();
             let heading = heading_of(&path, is_list);
-            let heading = kind.map_or(heading.clone(), |kind| format!("{heading} kind = \"{kind}\""));
+            let own = own_key(&table).filter(|_| kind.is_none() && is_list && alike(&path) > 1);
+            let heading = match (kind, own) {
+                (Some(kind), _) => format!("{heading} kind = \"{kind}\""),
+                (None, Some(key)) => format!("{heading} {key}"),
+                (None, None) => heading,
+            };
             // A pose occurs in several tables: each has its section, so that a search for its path ends there.
             self.section(&path, &format!("`{heading}`"), &table);
         }
@@ -190,6 +205,14 @@ impl KeyPage<'_> {
             _ => String::new(),
         }
     }
+}
+
+/// The first key that a table must have: of several tables under one heading it says which one is meant.
+fn own_key(table: &Value) -> Option<&str> {
+    let required = table["required"].as_array().and_then(|keys| keys.first()?.as_str());
+    // Positions have a key for each unit, of which none is required by itself.
+    let of_joints = || table["properties"].as_object()?.keys().find(|key| key.contains("joints"));
+    required.or_else(|| of_joints().map(String::as_str))
 }
 
 /// What a key takes, without null.

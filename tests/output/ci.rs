@@ -80,6 +80,25 @@ fn a_robot_that_disagrees_is_shown_at_the_wrong_line() {
 }
 
 #[test]
+fn several_causes_are_shown_each_at_its_line() {
+    let scratch = ScratchFolder::new();
+    let robot = fs::read_to_string(workspace().join("robots/ur5e/robot.toml")).unwrap();
+    let urdf = text(&workspace().join("robots/ur5e/ur5e.urdf"));
+    let robot = robot.replace("\"ur5e.urdf\"", &format!("\"{urdf}\""));
+    let wrong = robot.replace("a_m = -0.425", "a_m = -0.525").replace("d_m = 0.1625", "d_m = 0.2625");
+    let path = scratch.write("two.toml", &wrong);
+    let (answer, ..) = with_ci(&scratch, &["check", &path]);
+    assert_eq!(answer.code, 1, "{}", answer.stderr);
+    for value in ["a_m = -0.525", "d_m = 0.2625"] {
+        let line = wrong.lines().position(|line| line == value).unwrap() + 1;
+        let marked = |annotation: &str| {
+            annotation.starts_with("::error") && annotation.contains(&format!("line={line},"))
+        };
+        assert!(answer.stderr.lines().any(marked), "no {value}: {}", answer.stderr);
+    }
+}
+
+#[test]
 fn what_cannot_start_is_an_error_at_the_line_of_the_finding() {
     let scratch = ScratchFolder::new();
     let scenario = fs::read_to_string(workspace().join("scenarios/ur5e_pick.toml")).unwrap();
@@ -100,6 +119,7 @@ fn what_passes_is_summed_up_and_not_annotated() {
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     assert!(!answer.stderr.contains("::"), "{}", answer.stderr);
     assert!(summary.starts_with("### Congruent: passed") && summary.contains("robots/ur5e"), "{summary}");
+    assert!(summary.contains("robots/planar\\_2r (not compared: dynamics)"), "{summary}");
     // The summary of the next step of a job is below.
     let (_, _, summary) = with_ci(&scratch, &["check", "robots/planar_2r"]);
     assert_eq!(summary.matches("### Congruent").count(), 2, "{summary}");

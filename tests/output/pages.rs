@@ -295,6 +295,8 @@ fn the_page_of_several_robots_has_the_worst_first() {
     holds_values_of(&html, &answer.json());
     let at = |word: &str| html.find(&format!("{word}</")).unwrap_or_else(|| panic!("no {word}"));
     assert!(at("no_such_robot") < at(robots[1]) && at(robots[1]) < at(robots[0]));
+    // What was not compared does not read as agreement.
+    assert!(html.contains("SAME GEOMETRY, DYNAMICS NOT COMPARED</span></td>"), "{html}");
     opens_well(&page);
 }
 

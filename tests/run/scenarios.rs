@@ -197,6 +197,24 @@ fn values_are_set_in_tables_and_in_lists_and_the_report_has_them() {
 }
 
 #[test]
+fn a_target_outside_its_range_is_named_before_what_it_makes_fail() {
+    let out = tempfile::tempdir().unwrap();
+    let pick = fs::read_to_string(workspace().join("scenarios/ur5e_pick.toml")).unwrap();
+    let head = &pick[..pick.find("[[motion]]").unwrap()];
+    let robot = format!("robot = \"{}\"", text(&workspace().join("robots/ur5e")));
+    let head = head.replace("robot = \"../robots/ur5e\"", &robot);
+    let motions =
+        "[[motion]]\nmove_joints_deg = { elbow_joint = 190 }\n[[motion]]\nline_tcp = { xyz_m = [9, 0, 0] }\n";
+    let file = out.path().join("far.toml");
+    fs::write(&file, format!("{head}{motions}[[check]]\nkind = \"limits\"\n")).unwrap();
+    let answer = congruent(&["run", &text(&file), "--out", &text(out.path())]);
+    assert_eq!(answer.code, 2, "{}{}", answer.stdout, answer.stderr);
+    let range = answer.stderr.find("target 190 deg is outside its range [-180, 180] deg");
+    let reach = answer.stderr.find("reach").unwrap_or(usize::MAX);
+    assert!(range.is_some_and(|range| range < reach), "{}", answer.stderr);
+}
+
+#[test]
 fn values_that_cannot_be_set_are_refused_with_the_reason() {
     let out = tempfile::tempdir().unwrap();
     for (values, reason) in [

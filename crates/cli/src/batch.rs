@@ -330,8 +330,8 @@ fn refused_suite(input: &Path, failure: &Failure) -> TestSuite {
 const WORDS: [(u8, &str); 5] = [
     (BROKEN, "BROKEN"),
     (BAD_INPUT, "BAD INPUT"),
-    (NOTHING, "NOT CHECKED"),
     (FAILED, "FAILED"),
+    (NOTHING, "NOT CHECKED"),
     (0, "passed"),
 ];
 

@@ -120,7 +120,11 @@ impl CiArguments {
 /// says, else the nearest with `.git` at or above the current one. Files elsewhere keep their names.
 pub(crate) fn in_repository(mut suite: TestSuite) -> TestSuite {
     let Some(top) = top_of_repository() else { return suite };
-    for place in suite.cases.iter_mut().filter_map(|case| case.place.as_mut()) {
+    let places = suite
+        .cases
+        .iter_mut()
+        .flat_map(|case| case.place.iter_mut().chain(case.further.iter_mut().map(|(place, _)| place)));
+    for place in places {
         if let Some(inside) = inside(Path::new(&place.file), &top) {
             let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
             place.file = parts.join("/");

@@ -2,8 +2,11 @@
 
 use std::fmt::Write;
 
-use clap::Command;
-use congruent::text::layout::paragraph;
+use clap::{
+    Command, Error,
+    error::{ContextKind, ContextValue},
+};
+use congruent::{input::nearest, text::layout::paragraph};
 
 /// The groups of commands, in the order of the help.
 const GROUPS: [(&str, &[&str]); 6] = [
@@ -152,7 +155,7 @@ pub(crate) fn with_groups_and_examples(command: Command) -> Command {
         groups(&command),
         "\nExamples of a command: congruent check --help\n"
     );
-    let command = command.help_template(template);
+    let command = with_common_options_last(command.help_template(template));
     EXAMPLES.iter().fold(command, |command, (name, lines)| {
         if command.find_subcommand(name).is_none() {
             // Built without recordings.
@@ -161,6 +164,30 @@ pub(crate) fn with_groups_and_examples(command: Command) -> Command {
         let text = format!("Examples:\n  {}", lines.join("\n  "));
         command.mut_subcommand(name, |below| below.after_help(text))
     })
+}
+
+/// The error about an unknown command with the one command that is most like it: `check` and not `schema` for `chek`.
+pub(crate) fn with_nearest_command(mut error: Error, command: &Command) -> Error {
+    let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) else { return error };
+    let known = command.get_subcommands().map(Command::get_name);
+    if let Some(near) = nearest(unknown, known) {
+        let near = ContextValue::Strings(vec![near.to_owned()]);
+        error.insert(ContextKind::SuggestedSubcommand, near);
+    }
+    error
+}
+
+/// Options that all commands, or all that open files, have.
+const COMMON: [&str; 8] =
+    ["format", "color", "quiet", "verbose", "fence", "allow", "package", "ros_packages"];
+
+/// The command with the common options in a section of their own, after the options of each command.
+fn with_common_options_last(command: Command) -> Command {
+    let command = command.mut_args(|argument| {
+        let is_common = COMMON.contains(&argument.get_id().as_str());
+        if is_common { argument.help_heading("Common options") } else { argument }
+    });
+    command.mut_subcommands(with_common_options_last)
 }
 
 /// The commands with the first sentence of their help.

@@ -169,7 +169,8 @@ fn parse(words: Vec<OsString>) -> Result<Arguments, clap::Error> {
         Some(columns) => command.term_width(columns.min(WIDEST_HELP)),
         None => command,
     };
-    let matches = command.try_get_matches_from_mut(words)?;
+    let matches = command.try_get_matches_from_mut(words);
+    let matches = matches.map_err(|error| help::with_nearest_command(error, &command))?;
     Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
 }
 

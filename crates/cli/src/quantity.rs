@@ -132,13 +132,36 @@ pub(crate) fn three_angles(text: &str) -> Result<[f64; 3], String> {
 fn three(text: &str, dimension: Dimension, example: &str) -> Result<[f64; 3], String> {
     let parts: Vec<&str> = text.split(',').collect();
     let [x, y, z] = parts[..] else {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        if let ([_], [x, y, z]) = (&parts[..], &words[..]) {
+            return Err(format!("separate the values with commas: {x},{y},{z}"));
+        }
         return Err(format!("{} values, expected three, as in {example}", parts.len()));
     };
+    all_with_unit(&[x, y, z])?;
     Ok([
         QuantityArgument::of(x, dimension)?,
         QuantityArgument::of(y, dimension)?,
         QuantityArgument::of(z, dimension)?,
     ])
+}
+
+/// Refuses values of which only some have a unit: 350,100,450mm would be two lengths in m and one in mm.
+fn all_with_unit(parts: &[&str]) -> Result<(), String> {
+    let read = |text: &str| Some(QuantityArgument::parse(text).ok()?).filter(|of| of.value != 0.0);
+    let unit = parts.iter().find_map(|text| {
+        let text = text.trim();
+        let start = text.find(|c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E'))?;
+        read(text).map(|_| &text[start..])
+    });
+    let is_without = |text: &&str| read(text).is_some_and(|of| of.dimension.is_none());
+    let Some(unit) = unit.filter(|_| parts.iter().any(is_without)) else { return Ok(()) };
+    let with_unit = |text: &&str| {
+        let text = text.trim();
+        if is_without(&text) { format!("{text}{unit}") } else { text.to_owned() }
+    };
+    let all: Vec<String> = parts.iter().map(with_unit).collect();
+    Err(format!("only some values have a unit: write {}", all.join(",")))
 }
 
 #[cfg(test)]
@@ -154,7 +177,8 @@ mod tests {
         }
         assert_eq!(QuantityArgument::of("2500g", Dimension::Mass), Ok(2.5));
         assert_eq!(QuantityArgument::of("-90deg", Dimension::Angle), Ok(-FRAC_PI_2));
-        assert_eq!(three_lengths("400mm, 0.1,-0.3m"), Ok([0.4, 0.1, -0.3]));
+        assert_eq!(three_lengths("400mm, 0.1m,-0.3m"), Ok([0.4, 0.1, -0.3]));
+        assert_eq!(three_lengths("0,0,50mm"), Ok([0.0, 0.0, 0.05]));
         assert_eq!(three_angles("180deg,0,1.5rad"), Ok([PI, 0.0, 1.5]));
     }
 
@@ -178,5 +202,9 @@ mod tests {
         let error = three_angles("180,0,0").unwrap_err();
         assert_eq!(error, "\"180\" needs a unit: 180deg or 180rad");
         assert!(three_lengths("1,2").unwrap_err().contains("2 values, expected three"));
+        let error = three_lengths("350mm 100mm 450mm").unwrap_err();
+        assert_eq!(error, "separate the values with commas: 350mm,100mm,450mm");
+        let error = three_lengths("350,100,450mm").unwrap_err();
+        assert_eq!(error, "only some values have a unit: write 350mm,100mm,450mm");
     }
 }

@@ -57,7 +57,7 @@ congruent_input::codes! {
         JOINT_TYPE = "CGR-URDF-017", "urdf::joint_type",
             "Joints of the types floating, planar and spherical are not supported. Replace such a joint by several joints with one degree of freedom, with massless links between them.";
         AXIS = "CGR-URDF-018", "urdf::axis",
-            "The axis of a joint is zero, or its length is not 1. An axis of another length is normalised here, but some readers multiply the motion by its length.\n    <axis xyz=\"0 0 2\"/> instead of <axis xyz=\"0 0 1\"/>";
+            "The axis of a joint is zero, or its length is not 1. An axis of another length is normalised here, but some readers multiply the motion by its length. Write a direction of length 1.\n    <axis xyz=\"0 0 2\"/> instead of <axis xyz=\"0 0 1\"/>";
         LIMIT = "CGR-URDF-019", "urdf::limit",
             "The limits of a joint are missing, negative, in the wrong order, lock the joint, or are ignored. By the specification a limit without `lower` or `upper` has the value 0 there, which often locks a joint by mistake.";
         DYNAMICS = "CGR-URDF-020", "urdf::dynamics",

@@ -9,7 +9,7 @@ use std::{
 
 use congruent_input::{
     Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of,
-    not_found, toml_text::parse_toml,
+    not_found,
 };
 use toml::Spanned;
 
@@ -19,7 +19,7 @@ use crate::{
     description::{NamedFiles, Places, RobotDescription},
     mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
-    named_robot::{file_of_robot, is_toml, open, refuse_scenario},
+    named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_scenario},
     robot_file::{self, Declared, InertialPlaces, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
     srdf::{self, SRDF_BYTES},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
@@ -110,7 +110,7 @@ pub fn parse_robot(
     };
     let mut diagnostics = Diagnostics::default();
     // Unknown keys are faults but still give a value, so that the URDF and the names are checked in the same run.
-    let written: Option<WrittenRobot> = parse_toml(&robot_file.text, &mut diagnostics);
+    let written: Option<WrittenRobot> = robot_file::parse(&robot_file.text, &mut diagnostics);
     let declared = written.and_then(|written| {
         let repairs = written.repairs(robot_file);
         let inputs = UrdfInputs { find_mesh: &mut urdf::no_mesh, repairs: &repairs };
@@ -260,10 +260,12 @@ fn declared(
     // Only here is the reach known (tip and tool are resolved), with which a tolerance is compared.
     let scale = ToleranceScale::with_tool(&robot, tip, tip_from_tcp.as_ref());
     diagnostics.extend(written.tolerance.iter().flat_map(|tolerance| tolerance.examine(scale)));
+    let tolerance_span = written.tolerance_span();
     let inertials = dynamics
         .is_some()
         .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));
-    let table = written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh)));
+    let table =
+        written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh, tolerance_span)));
     let tolerance_is_declared = written.tolerance.is_some();
     Some(RobotDescription {
         path: robot_file.path.clone(),
@@ -319,7 +321,7 @@ fn written_robot(
     access: &FileAccess,
     diagnostics: &mut Diagnostics,
 ) -> Option<(WrittenRobot, PathBuf)> {
-    let written: WrittenRobot = parse_toml(&robot_file.text, diagnostics)?;
+    let written: WrittenRobot = robot_file::parse(&robot_file.text, diagnostics)?;
     let urdf = diagnostics.keep(written.urdf.as_ref().ok_or_else(|| {
         Diagnostic::error(codes::robot_file::URDF, "the robot file has no key \"urdf\"")
             .at(0..0)
@@ -330,12 +332,36 @@ fn written_robot(
     diagnostics.keep(access.check(&urdf_path).map_err(|fault| fault.at(urdf.span())))?;
     // Here instead of when it is read, so that the message points at the key and quotes the path as written.
     if !urdf_path.exists() {
-        let message =
-            format!("urdf = \"{}\": {} does not exist", urdf.get_ref().display(), urdf_path.display());
-        diagnostics.push(not_found(&urdf_path, message).at(urdf.span()));
+        let fault = urdf_not_found(urdf.get_ref(), folder_of(&robot_file.path), access);
+        diagnostics.push(fault.at(urdf.span()));
         return None;
     }
     Some((written, urdf_path))
+}
+
+/// A URDF that is not where the robot file says: the help has a similar name, or the same name in another folder nearby.
+fn urdf_not_found(written: &Path, folder: &Path, access: &FileAccess) -> Diagnostic {
+    if written.to_string_lossy().contains("://") {
+        let message = format!("urdf = \"{}\" is no path", written.display());
+        return Diagnostic::error(congruent_input::codes::file::NOT_FOUND, message).with_help(
+            "package:// is for meshes in a URDF; give the path of the URDF, relative to this file",
+        );
+    }
+    let path = folder.join(written);
+    let message = format!("urdf = \"{}\": {} does not exist", written.display(), path.display());
+    let fault = not_found(&path, message);
+    if fault.help.is_some() {
+        return fault;
+    }
+    let found = written.file_name().and_then(|name| file_nearby(folder, name));
+    // What may not be opened is not named either.
+    match found.filter(|found| access.check(found).is_ok()) {
+        Some(found) => {
+            let found = found.strip_prefix(folder).unwrap_or(&found).display();
+            fault.with_help(format!("the path is relative to the robot file; did you mean {found}?"))
+        }
+        None => fault.with_help("the path is relative to the robot file"),
+    }
 }
 
 fn declared_packages(

@@ -1,6 +1,7 @@
 //! Which file the path of a robot means, and whether it is one.
 
 use std::{
+    ffi::OsStr,
     fs,
     path::{Path, PathBuf},
     sync::Arc,
@@ -30,10 +31,42 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
         .is_ok_and(|entries| entries.flatten().any(|entry| entry.path().join(ROBOT_FILE).is_file()));
     let help = if has_robots {
         format!("for the robots in it: {}", path.join("*/").display())
+    } else if let Some(urdf) = urdf_below(path) {
+        format!("it has {}: give that file", urdf.display())
     } else {
         ACCEPTED.to_owned()
     };
     Err(Diagnostic::error(codes::load::NO_ROBOT_FILE, message).with_help(help))
+}
+
+/// Folders below a named one in which a file is searched. Kind: choice; a package has its URDF in urdf/ or robots/urdf/.
+const SEARCHED_DEPTH: usize = 2;
+/// Most entries of a folder that are looked at. Kind: choice; a message must not take long.
+const MOST_ENTRIES: usize = 200;
+
+/// A URDF in a folder or below it.
+fn urdf_below(folder: &Path) -> Option<PathBuf> {
+    find_below(folder, SEARCHED_DEPTH, &|path| path.extension().is_some_and(|extension| extension == "urdf"))
+}
+
+/// A file of this name in a folder, below it, or below the folder above.
+pub(crate) fn file_nearby(folder: &Path, name: &OsStr) -> Option<PathBuf> {
+    let above = folder.join("..");
+    let is_named = |path: &Path| path.file_name() == Some(name);
+    find_below(folder, SEARCHED_DEPTH, &is_named).or_else(|| find_below(&above, SEARCHED_DEPTH, &is_named))
+}
+
+/// The first file in a folder, then in those below it, in the order of their names.
+fn find_below(folder: &Path, depth: usize, is_wanted: &dyn Fn(&Path) -> bool) -> Option<PathBuf> {
+    let entries = fs::read_dir(folder).ok()?.take(MOST_ENTRIES).flatten();
+    let mut entries: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    entries.sort();
+    let (folders, files): (Vec<_>, Vec<_>) = entries.into_iter().partition(|path| path.is_dir());
+    let found = files.into_iter().find(|path| is_wanted(path));
+    found.or_else(|| {
+        let deeper = depth.checked_sub(1)?;
+        folders.iter().find_map(|folder| find_below(folder, deeper, is_wanted))
+    })
 }
 
 /// Opens a file that a person gives as a robot. If it does not exist and no similar name does, the help lists what is accepted.

@@ -77,7 +77,7 @@ crate::codes! {
     }
     mesh {
         NOT_FOUND = "CGR-MESH-001", "mesh::not_found",
-            "The mesh file that the URDF names does not exist. Distances and contacts need every collision mesh.";
+            "The mesh file that the URDF names does not exist. Distances and contacts need every collision mesh; the kinematics do not. Put the file there, correct the path, or name the folder of its package: `--package NAME=DIR` in a call, or packages = { NAME = \"DIR\" } in robot.toml.";
         NETWORK = "CGR-MESH-005", "mesh::network",
             "The mesh has a network address; the network is never used. Put the mesh beside the URDF and name it by a relative path.";
         SCHEME = "CGR-MESH-006", "mesh::scheme",

@@ -1,7 +1,8 @@
 //! The known name that an unknown one was probably meant to be.
 
 /// The known name that `name` was probably meant to be: at most two letters are other, missing, too much or exchanged, and
-/// fewer than half of them; or it is the only name of which this one is some of the words, as `elbow` of `elbow_joint`, or one without its unit.
+/// fewer than half of them; or it is the only name of which this one is some of the words, as `elbow` of `elbow_joint`, or
+/// nearly one of them, or one without its unit.
 /// `None` if there is none.
 ///
 /// # Examples
@@ -10,14 +11,16 @@
 /// let joints = ["shoulder_joint", "elbow_joint"];
 /// assert_eq!(nearest("elbow_jiont", joints), Some("elbow_joint"));
 /// assert_eq!(nearest("elbow", joints), Some("elbow_joint"));
+/// assert_eq!(nearest("elbw", joints), Some("elbow_joint"));
 /// assert_eq!(nearest("wrist", joints), None);
 /// ```
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     /// Most letters that are other. Kind: choice; two mistyped keys.
     const MOST_EDITS: usize = 2;
     let lower = name.to_lowercase();
+    let known: Vec<&str> = known.into_iter().collect();
     let (mut best, mut containing) = (None, Vec::new());
-    for candidate in known {
+    for &candidate in &known {
         let other = candidate.to_lowercase();
         let edits = strsim::osa_distance(&lower, &other);
         let unlike = (edits, -strsim::jaro_winkler(&lower, &other));
@@ -36,7 +39,28 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     match containing[..] {
         _ if best.is_some() => best.map(|(_, candidate)| candidate),
         [only] => Some(only),
+        [] => one_with_word(&lower, &known),
         _ => containing.iter().find(is_with_unit).copied(),
+    }
+}
+
+/// The only known name of which one word differs in one letter: `elbow_joint` for `elbw`.
+fn one_with_word<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    /// Shorter words are like many others. Kind: choice.
+    const SHORTEST: usize = 4;
+    if name.chars().count() < SHORTEST {
+        return None;
+    }
+    let is_like = |known: &&&str| {
+        known
+            .to_lowercase()
+            .split('_')
+            .any(|word| word.len() >= SHORTEST && strsim::osa_distance(name, word) <= 1)
+    };
+    let mut like = known.iter().filter(is_like);
+    match (like.next(), like.next()) {
+        (Some(only), None) => Some(only),
+        _ => None,
     }
 }
 

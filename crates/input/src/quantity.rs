@@ -26,6 +26,10 @@ pub enum Quantity {
     AngleIntoStop,
     /// How far a prismatic joint that rests on its stop is beyond its range, m.
     ShiftIntoStop,
+    /// How far the setpoint of an angular joint that is held by its stop is beyond the range, rad.
+    AngleOfSetpointBeyondLimit,
+    /// How far the setpoint of a prismatic joint that is held by its stop is beyond the range, m.
+    ShiftOfSetpointBeyondLimit,
     /// Speed of a joint as a share of its velocity limit.
     ShareOfVelocityLimit,
     /// Effort of a joint as a share of its effort limit.

@@ -58,6 +58,8 @@ pub struct JointTarget {
     pub(crate) joint: JointIndex,
     /// Position of the joint, rad or m.
     pub(crate) value: f64,
+    /// The unit that it is written in.
+    unit: WrittenUnit,
     /// Byte range of the value in the file, if there is a file.
     pub span: Option<Range<usize>>,
 }
@@ -68,8 +70,10 @@ impl JointTarget {
         let joint = robot.joint(self.joint);
         let (lower, upper) = joint.position_range()?;
         (!(lower..=upper).contains(&self.value)).then(|| {
-            let (name, unit) = (&joint.name, joint.kind.unit());
-            let [value, lower, upper] = [self.value, lower, upper].map(limit_number);
+            // In the unit of the file: who has written degrees does not compare radians.
+            let (name, unit) = (&joint.name, self.unit.name());
+            let [value, lower, upper] =
+                [self.value, lower, upper].map(|si| limit_number(si / self.unit.to_si(1.0)));
             format!("joint \"{name}\": {what} {value} {unit} is outside its range [{lower}, {upper}] {unit}")
         })
     }
@@ -108,7 +112,7 @@ impl JointTargets<'_> {
                     }
                     Ok(joint) => {
                         let value = unit.to_si(value);
-                        targets.push(JointTarget { joint, value, span: place.entry_span(name) });
+                        targets.push(JointTarget { joint, value, unit, span: place.entry_span(name) });
                     }
                     Err(error) => errors.push(at_name(error)),
                 }

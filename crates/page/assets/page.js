@@ -226,7 +226,7 @@
     const legend = plot.root.querySelector(".u-legend");
     if (legend && chart.others) {
       const others = document.createElement("caption");
-      others.textContent = chart.others === 1 ? "and 1 other, which is less" : "and " + chart.others + " others, which are less";
+      others.textContent = chart.others === 1 ? "and 1 other, with smaller values" : "and " + chart.others + " others, with smaller values";
       legend.append(others);
     }
     return plot;

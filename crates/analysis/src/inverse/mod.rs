@@ -41,6 +41,9 @@ pub struct InverseReport {
 /// The result for one target.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct InverseSolution {
+    /// The target, in link `base`.
+    #[serde(skip)]
+    pub target: IkTarget,
     /// Whether the residuals are within tolerance.
     pub converged: bool,
     /// The best positions that were found, rad or m, always within the limits.
@@ -76,7 +79,8 @@ pub fn inverse(
     for target in targets {
         let start = joints.iter().zip(&middle);
         let start: ArmQ = start.map(|(joint, middle)| *target.start.get(joint).unwrap_or(middle)).collect();
-        let mut solved = solution(&solver.solve(&target.target, &start, options, || true)?, &joints);
+        let result = solver.solve(&target.target, &start, options, || true)?;
+        let mut solved = solution(target.target, &result, &joints);
         if !solved.converged {
             solved.not_reached = reach.beyond(&target.target);
             if solved.not_reached.is_none() && target.target.part == TargetPart::Pose {
@@ -97,8 +101,9 @@ pub fn inverse(
     })
 }
 
-fn solution(result: &IkResult<'_>, joints: &[String]) -> InverseSolution {
+fn solution(target: IkTarget, result: &IkResult<'_>, joints: &[String]) -> InverseSolution {
     InverseSolution {
+        target,
         converged: result.converged,
         q: JointValues::new(joints, result.q),
         residual_position_m: result.residual_position_m,

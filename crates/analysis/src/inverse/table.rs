@@ -91,7 +91,8 @@ impl<const N: usize> GivenParts<N> {
 }
 
 fn columns(header: &Header, robot: &Robot) -> Result<Vec<(TargetColumn, Option<WrittenUnit>)>, Findings> {
-    let (mut columns, mut faults) = (Vec::new(), Vec::new());
+    let (mut columns, mut faults): (Vec<_>, Vec<Diagnostic>) = (Vec::new(), Vec::new());
+    let mut refused: Vec<(Range<usize>, &str, RefusedColumn)> = Vec::new();
     for (cell, name) in header.names().enumerate() {
         match column(name, robot) {
             Ok(column) if columns.iter().any(|(given, _)| *given == column.0) => {
@@ -101,9 +102,11 @@ fn columns(header: &Header, robot: &Robot) -> Result<Vec<(TargetColumn, Option<W
                 );
             }
             Ok(column) => columns.push(column),
-            Err(fault) => faults.push(fault.at(header.row.cells[cell].span.clone())),
+            Err(fault) => refused.push((header.row.cells[cell].span.clone(), name, fault)),
         }
     }
+    faults.extend(without_unit(&refused));
+    faults.extend(unknown(&refused, robot));
     let count =
         |is_part: fn(&TargetColumn) -> bool| columns.iter().filter(|(given, _)| is_part(given)).count();
     let position = count(|given| matches!(given, TargetColumn::Position(_)));
@@ -124,11 +127,63 @@ fn columns(header: &Header, robot: &Robot) -> Result<Vec<(TargetColumn, Option<W
     if faults.is_empty() { Ok(columns) } else { Err(faults.into()) }
 }
 
-fn column(name: &str, robot: &Robot) -> Result<(TargetColumn, Option<WrittenUnit>), Diagnostic> {
+/// Why a column is refused.
+enum RefusedColumn {
+    /// It has no unit, or one that does not fit; one of these keys is meant.
+    Unit([String; 2]),
+    /// It is neither a coordinate nor a joint.
+    Unknown,
+}
+
+/// The columns without a unit in one finding: x, y and z without it are one mistake.
+fn without_unit(refused: &[(Range<usize>, &str, RefusedColumn)]) -> Option<Diagnostic> {
+    let mut names = Vec::new();
+    let mut keys = Vec::new();
+    for (_, name, fault) in refused {
+        if let RefusedColumn::Unit([si, engineering]) = fault {
+            names.push(format!("\"{name}\""));
+            keys.push(format!("{engineering} or {si}"));
+        }
+    }
+    let (span, ..) = refused.iter().find(|(.., fault)| matches!(fault, RefusedColumn::Unit(_)))?;
+    let message = match &names[..] {
+        [name] => format!("column {name} has no unit, or one that does not fit"),
+        _ => format!("columns {} have no unit, or one that does not fit", names.join(", ")),
+    };
+    let found = Diagnostic::error(codes::targets::TABLE, message);
+    Some(found.with_help(format!("write {}", keys.join(", "))).at(span.clone()))
+}
+
+/// The columns that are not known in one finding.
+fn unknown(refused: &[(Range<usize>, &str, RefusedColumn)], robot: &Robot) -> Option<Diagnostic> {
+    let unknown = refused.iter().filter(|(.., fault)| matches!(fault, RefusedColumn::Unknown));
+    let (spans, names): (Vec<_>, Vec<&str>) = unknown.map(|(span, name, _)| (span.clone(), *name)).unzip();
+    let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    let message = match &quoted[..] {
+        [] => return None,
+        [name] => format!("column {name} is neither a coordinate nor a joint of robot \"{}\"", robot.name()),
+        _ => format!(
+            "columns {} are neither coordinates nor joints of robot \"{}\"",
+            quoted.join(", "),
+            robot.name()
+        ),
+    };
+    let stem = WrittenUnit::split(names[0]).map_or(names[0], |(stem, _)| stem);
+    let joints = robot.movable_joint_names();
+    let known = ["x", "y", "z", "roll", "pitch", "yaw", "qw", "qx", "qy", "qz"].into_iter().chain(joints);
+    let mut help = known_names(stem, "columns (with units)", known.collect::<Vec<_>>());
+    if ["rx", "ry", "rz"].contains(&stem) {
+        help = format!(
+            "rotation vectors are not read: give roll_deg, pitch_deg, yaw_deg, or qw, qx, qy, qz; {help}"
+        );
+    }
+    Some(Diagnostic::error(codes::targets::TABLE, message).with_help(help).at(spans[0].clone()))
+}
+
+fn column(name: &str, robot: &Robot) -> Result<(TargetColumn, Option<WrittenUnit>), RefusedColumn> {
     if let Some(at) = ["qw", "qx", "qy", "qz"].iter().position(|known| *known == name) {
         return Ok((TargetColumn::Quaternion(at), None));
     }
-    let refused = |message: String| Diagnostic::error(codes::targets::TABLE, message);
     let (stem, unit) = WrittenUnit::split(name).map_or((name, None), |(stem, unit)| (stem, Some(unit)));
     let joint =
         robot.find_joint(stem).map(|joint| robot.joint(joint)).filter(|joint| joint.kind.is_movable());
@@ -141,20 +196,10 @@ fn column(name: &str, robot: &Robot) -> Result<(TargetColumn, Option<WrittenUnit
     } else if let Some(at) = place(["roll", "pitch", "yaw"]) {
         (TargetColumn::Rpy(at), Unit::Angle)
     } else {
-        let joints = robot.movable_joint_names();
-        let known = ["x", "y", "z", "roll", "pitch", "yaw", "qw", "qx", "qy", "qz"].into_iter().chain(joints);
-        let message =
-            format!("column \"{name}\" is neither a coordinate nor a joint of robot \"{}\"", robot.name());
-        return Err(refused(message).with_help(known_names(
-            stem,
-            "columns (with units)",
-            known.collect::<Vec<_>>(),
-        )));
+        return Err(RefusedColumn::Unknown);
     };
     if unit.is_none_or(|unit| unit.unit != expected) {
-        let [si, engineering] = expected.keys(stem);
-        return Err(refused(format!("column \"{name}\" has no unit, or one that does not fit"))
-            .with_help(format!("write {engineering} or {si}")));
+        return Err(RefusedColumn::Unit(expected.keys(stem)));
     }
     Ok((given, unit))
 }
@@ -203,6 +248,8 @@ mod tests {
             ("x_m,y_m,z_m,qw,qx\n1,2,3,1,0\n", "the orientation is incomplete or given twice"),
             ("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n1,2,3,4,,5\n", "line 2: the orientation is incomplete"),
             ("x_m,y_m,z_m,trun_deg\n1,2,3,4\n", "column \"trun_deg\" is neither a coordinate nor a joint"),
+            ("x,y,z\n1,2,3\n", "columns \"x\", \"y\", \"z\" have no unit"),
+            ("x_m,y_m,z_m,rx,ry,rz\n1,2,3,4,5,6\n", "columns \"rx\", \"ry\", \"rz\" are neither coordinates"),
             ("x_m,y_m,z_m\n1,,3\n", "line 2, column \"y_m\": the cell is empty"),
             ("x_m,y_m,z_m\n1e9,2,3\n", "line 2: translation_m has 1000000000"),
         ] {

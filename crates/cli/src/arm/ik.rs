@@ -29,8 +29,6 @@ use crate::{
 /// and the joints at a limit; 4 if the file has none.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    #[command(flatten)]
-    arm: ArmArguments,
     /// Position of the tool in link `base`: `0.4,0.1,0.3` in m, or `400mm,100mm,300mm`.
     #[arg(long, value_name = "X,Y,Z", value_parser = three_lengths, allow_hyphen_values = true)]
     xyz: Option<[f64; 3]>,
@@ -59,6 +57,9 @@ pub(crate) struct Arguments {
     /// Steps that are tried for each target, restarts included.
     #[arg(long, default_value_t = IkOptions::default().max_iterations)]
     iterations: usize,
+    // Last: the help lists the options in this order, and most calls need no chain.
+    #[command(flatten)]
+    arm: ArmArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {

@@ -6,7 +6,7 @@ use std::{
 };
 
 use congruent::{
-    analysis::conversion::{Conversion, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes},
+    analysis::conversion::{Conversion, ConversionSource, ConversionTarget, RoundedAxes},
     input::Diagnostic,
 };
 
@@ -99,11 +99,14 @@ impl Arguments {
     }
 }
 
+/// The default of the library as people write it: the help would print twelve zeros.
+const ACCURACY: &str = "1e-12";
+
 /// How exact a conversion must be.
 #[derive(Debug, Clone, Copy, clap::Args)]
 struct AccuracyArguments {
     /// Largest error of the result, rad and m; a coarser one takes nearly parallel axes as parallel.
-    #[arg(long, default_value_t = DEFAULT_ACCURACY, value_parser = accuracy)]
+    #[arg(long, default_value = ACCURACY, value_parser = accuracy)]
     accuracy: f64,
     /// Seed of the random configurations of the proof.
     #[arg(long, default_value_t = 0)]
@@ -156,4 +159,16 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let conversion = arguments.accuracy.conversion(arguments.from, to);
     let file = file.map(|path| NewFile { option: "--to", path, force: arguments.force });
     answer(&description, &conversion, file, printer)
+}
+
+#[cfg(test)]
+mod tests {
+    use congruent::analysis::conversion::DEFAULT_ACCURACY;
+
+    use super::*;
+
+    #[test]
+    fn the_default_of_the_help_is_that_of_the_library() {
+        assert_eq!(ACCURACY.parse(), Ok(DEFAULT_ACCURACY));
+    }
 }

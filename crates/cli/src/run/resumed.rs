@@ -6,7 +6,7 @@ use std::{
 };
 
 use congruent::{
-    input::{Diagnostic, InputFile},
+    input::Diagnostic,
     results::{
         Options,
         files::{OutputFolder, result_files},
@@ -14,6 +14,7 @@ use congruent::{
         report::{RunReport, TestSuite, planned_suite},
     },
     scenario::{Override, scenario_name},
+    text::layout::visible_path,
     twin::RunSetup,
 };
 
@@ -22,6 +23,7 @@ use crate::{
     batch::{Answer, Batch},
     codes,
     failure::Failure,
+    terminal::print::Printer,
 };
 
 /// A scenario that was read.
@@ -44,8 +46,8 @@ impl LoadedScenario {
 
 /// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
 ///
-/// Results of earlier runs of these scenarios are removed here, unless they are kept: no results of an earlier call
-/// remain after a call that is killed.
+/// Results of earlier runs of the scenarios that will run are removed here, unless they are kept: of these, no results of
+/// an earlier call remain after a call that is killed.
 pub(super) fn load(
     arguments: &Arguments,
     options: &Options<'_>,
@@ -56,7 +58,8 @@ pub(super) fn load(
     let access = arguments.access.access()?;
     let mut load = |path: &PathBuf| {
         let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation);
-        let setup = setup.inspect_err(|_| remove_results_of(path, &overrides, &arguments.out))?;
+        let setup =
+            setup.inspect_err(|_| note_older_results(path, &overrides, &arguments.out, batch.printer()))?;
         let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
         if let Some(first) = folders.get(&folder) {
             return Err(same_folder(&folder, first, path).into());
@@ -83,14 +86,14 @@ pub(super) fn load(
     Ok(arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect())
 }
 
-/// Removes what an earlier call has left for a scenario that is refused, if its name can be read: CI that collects results
-/// would take them for those of this call.
-fn remove_results_of(scenario: &Path, overrides: &[Override], out: &Path) {
+/// Says that the results of an earlier run are still there: a mistake of typing must not delete them, and nobody may take
+/// them for those of this call.
+fn note_older_results(scenario: &Path, overrides: &[Override], out: &Path, printer: &Printer) {
     let Some(name) = scenario_name(scenario, overrides) else { return };
-    if OutputFolder::path_for(out, &name).is_dir() {
-        let input = InputFile { file: String::new(), sha256: String::new(), path: scenario.to_owned() };
-        // Another call that runs it keeps them.
-        let _ = OutputFolder::create(out, &name, &[input]);
+    let folder = OutputFolder::path_for(out, &name);
+    if result_files(&folder).iter().any(|file| file.exists()) {
+        let note = format!("{} keeps the results of an earlier run", visible_path(&folder));
+        printer.notes([note.as_str()]);
     }
 }
 

@@ -66,6 +66,7 @@ impl BatchReport for RunAnswer {
                 result,
                 output: String::new(),
                 place: None,
+                further: Vec::new(),
             });
         }
         suite

@@ -33,7 +33,8 @@ pub(crate) enum Format {
     Human,
     /// One JSON document on standard output.
     Json,
-    /// One SARIF document on standard output, for code hosts (lint only).
+    /// One SARIF document on standard output, for code hosts. Only lint has it, and its help names it.
+    #[value(hide = true)]
     Sarif,
 }
 

@@ -112,6 +112,7 @@ fn checked(
         dynamics,
         other_dynamics,
         lint: LintSummary::from_reports(once(description).chain(other).map(lint_robot)),
+        tolerance_line: description.places.robot_file.as_ref().and_then(|places| places.tolerance_line()),
         fix: None,
     })
 }

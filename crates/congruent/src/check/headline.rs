@@ -169,11 +169,25 @@ fn different_poses(check: &RobotCheck) -> Headline {
     let pairs: Vec<String> = differ.map(of_pair).collect();
     let found = format!("by up to {}; {}", pairs.join(", "), tolerance(report));
     if report.grade == Some(Grade::SameWithinDigits) {
-        let advice = "declare a tolerance that the digits allow, or write more digits";
+        let advice = by_rounding_alone(check);
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));
     }
     let cause = check.diagnosis().map_or_else(unknown, cause);
     Headline::new("DIFFERENT", format!(", {found}. {cause}"))
+}
+
+/// What to do about a tolerance that is finer than the digits of the table.
+fn by_rounding_alone(check: &RobotCheck) -> String {
+    let report = &check.geometry;
+    let removed = if report.replaced_tolerance.is_some() {
+        "without --tolerance".to_owned()
+    } else {
+        format!(
+            "the declared tolerance is finer than the digits of the table; without it{}",
+            place(Some(&report.file), check.tolerance_line)
+        )
+    };
+    format!("{removed} the digits decide")
 }
 
 fn unknown() -> String {

@@ -38,6 +38,9 @@ pub struct RobotCheck {
     pub other_dynamics: Vec<DynamicsReport>,
     /// What lint finds in the descriptions: values that are suspicious whatever they are compared with.
     pub lint: LintSummary,
+    /// Line of the robot file that declares the tolerance, if one does.
+    #[serde(skip)]
+    pub tolerance_line: Option<usize>,
     /// What --fix has written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fix: Option<WrittenFix>,

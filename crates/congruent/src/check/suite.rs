@@ -6,7 +6,7 @@ use congruent_agreement::{
     report::{ReportedDiagnosis, foremost},
 };
 use congruent_dynamics_agreement::DynamicsReport;
-use congruent_input::{display::length_and_angle, serde_name};
+use congruent_input::{Diagnostic, display::length_and_angle, serde_name};
 use congruent_kinematics::PoseError;
 use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
@@ -25,6 +25,7 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
         result: TestResult::Failed(Reason { kind: "other_chain".to_owned(), message: why.clone() }),
         output: why.clone(),
         place: None,
+        further: Vec::new(),
     }));
     cases.extend(report.all_dynamics().map(dynamics_case));
     cases.extend(geometry.not_asked.iter().map(not_asked_case));
@@ -56,8 +57,11 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
         let kind = serde_name(&comparison.name).to_owned();
         TestResult::Failed(Reason { kind, message: lines.join("\n") })
     };
-    let place = diagnosis_of(comparison, report).filter(|_| result.reason().is_some()).and_then(place);
-    TestCase { name: comparison.title.to_owned(), result, output: lines.join("\n"), place }
+    let diagnosed = diagnosis_of(comparison, report).filter(|_| result.reason().is_some());
+    let mut places = diagnosed.map(places).unwrap_or_default().into_iter();
+    let place = places.next().map(|(place, _)| place);
+    let (name, output) = (comparison.title.to_owned(), lines.join("\n"));
+    TestCase { name, result, output, place, further: places.collect() }
 }
 
 /// How much alike table and URDF are, and what their digits allow.
@@ -82,6 +86,7 @@ fn skipped(source: &str, why: String) -> TestCase {
         result: TestResult::Skipped(why.clone()),
         output: why,
         place: None,
+        further: Vec::new(),
     }
 }
 
@@ -101,6 +106,7 @@ fn dynamics_case(report: &DynamicsReport) -> TestCase {
             .explanations
             .first()
             .and_then(|first| CasePlace::if_known(first.file.as_deref(), first.line)),
+        further: Vec::new(),
     }
 }
 
@@ -118,7 +124,7 @@ fn lint_case(report: &RobotCheck) -> TestCase {
     };
     let place = first.filter(|_| report.fails_by_lint());
     let place = place.and_then(|found| CasePlace::if_known(found.file.as_deref(), found.line));
-    TestCase { name: "lint".to_owned(), result, output, place }
+    TestCase { name: "lint".to_owned(), result, output, place, further: Vec::new() }
 }
 
 /// The bound over the whole joint range, if the same two sources have one.
@@ -136,10 +142,7 @@ fn certified(comparison: &Comparison, report: &CheckReport) -> Option<String> {
 fn causes(comparison: &Comparison, report: &CheckReport) -> Vec<String> {
     let statements = diagnosis_of(comparison, report).map(ReportedDiagnosis::statements).unwrap_or_default();
     if statements.is_empty() && report.grade == Some(Grade::SameWithinDigits) {
-        return vec![
-            "rounding explains it: declare a tolerance that the digits allow, or write more digits"
-                .to_owned(),
-        ];
+        return vec!["rounding explains it: without the declared tolerance the digits decide".to_owned()];
     }
     if statements.is_empty() {
         return vec!["no known cause explains it".to_owned()];
@@ -153,9 +156,12 @@ fn diagnosis_of<'a>(comparison: &Comparison, report: &'a CheckReport) -> Option<
     same.filter(|diagnosis| diagnosis.is_explained()).or(foremost(&report.diagnoses))
 }
 
-/// The line that is wrong, if the cause has one.
-fn place(diagnosis: &ReportedDiagnosis) -> Option<CasePlace> {
-    let first = diagnosis.findings.first()?;
-    let (line, _) = first.line_column()?;
-    CasePlace::if_known(first.source.as_ref()?.path.to_str(), Some(line))
+/// The lines that are wrong, with what is wrong there.
+fn places(diagnosis: &ReportedDiagnosis) -> Vec<(CasePlace, String)> {
+    let place = |finding: &Diagnostic| {
+        let (line, _) = finding.line_column()?;
+        let place = CasePlace::if_known(finding.source.as_ref()?.path.to_str(), Some(line))?;
+        Some((place, finding.message.clone()))
+    };
+    diagnosis.findings.iter().filter_map(place).collect()
 }

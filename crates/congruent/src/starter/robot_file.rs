@@ -75,7 +75,10 @@ pub fn robot_file(description: &RobotDescription, to: ConversionTarget, folder: 
         tolerance = wider(tolerance, report);
     }
     let mut text = head(description);
-    for (key, value) in robot_file_values(&from_root, folder, tolerance) {
+    // A declared tolerance decides alone. The table will be replaced by one of a data sheet, whose digits must then decide.
+    let is_default = tolerance == Tolerance::default();
+    let values = robot_file_values(&from_root, folder, tolerance);
+    for (key, value) in values.into_iter().filter(|(key, _)| !(is_default && *key == "tolerance")) {
         text += &comment(&about(key, description, derived.as_ref().ok()));
         let _ = writeln!(text, "{key} = {value}");
     }
@@ -92,6 +95,7 @@ pub fn robot_file(description: &RobotDescription, to: ConversionTarget, folder: 
 
 /// Keys whose values no URDF has.
 const OPTIONAL: &str = "To be completed, if the robot has them:
+tolerance = { position_mm = 0.5, orientation_deg = 0.1 } # without it the digits of the table decide
 tcp = { xyz_m = [0, 0, 0.1], rpy_deg = [0, 0, 0] } # the tool centre point in link tip
 srdf = \"robot.srdf\" # pairs of links that cannot collide: congruent clearance --write-srdf
 packages = { my_description = \"../my_description\" } # folders of package:// meshes";
@@ -133,11 +137,12 @@ fn about(key: &str, description: &RobotDescription, report: Option<&ConversionRe
         "tolerance" => match report {
             Some(report) if !report.rounded_axes.is_empty() => {
                 format!(
-                    "Largest difference of table and URDF that is accepted: {TOLERANCE_MARGIN} times the {} that rounded axes cause.",
+                    "Largest difference of table and URDF that is accepted: {TOLERANCE_MARGIN} times the {} that rounded axes cause.\n\
+                     Remove it with the derived table: the digits of a data sheet then decide.",
                     found(report)
                 )
             }
-            _ => "Largest difference of poses that is accepted. These values are rounding: widen them for a measured table."
+            _ => "Largest difference of poses that is accepted; without it the digits of the table decide."
                 .to_owned(),
         },
         _ => String::new(),

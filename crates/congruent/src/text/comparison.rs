@@ -23,15 +23,12 @@ pub fn comparison_text(comparison: &RunComparison, options: &TextOptions) -> Str
     let mut text = String::new();
     let RunComparison { a, b, tolerance, same, files, not_compared, .. } = comparison;
     let within = if *tolerance > 0.0 { format!(" within {tolerance:?}") } else { String::new() };
-    let _ = writeln!(
-        text,
-        "A {a}\nB {b}\n{}",
-        match (*same, comparison.exit_code) {
-            (true, 0) => format!("the same{within}"),
-            (true, _) => "nothing was compared".to_owned(),
-            (false, _) => "different".to_owned(),
-        }
-    );
+    let answer = match (*same, comparison.exit_code) {
+        (true, 0) => format!("the same{within}"),
+        (true, _) => "nothing was compared".to_owned(),
+        (false, _) => format!("different{}", first_in_time(files)),
+    };
+    let _ = writeln!(text, "{answer}\nA {a}\nB {b}");
     for file in files {
         described(&mut text, file, options);
     }
@@ -52,18 +49,8 @@ fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
     for statement in statements.iter().take(MOST_SHOWN) {
         let _ = writeln!(text, "  {}", visible(statement));
     }
-    if let Some(ValueDifference { series: name, time_s, a, b, difference, .. }) = first {
-        let time = time_s.map_or_else(String::new, |time_s| format!(" at {}", moment(time_s)));
-        let unit = series.iter().find(|series| series.series == *name).map_or("", |series| series.unit);
-        let apart =
-            difference.map_or_else(String::new, |apart| format!(", {} apart", quantity(apart.abs(), unit)));
-        let _ = writeln!(
-            text,
-            "  first{time}: {} is {} in A and {} in B{apart}",
-            visible(name),
-            shown(a),
-            shown(b)
-        );
+    if let Some(first) = first {
+        let _ = writeln!(text, "  first{}", in_words(first, series));
     }
     let worst = rows(series);
     if !worst.is_empty() {
@@ -88,6 +75,27 @@ fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
             );
         }
     }
+}
+
+/// The first difference in time of all files; values of a report have only the times of its worst values.
+fn first_in_time(files: &[FileComparison]) -> String {
+    let timed = files.iter().filter(|file| file.kind != ComparedFile::Report);
+    let firsts = timed.filter_map(|file| {
+        let first = file.first.as_ref()?;
+        Some((first.time_s?, first, file))
+    });
+    let first = firsts.min_by(|(a, ..), (b, ..)| a.total_cmp(b));
+    first.map_or_else(String::new, |(_, first, file)| format!(", first{}", in_words(first, &file.series)))
+}
+
+/// A difference with its time: ` at 0.01 s: elbow_joint.q_rad is 1 in A and 2 in B, 1 rad apart`.
+fn in_words(difference: &ValueDifference, series: &[SeriesDifference]) -> String {
+    let ValueDifference { series: name, time_s, a, b, difference, .. } = difference;
+    let time = time_s.map_or_else(String::new, |time_s| format!(" at {}", moment(time_s)));
+    let unit = series.iter().find(|series| series.series == *name).map_or("", |series| series.unit);
+    let apart =
+        difference.map_or_else(String::new, |apart| format!(", {} apart", quantity(apart.abs(), unit)));
+    format!("{time}: {} is {} in A and {} in B{apart}", visible(name), shown(a), shown(b))
 }
 
 /// The worst difference of each series, joints first.

@@ -67,9 +67,15 @@ fn head(text: &mut String, summary: &DescriptionSummary) {
     }
     let moving = summary.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
     let triangles: usize = summary.meshes.iter().map(|mesh| mesh.triangles).sum();
+    let not_found = crate::input::codes::mesh::NOT_FOUND.name;
+    let lacks_meshes = summary.warnings.iter().any(|warning| warning.code == not_found);
     let meshes = match summary.meshes.len() {
+        0 if lacks_meshes => "no mesh file is found".to_owned(),
         0 => "no mesh file".to_owned(),
-        files => format!("{} with {}", counted(files, "mesh file"), counted(triangles, "triangle")),
+        files => {
+            let others = if lacks_meshes { ", others are not found" } else { "" };
+            format!("{} with {}{others}", counted(files, "mesh file"), counted(triangles, "triangle"))
+        }
     };
     line(format!(
         "{}, {}; {}, {moving} of them moving; {meshes}",

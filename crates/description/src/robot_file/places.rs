@@ -3,7 +3,7 @@
 use std::{ops::Range, sync::Arc};
 
 use congruent_input::{
-    Slack, SourceFile, WrittenTransform, serde_name,
+    Slack, SourceFile, WrittenTransform, line_column, serde_name,
     units::{Unit, UnitSystem},
 };
 use nalgebra::Isometry3;
@@ -92,12 +92,23 @@ pub struct ValuePlace {
 pub struct RobotFilePlaces {
     source: Arc<SourceFile>,
     dh: Spanned<WrittenDh>,
+    tolerance: Option<Range<usize>>,
 }
 
 impl RobotFilePlaces {
-    /// `dh` has been parsed from the text of `source`.
-    pub(crate) fn new(source: Arc<SourceFile>, dh: Spanned<WrittenDh>) -> Self {
-        Self { source, dh }
+    /// `dh`, and the byte range of the tolerance, have been parsed from the text of `source`.
+    pub(crate) fn new(
+        source: Arc<SourceFile>,
+        dh: Spanned<WrittenDh>,
+        tolerance: Option<Range<usize>>,
+    ) -> Self {
+        Self { source, dh, tolerance }
+    }
+
+    /// Line of the first value of the tolerance, from 1; `None` if the file declares none.
+    pub fn tolerance_line(&self) -> Option<usize> {
+        let span = self.tolerance.as_ref()?;
+        Some(line_column(&self.source.text, span.start).0)
     }
 
     /// The robot file that the places are in.

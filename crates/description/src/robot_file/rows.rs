@@ -174,7 +174,11 @@ fn every_joint_has_a_row(
         if missing.is_empty() { "any".to_owned() } else { missing.join(", ") }
     );
     diagnostics.push(
-        Diagnostic::error(codes::robot_file::MISSING_ROW, message).at(first_line(dh.span(), context.text)),
+        Diagnostic::error(codes::robot_file::MISSING_ROW, message)
+            .at(first_line(dh.span(), context.text))
+            .with_help(
+                "add a row for each of them, or name another `base` or `tip` if the chain is too long",
+            ),
     );
 }
 

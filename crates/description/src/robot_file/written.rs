@@ -1,7 +1,7 @@
 //! A robot file as it is written: keys and units, unchecked. The doc comments become the descriptions of the robot file's
 //! JSON schema, so they address people who write robot files.
 
-use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
 
 use congruent_input::{Diagnostic, SourceFile, WrittenTransform, units::WrittenUnit};
 use schemars::{JsonSchema, Schema, schema_for};
@@ -87,6 +87,11 @@ pub struct WrittenRobot {
 }
 
 impl WrittenRobot {
+    /// Byte range of the first value of the tolerance; `None` if there is none.
+    pub(crate) fn tolerance_span(&self) -> Option<Range<usize>> {
+        self.tolerance.as_ref()?.span()
+    }
+
     /// The links whose inertia is to be repaired.
     pub(crate) fn repairs(&self, source: &Arc<SourceFile>) -> Repairs {
         let links = self.inertia.iter().map(|(link, choice)| match choice.get_ref() {
@@ -205,6 +210,12 @@ pub(crate) struct WrittenTolerance {
 }
 
 impl WrittenTolerance {
+    /// Byte range of its first value; `None` if it has none.
+    fn span(&self) -> Option<Range<usize>> {
+        let values = [&self.position_m, &self.position_mm, &self.orientation_rad, &self.orientation_deg];
+        values.into_iter().flatten().map(Spanned::span).min_by_key(|span| span.start)
+    }
+
     /// The findings about tolerances that are too wide for a robot of this scale, each at its value.
     pub(crate) fn examine(&self, scale: ToleranceScale) -> Vec<Diagnostic> {
         let written = [

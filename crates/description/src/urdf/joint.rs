@@ -104,9 +104,7 @@ impl JointReader<'_, '_> {
                     codes::urdf::JOINT_TYPE,
                     format!("type \"{written}\" is not supported"),
                 )
-                .with_help(
-                    "use fixed, revolute, continuous or prismatic; several of these in a row replace the others",
-                )
+                .with_help("use fixed, revolute, continuous or prismatic; replace it by a chain of these")
                 .at(tag(self.node));
                 self.report(fault, "");
                 JointKind::Fixed

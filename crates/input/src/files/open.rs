@@ -174,6 +174,11 @@ pub(super) fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
 /// A missing file, with the name in its folder that is most like it as help.
 pub fn not_found(path: &Path, message: String) -> Diagnostic {
     let fault = Diagnostic::error(codes::file::NOT_FOUND, message);
+    // A shell passes a pattern that matches nothing on as it is.
+    let is_pattern = path.as_os_str().to_string_lossy().contains(['*', '?']);
+    if is_pattern {
+        return fault.with_help("no file matches this pattern: the shell has passed it on as it is");
+    }
     match similar(path) {
         Some(similar) => fault.with_help(format!("did you mean {}?", similar.display())),
         None => fault,

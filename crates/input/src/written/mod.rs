@@ -1,5 +1,6 @@
 //! Values as files write them: arrays, numbers, rotations and transforms, and TOML text as a whole.
 
+mod advice;
 pub(crate) mod array;
 pub(crate) mod digits;
 pub(crate) mod name;

@@ -2,7 +2,7 @@
 
 /// A message such as `invalid type: string "270", expected f64` as `must be a number, not the text "270"`; other messages stay
 /// as they are. With it, what to do, if that is clear.
-pub fn in_words(message: &str) -> (String, Option<&'static str>) {
+pub fn in_words(message: &str) -> (String, Option<String>) {
     let said = message.strip_prefix("invalid type: ").or_else(|| message.strip_prefix("invalid value: "));
     let Some((found, expected)) = said.and_then(|said| said.rsplit_once(", expected ")) else {
         return (message.to_owned(), None);
@@ -12,7 +12,15 @@ pub fn in_words(message: &str) -> (String, Option<&'static str>) {
         .strip_prefix("string \"")
         .and_then(|text| text.strip_suffix('"'))
         .is_some_and(|text| text.trim().parse::<f64>().is_ok());
-    let help = (is_number && is_quoted_number).then_some("write it without quotes");
+    // As reports write a pair of links: "link_4--link_6".
+    let pair = found
+        .strip_prefix("string \"")
+        .and_then(|text| text.strip_suffix('"')?.split_once("--"))
+        .filter(|_| expected == "an array of length 2");
+    let help = match pair {
+        Some((first, second)) => Some(format!("write [\"{first}\", \"{second}\"]")),
+        None => (is_number && is_quoted_number).then(|| "write it without quotes".to_owned()),
+    };
     (format!("must be {}, not {}", expected_in_words(expected), found_in_words(found)), help)
 }
 
@@ -67,7 +75,7 @@ mod tests {
     #[test]
     fn types_are_said_in_words() {
         let check = |message: &str, words: &str, help: Option<&str>| {
-            assert_eq!(in_words(message), (words.to_owned(), help));
+            assert_eq!(in_words(message), (words.to_owned(), help.map(str::to_owned)));
         };
         check(
             "invalid type: string \"270\", expected f64",
@@ -99,6 +107,11 @@ mod tests {
             "invalid type: sequence, expected struct Written",
             "must be a table of keys and values, not a list",
             None,
+        );
+        check(
+            "invalid type: string \"link_4--link_6\", expected an array of length 2",
+            "must be a list of 2 values, not the text \"link_4--link_6\"",
+            Some("write [\"link_4\", \"link_6\"]"),
         );
         check("duplicate key", "duplicate key", None);
     }

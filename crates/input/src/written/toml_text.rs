@@ -17,7 +17,10 @@ use crate::{
     nearest::known_names,
     units::WrittenUnit,
     visible::hidden_character,
-    written::serde_message::in_words,
+    written::{
+        advice::{for_expression, in_known_unit, transform_for_list},
+        serde_message::in_words,
+    },
 };
 
 /// Parses `text`; faults go to `diagnostics`.
@@ -34,7 +37,13 @@ pub fn parse_toml<T: DeserializeOwned>(text: &str, diagnostics: &mut Diagnostics
 /// # Errors
 /// The text is no TOML, or a key or a text in it has such a character.
 pub fn parse_document(text: &str) -> Result<Spanned<DeTable<'_>>, Diagnostic> {
-    let root = DeTable::parse(text).map_err(|error| diagnostic(&error))?;
+    let root = DeTable::parse(text).map_err(|error| {
+        let found = diagnostic(&error);
+        match error.span().and_then(|span| for_expression(text, span.start)) {
+            Some(help) => found.with_help(help),
+            None => found,
+        }
+    })?;
     check_all_visible(root.get_ref())?;
     Ok(root)
 }
@@ -66,12 +75,36 @@ pub fn read_table<T: DeserializeOwned>(
     table: Spanned<DeTable<'_>>,
     diagnostics: &mut Diagnostics,
 ) -> Option<T> {
-    each_fault(table, |error| diagnostics.push(diagnostic(error)))
+    each_fault(table, |error, root| diagnostics.push(with_advice(diagnostic(error), error, root)))
+}
+
+/// The finding with the help that needs the value that is written.
+fn with_advice(found: Diagnostic, error: &Error, root: &DeTable<'_>) -> Diagnostic {
+    let Some(at) = error.span() else { return found };
+    let text = error.message();
+    if text.starts_with(UNKNOWN_KEY) {
+        let mut names = text.split('`').skip(1).step_by(2);
+        let unknown = names.next().unwrap_or_default();
+        return match in_known_unit(unknown, names, root, &at) {
+            Some(help) => found.with_help(help),
+            None => found,
+        };
+    }
+    match transform_for_list(root, &at) {
+        Some(help) => {
+            Diagnostic { message: "must be a table of keys and values, not a list".to_owned(), ..found }
+                .with_help(help)
+        }
+        None => found,
+    }
 }
 
 /// Reads a table and passes each fault to the callback: an unknown key is removed, and the rest is read again, since serde
 /// stops at the first one.
-fn each_fault<T: DeserializeOwned>(table: Spanned<DeTable<'_>>, mut report: impl FnMut(&Error)) -> Option<T> {
+fn each_fault<T: DeserializeOwned>(
+    table: Spanned<DeTable<'_>>,
+    mut report: impl FnMut(&Error, &DeTable<'_>),
+) -> Option<T> {
     let (span, mut root) = (table.span(), table.into_inner());
     for _ in 0..MOST_UNKNOWN_KEYS {
         let attempt = Spanned::new(span.clone(), root.clone());
@@ -79,7 +112,7 @@ fn each_fault<T: DeserializeOwned>(table: Spanned<DeTable<'_>>, mut report: impl
             Ok(value) => return Some(value),
             Err(error) => error,
         };
-        report(&error);
+        report(&error, &root);
         let unknown = error.span().filter(|_| error.message().starts_with(UNKNOWN_KEY))?;
         if !take_out(&mut root, &unknown) {
             return None;
@@ -101,7 +134,7 @@ pub struct UnknownKey {
 /// The unknown keys of a text, and the number of other faults; `None` if the text is not valid TOML.
 pub fn unknown_keys<T: DeserializeOwned>(text: &str) -> Option<(Vec<UnknownKey>, usize)> {
     let (mut unknown, mut others) = (Vec::new(), 0);
-    each_fault::<T>(parse_document(text).ok()?, |error| {
+    each_fault::<T>(parse_document(text).ok()?, |error, _| {
         let mut names = error.message().split('`').skip(1).step_by(2).map(str::to_owned);
         match (error.message().starts_with(UNKNOWN_KEY), names.next(), error.span()) {
             (true, Some(name), Some(span)) => unknown.push(UnknownKey { name, span, known: names.collect() }),
@@ -132,6 +165,18 @@ fn take_out_of_value(value: &mut DeValue<'_>, key: &Range<usize>) -> bool {
     }
 }
 
+/// What a word of URDF or of the literature is called in our files.
+fn same_meaning(word: &str) -> Option<&'static str> {
+    match word.to_lowercase().as_str() {
+        // The range of a row is that of its joint in the URDF.
+        "continuous" | "rotational" => Some("revolute"),
+        "linear" | "translational" => Some("prismatic"),
+        "craig" | "proximal" | "mdh" => Some("modified"),
+        "classic" | "classical" | "distal" | "sdh" | "spong" => Some("standard"),
+        _ => None,
+    }
+}
+
 /// The error of the `toml` crate as a diagnostic.
 pub fn diagnostic(error: &Error) -> Diagnostic {
     let text = error.message();
@@ -153,8 +198,12 @@ pub fn diagnostic(error: &Error) -> Diagnostic {
         let found = Diagnostic::error(codes::toml::UNKNOWN_KEY, message);
         if with_units.is_empty() { found.with_help(known_help("keys")) } else { found }
     } else if text.starts_with("unknown variant ") {
-        Diagnostic::error(codes::toml::UNKNOWN_VALUE, format!("unknown value \"{first}\""))
-            .with_help(known_help("values"))
+        Diagnostic::error(codes::toml::UNKNOWN_VALUE, format!("unknown value \"{first}\"")).with_help(
+            match same_meaning(first).filter(|meant| known.contains(meant)) {
+                Some(meant) => format!("\"{first}\" is called \"{meant}\" here; {}", known_help("values")),
+                None => known_help("values"),
+            },
+        )
     } else if text.starts_with("missing field ") {
         Diagnostic::error(codes::toml::MISSING_KEY, format!("missing key \"{first}\""))
     } else {

@@ -42,6 +42,8 @@ struct CoordinateLimits {
     beyond_before: f64,
     rest: Option<RestOnStop>,
     drive: Option<DrivenBeyond>,
+    /// Whether its position was beyond the limit, which is then what fails.
+    was_beyond: bool,
     /// Samples in which its effort was at the limit.
     saturated: u64,
 }
@@ -56,7 +58,7 @@ struct RestOnStop {
 /// A joint that was driven beyond its limit.
 struct DrivenBeyond {
     time_s: f64,
-    /// How far its setpoint was outside; `None` if it was inside or is not known.
+    /// How far its setpoint was outside at most; `None` if it was inside or is not known.
     setpoint_outside: Option<f64>,
     is_commanded: bool,
 }
@@ -75,6 +77,8 @@ pub(crate) struct LimitsMonitor {
     tolerances: [f64; 2],
     beyond: ByKind,
     on_stop: ByKind,
+    /// Setpoints of joints that their stop holds.
+    held_back: ByKind,
     velocity: Watch,
     effort: Watch,
     samples: u64,
@@ -120,6 +124,18 @@ impl LimitsMonitor {
                 angular: watch(Quantity::AngleIntoStop, SiUnit::Radian, ON_THE_STOP),
                 linear: watch(Quantity::ShiftIntoStop, SiUnit::Metre, ON_THE_STOP),
             },
+            held_back: ByKind {
+                angular: watch(
+                    Quantity::AngleOfSetpointBeyondLimit,
+                    SiUnit::Radian,
+                    tolerances[0].max(ON_THE_STOP),
+                ),
+                linear: watch(
+                    Quantity::ShiftOfSetpointBeyondLimit,
+                    SiUnit::Metre,
+                    tolerances[1].max(ON_THE_STOP),
+                ),
+            },
             velocity: watch(
                 Quantity::ShareOfVelocityLimit,
                 SiUnit::Ratio,
@@ -150,6 +166,8 @@ impl LimitsMonitor {
         let grows = limits.beyond_before > 0.0 && beyond > limits.beyond_before;
         let is_commanded_inside = setpoint.is_some_and(|outside| outside <= tolerance.min(AT_THE_LIMIT));
         let rests = margin == 0.0 && is_commanded_inside && !grows && beyond <= ON_THE_STOP;
+        // A joint that only lags behind its setpoint still moves.
+        let is_at_rest = (beyond - limits.beyond_before).abs() <= AT_THE_LIMIT;
         limits.beyond_before = beyond;
         if rests && beyond > tolerance {
             limits.rest.get_or_insert(RestOnStop {
@@ -159,12 +177,28 @@ impl LimitsMonitor {
             self.on_stop.of(kind).observe(beyond, coordinate, sample);
             return;
         }
-        if beyond > tolerance {
+        let outside = setpoint.filter(|_| !is_commanded_inside);
+        // A stop that the joint has reached gently holds it exactly at its limit, however far its setpoint goes on: the
+        // position alone would make the push look like rest.
+        limits.was_beyond |= beyond > tolerance;
+        let held_back = outside.filter(|&outside| {
+            !limits.was_beyond
+                && is_at_rest
+                && beyond.abs() <= ON_THE_STOP
+                && outside > tolerance.max(ON_THE_STOP)
+        });
+        if beyond > tolerance || held_back.is_some() {
             limits.drive.get_or_insert(DrivenBeyond {
                 time_s: sample.time_s,
-                setpoint_outside: setpoint.filter(|_| !is_commanded_inside),
+                setpoint_outside: outside,
                 is_commanded: setpoint.is_some(),
             });
+        }
+        if let (Some(drive), Some(now)) = (&mut limits.drive, outside) {
+            drive.setpoint_outside = drive.setpoint_outside.map(|before| before.max(now));
+        }
+        if let Some(outside) = held_back {
+            self.held_back.of(kind).observe(outside, coordinate, sample);
         }
         self.beyond.of(kind).observe(beyond, coordinate, sample);
     }
@@ -204,9 +238,12 @@ impl LimitsMonitor {
         notes
     }
 
-    fn watches(&self) -> [&Watch; 6] {
-        let (beyond, on_stop) = (&self.beyond, &self.on_stop);
-        [&beyond.angular, &beyond.linear, &on_stop.angular, &on_stop.linear, &self.velocity, &self.effort]
+    fn watches(&self) -> impl Iterator<Item = &Watch> {
+        let (beyond, on_stop, held_back) = (&self.beyond, &self.on_stop, &self.held_back);
+        let [turning, sliding] = [&held_back.angular, &held_back.linear];
+        let positions =
+            [&beyond.angular, &beyond.linear, &on_stop.angular, &on_stop.linear, turning, sliding];
+        positions.into_iter().chain([&self.velocity, &self.effort])
     }
 }
 
@@ -234,7 +271,7 @@ impl CoordinateLimits {
         );
         let drive = self.drive.as_ref().map(|DrivenBeyond { time_s, setpoint_outside, is_commanded }| {
             let why = match setpoint_outside {
-                Some(outside) => format!("its setpoint is {} outside the range", shown(*outside)),
+                Some(outside) => format!("its setpoint is up to {} outside the range", shown(*outside)),
                 None if *is_commanded => format!(
                     "its setpoint is inside the range, but it moves outwards, or deeper into its stop than {}",
                     shown(ON_THE_STOP)
@@ -260,17 +297,17 @@ impl Monitor for LimitsMonitor {
 
     fn finish(&self, names: &Names) -> Observed {
         let name = |coordinate: usize| names.joints[coordinate].clone();
-        let with_value = self.watches().into_iter().filter(|watch| watch.worst().is_some());
+        let with_value = self.watches().filter(|watch| watch.worst().is_some());
         let measures = with_value.map(|watch| watch.measure(&names.joints, name)).collect();
         Observed { samples: self.samples, measures, notes: self.notes(names), ..Observed::default() }
     }
 
     fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {
-        self.watches().into_iter().filter_map(|watch| watch.at(time_s)).for_each(take);
+        self.watches().filter_map(|watch| watch.at(time_s)).for_each(take);
     }
 
     fn has_failed(&self) -> bool {
-        self.watches().into_iter().any(Watch::is_violated)
+        self.watches().any(Watch::is_violated)
     }
 }
 
@@ -288,6 +325,7 @@ fn coordinates(description: &RobotDescription) -> Vec<CoordinateLimits> {
         beyond_before: 0.0,
         rest: None,
         drive: None,
+        was_beyond: false,
         saturated: 0,
     });
     limits.collect()

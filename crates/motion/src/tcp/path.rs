@@ -339,6 +339,9 @@ impl Leg<'_> {
     }
 }
 
+/// A longer path of a tool is taken for one whose target was written in mm as m. Kind: choice; the largest arms reach 5 m.
+const LONGEST_PATH_M: f64 = 50.0;
+
 /// Help that suggests to control the position alone.
 fn position_alone(angle_rad: f64, axis: &Vector3<f64>) -> String {
     let [x, y, z] = [axis.x, axis.y, axis.z].map(|entry| number((entry * 1e3).round() / 1e3));
@@ -366,6 +369,13 @@ fn refused(stop: PathFailure, path: &TcpPath, places: &[FilePlace<'_>]) -> Diagn
                 format!("joints at a limit: {}; start in another configuration", limits_held.join(", "))
             };
             let help = match off {
+                // No arm has a path of this length: the help about its orientation would be wrong.
+                _ if path.length_m() > LONGEST_PATH_M => {
+                    format!(
+                        "the path is {} long: is its target in mm? then write xyz_mm",
+                        length(path.length_m())
+                    )
+                }
                 Some((angle_rad, axis)) => format!("{help}; {}", position_alone(angle_rad, &axis)),
                 None => help,
             };

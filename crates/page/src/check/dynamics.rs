@@ -40,16 +40,25 @@ fn compared(report: &DynamicsReport, at: &Pointer) -> Markup {
     let percent = format!("{} %", number(100.0 * report.difference_relative));
     html! {
         div.card.(outcome.class()) {
-            h3 { (badge(outcome, word)) " " (report.sides.candidate) " against " (report.sides.reference) }
+            h3 { (badge(outcome, word)) " " (sides(report)) }
             p {
-                (report.headline()) " (difference of torque "
+                (report.headline().trim_end_matches(':')) " (difference of torque "
                 (value(&at.key("difference_relative"), report.difference_relative, &percent)) ")"
             }
             @for explanation in &report.explanations { (explained(explanation)) }
             @let others = others(report);
             @if !others.is_empty() { ul { @for sentence in &others { li { (sentence) } } } }
-            @for limit in report.limits.iter().filter(|limit| limit.decides) { (changed(&limit.changes)) }
+            @for limit in report.limits.iter().filter(|limit| limit.decides) { (changed(&limit.changes, None)) }
         }
+    }
+}
+
+/// What was compared; the physics is no second description, but is built from the URDF.
+fn sides(report: &DynamicsReport) -> String {
+    let (candidate, reference) = (&report.sides.candidate, &report.sides.reference);
+    match reference.as_str() {
+        "physics" => format!("{candidate} against the program's own physics"),
+        _ => format!("{candidate} against {reference}"),
     }
 }
 
@@ -62,7 +71,7 @@ fn explained(explanation: &DynamicsExplanation) -> Markup {
     html! {
         p.fault { (explanation.sentence()) }
         ul { @for parameter in explanation.parameters.iter().take(SHOWN) { li { code { (place(parameter)) } (parameter.sentence()) } } }
-        (changed(&explanation.changes))
+        (changed(&explanation.changes, None))
     }
 }
 

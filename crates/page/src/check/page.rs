@@ -44,7 +44,8 @@ pub fn check_page(entries: &[CheckEntry<'_>], command: &str) -> String {
     let mut order: Vec<usize> = (0..entries.len()).collect();
     // Inputs without a report first, since `false` comes before `true`; then by outcome, from bad to good.
     order.sort_by_key(|&entry| (entries[entry].result.is_ok(), entry_outcome(&entries[entry]).0));
-    let disagree = entries.iter().filter(|entry| entry_outcome(entry).0 != BadgeKind::Good).count();
+    let disagree = entries.iter().filter(|entry| entry_is_bad(entry)).count();
+    let in_part = entries.iter().any(|entry| entry.result.as_ref().is_ok_and(is_in_part));
     let title = format!("{} robots checked", entries.len());
     let checked: Vec<&CheckedRobot<'_>> =
         entries.iter().filter_map(|entry| entry.result.as_ref().ok()).collect();
@@ -53,7 +54,8 @@ pub fn check_page(entries: &[CheckEntry<'_>], command: &str) -> String {
             p.kind { "Do the descriptions agree?" }
             h1 { (title) }
             p.verdict {
-                @if disagree == 0 { (badge(BadgeKind::Good, "ALL AGREE")) }
+                @if disagree == 0 && in_part { (badge(BadgeKind::Unclear, "ALL AGREE IN WHAT WAS COMPARED")) }
+                @else if disagree == 0 { (badge(BadgeKind::Good, "ALL AGREE")) }
                 @else { (badge(BadgeKind::Bad, &format!("{disagree} OF {} DO NOT AGREE", entries.len()))) }
             }
         }
@@ -97,12 +99,28 @@ fn table(entries: &[CheckEntry<'_>], order: &[usize]) -> Markup {
     }
 }
 
+/// Whether an input counts as one that does not agree.
+fn entry_is_bad(entry: &CheckEntry<'_>) -> bool {
+    entry.result.as_ref().map_or(true, |robot| robot.geometry.verdict != Agreement::Agree)
+}
+
 fn largest(report: &CheckReport) -> String {
     length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad)
 }
 
-fn entry_outcome(entry: &CheckEntry<'_>) -> (BadgeKind, &'static str) {
-    entry.result.as_ref().map_or((BadgeKind::Bad, "NOT CHECKED"), |robot| outcome(robot.geometry))
+/// The outcome, and the answer in the words of the command: what was not compared must not read as agreement.
+fn entry_outcome<'e>(entry: &'e CheckEntry<'_>) -> (BadgeKind, &'e str) {
+    match &entry.result {
+        Ok(robot) if is_in_part(robot) => (BadgeKind::Unclear, &robot.answer),
+        Ok(robot) => (outcome(robot.geometry).0, &robot.answer),
+        Err(_) => (BadgeKind::Bad, "NOT CHECKED"),
+    }
+}
+
+/// Whether what was compared agrees, and something was not compared.
+fn is_in_part(robot: &CheckedRobot<'_>) -> bool {
+    let agrees = robot.geometry.verdict == Agreement::Agree;
+    agrees && ["NOT COMPARED", "NO SECOND"].iter().any(|words| robot.answer.contains(words))
 }
 
 fn outcome(report: &CheckReport) -> (BadgeKind, &'static str) {

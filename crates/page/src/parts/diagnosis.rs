@@ -72,7 +72,7 @@ fn found(finding: &Diagnostic, fault: &Fault) -> Markup {
         @if fault.changes.is_empty() {
             @if !fault.suggestion.is_empty() { p { "To do: " (fault.suggestion) } }
         } @else {
-            (changed(&fault.changes))
+            (changed(&fault.changes, finding.source.as_deref()))
         }
     }
 }

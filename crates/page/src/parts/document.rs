@@ -28,7 +28,8 @@ pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>, inputs
             }
             body {
                 main { (body) }
-                footer { "made by congruent " (env!("CARGO_PKG_VERSION")) }
+                // The version is in the section that says where the page comes from.
+                footer { "made by congruent" }
                 @if let Some(plots) = plots {
                     script type="application/json" #plots { (PreEscaped(plots.json())) }
                     script { (PreEscaped(assets::UPLOT_JS)) }
@@ -42,6 +43,11 @@ pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>, inputs
 
 /// A sentence with a capital letter.
 pub(crate) fn capitalised(sentence: &str) -> String {
+    // A name of a file, such as shoulder_link or the link of "forearm: the mass is off", keeps its letters.
+    let first = sentence.split_whitespace().next().unwrap_or_default();
+    if first.ends_with(':') || first.contains(|c: char| c == '_' || c.is_ascii_digit()) {
+        return sentence.to_owned();
+    }
     let mut letters = sentence.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -1,5 +1,7 @@
 //! Lines of a file: the marked ones with their neighbours, and lines to write instead.
 
+use std::ops::Range;
+
 use congruent_input::{ChangedLines, Diagnostic, SourceFile, portable_path};
 use maud::{Markup, html};
 
@@ -26,9 +28,9 @@ pub(crate) fn marked(finding: &Diagnostic) -> Markup {
         pre.file {
             @for (number, line) in (1..).zip(quotable(source).lines()).filter(|(number, _)| shown.contains(number)) {
                 @if (first..=last).contains(&number) {
-                    mark { (row(number, line)) }
+                    mark { (row(number, &html! { (emphasised(line, within(source, span, number))) })) }
                 } @else {
-                    span { (row(number, line)) }
+                    span { (row(number, &html! { (shortened(line)) })) }
                 }
             }
         }
@@ -40,26 +42,101 @@ fn quotable(source: &SourceFile) -> &str {
     if source.is_foreign { "" } else { &source.text }
 }
 
-fn row(number: usize, line: &str) -> Markup {
-    let line: String = line.chars().take(LONGEST).collect();
+fn row(number: usize, line: &Markup) -> Markup {
     html! { b { (format!("{number:>4}")) } "  " (line) "\n" }
 }
 
-/// Lines that a file should have instead.
-pub(crate) fn changed(changes: &[ChangedLines]) -> Markup {
-    html! {
-        @for change in changes {
-            p.place {
-                "write instead of "
-                @if change.from_line == change.to_line { "line " (change.from_line) }
-                @else { "lines " (change.from_line) " to " (change.to_line) }
-                ":"
-            }
+/// The first characters of a line.
+fn shortened(line: &str) -> String {
+    line.chars().take(LONGEST).collect()
+}
+
+/// The part of a finding's place that is in the line of this number; `None` if the place is the whole line or more.
+fn within(source: &SourceFile, span: &Range<usize>, number: usize) -> Option<Range<usize>> {
+    let start: usize = source.text.split_inclusive('\n').take(number - 1).map(str::len).sum();
+    let length = source.text[start..].lines().next()?.len();
+    let part = span.start.checked_sub(start)?..span.end.checked_sub(start)?;
+    (part.end <= length && part.len() < length && !part.is_empty()).then_some(part)
+}
+
+/// A line with a part of it emphasised: in a row in one line, the value is otherwise not to be found.
+fn emphasised(line: &str, part: Option<Range<usize>>) -> Markup {
+    let parts =
+        part.and_then(|part| Some((line.get(..part.start)?, line.get(part.clone())?, line.get(part.end..)?)));
+    match parts {
+        Some((before, part, after)) if line.len() <= LONGEST => html! { (before) em { (part) } (after) },
+        _ => html! { (shortened(line)) },
+    }
+}
+
+/// The part of a new line that differs from the old one.
+fn differing(old: &str, new: &str) -> Range<usize> {
+    let same = |one: &mut dyn Iterator<Item = char>, other: &mut dyn Iterator<Item = char>| -> usize {
+        one.zip(other).take_while(|(a, b)| a == b).map(|(c, _)| c.len_utf8()).sum()
+    };
+    let start = same(&mut old.chars(), &mut new.chars());
+    let end = same(&mut old[start..].chars().rev(), &mut new[start..].chars().rev());
+    start..new.len() - end
+}
+
+/// Lines that a file should have instead, with what is new in them if the text of the file is known.
+pub(crate) fn changed(changes: &[ChangedLines], source: Option<&SourceFile>) -> Markup {
+    html! { @for change in changes { (changed_lines(change, source.map_or("", quotable))) } }
+}
+
+fn changed_lines(change: &ChangedLines, text: &str) -> Markup {
+    let ChangedLines { from_line, to_line, text: new } = change;
+    let old: Vec<&str> = text.lines().skip(from_line - 1).take(to_line + 1 - from_line).collect();
+    // Of lines that stay and get others below them, these alone.
+    let added = new.strip_prefix(&old.join("\n")).filter(|_| !old.is_empty());
+    if let Some(added) = added.and_then(|rest| rest.strip_prefix('\n')) {
+        return html! {
+            p.place { "write below line " (to_line) ":" }
             pre.file.new {
-                @for (number, line) in (change.from_line..).zip(change.text.lines()) {
-                    ins { (row(number, line)) }
+                @for (number, line) in (to_line + 1..).zip(added.lines()) {
+                    ins { (row(number, &html! { (shortened(line)) })) }
                 }
             }
+        };
+    }
+    let line = |at: usize, line: &str| {
+        emphasised(line, old.get(at).map(|old| differing(old, line)).filter(|part| !part.is_empty()))
+    };
+    html! {
+        p.place {
+            "write instead of "
+            @if from_line == to_line { "line " (from_line) }
+            @else { "lines " (from_line) " to " (to_line) }
+            ":"
         }
+        pre.file.new {
+            @for (at, new) in new.lines().enumerate() { ins { (row(from_line + at, &line(at, new))) } }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OLD: &str = "a = 1\nrow = { d_mm = 300, alpha_deg = 90 }\n";
+
+    #[track_caller]
+    fn check(text: &str, lines: (usize, usize), expected: &str) {
+        let change = ChangedLines { from_line: lines.0, to_line: lines.1, text: text.to_owned() };
+        let shown = changed_lines(&change, OLD).into_string();
+        assert!(shown.contains(expected), "{shown}");
+    }
+
+    #[test]
+    fn what_is_new_in_a_line_is_emphasised() {
+        check("row = { d_mm = 310, alpha_deg = 90 }", (2, 2), "d_mm = 3<em>1</em>0, alpha");
+        check("row = { d_mm = 310, alpha_deg = 90 }", (2, 2), "write instead of line 2:");
+    }
+
+    #[test]
+    fn lines_that_are_added_are_below_the_line_that_stays() {
+        check("a = 1\nb = 2", (1, 1), "write below line 1:");
+        check("a = 1\nb = 2", (1, 1), "<ins><b>   2</b>  b = 2");
     }
 }

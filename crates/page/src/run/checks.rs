@@ -1,8 +1,13 @@
 //! The table of checks: the worst value of each quantity beside its limit, and how much of the limit it uses.
 
-use congruent_input::display::{counted, quantity};
+use congruent_input::{
+    Quantity,
+    display::{counted, quantity},
+};
 use congruent_monitors::verdict::{Bound, CheckResult, Measure, Moment, Status};
-use congruent_results::report::{RunReport, is_not_reached, limit_words, margin_words, quantity_words};
+use congruent_results::report::{
+    RunReport, is_not_reached, limit_words, margin_words, not_finite_words, quantity_words,
+};
 use maud::{Markup, html};
 
 use super::content::RunContent;
@@ -100,13 +105,24 @@ fn name(check: &CheckResult) -> Markup {
 }
 
 fn cells(measure: &Measure, of: &CheckRows<'_>, at: &Pointer) -> Markup {
-    let what = quantity_words(measure.quantity);
+    let mut what = quantity_words(measure.quantity);
     let Some(worst) = &measure.worst else {
         return html! { td data-label="worst value" { (what) ": no value" } td {} td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };
     };
     let at_worst = at.key("worst");
+    let mut shown = shown(measure, worst);
+    if matches!(measure.quantity, Quantity::AngleBeyondLimit | Quantity::ShiftBeyondLimit)
+        && worst.value < 0.0
+    {
+        what = what.replace("beyond", "inside");
+        shown = quantity(-worst.value, measure.unit.symbol());
+    }
+    if measure.quantity == Quantity::NotFiniteValues && worst.value <= 0.0 {
+        let words = not_finite_words(worst.value);
+        return html! { td data-label="worst value" { (value(&at_worst.key("value"), worst.value, &words)) } td {} td {} td {} td {} td {} };
+    }
     html! {
-        td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) }
+        td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown)) }
         td data-label="of its limit" { @if let Some(share) = share(measure) { (of.scale.bar(UsedShare { share, holds: measure.bound.holds(worst.value, measure.limit) })) } }
         td data-label="limit" { (limit(measure, at)) }
         td data-label="margin" { (margin_words(measure, worst.value)) }
@@ -130,7 +146,9 @@ fn shown(measure: &Measure, moment: &Moment) -> String {
 }
 
 fn limit(measure: &Measure, at: &Pointer) -> Markup {
-    value(&at.key("limit"), measure.limit, &limit_words(measure))
+    // The title of the column is the first word.
+    let words = limit_words(measure);
+    value(&at.key("limit"), measure.limit, words.strip_prefix("limit ").unwrap_or(&words))
 }
 
 /// Why the distance that a value is about never changes; `None` if it does, or is none.

@@ -2,8 +2,8 @@
 
 /// Plots that are not of single joints, with what they show.
 pub(super) const FIGURES: [(&str, &str); 6] = [
-    ("position", "Distance between model and twin, of the links with the largest"),
-    ("orientation", "Angle between model and twin, of the links with the largest"),
+    ("position", "Distance between model and twin, of the links where it is largest"),
+    ("orientation", "Angle between model and twin, of the links where it is largest"),
     ("clearance", "Smallest distance, of pairs whose distance can change"),
     ("zones", "Smallest distance from forbidden zones"),
     ("tracking_angle", "Setpoint minus position, of joints that turn"),

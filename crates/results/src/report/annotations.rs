@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use congruent_input::visible_lines;
 
-use super::suite::{CasePlace, Reason, TestSuite};
+use super::suite::{CasePlace, TestSuite};
 
 /// A line `::error file=...,line=...,title=...::message` for each case that failed or could not be checked.
 pub fn github_annotations(suites: &[TestSuite]) -> String {
@@ -14,19 +14,23 @@ pub fn github_annotations(suites: &[TestSuite]) -> String {
         for case in &suite.cases {
             if let Some(reason) = case.result.reason() {
                 let title = format!("{}: {}", suite.name, case.name);
-                annotate(&mut text, case.place.as_ref(), &title, reason);
+                annotate(&mut text, case.place.as_ref(), &title, &reason.message);
+                // One of each line, so that a change of several lines is marked at all of them.
+                for (place, message) in &case.further {
+                    annotate(&mut text, Some(place), &title, message);
+                }
             }
         }
     }
     text
 }
 
-fn annotate(text: &mut String, place: Option<&CasePlace>, title: &str, reason: &Reason) {
+fn annotate(text: &mut String, place: Option<&CasePlace>, title: &str, message: &str) {
     text.push_str("::error ");
     if let Some(CasePlace { file, line }) = place {
         let _ = write!(text, "file={},line={line},", property(file));
     }
-    let _ = writeln!(text, "title={}::{}", property(title), data(&reason.message));
+    let _ = writeln!(text, "title={}::{}", property(title), data(message));
 }
 
 /// The message of a command: a line break would end the command.
@@ -42,7 +46,7 @@ fn property(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{TestCase, TestResult};
+    use crate::report::{Reason, TestCase, TestResult};
 
     fn suite(name: &str, message: &str) -> TestSuite {
         let reason = Reason { kind: "clearance".to_owned(), message: message.to_owned() };

@@ -33,6 +33,8 @@ pub struct TestCase {
     pub output: String,
     /// Line of the check, or of the finding.
     pub place: Option<CasePlace>,
+    /// Further lines that the same failure names, each with what is wrong there.
+    pub further: Vec<(CasePlace, String)>,
 }
 
 /// A line of a file, as CI shows it beside the text.
@@ -86,7 +88,13 @@ impl TestResult {
 impl TestSuite {
     /// The suite of an input with a single case and no duration.
     pub fn with_case(name: impl Into<String>, case: &str, result: TestResult) -> Self {
-        let case = TestCase { name: case.to_owned(), result, output: String::new(), place: None };
+        let case = TestCase {
+            name: case.to_owned(),
+            result,
+            output: String::new(),
+            place: None,
+            further: Vec::new(),
+        };
         Self { name: name.into(), cases: vec![case], time_s: 0.0, clock: Clock::Wall }
     }
 

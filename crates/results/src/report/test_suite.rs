@@ -24,7 +24,13 @@ impl RunReport {
             };
             let reason = Reason { kind: "run".to_owned(), message };
             let result = TestResult::Error(reason);
-            cases.push(TestCase { name: "run".to_owned(), result, output: String::new(), place: None });
+            cases.push(TestCase {
+                name: "run".to_owned(),
+                result,
+                output: String::new(),
+                place: None,
+                further: Vec::new(),
+            });
         }
         let time_s = self.simulation.duration_s;
         TestSuite { name: self.scenario.clone(), cases, time_s, clock: Clock::Simulated }
@@ -49,7 +55,7 @@ impl RunReport {
         let result = judged(check.check, check.status, &self.expected, self.verdict, message);
         let place = CasePlace::if_known(self.scenario_file.as_deref(), check.line);
         let added = if check.is_default { BY_DEFAULT } else { "" };
-        TestCase { name: case_name(index, check.check, added), result, output, place }
+        TestCase { name: case_name(index, check.check, added), result, output, place, further: Vec::new() }
     }
 }
 
@@ -89,6 +95,7 @@ pub fn planned_suite(setup: &RunSetup) -> TestSuite {
             result: TestResult::Error(Reason { kind: "unfinished".to_owned(), message }),
             output: String::new(),
             place: CasePlace::if_known(file.as_deref(), check.line),
+            further: Vec::new(),
         }
     });
     let mut cases: Vec<TestCase> = cases.collect();

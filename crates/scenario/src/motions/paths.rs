@@ -71,7 +71,7 @@ pub struct ArcSettings {
     pub to: PoseSettings,
 }
 
-/// The TCP moves along the arc of a circle from its present position through `via` to `to`; otherwise as [`LineMotion`].
+/// The TCP moves along the arc of a circle from its present position through `via` to `to`; otherwise as for `line_tcp`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ArcMotion {

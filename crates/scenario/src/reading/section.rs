@@ -89,7 +89,7 @@ impl<'a> Section<'a> {
         };
         known.iter().find(|known| name(known) == found).ok_or_else(|| {
             Diagnostic::error(codes::scenario::UNKNOWN_KIND, format!("unknown {what} \"{found}\""))
-                .with_help(known_names(found, "ones", names()))
+                .with_help(same_meaning(found) + &known_names(found, "ones", names()))
                 .at(value.span())
         })
     }
@@ -122,4 +122,12 @@ impl<'a> Section<'a> {
 
 fn wrong_type(key: &str, expected: &str, found: &str) -> Diagnostic {
     Diagnostic::error(codes::scenario::TYPE, format!("`{key}` is {expected}, found {found}"))
+}
+
+/// The kinds of checks that a word of other programs stands for.
+fn same_meaning(word: &str) -> String {
+    match word {
+        "collision" | "collisions" => "did you mean \"clearance\" or \"contact\"? ".to_owned(),
+        _ => String::new(),
+    }
 }

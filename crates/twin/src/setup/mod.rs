@@ -6,6 +6,7 @@ mod cost;
 mod default_values;
 mod output;
 mod run_setup;
+mod start;
 mod surroundings;
 mod written_at;
 

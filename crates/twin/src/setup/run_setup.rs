@@ -2,20 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{Obstacle, Robot, RobotDescription, RobotQ, load_robot_with};
+use congruent_description::{Obstacle, RobotDescription, RobotQ, load_robot_with};
 use congruent_dynamics::JointResistance;
-use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile, display::limit_number,
-};
-use congruent_kinematics::move_inside_limits;
+use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile};
 use congruent_monitors::{
     ActuatorLimits, CheckContext, RunClock, RunDynamics, RunPayload, RunningCheck, taken_too_late,
 };
-use congruent_motion::{JointTargets, MotionInput, Trajectory, motion_limits};
+use congruent_motion::{MotionInput, Trajectory, codes::scenario::TARGET_LIMIT, motion_limits};
 use congruent_proximity::{MovingBody, ObstacleMobility, Zone, simplified_hulls};
 use congruent_scenario::{
-    ControllerKind, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile, ScenarioFolder,
-    StartSettings, numbers,
+    ControllerKind, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile, ScenarioFolder, numbers,
 };
 
 use super::{
@@ -24,6 +20,7 @@ use super::{
     cost::long_run,
     default_values::write_out,
     output,
+    start::{inside_limits, start},
     surroundings::{FirstStep, Surroundings, jumps, mobility},
     written_at::WrittenAt,
 };
@@ -112,8 +109,8 @@ impl RunSetup {
             .and_then(|()| load_robot_with(&robot, &access))
         {
             Ok(description) => description,
-            Err(mut findings) => {
-                findings.extend([file.mark(robot_refused(&file))]);
+            Err(findings) => {
+                let mut findings = robot_refused(&file, findings);
                 findings.extend(file.findings().iter().cloned());
                 // Without a robot nothing else can be checked; findings of the file itself are kept.
                 return Err(findings);
@@ -194,10 +191,10 @@ impl RunSetup {
         let (Some(trajectory), Some(clock), Some(actuation), Some(obstacles), Some(zones), Some(faults)) =
             (trajectory, clock, actuation, obstacles, zones, faults)
         else {
-            return Err(found.into());
+            return Err(beside_ranges(found, warnings));
         };
         if found.has_error() {
-            return Err(found.into());
+            return Err(beside_ranges(found, warnings));
         }
         // After all checks: messages refer to what the user has written.
         write_out(&mut scenario, &description, &clock, &start, folder);
@@ -301,6 +298,12 @@ impl RunSetup {
     }
 }
 
+/// The errors beside the targets outside of their ranges: such a target is often the reason why a later motion fails.
+fn beside_ranges(mut found: Diagnostics, warnings: Vec<Diagnostic>) -> Findings {
+    found.extend(warnings.into_iter().filter(|warning| warning.code == TARGET_LIMIT));
+    found.into()
+}
+
 /// The motions, planned one after another.
 fn trajectory(
     scenario: &Scenario,
@@ -320,12 +323,19 @@ fn written_s(scenario: &Scenario) -> f64 {
     scenario.motion.iter().map(|motion| motion.duration_s().unwrap_or(1.0)).sum()
 }
 
-fn robot_refused(file: &ScenarioFile) -> Diagnostic {
+/// The findings about a robot that cannot be used, at the key that names it.
+fn robot_refused(file: &ScenarioFile, mut findings: Findings) -> Findings {
+    let at_key = |found: Diagnostic| file.mark(file.place().key("robot").mark(found));
+    // A path that names nothing is one mistake, of the scenario: it needs no second finding.
+    if findings.len() == 1 && findings.first().source.is_none() {
+        return at_key(findings.into_first()).into();
+    }
     let message = format!("robot \"{}\" cannot be used", file.scenario.robot);
     let refused = Diagnostic::error(codes::scenario::ROBOT, message).with_help(
         "`robot` is a folder with robot.toml, a robot file or a .urdf, relative to the scenario file",
     );
-    file.place().key("robot").mark(refused)
+    findings.extend([at_key(refused)]);
+    findings
 }
 
 /// The checks that the reader of a file does, for a scenario that was made in code.
@@ -346,49 +356,4 @@ fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnosti
         return Ok(());
     };
     Err(error)
-}
-
-fn start(settings: &StartSettings, place: FilePlace<'_>, robot: &Robot) -> Result<RobotQ, Findings> {
-    let targets = JointTargets::from(settings).resolve(robot, place)?;
-    let mut q = RobotQ::zeros(robot.dof());
-    let mut errors = Vec::new();
-    for target in targets {
-        if let Some(message) = target.beyond_limits(robot, "start") {
-            let error = Diagnostic::error(codes::scenario::START_LIMIT, message);
-            errors.push(congruent_scenario::mark(error, target.span.clone()));
-        }
-        target.put(robot, &mut q);
-    }
-    if errors.is_empty() { Ok(q) } else { Err(errors.into()) }
-}
-
-/// The start that is written, or zero, inside the limits of the joints.
-fn inside_limits(written: Option<RobotQ>, robot: &Robot, warnings: &mut Vec<Diagnostic>) -> RobotQ {
-    let mut start = written.unwrap_or_else(|| RobotQ::zeros(robot.dof()));
-    warnings.extend(start_warnings(&start, robot));
-    move_inside_limits(&mut start, robot);
-    start
-}
-
-/// A joint that is not named starts at 0, or at its limit nearest to 0, with a warning.
-fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item = Diagnostic> + 'a {
-    robot.movable_joints().iter().zip(start).filter_map(|(&joint, &q)| {
-        let joint = robot.joint(joint);
-        // A follower has no start of its own: its master determines where it is.
-        let (lower, upper) = joint.position_range().filter(|_| joint.mimic.is_none())?;
-        (!(lower..=upper).contains(&q)).then(|| {
-            let [start, lower, upper] = [q.clamp(lower, upper), lower, upper].map(limit_number);
-            let message = format!(
-                "joint \"{}\" has no start position, and 0 is outside its range [{lower}, {upper}]: it starts at {start} {}",
-                joint.name,
-                joint.kind.unit()
-            );
-            Diagnostic::warning(codes::scenario::START_DEFAULT, message)
-                .one_of(
-                    "joints have no start position, and 0 is outside their ranges: they start at a limit",
-                    &joint.name,
-                )
-                .with_help("give start positions under [start]")
-        })
-    })
 }

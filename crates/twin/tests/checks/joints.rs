@@ -58,6 +58,23 @@ fn a_joint_that_is_driven_beyond_its_limit_is_distinguished() {
     assert!(error_rad < 1e-12, "{in_playback:#?}");
 }
 
+/// A stop that is reached gently holds the joint exactly at its limit, while its setpoint goes on: not a joint at rest.
+#[test]
+fn a_joint_that_its_stop_holds_back_is_driven_beyond() {
+    let mut scenario = scenario(controlled("kinematic", 0.0, 0.0), limits());
+    scenario.start.joints_rad =
+        [("shoulder", -1.5), ("elbow", 1.7)].map(|(name, q)| (name.to_owned(), q)).into();
+    if let MotionSettings::Joints(motion) = &mut scenario.motion[0] {
+        motion.move_joints_rad = BTreeMap::from([("elbow".to_owned(), 2.3)]);
+    }
+    let setup = setup(scenario, &arm(&[]));
+    let result = result_distorted(&setup, |said| said.true_q[1] = said.true_q[1].min(2.0));
+    fails(&result, "angle_of_setpoint_beyond_limit", "elbow");
+    notes(&result, "elbow is driven beyond its limit from ");
+    notes(&result, "outside the range");
+    assert!((worst(&result, "angle_of_setpoint_beyond_limit") - 0.3).abs() < 1e-9, "{result:#?}");
+}
+
 /// The setpoint is inside, but the state goes on outwards through where the stop should be.
 #[test]
 fn a_stop_that_does_not_hold_is_a_violation() {

@@ -30,7 +30,8 @@ use crate::{
 /// measurements.
 /// Each finding has its place, a code that never changes, what to do, and what it blocks: kinematics, clearance or
 /// physics. `[[lint.ignore]]` in robot.toml, with a reason, ignores warnings about what is intended. Exit codes: 0 no
-/// error, 1 errors (with --strict also warnings), 2 a file cannot be read.
+/// error, 1 errors (with --strict also warnings), 2 a file cannot be read. `--format sarif` prints one SARIF document for
+/// code hosts.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Arguments {

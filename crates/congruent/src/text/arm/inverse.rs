@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use crate::{
-    analysis::inverse::{IkOptions, InverseReport, InverseSolution, NotReached},
+    analysis::inverse::{IkOptions, InverseReport, InverseSolution, NotReached, TargetPart},
     description::{Joint, Robot},
     input::display::{length, length_and_angle, position},
+    kinematics::{IkTarget, ReportedPose},
     text::{TextOptions, layout::Table},
 };
 
@@ -25,8 +26,9 @@ pub fn inverse_text(
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(
             text,
-            "target {}: {} after {} steps, residual {}, tolerance {}",
+            "target {}, {}: {} after {} steps, residual {}, tolerance {}",
             first + index,
+            pose(&result.target),
             reached(result),
             result.iterations,
             length_and_angle(result.residual_position_m, result.residual_orientation_rad),
@@ -46,11 +48,37 @@ fn reached(result: &InverseSolution) -> String {
             "NOT REACHED: the position can be reached, but not in this orientation;".to_owned()
         }
         Some(NotReached::OutOfReach { distance_m, reach_m }) => format!(
-            "OUT OF REACH: {} from the first joint, the arm reaches at most {};",
+            "OUT OF REACH: {} from the first joint, the arm reaches at most {}{};",
             length(distance_m),
-            length(reach_m)
+            length(reach_m),
+            in_millimetres(&result.target, distance_m, reach_m)
         ),
     }
+}
+
+/// The pose of a target: its position, and roll, pitch and yaw if it prescribes them.
+fn pose(target: &IkTarget) -> String {
+    let reported = ReportedPose::from(&target.base_from_tcp);
+    let xyz = reported.translation_m.map(length).join(", ");
+    match target.part {
+        TargetPart::Position => format!("[{xyz}]"),
+        TargetPart::Pose => {
+            let rpy = reported.rpy_rad().map(|angle| position(angle, "rad")).join(", ");
+            format!("[{xyz}], roll, pitch, yaw [{rpy}]")
+        }
+    }
+}
+
+/// The hint that a target was meant in mm, if it would then be within reach.
+fn in_millimetres(target: &IkTarget, distance_m: f64, reach_m: f64) -> String {
+    /// A target that is farther than this multiple of the reach is no target that was missed by a little. Kind: choice.
+    const FAR: f64 = 20.0;
+    if distance_m < FAR * reach_m || distance_m / 1000.0 > reach_m {
+        return String::new();
+    }
+    let xyz = target.base_from_tcp.translation;
+    let xyz = [xyz.x, xyz.y, xyz.z].map(|value| format!("{value}mm")).join(",");
+    format!(" (in mm? write {xyz})")
 }
 
 /// Each joint with its position, its margin to the nearer limit, and its range.

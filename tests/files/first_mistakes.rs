@@ -1,0 +1,143 @@
+//! Mistakes that people make with their first files: the message says what to write instead.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use crate::support::{
+    command::{congruent, text},
+    corpus::workspace,
+};
+
+/// A folder with a small robot, changed in one place.
+struct Desk {
+    folder: tempfile::TempDir,
+}
+
+impl Desk {
+    fn new() -> Self {
+        let desk = Self { folder: tempfile::tempdir().unwrap() };
+        for (file, to) in [("robot.toml", "arm/robot.toml"), ("planar_2r.urdf", "arm/planar_2r.urdf")] {
+            let path = desk.path(to);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::copy(workspace().join("robots/planar_2r").join(file), path).unwrap();
+        }
+        desk
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// The robot file with one piece replaced, beside the original.
+    #[track_caller]
+    fn robot_with(&self, from: &str, to: &str) -> String {
+        let before = fs::read_to_string(self.path("arm/robot.toml")).unwrap();
+        assert!(before.contains(from), "no {from:?}");
+        let path = self.path("arm/changed.toml");
+        fs::write(&path, before.replacen(from, to, 1)).unwrap();
+        text(&path)
+    }
+
+    fn scenario_with(&self, more: &str) -> String {
+        let path = self.path("run.toml");
+        let head = "schema_version = 1\nname = \"desk\"\nrobot = \"arm\"\n[controller]\nkind = \"passive\"\n";
+        fs::write(&path, format!("{head}{more}")).unwrap();
+        text(&path)
+    }
+}
+
+/// The call is refused with all of these words, in one line or in wrapped ones.
+#[track_caller]
+fn refused(arguments: &[&str], words: &[&str]) -> String {
+    let answer = congruent(arguments);
+    assert_eq!(answer.code, 2, "{}{}", answer.stdout, answer.stderr);
+    // Messages are wrapped at the width of a terminal.
+    let said = answer.stderr.replace('\u{2502}', " ");
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    for word in words {
+        assert!(said.contains(word), "no {word:?} in: {}", answer.stderr);
+    }
+    said
+}
+
+#[test]
+fn a_folder_of_a_description_package_names_its_urdf() {
+    let desk = Desk::new();
+    let urdf = desk.path("arm_description/urdf/arm.urdf");
+    fs::create_dir_all(urdf.parent().unwrap()).unwrap();
+    fs::copy(desk.path("arm/planar_2r.urdf"), &urdf).unwrap();
+    let package = text(&desk.path("arm_description"));
+    refused(&["check", &package], &["is a directory without a robot.toml", "arm.urdf: give that file"]);
+    // A robot file that names it without its folder.
+    let named = desk.robot_with("urdf = \"planar_2r.urdf\"", "urdf = \"arm.urdf\"");
+    let meant = Path::new("..").join("arm_description/urdf/arm.urdf").display().to_string();
+    refused(&["check", &named], &["relative to the robot file; did you mean", &meant]);
+    let address = desk.robot_with("urdf = \"planar_2r.urdf\"", "urdf = \"package://arm/arm.urdf\"");
+    refused(&["check", &address], &["is no path", "package:// is for meshes"]);
+}
+
+#[test]
+fn values_of_a_table_in_another_form() {
+    let desk = Desk::new();
+    for (from, to, words) in [
+        ("dhn_from_tip = {}", "dhn_from_tip = [0, 0, 70]", "dhn_from_tip = { xyz_mm = [0, 0, 70] }"),
+        ("alpha_deg = 0.0", "alpha_deg = pi/2", "TOML has no expressions such as pi/2: alpha_deg = 90.0"),
+        ("kind = \"revolute\"\n", "", "kind = \"revolute\" or kind = \"prismatic\""),
+        ("\"revolute\"", "\"continuous\"", "\"continuous\" is called \"revolute\" here"),
+        ("\"standard\"", "\"craig\"", "\"craig\" is called \"modified\" here"),
+    ] {
+        refused(&["check", &desk.robot_with(from, to)], &[words]);
+    }
+    let table = fs::read_to_string(desk.path("arm/robot.toml")).unwrap();
+    let second = &table[table.rfind("[[dh.row]]").unwrap()..table.find("[tolerance]").unwrap()];
+    refused(&["check", &desk.robot_with(second, "")], &["no row for joint_2", "add a row for each of them"]);
+}
+
+#[test]
+fn values_of_a_scenario_in_another_form() {
+    let desk = Desk::new();
+    let obstacle =
+        "[[obstacle]]\nname = \"box\"\nbox_mm = [100, 100, 200]\n[obstacle.pose]\nxyz_m = [0.5, 0, 0]\n";
+    refused(&["run", &desk.scenario_with(obstacle)], &["write box_m = [0.1, 0.1, 0.2]"]);
+    let pairs = "[[check]]\nkind = \"clearance\"\nminimum_mm = 1\nignore = [\"link_1--link_2\"]\n";
+    refused(&["run", &desk.scenario_with(pairs)], &["write [\"link_1\", \"link_2\"]"]);
+    let collision = "[[check]]\nkind = \"collision\"\n";
+    refused(&["run", &desk.scenario_with(collision)], &["did you mean \"clearance\" or \"contact\"?"]);
+}
+
+#[test]
+fn a_robot_that_a_scenario_does_not_find_is_one_finding() {
+    let desk = Desk::new();
+    let path = desk.scenario_with("[[check]]\nkind = \"agreement\"\n");
+    let wrong = fs::read_to_string(&path).unwrap().replace("robot = \"arm\"", "robot = \"amr/robot.toml\"");
+    fs::write(&path, wrong).unwrap();
+    let said = refused(&["run", &path], &["does not exist", "run.toml:3:"]);
+    assert_eq!(said.matches("error:").count(), 1, "{said}");
+}
+
+#[test]
+fn a_pattern_that_matches_nothing() {
+    refused(&["run", "scenarios_of_nobody/*.toml"], &["no file matches this pattern"]);
+}
+
+#[test]
+fn targets_in_millimetres() {
+    let robot = "robots/ur5e";
+    let said = refused(&["ik", robot, "--xyz", "350,100,450mm"], &["write 350mm,100mm,450mm"]);
+    assert!(said.contains("only some values have a unit"), "{said}");
+    refused(&["ik", robot, "--xyz", "350mm 100mm 450mm"], &["with commas: 350mm,100mm,450mm"]);
+    let far = congruent(&["ik", robot, "--xyz", "350,100,450"]);
+    assert_eq!(far.code, 1, "{}", far.stderr);
+    assert!(far.stdout.contains("(in mm? write 350mm,100mm,450mm)"), "{}", far.stdout);
+    let near = congruent(&["ik", robot, "--xyz", "350mm,100mm,450mm"]);
+    assert!(near.stdout.contains("target 1, [350 mm, 100 mm, 450 mm]: reached"), "{}", near.stdout);
+}
+
+#[test]
+fn names_that_are_nearly_right() {
+    refused(&["chek", "robots/ur5e"], &["'check'"]);
+    let said = refused(&["fk", "robots/ur5e", "--at", "elbw=90deg"], &["did you mean \"elbow_joint\"?"]);
+    assert!(said.contains("known joints"), "{said}");
+}
