@@ -96,7 +96,7 @@ pub(super) const BARRIER_STEPS: usize = 60;
 pub(super) const BARRIER_FACTOR: f64 = 0.1;
 pub(super) const BARRIER_END: f64 = 1e-15;
 
-/// The part of the way to the nearest bound that a step goes. No unit; kind: solver, as in the literature.
+/// The part of the distance to the nearest bound that a step goes. No unit; kind: solver, as in the literature.
 pub(super) const BARRIER_STEP: f64 = 0.995;
 
 // Choice between explanations.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use congruent_description::{RobotDescription, parse_robot};
 use congruent_input::SourceFile;
 
-use super::{content::CorrectedFile, diagnose_models::candidate, names::ModelNames};
+use super::{content::CorrectedFile, names::ModelNames};
 use crate::diagnosis::{Criterion, ModelPair};
 
 /// Whether a check of the corrected file will find table and URDF the same, at the configurations of this one; `None` if the
@@ -29,7 +29,7 @@ pub(super) fn is_same_as_written(
         places: read.places.robot_file.as_deref(),
         urdf: names.urdf,
     };
-    let written = ModelPair { candidate: candidate(&names)?, reference: models.reference.clone() };
+    let written = ModelPair { candidate: names.candidate()?, reference: models.reference.clone() };
     if written.is_within_tolerance(criterion) {
         return Some(true);
     }

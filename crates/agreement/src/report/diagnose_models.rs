@@ -12,9 +12,7 @@ use super::{
     names::ModelNames,
 };
 use crate::{
-    diagnosis::{
-        CandidateModel, Criterion, DeclaredTransform, ModelPair, ReferenceModel, diagnose, differences,
-    },
+    diagnosis::{CandidateModel, Criterion, ModelPair, ReferenceModel, diagnose, differences},
     source_pair::SourcePair,
 };
 
@@ -109,7 +107,7 @@ impl<'a> ChainModels<'a> {
         };
         let names = ModelNames { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
         let mut pairs = Vec::new();
-        if let Some(candidate) = candidate(&names) {
+        if let Some(candidate) = names.candidate() {
             let against_physics =
                 physics.map(|reference| ModelPair { candidate: candidate.clone(), reference });
             pairs.push((SourcePair::ModelUrdf, ModelPair { candidate, reference: urdf }));
@@ -148,19 +146,4 @@ fn within_a_turn(robot: &Robot, moving: &[JointIndex], mut q: ChainQ) -> ChainQ 
         }
     }
     q
-}
-
-/// The table with the roll, pitch and yaw of its declared transforms as the file writes them.
-pub(super) fn candidate(names: &ModelNames<'_>) -> Option<CandidateModel> {
-    use congruent_description::ConstantKey::{BaseFromDh0, DhnFromTip};
-    let candidate = CandidateModel::from_table(names.description.dh.as_ref()?, &names.moving)?;
-    let written = |transform: DeclaredTransform, key| DeclaredTransform {
-        written_rpy_rad: names.places.and_then(|places| places.rpy_rad(key)),
-        ..transform
-    };
-    Some(CandidateModel {
-        base: written(candidate.base, BaseFromDh0),
-        tool: written(candidate.tool, DhnFromTip),
-        ..candidate
-    })
 }

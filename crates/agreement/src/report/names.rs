@@ -1,6 +1,8 @@
 //! Names and places in files for the numbers of a diagnosis.
 
-use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces, UrdfPlaces};
+use congruent_description::{ConstantKey, JointIndex, RobotDescription, RobotFilePlaces, UrdfPlaces};
+
+use crate::diagnosis::{CandidateModel, DeclaredTransform};
 
 /// Names of joints, and places in the robot file and the URDF.
 pub(crate) struct ModelNames<'a> {
@@ -14,6 +16,20 @@ pub(crate) struct ModelNames<'a> {
 }
 
 impl ModelNames<'_> {
+    /// The table with the roll, pitch and yaw of its declared transforms as the file writes them.
+    pub(super) fn candidate(&self) -> Option<CandidateModel> {
+        let candidate = CandidateModel::from_table(self.description.dh.as_ref()?, &self.moving)?;
+        let written = |transform: DeclaredTransform, key| DeclaredTransform {
+            written_rpy_rad: self.places.and_then(|places| places.rpy_rad(key)),
+            ..transform
+        };
+        Some(CandidateModel {
+            base: written(candidate.base, ConstantKey::BaseFromDh0),
+            tool: written(candidate.tool, ConstantKey::DhnFromTip),
+            ..candidate
+        })
+    }
+
     /// Name of a moving joint of the chain.
     pub(super) fn moving_joint(&self, joint: usize) -> String {
         let name = |&index| self.description.robot.joint(index).name.clone();

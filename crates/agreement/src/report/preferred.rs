@@ -9,7 +9,7 @@ use crate::diagnosis::{
     Criterion, DhEntry, Explanation, FaultPlace, ModelPair, ModelParameter, RowConstants,
 };
 
-/// A value that is written elsewhere, or a rounded one, may leave this many times what the fitted one leaves. No unit; kind:
+/// A value that is written elsewhere, or a rounded one, may have this many times the residual of the fitted one. No unit; kind:
 /// choice, since a fit also takes away some of the rounding of the other values.
 const AS_GOOD: f64 = 3.0;
 
@@ -61,8 +61,8 @@ pub(super) fn with_known_values(
     preferred
 }
 
-/// The residual up to which another value is as good as a fitted one: what remains is the rounding of the other values, of
-/// which a value that is right leaves as much. An exact fit leaves nothing, so every digit of it counts.
+/// The residual up to which another value is as good as a fitted one: what remains is the rounding of the other values,
+/// which is there with a value that is right as well. An exact fit has no residual, so every digit of it counts.
 fn as_good_as(corrected: &ModelPair, criterion: &Criterion) -> Tolerance {
     let PoseError { position_m, orientation_rad } = corrected.residual(criterion);
     Tolerance {

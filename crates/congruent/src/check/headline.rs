@@ -15,7 +15,7 @@ use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDiffere
 use congruent_input::display::{counted, length_and_angle, listed};
 use congruent_kinematics::PoseError;
 
-use super::robot_check::RobotCheck;
+use super::{declared::DeclaredSource, robot_check::RobotCheck};
 
 /// The answer of a check in a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -91,11 +91,23 @@ impl RobotCheck {
         let has_dynamics =
             self.dynamics_of_descriptions().any(|of| of.verdict != DynamicsVerdict::NotCompared);
         match (has_geometry, has_dynamics) {
+            (true, true) if self.is_stated_once("mass") || self.is_stated_once("centre of mass") => {
+                "SAME ROBOT, MASSES COMPARED IN PART"
+            }
+            (true, true) if self.is_stated_once("inertia") => "SAME ROBOT, INERTIA NOT COMPARED",
             (true, true) => "SAME ROBOT",
             (true, false) => "SAME GEOMETRY, DYNAMICS NOT COMPARED",
             (false, true) => "SAME DYNAMICS, GEOMETRY NOT COMPARED",
             (false, false) => "NO SECOND DESCRIPTION",
         }
+    }
+}
+
+impl RobotCheck {
+    /// Whether the robot file, the only second source of dynamics, has no entry of this kind for some of the joints.
+    fn is_stated_once(&self, parameter: &str) -> bool {
+        let lacks = |of: &DeclaredSource| of.not_declared.iter().any(|it| it.starts_with(parameter));
+        self.against.is_none() && self.declared_dynamics.as_ref().is_some_and(lacks)
     }
 }
 
@@ -200,10 +212,9 @@ fn cause(diagnosis: &ReportedDiagnosis) -> String {
     let faults = cause.faults();
     let Some(first) = faults.first() else { return unknown() };
     let place = place(first.file.as_deref(), first.line);
-    let more = faults.len() - 1;
-    let rest = if more > 0 { format!(", and {more} more") } else { String::new() };
-    let label = match more {
-        0 => "Cause".to_owned(),
+    let rest = and_more(faults.len() - 1);
+    let label = match faults.len() {
+        1 => "Cause".to_owned(),
         _ => format!("{} causes", faults.len()),
     };
     format!("{label}: {}{place}{rest}{}", first.message, unexplained(cause))
@@ -244,17 +255,19 @@ fn cause_of_torques(report: &DynamicsReport) -> String {
             (first.sentence(), several.iter().find_map(|parameter: &ParameterDifference| parameter.line))
         }
     };
-    sentence + &place(first.file.as_deref(), line)
+    sentence + &place(first.file.as_deref(), line) + &and_more(report.explanations.len() - 1)
 }
 
 fn limits(differences: &[LimitDifference]) -> String {
     let mut decide = differences.iter().filter(|difference| difference.decides);
     let Some(first) = decide.next() else { return String::new() };
-    let rest = match decide.count() {
-        0 => String::new(),
-        more => format!(", and {more} more"),
-    };
+    let rest = and_more(decide.count());
     format!(": {}{}{rest}", first.sentence(), place(first.file.as_deref(), first.line))
+}
+
+/// How many others there are beside the one that is named.
+fn and_more(others: usize) -> String {
+    if others > 0 { format!(", and {others} more") } else { String::new() }
 }
 
 /// ` (robot.toml:8)`.

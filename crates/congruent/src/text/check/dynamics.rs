@@ -58,7 +58,8 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         .for_each(|report| compared(text, report, robot));
     let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
     if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
-        let _ = writeln!(text, "  not compared: no [[inertial]] entry has {}", left_out.join("; "));
+        let _ =
+            writeln!(text, "  not compared, since the robot file does not state it: {}", left_out.join("; "));
     }
 }
 
