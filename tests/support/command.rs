@@ -81,7 +81,8 @@ pub(crate) fn allowing<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
 #[cfg(target_os = "linux")]
 pub(crate) fn with_memory<S: AsRef<OsStr>>(most_kib: u32, arguments: &[S]) -> Command {
     let command = allowing(arguments);
-    let limit = format!("ulimit -v {most_kib}; exec \"$0\" \"$@\"");
+    // One arena: the allocator reserves 64 MiB of addresses for each further thread that allocates at the same time.
+    let limit = format!("ulimit -v {most_kib}; MALLOC_ARENA_MAX=1 exec \"$0\" \"$@\"");
     let mut shell = Command::new("/bin/sh");
     shell.args(["-c", &limit]).arg(command.get_program()).args(command.get_args()).current_dir(workspace());
     shell
