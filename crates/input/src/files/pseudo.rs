@@ -32,8 +32,8 @@ fn is_on_its_device(_: &Metadata, _: &Path) -> bool {
     false
 }
 
-#[cfg(test)]
 #[cfg(target_os = "linux")]
+#[cfg(test)]
 mod tests {
     use std::os::fd::AsRawFd;
 
