@@ -194,8 +194,13 @@ fn leave_out(content: &mut ScenarioContent, results: &[CheckResult]) {
 
 fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
     let message = format!("the model and the twin of \"{}\" are not the same robot: {why}", description.name);
-    Diagnostic::error(codes::new::AGREEMENT, message)
-        .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
+    let help = if description.tolerance_is_declared {
+        "`congruent check` says why; a scenario can only pass for a robot that agrees"
+    } else {
+        "`congruent check` says why. If it answers SAME GEOMETRY within the digits written, declare as [tolerance] of the robot file what it says that \
+         the digits allow: a run is judged by a tolerance"
+    };
+    Diagnostic::error(codes::new::AGREEMENT, message).with_help(help)
 }
 
 /// The scenario without its controller, and its motion.

@@ -75,7 +75,8 @@ pub struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "WrittenTransform")]
     pub(crate) tcp: Option<Spanned<WrittenTransform>>,
-    /// How far model and twin may differ; 1e-9 m and 1e-9 rad by default.
+    /// How far model and twin may differ. If it is left out, a table is the same within the digits that are written; everything else within
+    /// 1e-9 m and 1e-9 rad.
     #[serde(default)]
     #[schemars(with = "WrittenTolerance")]
     pub(crate) tolerance: Option<WrittenTolerance>,

@@ -218,7 +218,10 @@ mod tests {
     fn what_values_near_their_bounds_allow_is_found() {
         let (rows, columns) = (40, 60);
         for seed in 0..30_u32 {
-            let number = |at: usize| libm::sin(f64::from(seed * 7919) + 1.7 * at as f64 * at as f64);
+            let number = |at: usize| {
+                let at = f64::from(u32::try_from(at).expect("it is small"));
+                libm::sin(f64::from(seed * 7919) + 1.7 * at * at)
+            };
             let size = |column: usize| [1.0, 0.1, 1e-4][column % 3];
             // Of rank 30, as six numbers of a twist have five degrees of freedom.
             let left = DMatrix::from_fn(rows, 30, |row, inner| number(row * 30 + inner));
