@@ -153,6 +153,12 @@ impl Diagnosis {
     }
 }
 
+/// Fits that reach the tolerance, and those that do not.
+struct JudgedFits {
+    accepted: Vec<HypothesisFit>,
+    others: Vec<HypothesisFit>,
+}
+
 struct ExplanationSearch<'a> {
     context: &'a FitContext<'a>,
     criterion: &'a Criterion,
@@ -161,29 +167,33 @@ struct ExplanationSearch<'a> {
 impl ExplanationSearch<'_> {
     /// Fits that reach the tolerance, the best first, and the best of those that do not.
     fn run(&self) -> (Vec<HypothesisFit>, Vec<HypothesisFit>) {
-        let singles = self.singles();
         // From simple to complex, and only as far as needed: single faults are some three hundred fits, pairs tens of
         // thousands, and with more faults the answer becomes less certain.
-        let explained = self.explaining(&singles);
-        if !explained.is_empty() {
-            return (explained, self.next_best(&singles));
+        let JudgedFits { accepted, others: singles } = self.judged(self.singles());
+        if !accepted.is_empty() {
+            return (self.explaining(&accepted), self.next_best(&singles));
         }
-        let flips = self.flips();
+        let pairs = self.pairs(&singles);
+        let flips = self.judged(self.flips());
         // Together, so that two flips and three compete by rank and not by which was tried first.
-        let mut pairs = [self.pairs(&singles), flips.clone()].concat();
-        let explained = self.explaining(&pairs);
-        if !explained.is_empty() {
-            return (explained, self.next_best(&singles));
+        let accepted = [pairs.accepted, flips.accepted].concat();
+        if !accepted.is_empty() {
+            return (self.explaining(&accepted), self.next_best(&singles));
         }
-        let gross = self.gross(&[&singles[..], &flips].concat());
+        let gross = self.gross(&[&singles[..], &flips.others].concat());
         let explained = self.staged(&gross);
         // One fault takes most of the difference away, but nothing explains the rest: the first step is still worth
         // naming.
         if explained.is_empty() && !gross.is_empty() {
             return (gross, Vec::new());
         }
-        pairs.extend(singles);
-        (explained, self.next_best(&pairs))
+        (explained, self.next_best(&[pairs.others, flips.others, singles].concat()))
+    }
+
+    /// The fits by whether they reach the tolerance, which takes far longer than the fits: each is judged once.
+    fn judged(&self, fits: Vec<HypothesisFit>) -> JudgedFits {
+        let (accepted, others) = fits.into_iter().partition(|fit| self.accepts(fit));
+        JudgedFits { accepted, others }
     }
 
     /// Every hypothesis alone, without edits that have no effect.
@@ -202,12 +212,12 @@ impl ExplanationSearch<'_> {
         evaluation_point.difference(&models.candidate, &models.candidate.walk(&evaluation_point.q), &state)
     }
 
-    fn explaining(&self, fits: &[HypothesisFit]) -> Vec<HypothesisFit> {
+    /// The accepted fits, the best first, each fault once.
+    fn explaining(&self, accepted: &[HypothesisFit]) -> Vec<HypothesisFit> {
         // Without what rounding alone has moved: a whole transform that also absorbs the rounding of the other values is no
         // better evidence than one value.
-        let accepted = fits.iter().filter(|fit| self.accepts(fit));
         let mut accepted: Vec<HypothesisFit> =
-            accepted.map(|fit| self.context.without_rounding(fit, self.criterion)).collect();
+            accepted.iter().map(|fit| self.context.without_rounding(fit, self.criterion)).collect();
         // If the correction of something makes the files agree far better than their digits say, nothing is left to be
         // explained by the digits.
         let is_beyond = |fit: &HypothesisFit| {
@@ -239,10 +249,9 @@ impl ExplanationSearch<'_> {
         hypotheses.into_iter().map(fault).collect()
     }
 
-    /// The fits with the smallest norms that do not reach the tolerance, each fault once.
-    fn next_best(&self, fits: &[HypothesisFit]) -> Vec<HypothesisFit> {
-        let is_other = |fit: &&HypothesisFit| fit.norm.is_finite() && !self.accepts(fit);
-        let mut others: Vec<&HypothesisFit> = fits.iter().filter(is_other).collect();
+    /// The fits with the smallest norms of those that do not reach the tolerance, each fault once.
+    fn next_best(&self, others: &[HypothesisFit]) -> Vec<HypothesisFit> {
+        let mut others: Vec<&HypothesisFit> = others.iter().filter(|fit| fit.norm.is_finite()).collect();
         others.sort_by(|a, b| a.norm.total_cmp(&b.norm));
         others.into_iter().filter(self.distinct_faults()).take(MAX_NEXT_BEST).cloned().collect()
     }

@@ -2,7 +2,7 @@
 
 use crate::diagnosis::{fit::hypothesis_fit::HypothesisFit, thresholds::most_in_pairs};
 
-use super::{ExplanationSearch, is_same};
+use super::{ExplanationSearch, JudgedFits, is_same};
 
 impl ExplanationSearch<'_> {
     /// The hypotheses to try in pairs: those with the smallest norms alone; of edits with the same effect
@@ -35,20 +35,21 @@ impl ExplanationSearch<'_> {
         best
     }
 
-    /// Two hypotheses together, for all candidates: the pairs that reach the tolerance, then the next best.
-    pub(super) fn pairs(&self, singles: &[HypothesisFit]) -> Vec<HypothesisFit> {
+    /// Two hypotheses together, for all candidates: the pairs that reach the tolerance, and the best of the others.
+    pub(super) fn pairs(&self, singles: &[HypothesisFit]) -> JudgedFits {
         let best = self.pair_candidates(singles);
         let (mut accepted, mut others) = (Vec::new(), Vec::new());
         for (at, second) in best.iter().enumerate() {
             let pairs = best[..at].iter().flat_map(|first| self.pair_in_both_orders(first, second));
-            let (reaching, beyond): (Vec<_>, Vec<_>) = pairs.partition(|pair| self.accepts(pair));
-            accepted.extend(reaching);
-            others.extend(beyond);
+            let judged = self.judged(pairs.collect());
+            accepted.extend(judged.accepted);
+            others.extend(judged.others);
             // All of them would be gigabytes for a long chain.
             others = self.next_best(&others);
         }
-        let equivalent = self.equivalent_pairs(singles, &accepted);
-        [accepted, equivalent, others].concat()
+        let equivalent = self.judged(self.equivalent_pairs(singles, &accepted));
+        accepted.extend(equivalent.accepted);
+        JudgedFits { accepted, others: [equivalent.others, others].concat() }
     }
 
     /// The fit of two hypotheses together, in both orders if that makes a difference; none if they fit the same

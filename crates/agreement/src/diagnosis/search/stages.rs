@@ -40,7 +40,8 @@ impl ExplanationSearch<'_> {
             },
             ..self.criterion.clone()
         };
-        ExplanationSearch { context: self.context, criterion: &loose }.explaining(&gross)
+        let search = ExplanationSearch { context: self.context, criterion: &loose };
+        search.explaining(&search.judged(gross).accepted)
     }
 
     /// Each gross cause, and none, together with further wrong values; of those that reach the tolerance the ones
