@@ -24,7 +24,7 @@
 
 /// Parameters, invariants and models that differ by less are the same. Unit: m, rad or none; kind: rounding
 /// of a fit or of an identified chain. Fits end below 1e-11, and the smallest injected fault is 1e-4.
-pub(super) const SAME_VALUE: f64 = 1e-9;
+pub(crate) const SAME_VALUE: f64 = 1e-9;
 
 /// Fits to a file that is itself rounded end within this part of their residual. No unit; kind: solver stop.
 pub(super) const SAME_PART_OF_RESIDUAL: f64 = 1e-3;

@@ -24,29 +24,36 @@ pub(super) fn reported_diagnosis(
     pair: SourcePair,
     models: &ModelPair,
     criterion: &Criterion,
-    diagnosis: Diagnosis,
+    mut diagnosis: Diagnosis,
     names: &ModelNames<'_>,
 ) -> ReportedDiagnosis {
     let described = |explanation: &Explanation| describe(explanation, models, criterion, names);
-    let (diagnosis, others) = with_fix_that_agrees(diagnosis, models, criterion, names);
-    let causes: Vec<DescribedCause> = diagnosis.explanations.iter().map(described).collect();
-    let others: Vec<(DescribedCause, Equivalence)> =
-        others.into_iter().zip(diagnosis.indistinguishable.iter().map(|(_, why)| *why)).collect();
+    let agrees = |file: &CorrectedFile| is_same_as_written(file, models, criterion, names);
+    let mut causes: Vec<DescribedCause> = diagnosis.explanations.iter().map(described).collect();
+    let mut others: Vec<DescribedCause> =
+        diagnosis.indistinguishable.iter().map(|(other, _)| described(other)).collect();
+    // Named is a cause whose correction, as it is written, makes the models the same, if there is one.
+    if diagnosis.explanations.first().is_some_and(|first| first.is_complete)
+        && let Some(better) = better_as_written(&causes[0], &others, agrees)
+    {
+        std::mem::swap(&mut causes[0], &mut others[better]);
+        others[..=better].rotate_right(1);
+        diagnosis = diagnosis.preferring(better, models, criterion);
+    }
     let findings = causes.first().map(|first| first.findings.clone()).unwrap_or_default();
-    // The named cause, or if the file cannot say its correction one that cannot be distinguished from it, rather one that
-    // the next check will agree with.
-    let named = || causes.iter().take(1).chain(others.iter().map(|(other, _)| other));
-    let mut files = named().filter_map(|cause| cause.corrected.as_ref());
-    let agrees = |file: &&CorrectedFile| is_same_as_written(file, models, criterion, names) == Some(true);
-    let is_held = causes.first().is_some_and(|first| first.corrected.is_some());
-    let agreeing = if is_held { None } else { files.clone().find(agrees) };
-    let corrected = agreeing.or_else(|| files.next()).cloned();
+    // The file without the named cause, or if the file cannot say its correction without one that cannot be distinguished
+    // from it, rather one that the next check will agree with.
+    let corrected = causes.first().and_then(|first| first.corrected.clone()).or_else(|| {
+        let mut files = others.iter().filter_map(|other| other.corrected.as_ref());
+        files.clone().find(|file| agrees(file) == Some(true)).or_else(|| files.next()).cloned()
+    });
     // Beside a cause with a residual above the tolerance, or if the digits explain a difference that is not tolerated.
     let rounded = || Explanation::without_faults(models, criterion);
     let unexplained = match diagnosis.explanations.first() {
         Some(first) => (!first.is_complete).then(|| first.clone()),
         None => (!models.is_within_tolerance(criterion)).then(rounded),
     };
+    let equivalences = diagnosis.indistinguishable.iter().map(|(_, equivalence)| *equivalence);
     let alternative = |(other, equivalence): (DescribedCause, Equivalence)| ReportedAlternative {
         cause: other.cause,
         equivalence,
@@ -56,7 +63,7 @@ pub(super) fn reported_diagnosis(
         name: pair,
         title: pair.title(),
         causes: causes.into_iter().map(|described| described.cause).collect(),
-        indistinguishable: others.into_iter().map(alternative).collect(),
+        indistinguishable: others.into_iter().zip(equivalences).map(alternative).collect(),
         invariants: diagnosis.differences.iter().map(|each| difference(each, names)).collect(),
         table: unexplained.and_then(|first| table_comparison(models, &first, criterion, names)),
         corrected,
@@ -64,34 +71,17 @@ pub(super) fn reported_diagnosis(
     }
 }
 
-/// The diagnosis with a cause first whose correction, as it is written, makes the models the same, if one of those that cannot
-/// be distinguished does and the named one does not; and the causes that are not named, described.
-fn with_fix_that_agrees(
-    diagnosis: Diagnosis,
-    models: &ModelPair,
-    criterion: &Criterion,
-    names: &ModelNames<'_>,
-) -> (Diagnosis, Vec<DescribedCause>) {
-    let described = |explanation: &Explanation| describe(explanation, models, criterion, names);
-    let agrees = |cause: &DescribedCause| {
-        cause.corrected.as_ref().and_then(|file| is_same_as_written(file, models, criterion, names))
-    };
-    let mut others: Vec<DescribedCause> =
-        diagnosis.indistinguishable.iter().map(|(other, _)| described(other)).collect();
-    let Some(first) = diagnosis.explanations.first().filter(|first| first.is_complete && !others.is_empty())
-    else {
-        return (diagnosis, others);
-    };
-    let first = described(first);
-    if agrees(&first) != Some(false) {
-        return (diagnosis, others);
+/// Which of the causes that cannot be distinguished from the named one agrees as it is written, if that one does not.
+fn better_as_written(
+    named: &DescribedCause,
+    others: &[DescribedCause],
+    agrees: impl Fn(&CorrectedFile) -> Option<bool>,
+) -> Option<usize> {
+    let agrees = |cause: &DescribedCause| cause.corrected.as_ref().and_then(&agrees);
+    if others.is_empty() || agrees(named) != Some(false) {
+        return None;
     }
-    let Some(better) = others.iter().position(|other| agrees(other) == Some(true)) else {
-        return (diagnosis, others);
-    };
-    others.remove(better);
-    others.insert(0, first);
-    (diagnosis.preferring(better, models, criterion), others)
+    others.iter().position(|other| agrees(other) == Some(true))
 }
 
 /// A cause with its findings, and the robot file without it, if the file can say the correction.

@@ -7,14 +7,12 @@ use congruent_kinematics::PoseError;
 
 use crate::diagnosis::{
     Criterion, DhEntry, Explanation, FaultPlace, ModelPair, ModelParameter, RowConstants,
+    thresholds::SAME_VALUE,
 };
 
 /// A value that is written elsewhere, or a rounded one, may have this many times the residual of the fitted one. No unit; kind:
 /// choice, since a fit also takes away some of the rounding of the other values.
 const AS_GOOD: f64 = 3.0;
-
-/// A residual up to which models count as the same. Unit: m or rad; kind: rounding of files from programs.
-const SAME_VALUE: f64 = 1e-9;
 
 /// The part of a value by which rounding may change it. No unit; kind: choice: of two significant digits, half of the last.
 const SIGNIFICANT: f64 = 0.01;

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::{
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
-    poses_of_other::PosesOfOther,
+    poses_of_other::{POSITIONS, PosesOfOther},
 };
 use crate::codes;
 
@@ -167,9 +167,6 @@ fn moved_alike(
         |link: &&usize| !PoseError::between(&Pose::identity(), &at_zero[**link]).is_within(tolerance);
     Ok(moving.iter().filter(elsewhere).map(|&link| robot.links()[link].name.clone()).collect())
 }
-
-/// Positions at which links are found to move alike. Kind: choice.
-const POSITIONS: usize = 50;
 
 /// The first moving joint that one of the two descriptions lacks, or that turns in one and slides in the other.
 fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {

@@ -101,9 +101,7 @@ impl RobotCheck {
             (false, false) => "NO SECOND DESCRIPTION",
         }
     }
-}
 
-impl RobotCheck {
     /// Whether the robot file, the only second source of dynamics, has no entry of this kind for some of the joints.
     fn is_stated_once(&self, parameter: &str) -> bool {
         let lacks = |of: &DeclaredSource| of.not_declared.iter().any(|it| it.starts_with(parameter));

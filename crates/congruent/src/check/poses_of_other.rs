@@ -4,7 +4,7 @@ use congruent_description::{Link, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree, sample_configurations};
 
 /// Random positions at which links are found to move alike. Kind: choice.
-const POSITIONS: usize = 50;
+pub(super) const POSITIONS: usize = 50;
 
 /// The poses of another description at the links of a robot; both have the same moving joints by name.
 pub(super) struct PosesOfOther {

@@ -117,26 +117,29 @@ fn changed_lines(change: &ChangedLines, text: &str) -> Markup {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::RangeInclusive;
+
     use super::*;
 
     const OLD: &str = "a = 1\nrow = { d_mm = 300, alpha_deg = 90 }\n";
 
     #[track_caller]
-    fn check(text: &str, lines: (usize, usize), expected: &str) {
-        let change = ChangedLines { from_line: lines.0, to_line: lines.1, text: text.to_owned() };
+    fn check(text: &str, lines: RangeInclusive<usize>, expected: &str) {
+        let (from_line, to_line) = lines.into_inner();
+        let change = ChangedLines { from_line, to_line, text: text.to_owned() };
         let shown = changed_lines(&change, OLD).into_string();
         assert!(shown.contains(expected), "{shown}");
     }
 
     #[test]
     fn what_is_new_in_a_line_is_emphasised() {
-        check("row = { d_mm = 310, alpha_deg = 90 }", (2, 2), "d_mm = 3<em>1</em>0, alpha");
-        check("row = { d_mm = 310, alpha_deg = 90 }", (2, 2), "write instead of line 2:");
+        check("row = { d_mm = 310, alpha_deg = 90 }", 2..=2, "d_mm = 3<em>1</em>0, alpha");
+        check("row = { d_mm = 310, alpha_deg = 90 }", 2..=2, "write instead of line 2:");
     }
 
     #[test]
     fn lines_that_are_added_are_below_the_line_that_stays() {
-        check("a = 1\nb = 2", (1, 1), "write below line 1:");
-        check("a = 1\nb = 2", (1, 1), "<ins><b>   2</b>  b = 2");
+        check("a = 1\nb = 2", 1..=1, "write below line 1:");
+        check("a = 1\nb = 2", 1..=1, "<ins><b>   2</b>  b = 2");
     }
 }
