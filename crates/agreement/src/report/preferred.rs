@@ -45,9 +45,10 @@ pub(super) fn with_known_values(
             near.into_iter().map(|value| if value == 0.0 { 0.0 } else { value.abs().copysign(fitted) });
         let values = known.chain(rounded_values(fitted, entry, criterion, within));
         let as_good = as_good_as(&preferred.corrected, criterion);
-        if let Some(better) =
-            values.map(with).find(|it| it.is_within(&as_good, criterion) && it.is_accepted(criterion))
-        {
+        // No fit has measured a converted value: what its digits allow is as good.
+        let is_converted = is_converted(explanation, row, entry);
+        let is_as_good = |it: &ModelPair| is_converted || it.is_within(&as_good, criterion);
+        if let Some(better) = values.map(with).find(|it| is_as_good(it) && it.is_accepted(criterion)) {
             preferred.corrected = better;
         }
     }
@@ -101,14 +102,21 @@ fn reach_m(models: &ModelPair, criterion: &Criterion) -> f64 {
 fn uncertain(explanation: &Explanation, models: &ModelPair) -> Vec<(usize, DhEntry)> {
     let rows = 0..models.candidate.rows.len();
     let all: Vec<(usize, DhEntry)> = rows.flat_map(|row| DhEntry::ALL.map(|entry| (row, entry))).collect();
-    let is_uncertain = |&(row, entry): &(usize, DhEntry)| {
-        explanation.faults.iter().any(|fault| match &fault.place {
-            FaultPlace::Entries(of, rows) if fault.cause.is_unit() => *of == entry && rows.contains(&row),
-            FaultPlace::Column(of) if fault.cause.is_unit() => of.contains(&entry),
-            _ => fault.free.contains(&ModelParameter::Row(row, entry)),
-        })
+    let is_fitted = |row, entry| {
+        explanation.faults.iter().any(|fault| fault.free.contains(&ModelParameter::Row(row, entry)))
     };
+    let is_uncertain =
+        |&(row, entry): &(usize, DhEntry)| is_fitted(row, entry) || is_converted(explanation, row, entry);
     all.into_iter().filter(is_uncertain).collect()
+}
+
+/// Whether the explanation converts a value from another unit.
+fn is_converted(explanation: &Explanation, row: usize, entry: DhEntry) -> bool {
+    explanation.faults.iter().filter(|fault| fault.cause.is_unit()).any(|fault| match &fault.place {
+        FaultPlace::Entries(of, rows) => *of == entry && rows.contains(&row),
+        FaultPlace::Column(of) => of.contains(&entry),
+        _ => false,
+    })
 }
 
 /// The values that a wrong entry may be meant to have: 0, lengths of the table and the URDF for a length, angles of the

@@ -9,7 +9,7 @@ use crate::diagnosis::{
     hypothesis::ModelPair,
     thresholds::{
         BARRIER_END, BARRIER_FACTOR, BARRIER_STEP, BARRIER_STEPS, BOX_DAMPING, BOX_PASSES, DIGITS_MARGIN,
-        ENOUGH,
+        ENOUGH, FIRST_ORDER_ERRORS, OUT_OF_REACH,
     },
 };
 
@@ -46,6 +46,11 @@ impl WrittenDigits {
         let mut rest = difference(&nearest, &point);
         let mut effects = self.effects_at(models, &parts, &point);
         let scale = effects.column_iter().map(|column| column.norm_squared()).fold(0.0, f64::max);
+        // Lengths and angles that are multiplied with each other: at most all of them with all.
+        let all: f64 = effects.column_iter().map(|column| column.norm()).sum();
+        if is_out_of_reach(&effects, &rest, &rest, all * all) {
+            return nearest;
+        }
         let mut damping = BOX_DAMPING.first;
         // Levenberg and Marquardt: what the files have exactly aligned is so no longer after a step, and gives values a
         // thousandth of a millionth of their effect in new directions, which an undamped step would follow far.
@@ -53,6 +58,12 @@ impl WrittenDigits {
             let next = bounded_step(&effects, &rest, &parts, damping * scale);
             let moved = self.shifted(models, &next);
             let moved_rest = difference(&moved, &point);
+            let to_first_order = &rest + &effects * (&next - &parts);
+            let second_order = FIRST_ORDER_ERRORS * (&moved_rest - &to_first_order).norm();
+            let of_typed = &rest - &effects * &parts;
+            if is_out_of_reach(&effects, &of_typed, &to_first_order, second_order) {
+                break;
+            }
             if moved_rest.norm() < rest.norm() {
                 (nearest, parts, rest) = (moved, next, moved_rest);
                 damping = (damping * BOX_DAMPING.after_success).max(BOX_DAMPING.least);
@@ -113,6 +124,21 @@ pub(in crate::diagnosis) fn most_norm(effects: &DMatrix<f64>) -> f64 {
 fn difference(models: &ModelPair, point: &EvaluationPoint) -> DVector<f64> {
     let state = models.reference.state(&point.q);
     point.unweighted(&models.candidate, &models.candidate.walk(&point.q), &state).into()
+}
+
+/// Whether no values within their bounds bring the difference that the typed ones leave to zero, whose effects have at most
+/// this error: along `direction` it is larger than what all of them together take away.
+///
+/// Source: the separating hyperplane of a point and a convex set, Boyd & Vandenberghe, *Convex Optimization* (2004), section
+/// 2.5. The remaining difference of the nearest values is such a direction, if there is any.
+fn is_out_of_reach(
+    effects: &DMatrix<f64>,
+    of_typed: &DVector<f64>,
+    direction: &DVector<f64>,
+    error: f64,
+) -> bool {
+    let taken_away = MOST * effects.tr_mul(direction).lp_norm(1);
+    direction.dot(of_typed) - taken_away > (error + OUT_OF_REACH) * direction.norm()
 }
 
 /// The `x` with `|x_i| <= 1` at which `|A (x - x0) + r|^2 + d |x - x0|^2` is smallest: that without bounds, if it is within

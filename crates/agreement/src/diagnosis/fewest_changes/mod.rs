@@ -247,7 +247,10 @@ impl ChangedTable {
         let by = same.change(entry, given, value)?;
         let degrees = 1.0_f64.to_radians();
         let factors = if entry.is_angle() { [-1.0, degrees, 1.0 / degrees] } else { [-1.0, 1e-3, 1e3] };
-        let is_likely = || factors.iter().any(|factor| same.is_same(entry, factor * given, value));
+        let is_likely = || {
+            let is_zero = same.is_same(entry, 0.0, value);
+            !is_zero && factors.iter().any(|factor| same.is_same(entry, factor * given, value))
+        };
         let cost = match given {
             0.0 => UNLIKELY,
             _ if is_likely() => LIKELY,

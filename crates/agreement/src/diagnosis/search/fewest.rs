@@ -155,6 +155,10 @@ impl ExplanationSearch<'_> {
         same: SameWithin,
     ) -> Option<usize> {
         let ModelParameter::Row(row, entry) = parameter else { return None };
+        // Anything small is almost zero in a smaller unit.
+        if changed.entry(row, entry).is_some_and(|value| same.is_same(entry, 0.0, value)) {
+            return None;
+        }
         let place = FaultPlace::Entries(entry, vec![row]);
         let gives_it = |hypothesis: &PoseHypothesis| {
             let mut models = self.context.models.clone();
