@@ -45,11 +45,11 @@ impl ExplanationSearch<'_> {
         for changes in 1..=MAX_CHANGES {
             // All that cost less than one change more.
             let most = (changes + 1) * CHANGE - 1;
-            for wanted in &searches {
-                let fits = self.with_changes(&edited, wanted, most);
-                if !fits.is_empty() {
-                    return fits;
-                }
+            // A mistake that is small for one may have been made up for by more changes: the others decide, too.
+            let fits: Vec<HypothesisFit> =
+                searches.iter().flat_map(|wanted| self.with_changes(&edited, wanted, most)).collect();
+            if !fits.is_empty() {
+                return fits;
             }
         }
         Vec::new()
