@@ -13,6 +13,7 @@ use super::{
     candidate::{CandidateModel, DeclaredTransform, DhEntry, ModelParameter},
     explanation::Criterion,
     fit::hypothesis_fit::{FitContext, HypothesisFit},
+    fitted_length::FittedLength,
     hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
     thresholds::{
         BELOW_TOLERANCE, CERTAIN, EVIDENT, FAR_BELOW_TOLERANCE, QUARTER_TURNS, REFUTED, ROUNDING_RESIDUAL,
@@ -34,6 +35,8 @@ pub(super) struct ExplanationRank {
     /// Fitted values that neither file has: of values along parallel axes, each of which makes up for the wrong one, that
     /// which is written elsewhere is the likelier one.
     unfamiliar: usize,
+    /// Fitted values that are no typing error of the one given: not one digit, two digits or the sign.
+    mistyped: usize,
     /// The causes, in the catalogue's order.
     causes: Vec<Cause>,
     /// The hypotheses, so that the order is the same on every machine.
@@ -59,6 +62,9 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
         .count();
     let in_place_of_base =
         hypotheses().filter(|hypothesis| is_zero_in_place_of_base(context, fit, hypothesis)).count();
+    let lengths = || {
+        hypotheses().filter_map(|hypothesis| FittedLength::of_hypothesis(context, fit, criterion, hypothesis))
+    };
     let choices: usize = hypotheses().map(|hypothesis| choices(context, fit, criterion, hypothesis)).sum();
     ExplanationRank {
         // One for each further fault: two faults without parameters must not win against one fault with one
@@ -73,9 +79,8 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
         unlikely: given_as_zero + in_place_of_base + unproven,
         // The reference counts as correct, so a fault in its file is named only if nothing simpler fits.
         in_reference: hypotheses().filter(|hypothesis| is_in_reference(hypothesis)).count(),
-        unfamiliar: hypotheses()
-            .filter(|hypothesis| is_unfamiliar(context, fit, criterion, hypothesis))
-            .count(),
+        unfamiliar: lengths().filter(|length| !length.is_written_elsewhere(context.models)).count(),
+        mistyped: lengths().filter(|length| !length.is_typing_error()).count(),
         causes,
         hypotheses: fit.hypotheses.clone(),
     }
@@ -237,7 +242,7 @@ fn is_given_as_zero(candidate: &CandidateModel, hypothesis: &PoseHypothesis) -> 
 }
 
 /// Whether an exchange of two values explains no more than one of the two changes: under a loose tolerance a wrong value can
-/// be exchanged with any other one that matters little.
+/// be exchanged with any other one that matters little, and one of the two may be fitted beside it.
 fn is_half_superfluous(
     context: &FitContext<'_>,
     fit: &HypothesisFit,
@@ -252,7 +257,14 @@ fn is_half_superfluous(
     let corrected = context.corrected(fit);
     let in_tolerances = |models: &ModelPair| criterion.in_tolerances(&models.residual(criterion));
     let whole = in_tolerances(&corrected);
+    let is_fitted = |row: usize| {
+        let mut free = fit.hypotheses.iter().flat_map(|&at| &context.hypotheses[at].free);
+        free.any(|parameter| *parameter == ModelParameter::Row(row, *entry))
+    };
     rows.iter().any(|&row| {
+        if is_fitted(row) {
+            return true;
+        }
         let Some(given) = context.models.candidate.entry(row, *entry) else { return false };
         let mut half = corrected.clone().into_owned();
         half.candidate.set_entry(row, *entry, given);
@@ -263,30 +275,6 @@ fn is_half_superfluous(
 
 /// What an exchange costs of which one half would do: more than a single value. Kind: choice.
 const HALF_SUPERFLUOUS: usize = 2;
-
-/// Whether a hypothesis fits one length of a row to a value that is written nowhere, up to the digits.
-fn is_unfamiliar(
-    context: &FitContext<'_>,
-    fit: &HypothesisFit,
-    criterion: &Criterion,
-    hypothesis: &PoseHypothesis,
-) -> bool {
-    let [ModelParameter::Row(row, entry)] = hypothesis.free[..] else { return false };
-    let Some(fitted) = context.corrected(fit).candidate.entry(row, entry).filter(|_| !entry.is_angle())
-    else {
-        return false;
-    };
-    let ModelPair { candidate, reference } = context.models;
-    let within = criterion.digits.coarsest_half_place(entry).max(SAME_VALUE);
-    let is_same = |written: f64| (written.abs() - fitted.abs()).abs() <= within;
-    let rows = 0..candidate.rows.len();
-    let mut of_table =
-        rows.flat_map(|row| [DhEntry::A, DhEntry::D].map(|entry| candidate.entry(row, entry))).flatten();
-    let mut origins = reference.joints.iter().filter(|joint| joint.is_written);
-    !is_same(0.0)
-        && !of_table.any(is_same)
-        && !origins.any(|joint| joint.parent_from_joint.translation.iter().any(|&written| is_same(written)))
-}
 
 /// Whether the declared base is missing and should be a rotation by quarter turns: data sheets give tables without
 /// it, so its zeros are no evidence against this fault.

@@ -18,11 +18,12 @@ use congruent_kinematics::{Pose, rotation_log};
 use super::{
     content::Fault,
     names::ModelNames,
-    typing_error::typing_error,
     values::{ReportedValue, isometry, value_literal},
     wrong_unit::WrongUnit,
 };
-use crate::diagnosis::{CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants};
+use crate::diagnosis::{
+    CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants, TypingError,
+};
 
 /// A fault for programs, its message for people, and its place.
 pub(super) struct FaultMessage {
@@ -378,4 +379,12 @@ pub(super) fn row_key(entry: DhEntry) -> RowKey {
         DhEntry::D => RowKey::D,
         DhEntry::Theta => RowKey::Theta,
     }
+}
+
+/// What a typed value has otherwise than the expected one, both as `key = value`; `None` if they differ in more, or if the
+/// keys have other units.
+fn typing_error(found: &str, expected: &str) -> Option<&'static str> {
+    let ((key, found), (other_key, expected)) = (found.split_once(" = ")?, expected.split_once(" = ")?);
+    let error = TypingError::between(found, expected).filter(|_| key == other_key)?;
+    error.in_words()
 }

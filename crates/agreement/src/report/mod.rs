@@ -16,7 +16,6 @@ mod signs;
 mod statement;
 mod table;
 mod typed_values;
-mod typing_error;
 mod units;
 mod values;
 mod wrong_unit;

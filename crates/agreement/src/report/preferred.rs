@@ -45,9 +45,16 @@ pub(super) fn with_known_values(
             near.into_iter().map(|value| if value == 0.0 { 0.0 } else { value.abs().copysign(fitted) });
         let values = known.chain(rounded_values(fitted, entry, criterion, within));
         let as_good = as_good_as(&preferred.corrected, criterion);
-        // No fit has measured a converted value: what its digits allow is as good.
+        // No fit has measured a converted value, and one of an angle follows the rounding of a quarter turn in the other
+        // file: what the digits allow is as good.
         let is_converted = is_converted(explanation, row, entry);
-        let is_as_good = |it: &ModelPair| is_converted || it.is_within(&as_good, criterion);
+        let is_quarter_turn = |it: &ModelPair| {
+            let half_place = criterion.digits.coarsest_half_place(DhEntry::Alpha);
+            let value = it.candidate.entry(row, entry).filter(|_| entry.is_angle());
+            value.is_some_and(|value| is_quarter_turn(value) && (value - fitted).abs() <= half_place)
+        };
+        let is_as_good =
+            |it: &ModelPair| is_converted || is_quarter_turn(it) || it.is_within(&as_good, criterion);
         if let Some(better) = values.map(with).find(|it| is_as_good(it) && it.is_accepted(criterion)) {
             preferred.corrected = better;
         }
@@ -58,6 +65,11 @@ pub(super) fn with_known_values(
         *last = preferred.residual;
     }
     preferred
+}
+
+fn is_quarter_turn(angle_rad: f64) -> bool {
+    let quarters = angle_rad / FRAC_PI_2;
+    (quarters - quarters.round()).abs() < SAME_VALUE
 }
 
 /// The residual up to which another value is as good as a fitted one: what remains is the rounding of the other values,

@@ -1,10 +1,11 @@
 //! The search for the simplest explanation: one hypothesis, then two (`pairs.rs`) or any set of flipped joints
-//! (`flips.rs`), then a gross cause together with wrong single values (`stages.rs`).
+//! (`flips.rs`), also where only a whole transform explains everything (`transforms.rs`), then a gross cause together with wrong single values (`stages.rs`).
 
 mod fewest;
 mod flips;
 mod pairs;
 mod stages;
+mod transforms;
 
 use congruent_kinematics::PoseError;
 
@@ -169,8 +170,9 @@ impl ExplanationSearch<'_> {
     fn run(&self) -> (Vec<HypothesisFit>, Vec<HypothesisFit>) {
         // From simple to complex, and only as far as needed: single faults are some three hundred fits, pairs tens of
         // thousands, and with more faults the answer becomes less certain.
-        let JudgedFits { accepted, others: singles } = self.judged(self.singles());
+        let JudgedFits { mut accepted, others: singles } = self.judged(self.singles());
         if !accepted.is_empty() {
+            accepted.extend(self.in_place_of_transforms(&accepted, &singles));
             return (self.explaining(&accepted), self.next_best(&singles));
         }
         let pairs = self.pairs(&singles);
