@@ -226,6 +226,20 @@ impl CandidateModel {
         self.walk(q).base_from_tip
     }
 
+    /// Takes a parameter from another candidate: of a declared transform the whole.
+    pub(super) fn copy(&mut self, parameter: ModelParameter, from: &Self) {
+        match parameter {
+            ModelParameter::Row(row, entry) => {
+                if let Some(value) = from.entry(row, entry) {
+                    self.set_entry(row, entry, value);
+                }
+            }
+            ModelParameter::Rate(row) => self.rows[row].rate = from.rows[row].rate,
+            ModelParameter::Base(_) => self.base = from.base,
+            ModelParameter::Tool(_) => self.tool = from.tool,
+        }
+    }
+
     /// Adds `by` to a parameter; nothing happens if the candidate does not have it.
     pub(super) fn shift(&mut self, parameter: ModelParameter, by: f64) {
         match parameter {

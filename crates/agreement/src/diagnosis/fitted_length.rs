@@ -49,7 +49,12 @@ impl FittedLength {
 
     /// Whether another value was typed for one that is likelier: a zero is rarely a typing error.
     pub(super) fn is_likely(&self, models: &ModelPair) -> bool {
-        self.given_m != 0.0 && (self.is_typing_error() || self.is_written_elsewhere(models))
+        self.given_m != 0.0 && self.is_explained(models)
+    }
+
+    /// Whether the fitted value is written elsewhere, or the given one is a typing error.
+    pub(super) fn is_explained(&self, models: &ModelPair) -> bool {
+        self.is_typing_error() || self.is_written_elsewhere(models)
     }
 
     /// Whether the fitted value becomes the given one by a mistake that people make when they type.

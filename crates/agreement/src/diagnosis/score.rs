@@ -66,10 +66,16 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
         hypotheses().filter_map(|hypothesis| FittedLength::of_hypothesis(context, fit, criterion, hypothesis))
     };
     let choices: usize = hypotheses().map(|hypothesis| choices(context, fit, criterion, hypothesis)).sum();
+    // Beside other faults, a value that nothing speaks for may only make up for what they leave.
+    let unexplained = if fit.hypotheses.len() > 1 {
+        lengths().filter(|length| !length.is_explained(context.models)).count()
+    } else {
+        0
+    };
     ExplanationRank {
         // One for each further fault: two faults without parameters must not win against one fault with one
         // parameter.
-        cost: choices + unproven + fit.hypotheses.len() - 1,
+        cost: choices + unproven + unexplained + fit.hypotheses.len() - 1,
         // Classes, not the residual itself: within a class it differs by rounding, which must not decide.
         residual_class: if in_tolerances <= FAR_BELOW_TOLERANCE {
             0

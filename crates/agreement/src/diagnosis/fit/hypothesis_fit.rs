@@ -211,6 +211,20 @@ impl<'a> FitContext<'a> {
         }
     }
 
+    /// The models with some of the faults of a fit corrected: those at these places of its hypotheses, with the values of the
+    /// whole fit.
+    pub(in crate::diagnosis) fn corrected_in_part(&self, fit: &HypothesisFit, chosen: &[usize]) -> ModelPair {
+        let corrected = self.corrected(fit);
+        // In the order of the fit: one edit may need the other before it.
+        let hypotheses: Vec<usize> =
+            (0..fit.hypotheses.len()).filter(|at| chosen.contains(at)).map(|at| fit.hypotheses[at]).collect();
+        let mut models = self.edited(&hypotheses);
+        for &parameter in hypotheses.iter().flat_map(|&at| &self.hypotheses[at].free) {
+            models.candidate.copy(parameter, &corrected.candidate);
+        }
+        models
+    }
+
     /// The models after the edits of some hypotheses, before any fit.
     fn edited(&self, hypotheses: &[usize]) -> ModelPair {
         let mut models = self.models.clone();

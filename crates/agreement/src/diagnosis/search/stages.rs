@@ -197,30 +197,28 @@ impl ExplanationSearch<'_> {
         }
     }
 
-    /// The hypotheses of a fit in the order in which they are corrected, that with the largest effect first,
-    /// and the residual after each.
+    /// The hypotheses of a fit in the order in which they are corrected, each time that which leaves the least, and the
+    /// residual after each: with the values to write, as a person would paste them.
     pub(super) fn in_turn(&self, fit: &HypothesisFit) -> (Vec<usize>, Vec<PoseError>) {
-        let mut order = fit.hypotheses.clone();
-        let mut alone: Vec<(f64, usize)> =
-            order.iter().map(|&hypothesis| (self.context.single(hypothesis).norm, hypothesis)).collect();
-        // What each takes away alone is what a person sees who corrects it first.
-        alone.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        order = alone.into_iter().map(|(_, hypothesis)| hypothesis).collect();
         let mut residuals: Vec<PoseError> = Vec::new();
-        let mut changes: Vec<f64> = Vec::new();
-        // Corrected one after the other, each fit starting from the values before it, as a person would change the
-        // file.
-        for count in 1..order.len() {
-            let start = [changes, vec![0.0; self.free(order[count - 1])]].concat();
-            let partial = if count == 1 {
-                self.context.single(order[0])
-            } else {
-                self.context.fit(order[..count].to_vec(), &[start])
+        let mut chosen: Vec<usize> = Vec::new();
+        let mut left: Vec<usize> = (0..fit.hypotheses.len()).collect();
+        while left.len() > 1 {
+            let after = |at: usize| {
+                let corrected = self.context.corrected_in_part(fit, &[&chosen[..], &[at]].concat());
+                corrected.residual(self.criterion)
             };
-            residuals.push(self.context.corrected(&partial).residual(self.criterion));
-            changes = partial.changes;
+            let next = left.iter().map(|&at| (at, after(at)));
+            let least = next.min_by(|(_, one), (_, other)| {
+                self.criterion.in_tolerances(one).total_cmp(&self.criterion.in_tolerances(other))
+            });
+            let Some((at, residual)) = least else { break };
+            chosen.push(at);
+            residuals.push(residual);
+            left.retain(|&other| other != at);
         }
+        chosen.extend(left);
         residuals.push(self.context.corrected(fit).residual(self.criterion));
-        (order, residuals)
+        (chosen.into_iter().map(|at| fit.hypotheses[at]).collect(), residuals)
     }
 }
