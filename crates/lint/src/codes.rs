@@ -50,6 +50,8 @@ congruent_input::codes! {
             "A material has no colour and no texture anywhere in the file, so the viewer chooses the colour of the shape. Give it a colour, or remove the reference. No result depends on it.";
         UNKNOWN_REFERENCE = "CGR-URDF-033", "urdf::unknown_reference",
             "A <transmission>, <ros2_control> or <gazebo> element names a joint or a link that the robot does not have. Often it was renamed.";
+        COARSE_TURN = "CGR-URDF-034", "urdf::coarse_turn",
+            "A roll, pitch or yaw has the first digits of a quarter turn and no more: 1.57 is off by 0.8 mrad, which moves what is 1 m away by 0.8 mm. The digits then allow such a difference everywhere, so that a real one of this size is not seen. Write all digits.\n    <origin xyz=\"0 0 0.1\" rpy=\"1.5707963267948966 0 0\"/>";
     }
     units {
         ORIGIN = "CGR-UNIT-004", "units::origin",

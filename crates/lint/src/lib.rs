@@ -1,6 +1,7 @@
 //! What is suspicious in files that can be read, as `lint` reports it; findings that a robot file ignores; and corrections
 //! that do not change the meaning of a file. What a reader refuses is reported by the reader; crate `congruent` joins both.
 
+mod coarse_turns;
 pub mod codes;
 mod encoding;
 mod fix;
@@ -16,6 +17,7 @@ mod srdf_elements;
 mod srdf_groups;
 mod unit_mistakes;
 
+pub use coarse_turns::coarse_quarter_turns;
 pub use encoding::declared_encoding;
 pub use fix::{SafeFix, safe_fixes};
 pub use fix_misspelt_keys::safe_robot_file_fixes;

@@ -17,8 +17,9 @@ use congruent_input::{
     Capability, Diagnostic, FileAccess, Finding, Findings, Severity, SourceFile, TextKind, read_text,
 };
 use congruent_lint::{
-    FileKind, FileToLint, Ignores, SafeFix, declared_encoding, examine_srdf, safe_fixes,
-    safe_robot_file_fixes, still_mimics, undefined_materials, unit_mistakes, unknown_references, zero_limits,
+    FileKind, FileToLint, Ignores, SafeFix, coarse_quarter_turns, declared_encoding, examine_srdf,
+    safe_fixes, safe_robot_file_fixes, still_mimics, undefined_materials, unit_mistakes, unknown_references,
+    zero_limits,
 };
 use congruent_twin::RunSetup;
 
@@ -180,6 +181,7 @@ fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
     found.extend(unit_mistakes);
     found.extend(zero_limits(description));
     found.extend(still_mimics(description));
+    found.extend(coarse_quarter_turns(description));
     found.extend(undefined_materials(description));
     found.extend(unknown_references(description));
     found.extend(description.places.urdf.as_ref().and_then(|places| declared_encoding(places.source())));
