@@ -113,7 +113,10 @@ fn on_a_terminal(arguments: &str) -> Option<String> {
     let mut script = Command::new("script");
     script.args(["-q", "-e", "-c", &command, "/dev/null"]).current_dir(crate::support::corpus::workspace());
     let answer = script.stdin(std::process::Stdio::null()).output().ok()?;
-    Some(String::from_utf8(answer.stdout).unwrap().replace('\r', ""))
+    let written = String::from_utf8(answer.stdout).unwrap().replace('\r', "");
+    // Progress, of a command that takes longer on a busy machine, is erased before the answer.
+    let shown = written.split_inclusive('\n').map(|line| line.rsplit("\u{1b}[2K").next().unwrap_or(line));
+    Some(shown.collect())
 }
 
 /// Lines to paste stay whole, as do snippets of files.
