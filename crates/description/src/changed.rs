@@ -29,12 +29,14 @@ pub fn robots_of_changed(changed: &[PathBuf], folder: &Path) -> Vec<PathBuf> {
         }
     };
     for path in changed {
-        let naming = named.iter().filter(|(_, urdf)| is_urdf(path) && is_same(urdf, path));
-        let naming: Vec<&PathBuf> = naming.map(|(robot_file, _)| robot_file).collect();
-        if naming.is_empty() {
+        let mut is_named = false;
+        for (robot_file, _) in named.iter().filter(|(_, urdf)| is_urdf(path) && is_same(urdf, path)) {
+            is_named = true;
+            add(robot_file);
+        }
+        if !is_named {
             add(path);
         }
-        naming.into_iter().for_each(|robot_file| add(robot_file));
     }
     robots
 }
