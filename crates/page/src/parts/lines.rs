@@ -92,7 +92,7 @@ fn differing(old: &str, new: &str) -> Vec<Range<usize>> {
         }
     }
     let (mut parts, mut follows, mut i) = (Vec::<Range<usize>>::new(), false, 0);
-    for j in 0..new_words.len() {
+    for (j, word) in new_words.iter().enumerate() {
         while i < old_words.len() && !is_same(i, j) && common[i + 1][j] >= common[i][j + 1] {
             i += 1;
         }
@@ -101,8 +101,8 @@ fn differing(old: &str, new: &str) -> Vec<Range<usize>> {
             continue;
         }
         match parts.last_mut().filter(|_| follows) {
-            Some(last) => last.end = new_words[j].end,
-            None => parts.push(new_words[j].clone()),
+            Some(last) => last.end = word.end,
+            None => parts.push(word.clone()),
         }
         follows = true;
     }
