@@ -44,9 +44,9 @@ fn list_without_commas(words: &[&str], unexpected: &str) -> Option<String> {
         .take_while(|word| is_number(word))
         .map(|word| word.trim_matches(','))
         .collect();
-    numbers
-        .contains(&unexpected.trim_matches(','))
-        .then(|| format!("separate the values with commas and no spaces: {option} {}", numbers.join(",")))
+    // Of a negative number it names the sign and the first digit, as an option of one letter.
+    let is_meant = numbers.iter().any(|number| number.starts_with(unexpected.trim_matches(',')));
+    is_meant.then(|| format!("separate the values with commas and no spaces: {option} {}", numbers.join(",")))
 }
 
 /// The option that another program calls otherwise.

@@ -28,7 +28,7 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
         further: Vec::new(),
     }));
     cases.extend(report.all_dynamics().map(dynamics_case));
-    cases.extend(geometry.not_asked.iter().map(|not_asked| not_asked_case(not_asked, report)));
+    cases.extend(geometry.not_asked.iter().map(|source| not_compared_case(source, report)));
     let dropped = geometry
         .warnings
         .iter()
@@ -78,10 +78,10 @@ fn grade(comparison: &Comparison, report: &CheckReport) -> Option<String> {
 }
 
 /// A source that was not compared; a second description of the geometry that is missing fails with --strict.
-fn not_asked_case(not_asked: &NotCompared, report: &RobotCheck) -> TestCase {
-    let reasons: Vec<&str> = not_asked.findings.iter().map(|found| found.message.as_str()).collect();
-    let case = skipped(not_asked.source.name(), reasons.join("\n"));
-    if not_asked.source != ComparedSource::Geometry || !report.fails_without_second() {
+fn not_compared_case(source: &NotCompared, report: &RobotCheck) -> TestCase {
+    let reasons: Vec<&str> = source.findings.iter().map(|found| found.message.as_str()).collect();
+    let case = skipped(source.source.name(), reasons.join("\n"));
+    if source.source != ComparedSource::Geometry || !report.fails_without_second() {
         return case;
     }
     let reason = Reason { kind: "no_second_description".to_owned(), message: case.output.clone() };
