@@ -23,7 +23,9 @@ const GUESSED: [(&[&str], &str, &str); 3] = [
 
 /// The error about an unexpected argument with what to write instead, if that is known.
 pub(crate) fn with_hint(mut error: Error, words: &[OsString], command: &Command) -> Error {
-    let Some(ContextValue::String(unexpected)) = error.get(ContextKind::InvalidArg) else { return error };
+    // The first value of a list is refused before the rest is unexpected, if a robot is missing until then.
+    let refused = error.get(ContextKind::InvalidValue).or(error.get(ContextKind::InvalidArg));
+    let Some(ContextValue::String(unexpected)) = refused else { return error };
     let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
     let hint = list_without_commas(&words, unexpected).or_else(|| guessed(&words, unexpected, command));
     if let Some(hint) = hint {
