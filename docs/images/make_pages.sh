@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the pictures of pages here, report_check.png and report_pick.png, with the program that is built and a Chromium that is
-# installed: `docs/images/make_pages.sh` from the root of the repository.
+# Makes the pictures of pages here, report_check.png, report_pick.png and report_wrong_convention.png, with the program that is
+# built and a Chromium that is installed: `docs/images/make_pages.sh` from the root of the repository.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 congruent=${CARGO_TARGET_DIR:-target}/release/congruent
@@ -19,5 +19,7 @@ picture() { # PAGE HEIGHT NAME
 
 "$congruent" check robots/ur5e/wrong_convention.toml --html "$work/check.html" >"$work/check.txt" || test $? = 1
 "$congruent" run scenarios/ur5e_pick.toml --out "$work/out" >"$work/run.txt"
+"$congruent" run scenarios/ur5e_wrong_convention.toml --out "$work/out" >"$work/run.txt"
 picture "$work/check.html" 900 report_check.png
 picture "$work/out/ur5e_pick/report.html" 1240 report_pick.png
+picture "$work/out/ur5e_wrong_convention/report.html" 1000 report_wrong_convention.png

@@ -7,6 +7,7 @@ use serde_json::Value;
 use crate::support::{
     command::{congruent, congruent_json, text},
     corpus::workspace,
+    scratch_folder::ScratchFolder,
 };
 
 /// The sources that a report says were not compared.
@@ -43,6 +44,44 @@ fn junit_skips_what_has_no_second_source() {
     assert!(junit.contains("name=\"dynamics\"") && junit.contains("skipped=\"1\""), "{junit}");
 }
 
+/// A job that relies on the comparison must not pass if a robot file has lost its table.
+#[test]
+fn a_strict_check_needs_a_second_description() {
+    let scratch = ScratchFolder::new();
+    let robot = fs::read_to_string(workspace().join("robots/planar_2r/robot.toml")).unwrap();
+    let urdf = text(&workspace().join("robots/planar_2r/planar_2r.urdf"));
+    let robot = robot.replace("\"planar_2r.urdf\"", &format!("\"{urdf}\""));
+    let table = &robot[robot.find("[dh]").unwrap()..robot.find("[tolerance]").unwrap()];
+    let path = scratch.write("without.toml", &robot.replace(table, ""));
+    let junit = text(&scratch.path().join("junit.xml"));
+    assert_eq!(congruent(&["check", &path]).code, 0);
+    let strict = congruent(&["check", "--strict", "-q", &path, "--junit", &junit]);
+    assert_eq!(strict.code, 4, "{}", strict.stderr);
+    assert!(strict.stdout.contains(": NO SECOND DESCRIPTION. "), "{}", strict.stdout);
+    assert!(strict.stdout.ends_with("; --strict: a second description is missing\n"), "{}", strict.stdout);
+    assert!(fs::read_to_string(junit).unwrap().contains("type=\"no_second_description\""));
+    assert_eq!(congruent(&["check", "--strict", "robots/planar_2r", &path]).code, 4);
+}
+
+/// The fingers of one file are fixed in the other: the answer names the link up to which the two can be compared.
+#[test]
+fn other_joints_are_named_with_the_tip_of_the_common_ones() {
+    let scratch = ScratchFolder::new();
+    let own = "robots/panda/panda.urdf";
+    let urdf = fs::read_to_string(workspace().join(own)).unwrap();
+    let other = scratch.write("fixed.urdf", &urdf.replace("type=\"prismatic\"", "type=\"fixed\""));
+    let whole = congruent(&["check", own, "--against", &other]);
+    assert_eq!(whole.code, 1, "{}", whole.stderr);
+    let answer = format!("{own}: DIFFERENT JOINTS: joint \"panda_finger_joint1\" does not move in the other");
+    assert!(whole.stdout.starts_with(&answer), "{}", whole.stdout);
+    assert!(!whole.stdout.contains("disagree"), "{}", whole.stdout);
+    let report = congruent_json(&["check", own, "--against", &other]).json();
+    let tip = report["against"]["common_tip"].as_str().unwrap();
+    assert!(whole.stdout.contains(&format!("alone: --tip {tip}\n")), "{}", whole.stdout);
+    let part = congruent(&["check", own, "--against", &other, "--tip", tip, "-q"]);
+    assert!(part.stdout.starts_with(&format!("{own}: SAME ")), "{}", part.stdout);
+}
+
 /// A mass of 8058 kg agrees with the physics that is built from it.
 #[test]
 fn an_absurd_mass_is_listed_and_fails_a_strict_check() {
@@ -57,12 +96,13 @@ fn an_absurd_mass_is_listed_and_fails_a_strict_check() {
     assert!(usual.stdout.contains("(mass 8058 kg over the volume"), "{}", usual.stdout);
     let strict = congruent(&["check", "--strict", "--quiet", &path]);
     assert_eq!((strict.code, strict.stdout.lines().count()), (1, 1), "{}", strict.stdout);
-    assert!(strict.stdout.ends_with("; --strict: 1 finding of lint\n"), "{}", strict.stdout);
+    assert!(strict.stdout.contains("; --strict: 1 finding of lint;"), "{}", strict.stdout);
     let report = congruent_json(&["check", "--strict", &path]).json();
     assert_eq!(report["lint"]["worst"][0]["code"], "units::mass");
     let junit = folder.path().join("junit.xml");
     congruent(&["check", "--strict", &path, "--junit", &text(&junit)]);
-    assert!(fs::read_to_string(junit).unwrap().contains("failures=\"1\""));
+    // The second one is the missing table.
+    assert!(fs::read_to_string(junit).unwrap().contains("failures=\"2\""));
     assert_eq!(congruent(&["check", "--strict", "robots/ur5e"]).code, 0);
 }
 

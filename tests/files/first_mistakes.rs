@@ -84,6 +84,7 @@ fn values_of_a_table_in_another_form() {
     for (from, to, words) in [
         ("dhn_from_tip = {}", "dhn_from_tip = [0, 0, 70]", "dhn_from_tip = { xyz_mm = [0, 0, 70] }"),
         ("alpha_deg = 0.0", "alpha_deg = pi/2", "TOML has no expressions such as pi/2: alpha_deg = 90.0"),
+        ("alpha_deg = 0.0", "alpha_deg = 0,5", "the decimal comma in 0,5 must be a point: alpha_deg = 0.5"),
         ("kind = \"revolute\"\n", "", "kind = \"revolute\" or kind = \"prismatic\""),
         ("\"revolute\"", "\"continuous\"", "\"continuous\" is called \"revolute\" here"),
         ("\"standard\"", "\"craig\"", "\"craig\" is called \"modified\" here"),
@@ -128,6 +129,7 @@ fn targets_in_millimetres() {
     let said = refused(&["ik", robot, "--xyz", "350,100,450mm"], &["write 350mm,100mm,450mm"]);
     assert!(said.contains("only some values have a unit"), "{said}");
     refused(&["ik", robot, "--xyz", "350mm 100mm 450mm"], &["with commas: 350mm,100mm,450mm"]);
+    refused(&["ik", robot, "--xyz", "0.4", "0.1", "0.3"], &["no spaces: --xyz 0.4,0.1,0.3"]);
     let far = congruent(&["ik", robot, "--xyz", "350,100,450"]);
     assert_eq!(far.code, 1, "{}", far.stderr);
     assert!(far.stdout.contains("(in mm? write 350mm,100mm,450mm)"), "{}", far.stdout);
@@ -135,9 +137,32 @@ fn targets_in_millimetres() {
     assert!(near.stdout.contains("target 1, [350 mm, 100 mm, 450 mm]: reached"), "{}", near.stdout);
 }
 
+/// A wrist that cannot turn far enough.
+#[test]
+fn a_joint_that_keeps_the_tool_from_its_orientation_is_named() {
+    let desk = Desk::new();
+    let read = |name: &str| fs::read_to_string(workspace().join("robots/ur5e").join(name)).unwrap();
+    let (urdf, table) = (read("ur5e.urdf"), read("robot.toml"));
+    let at = urdf.find("<joint name=\"wrist_3_joint\"").unwrap();
+    let limited =
+        urdf[at..].replacen("lower=\"-6.283185307179586\" upper=\"6.28", "lower=\"0\" upper=\"0.28", 1);
+    fs::write(desk.path("ur5e.urdf"), urdf[..at].to_owned() + &limited).unwrap();
+    fs::write(desk.path("ur5e.toml"), table).unwrap();
+    let robot = text(&desk.path("ur5e.toml"));
+    let answer = congruent(&["ik", &robot, "--xyz", "0.5,0.1,0.3", "--rpy", "180deg,0,40deg"]);
+    assert_eq!(answer.code, 1, "{}", answer.stderr);
+    let reason = "but not in this orientation: wrist_3_joint is at its limit; after";
+    assert!(answer.stdout.contains(reason), "{}", answer.stdout);
+}
+
 #[test]
 fn names_that_are_nearly_right() {
     refused(&["chek", "robots/ur5e"], &["'check'"]);
     let said = refused(&["fk", "robots/ur5e", "--at", "elbw=90deg"], &["did you mean \"elbow_joint\"?"]);
     assert!(said.contains("known joints"), "{said}");
+    refused(&["fk", "robots/ur5e", "--joints", "0,0"], &["write --at JOINT=POSITION"]);
+    // Where the codes are explained, once.
+    let said =
+        refused(&["fk", "robots/ur5e", "--at", "elbw=90deg"], &["more: congruent lint --explain CGR-"]);
+    assert_eq!(said.matches("more: ").count(), 1, "{said}");
 }

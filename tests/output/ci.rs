@@ -1,12 +1,12 @@
 //! What CI reads of a call: annotations at lines, the summary, JUnit with places; and that the files of `docs/ci` call
 //! commands that exist.
 
-use std::fs;
+use std::{fs, path::Path, process::Command};
 
 use roxmltree::Document;
 
 use crate::support::{
-    command::{Answer, congruent, text},
+    command::{Answer, congruent, congruent_in, text},
     corpus::workspace,
     scratch_folder::ScratchFolder,
 };
@@ -132,6 +132,60 @@ fn a_summary_that_cannot_be_written_is_reported_before_the_work() {
     let answer = congruent(&["check", "robots/ur5e", "--summary", &format!("{file}/below.md")]);
     assert_eq!(answer.code, 2, "{}", answer.stderr);
     assert!(answer.stderr.contains("--summary") && answer.stdout.is_empty(), "{}", answer.stderr);
+}
+
+/// What pre-commit does with a hook: its command, with the names of the files of the commit that its pattern matches.
+fn committed(repository: &Path, hook: &str, pattern: &str) -> Answer {
+    let hooks = fs::read_to_string(workspace().join(".pre-commit-hooks.yaml")).unwrap();
+    let hook = &hooks[hooks.find(&format!("- id: {hook}\n")).unwrap()..];
+    let entry = hook.lines().find_map(|line| line.trim().strip_prefix("entry: congruent ")).unwrap();
+    git(repository, &["add", "."]);
+    let names = git(repository, &["diff", "--cached", "--name-only"]);
+    let names = names.lines().filter(|name| name.ends_with(pattern));
+    let arguments: Vec<&str> = entry.split(' ').chain(names).collect();
+    let answer = congruent_in(repository, &arguments);
+    git(repository, &["-c", "user.name=t", "-c", "user.email=t@t", "commit", "-qm", "next"]);
+    answer
+}
+
+fn git(repository: &Path, arguments: &[&str]) -> String {
+    let done =
+        Command::new("git").args(arguments).current_dir(repository).output().expect("git is installed");
+    assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+    String::from_utf8(done.stdout).unwrap()
+}
+
+/// The table is in another folder than the URDF, and does not change in the second commit.
+#[test]
+fn a_commit_of_a_urdf_checks_the_robot_file_that_names_it() {
+    let scratch = ScratchFolder::new();
+    let repository = scratch.path();
+    git(repository, &["init", "-q"]);
+    for folder in ["arm", "arm_description", "other"] {
+        fs::create_dir(repository.join(folder)).unwrap();
+    }
+    let copy = |name: &str| fs::read_to_string(workspace().join("robots/planar_2r").join(name)).unwrap();
+    let urdf = repository.join("arm_description/arm.urdf");
+    fs::write(&urdf, copy("planar_2r.urdf")).unwrap();
+    fs::write(repository.join("other/other.urdf"), copy("planar_2r.urdf")).unwrap();
+    let table = copy("robot.toml");
+    let named = |urdf: &str| table.replace("\"planar_2r.urdf\"", &format!("\"{urdf}\""));
+    fs::write(repository.join("arm/robot.toml"), named("../arm_description/arm.urdf")).unwrap();
+    fs::write(repository.join("other/robot.toml"), named("other.urdf")).unwrap();
+    let first = committed(repository, "congruent-check", ".toml");
+    assert_eq!((first.code, first.stdout.matches("SAME GEOMETRY").count()), (0, 2), "{}", first.stdout);
+    let moved = copy("planar_2r.urdf").replace("xyz=\"0.4 0 0\"", "xyz=\"0.41 0 0\"");
+    assert_ne!(moved, copy("planar_2r.urdf"));
+    fs::write(&urdf, moved).unwrap();
+    let second = committed(repository, "congruent-check", ".urdf");
+    assert_eq!(second.code, 1, "{}{}", second.stdout, second.stderr);
+    assert!(second.stdout.starts_with("arm/robot.toml: DIFFERENT, by up to 10 mm"), "{}", second.stdout);
+    assert!(!second.stdout.contains("other/"), "{}", second.stdout);
+    // A URDF that no robot file names is not compared with anything.
+    fs::write(repository.join("lone.urdf"), copy("planar_2r.urdf")).unwrap();
+    let third = committed(repository, "congruent-check", ".urdf");
+    assert_eq!(third.code, 4, "{}{}", third.stdout, third.stderr);
+    assert!(third.stdout.starts_with("lone.urdf: NO SECOND DESCRIPTION"), "{}", third.stdout);
 }
 
 #[test]

@@ -274,7 +274,7 @@ fn the_page_of_a_check_shows_lines_bound_and_both_arms() {
     is_one_file(&html);
     assert!(holds_values_of(&html, &answer.json()) > 20);
     for shown in
-        ["DISAGREE", "convention = &quot;modified&quot;", "convention = &quot;standard&quot;", "DH table"]
+        ["DIFFERENT", "convention = &quot;modified&quot;", "convention = &quot;standard&quot;", "DH table"]
     {
         assert!(html.contains(shown), "{shown}");
     }

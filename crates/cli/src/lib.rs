@@ -26,6 +26,7 @@ mod schema;
 mod terminal;
 mod tolerance;
 mod unfinished_junit;
+mod usage_hints;
 
 use std::ffi::OsString;
 
@@ -169,8 +170,9 @@ fn parse(words: Vec<OsString>) -> Result<Arguments, clap::Error> {
         Some(columns) => command.term_width(columns.min(WIDEST_HELP)),
         None => command,
     };
-    let matches = command.try_get_matches_from_mut(words);
-    let matches = matches.map_err(|error| help::with_nearest_command(error, &command))?;
+    let matches = command.try_get_matches_from_mut(words.clone()).map_err(|error| {
+        usage_hints::with_hint(help::with_nearest_command(error, &command), &words, &command)
+    })?;
     Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
 }
 

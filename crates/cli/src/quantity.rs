@@ -1,6 +1,6 @@
 //! Values with units on the command line: lengths, angles and masses.
 
-use congruent::input::units::Unit;
+use congruent::input::{display::counted, units::Unit};
 
 /// What a value measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -136,7 +136,7 @@ fn three(text: &str, dimension: Dimension, example: &str) -> Result<[f64; 3], St
         if let ([_], [x, y, z]) = (&parts[..], &words[..]) {
             return Err(format!("separate the values with commas: {x},{y},{z}"));
         }
-        return Err(format!("{} values, expected three, as in {example}", parts.len()));
+        return Err(format!("{}, expected three, as in {example}", counted(parts.len(), "value")));
     };
     all_with_unit(&[x, y, z])?;
     Ok([

@@ -4,6 +4,7 @@
 //! Parsers take text and give a value or diagnostics; only `files/` of crate `input` opens files.
 
 mod chain;
+mod changed;
 pub mod codes;
 mod configuration_file;
 mod description;
@@ -18,6 +19,7 @@ mod toml_literal;
 mod urdf;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
+pub use changed::robots_of_changed;
 pub use configuration_file::{
     Configurations, JointState, JointStateList, JsonList, LiveEntries, LiveInput, LiveState, LiveStates,
     RobotQList, configuration, configurations_schema, outside_limits, outside_limits_warning,

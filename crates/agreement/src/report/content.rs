@@ -1,9 +1,9 @@
 //! The diagnosis as programs read it.
 
-use congruent_input::{ChangedLines, Diagnostic, SourceFile, TextEdit, edited};
+use congruent_input::{ChangedLines, Diagnostic, SourceFile, TextEdit, edited, toml_text::is_toml};
 use congruent_kinematics::PoseError;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::values::ReportedValue;
 use crate::{
@@ -167,7 +167,9 @@ pub struct Fault {
     pub expected_line: Option<usize>,
     /// The fault in words.
     pub message: String,
-    /// What to change: whole lines of the robot file, or a sentence if the file has no key for it.
+    /// What to change: whole lines of the file, those of several rows one below the other. Advice in words, if the file has no
+    /// key for it, is a comment of TOML in JSON.
+    #[serde(serialize_with = "words_as_comments")]
     pub suggestion: String,
     /// The lines of the robot file that change, with their new text.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
@@ -175,6 +177,14 @@ pub struct Fault {
     /// The new lines to paste, with a comment that says where.
     #[serde(skip)]
     pub pasted: Vec<String>,
+}
+
+/// Lines of files as they are, and words behind `#`, so that no program pastes words into a file.
+fn words_as_comments<S: Serializer>(suggestion: &str, serializer: S) -> Result<S::Ok, S::Error> {
+    // A row of a list in one line, and a line of a URDF.
+    let is_of_file = |line: &str| line.trim_start().starts_with(['{', '<']) || is_toml(line);
+    let comment = |line: &str| if is_of_file(line) { line.to_owned() } else { format!("# {line}") };
+    serializer.serialize_str(&suggestion.lines().map(comment).collect::<Vec<_>>().join("\n"))
 }
 
 /// A quantity in which the chains differ.
@@ -189,4 +199,21 @@ pub struct ReportedDifference {
     pub found: f64,
     /// Value in the second model; `null` if the model does not have it.
     pub expected: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn advice_in_words_is_a_comment_for_programs() {
+        let fault = Fault {
+            suggestion: "a_m = 0.4\nmove each value of a one row up\n{ joint = \"a\", a_m = 1 },".to_owned(),
+            ..Fault::default()
+        };
+        let written = serde_json::to_value(&fault).unwrap();
+        let expected = "a_m = 0.4\n# move each value of a one row up\n{ joint = \"a\", a_m = 1 },";
+        assert_eq!(written["suggestion"], expected);
+        assert!(fault.suggestion.contains("\nmove"), "people read it without the sign");
+    }
 }

@@ -7,7 +7,7 @@ use congruent::{
     agreement::compare::{Agreement, CheckOptions},
     analysis::plot::errors,
     check_suite, checked_robot,
-    description::{RobotDescription, RobotQList, load_robot_with, read_configurations},
+    description::{RobotDescription, RobotQList, load_robot_with, read_configurations, robots_of_changed},
     input::{Diagnostic, Finding, Findings, Severity},
     page::{CheckEntry, check_page},
     results::report::TestSuite,
@@ -44,7 +44,7 @@ use crate::{
 /// states may differ by 1e-10 (relative) between two descriptions, and by 1e-8 between a description and the physics,
 /// which is rounding. If a value of the table is wrong, the report ends with the whole table, corrected; --fix writes it.
 /// Exit code 1 if they disagree, 4 if nothing was compared, since there is neither a table nor a robot that can be
-/// simulated; with --fix that of the corrected file.
+/// simulated, or with --strict no second description; with --fix that of the corrected file.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Arguments {
@@ -55,6 +55,10 @@ pub(crate) struct Arguments {
     /// bare .urdf), in geometry and, if both are the same chain within the tolerance, in dynamics.
     #[arg(long, value_name = "ROBOT")]
     against: Option<PathBuf>,
+    /// Take the files as those that changed in a repository: a .urdf leads to each robot.toml below the current folder that
+    /// names it, and is checked by itself only if none does.
+    #[arg(long)]
+    changed: bool,
     #[command(flatten)]
     chain: ChainArguments,
     /// Seed of the random configurations.
@@ -75,7 +79,8 @@ pub(crate) struct Arguments {
     /// that is not given is taken from the file.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArgument>,
-    /// Findings of lint in the descriptions fail, too.
+    /// Findings of lint in the descriptions fail, too, and a robot without a second description: neither a table, nor
+    /// [[inertial]], nor --against.
     #[arg(long)]
     strict: bool,
     /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
@@ -111,6 +116,7 @@ impl BatchReport for Checked {
     fn exit_code(&self) -> u8 {
         match self.decisive().geometry.verdict {
             Agreement::Agree if self.decisive().fails_by_lint() => FAILED,
+            Agreement::Agree if self.decisive().fails_without_second() => NOTHING,
             Agreement::Agree => 0,
             Agreement::Disagree => FAILED,
             Agreement::NothingCompared => NOTHING,
@@ -151,8 +157,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             Diagnostic::error(codes::check::TABLE, "--table needs --configurations, which is missing");
         return Err(error.with_help("give --configurations FILE: the joint positions of each row").into());
     }
-    let batch = Batch::begin(&arguments.robots, &arguments.ci, printer)?;
-    let robots = arguments.robots.iter();
+    let changed = arguments.changed.then(|| robots_of_changed(&arguments.robots, Path::new(".")));
+    let robots = changed.as_ref().unwrap_or(&arguments.robots);
+    let batch = Batch::begin(robots, &arguments.ci, printer)?;
+    let robots = robots.iter();
     let answers: Vec<Answer<Checked>> =
         robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect();
     let plotted = answers.iter().try_for_each(|answer| draw(answer, arguments, &batch));

@@ -234,7 +234,9 @@ impl Printer {
         let text = match failure {
             Failure::Machine(message) => format!("error: {}{}\n", named(input), visible(message)),
             Failure::Input(findings) => {
-                listed_findings(findings.iter(), &text_options(), |finding| labelled(input, finding))
+                let listed =
+                    listed_findings(findings.iter(), &text_options(), |finding| labelled(input, finding));
+                listed + &explained_where(findings.iter().next())
             }
         };
         to_stderr(&text);
@@ -283,6 +285,17 @@ fn labelled(input: Option<&Path>, finding: &Diagnostic) -> String {
     let word = serde_name(&finding.severity);
     let heading = input.map(|input| format!("{}: {word}\n", visible_path(input)));
     heading.unwrap_or_default() + &finding_text(finding, &text_options())
+}
+
+/// Where the code of an error is explained; said once in a call.
+fn explained_where(finding: Option<&Diagnostic>) -> String {
+    static SAID: OnceLock<()> = OnceLock::new();
+    match finding {
+        Some(finding) if SAID.set(()).is_ok() => {
+            format!("more: congruent lint --explain {}\n", finding.code.id_or_name())
+        }
+        _ => String::new(),
+    }
 }
 
 /// Whether this call has not printed a warning yet.

@@ -4,7 +4,7 @@ use congruent_agreement::{
     SourcePair,
     compare::{CheckError, CheckOptions, CheckReport, ComparedSource, NotCompared},
 };
-use congruent_description::{ChainEnd, JointIndex, Robot, RobotDescription, RobotQ};
+use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedModel};
 use congruent_input::{Diagnostic, display::length_and_angle, nearest};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
@@ -33,6 +33,9 @@ pub struct OtherDescription {
     /// Joints that do not move the tip which the caller named: they are not compared, and neither is what they carry.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub joints_left_out: Vec<String>,
+    /// If the two have other joints: the last link up to which they have the same ones, for --tip.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub common_tip: Option<String>,
     /// Links of this description that the other lacks: their frames are not compared.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links_not_found: Vec<String>,
@@ -47,6 +50,7 @@ impl OtherDescription {
     ) -> Self {
         let robot = &description.robot;
         let other_joint = other_joint(robot, &other.robot);
+        let common_tip = other_joint.as_ref().and_then(|_| common_tip(description, &other.robot));
         let lacking = poses.lacking(robot).map(|link| robot.link(link).name.clone());
         Self {
             file: other.path.display().to_string(),
@@ -54,6 +58,7 @@ impl OtherDescription {
             dynamics_not_compared: other_joint.or_else(|| missing_tip(description, &other.robot, poses)),
             links_in_other_frames: Vec::new(),
             joints_left_out: Vec::new(),
+            common_tip,
             links_not_found: lacking.collect(),
         }
     }
@@ -192,6 +197,27 @@ fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
     others
         .find(|name| moving(robot, name).is_none())
         .map(|name| missing(name, ("this description, unlike the other,", robot)))
+}
+
+/// The last link of the chain that both descriptions have and up to which they have the same moving joints; `None` if no joint
+/// moves it, or if the caller has named it already.
+fn common_tip(description: &RobotDescription, other: &Robot) -> Option<String> {
+    let robot = &description.robot;
+    let mut chain = robot.chain(description.base, description.tip)?;
+    let is_common = |&index: &JointIndex| {
+        let joint = robot.joint(index);
+        let there = || moving(other, &joint.name).map(|there| other.joint(there).kind.is_angular());
+        !joint.kind.is_movable() || there() == Some(joint.kind.is_angular())
+    };
+    chain.truncate(chain.iter().take_while(|joint| is_common(joint)).count());
+    let first_moving = chain.iter().position(|&joint| robot.joint(joint).kind.is_movable())?;
+    let links = chain[first_moving..].iter().rev().map(|&joint| robot.joint(joint).child);
+    let is_named =
+        |link: &LinkIndex| *link == description.tip && description.chain_ends.tip != ChainEnd::Chosen;
+    links
+        .filter(|link| !is_named(link))
+        .map(|link| robot.link(link).name.clone())
+        .find(|name| other.find_link(name).is_some())
 }
 
 /// The tip, if the other description lacks it and nobody but the caller can say which link is meant: what the check is

@@ -52,14 +52,20 @@ impl RobotCheck {
             let findings = counted(self.lint.findings(), "finding");
             let _ = write!(headline.details, "; --strict: {findings} of lint");
         }
+        if self.fails_without_second() {
+            headline.details += "; --strict: a second description is missing";
+        }
         headline
     }
 
     fn answer(&self) -> Headline {
         let report = &self.geometry;
         if let Some((other, why)) = self.other_chain() {
-            let details = format!(" from {}: another chain, {why}; the two were not compared", other.file);
-            return Headline::new("DIFFERENT", details);
+            let advice = other.common_tip.as_ref().map_or_else(String::new, |tip| {
+                format!(". To compare the joints up to link \"{tip}\" alone: --tip {tip}")
+            });
+            let details = format!(": {why}; poses and torques of {} were not compared{advice}", other.file);
+            return Headline::new("DIFFERENT JOINTS", details);
         }
         if report.verdict == Agreement::NothingCompared {
             let why = Agreement::why_nothing(&report.chain);
@@ -177,7 +183,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
         format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
     };
     let pairs: Vec<String> = differ.map(of_pair).collect();
-    let found = format!("by up to {}; {}", pairs.join(", "), tolerance(report));
+    let found = format!("by up to {}; {}", pairs.join(", "), judged_by(check));
     if report.grade == Some(Grade::SameWithinDigits) {
         let advice = by_rounding_alone(check);
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));
@@ -288,6 +294,18 @@ fn tolerance(report: &CheckReport) -> String {
     format!("tolerance {}{replaced}", words(&report.tolerance))
 }
 
+/// What decides that poses differ: the tolerance if one is declared, otherwise the digits of table and URDF, or the rounding
+/// of computers if nothing was typed.
+fn judged_by(check: &RobotCheck) -> String {
+    let report = &check.geometry;
+    let is_declared = check.tolerance_line.is_some() || report.replaced_tolerance.is_some();
+    match report.allowed_by_digits {
+        _ if is_declared => tolerance(report),
+        Some(allowed) if allowed != PoseError::default() => "judged by the digits written".to_owned(),
+        _ => "judged by floating-point rounding, since no tolerance is declared".to_owned(),
+    }
+}
+
 /// What the digits of table and URDF allow, if the two are not identical and not written with all digits.
 fn allowed(report: &CheckReport) -> String {
     let Some(allowed) = report.allowed_by_digits.filter(|allowed| *allowed != PoseError::default()) else {
@@ -299,11 +317,11 @@ fn allowed(report: &CheckReport) -> String {
     let is_less = position_m <= allowed.position_m.max(rounding.position_m)
         && orientation_rad <= allowed.orientation_rad.max(rounding.orientation_rad);
     let but = if is_less && report.grade == Some(Grade::Different) {
-        ", but the difference is not rounding"
+        ", but does not explain this difference"
     } else {
         ""
     };
-    format!(", where the digits written allow {}{but}", largest(allowed))
+    format!("; rounding of the written digits could explain {}{but}", largest(allowed))
 }
 
 /// The two sources of a pair.

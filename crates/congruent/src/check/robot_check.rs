@@ -5,7 +5,7 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport, DifferenceAt, DifferencesAt},
     report::ReportedDiagnosis,
 };
-use congruent_dynamics_agreement::DynamicsReport;
+use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -78,6 +78,18 @@ impl RobotCheck {
     /// Whether findings of lint fail the check, by --strict.
     pub fn fails_by_lint(&self) -> bool {
         self.lint.is_strict && self.lint.findings() > 0
+    }
+
+    /// Whether there is neither a second description of the geometry nor one of the dynamics: physics and screws are made of
+    /// the URDF.
+    pub fn lacks_second_description(&self) -> bool {
+        let has_geometry = self.geometry.table_compared || self.against.is_some();
+        !has_geometry && self.dynamics_of_descriptions().all(|of| of.verdict == DynamicsVerdict::NotCompared)
+    }
+
+    /// Whether the missing second description fails a check that agrees otherwise, by --strict.
+    pub fn fails_without_second(&self) -> bool {
+        self.lint.is_strict && self.geometry.verdict == Agreement::Agree && self.lacks_second_description()
     }
 
     /// The other description with the reason why nothing of the two was compared: they have other joints.

@@ -2,7 +2,7 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckReport, Comparison, Grade, NotCompared, ReportedCertificate},
+    compare::{Agreement, CheckReport, ComparedSource, Comparison, Grade, NotCompared, ReportedCertificate},
     report::{ReportedDiagnosis, foremost},
 };
 use congruent_dynamics_agreement::DynamicsReport;
@@ -28,7 +28,7 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
         further: Vec::new(),
     }));
     cases.extend(report.all_dynamics().map(dynamics_case));
-    cases.extend(geometry.not_asked.iter().map(not_asked_case));
+    cases.extend(geometry.not_asked.iter().map(|source| not_compared_case(source, report)));
     let dropped = geometry
         .warnings
         .iter()
@@ -69,14 +69,23 @@ fn grade(comparison: &Comparison, report: &CheckReport) -> Option<String> {
     let grade = report.grade.filter(|_| comparison.name == SourcePair::ModelUrdf)?;
     let allowed =
         report.allowed_by_digits.map_or_else(String::new, |PoseError { position_m, orientation_rad }| {
-            format!(", which allow {}", length_and_angle(position_m, orientation_rad))
+            format!(
+                "; rounding of the written digits could explain {}",
+                length_and_angle(position_m, orientation_rad)
+            )
         });
     Some(format!("grade: {}{allowed}", grade.words()))
 }
 
-fn not_asked_case(not_asked: &NotCompared) -> TestCase {
-    let reasons: Vec<&str> = not_asked.findings.iter().map(|found| found.message.as_str()).collect();
-    skipped(not_asked.source.name(), reasons.join("\n"))
+/// A source that was not compared; a second description of the geometry that is missing fails with --strict.
+fn not_compared_case(source: &NotCompared, report: &RobotCheck) -> TestCase {
+    let reasons: Vec<&str> = source.findings.iter().map(|found| found.message.as_str()).collect();
+    let case = skipped(source.source.name(), reasons.join("\n"));
+    if source.source != ComparedSource::Geometry || !report.fails_without_second() {
+        return case;
+    }
+    let reason = Reason { kind: "no_second_description".to_owned(), message: case.output.clone() };
+    TestCase { result: TestResult::Failed(reason), ..case }
 }
 
 /// A source that was not compared.

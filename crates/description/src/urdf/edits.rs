@@ -1,6 +1,10 @@
 //! Corrections of a URDF's `<inertial>`, and of parts of its joints, as changes of its text: unchanged values keep their form.
 
-use congruent_input::{TextEdit, number::significant, rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad, xml};
+use congruent_input::{
+    TextEdit,
+    number::{significant, significant_components},
+    rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad, xml,
+};
 use nalgebra::Isometry3;
 use roxmltree::Node;
 
@@ -162,14 +166,7 @@ fn triple(written: Option<&str>) -> [f64; 3] {
 }
 
 fn xyz(inertia: &Inertia) -> String {
-    inertia
-        .link_from_inertial
-        .translation
-        .vector
-        .iter()
-        .map(|value| significant(*value))
-        .collect::<Vec<_>>()
-        .join(" ")
+    significant_components(inertia.link_from_inertial.translation.vector.into()).join(" ")
 }
 
 fn rpy(inertia: &Inertia) -> String {

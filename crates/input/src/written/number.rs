@@ -15,9 +15,39 @@ pub fn number(value: f64) -> String {
     format!("{:?}", value + 0.0)
 }
 
-/// A corrected value rounded to twelve significant digits, which no correction exceeds in accuracy.
+/// How far a written correction may be from the computed one, relative. Kind: what rounding to twelve significant digits costs
+/// at most, which no correction exceeds in accuracy.
+const CORRECTED: f64 = 5e-12;
+
+/// A corrected value by the fewest digits that say the same: at most twelve, and not the last digits of a computation, as in
+/// `0.800000000003`.
 pub fn significant(value: f64) -> String {
-    number(format!("{value:.11e}").parse().unwrap_or(value))
+    shortest(value, CORRECTED * value.abs())
+}
+
+/// The corrected components of a vector, each as accurate as the largest needs: the other axes of gravity are `0.0` and not
+/// what rounding has left of them.
+///
+/// # Examples
+/// ```
+/// use congruent_input::number::significant_components;
+/// assert_eq!(significant_components([-2.2e-16, 0.0, -9.809_999_999_999_9]), ["0.0", "0.0", "-9.81"]);
+/// ```
+pub fn significant_components<const N: usize>(values: [f64; N]) -> [String; N] {
+    let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    values.map(|value| shortest(value, CORRECTED * largest))
+}
+
+/// The number with the fewest significant digits that is at most `slack` away.
+fn shortest(value: f64, slack: f64) -> String {
+    /// Twelve significant digits, the most.
+    const MOST_DECIMALS: usize = 11;
+    if value.abs() <= slack {
+        return number(0.0);
+    }
+    let rounded = |decimals: usize| format!("{value:.decimals$e}").parse::<f64>().unwrap_or(value);
+    let near = (0..MOST_DECIMALS).map(rounded).find(|rounded| (rounded - value).abs() <= slack);
+    number(near.unwrap_or_else(|| rounded(MOST_DECIMALS)))
 }
 
 /// How far a fitted value may be from the one that is written for it, in m or rad, relative above 1.
@@ -124,6 +154,13 @@ mod tests {
         assert_eq!(short_degrees(FRAC_PI_2), Some(90.0));
         assert_eq!(short_degrees(FRAC_PI_2 + 2.05e-10), None);
         assert_eq!(number(-0.0), "0.0");
+    }
+
+    #[test]
+    fn a_correction_has_the_fewest_digits_that_say_the_same() {
+        let written =
+            [0.800_000_000_003, -9.81, 0.010_267_495_893_04, 1.0 / 3.0, 0.0, 2e-16].map(significant);
+        assert_eq!(written, ["0.8", "-9.81", "0.010267495893", "0.333333333333", "0.0", "2e-16"]);
     }
 
     #[test]

@@ -18,7 +18,7 @@ use crate::{
     units::WrittenUnit,
     visible::hidden_character,
     written::{
-        advice::{for_expression, in_known_unit, transform_for_list},
+        advice::{for_decimal_comma, for_expression, in_known_unit, transform_for_list},
         serde_message::in_words,
     },
 };
@@ -39,13 +39,26 @@ pub fn parse_toml<T: DeserializeOwned>(text: &str, diagnostics: &mut Diagnostics
 pub fn parse_document(text: &str) -> Result<Spanned<DeTable<'_>>, Diagnostic> {
     let root = DeTable::parse(text).map_err(|error| {
         let found = diagnostic(&error);
-        match error.span().and_then(|span| for_expression(text, span.start)) {
+        let at = error.span().map(|span| span.start);
+        match at.and_then(|at| for_expression(text, at).or_else(|| for_decimal_comma(text, at))) {
             Some(help) => found.with_help(help),
             None => found,
         }
     })?;
     check_all_visible(root.get_ref())?;
     Ok(root)
+}
+
+/// Whether a text is TOML by itself.
+///
+/// # Examples
+/// ```
+/// use congruent_input::toml_text::is_toml;
+/// assert!(is_toml("a_m = 0.4") && is_toml("# a comment"));
+/// assert!(!is_toml("move each value of a one row up"));
+/// ```
+pub fn is_toml(text: &str) -> bool {
+    DeTable::parse(text).is_ok()
 }
 
 fn check_all_visible(table: &DeTable<'_>) -> Result<(), Diagnostic> {

@@ -70,7 +70,7 @@ pub(super) fn comparisons(report: &CheckReport, at: &Pointer) -> Markup {
             @for (index, comparison) in report.comparisons.iter().enumerate() {
                 @let differs = comparison.verdict == Agreement::Disagree;
                 details open[differs] {
-                    summary { "link by link: " (comparison.title) }
+                    summary { "Difference at each link: " (comparison.title) }
                     (links(comparison, &report.tolerance, &at.key("comparisons").key(index).key("links")))
                 }
             }

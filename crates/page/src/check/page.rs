@@ -38,7 +38,7 @@ pub fn check_page(entries: &[CheckEntry<'_>], command: &str) -> String {
     // A single robot needs no table, and its values are at the root of the report.
     if let [CheckEntry { result: Ok(robot), .. }] = entries {
         let body = html! { (one(robot, &Pointer::root())) (provenance_of(&[robot], command)) };
-        let title = format!("{}: {}", robot.geometry.robot, outcome(robot.geometry).1);
+        let title = format!("{}: {}", robot.geometry.robot, robot.answer);
         return document(&title, &body, None, &inputs_of(&[robot]));
     }
     let mut order: Vec<usize> = (0..entries.len()).collect();
@@ -111,8 +111,7 @@ fn largest(report: &CheckReport) -> String {
 /// The outcome, and the answer in the words of the command: what was not compared must not read as agreement.
 fn entry_outcome<'e>(entry: &'e CheckEntry<'_>) -> (BadgeKind, &'e str) {
     match &entry.result {
-        Ok(robot) if is_in_part(robot) => (BadgeKind::Unclear, &robot.answer),
-        Ok(robot) => (outcome(robot.geometry).0, &robot.answer),
+        Ok(robot) => (outcome(robot), &robot.answer),
         Err(_) => (BadgeKind::Bad, "NOT CHECKED"),
     }
 }
@@ -123,11 +122,12 @@ fn is_in_part(robot: &CheckedRobot<'_>) -> bool {
     agrees && ["NOT COMPARED", "NO SECOND"].iter().any(|words| robot.answer.contains(words))
 }
 
-fn outcome(report: &CheckReport) -> (BadgeKind, &'static str) {
-    match report.verdict {
-        Agreement::Agree => (BadgeKind::Good, "AGREE"),
-        Agreement::Disagree => (BadgeKind::Bad, "DISAGREE"),
-        Agreement::NothingCompared => (BadgeKind::Unclear, "NOTHING COMPARED"),
+/// Good only if everything was compared and agrees.
+fn outcome(robot: &CheckedRobot<'_>) -> BadgeKind {
+    match robot.geometry.verdict {
+        Agreement::Disagree => BadgeKind::Bad,
+        Agreement::Agree if !is_in_part(robot) => BadgeKind::Good,
+        Agreement::Agree | Agreement::NothingCompared => BadgeKind::Unclear,
     }
 }
 
@@ -161,7 +161,7 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
         header {
             p.kind { "Do the descriptions agree?" }
             h1 { (report.robot) }
-            p.verdict { (badge(outcome(report).0, &robot.answer)) @if !robot.details.is_empty() { span.sentence { (sentence(&robot.details)) "." } } }
+            p.verdict { (badge(outcome(robot), &robot.answer)) @if !robot.details.is_empty() { span.sentence { (sentence(&robot.details)) "." } } }
             dl.facts {
                 dt { "file" } dd { code { (named(Path::new(&report.file))) } }
                 @if let Some(other) = robot.other { dt { "against" } dd { code { (named(&other.path)) } } }
@@ -174,6 +174,7 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
                     " and "
                     (value(&tolerance.1.key("orientation_rad"), tolerance.0.orientation_rad, &angle(tolerance.0.orientation_rad)))
                     @if report.replaced_tolerance.is_some() { " (by --tolerance)" }
+                    @else if !robot.description.tolerance_is_declared { " (the default: none is declared)" }
                 }
             }
             @for sentence in &robot.not_compared { p.note { (sentence) } }

@@ -28,7 +28,7 @@ pub(crate) fn marked(finding: &Diagnostic) -> Markup {
         pre.file {
             @for (number, line) in (1..).zip(quotable(source).lines()).filter(|(number, _)| shown.contains(number)) {
                 @if (first..=last).contains(&number) {
-                    mark { (row(number, &html! { (emphasised(line, within(source, span, number))) })) }
+                    mark { (row(number, &html! { (emphasised(line, within(source, span, number).as_slice())) })) }
                 } @else {
                     span { (row(number, &html! { (shortened(line)) })) }
                 }
@@ -59,24 +59,69 @@ fn within(source: &SourceFile, span: &Range<usize>, number: usize) -> Option<Ran
     (part.end <= length && part.len() < length && !part.is_empty()).then_some(part)
 }
 
-/// A line with a part of it emphasised: in a row in one line, the value is otherwise not to be found.
-fn emphasised(line: &str, part: Option<Range<usize>>) -> Markup {
-    let parts =
-        part.and_then(|part| Some((line.get(..part.start)?, line.get(part.clone())?, line.get(part.end..)?)));
-    match parts {
-        Some((before, part, after)) if line.len() <= LONGEST => html! { (before) em { (part) } (after) },
-        _ => html! { (shortened(line)) },
+/// A line with parts of it emphasised: in a row in one line, the value is otherwise not to be found.
+fn emphasised(line: &str, parts: &[Range<usize>]) -> Markup {
+    if line.len() > LONGEST {
+        return html! { (shortened(line)) };
+    }
+    let mut end = 0;
+    html! {
+        @for part in parts {
+            (line.get(end..part.start).unwrap_or_default())
+            em { (line.get(part.clone()).unwrap_or_default()) }
+            ({ end = part.end; "" })
+        }
+        (line.get(end..).unwrap_or_default())
     }
 }
 
-/// The part of a new line that differs from the old one.
-fn differing(old: &str, new: &str) -> Range<usize> {
-    let same = |one: &mut dyn Iterator<Item = char>, other: &mut dyn Iterator<Item = char>| -> usize {
-        one.zip(other).take_while(|(a, b)| a == b).map(|(c, _)| c.len_utf8()).sum()
-    };
-    let start = same(&mut old.chars(), &mut new.chars());
-    let end = same(&mut old[start..].chars().rev(), &mut new[start..].chars().rev());
-    start..new.len() - end
+/// The keys and values of a new line that the old one lacks; those that follow each other are one part.
+fn differing(old: &str, new: &str) -> Vec<Range<usize>> {
+    // A line that is cut is not compared, which keeps the table of common words small.
+    if old.len().max(new.len()) > LONGEST {
+        return Vec::new();
+    }
+    let (old_words, new_words) = (words(old), words(new));
+    let is_same = |i: usize, j: usize| old[old_words[i].clone()] == new[new_words[j].clone()];
+    // Length of the longest common subsequence of the words from `i` and `j` on.
+    let mut common = vec![vec![0_usize; new_words.len() + 1]; old_words.len() + 1];
+    for i in (0..old_words.len()).rev() {
+        for j in (0..new_words.len()).rev() {
+            common[i][j] =
+                if is_same(i, j) { common[i + 1][j + 1] + 1 } else { common[i + 1][j].max(common[i][j + 1]) };
+        }
+    }
+    let (mut parts, mut follows, mut i) = (Vec::<Range<usize>>::new(), false, 0);
+    for (j, word) in new_words.iter().enumerate() {
+        while i < old_words.len() && !is_same(i, j) && common[i + 1][j] >= common[i][j + 1] {
+            i += 1;
+        }
+        if i < old_words.len() && is_same(i, j) {
+            (i, follows) = (i + 1, false);
+            continue;
+        }
+        match parts.last_mut().filter(|_| follows) {
+            Some(last) => last.end = word.end,
+            None => parts.push(word.clone()),
+        }
+        follows = true;
+    }
+    parts
+}
+
+/// Where the keys, values and names of a line are, in TOML and in XML.
+fn words(line: &str) -> Vec<Range<usize>> {
+    let is_between = |c: char| c.is_whitespace() || ",={}[]<>\"'".contains(c);
+    let mut words = Vec::new();
+    let mut at = 0;
+    for part in line.split_inclusive(is_between) {
+        let word = part.trim_end_matches(is_between);
+        if !word.is_empty() {
+            words.push(at..at + word.len());
+        }
+        at += part.len();
+    }
+    words
 }
 
 /// Lines that a file should have instead, with what is new in them if the text of the file is known.
@@ -100,7 +145,7 @@ fn changed_lines(change: &ChangedLines, text: &str) -> Markup {
         };
     }
     let line = |at: usize, line: &str| {
-        emphasised(line, old.get(at).map(|old| differing(old, line)).filter(|part| !part.is_empty()))
+        emphasised(line, &old.get(at).map_or_else(Vec::new, |old| differing(old, line)))
     };
     html! {
         p.place {
@@ -133,8 +178,22 @@ mod tests {
 
     #[test]
     fn what_is_new_in_a_line_is_emphasised() {
-        check("row = { d_mm = 310, alpha_deg = 90 }", 2..=2, "d_mm = 3<em>1</em>0, alpha");
+        check("row = { d_mm = 310, alpha_deg = 90 }", 2..=2, "d_mm = <em>310</em>, alpha");
         check("row = { d_mm = 310, alpha_deg = 90 }", 2..=2, "write instead of line 2:");
+    }
+
+    #[test]
+    fn an_inserted_key_is_emphasised_with_its_value_and_nothing_between_two_changes() {
+        let parts = |old: &str, new: &str| -> Vec<String> {
+            differing(old, new).into_iter().map(|part| new[part].to_owned()).collect()
+        };
+        let old = "{ joint = \"a\", d_mm = 300, alpha_deg = 90 }";
+        let new = "{ joint = \"a\", d_mm = -310, sign = -1, alpha_deg = -90 }";
+        assert_eq!(parts(old, new), ["-310, sign = -1", "-90"]);
+        let new = "{ joint = \"a\", d_mm = 300, alpha_deg = 90, sign = -1 }";
+        assert_eq!(parts(old, new), ["sign = -1"]);
+        assert_eq!(parts("<origin xyz=\"0 0 0.3\"/>", "<origin xyz=\"0 0.1 0.3\"/>"), ["0.1"]);
+        assert_eq!(parts(old, old), Vec::<String>::new());
     }
 
     #[test]

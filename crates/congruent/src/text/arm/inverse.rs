@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::{
     analysis::inverse::{IkOptions, InverseReport, InverseSolution, NotReached, TargetPart},
     description::{Joint, Robot},
-    input::display::{length, length_and_angle, position},
+    input::display::{length, length_and_angle, listed, position},
     kinematics::{IkTarget, ReportedPose},
     text::{TextOptions, layout::Table},
 };
@@ -44,15 +44,26 @@ fn reached(result: &InverseSolution) -> String {
     match result.not_reached {
         _ if result.converged => "reached".to_owned(),
         None => "NOT REACHED".to_owned(),
-        Some(NotReached::Orientation) => {
-            "NOT REACHED: the position can be reached, but not in this orientation;".to_owned()
-        }
+        Some(NotReached::Orientation) => format!(
+            "NOT REACHED: the position can be reached, but not in this orientation{};",
+            held_by(&result.limits_held)
+        ),
         Some(NotReached::OutOfReach { distance_m, reach_m }) => format!(
             "OUT OF REACH: {} from the first joint, the arm reaches at most {}{};",
             length(distance_m),
             length(reach_m),
             in_millimetres(&result.target, distance_m, reach_m)
         ),
+    }
+}
+
+/// The joints whose limits stop the arm nearest to the target.
+fn held_by(joints: &[String]) -> String {
+    let names: Vec<&str> = joints.iter().map(String::as_str).collect();
+    match names.len() {
+        0 => String::new(),
+        1 => format!(": {} is at its limit", listed(&names)),
+        _ => format!(": {} are at their limits", listed(&names)),
     }
 }
 

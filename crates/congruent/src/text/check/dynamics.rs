@@ -11,6 +11,7 @@ use crate::{
         DynamicsExplanation, DynamicsReport, DynamicsVerdict, LimitDifference, ParameterDifference,
         TorqueBracket,
     },
+    input::display::counted,
 };
 
 use crate::text::layout::wrapped;
@@ -22,11 +23,9 @@ const SHOWN: usize = 8;
 pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
     let against = check.against.as_ref();
     if let Some(why) = against.and_then(|against| against.dynamics_not_compared.as_ref()) {
-        let poses = &check.geometry.comparisons;
-        let and_poses =
-            if poses.iter().any(|of| of.name == SourcePair::UrdfOther) { "" } else { "poses and " };
-        let verb = if and_poses.is_empty() { "is" } else { "are" };
-        let _ = writeln!(text, "  disagree  {and_poses}dynamics {verb} not compared: {why}");
+        let has_poses = check.geometry.comparisons.iter().any(|of| of.name == SourcePair::UrdfOther);
+        let what = if has_poses { "dynamics" } else { "poses and dynamics" };
+        let _ = writeln!(text, "  not compared with the other description: {what}: {why}");
     }
     if let Some(links) = against.map(|of| &of.links_in_other_frames).filter(|links| !links.is_empty()) {
         let _ = writeln!(
@@ -138,15 +137,32 @@ fn more(all: usize, what: &str) -> Option<String> {
     all.checked_sub(SHOWN + 1).map(|more| format!("and {} more {what}", more + 1))
 }
 
+/// Whether two values are one that was typed with fewer digits in one of the files.
+fn is_rounded(parameter: &ParameterDifference) -> bool {
+    /// Six significant digits, of which the last is rounded. No unit, relative; kind: choice.
+    const ROUNDED: f64 = 5e-6;
+    parameter
+        .found
+        .zip(parameter.expected)
+        .is_some_and(|(a, b)| (a - b).abs() <= ROUNDED * a.abs().max(b.abs()))
+}
+
 /// A cause, its parameters with the lines that say them, and what to write.
 fn explained(text: &mut String, explanation: &DynamicsExplanation) {
     let _ = writeln!(text, "    {}", explanation.sentence());
-    for parameter in explanation.parameters.iter().take(SHOWN) {
+    let (rounded, off): (Vec<_>, Vec<_>) =
+        explanation.parameters.iter().partition(|parameter| is_rounded(parameter));
+    // If nothing else differs, rounding is the cause.
+    let (listed, rounded) = if off.is_empty() { (rounded, 0) } else { (off, rounded.len()) };
+    for parameter in listed.iter().take(SHOWN) {
         let _ =
             writeln!(text, "      {}", placed(parameter.sentence(), parameter, explanation.file.as_deref()));
     }
-    if let Some(more) = more(explanation.parameters.len(), "parameters") {
+    if let Some(more) = more(listed.len(), "parameters") {
         let _ = writeln!(text, "      {more}");
+    }
+    if rounded > 0 {
+        let _ = writeln!(text, "      and {} by rounding alone", counted(rounded, "difference"));
     }
     for law in &explanation.impossible_as_written {
         let _ = writeln!(text, "      as written, the inertia is physically impossible: {law}");

@@ -8,7 +8,7 @@ const RED: u8 = 31;
 const YELLOW: u8 = 33;
 
 /// Words with their colours; of two with the same beginning the longer is first.
-const WORDS: [(&str, u8); 26] = [
+const WORDS: [(&str, u8); 27] = [
     ("SAME ROBOT", GREEN),
     ("SAME GEOMETRY, DIFFERENT DYNAMICS", RED),
     ("SAME GEOMETRY AND DYNAMICS, DIFFERENT JOINT LIMITS", RED),
@@ -17,6 +17,7 @@ const WORDS: [(&str, u8); 26] = [
     ("SAME DYNAMICS, GEOMETRY NOT COMPARED", GREEN),
     ("DIFFERENT DYNAMICS", RED),
     ("DIFFERENT JOINT LIMITS", RED),
+    ("DIFFERENT JOINTS", RED),
     ("DIFFERENT", RED),
     ("NO SECOND DESCRIPTION", YELLOW),
     ("NOTHING COMPARED", YELLOW),

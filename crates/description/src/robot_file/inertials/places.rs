@@ -2,7 +2,10 @@
 
 use std::{ops::Range, sync::Arc};
 
-use congruent_input::{SourceFile, TextEdit, number::significant};
+use congruent_input::{
+    SourceFile, TextEdit,
+    number::{significant, significant_components},
+};
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
@@ -108,7 +111,7 @@ fn changed(written: &Spanned<f64>, value: f64) -> Option<TextEdit> {
 
 fn array(written: &Spanned<[f64; 3]>, values: &Vector3<f64>) -> Option<TextEdit> {
     let differs = written.get_ref().iter().zip(values).any(|(old, new)| is_other(*old, *new));
-    let text = || format!("[{}]", <[f64; 3]>::from(*values).map(significant).join(", "));
+    let text = || format!("[{}]", significant_components(<[f64; 3]>::from(*values)).join(", "));
     differs.then(|| TextEdit { span: written.span(), text: text() })
 }
 
