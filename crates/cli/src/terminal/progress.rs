@@ -31,9 +31,9 @@ pub(crate) fn waiting<T>(printer: &Printer, what: &str, work: impl FnOnce() -> T
             if ended.recv_timeout(UNTOLD) != Err(RecvTimeoutError::Timeout) {
                 return;
             }
-            let style = ProgressStyle::with_template("{spinner} {prefix:.60}, {elapsed}")
+            let style = ProgressStyle::with_template("{spinner} {prefix}, {elapsed}")
                 .unwrap_or_else(|_| ProgressStyle::default_spinner());
-            let line = ProgressBar::new_spinner().with_style(style).with_prefix(what.to_owned());
+            let line = ProgressBar::new_spinner().with_style(style).with_prefix(of_a_line(what));
             line.enable_steady_tick(TICK);
             // It ends when the other side of the channel is dropped, by a panic too.
             let _ = ended.recv();
@@ -42,6 +42,12 @@ pub(crate) fn waiting<T>(printer: &Printer, what: &str, work: impl FnOnce() -> T
         let _end = end;
         work()
     })
+}
+
+/// As much as fits a line beside the time.
+fn of_a_line(what: &str) -> String {
+    const COLUMNS: usize = 60;
+    what.chars().take(COLUMNS).collect()
 }
 
 /// The lines of a call, one for each scenario that runs; none if no one sees them.
