@@ -8,7 +8,8 @@ use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
 use nalgebra::{DMatrix, Point3, Vector3};
 
 use super::{
-    fit::{FaultFit, Window, norm, solve},
+    extent::extended,
+    fit::{EXPLAINED, FaultFit, Window, norm, solve},
     observed::ObservedRun,
     residual::{OffWindow, Residual, body_of},
 };
@@ -137,19 +138,30 @@ pub(super) fn fault(
         hidden.map(|of_body| body_from_tip[(of_body, axis)].abs()).sum::<f64>() < PART_OF_AXIS
     };
     let is_identifiable = std::array::from_fn(of_axis);
-    let (from_s, until_s) = observed.times(window.samples);
-    // Joints that friction holds show no load: it ends only if it would show in what follows.
     let parameters = load.parameters();
     let scratch = RefCell::new((buffer, regressor));
-    let expected = |residual: &Residual, joint: usize| {
+    // Of each joint of `off`. Minus: the drive exerts what the load needs, so the load has the opposite sign.
+    let expected = |residual: &Residual| -> Vec<f64> {
         let (buffer, regressor) = &mut *scratch.borrow_mut();
         if tree.regressor_into(&motion(residual), buffer, regressor).is_err() {
-            return 0.0;
+            return vec![0.0; off.len()];
         }
-        with_followers(observed, joint, |row| torque(regressor, row, body, &parameters))
+        let needed = |joint| with_followers(observed, joint, |row| torque(regressor, row, body, &parameters));
+        off.iter().map(|&(joint, _)| -needed(joint)).collect()
     };
-    let ends = off.iter().any(|&(joint, own)| {
-        own.in_place_of(window).ends(residuals, joint, |residual| expected(residual, joint))
+    let evidence = |residual: &Residual| -> f64 {
+        let each = off.iter().zip(expected(residual));
+        each.map(|(&(joint, own), expected)| own.evidence(residual, joint, expected)).sum()
+    };
+    let window = if remaining <= EXPLAINED {
+        extended(window, residuals, observed.samples(), evidence)
+    } else {
+        window
+    };
+    let (from_s, until_s) = observed.times(window.samples);
+    // Joints that friction holds show no load: it ends only if it would show in what follows.
+    let ends = off.iter().enumerate().any(|(at, &(joint, own))| {
+        own.in_place_of(window).ends(residuals, joint, |residual| expected(residual)[at])
     });
     let until_s = until_s.filter(|_| ends);
     let fault = RunFault {
