@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use congruent_description::RobotDescription;
 use congruent_dynamics::{BodyTree, DynamicsError, JointMotionState, PARAMETERS, SpatialInertia};
 use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
-use nalgebra::{DMatrix, Point3, Vector3};
+use nalgebra::{DMatrix, Isometry3, Point3, Vector3};
 
 use super::{
     extent::extended,
@@ -131,13 +131,7 @@ pub(super) fn fault(
     let Some((load, remaining, is_identifiable)) = point_mass(&columns, &needed) else { return Ok(None) };
     let com_in_body = load.first_moment_kg_m / load.mass_kg;
     let com_in_tip = body_from_tip.inverse() * Point3::from(com_in_body);
-    // Identifiability is known along the axes of the body, but reported along those of the tip.
-    let body_from_tip = body_from_tip.rotation.to_rotation_matrix();
-    let of_axis = |axis: usize| {
-        let hidden = (0..3).filter(|&of_body| !is_identifiable[of_body]);
-        hidden.map(|of_body| body_from_tip[(of_body, axis)].abs()).sum::<f64>() < PART_OF_AXIS
-    };
-    let is_identifiable = std::array::from_fn(of_axis);
+    let is_identifiable = along_axes_of_tip(&body_from_tip, is_identifiable);
     let parameters = load.parameters();
     let scratch = RefCell::new((buffer, regressor));
     // Of each joint of `off`. Minus: the drive exerts what the load needs, so the load has the opposite sign.
@@ -176,6 +170,15 @@ pub(super) fn fault(
     let end = if fault.until_s.is_none() { residuals.len() } else { window.residuals.end };
     let fit = FaultFit { fault, remaining, parameters: 4 };
     Ok(Some(Load { fit, tree, body, parameters, residuals: Window { end, ..window.residuals } }))
+}
+
+/// Which coordinates are identifiable along the axes of the tip, in which they are reported; known are those of the body.
+fn along_axes_of_tip(body_from_tip: &Isometry3<f64>, is_identifiable: [bool; 3]) -> [bool; 3] {
+    let body_from_tip = body_from_tip.rotation.to_rotation_matrix();
+    std::array::from_fn(|axis| {
+        let hidden = (0..3).filter(|&of_body| !is_identifiable[of_body]);
+        hidden.map(|of_body| body_from_tip[(of_body, axis)].abs()).sum::<f64>() < PART_OF_AXIS
+    })
 }
 
 /// A torque of a joint with those of the joints that follow it.

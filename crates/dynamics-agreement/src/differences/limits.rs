@@ -134,7 +134,7 @@ fn mark_exchanged(differences: &mut [LimitDifference]) {
             && is_other(differences[b].found, differences[a].expected)
         {
             for index in [a, b] {
-                differences[index].detail = EXCHANGED.to_owned();
+                EXCHANGED.clone_into(&mut differences[index].detail);
             }
         }
     }
