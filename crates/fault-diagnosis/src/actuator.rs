@@ -3,6 +3,7 @@
 use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
 
 use super::{
+    extent::extended,
     fit::{FaultFit, Window, best, least_squares},
     observed::{ObservedRun, spread},
     residual::{OffWindow, Residual},
@@ -25,9 +26,11 @@ pub(super) fn fault(
         residuals[window.residuals.samples()].iter().filter(|residual| !residual.is_held[joint]).collect();
     let missing: Vec<f64> = of_window.iter().map(|residual| residual.missing[joint]).collect();
     let effort: Vec<f64> = of_window.iter().map(|residual| residual.effort[joint]).collect();
-    let make = |kind: FaultKind, values: Vec<FaultQuantity>, ends: bool| {
+    let make = |kind: FaultKind, values: Vec<FaultQuantity>, expected: &dyn Fn(&Residual) -> f64| {
+        let evidence = |residual: &Residual| window.evidence(residual, joint, expected(residual));
+        let window = extended(window, residuals, observed.samples(), evidence);
         let (from_s, until_s) = observed.times(window.samples);
-        let until_s = until_s.filter(|_| ends);
+        let until_s = until_s.filter(|_| window.ends(residuals, joint, expected));
         let joints = vec![observed.name(joint)];
         RunFault { kind, joints, link: None, values, from_s, until_s }
     };
@@ -38,11 +41,11 @@ pub(super) fn fault(
     let share = least_squares(std::slice::from_ref(&effort), &missing).filter(|_| may_lack);
     if let Some((parameters, remaining)) = share {
         let share = 1.0 + parameters[0];
-        let ends = window.ends(residuals, joint, |residual| parameters[0] * residual.effort[joint]);
+        let expected = |residual: &Residual| parameters[0] * residual.effort[joint];
         let fault = if share.abs() < NO_SHARE {
-            make(FaultKind::LostTorque, Vec::new(), ends)
+            make(FaultKind::LostTorque, Vec::new(), &expected)
         } else {
-            make(FaultKind::ScaledTorque, vec![FaultQuantity::share(share)], ends)
+            make(FaultKind::ScaledTorque, vec![FaultQuantity::share(share)], &expected)
         };
         // A negative share, or none in a joint that follows its setpoint, is another fault that least squares mimics: a joint
         // that nothing drives does not follow.
@@ -53,14 +56,15 @@ pub(super) fn fault(
     // Whether the friction ends is judged while the joint slides: at rest no friction would be missing.
     let fastest = fastest(joint, &of_window);
     fits.extend(friction(joint, &of_window).into_iter().map(|([dry, viscous], remaining)| {
-        let ends = window.ends(residuals, joint, |residual| {
+        // Minus, as in the columns: what resists the motion is missing in its direction.
+        let expected = |residual: &Residual| {
             let speed = residual.qd[1][joint];
-            if speed.abs() > SLIDING_PART * fastest { dry.copysign(speed) + viscous * speed } else { 0.0 }
-        });
+            if speed.abs() > SLIDING_PART * fastest { -dry.copysign(speed) - viscous * speed } else { 0.0 }
+        };
         let values = FaultQuantity::friction([dry, viscous], observed.unit(joint));
         // A part that is zero was not fitted, and a parameter fewer is the better explanation.
         let parameters = if dry > 0.0 && viscous > 0.0 { 2 } else { 1 };
-        FaultFit { fault: make(FaultKind::AddedFriction, values, ends), remaining, parameters }
+        FaultFit { fault: make(FaultKind::AddedFriction, values, &expected), remaining, parameters }
     }));
     best(fits)
 }

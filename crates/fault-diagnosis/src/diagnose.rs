@@ -2,6 +2,7 @@
 
 use congruent_description::RobotDescription;
 use congruent_dynamics::DynamicsError;
+use congruent_input::display::quantity;
 use congruent_monitors::{ActuatorLimits, RunClock, RunDynamics, SampleStore};
 use congruent_proximity::{Clearance, MovingBodies};
 use congruent_scenario::{ControllerKind, FaultKind, RunFault};
@@ -14,7 +15,7 @@ use super::{
     fit::FaultFit,
     observed::ObservedRun,
     payload,
-    residual::{HeldSamples, OffWindow, Residual, first_contact, residuals},
+    residual::{HeldSamples, OffWindow, Residual, first_contact, is_blind, residuals},
     stuck, tool,
     transport::{self, Dropped},
 };
@@ -191,11 +192,14 @@ impl Search<'_> {
         if let Some(contact) = first_contact {
             residuals.retain(|residual| residual.sample < contact);
         }
-        let (mut off, mut alone) = (Vec::new(), Vec::new());
+        let (mut off, mut alone, mut unknown) = (Vec::new(), Vec::new(), Vec::new());
         for &joint in &self.open {
             let Some((window, fault)) = self.of_joint(&residuals, joint) else { continue };
             off.push((joint, window));
-            alone.extend(fault);
+            match fault {
+                Some(fault) => alone.push(fault),
+                None => unknown.push((joint, window)),
+            }
         }
         let load = payload::fault(&self.observed, run.description, &off, &residuals)?;
         let with_others = self.load_and_others(run.description, &off, &residuals)?;
@@ -207,8 +211,45 @@ impl Search<'_> {
         };
         // One payload explains most joints with a residual, unless each has a better cause of its own: fewer causes first.
         let is_load = !with_load.is_empty() && (alone.len() < off.len() || score(&with_load) < score(&alone));
-        self.found.extend(if is_load { with_load } else { alone });
+        if !is_load {
+            let sentence = |(joint, window)| self.unexplained_effort(joint, window);
+            let unexplained: Vec<String> = unknown.into_iter().map(sentence).collect();
+            self.unexplained.extend(unexplained);
+        }
+        let found = if is_load { with_load } else { alone };
+        // A fault that was found shows that efforts could be compared.
+        if found.is_empty() {
+            let blind = self.blind_joints(&residuals);
+            self.unexplained.extend(blind);
+        }
+        self.found.extend(found);
         Ok(())
+    }
+
+    /// That a joint lacks effort, or has too much, and no hypothesis says why.
+    fn unexplained_effort(&self, joint: usize, window: OffWindow) -> String {
+        let (from_s, _) = self.observed.times(window.samples);
+        format!(
+            "joint {}: from {} on, the motion needs another effort than the one that is reported, and no single fault explains \
+             the difference: there may be several at this joint",
+            self.observed.name(joint),
+            quantity(from_s, "s")
+        )
+    }
+
+    /// That a loop with late readings vibrates so much that efforts show little, if it does: its latency is then not all that
+    /// may be wrong.
+    fn blind_joints(&self, residuals: &[Residual]) -> Option<String> {
+        self.observed.late?;
+        let blind = self.open.iter().filter(|&&joint| is_blind(residuals, joint));
+        let names: Vec<String> = blind.map(|&joint| self.observed.name(joint)).collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "the readings arrive late and the arm vibrates: the efforts of {} change too fast to be compared with those that \
+                 the motion needs, so that faults of actuators, friction and payload are not excluded",
+                names.join(", ")
+            )
+        })
     }
 
     /// When the residual of a joint is off, and the fault of this joint alone that explains it.

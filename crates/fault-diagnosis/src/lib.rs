@@ -3,11 +3,13 @@
 //!
 //! The positions of the joints follow from the poses of the twin's links (`observed`), and `noise` estimates how far readings
 //! may be from them. The errors of the encoders, and the reported effort minus the effort that the motion needs (`residual`),
-//! are fitted by a catalogue of hypotheses, one file for each family; `shape` and `fit` decide between them.
+//! are fitted by a catalogue of hypotheses, one file for each family; `shape`, `extent` and `fit` decide between them and when a
+//! fault begins and ends.
 
 mod actuator;
 mod diagnose;
 mod encoder;
+mod extent;
 mod fit;
 mod judgement;
 mod noise;

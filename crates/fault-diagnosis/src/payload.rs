@@ -5,10 +5,11 @@ use std::cell::RefCell;
 use congruent_description::RobotDescription;
 use congruent_dynamics::{BodyTree, DynamicsError, JointMotionState, PARAMETERS, SpatialInertia};
 use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
-use nalgebra::{DMatrix, Point3, Vector3};
+use nalgebra::{DMatrix, Isometry3, Point3, Vector3};
 
 use super::{
-    fit::{FaultFit, Window, norm, solve},
+    extent::extended,
+    fit::{EXPLAINED, FaultFit, Window, norm, solve},
     observed::ObservedRun,
     residual::{OffWindow, Residual, body_of},
 };
@@ -130,26 +131,31 @@ pub(super) fn fault(
     let Some((load, remaining, is_identifiable)) = point_mass(&columns, &needed) else { return Ok(None) };
     let com_in_body = load.first_moment_kg_m / load.mass_kg;
     let com_in_tip = body_from_tip.inverse() * Point3::from(com_in_body);
-    // Identifiability is known along the axes of the body, but reported along those of the tip.
-    let body_from_tip = body_from_tip.rotation.to_rotation_matrix();
-    let of_axis = |axis: usize| {
-        let hidden = (0..3).filter(|&of_body| !is_identifiable[of_body]);
-        hidden.map(|of_body| body_from_tip[(of_body, axis)].abs()).sum::<f64>() < PART_OF_AXIS
-    };
-    let is_identifiable = std::array::from_fn(of_axis);
-    let (from_s, until_s) = observed.times(window.samples);
-    // Joints that friction holds show no load: it ends only if it would show in what follows.
+    let is_identifiable = along_axes_of_tip(&body_from_tip, is_identifiable);
     let parameters = load.parameters();
     let scratch = RefCell::new((buffer, regressor));
-    let expected = |residual: &Residual, joint: usize| {
+    // Of each joint of `off`. Minus: the drive exerts what the load needs, so the load has the opposite sign.
+    let expected = |residual: &Residual| -> Vec<f64> {
         let (buffer, regressor) = &mut *scratch.borrow_mut();
         if tree.regressor_into(&motion(residual), buffer, regressor).is_err() {
-            return 0.0;
+            return vec![0.0; off.len()];
         }
-        with_followers(observed, joint, |row| torque(regressor, row, body, &parameters))
+        let needed = |joint| with_followers(observed, joint, |row| torque(regressor, row, body, &parameters));
+        off.iter().map(|&(joint, _)| -needed(joint)).collect()
     };
-    let ends = off.iter().any(|&(joint, own)| {
-        own.in_place_of(window).ends(residuals, joint, |residual| expected(residual, joint))
+    let evidence = |residual: &Residual| -> f64 {
+        let each = off.iter().zip(expected(residual));
+        each.map(|(&(joint, own), expected)| own.evidence(residual, joint, expected)).sum()
+    };
+    let window = if remaining <= EXPLAINED {
+        extended(window, residuals, observed.samples(), evidence)
+    } else {
+        window
+    };
+    let (from_s, until_s) = observed.times(window.samples);
+    // Joints that friction holds show no load: it ends only if it would show in what follows.
+    let ends = off.iter().enumerate().any(|(at, &(joint, own))| {
+        own.in_place_of(window).ends(residuals, joint, |residual| expected(residual)[at])
     });
     let until_s = until_s.filter(|_| ends);
     let fault = RunFault {
@@ -164,6 +170,15 @@ pub(super) fn fault(
     let end = if fault.until_s.is_none() { residuals.len() } else { window.residuals.end };
     let fit = FaultFit { fault, remaining, parameters: 4 };
     Ok(Some(Load { fit, tree, body, parameters, residuals: Window { end, ..window.residuals } }))
+}
+
+/// Which coordinates are identifiable along the axes of the tip, in which they are reported; known are those of the body.
+fn along_axes_of_tip(body_from_tip: &Isometry3<f64>, is_identifiable: [bool; 3]) -> [bool; 3] {
+    let body_from_tip = body_from_tip.rotation.to_rotation_matrix();
+    std::array::from_fn(|axis| {
+        let hidden = (0..3).filter(|&of_body| !is_identifiable[of_body]);
+        hidden.map(|of_body| body_from_tip[(of_body, axis)].abs()).sum::<f64>() < PART_OF_AXIS
+    })
 }
 
 /// A torque of a joint with those of the joints that follow it.

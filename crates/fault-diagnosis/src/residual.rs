@@ -80,12 +80,8 @@ impl OffWindow {
         if off < FEWEST || (is_held && 2 * off < residuals.len()) {
             return None;
         }
-        // With too few residuals after the window the end of the fault cannot be known: it lasts to the end of the run.
-        let lasts = usable.len() - residuals.end < FEWEST;
-        let end = if lasts { samples } else { usable[residuals.end].sample };
-        // An effort acts in the step before the sample that shows it.
-        let first = usable[residuals.first].sample - 1;
-        Some(Self { residuals, samples: Window { first, end }, threshold, usable: usable.len() })
+        let samples = samples_of(residuals, usable, samples);
+        Some(Self { residuals, samples, threshold, usable: usable.len() })
     }
 
     /// Whether the window ends before the run because the fault does: it would show in enough of what follows. `expected` is
@@ -99,6 +95,27 @@ impl OffWindow {
         };
         let after = all.get(self.residuals.end..self.usable).unwrap_or_default();
         after.iter().filter(would_show).take(FEWEST).count() == FEWEST
+    }
+
+    /// The residuals before the joint came to a limit.
+    pub(super) fn usable(self, all: &[Residual]) -> &[Residual] {
+        &all[..self.usable]
+    }
+
+    /// How much of the squared deviation of a residual of a joint a fault explains that lets `expected` be missing, in units
+    /// of the smallest deviation that counts as off. None in steps of which the effort is not known.
+    pub(super) fn evidence(self, residual: &Residual, joint: usize, expected: f64) -> f64 {
+        if residual.is_held[joint] || residual.is_limited {
+            return 0.0;
+        }
+        // e^2 - (e - m)^2, by which the fault lowers the sum of squares.
+        let explained = expected * (2.0 * residual.missing[joint] - expected);
+        explained / (self.threshold + CHANGES * residual.change[joint]).powi(2)
+    }
+
+    /// The same over other residuals.
+    pub(super) fn over(self, residuals: Window, all: &[Residual], samples: usize) -> Self {
+        Self { residuals, samples: samples_of(residuals, self.usable(all), samples), ..self }
     }
 
     /// The window of another, with the threshold of this joint.
@@ -115,6 +132,15 @@ impl OffWindow {
             ..self
         }
     }
+}
+
+/// The samples of a fault that shows in a window of residuals.
+fn samples_of(residuals: Window, usable: &[Residual], samples: usize) -> Window {
+    // With too few residuals after the window the end of the fault cannot be known: it lasts to the end of the run.
+    let lasts = usable.len() - residuals.end < FEWEST;
+    let end = if lasts { samples } else { usable[residuals.end].sample };
+    // An effort acts in the step before the sample that shows it.
+    Window { first: usable[residuals.first].sample - 1, end }
 }
 
 /// One sample with its motion and its residual.
@@ -149,6 +175,11 @@ impl Residual {
         LIMITED_PART * self.effort[joint].abs()
     }
 
+    /// The deviation that a joint may have in this step by its motion alone: it changes fast, or an actuator is at a limit.
+    fn of_motion(&self, joint: usize) -> f64 {
+        CHANGES * self.change[joint] + if self.is_limited { self.of_limits(joint) } else { 0.0 }
+    }
+
     /// Whether any actuator is at its largest effort or speed.
     fn is_at(&self, limits: &[ActuatorLimits]) -> bool {
         /// Nearer to a limit than this part of it is at it. Kind: engineering.
@@ -159,6 +190,15 @@ impl Residual {
             reaches(self.effort[joint], limit.effort) || speeds.into_iter().any(|qd| reaches(qd, limit.speed))
         })
     }
+}
+
+/// Whether a large fault of a joint would not show in most steps.
+pub(super) fn is_blind(residuals: &[Residual], joint: usize) -> bool {
+    /// A deviation of this part of the largest effort of the joint is that of a large fault. Kind: engineering.
+    const LARGE: f64 = 0.3;
+    let largest = residuals.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
+    let hidden = residuals.iter().filter(|residual| residual.of_motion(joint) > LARGE * largest).count();
+    2 * hidden > residuals.len()
 }
 
 /// The mean change of the needed effort from residual to residual in a neighbourhood, which a single zero does not hide.

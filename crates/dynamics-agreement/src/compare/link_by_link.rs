@@ -6,7 +6,7 @@ use super::unmatched::Unmatched;
 use crate::{
     diagnosis::{
         DiagnosisInput, ExactExplanation, ExplanationGroup, ReferenceTorques, diagnose_in_stages,
-        part_by_part, term_by_term,
+        is_same_body, part_by_part, term_by_term,
     },
     model::DynamicsModel,
     report::{content::DynamicsExplanation, explained::ExplanationContext, places::ModelFiles},
@@ -36,6 +36,7 @@ pub(super) fn link_by_link(
     if !is_same(&whole, reference_in_candidate, setting, states)? {
         return Ok(Vec::new());
     }
+    let corrected = with_exchanges(model, corrected);
     let mut explanations = unmatched.explanations(files);
     let mut causes = Vec::new();
     for (one, link) in &corrected {
@@ -108,6 +109,40 @@ fn one_by_one(
         }
     }
     (whole, corrected)
+}
+
+/// The same with two links as one if each has the right parameters of the other: one by one, both would be wrong in every
+/// parameter, and what they are by mistake would be lost.
+fn with_exchanges(
+    model: &DynamicsModel,
+    corrected: Vec<(DynamicsModel, Option<usize>)>,
+) -> Vec<(DynamicsModel, Option<usize>)> {
+    let mut merged: Vec<(DynamicsModel, Option<usize>)> = Vec::new();
+    for (one, link) in corrected {
+        let right = |of: &DynamicsModel, link: usize| of.inertials[link];
+        let is_exchanged = |link: usize, (other, at): &(DynamicsModel, Option<usize>)| {
+            at.is_some_and(|at| {
+                let pairs =
+                    [(right(&one, link), model.inertials[at]), (right(other, at), model.inertials[link])];
+                pairs.iter().all(|(right, written)| {
+                    right
+                        .as_ref()
+                        .zip(written.as_ref())
+                        .is_some_and(|(right, written)| is_same_body(right, written))
+                })
+            })
+        };
+        let partner = link.and_then(|link| merged.iter().position(|other| is_exchanged(link, other)));
+        match partner.zip(link) {
+            Some((partner, link)) => {
+                merged[partner].0.inertials[link] = one.inertials[link];
+                // The place of neither: the pair is diagnosed by all causes, those of two links among them.
+                merged[partner].1 = None;
+            }
+            None => merged.push((one, link)),
+        }
+    }
+    merged
 }
 
 /// The diagnosis of one link, of the joint terms or of gravity by itself.

@@ -23,7 +23,7 @@ pub(crate) use fit::Corrected;
 pub use hypothesis::FaultySide;
 pub(crate) use hypothesis::{DynamicsHypothesis, DynamicsPlace};
 pub(crate) use part_by_part::part_by_part;
-pub(crate) use rank::ExactExplanation;
+pub(crate) use rank::{ExactExplanation, is_same_body};
 pub use reason::EquivalenceReason;
 pub(crate) use term_by_term::term_by_term;
 

@@ -119,7 +119,7 @@ impl ExactExplanation {
                 let there =
                     b.links.iter().find(|(other, _)| other == link).map(|(_, parameters)| *parameters);
                 let there = there.or(model.inertials[*link]).unwrap_or_else(Inertial::nothing);
-                is_same(parameters, &there)
+                is_same_body(parameters, &there)
             })
         };
         let joints = |of: &Corrected| of.joints.clone().unwrap_or_else(|| model.resistances.clone());
@@ -173,7 +173,7 @@ impl FittedHypothesis {
     /// Whether the correction changes more than the rounding of link parameters.
     pub(super) fn is_more_than_rounding(&self, model: &DynamicsModel) -> bool {
         let is_same = |(link, parameters): &(usize, Inertial)| {
-            model.inertials[*link].is_some_and(|written| is_same(&written, parameters))
+            model.inertials[*link].is_some_and(|written| is_same_body(&written, parameters))
         };
         let is_of_links = self.corrected.joints.is_none() && self.corrected.gravity.is_none();
         !(is_of_links && self.corrected.links.iter().all(is_same))
@@ -323,6 +323,6 @@ const PARTS: [Range<usize>; 3] = [0..1, 1..4, 4..10];
 const EACH: [Range<usize>; 10] = [0..1, 1..2, 2..3, 3..4, 4..5, 5..6, 6..7, 7..8, 8..9, 9..10];
 
 /// Whether two parameters describe the same body.
-fn is_same(a: &Inertial, b: &Inertial) -> bool {
+pub(crate) fn is_same_body(a: &Inertial, b: &Inertial) -> bool {
     LinkDifferences::between(a, b) == LinkDifferences([false; 3])
 }

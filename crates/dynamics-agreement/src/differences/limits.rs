@@ -16,7 +16,8 @@ pub struct LimitDifference {
     /// Which kind of limit differs.
     pub cause: LimitCause,
     /// `degrees`, `rpm` or `N mm` if the factor, or its inverse, is that of this unit, `degrees` also for a range of more than four
-    /// turns; the larger value is probably in it. Otherwise empty.
+    /// turns; the larger value is probably in it. `exchanged` if the candidate has the value at another place of the same
+    /// `<limit>`: speed and effort, or both ends of the range with their signs. Otherwise empty.
     pub detail: String,
     /// `velocity`, `effort`, `lower`, `upper`.
     #[serde(rename = "figure")]
@@ -56,6 +57,8 @@ pub enum LimitCause {
     PositionLimit,
 }
 
+/// `detail` of limits whose values have changed places.
+pub(crate) const EXCHANGED: &str = "exchanged";
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 const N_MM: f64 = 1000.0;
 /// No cable survives more; a URDF with such a range is warned of, too. Unit: rad.
@@ -72,8 +75,9 @@ pub(crate) fn differences(
     reference: &DynamicsModel,
     joints: &[usize],
 ) -> Vec<LimitDifference> {
-    let mut differences = Vec::new();
+    let mut differences: Vec<LimitDifference> = Vec::new();
     for (joint, &other) in joints.iter().enumerate() {
+        let first = differences.len();
         for (cause, parameter, value) in LIMITS {
             let stated = |limit: Option<&JointLimit>| {
                 let value = limit.and_then(value).filter(|value| value.is_finite());
@@ -83,14 +87,12 @@ pub(crate) fn differences(
             };
             let (found, expected) =
                 (stated(candidate.limits[joint].as_ref()), stated(reference.limits[other].as_ref()));
-            let is_same = match (found, expected) {
-                (Some(found), Some(expected)) => {
-                    (found - expected).abs() <= SAME_VALUE * found.abs().max(expected.abs())
-                }
+            let is_equal = match (found, expected) {
+                (Some(found), Some(expected)) => is_same(found, expected),
                 (None, None) => true,
                 _ => false,
             };
-            if is_same {
+            if is_equal {
                 continue;
             }
             let both = found.zip(expected);
@@ -113,8 +115,33 @@ pub(crate) fn differences(
                 changes: Vec::new(),
             });
         }
+        mark_exchanged(&mut differences[first..]);
     }
     differences
+}
+
+/// Marks two differences of one joint whose values have changed places: speed and effort as they are, the ends of the range with
+/// the other sign.
+fn mark_exchanged(differences: &mut [LimitDifference]) {
+    for ([a, b], sign) in [(["velocity", "effort"], 1.0), (["lower", "upper"], -1.0)] {
+        let at = [a, b].map(|name| differences.iter().position(|of| of.parameter == name));
+        let [Some(a), Some(b)] = at else { continue };
+        let is_other = |found: Option<f64>, expected: Option<f64>| {
+            let both = found.zip(expected);
+            both.is_some_and(|(found, expected)| is_same(found, sign * expected))
+        };
+        if is_other(differences[a].found, differences[b].expected)
+            && is_other(differences[b].found, differences[a].expected)
+        {
+            for index in [a, b] {
+                EXCHANGED.clone_into(&mut differences[index].detail);
+            }
+        }
+    }
+}
+
+fn is_same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME_VALUE * a.abs().max(b.abs())
 }
 
 fn unit(cause: LimitCause, joint: &JointPlace) -> SiUnit {

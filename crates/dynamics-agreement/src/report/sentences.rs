@@ -6,7 +6,10 @@ use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict, Torqu
 use crate::{
     bound::{CoveredMotion, TorqueBracket},
     diagnosis::{DynamicsCause, FaultySide},
-    differences::{CandidateAndReference, Invariants, LimitDifference, ParameterDifference},
+    differences::{
+        CandidateAndReference, Invariants, LimitCause, LimitDifference, ParameterDifference,
+        limits::EXCHANGED,
+    },
     thresholds::{LARGEST_ACCELERATION, LARGEST_SPEED, MOST_JOINTS, Precision, SAME_VALUE},
 };
 
@@ -110,6 +113,10 @@ impl LimitDifference {
         let factor = self.factor.map_or_else(String::new, |factor| format!(", factor {}", number(factor)));
         let unit = match self.found.zip(self.expected) {
             _ if self.detail.is_empty() => String::new(),
+            _ if self.detail == EXCHANGED => match self.cause {
+                LimitCause::PositionLimit => ": lower and upper are exchanged, with their signs".to_owned(),
+                _ => ": effort and velocity are exchanged".to_owned(),
+            },
             // The larger of the two is the one in another unit.
             Some((found, expected)) if found.abs() < expected.abs() => {
                 format!(": is the expected {} in {}?", limit_number(expected), self.detail)

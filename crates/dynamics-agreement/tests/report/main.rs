@@ -2,6 +2,7 @@
 
 #[path = "../../../../tests/support/corpus.rs"]
 mod corpus;
+mod exchanged;
 mod fixed_links;
 
 use congruent_description::{RobotDescription, load_robot, parse_urdf};

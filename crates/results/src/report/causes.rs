@@ -60,14 +60,18 @@ fn with_actuators(found: Option<RunDiagnosis>, outcome: &Outcome) -> Option<RunD
         .filter(|measure| measure.quantity == Quantity::EffortError)
         .filter_map(|measure| measure.first_violation.as_ref());
     let is_named = |joint: &String| {
-        found.as_ref().is_some_and(|found| found.run_faults().any(|fault| fault.joints.contains(joint)))
+        let start = format!("joint {joint}: ");
+        found.as_ref().is_some_and(|found| {
+            found.run_faults().any(|fault| fault.joints.contains(joint))
+                || found.unexplained.iter().any(|sentence| sentence.starts_with(&start))
+        })
     };
     let unnamed: Vec<String> = violations
         .filter(|violation| !is_named(&violation.subject))
         .map(|violation| {
             format!(
-                "joint {}: its actuator does not deliver the commanded effort, and the motion does not show which part: its \
-                 torques are small beside those of other joints, or it is at a limit",
+                "joint {}: its actuator does not deliver the commanded effort, and the motion does not show which part: what is \
+                 missing is too small beside the efforts of the arm, or the joint is at a limit",
                 violation.subject
             )
         })

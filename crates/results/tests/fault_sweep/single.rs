@@ -315,3 +315,24 @@ fn a_payload_and_a_fault_of_one_joint_are_found_together() {
         assert_eq!((judgement, said.len()), (FaultVerdict::Right, 2), "{fault:?}: {said:?}");
     }
 }
+
+#[test]
+fn a_small_part_of_the_effort_is_missing_from_its_beginning_on() {
+    for seed in 60..66 {
+        let joint = "shoulder_lift_joint".to_owned();
+        let small = ScaledTorqueFault { joint, share: 0.95, at_s: 0.3, until_s: Some(1.1) };
+        let (judgement, said) = found(vec![FaultSettings::ScaledTorque(small)], seed, |_| ());
+        assert_eq!(judgement, FaultVerdict::Right, "{said:?}");
+        assert!(said[0].ends_with("from 0.3 s to 1.1 s"), "{said:?}");
+    }
+}
+
+#[test]
+fn two_faults_of_one_joint_are_said_to_be_possible() {
+    let joint = "shoulder_lift_joint".to_owned();
+    let friction = AddedFrictionFault { joint, dry_n_m: Some(30.0), at_s: 0.2, ..Default::default() };
+    let (_, said) = found(vec![FaultSettings::AddedFriction(friction), scaled_torque()], 70, |_| ());
+    let [only] = &said[..] else { panic!("{said:?}") };
+    assert!(only.starts_with("joint shoulder_lift_joint: from 0.2"), "{only}");
+    assert!(only.ends_with("there may be several at this joint"), "{only}");
+}
