@@ -107,7 +107,7 @@ congruent_input::codes! {
         MISSING_FIGURE = "CGR-ROBOT-007", "robot_file::missing_figure",
             "A row of the table lacks a, alpha or d. A missing value is not taken as 0, because it may have been forgotten. If it is 0, write 0.\n    d_mm = 0";
         MISSING_ROW = "CGR-ROBOT-008", "robot_file::missing_row",
-            "The table has no row for a joint that moves the tip. Without it the table describes another robot. The message names the missing joints.";
+            "The table has no row for a joint that moves the tip. Without it the table describes another robot. The message names the missing joints. As a warning: the joint follows another one (<mimic>), which moves the tip just as well.";
         JOINT_TWICE = "CGR-ROBOT-009", "robot_file::joint_twice",
             "Two rows, or two [[inertial]] entries, name the same joint. Only one of the two could apply. Remove one.";
         SIGN = "CGR-ROBOT-010", "robot_file::sign",

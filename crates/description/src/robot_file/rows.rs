@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::written::{WrittenDh, WrittenRow};
 use crate::{
     codes,
-    model::{DhRow, DhRowKind, JointIndex, Robot},
+    model::{DhRow, DhRowKind, Joint, JointIndex, Robot},
 };
 
 /// The chain and the text against which the rows of a table are checked.
@@ -156,17 +156,15 @@ fn every_joint_has_a_row(
     diagnostics: &mut Diagnostics,
 ) {
     let robot = context.robot;
+    let without_row = context.chain.iter().filter(|&&joint| rows.iter().all(|row| row.joint != joint));
     // A mimic joint is driven by its master, in the model as in the machine.
-    let missing: Vec<&str> = context
-        .chain
-        .iter()
-        .filter(|&&joint| robot.joint(joint).mimic.is_none())
-        .filter(|&&joint| rows.iter().all(|row| row.joint != joint))
-        .map(|&joint| robot.joint(joint).name.as_str())
-        .collect();
+    let (following, missing): (Vec<&Joint>, Vec<&Joint>) =
+        without_row.map(|&joint| robot.joint(joint)).partition(|joint| joint.mimic.is_some());
     if missing.is_empty() && !rows.is_empty() {
+        followers_have_rows(dh, &following, context, diagnostics);
         return;
     }
+    let missing: Vec<&str> = missing.into_iter().map(|joint| joint.name.as_str()).collect();
     let message = format!(
         "the table has {}, but the chain from base to tip has {}: no row for {}",
         counted(rows.len(), "row"),
@@ -179,6 +177,32 @@ fn every_joint_has_a_row(
             .with_help(
                 "add a row for each of them, or name another `base` or `tip` if the chain is too long",
             ),
+    );
+}
+
+/// Warns of mimic joints without a row: they move the tip like any other joint.
+fn followers_have_rows(
+    dh: &Spanned<WrittenDh>,
+    without_row: &[&Joint],
+    context: &ChainContext<'_>,
+    diagnostics: &mut Diagnostics,
+) {
+    let follows = |joint: &&Joint| {
+        let master = joint.mimic.map(|mimic| context.robot.joint(mimic.master).name.as_str());
+        format!("\"{}\" (follows \"{}\")", joint.name, master.unwrap_or_default())
+    };
+    if without_row.is_empty() {
+        return;
+    }
+    let joints: Vec<String> = without_row.iter().map(follows).collect();
+    let message = format!(
+        "rows are missing for joints with <mimic>, which do not move in the table then: {}",
+        joints.join(", ")
+    );
+    diagnostics.push(
+        Diagnostic::warning(codes::robot_file::MISSING_ROW, message)
+            .at(first_line(dh.span(), context.text))
+            .with_help("add a row for each of them, at its place in the chain"),
     );
 }
 

@@ -130,6 +130,16 @@ fn the_table_must_fit_the_chain() {
         5,
         "the table has 1 row, but the chain from base to tip has 2 moving joints: no row for b",
     );
+    // A joint that follows another one moves the tip like any other.
+    let following = GOOD.replace(second, "").replace("tip = 'tip'", "tip = 'side'");
+    let found = read(&following).1;
+    assert_eq!(
+        found.iter().map(|found| found.message.as_str()).collect::<Vec<_>>(),
+        [
+            "rows are missing for joints with <mimic>, which do not move in the table then: \"c\" (follows \"b\")"
+        ]
+    );
+    assert_eq!(found[0].severity, Severity::Warning);
     let twice = GOOD.replacen("joint = 'b'", "joint = 'a'", 1);
     let messages: Vec<String> = read(&twice).1.into_iter().map(|found| found.message).collect();
     assert_eq!(
