@@ -365,8 +365,12 @@ impl Clearance {
         let watch = &mut self.watches[pair];
         if watch.measured_at != self.instant {
             let Pair { a, b } = watch.pair;
-            watch.a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
-            watch.exact_m = self.hulls[a].distance_m(&self.hulls[b], &watch.a_from_b);
+            let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
+            // Of a robot that rests, the distance is known.
+            if watch.exact_m.is_nan() || a_from_b != watch.a_from_b {
+                watch.exact_m = self.hulls[a].distance_m(&self.hulls[b], &a_from_b);
+                watch.a_from_b = a_from_b;
+            }
             watch.measured_at = self.instant;
         }
         watch.exact_m

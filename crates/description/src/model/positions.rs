@@ -19,12 +19,14 @@ macro_rules! joint_positions {
         impl Deref for $name {
             type Target = [f64];
 
+            #[inline]
             fn deref(&self) -> &[f64] {
                 &self.0
             }
         }
 
         impl DerefMut for $name {
+            #[inline]
             fn deref_mut(&mut self) -> &mut [f64] {
                 &mut self.0
             }
