@@ -40,4 +40,6 @@ pub use written::{
     rpy::fitted_rpy_fixed_xyz_rad,
     rpy_fixed_xyz_rad, serde_in_words, toml_text,
     transform::{WrittenTransform, fitted_transform},
+    typing_error::TypingError,
+    wrong_unit::WrongUnit,
 };

@@ -21,11 +21,9 @@ pub fn coarse_quarter_turns(description: &RobotDescription) -> Vec<Diagnostic> {
     for joint in elements(document.root_element(), "joint") {
         let Some(name) = joint.attribute("name") else { continue };
         for origin in elements(joint, "origin") {
-            let typed = origin.attribute("rpy").unwrap_or_default().split_whitespace();
+            let mut typed = origin.attribute("rpy").unwrap_or_default().split_whitespace();
             // One finding for a joint: its values are corrected together.
-            let Some((text, turn_rad)) =
-                typed.filter_map(|text| Some((text, cut_quarter_turn(text)?))).next()
-            else {
+            let Some((text, turn_rad)) = typed.find_map(|text| Some((text, cut_quarter_turn(text)?))) else {
                 continue;
             };
             let error = angle((text.parse::<f64>().unwrap_or(turn_rad) - turn_rad).abs());

@@ -5,7 +5,7 @@
 //! is one sum for all of its pairs, and if that is too coarse by their relative motion since the last exact distance.
 
 use congruent_description::{Link, Obstacle, RobotDescription, Shape};
-use nalgebra::{Isometry3, Point3};
+use nalgebra::Isometry3;
 
 use super::{
     hulls::{Hulls, ProximityError},
@@ -39,15 +39,15 @@ struct NearPair {
 #[derive(Debug, Clone)]
 pub struct Clearance {
     subjects: Vec<String>,
-    hulls: Vec<Hulls>,
+    pub(super) hulls: Vec<Hulls>,
     /// Links come first, in the robot's order, then obstacles or zones.
-    root_from_subjects: Vec<Isometry3<f64>>,
+    pub(super) root_from_subjects: Vec<Isometry3<f64>>,
     /// Whether a link carries the subject now.
     is_carried: Vec<bool>,
     /// Whether the subject can move; true for every link.
     pub(super) can_move: Vec<bool>,
     links: usize,
-    watches: Vec<WatchedPair>,
+    pub(super) watches: Vec<WatchedPair>,
     /// Pairs in which both subjects can move: one path length does not order them, so each is examined every time.
     of_movers: Vec<usize>,
     /// For each link, its pairs with bodies at rest, except those that are candidates now.
@@ -360,13 +360,12 @@ impl Clearance {
         self.candidates.clear();
     }
 
-    /// The exact distance of one pair, m; computed only once at each instant.
+    /// The exact distance of one pair, m; computed once for each relative pose.
     pub fn measure(&mut self, pair: usize) -> f64 {
         let watch = &mut self.watches[pair];
         if watch.measured_at != self.instant {
             let Pair { a, b } = watch.pair;
             let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
-            // Of a robot that rests, the distance is known.
             if watch.exact_m.is_nan() || a_from_b != watch.a_from_b {
                 watch.exact_m = self.hulls[a].distance_m(&self.hulls[b], &a_from_b);
                 watch.a_from_b = a_from_b;
@@ -382,22 +381,6 @@ impl Clearance {
             return None;
         }
         Some(self.measure(pair)).filter(|&distance_m| distance_m < threshold_m)
-    }
-
-    /// The nearest points of one pair, in the root link's frame: on the first subject and on the second.
-    pub fn nearest_points(&self, pair: usize) -> Option<[Point3<f64>; 2]> {
-        let Pair { a, b } = self.watches[pair].pair;
-        let root_from_a = &self.root_from_subjects[a];
-        let a_from_b = root_from_a.inv_mul(&self.root_from_subjects[b]);
-        let points = self.hulls[a].nearest_points(&self.hulls[b], &a_from_b)?;
-        Some(points.map(|point| root_from_a * point))
-    }
-
-    /// The signed distance of one pair, m: minus the penetration depth if the two overlap.
-    pub fn measure_signed(&self, pair: usize) -> f64 {
-        let Pair { a, b } = self.watches[pair].pair;
-        let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
-        self.hulls[a].signed_distance_m(&self.hulls[b], &a_from_b)
     }
 }
 

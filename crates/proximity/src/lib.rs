@@ -12,6 +12,7 @@ mod hulls;
 mod pair_names;
 mod pairs;
 mod penetration;
+mod points;
 mod separation;
 mod simplified_hulls;
 mod travel;

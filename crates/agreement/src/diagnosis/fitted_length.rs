@@ -1,21 +1,22 @@
 //! Whether a person may have meant a length that was fitted: along parallel axes each length makes up for a wrong one, and
 //! no measurement says which one it is.
 
+use congruent_input::TypingError;
+
 use super::{
     candidate::{CandidateModel, DhEntry, ModelParameter},
     explanation::Criterion,
     fit::hypothesis_fit::{FitContext, HypothesisFit},
     hypothesis::{ModelPair, PoseHypothesis},
     thresholds::SAME_VALUE,
-    typing_error::TypingError,
 };
 
-/// One length that a hypothesis fits: an entry of a row, or a component of a declared transform.
+/// One length that a hypothesis fits, in metres: an entry of a row, or a component of a declared transform.
 pub(super) struct FittedLength {
-    given_m: f64,
-    fitted_m: f64,
-    /// Half of the last place of the lengths in the files, m.
-    half_place_m: f64,
+    given: f64,
+    fitted: f64,
+    /// Half of the last place of the lengths in the files.
+    half_place: f64,
 }
 
 impl FittedLength {
@@ -27,15 +28,15 @@ impl FittedLength {
         hypothesis: &PoseHypothesis,
     ) -> Option<Self> {
         let &[parameter] = &hypothesis.free[..] else { return None };
-        let given_m = length_m(&context.models.candidate, parameter)?;
-        let fitted_m = length_m(&context.corrected(fit).candidate, parameter)?;
-        let half_place_m = criterion.digits.coarsest_half_place(DhEntry::A).max(SAME_VALUE);
-        Some(Self { given_m, fitted_m, half_place_m })
+        let given = length_m(&context.models.candidate, parameter)?;
+        let fitted = length_m(&context.corrected(fit).candidate, parameter)?;
+        let half_place = criterion.digits.coarsest_half_place(DhEntry::A).max(SAME_VALUE);
+        Some(Self { given, fitted, half_place })
     }
 
     /// Whether the table or the reference model's file has the fitted value elsewhere, with whatever sign, or it is zero.
     pub(super) fn is_written_elsewhere(&self, ModelPair { candidate, reference }: &ModelPair) -> bool {
-        let is_same = |written: f64| (written.abs() - self.fitted_m.abs()).abs() <= self.half_place_m;
+        let is_same = |written: f64| (written.abs() - self.fitted.abs()).abs() <= self.half_place;
         let rows = 0..candidate.rows.len();
         let of_rows =
             rows.flat_map(|row| [DhEntry::A, DhEntry::D].map(|entry| candidate.entry(row, entry))).flatten();
@@ -49,7 +50,7 @@ impl FittedLength {
 
     /// Whether another value was typed for one that is likelier: a zero is rarely a typing error.
     pub(super) fn is_likely(&self, models: &ModelPair) -> bool {
-        self.given_m != 0.0 && self.is_explained(models)
+        self.given != 0.0 && self.is_explained(models)
     }
 
     /// Whether the fitted value is written elsewhere, or the given one is a typing error.
@@ -59,7 +60,7 @@ impl FittedLength {
 
     /// Whether the fitted value becomes the given one by a mistake that people make when they type.
     pub(super) fn is_typing_error(&self) -> bool {
-        TypingError::between_values(self.given_m, self.fitted_m).is_some()
+        TypingError::between_values(self.given, self.fitted).is_some()
     }
 }
 

@@ -27,7 +27,6 @@ mod reference_model;
 mod score;
 mod search;
 pub(crate) mod thresholds;
-mod typing_error;
 
 pub use candidate::{CandidateModel, CandidateRow, DeclaredTransform, DhEntry, ModelParameter, RowConstants};
 pub use digits::{TransformPart, TypedPlace, TypedValue, WrittenDigits};
@@ -40,4 +39,3 @@ pub use invariants::{Invariant, JointDifference};
 pub(crate) use nearest_table::nearest_table;
 pub use reference_model::{ReferenceJoint, ReferenceModel};
 pub use search::{Diagnosis, diagnose};
-pub(crate) use typing_error::TypingError;

@@ -88,11 +88,11 @@ pub(super) const BOX_DAMPING: DampingSchedule =
 /// The search ends below this norm. Without unit; kind: choice, a thousandth of what counts as the same.
 pub(super) const ENOUGH: f64 = 1e-12;
 
-/// The search ends if the linear problem leaves more than this. Without unit; kind: choice, ten times what counts as the
+/// The search ends if more than this remains in the linear problem. Without unit; kind: choice, ten times what counts as the
 /// same.
 pub(super) const OUT_OF_REACH: f64 = 1e-8;
 
-/// Errors of the linear problem that it leaves, too: one is measured along the last step. Kind: judgement.
+/// Times the error of the linear problem, as measured along the last step, that must remain, too. Kind: judgement.
 pub(super) const FIRST_ORDER_ERRORS: f64 = 10.0;
 
 /// Steps of the interior-point method of a pass. Kind: loop bound; some twenty are needed.

@@ -4,10 +4,7 @@
 use congruent_description::{ConstantKey, DhRowKind, RobotFilePlaces, RowKey};
 use congruent_input::{ChangedLines, Slack, TextEdit, units::Unit};
 
-use super::{
-    fault_message::row_key,
-    values::{isometry, value_literal},
-};
+use super::fault_message::row_key;
 use crate::diagnosis::{
     CandidateModel, Cause, Criterion, DhEntry, ExplainedFault, Explanation, FaultPlace, ModelPair,
     RowConstants, with_dropped_joints,
@@ -135,7 +132,7 @@ impl FileValue {
             Self::Constant(key) => {
                 let constant =
                     if key == ConstantKey::BaseFromDh0 { after.base.pose } else { after.tool.pose };
-                return places.set_constant(key, &isometry(&constant), slack);
+                return places.set_constant(key, &constant.to_isometry(), slack);
             }
             Self::Row(row, key) => (row, key),
         };
@@ -157,9 +154,10 @@ impl FileValue {
                 let unit =
                     if matches!(key, RowKey::Alpha | RowKey::Theta) { Unit::Angle } else { Unit::Length };
                 let place = places.value(row, key);
-                value(before).zip(value(after)).zip(place).map(|((found, expected), place)| {
-                    value_literal(unit, place.units, found, expected, slack)
-                })
+                value(before)
+                    .zip(value(after))
+                    .zip(place)
+                    .map(|((found, expected), place)| unit.corrected(found, expected, place.units, slack))
             }
         };
         literal.and_then(|literal| places.set_value(row, key, &literal)).into_iter().collect()

@@ -8,22 +8,15 @@ use std::{
 
 use congruent_description::{ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey};
 use congruent_input::{
-    ChangedLines, Slack, SourceFile,
+    ChangedLines, Slack, SourceFile, TypingError, WrongUnit,
     display::{angle, length, length_and_angle, number},
     fitted_number, fitted_transform, line_column,
     units::{Unit, UnitSystem},
 };
 use congruent_kinematics::{Pose, rotation_log};
 
-use super::{
-    content::Fault,
-    names::ModelNames,
-    values::{ReportedValue, isometry, value_literal},
-    wrong_unit::WrongUnit,
-};
-use crate::diagnosis::{
-    CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants, TypingError,
-};
+use super::{content::Fault, names::ModelNames, values::ReportedValue};
+use crate::diagnosis::{CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants};
 
 /// A fault for programs, its message for people, and its place.
 pub(super) struct FaultMessage {
@@ -270,7 +263,7 @@ impl FaultContext<'_> {
             }
         };
         let places = self.names.places;
-        let [found, expected] = [found, expected].map(|pose| isometry(&pose));
+        let [found, expected] = [found, expected].map(|pose| pose.to_isometry());
         let suggestion = format!("{name} = {}", fitted_transform(&expected, self.slack));
         let fault = Fault {
             found: Some(ReportedValue::Text(fitted_transform(&found, Slack::default()))),
@@ -324,7 +317,7 @@ impl FaultContext<'_> {
         let unit = if entry.is_angle() { Unit::Angle } else { Unit::Length };
         let (key, units) =
             place.map_or_else(|| (entry.to_string(), UnitSystem::Si), |place| (place.key, place.units));
-        format!("{key} = {}", value_literal(unit, units, found, expected, self.slack))
+        format!("{key} = {}", unit.corrected(found, expected, units, self.slack))
     }
 
     /// The given value of a row, in the digits of the file.

@@ -18,7 +18,6 @@ mod table;
 mod typed_values;
 mod units;
 mod values;
-mod wrong_unit;
 
 pub use content::{
     ComparedValue, CorrectedFile, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis,

@@ -9,7 +9,7 @@ use super::{
     content::Fault,
     fault_message::{FaultContext, FaultMessage, FileLocation, off_by},
     joint_parts::{JointAttribute, advise, origin_attributes, origin_fault, shift, turn},
-    values::{ReportedValue, isometry},
+    values::ReportedValue,
 };
 use crate::diagnosis::{Cause, ModelPair, thresholds::ROUNDED_QUARTER_RAD};
 
@@ -58,7 +58,7 @@ impl FaultContext<'_> {
     fn joint_origin(&self, joint: usize) -> FaultMessage {
         let name = self.names.chain_joint(joint);
         let pose = |models: &ModelPair| models.reference.joints[joint].parent_from_joint;
-        let (found, expected) = (isometry(&pose(self.before)), isometry(&pose(self.after)));
+        let (found, expected) = (pose(self.before).to_isometry(), pose(self.after).to_isometry());
         let urdf = self.names.urdf;
         let written = |attribute: &str| urdf?.joint_attribute(&name, "origin", attribute);
         let attributes = origin_attributes([&found, &expected], self.slack, written);

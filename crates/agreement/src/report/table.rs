@@ -5,12 +5,12 @@ use congruent_input::{
     Slack, fitted_transform,
     units::{Unit, UnitSystem},
 };
+use congruent_kinematics::Pose;
 
 use super::{
     content::{ComparedValue, TableComparison},
     fault_message::row_key,
     names::ModelNames,
-    values::isometry,
 };
 use crate::diagnosis::{
     CandidateModel, Criterion, DhEntry, Explanation, ModelPair, ModelParameter, nearest_table,
@@ -107,7 +107,7 @@ fn constant([given, nearest]: [&CandidateModel; 2], key: ConstantKey, slack: Sla
     let (found, expected) = (pose(given), pose(nearest));
     let differs =
         found.distance_m(&expected) > slack.length_m || found.angle_rad(&expected) > slack.angle_rad;
-    let written = |slack| move |pose| fitted_transform(&isometry(&pose), slack);
+    let written = |slack| move |pose: Pose| fitted_transform(&pose.to_isometry(), slack);
     let found = written(Slack::default())(found);
     ComparedValue {
         joint: None,

@@ -1,12 +1,11 @@
 //! Messages about whole columns in a wrong unit.
 
-use congruent_input::fitted_number;
+use congruent_input::{WrongUnit, fitted_number};
 
 use super::{
     content::Fault,
     fault_message::{FaultContext, FaultMessage, row_key},
     values::ReportedValue,
-    wrong_unit::WrongUnit,
 };
 use crate::diagnosis::{DhEntry, FaultPlace, ModelPair};
 

@@ -1,4 +1,5 @@
-//! Values as files write them: arrays, numbers, rotations and transforms, and TOML text as a whole.
+//! Values as files write them: arrays, numbers, rotations and transforms, mistakes of who types them, and TOML text as a
+//! whole.
 
 mod advice;
 pub(crate) mod array;
@@ -9,5 +10,7 @@ pub(crate) mod rpy;
 pub(crate) mod serde_message;
 pub mod toml_text;
 pub(crate) mod transform;
+pub(crate) mod typing_error;
+pub(crate) mod wrong_unit;
 pub use rpy::{rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad};
 pub use serde_message::in_words as serde_in_words;

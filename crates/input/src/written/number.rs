@@ -119,6 +119,16 @@ impl Unit {
         }
     }
 
+    /// The right value in place of a wrong one: short, but with enough digits to differ from it.
+    pub fn corrected(self, found: f64, expected: f64, units: UnitSystem, slack: Slack) -> String {
+        /// Part of its change that a value may be off.
+        const PART_OF_CHANGE: f64 = 0.05;
+        // A correction of 1e-8 must not be rounded away.
+        let most = PART_OF_CHANGE * (found - expected).abs();
+        let slack = Slack { length_m: slack.length_m.min(most), angle_rad: slack.angle_rad.min(most) };
+        self.fitted(expected, units, slack)
+    }
+
     /// A fitted vector under the key that says its unit.
     pub fn fitted_vector(self, quantity: &str, values: [f64; 3], units: UnitSystem, slack: Slack) -> String {
         let [si_key, engineering_key] = self.keys(quantity);

@@ -197,8 +197,8 @@ impl ExplanationSearch<'_> {
         }
     }
 
-    /// The hypotheses of a fit in the order in which they are corrected, each time that which leaves the least, and the
-    /// residual after each: with the values to write, as a person would paste them.
+    /// The hypotheses of a fit in the order in which they are corrected, each time the one behind which the least remains,
+    /// and the residual after each: with the values to write, as a person would paste them.
     pub(super) fn in_turn(&self, fit: &HypothesisFit) -> (Vec<usize>, Vec<PoseError>) {
         let mut residuals: Vec<PoseError> = Vec::new();
         let mut chosen: Vec<usize> = Vec::new();

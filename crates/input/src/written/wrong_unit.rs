@@ -1,22 +1,24 @@
 //! Names of the unit that values seem to have, and of the one that they should have.
 
-use congruent_input::units::UnitSystem;
+use crate::units::UnitSystem;
 
 /// Values in a wrong unit.
-#[derive(Clone, Copy)]
-pub(super) struct WrongUnit {
-    pub(super) is_angle: bool,
-    pub(super) is_too_large: bool,
+#[derive(Debug, Clone, Copy)]
+pub struct WrongUnit {
+    /// Whether they are angles; the others are lengths.
+    pub is_angle: bool,
+    /// Whether they are too large for the unit that they should have.
+    pub is_too_large: bool,
 }
 
 impl WrongUnit {
     /// The unit that the values seem to have.
-    pub(super) fn given(self) -> &'static str {
+    pub fn given(self) -> &'static str {
         self.unit(if self.is_too_large { UnitSystem::Engineering } else { UnitSystem::Si })
     }
 
     /// The unit that they should have.
-    pub(super) fn right(self) -> &'static str {
+    pub fn right(self) -> &'static str {
         self.unit(self.right_system())
     }
 
@@ -35,7 +37,7 @@ impl WrongUnit {
 
     /// `in degrees, but their keys say radians`. If the keys already say the unit that the values seem to have, the values
     /// were converted once too often.
-    pub(super) fn under(self, key: Option<UnitSystem>, keys_say: &str) -> String {
+    pub fn under(self, key: Option<UnitSystem>, keys_say: &str) -> String {
         match key.filter(|&key| key != self.right_system()) {
             None => format!("in {}, but {keys_say} {}", self.given(), self.right()),
             Some(key) => {

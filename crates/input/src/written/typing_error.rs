@@ -2,7 +2,7 @@
 
 /// How a typed number differs from the right one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum TypingError {
+pub enum TypingError {
     /// The sign alone.
     OppositeSign,
     /// The decimal point alone, of a number with at least two digits.
@@ -15,7 +15,13 @@ pub(crate) enum TypingError {
 
 impl TypingError {
     /// `None` if the two differ in more, or in nothing.
-    pub(crate) fn between(found: &str, expected: &str) -> Option<Self> {
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_input::TypingError;
+    /// assert_eq!(TypingError::between("324.5", "342.5"), Some(TypingError::Transposed));
+    /// ```
+    pub fn between(found: &str, expected: &str) -> Option<Self> {
         let (found, expected) = (TypedDecimal::new(found)?, TypedDecimal::new(expected)?);
         if found.digits.is_empty() || expected.digits.is_empty() {
             return None;
@@ -34,14 +40,14 @@ impl TypingError {
     }
 
     /// The same of a typed value and a fitted one, which has one decimal more than the typed one at most.
-    pub(super) fn between_values(typed: f64, fitted: f64) -> Option<Self> {
+    pub fn between_values(typed: f64, fitted: f64) -> Option<Self> {
         let typed = typed.to_string();
         let decimals = typed.split_once('.').map_or(0, |(_, decimals)| decimals.len());
         Self::between(&typed, &format!("{fitted:.*}", decimals + 1))
     }
 
     /// In words behind the right value.
-    pub(crate) fn in_words(self) -> Option<&'static str> {
+    pub fn in_words(self) -> Option<&'static str> {
         match self {
             Self::OppositeSign => Some("the opposite sign"),
             Self::DecimalPoint => Some("the decimal point is in another place"),
@@ -112,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn slips_of_one_or_two_digits_are_recognised() {
+    fn mistakes_in_one_or_two_digits_are_recognised() {
         use TypingError::{DecimalPoint, OneDigit, OppositeSign, Transposed};
         is("324.5", "342.5", Some(Transposed));
         is("-324.5", "-342.5", Some(Transposed));
