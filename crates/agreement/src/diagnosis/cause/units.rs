@@ -14,22 +14,22 @@ const LENGTHS: [DhEntry; 2] = [DhEntry::A, DhEntry::D];
 
 /// A wrong unit: its cause, the factor that corrects it, and the entries of that kind.
 #[derive(Clone, Copy)]
-struct WrongUnit {
+struct UnitCorrection {
     cause: Cause,
     factor: f64,
     entries: &'static [DhEntry; 2],
 }
 
-const WRONG_UNITS: [WrongUnit; 4] = [
-    WrongUnit { cause: Cause::DegreesAsRadians, factor: std::f64::consts::PI / 180.0, entries: &ANGLES },
-    WrongUnit { cause: Cause::RadiansAsDegrees, factor: 180.0 / std::f64::consts::PI, entries: &ANGLES },
-    WrongUnit { cause: Cause::MillimetresAsMetres, factor: 1e-3, entries: &LENGTHS },
-    WrongUnit { cause: Cause::MillimetresAsMetres, factor: 1e3, entries: &LENGTHS },
+const UNIT_CORRECTIONS: [UnitCorrection; 4] = [
+    UnitCorrection { cause: Cause::DegreesAsRadians, factor: std::f64::consts::PI / 180.0, entries: &ANGLES },
+    UnitCorrection { cause: Cause::RadiansAsDegrees, factor: 180.0 / std::f64::consts::PI, entries: &ANGLES },
+    UnitCorrection { cause: Cause::MillimetresAsMetres, factor: 1e-3, entries: &LENGTHS },
+    UnitCorrection { cause: Cause::MillimetresAsMetres, factor: 1e3, entries: &LENGTHS },
 ];
 
 pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
     let mut list = Vec::new();
-    for wrong_unit in WRONG_UNITS {
+    for wrong_unit in UNIT_CORRECTIONS {
         table(&models.candidate, wrong_unit, &mut list);
         for place in [FaultPlace::Base, FaultPlace::Tool] {
             list.push(constant(place, wrong_unit));
@@ -45,8 +45,8 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<PoseHypothesis> {
 }
 
 /// Entries, columns, and both columns of a table.
-fn table(candidate: &CandidateModel, wrong_unit: WrongUnit, list: &mut Vec<PoseHypothesis>) {
-    let WrongUnit { cause, factor, entries } = wrong_unit;
+fn table(candidate: &CandidateModel, wrong_unit: UnitCorrection, list: &mut Vec<PoseHypothesis>) {
+    let UnitCorrection { cause, factor, entries } = wrong_unit;
     for row in 0..candidate.rows.len() {
         for &entry in entries {
             // A zero has no unit: its hypothesis would have no effect.
@@ -65,7 +65,7 @@ fn table(candidate: &CandidateModel, wrong_unit: WrongUnit, list: &mut Vec<PoseH
     }
 }
 
-fn constant(place: FaultPlace, wrong_unit: WrongUnit) -> PoseHypothesis {
+fn constant(place: FaultPlace, wrong_unit: UnitCorrection) -> PoseHypothesis {
     let at_base = place == FaultPlace::Base;
     PoseHypothesis::edit(wrong_unit.cause, place, move |models: &mut ModelPair| {
         let candidate = &mut models.candidate;
@@ -74,7 +74,7 @@ fn constant(place: FaultPlace, wrong_unit: WrongUnit) -> PoseHypothesis {
 }
 
 /// All lengths of the model, including the declared transforms.
-fn whole(wrong_unit: WrongUnit) -> PoseHypothesis {
+fn whole(wrong_unit: UnitCorrection) -> PoseHypothesis {
     PoseHypothesis::edit(wrong_unit.cause, FaultPlace::Model, move |models: &mut ModelPair| {
         let candidate = &mut models.candidate;
         scale_columns(candidate, wrong_unit.entries, wrong_unit.factor);
@@ -87,8 +87,8 @@ fn whole(wrong_unit: WrongUnit) -> PoseHypothesis {
 }
 
 /// The position of one joint, or of all joints: the joint moves 57.3 times as far.
-fn positions(rows: usize, wrong_unit: WrongUnit, list: &mut Vec<PoseHypothesis>) {
-    let WrongUnit { cause, factor, .. } = wrong_unit;
+fn positions(rows: usize, wrong_unit: UnitCorrection, list: &mut Vec<PoseHypothesis>) {
+    let UnitCorrection { cause, factor, .. } = wrong_unit;
     for row in 0..rows {
         list.push(PoseHypothesis::edit(cause, FaultPlace::Rows(vec![row]), move |models: &mut ModelPair| {
             models.candidate.rows[row].rate *= factor;
@@ -120,7 +120,7 @@ fn scale(candidate: &mut CandidateModel, row: usize, entry: DhEntry, factor: f64
     }
 }
 
-fn rescale(constant: &mut DeclaredTransform, wrong_unit: WrongUnit) {
+fn rescale(constant: &mut DeclaredTransform, wrong_unit: UnitCorrection) {
     if wrong_unit.entries == &LENGTHS {
         constant.pose.translation *= wrong_unit.factor;
     } else if let Some(rpy) = constant.written_rpy_rad {
