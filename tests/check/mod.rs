@@ -9,6 +9,7 @@ mod dynamics;
 mod dynamics_causes;
 mod joint_losses;
 mod joint_origins;
+mod mapping;
 mod mimics;
 mod planted_dynamics;
 mod published_tables;

@@ -57,6 +57,7 @@ pub fn all_codes() -> Vec<&'static Code> {
         congruent_description::codes::ALL,
         congruent_input::codes::ALL,
         congruent_lint::codes::ALL,
+        congruent_meshes::codes::ALL,
         congruent_monitors::codes::ALL,
         congruent_motion::codes::ALL,
         congruent_proximity::codes::ALL,

@@ -13,6 +13,8 @@ pub use congruent_fault_diagnosis as fault_diagnosis;
 pub use congruent_input as input;
 pub use congruent_kinematics as kinematics;
 pub use congruent_lint as lint_rules;
+pub use congruent_mapping as mapping;
+pub use congruent_meshes as meshes;
 pub use congruent_monitors as monitors;
 pub use congruent_motion as motion;
 pub use congruent_page as page;
@@ -38,8 +40,8 @@ pub mod text;
 mod with_physics;
 
 pub use check::{
-    DeclaredSource, Headline, OtherDescription, RobotCheck, WrittenFix, check, check_against, check_suite,
-    checked_robot,
+    DeclaredSource, Headline, OtherDescription, ReportedJoint, ReportedMapping, RobotCheck, WrittenFix,
+    check, check_against, check_suite, checked_robot,
 };
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};

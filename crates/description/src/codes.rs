@@ -7,16 +7,6 @@ congruent_input::codes! {
         NO_ROBOT_FILE = "CGR-FILE-015", "load::no_robot_file" unreadable,
             "The folder has no robot.toml, so it is not a robot. Give a folder with a robot.toml, a robot file or a .urdf.";
     }
-    mesh {
-        INVALID = "CGR-MESH-002", "mesh::invalid",
-            "The mesh cannot be used: it is damaged, has no area, holds NaN, or its format is not supported. Distances and contacts need every collision mesh.";
-        EMPTY = "CGR-MESH-003", "mesh::empty",
-            "The mesh file is valid but has no triangles, so the link gets no shape from it. Distances and contacts of that link are not measured. Export the mesh again.";
-        MATERIAL_OUTSIDE = "CGR-MESH-009", "mesh::material_outside",
-            "An OBJ file names a material library outside the project. Material libraries are never read.";
-        NO_FOLDER = "CGR-MESH-010", "mesh::no_folder",
-            "The URDF was given as text without a folder, so no mesh can be found. Give the URDF as a file.";
-    }
     srdf {
         UNKNOWN_LINK = "CGR-SRDF-001", "srdf::unknown_link",
             "The SRDF names a link that the robot does not have; a disabled collision pair with this link has no effect. Often the link was renamed.";
@@ -122,6 +112,8 @@ congruent_input::codes! {
             "An entry of [[inertial]] lacks a value, has a value that no rigid body can have, or names a frame that does not belong to its joint.";
         LIMITS = "CGR-ROBOT-015", "robot_file::limits",
             "An entry of [limits] has the wrong unit for its joint, is given twice, or is not positive.";
+        MAPPING = "CGR-ROBOT-027", "robot_file::mapping",
+            "An offset of [mapping.joints] has the wrong unit for its joint, is given twice, or is no position of a joint. `q_there = sign * q_here + offset`.\n    elbow = { joint = \"joint3\", sign = -1, offset_deg = 90 }";
         TOLERANCE = "CGR-ROBOT-016", "robot_file::tolerance",
             "A tolerance must be greater than 0. With a tolerance of 0, rounding alone would be a disagreement.";
         TCP_NAME = "CGR-ROBOT-017", "robot_file::tcp_name",

@@ -13,7 +13,7 @@ use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
     codes,
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance, ToleranceScale},
-    robot_file::{DynamicsTable, InertialPlaces, RobotFilePlaces},
+    robot_file::{DeclaredMapping, DeclaredReference, DynamicsTable, InertialPlaces, RobotFilePlaces},
     urdf::UrdfPlaces,
 };
 
@@ -67,6 +67,10 @@ pub struct RobotDescription {
     /// Whether the robot file or the caller has set the tolerance. If nobody has, a table is judged by the digits that it
     /// is typed with.
     pub tolerance_is_declared: bool,
+    /// How joints are called and counted in another description, if the robot file declares it.
+    pub mapping: Option<DeclaredMapping>,
+    /// The other descriptions of this robot that the robot file names.
+    pub references: Vec<DeclaredReference>,
     /// The other files and folders that the robot file names.
     pub named_files: NamedFiles,
     /// Link pairs that an SRDF excludes from clearance, the smaller index first.

@@ -9,7 +9,6 @@ pub mod codes;
 mod configuration_file;
 mod description;
 mod load;
-mod mesh;
 mod model;
 mod named_robot;
 mod robot_file;
@@ -25,20 +24,20 @@ pub use configuration_file::{
     RobotQList, configuration, configurations_schema, outside_limits, outside_limits_warning,
     read_configurations, read_configurations_from, read_states, read_states_from, unique_names,
 };
+pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
-pub use mesh::{HullPoints, read_mesh};
 pub use model::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
     Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex,
-    Mesh, Mimic, Obstacle, Robot, RobotError, RobotQ, SPEED_MARGIN, Shape, Tolerance, ToleranceScale,
+    MappedJoint, Mimic, Obstacle, Robot, RobotError, RobotQ, SPEED_MARGIN, Shape, Tolerance, ToleranceScale,
     principal_moments,
 };
 pub use named_robot::{file_of_robot, open};
 pub use robot_file::{
-    ConstantKey, ConstantPart, DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint,
-    RobotFilePlaces, RowKey, TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text,
-    robot_file_schema,
+    ConstantKey, ConstantPart, DeclaredInertial, DeclaredMapping, DeclaredReference, DeclaredVariable,
+    DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey, TableDigits,
+    ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
 };
 pub use robot_file_text::{dh_section, relative_path, robot_file_text, robot_file_values};
 pub use toml_literal::{toml_key, toml_string};

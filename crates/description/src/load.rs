@@ -11,16 +11,16 @@ use congruent_input::{
     Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of,
     not_found,
 };
+use congruent_meshes::MeshStore;
 use toml::Spanned;
 
 use crate::{
     chain::{ChainEnds, choose_tip},
     codes,
     description::{NamedFiles, Places, RobotDescription},
-    mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
     named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_scenario},
-    robot_file::{self, Declared, InertialPlaces, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
+    robot_file::{self, DeclaredReference, InertialPlaces, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
     srdf::{self, SRDF_BYTES},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
 };
@@ -145,6 +145,8 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
         tip_from_tcp: None,
         tolerance: Tolerance::default(),
         tolerance_is_declared: false,
+        mapping: None,
+        references: Vec::new(),
         named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings,
@@ -256,31 +258,36 @@ fn declared(
     diagnostics: &mut Diagnostics,
 ) -> Option<RobotDescription> {
     let declared = robot_file::check(&written, &robot_file.text, &robot, diagnostics);
-    let Declared { base, tip, chain_ends, dh, dynamics, accelerations, tip_from_tcp, tolerance } = declared?;
+    let declared = declared?;
     // Only here is the reach known (tip and tool are resolved), with which a tolerance is compared.
-    let scale = ToleranceScale::with_tool(&robot, tip, tip_from_tcp.as_ref());
+    let scale = ToleranceScale::with_tool(&robot, declared.tip, declared.tip_from_tcp.as_ref());
     diagnostics.extend(written.tolerance.iter().flat_map(|tolerance| tolerance.examine(scale)));
     let tolerance_span = written.tolerance_span();
-    let inertials = dynamics
+    let inertials = declared
+        .dynamics
         .is_some()
         .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));
     let table =
         written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh, tolerance_span)));
     let tolerance_is_declared = written.tolerance.is_some();
+    let folder = folder_of(&robot_file.path);
+    let in_folder = |of: DeclaredReference| DeclaredReference { path: folder.join(&of.path), ..of };
     Some(RobotDescription {
         path: robot_file.path.clone(),
         name: written.name.map_or_else(|| robot.name().to_owned(), Spanned::into_inner),
         urdf_path: urdf.path.clone(),
         robot,
-        base,
-        tip,
-        chain_ends,
-        dh,
-        dynamics,
-        accelerations,
-        tip_from_tcp,
-        tolerance,
+        base: declared.base,
+        tip: declared.tip,
+        chain_ends: declared.chain_ends,
+        dh: declared.dh,
+        dynamics: declared.dynamics,
+        accelerations: declared.accelerations,
+        tip_from_tcp: declared.tip_from_tcp,
+        tolerance: declared.tolerance,
         tolerance_is_declared,
+        mapping: declared.mapping,
+        references: declared.references.into_iter().map(in_folder).collect(),
         named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings: Vec::new(),

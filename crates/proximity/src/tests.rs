@@ -50,6 +50,8 @@ fn description() -> RobotDescription {
         accelerations: Vec::new(),
         tip_from_tcp: None,
         tolerance_is_declared: false,
+        mapping: None,
+        references: Vec::new(),
         tolerance: congruent_description::Tolerance::default(),
         named_files: congruent_description::NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),

@@ -3,6 +3,7 @@
 
 use congruent_description::RobotDescription;
 use congruent_kinematics::LinkPoses;
+use congruent_mapping::MatchedRobots;
 
 use super::{
     certificate::{Brackets, worst},
@@ -15,7 +16,7 @@ use super::{
 use crate::{
     diagnosis::{
         Cause,
-        joints::{ComparedAt, MatchedRobots, explained_by_joints},
+        joints::{ComparedAt, explained_by_joints},
     },
     report::{ReportedDiagnosis, diagnose_models, diagnosed_by_joints, screw_differences},
     source_pair::SourcePair,

@@ -13,6 +13,8 @@ pub enum Grade {
     Identical,
     /// There are values within half of the last place of the typed ones with which table and URDF are identical.
     SameWithinDigits,
+    /// Identical once joints have the names, directions and zeros of the other description, which nothing declares.
+    EqualAfterMapping,
     /// No rounding of what is typed explains the difference.
     Different,
 }
@@ -23,6 +25,7 @@ impl Grade {
         match self {
             Self::Identical => "identical",
             Self::SameWithinDigits => "same within the digits written",
+            Self::EqualAfterMapping => "equal after mapping",
             Self::Different => "different beyond the digits written",
         }
     }

@@ -37,6 +37,8 @@ pub(super) struct ExplanationRank {
     unfamiliar: usize,
     /// Fitted values that are no typing error of the one given: not one digit, two digits or the sign.
     mistyped: usize,
+    /// Values that are exchanged between two rows: one wrong sign is likelier than two wrong values of the same effect.
+    exchanged: usize,
     /// The causes, in the catalogue's order.
     causes: Vec<Cause>,
     /// The hypotheses, so that the order is the same on every machine.
@@ -87,6 +89,9 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
         in_reference: hypotheses().filter(|hypothesis| is_in_reference(hypothesis)).count(),
         unfamiliar: lengths().filter(|length| !length.is_written_elsewhere(context.models)).count(),
         mistyped: lengths().filter(|length| !length.is_typing_error()).count(),
+        exchanged: hypotheses()
+            .filter(|hypothesis| matches!(&hypothesis.place, FaultPlace::Entries(_, rows) if rows.len() == 2))
+            .count(),
         causes,
         hypotheses: fit.hypotheses.clone(),
     }

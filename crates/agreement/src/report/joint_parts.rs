@@ -11,6 +11,7 @@ use congruent_input::{
     units::{Unit, UnitSystem},
 };
 use congruent_kinematics::{Pose, PoseError, rotation_log};
+use congruent_mapping::MatchedRobots;
 use nalgebra::{Isometry3, Unit as UnitVector, Vector3};
 
 use super::{
@@ -24,7 +25,7 @@ use super::{
 use crate::{
     diagnosis::{
         Cause, Equivalence,
-        joints::{ExplainedByJoints, JointCorrection, JointPart, MatchedRobots},
+        joints::{ExplainedByJoints, JointCorrection, JointPart},
         thresholds::SAME_UNIT_RATIO,
     },
     source_pair::SourcePair,

@@ -51,10 +51,12 @@ pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
-    /// Also compare with the URDF of another description of the robot (a folder with robot.toml, a robot file, or a
-    /// bare .urdf), in geometry and, if both are the same chain within the tolerance, in dynamics.
+    /// Also compare with another description of the robot (a folder with robot.toml, a robot file, or a bare .urdf), in
+    /// geometry and, if both are the same chain within the tolerance, in dynamics. Joints with other names, directions or
+    /// zeros are found, or declared by [mapping] in robot.toml. Given several times, each is compared. By default the
+    /// files of [[reference]] in robot.toml.
     #[arg(long, value_name = "ROBOT")]
-    against: Option<PathBuf>,
+    against: Vec<PathBuf>,
     /// Take the files as those that changed in a repository: a .urdf leads to each robot.toml below the current folder that
     /// names it, and is checked by itself only if none does.
     #[arg(long)]
@@ -160,9 +162,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let changed = arguments.changed.then(|| robots_of_changed(&arguments.robots, Path::new(".")));
     let robots = changed.as_ref().unwrap_or(&arguments.robots);
     let batch = Batch::begin(robots, &arguments.ci, printer)?;
-    let robots = robots.iter();
-    let answers: Vec<Answer<Checked>> =
-        robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect();
+    let mut answers: Vec<Answer<Checked>> = Vec::new();
+    for path in robots {
+        for (at, other) in others(path, arguments).into_iter().enumerate() {
+            let is_fixed = arguments.fix.fix && at == 0;
+            answers.push(batch.answer(path, || check(path, other.as_ref(), is_fixed, (arguments, &batch))));
+        }
+    }
     let plotted = answers.iter().try_for_each(|answer| draw(answer, arguments, &batch));
     let written = arguments.page.write(|| page(&answers), &batch.read()).and(plotted);
     batch.finish_with_page(answers, written)
@@ -204,18 +210,42 @@ fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
     }
 }
 
+/// The other descriptions with which a robot is compared, one after the other: those of --against, or those that its file
+/// names; once without any if there are none.
+fn others(path: &Path, arguments: &Arguments) -> Vec<Option<PathBuf>> {
+    let mut others = arguments.against.clone();
+    // A URDF names none, and one from a pipe can be read only once.
+    let is_robot_file = path.is_dir() || path.extension().is_some_and(|ending| ending == "toml");
+    if others.is_empty() && is_robot_file {
+        // What cannot be loaded is refused by the check itself.
+        let loaded = arguments.access.access().ok().and_then(|access| load_robot_with(path, &access).ok());
+        others.extend(loaded.into_iter().flat_map(|of| of.references).map(|reference| reference.path));
+    }
+    if others.is_empty() { vec![None] } else { others.into_iter().map(Some).collect() }
+}
+
 /// The check of a robot, and with --fix that of its corrected file.
-fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
-    let mut checked = compared(path, arguments, batch)?;
-    if arguments.fix.fix {
-        let again = |path: &Path| Ok(compared(path, arguments, batch)?.report);
+fn check(
+    path: &Path,
+    other: Option<&PathBuf>,
+    is_fixed: bool,
+    (arguments, batch): (&Arguments, &Batch<'_>),
+) -> Result<Checked, Failure> {
+    let mut checked = compared(path, other, arguments, batch)?;
+    if is_fixed {
+        let again = |path: &Path| Ok(compared(path, other, arguments, batch)?.report);
         let (fix, fixed) = fix(&checked.report, &checked.description, &batch.read(), again)?;
         (checked.report.fix, checked.fixed) = (Some(fix), fixed);
     }
     Ok(checked)
 }
 
-fn compared(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
+fn compared(
+    path: &Path,
+    other: Option<&PathBuf>,
+    arguments: &Arguments,
+    batch: &Batch<'_>,
+) -> Result<Checked, Failure> {
     let mut description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
     let mut configurations = RobotQList::new(description.robot.dof());
     // About the options, and not about the descriptions that lint examines.
@@ -238,8 +268,7 @@ fn compared(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Che
     }
     batch.warn(path, &[&of_options[..], &description.warnings].concat());
     let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };
-    let access = arguments.access.access()?;
-    let other = arguments.against.as_ref().map(|other| load_robot_with(other, &access)).transpose()?;
+    let other = other.map(|other| other_description(&mut description, other, arguments)).transpose()?;
     let mut inputs = files_of(&description);
     inputs.extend(other.iter().flat_map(files_of));
     batch.reads(&inputs)?;
@@ -264,6 +293,25 @@ fn compared(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Che
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
     let (with_basics, with_table) = (arguments.basics, arguments.table);
     Ok(Checked { report, description, other, with_basics, with_table, options: text_options(), fixed: None })
+}
+
+/// Another description, with the mapping that the robot file declares for it.
+fn other_description(
+    description: &mut RobotDescription,
+    other: &Path,
+    arguments: &Arguments,
+) -> Result<RobotDescription, Failure> {
+    let mut access = arguments.access.access()?;
+    let named = description.references.iter().find(|reference| reference.path == other).cloned();
+    if let Some(reference) = named {
+        if arguments.against.is_empty() {
+            // Named by a file and not by the caller: it must be in the project, if all must.
+            access = access.inside_project_of(&description.path)?;
+            access.check(other)?;
+        }
+        description.mapping = reference.mapping;
+    }
+    Ok(load_robot_with(other, &access)?)
 }
 
 /// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the

@@ -4,7 +4,7 @@ use congruent_agreement::{
     SourcePair,
     compare::{CheckError, CheckOptions, CheckReport, ComparedSource, NotCompared},
 };
-use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription, RobotQ};
+use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription, RobotQ, Tolerance};
 use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedModel};
 use congruent_input::{Diagnostic, display::length_and_angle, nearest};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
@@ -12,13 +12,14 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
+    mapped::ReportedMapping,
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::{POSITIONS, PosesOfOther},
 };
 use crate::codes;
 
 /// The other description of a robot.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct OtherDescription {
     /// Its robot file, or its URDF if there is none.
     pub file: String,
@@ -36,12 +37,37 @@ pub struct OtherDescription {
     /// If the two have other joints: the last link up to which they have the same ones, for --tip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub common_tip: Option<String>,
+    /// The joints of the other description in terms of this robot, if they have other names, directions or zeros, or if one
+    /// of the two has further joints.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mapping: Option<ReportedMapping>,
     /// Links of this description that the other lacks: their frames are not compared.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links_not_found: Vec<String>,
 }
 
 impl OtherDescription {
+    /// Another description whose joints are not those that the robot file declares.
+    pub(super) fn refused(other: &RobotDescription, why: String) -> Self {
+        Self {
+            file: other.path.display().to_string(),
+            robot: other.name.clone(),
+            dynamics_not_compared: Some(why),
+            links_in_other_frames: Vec::new(),
+            joints_left_out: Vec::new(),
+            mapping: None,
+            common_tip: None,
+            links_not_found: Vec::new(),
+        }
+    }
+
+    /// Whether the poses agree once the joints have the names, directions and zeros of this description, and nothing declares
+    /// these.
+    pub(super) fn is_equal_after_mapping(&self, tolerance: &Tolerance) -> bool {
+        let mapping = self.mapping.as_ref().filter(|mapping| !mapping.is_declared);
+        mapping.and_then(|of| of.worst).is_some_and(|worst| worst.is_within(tolerance))
+    }
+
     /// What names alone show: what the other description lacks.
     fn before_comparison(
         description: &RobotDescription,
@@ -58,6 +84,7 @@ impl OtherDescription {
             dynamics_not_compared: other_joint.or_else(|| missing_tip(description, &other.robot, poses)),
             links_in_other_frames: Vec::new(),
             joints_left_out: Vec::new(),
+            mapping: None,
             common_tip,
             links_not_found: lacking.collect(),
         }
@@ -174,7 +201,7 @@ fn moved_alike(
 }
 
 /// The first moving joint that one of the two descriptions lacks, or that turns in one and slides in the other.
-fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
+pub(super) fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
     let missing = |joint: &str, (of, lacks): (&str, &Robot)| match lacks.find_joint(joint) {
         Some(_) => format!("joint \"{joint}\" does not move in {of}"),
         None => format!("{of} has no joint \"{joint}\""),

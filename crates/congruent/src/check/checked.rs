@@ -4,7 +4,9 @@ use std::iter::once;
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, NotCompared},
+    compare::{
+        Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, Grade, NotCompared,
+    },
 };
 use congruent_description::{DynamicsTable, InertialFrame, RobotDescription};
 use congruent_dynamics_agreement::DynamicsReport;
@@ -14,6 +16,7 @@ use congruent_kinematics::LinkPoses;
 use super::{
     against::{self, OtherDescription},
     declared::{self, DeclaredSource},
+    mapped::MappedPair,
     model_frames::unreadable_value,
     narrowed::NarrowedPair,
     physics,
@@ -64,17 +67,35 @@ fn checked(
         Some(pair) => (&pair.description, Some(&pair.other), &pair.options),
         None => (description, other, options),
     };
-    let against = match other {
-        Some(other) => {
+    let mapped = other.map(|other| in_own_variables(own, other, own_options)).transpose();
+    let (mapped, refused) = mapped.map_or_else(|why| (None, Some(why)), |mapped| (mapped.flatten(), None));
+    let (own, other, own_options) = match &mapped {
+        Some(pair) => (&pair.description, Some(&pair.other), &pair.options),
+        None => (own, other, own_options),
+    };
+    let against = match (other, refused) {
+        (Some(other), Some(why)) => Some(OtherDescription::refused(other, why)),
+        (Some(other), None) => {
             // First, since it adds to the geometry on which the verdicts of dynamics below depend.
-            let (mut against, dynamics) = against::compared(&mut geometry, own, other, own_options)?;
+            let before = geometry.clone();
+            let (mut against, mut dynamics) = against::compared(&mut geometry, own, other, own_options)?;
             against.joints_left_out = narrowed.as_ref().map_or_else(Vec::new, |pair| pair.left_out.clone());
+            against.mapping = mapped.as_ref().map(|pair| pair.report_with_worst(&geometry));
+            if mapped.is_none() && against.dynamics_not_compared.is_some() {
+                let in_variables = MappedPair::of_other_variables(own, other, own_options);
+                if let Some(pair) = in_variables {
+                    dynamics = in_same_variables(&mut against, before, &pair)?;
+                }
+            }
             compared.extend(dynamics);
             geometry.warnings.extend(other.warnings.iter().map(Finding::from));
             Some(against)
         }
-        None => None,
+        (None, _) => None,
     };
+    if against.as_ref().is_some_and(|of| of.is_equal_after_mapping(&description.tolerance)) {
+        geometry.grade = Some(Grade::EqualAfterMapping);
+    }
     let at_configurations = at_configurations(own, other, &geometry, own_options)?;
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
@@ -117,6 +138,34 @@ fn checked(
     })
 }
 
+/// Two descriptions in the joints of the first, as its file declares or as names and axes show; `None` if all joints have
+/// the same names, or nothing in common.
+fn in_own_variables(
+    description: &RobotDescription,
+    other: &RobotDescription,
+    options: &CheckOptions,
+) -> Result<Option<MappedPair>, String> {
+    let declared = MappedPair::declared(description, other, options)?;
+    let has_other_names = || against::other_joint(&description.robot, &other.robot).is_some();
+    Ok(declared.or_else(|| {
+        has_other_names().then(|| MappedPair::of_other_names(description, other, options)).flatten()
+    }))
+}
+
+/// The dynamics of two descriptions with the same joints by name in the same variables, where poses are compared in the
+/// variables that both files write. Adds the mapping to `against`.
+fn in_same_variables(
+    against: &mut OtherDescription,
+    mut geometry: CheckReport,
+    pair: &MappedPair,
+) -> Result<Option<DynamicsReport>, CheckError> {
+    let (mapped, dynamics) = against::compared(&mut geometry, &pair.description, &pair.other, &pair.options)?;
+    against.mapping = Some(pair.report_with_worst(&geometry));
+    against.dynamics_not_compared = mapped.dynamics_not_compared;
+    against.links_in_other_frames = mapped.links_in_other_frames;
+    Ok(dynamics)
+}
+
 /// What only one description states, if there is no other. Physics and screws are made of the URDF: they are no second
 /// source.
 fn stated_once(geometry: &CheckReport, dynamics: &[DynamicsReport]) -> Vec<NotCompared> {
@@ -145,7 +194,10 @@ fn verdict(
     against: Option<&OtherDescription>,
     dynamics: &[DynamicsReport],
 ) -> Agreement {
-    let is_same = against.is_none_or(|against| against.dynamics_not_compared.is_none());
+    let is_same = against.is_none_or(|against| {
+        let is_declared = against.mapping.as_ref().is_none_or(|mapping| mapping.is_declared);
+        is_declared && against.dynamics_not_compared.is_none()
+    });
     let poses = geometry.verdict;
     if !is_same || dynamics.iter().any(|report| !report.agrees()) {
         return Agreement::Disagree;

@@ -11,11 +11,11 @@ use congruent_agreement::{
     report::{ReportedCause, ReportedDiagnosis},
 };
 use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
-use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDifference, ParameterDifference};
+use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDifference};
 use congruent_input::display::{counted, length_and_angle, listed};
 use congruent_kinematics::PoseError;
 
-use super::{declared::DeclaredSource, robot_check::RobotCheck};
+use super::{declared::DeclaredSource, mapped_headline::after_mapping, robot_check::RobotCheck};
 
 /// The answer of a check in a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl fmt::Display for Headline {
 }
 
 impl Headline {
-    fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
+    pub(super) fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
         Self { answer: answer.into(), details: details.into() }
     }
 }
@@ -66,6 +66,9 @@ impl RobotCheck {
             });
             let details = format!(": {why}; poses and torques of {} were not compared{advice}", other.file);
             return Headline::new("DIFFERENT JOINTS", details);
+        }
+        if let Some(mapped) = after_mapping(self) {
+            return mapped;
         }
         if report.verdict == Agreement::NothingCompared {
             let why = Agreement::why_nothing(&report.chain);
@@ -211,7 +214,7 @@ fn unknown() -> String {
 }
 
 /// The first fault with its place, and how many there are.
-fn cause(diagnosis: &ReportedDiagnosis) -> String {
+pub(super) fn cause(diagnosis: &ReportedDiagnosis) -> String {
     let Some(cause) = diagnosis.named_cause() else { return unknown() };
     let faults = cause.faults();
     let Some(first) = faults.first() else { return unknown() };
@@ -251,18 +254,16 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
     Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), limits(&report.limits))
 }
 
-fn cause_of_torques(report: &DynamicsReport) -> String {
+pub(super) fn cause_of_torques(report: &DynamicsReport) -> String {
     let Some(first) = report.explanations.first() else { return report.headline() };
     let (sentence, line) = match &first.parameters[..] {
         [only] => (only.sentence(), only.line),
-        several => {
-            (first.sentence(), several.iter().find_map(|parameter: &ParameterDifference| parameter.line))
-        }
+        _ => (first.sentence(), first.line),
     };
     sentence + &place(first.file.as_deref(), line) + &and_more(report.explanations.len() - 1)
 }
 
-fn limits(differences: &[LimitDifference]) -> String {
+pub(super) fn limits(differences: &[LimitDifference]) -> String {
     let mut decide = differences.iter().filter(|difference| difference.decides);
     let Some(first) = decide.next() else { return String::new() };
     let rest = and_more(decide.count());
@@ -281,7 +282,7 @@ fn place(file: Option<&str>, line: Option<usize>) -> String {
     place.unwrap_or_default()
 }
 
-fn largest(error: PoseError) -> String {
+pub(super) fn largest(error: PoseError) -> String {
     length_and_angle(error.position_m, error.orientation_rad)
 }
 

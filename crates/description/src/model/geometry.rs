@@ -1,8 +1,9 @@
-//! Shapes of links. Units are metres; mesh files are read by `mesh/`.
+//! Shapes of links. Units are metres; mesh files are read by crate `meshes`.
 
-use std::{path::PathBuf, sync::Arc};
+use std::sync::Arc;
 
-use nalgebra::{Isometry3, Point3, Vector3};
+use congruent_meshes::Mesh;
+use nalgebra::{Isometry3, Vector3};
 
 /// One visual or collision element of a link.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,15 +38,4 @@ pub enum Geometry {
     },
     /// A triangle mesh, shared by all shapes that use the same file and scale.
     Mesh(Arc<Mesh>),
-}
-
-/// A triangle mesh in metres: file unit, up axis and the `scale` of the description are applied.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mesh {
-    /// The file it was read from.
-    pub path: PathBuf,
-    /// Vertices in the shape's frame.
-    pub vertices_m: Vec<Point3<f64>>,
-    /// Corners of the triangles, indices into `vertices_m`, each in range.
-    pub triangles: Vec<[u32; 3]>,
 }

@@ -9,6 +9,7 @@ use toml::Spanned;
 use super::{
     inertials::{self, DynamicsTable, InertialContext},
     limits,
+    mapping::{self, DeclaredMapping, DeclaredReference},
     rows::{self, ChainContext, first_line},
     unit_mistakes,
     written::{WrittenDh, WrittenRobot, WrittenTolerance},
@@ -30,6 +31,8 @@ pub(crate) struct Declared {
     pub(crate) accelerations: Vec<Option<f64>>,
     pub(crate) tip_from_tcp: Option<Isometry3<f64>>,
     pub(crate) tolerance: Tolerance,
+    pub(crate) mapping: Option<DeclaredMapping>,
+    pub(crate) references: Vec<DeclaredReference>,
 }
 
 /// Checks a parsed robot file against `robot`. `text` is the text that it was parsed from; `None` if no chain or table results.
@@ -60,7 +63,27 @@ pub(crate) fn check(
     let dynamics = inertials::check(written.dynamics.as_ref(), &written.inertial, &context, diagnostics);
     let end = |written: &Option<_>| if written.is_some() { ChainEnd::Declared } else { ChainEnd::Chosen };
     let chain_ends = ChainEnds { base: end(&written.base), tip: end(&written.tip) };
-    Some(Declared { base, tip, chain_ends, dh, dynamics, accelerations, tip_from_tcp, tolerance })
+    let declared = written.mapping.as_ref().map(|of| mapping::mapping(of, robot, diagnostics));
+    let references = written.reference.iter().map(|reference| DeclaredReference {
+        path: reference.file.get_ref().clone(),
+        mapping: match &reference.mapping {
+            Some(own) => Some(mapping::mapping(own, robot, diagnostics)),
+            None => declared.clone(),
+        },
+    });
+    let references = references.collect();
+    Some(Declared {
+        base,
+        tip,
+        chain_ends,
+        dh,
+        dynamics,
+        accelerations,
+        tip_from_tcp,
+        tolerance,
+        mapping: declared,
+        references,
+    })
 }
 
 /// A warning if a link is called `tcp`, as the declared tool centre point usually is.

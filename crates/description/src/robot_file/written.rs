@@ -11,6 +11,7 @@ use toml::Spanned;
 use super::{
     inertials::{WrittenDynamics, WrittenInertial},
     limits::WrittenLimits,
+    mapping::{WrittenMapping, WrittenReference},
 };
 use crate::{
     WrittenLint,
@@ -80,6 +81,13 @@ pub struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "WrittenTolerance")]
     pub(crate) tolerance: Option<WrittenTolerance>,
+    /// How joints are called and counted in the description that `check --against` names.
+    #[serde(default)]
+    #[schemars(with = "WrittenMapping")]
+    pub(crate) mapping: Option<WrittenMapping>,
+    /// Other descriptions of this robot, with which `check` compares it.
+    #[serde(default)]
+    pub(crate) reference: Vec<WrittenReference>,
     // `Ignores` reads them on its own, also from a robot file with errors.
     /// Warnings that `lint` does not report.
     #[serde(default, rename = "lint")]

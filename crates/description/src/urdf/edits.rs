@@ -63,7 +63,7 @@ impl UrdfPlaces {
     /// The edits after which a joint has these values of damping and friction; none if there is no such joint.
     pub fn set_joint_dynamics(&self, joint: &str, damping: f64, friction: f64) -> Vec<TextEdit> {
         let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
-        let Some(joint) = last(document.root_element(), "joint", joint) else { return Vec::new() };
+        let Some(joint) = self.joint(&document, joint) else { return Vec::new() };
         let mut edits = Vec::new();
         let values = changed(joint, "dynamics", &[("damping", damping), ("friction", friction)]);
         set(&mut edits, joint, "dynamics", &values);
@@ -78,7 +78,7 @@ impl UrdfPlaces {
         attributes: &[(&'static str, String)],
     ) -> Vec<TextEdit> {
         let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
-        let Some(joint) = last(document.root_element(), "joint", joint) else { return Vec::new() };
+        let Some(joint) = self.joint(&document, joint) else { return Vec::new() };
         let mut edits = Vec::new();
         set(&mut edits, joint, part, attributes);
         edits
@@ -88,7 +88,7 @@ impl UrdfPlaces {
     /// no such limit, and none for the range of a continuous joint, which has another type.
     pub fn set_joint_limit(&self, joint: &str, limit: &str, value: f64) -> Vec<TextEdit> {
         let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
-        let Some(joint) = last(document.root_element(), "joint", joint) else { return Vec::new() };
+        let Some(joint) = self.joint(&document, joint) else { return Vec::new() };
         let Some(name) = LIMITS.into_iter().find(|name| *name == limit) else { return Vec::new() };
         // A continuous joint ignores them.
         if joint.attribute("type") == Some("continuous") && RANGE.contains(&name) {

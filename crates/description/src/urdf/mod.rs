@@ -31,13 +31,13 @@ pub use write::urdf_text;
 use std::{fmt::Write, ops::Range};
 
 use congruent_input::{Diagnostic, Diagnostics, Findings, known_names, xml};
+use congruent_meshes::{FindMesh, FoundMesh, codes::mesh::NO_FOLDER};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
 use self::node::{elements, last, place, tag};
 use crate::{
     codes,
-    mesh::{FindMesh, FoundMesh},
     model::{Link, Robot, RobotError},
 };
 
@@ -141,7 +141,7 @@ pub fn parse_urdf(text: &str) -> Result<Robot, Findings> {
 /// Refuses every mesh: for texts without a folder.
 pub(crate) fn no_mesh(uri: &str, _: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
     let message = format!("mesh \"{uri}\" cannot be opened: the URDF was given as text, without a folder");
-    Err(Diagnostic::error(codes::mesh::NO_FOLDER, message))
+    Err(Diagnostic::error(NO_FOLDER, message))
 }
 
 /// The document as `urdf-rs` takes it. Every text between elements is left out: it means nothing in a URDF, real

@@ -1,12 +1,14 @@
 //! Byte ranges of joints and links in the text of a URDF, for messages about one of them.
 
-use std::{ops::Range, sync::Arc};
+use std::{collections::BTreeMap, ops::Range, sync::Arc};
 
 use congruent_input::{
     SourceFile, TypedNumber, half_places, line_column,
     units::{Unit, UnitSystem},
     xml,
 };
+
+use roxmltree::{Document, Node};
 
 use super::node::{element, elements, last, place, tag};
 
@@ -23,12 +25,28 @@ pub struct JointDigits {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UrdfPlaces {
     source: Arc<SourceFile>,
+    /// Names of joints in the file by those under which they are asked for, where these differ.
+    names: Arc<BTreeMap<String, String>>,
+    is_rewritten: bool,
 }
 
 impl UrdfPlaces {
     /// `source` must have been read before. It is parsed again for each place, since places are needed only for messages.
     pub(crate) fn new(source: Arc<SourceFile>) -> Self {
-        Self { source }
+        Self { source, names: Arc::default(), is_rewritten: false }
+    }
+
+    /// The places of a robot that has been rewritten in other variables: the names of its joints in the file by those that it
+    /// has. What the file writes of a joint is then no value of the robot.
+    #[must_use]
+    pub fn of_rewritten(self, names: BTreeMap<String, String>) -> Self {
+        Self { names: names.into(), is_rewritten: true, ..self }
+    }
+
+    /// The element of a joint.
+    pub(super) fn joint<'a, 'i>(&self, document: &'a Document<'i>, name: &str) -> Option<Node<'a, 'i>> {
+        let name = self.names.get(name).map_or(name, String::as_str);
+        last(document.root_element(), "joint", name)
     }
 
     /// The URDF that the places are in.
@@ -40,13 +58,16 @@ impl UrdfPlaces {
     /// that name.
     pub fn joint_origin(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
-        Some(place(last(document.root_element(), "joint", name)?, "origin"))
+        Some(place(self.joint(&document, name)?, "origin"))
     }
 
     /// The `rpy` of a joint's `<origin>` as the file writes it, and its line from 1; `None` if it has none.
     pub fn joint_rpy(&self, name: &str) -> Option<(String, usize)> {
+        if self.is_rewritten {
+            return None;
+        }
         let document = xml::parse(&self.source.text).ok()?;
-        let origin = element(last(document.root_element(), "joint", name)?, "origin")?;
+        let origin = element(self.joint(&document, name)?, "origin")?;
         let rpy = origin.attributes().find(|attribute| attribute.name() == "rpy")?;
         Some((rpy.value().to_owned(), line_column(&self.source.text, rpy.range().start).0))
     }
@@ -56,7 +77,7 @@ impl UrdfPlaces {
         let mut digits = vec![JointDigits::default(); names.len()];
         let Ok(document) = xml::parse(&self.source.text) else { return digits };
         let attribute = |name: &str, part: &str, attribute: &str| {
-            element(last(document.root_element(), "joint", name)?, part)?.attribute(attribute)
+            element(self.joint(&document, name)?, part)?.attribute(attribute)
         };
         for (unit, written, first) in [(Unit::Length, "xyz", 0), (Unit::Angle, "rpy", 3)] {
             let mut typed = Vec::new();
@@ -88,34 +109,37 @@ impl UrdfPlaces {
     /// Place of the `<axis>` of a joint, or of the joint if it has none.
     pub fn joint_axis(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
-        Some(place(last(document.root_element(), "joint", name)?, "axis"))
+        Some(place(self.joint(&document, name)?, "axis"))
     }
 
     /// An attribute of a part of a joint, such as `xyz` of its `origin`, as the file writes it; `None` if it has none.
     pub fn joint_attribute(&self, name: &str, part: &str, attribute: &str) -> Option<String> {
+        if self.is_rewritten {
+            return None;
+        }
         let document = xml::parse(&self.source.text).ok()?;
-        let part = element(last(document.root_element(), "joint", name)?, part)?;
+        let part = element(self.joint(&document, name)?, part)?;
         part.attribute(attribute).map(|written| written.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
     /// Place of the `<dynamics>` of a joint, or of the joint if it has none.
     pub fn joint_dynamics(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
-        Some(place(last(document.root_element(), "joint", name)?, "dynamics"))
+        Some(place(self.joint(&document, name)?, "dynamics"))
     }
 
     /// Whether a joint has a `<dynamics>`: if not, the file says nothing about its damping and dry friction.
     pub fn has_joint_dynamics(&self, name: &str) -> bool {
         let document = xml::parse(&self.source.text).ok();
         document.is_some_and(|document| {
-            last(document.root_element(), "joint", name).and_then(|of| element(of, "dynamics")).is_some()
+            self.joint(&document, name).and_then(|of| element(of, "dynamics")).is_some()
         })
     }
 
     /// Place of the `<mimic>` of a joint, or of the joint if it has none.
     pub fn joint_mimic(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
-        Some(place(last(document.root_element(), "joint", name)?, "mimic"))
+        Some(place(self.joint(&document, name)?, "mimic"))
     }
 
     /// Place of a part of the `<inertial>` of a link: `mass`, `origin` or `inertia`; of the `<inertial>` if that is
@@ -150,7 +174,7 @@ impl UrdfPlaces {
     /// Place of the `<limit>` of a joint, or of the joint if it has none.
     pub fn joint_limit(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
-        Some(place(last(document.root_element(), "joint", name)?, "limit"))
+        Some(place(self.joint(&document, name)?, "limit"))
     }
 
     /// Place of the `<inertial>` of a link, or of the link if it has none.

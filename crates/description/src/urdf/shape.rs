@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, units::LARGEST_PLAUSIBLE_M};
+use congruent_meshes::{FindMesh, Mesh};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
@@ -12,8 +13,7 @@ use super::{
 };
 use crate::{
     codes,
-    mesh::FindMesh,
-    model::{Geometry, Mesh, Shape},
+    model::{Geometry, Shape},
 };
 
 /// Colours of the materials that the document defines at its top, by name.

@@ -32,7 +32,8 @@ pub(super) const INERTIAL: &str =
 
 pub(super) fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
     let mut diagnostics = Diagnostics::default();
-    let mut no_mesh = |uri: &str, _| Err(Diagnostic::error(codes::mesh::EMPTY, format!("no mesh {uri}")));
+    let mut no_mesh =
+        |uri: &str, _| Err(Diagnostic::error(congruent_meshes::codes::mesh::EMPTY, format!("no mesh {uri}")));
     let inputs = UrdfInputs { find_mesh: &mut no_mesh, repairs: &Repairs::default() };
     let robot = parse(text, inputs, &mut diagnostics);
     (robot, diagnostics.into_vec())

@@ -150,7 +150,7 @@ pub struct DynamicsExplanation {
     pub parts: Vec<PlacedCause>,
     /// Path of the file to correct; `null` if it is not known, or right.
     pub file: Option<String>,
-    /// Line of the first corrected parameter in this file.
+    /// Line of this file where the first value is to be written.
     pub line: Option<usize>,
     /// The values to write, in one sentence; `null` if the file is right or too many values change.
     pub suggestion: Option<String>,

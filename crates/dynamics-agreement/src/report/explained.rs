@@ -59,14 +59,18 @@ impl ExplanationContext<'_> {
         let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate);
         let first = self.name(exact, &corrected);
         let law_broken = corrected.law_broken(self.candidate);
+        let changes = self.changes(&corrected);
+        // Where something is to be written: a rotation of the inertial frame changes every entry of the tensor.
+        let line = changes.first().map(|first| first.from_line);
+        let line = line.or_else(|| parameters.iter().find_map(|parameter| parameter.line));
         DynamicsExplanation {
             cause: first.cause,
             detail: first.detail,
             place: first.place,
             suggestion: super::sentences::suggestion(self.faulty, &parameters),
             file: file.map(|file| file.source().path.display().to_string()),
-            line: file.and_then(|_| parameters.iter().find_map(|parameter| parameter.line)),
-            changes: self.changes(&corrected),
+            line: file.and(line),
+            changes,
             otherwise: None,
             parameters,
             numbers: exact.complexity,

@@ -1,6 +1,6 @@
 //! The values that the files of two models are typed with, and what all of them together allow.
 
-use congruent_description::ChainQ;
+use congruent_description::{ChainQ, Tolerance};
 use congruent_kinematics::{Pose, PoseError};
 
 use super::typed_value::{NO_EFFECT, TransformPart, TypedPlace, TypedValue};
@@ -15,6 +15,9 @@ const MOVED: f64 = 1e-6;
 
 /// A fitted value may move by this many half places of the others, which add up in it. No unit; kind: judgement.
 const FREE: f64 = 30.0;
+
+/// How much farther than the difference that is left a fitted value may move. No unit; kind: judgement.
+const FAR: f64 = 1e3;
 
 /// A short link, as part of the arm's size: half places at its ends turn it. Kind: choice.
 const SHORT: f64 = 0.1;
@@ -82,9 +85,16 @@ impl WrittenDigits {
         Self { values: values.collect(), allowed: self.allowed }
     }
 
-    /// Lets values that are fitted move as far as the rounding of the others may take them, of an arm of this size.
-    pub(in crate::diagnosis) fn free(&mut self, fitted: impl Iterator<Item = ModelParameter>, length_m: f64) {
-        let free = |entry| FREE * self.coarsest_effect(entry, length_m);
+    /// Lets values that are fitted move as far as the rounding of the others may take them, of an arm of this size, but not
+    /// much farther than the difference that is left: beside that, an angle of nine digits would be lost in rounding.
+    pub(in crate::diagnosis) fn free(
+        &mut self,
+        fitted: impl Iterator<Item = ModelParameter>,
+        length_m: f64,
+        left: f64,
+    ) {
+        let most = (FAR * left).max(Tolerance::default().position_m);
+        let free = |entry| (FREE * self.coarsest_effect(entry, length_m)).min(most);
         let (length, angle) = (free(DhEntry::A), free(DhEntry::Alpha));
         for parameter in fitted {
             let Some(place) = TypedPlace::of(parameter) else { continue };

@@ -79,12 +79,13 @@ impl<'a> FitContext<'a> {
         let corrected = self.corrected(fit);
         let state = corrected.reference.state(&self.unweighted.q);
         let target = FitTarget { evaluation_point: &self.unweighted, state: &state };
+        let left = target.norm(&corrected.candidate);
         // The search for values within the digits takes a hundred times as long.
-        if target.norm(&corrected.candidate) > self.by_digits {
+        if left > self.by_digits {
             return None;
         }
         let mut digits = self.digits(fit, &criterion.digits).into_owned();
-        digits.free(self.fitted(fit), self.unweighted.length_m);
+        digits.free(self.fitted(fit), self.unweighted.length_m, left);
         digits.explained(&corrected, &criterion.configurations)
     }
 
@@ -294,7 +295,7 @@ impl<'a> FitContext<'a> {
         for start in self.aligned(&models.candidate, state, &free).into_iter().flatten() {
             consider(start);
         }
-        let best = self.tolerated(best, state, &free);
+        let best = self.unweighted(best, state, &free);
         let FittedCandidate { candidate, norm } = best;
         let changes = free.iter().map(|&at| moved(&models.candidate, &candidate, at)).collect();
         HypothesisFit {
@@ -306,20 +307,24 @@ impl<'a> FitContext<'a> {
         }
     }
 
-    /// The unweighted fit beside a weighted one, if it is within the tolerance: the digits need not explain anything then,
-    /// and in directions that count little a weighted fit ends before its values have all their digits.
-    fn tolerated(
+    /// The unweighted fit in place of a weighted one, if it is within the tolerance: the digits need not explain anything then,
+    /// and in directions that count little a weighted fit ends before its values have all their digits. Also if it alone is
+    /// near enough for the digits: the weights are those of the given table, and behind a wrong sign others are right.
+    fn unweighted(
         &self,
         best: FittedCandidate,
         state: &ChainState,
         free: &[ModelParameter],
     ) -> FittedCandidate {
-        if !self.evaluation_point.is_weighted() || best.norm > self.tolerated {
+        if !self.evaluation_point.is_weighted() || best.norm > self.tolerated.max(self.by_digits) {
             return best;
         }
         let target = FitTarget { evaluation_point: &self.unweighted, state };
+        if best.norm > self.tolerated && target.norm(&best.candidate) <= self.by_digits {
+            return best;
+        }
         let exact = target.refit(&best.candidate, free);
-        if exact.norm > self.tolerated {
+        if exact.norm > self.tolerated.max(self.by_digits) {
             return best;
         }
         let weighted = FitTarget { evaluation_point: &self.evaluation_point, state };

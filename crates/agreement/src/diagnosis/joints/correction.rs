@@ -2,9 +2,9 @@
 
 use congruent_description::{Joint, JointIndex, LinkIndex, Robot};
 use congruent_kinematics::Pose;
+use congruent_mapping::MatchedRobots;
 use nalgebra::{Isometry3, Unit, Vector3};
 
-use super::matched::MatchedRobots;
 use crate::diagnosis::thresholds::NO_TURN;
 
 /// A part of a joint that places it: origin or axis.

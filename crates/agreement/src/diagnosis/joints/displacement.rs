@@ -9,11 +9,12 @@
 
 use congruent_description::{Joint, JointIndex, JointKind, LinkIndex, Robot, Tolerance};
 use congruent_kinematics::{Pose, PoseError, Twist};
+use congruent_mapping::MatchedRobots;
 use nalgebra::Vector3;
 
 use super::{
     correction::{JointCorrection, JointPart},
-    matched::{ComparedAt, MatchedRobots},
+    explained::ComparedAt,
 };
 
 /// Whether all joints move alike, and the last links and the tip are where they are in the other description: then only

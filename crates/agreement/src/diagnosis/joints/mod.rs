@@ -1,6 +1,6 @@
 //! Two URDFs with the same moving joints: which joint's origin or axis is another one?
 //!
-//! Both files give every frame, so nothing is searched: in matched links (`matched.rs`) the origin and the axis that a
+//! Both files give every frame, so nothing is searched: in matched links (`MatchedRobots` of `mapping`) the origin and the axis that a
 //! joint has in the other file follow from its poses at zero (`correction.rs`). Which of them matter is decided by the
 //! poses alone (`explained.rs`): the fewest corrections, the largest first, after which all links agree. If frames lie
 //! elsewhere in their links as well, one displacement that brings all screws and the tip into agreement is searched
@@ -9,8 +9,6 @@
 mod correction;
 mod displacement;
 mod explained;
-mod matched;
 
 pub(crate) use correction::{JointCorrection, JointPart};
-pub(crate) use explained::{ExplainedByJoints, explained_by_joints};
-pub(crate) use matched::{ComparedAt, MatchedRobots};
+pub(crate) use explained::{ComparedAt, ExplainedByJoints, explained_by_joints};

@@ -4,6 +4,7 @@
 mod diagnosis;
 mod dynamics;
 mod errors_at;
+mod mapping;
 mod whole;
 
 pub use errors_at::{shown_pairs, tip_differences};

@@ -30,6 +30,7 @@ use super::{
     diagnosis::{diagnosed, rounded},
     dynamics::dynamics,
     errors_at::{lines, table},
+    mapping::mapped,
 };
 
 /// What else the text has.
@@ -89,6 +90,9 @@ fn answer_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> Stri
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}", report.file, check.headline());
     let _ = writeln!(text, "  {}", report.chain);
+    if let Some((against, mapping)) = check.against.as_ref().and_then(|of| Some((of, of.mapping.as_ref()?))) {
+        mapped(&mut text, mapping, &against.file);
+    }
     if let Some(diagnosis) = check.diagnosis() {
         diagnosed(&mut text, diagnosis, &report.tolerance, options);
     }

@@ -1,25 +1,17 @@
 //! The links and joints of two robots that are the same: the child of a moving joint by the name of the joint, other
 //! links by their own name.
 
-use congruent_description::{Joint, JointIndex, LinkIndex, Robot, RobotQ, Tolerance};
+use congruent_description::{Joint, JointIndex, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
-
-/// Where two descriptions are compared, and what counts as agreement.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ComparedAt<'a> {
-    pub(crate) configurations: &'a [RobotQ],
-    pub(crate) tolerance: &'a Tolerance,
-    /// First and last link of the chain.
-    pub(crate) base: LinkIndex,
-    pub(crate) tip: LinkIndex,
-}
 
 /// A robot and another description of it, with the poses of the links of the first at zero by both. Both have the same
 /// moving joints by name.
 #[derive(Debug, Clone)]
-pub(crate) struct MatchedRobots<'a> {
-    pub(crate) robot: &'a Robot,
-    pub(crate) other: &'a Robot,
+pub struct MatchedRobots<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The other description of it.
+    pub other: &'a Robot,
     /// For each link of the robot the same link of the other, if it has one.
     links: Vec<Option<LinkIndex>>,
     /// For each link of the robot the joint of the other with the name of the joint that carries it.
@@ -29,14 +21,11 @@ pub(crate) struct MatchedRobots<'a> {
 }
 
 impl<'a> MatchedRobots<'a> {
-    /// `poses` are those of the other description, at the links of the robot.
+    /// The match; `poses` are those of the other description, at the links of the robot.
     ///
     /// # Errors
     /// [`LinkPosesError`] if a source rejects position zero.
-    pub(crate) fn new(
-        [robot, other]: [&'a Robot; 2],
-        poses: &mut dyn LinkPoses,
-    ) -> Result<Self, LinkPosesError> {
+    pub fn new([robot, other]: [&'a Robot; 2], poses: &mut dyn LinkPoses) -> Result<Self, LinkPosesError> {
         let namesake = |link| other.find_joint(&robot.joint(robot.parent_joint(link)?).name);
         let namesakes: Vec<Option<JointIndex>> = robot.link_indices().map(namesake).collect();
         let link = |link: LinkIndex| {
@@ -57,7 +46,11 @@ impl<'a> MatchedRobots<'a> {
     }
 
     /// The match with another robot that differs only in values of its joints.
-    pub(super) fn with<'b>(&self, robot: &'b Robot) -> MatchedRobots<'b>
+    ///
+    /// # Panics
+    /// If the robot has other links or joints.
+    #[must_use]
+    pub fn with<'b>(&self, robot: &'b Robot) -> MatchedRobots<'b>
     where
         'a: 'b,
     {
@@ -71,38 +64,38 @@ impl<'a> MatchedRobots<'a> {
     }
 
     /// Whether the other description has this link; the poses of one that it lacks follow those before it.
-    pub(crate) fn is_matched(&self, link: LinkIndex) -> bool {
+    pub fn is_matched(&self, link: LinkIndex) -> bool {
         self.links[link.get()].is_some()
     }
 
     /// Pose of a link at zero by the own description.
-    pub(crate) fn own(&self, link: LinkIndex) -> Pose {
+    pub fn own(&self, link: LinkIndex) -> Pose {
         self.at_zero[0][link.get()]
     }
 
     /// Pose of a link at zero by the other description.
-    pub(crate) fn there(&self, link: LinkIndex) -> Pose {
+    pub fn there(&self, link: LinkIndex) -> Pose {
         self.at_zero[1][link.get()]
     }
 
     /// The joint of the other description that carries the same link from the same link.
-    pub(crate) fn same_joint(&self, joint: &Joint) -> Option<&'a Joint> {
+    pub fn same_joint(&self, joint: &Joint) -> Option<&'a Joint> {
         let there = self.other.joint(self.other.parent_joint(self.links[joint.child.get()]?)?);
         (Some(there.parent) == self.links[joint.parent.get()]).then_some(there)
     }
 
     /// The joint of the other description with the same name.
-    pub(crate) fn namesake(&self, joint: &Joint) -> Option<&'a Joint> {
+    pub fn namesake(&self, joint: &Joint) -> Option<&'a Joint> {
         Some(self.other.joint(self.namesakes[joint.child.get()]?))
     }
 
     /// The joint that carries a link which the other description lacks; it is fixed.
-    pub(crate) fn unmatched_joint(&self, link: LinkIndex) -> Option<JointIndex> {
+    pub fn unmatched_joint(&self, link: LinkIndex) -> Option<JointIndex> {
         if self.is_matched(link) { None } else { self.robot.parent_joint(link) }
     }
 
     /// The largest distance of a link from the root at zero, m; 1 if all are there.
-    pub(crate) fn reach_m(&self) -> f64 {
+    pub fn reach_m(&self) -> f64 {
         let reach = self.at_zero[0].iter().map(|pose| pose.translation.norm()).fold(0.0, f64::max);
         if reach > 0.0 { reach } else { 1.0 }
     }

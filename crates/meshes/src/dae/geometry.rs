@@ -6,7 +6,7 @@ use nalgebra::Point3;
 use roxmltree::Node;
 
 use super::node::{Ids, child, children, fault, numbers};
-use crate::mesh::mesh_file::{MeshError, fan};
+use crate::mesh_file::{MeshError, fan};
 
 /// One geometry in its own frame.
 #[derive(Debug, Default)]

@@ -10,7 +10,7 @@ use super::{
     geometry::{GeometryPart, read_geometry},
     node::{Ids, child, children, fault, format_fault, numbers_of},
 };
-use crate::mesh::mesh_file::{MeshError, MeshFile};
+use crate::mesh_file::{MeshError, MeshFile};
 
 /// Most nodes of a scene. Nodes may instance nodes, so a small file could otherwise expand to 2^60 of them.
 const MOST_NODES: usize = 100_000;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
 
-use crate::mesh::mesh_file::MeshError;
+use crate::mesh_file::MeshError;
 
 /// The elements with an id.
 pub(super) struct Ids<'a, 'i>(BTreeMap<&'a str, Node<'a, 'i>>);

@@ -13,22 +13,24 @@ use super::{
     format::MeshFormat,
     mesh_file::{MeshError, MeshFile},
 };
-use crate::{codes, model::Mesh};
+use crate::{codes, mesh::Mesh};
 
 /// Size limit of a mesh file, bytes.
 const MESH_BYTES: u64 = 256 << 20;
 
 /// A mesh with its warnings, which come only when its file is read for the first time.
-pub(crate) struct FoundMesh {
-    pub(crate) mesh: Arc<Mesh>,
-    pub(crate) warnings: Vec<Diagnostic>,
+pub struct FoundMesh {
+    /// The mesh.
+    pub mesh: Arc<Mesh>,
+    /// What is suspicious in its file.
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// Gives the mesh that a URDF names, scaled.
-pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh, Diagnostic> + 'a;
+pub type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh, Diagnostic> + 'a;
 
 /// Reads meshes inside the folders that `packages` allows.
-pub(crate) struct MeshStore<'a> {
+pub struct MeshStore<'a> {
     packages: &'a mut Packages,
     access: &'a FileAccess,
     /// Meshes that were read, by file and the bits of their scale: floats are no ordered keys.
@@ -36,12 +38,16 @@ pub(crate) struct MeshStore<'a> {
 }
 
 impl<'a> MeshStore<'a> {
-    pub(crate) fn new(packages: &'a mut Packages, access: &'a FileAccess) -> Self {
+    /// A store without meshes.
+    pub fn new(packages: &'a mut Packages, access: &'a FileAccess) -> Self {
         Self { packages, access, read: BTreeMap::new() }
     }
 
     /// The mesh that a URDF names by `uri`, in metres, scaled.
-    pub(crate) fn find(&mut self, uri: &str, scale: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
+    ///
+    /// # Errors
+    /// The file is not found, may not be opened, or is no mesh.
+    pub fn find(&mut self, uri: &str, scale: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
         let Resolved { path, warning } = self.packages.resolve(uri)?;
         // By bits, since floats have no total order; a scale that differs in the last bit is read twice, which is
         // harmless.

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::parse;
-use crate::mesh::mesh_file::MeshFile;
+use crate::mesh_file::MeshFile;
 
 /// A right triangle with legs of one unit along x and y, inside `scene`.
 fn document(asset: &str, primitive: &str, scene: &str) -> String {

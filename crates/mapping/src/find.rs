@@ -1,0 +1,359 @@
+//! Which joints of two descriptions are the same, and in which variables: names first, then the order along the chain, with
+//! the axes as proof.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use congruent_description::{DeclaredMapping, JointIndex, LinkIndex, MappedJoint, Robot, RobotDescription};
+use congruent_input::known_names;
+use congruent_kinematics::ScrewTree;
+use nalgebra::Isometry3;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::{
+    axis::{Axis, isometry},
+    bodies::by_bodies,
+    names::{JointPairs, is_alike, with_one_name, with_similar_names},
+    variables::{ChainPair, JointVariable, Way},
+};
+
+/// How the joints of two descriptions were found to be the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MatchedBy {
+    /// The robot file declares it.
+    Declared,
+    /// By the names that they have in both.
+    Names,
+    /// By names that differ in a prefix, a suffix, capitals or the word "joint".
+    SimilarNames,
+    /// By their order along the chain.
+    Order,
+}
+
+/// The joints of another description in the variables of a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundMapping {
+    /// The joints of the other description, in the order of the robot.
+    pub joints: Vec<MappedJoint>,
+    /// How they were found.
+    pub matched_by: MatchedBy,
+    /// Moving joints without a partner: of the robot, and of the other description.
+    pub unmatched: [Vec<JointIndex>; 2],
+    /// Pose of the root of the other description in that of the robot, at which the axes agree.
+    pub root_from_other_root: Isometry3<f64>,
+    /// The largest angle between two axes that should be the same, rad.
+    pub angle_rad: f64,
+    /// The largest distance of two axes that should be the same, m.
+    pub distance_m: f64,
+    /// Other choices of direction and zero with which the axes agree as well.
+    pub equivalent: Vec<Vec<MappedJoint>>,
+}
+
+impl FoundMapping {
+    /// Whether no joint has another variable.
+    pub fn has_same_variables(&self) -> bool {
+        self.joints.iter().all(MappedJoint::has_same_variable)
+    }
+}
+
+/// Variables by joint of the robot.
+type KnownVariables = BTreeMap<JointIndex, JointVariable>;
+
+/// What is known of two robots beside their files.
+struct Both<'a> {
+    a: &'a RobotDescription,
+    b: &'a RobotDescription,
+    screws: [ScrewTree; 2],
+    reach_m: f64,
+}
+
+/// The joints of `b` in the variables of `a`; `None` if the two have no chain in common. The axes are near each other then,
+/// which does not mean that they agree: what is left is a difference of the two.
+pub fn find(a: &RobotDescription, b: &RobotDescription) -> Option<FoundMapping> {
+    let both = Both::new(a, b);
+    let named = [
+        (MatchedBy::Names, with_one_name(&a.robot, &b.robot)),
+        (MatchedBy::SimilarNames, with_similar_names(&a.robot, &b.robot)),
+    ];
+    let covers = |pairs: &JointPairs| {
+        let chain = a.moving_chain();
+        !chain.is_empty() && chain.iter().all(|joint| pairs.iter().any(|[of_a, _]| of_a == joint))
+    };
+    let mut found =
+        named.into_iter().filter(|(_, pairs)| covers(pairs)).filter_map(|(by, pairs)| both.solved(by, pairs));
+    found.next().or_else(|| {
+        let ordered = both.by_order().into_iter().filter_map(|pairs| both.solved(MatchedBy::Order, pairs));
+        ordered.min_by(|one, other| both.cost(one).total_cmp(&both.cost(other)))
+    })
+}
+
+/// The joints of `b` in the variables of `a` as a robot file declares them; joints that it does not name have the same name
+/// and variable.
+///
+/// # Errors
+/// A joint that `b` lacks, that slides in one of the two and turns in the other, or that is meant twice.
+pub fn declared(
+    a: &RobotDescription,
+    b: &RobotDescription,
+    mapping: &DeclaredMapping,
+) -> Result<FoundMapping, String> {
+    let both = Both::new(a, b);
+    let mut pairs: JointPairs = Vec::new();
+    let mut known = Vec::new();
+    for &index in a.robot.movable_joints() {
+        let name = &a.robot.joint(index).name;
+        if mapping.left_out.contains(name) {
+            continue;
+        }
+        let written = mapping.joints.iter().find(|of| of.joint == *name);
+        let there = written.map_or(name, |of| &of.there);
+        let found = b.robot.find_joint(there).filter(|&found| b.robot.joint(found).kind.is_movable());
+        let Some(found) = found else {
+            if written.is_some() {
+                let names = known_names(there, "moving joints", b.robot.movable_joint_names());
+                return Err(format!("{} has no moving joint \"{there}\"; {names}", b.path.display()));
+            }
+            continue;
+        };
+        if !is_alike([&a.robot, &b.robot], [index, found]) {
+            return Err(format!("joint \"{name}\" turns in one description and slides in the other"));
+        }
+        if pairs.iter().any(|pair| pair[1] == found) {
+            return Err(format!("two joints are \"{there}\" in {}", b.path.display()));
+        }
+        pairs.push([index, found]);
+        let variable = written.map(|of| JointVariable { is_flipped: of.is_flipped, offset: of.offset });
+        known.push(variable.unwrap_or_default());
+    }
+    both.with_known(pairs, &known, mapping.has_fitted_base).ok_or_else(|| "no joint moves in both".to_owned())
+}
+
+impl<'a> Both<'a> {
+    fn new(a: &'a RobotDescription, b: &'a RobotDescription) -> Self {
+        let reach_m = a.tolerance_scale().reach_m().unwrap_or(1.0);
+        Self { a, b, screws: [&a.robot, &b.robot].map(ScrewTree::new), reach_m }
+    }
+}
+
+impl Both<'_> {
+    /// The mapping of these pairs with the variables that are known.
+    fn with_known(
+        &self,
+        pairs: JointPairs,
+        known: &[JointVariable],
+        has_fitted_base: bool,
+    ) -> Option<FoundMapping> {
+        let base = self.shared_root();
+        let of_chain = self.a.moving_chain();
+        let is_of_chain = |pair: &&[JointIndex; 2]| of_chain.contains(&pair[0]);
+        let chain: JointPairs = pairs.iter().filter(is_of_chain).copied().collect();
+        let variable = |pair: &[JointIndex; 2]| {
+            pairs.iter().zip(known).find(|(of, _)| *of == pair).map(|(_, variable)| *variable)
+        };
+        let fitted = || {
+            let known = chain.iter().map(variable).collect();
+            ChainPair { known, ..self.chain_pair(&chain, None, None) }.ways().into_iter().next()
+        };
+        let way = if has_fitted_base { fitted() } else { None };
+        let mapped = pairs.iter().zip(known).map(|(pair, variable)| self.in_variable(*pair, *variable));
+        let mapped = mapped.collect::<Vec<_>>();
+        (!pairs.is_empty()).then(|| FoundMapping {
+            joints: mapped,
+            matched_by: MatchedBy::Declared,
+            unmatched: self.unmatched(&pairs),
+            root_from_other_root: way.as_ref().map_or(base, |way| way.a_from_b),
+            angle_rad: way.as_ref().map_or(0.0, |way| way.angle_rad),
+            distance_m: way.as_ref().map_or(0.0, |way| way.distance_m),
+            equivalent: Vec::new(),
+        })
+    }
+
+    /// What a mapping leaves, as a distance; joints without a partner count.
+    fn cost(&self, found: &FoundMapping) -> f64 {
+        let left_out: usize = found.unmatched.iter().map(Vec::len).sum();
+        found.distance_m + self.reach_m * (found.angle_rad + 1e-3 * left_out as f64)
+    }
+
+    /// The joints of both chains in order; if one is longer, at its beginning and at its end.
+    fn by_order(&self) -> Vec<JointPairs> {
+        let chain = |of: &RobotDescription| -> Vec<JointIndex> {
+            let driven = |joint: &JointIndex| of.robot.joint(*joint).mimic.is_none();
+            of.moving_chain().into_iter().filter(driven).collect()
+        };
+        let (a, b) = (chain(self.a), chain(self.b));
+        let count = a.len().min(b.len());
+        let mut ways = BTreeSet::new();
+        ways.insert((0, 0));
+        ways.insert((a.len() - count, b.len() - count));
+        let pairs = |(from_a, from_b): (usize, usize)| -> JointPairs {
+            (0..count).map(|at| [a[from_a + at], b[from_b + at]]).collect()
+        };
+        let robots = [&self.a.robot, &self.b.robot];
+        let is_possible =
+            |pairs: &JointPairs| !pairs.is_empty() && pairs.iter().all(|pair| is_alike(robots, *pair));
+        ways.into_iter().map(pairs).filter(is_possible).collect()
+    }
+
+    /// The variables of these pairs: first on the chain to the tip and beyond, then on all other branches.
+    fn solved(&self, matched_by: MatchedBy, mut pairs: JointPairs) -> Option<FoundMapping> {
+        let branches = self.branches(&pairs);
+        let main = self.main_branch(&pairs, &branches);
+        let ways = self.ways_of_chain(&main)?;
+        let ways = by_bodies(ways, [self.a, self.b], &self.screws, (&main, self.reach_m));
+        let way = ways.first()?;
+        let of_main = |way: &Way| -> KnownVariables {
+            main.iter().map(|pair| pair[0]).zip(way.variables.iter().copied()).collect()
+        };
+        let mut solved = of_main(way);
+        let (mut angle_rad, mut distance_m) = (way.angle_rad, way.distance_m);
+        for branch in branches {
+            let known: Vec<_> = branch.iter().map(|pair| solved.get(&pair[0]).copied()).collect();
+            if known.iter().all(Option::is_some) {
+                continue;
+            }
+            let chain = ChainPair { known, ..self.chain_pair(&branch, Some(way.a_from_b), None) };
+            // Joints of the same name whose axes are others are not the same joints.
+            let Some(found) = chain.ways().into_iter().next() else {
+                pairs.retain(|pair| solved.contains_key(&pair[0]) || !branch.contains(pair));
+                continue;
+            };
+            angle_rad = angle_rad.max(found.angle_rad);
+            distance_m = distance_m.max(found.distance_m);
+            for (pair, variable) in branch.iter().zip(found.variables) {
+                solved.entry(pair[0]).or_insert(variable);
+            }
+        }
+        let mapped = |known: &KnownVariables| -> Vec<MappedJoint> {
+            let of = |pair: &[JointIndex; 2]| Some(self.mapped(*pair, *known.get(&pair[0])?));
+            pairs.iter().filter_map(of).collect()
+        };
+        Some(FoundMapping {
+            joints: mapped(&solved),
+            matched_by,
+            unmatched: self.unmatched(&pairs),
+            root_from_other_root: way.a_from_b,
+            angle_rad,
+            distance_m,
+            equivalent: ways.iter().skip(1).map(|other| mapped(&of_main(other))).collect(),
+        })
+    }
+
+    /// The matched joints to the tip, with those of one branch beyond it: their axes show where the last joint has its zero.
+    fn main_branch(&self, pairs: &JointPairs, branches: &[JointPairs]) -> JointPairs {
+        let chain = self.a.moving_chain();
+        let to_tip: JointPairs = pairs.iter().filter(|pair| chain.contains(&pair[0])).copied().collect();
+        let beyond = branches.iter().filter(|branch| branch.starts_with(&to_tip));
+        beyond.max_by_key(|branch| branch.len()).cloned().unwrap_or(to_tip)
+    }
+
+    /// The ways of the chain from base to tip: with the same frames at both ends if these explain it, else with another tool,
+    /// else with another base as well.
+    fn ways_of_chain(&self, pairs: &JointPairs) -> Option<Vec<Way>> {
+        /// Axes that are nearer than this share of the reach are the same but for what a calibration changes.
+        const NEAR: f64 = 1e-4;
+        let (base, tips) = (Some(self.shared_root()), self.shared_tips());
+        let attempts = [(base, tips), (base, None), (None, None)];
+        let off = |ways: &Vec<Way>| ways.first().map_or(f64::INFINITY, |way| way.off_m(self.reach_m));
+        let mut best: Option<Vec<Way>> = None;
+        for (base, tips) in attempts {
+            let ways = self.chain_pair(pairs, base, tips).ways();
+            if off(&ways) < NEAR * self.reach_m {
+                return Some(ways);
+            }
+            // Another base or tool must explain much to be believed.
+            if best.as_ref().is_none_or(|best| off(&ways) < 0.3 * off(best)) && !ways.is_empty() {
+                best = Some(ways);
+            }
+        }
+        best
+    }
+
+    fn chain_pair(
+        &self,
+        pairs: &JointPairs,
+        a_from_b: Option<Isometry3<f64>>,
+        tips: Option<[Isometry3<f64>; 2]>,
+    ) -> ChainPair {
+        let axes = |of: usize| -> Vec<Axis> {
+            let screws = pairs.iter().filter_map(|pair| self.screws[of].screw(pair[of]));
+            screws.map(Axis::from_screw).collect()
+        };
+        let (a, b) = (axes(0), axes(1));
+        ChainPair { known: vec![None; a.len()], a, b, tips, a_from_b, reach_m: self.reach_m }
+    }
+
+    /// Pose of the other root in this one if a link near the root has one name in both.
+    fn shared_root(&self) -> Isometry3<f64> {
+        let (a, b) = (&self.a.robot, &self.b.robot);
+        let is_still = |robot: &Robot, link: LinkIndex| robot.body(link) == robot.root();
+        let shared = a.link_indices().filter(|&link| is_still(a, link)).find_map(|link| {
+            let there = b.find_link(&a.link(link).name).filter(|&there| is_still(b, there))?;
+            Some(self.home(0, link) * self.home(1, there).inverse())
+        });
+        shared.unwrap_or_else(Isometry3::identity)
+    }
+
+    /// Poses of the tips in their roots, if both tips have one name.
+    fn shared_tips(&self) -> Option<[Isometry3<f64>; 2]> {
+        let there = self.b.robot.find_link(&self.a.robot.link(self.a.tip).name)?;
+        Some([self.home(0, self.a.tip), self.home(1, there)])
+    }
+
+    /// Pose of a link in its root at zero.
+    fn home(&self, of: usize, link: LinkIndex) -> Isometry3<f64> {
+        isometry(self.screws[of].home(link))
+    }
+
+    /// For each end of the tree, its matched joints from the root.
+    fn branches(&self, pairs: &JointPairs) -> Vec<JointPairs> {
+        let robot = &self.a.robot;
+        let ends = robot.link_indices().filter(|&link| robot.joints().iter().all(|of| of.parent != link));
+        let branch = |end: LinkIndex| -> JointPairs {
+            let joints = robot.chain(robot.root(), end).unwrap_or_default();
+            let pair = |joint: &JointIndex| pairs.iter().find(|pair| pair[0] == *joint).copied();
+            joints.iter().filter_map(pair).collect()
+        };
+        ends.map(branch).collect()
+    }
+
+    fn unmatched(&self, pairs: &JointPairs) -> [Vec<JointIndex>; 2] {
+        let without = |of: usize, robot: &Robot| {
+            let is_free = |joint: &JointIndex| pairs.iter().all(|pair| pair[of] != *joint);
+            robot.movable_joints().iter().copied().filter(is_free).collect()
+        };
+        [without(0, &self.a.robot), without(1, &self.b.robot)]
+    }
+
+    /// A joint of the other description in this variable.
+    fn in_variable(&self, pair: [JointIndex; 2], variable: JointVariable) -> MappedJoint {
+        MappedJoint {
+            joint: pair[1],
+            name: self.a.robot.joint(pair[0]).name.clone(),
+            is_flipped: variable.is_flipped,
+            offset: variable.offset,
+        }
+    }
+
+    /// A joint of the other description, with the whole turns that bring its limits nearest to those here.
+    fn mapped(&self, pair: [JointIndex; 2], variable: JointVariable) -> MappedJoint {
+        let (a, b) = (self.a.robot.joint(pair[0]), self.b.robot.joint(pair[1]));
+        let mapped = |offset: f64| self.in_variable(pair, JointVariable { offset, ..variable });
+        let turn = std::f64::consts::TAU;
+        if !b.kind.is_angular() || variable.offset == 0.0 {
+            return mapped(variable.offset);
+        }
+        let offset = variable.offset - turn * (variable.offset / turn).round();
+        let candidates = [offset, offset - turn, offset + turn].map(mapped);
+        // Degrees of the common range, so that rounding does not choose a turn.
+        let overlap = |candidate: &MappedJoint| -> i64 {
+            let (Some((lower, upper)), Some(range)) = (a.position_range(), b.position_range()) else {
+                return 0;
+            };
+            let ends = [range.0, range.1].map(|end| candidate.there(end));
+            (upper.min(ends[0].max(ends[1])) - lower.max(ends[0].min(ends[1]))).to_degrees() as i64
+        };
+        let most = candidates.iter().map(&overlap).max().unwrap_or(0);
+        candidates.into_iter().find(|candidate| overlap(candidate) == most).expect("one has the most")
+    }
+}

@@ -1,0 +1,18 @@
+//! Two descriptions of a robot in the same variables: which joint of one is which of the other, whether it moves the other
+//! way, and where it has its zero.
+//!
+//! A mapping is found by names or by the order along the chain, with the axes of the joints as proof ([`find`]). The
+//! other description is then rewritten in the variables (`Robot::in_variables`) and the link frames ([`in_frames_of`]) of the
+//! robot, and everything that compares two descriptions works on it.
+
+mod axis;
+mod bodies;
+mod find;
+mod frames;
+mod matched;
+mod names;
+mod variables;
+
+pub use find::{FoundMapping, MatchedBy, declared, find};
+pub use frames::in_frames_of;
+pub use matched::MatchedRobots;

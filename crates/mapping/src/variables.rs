@@ -1,0 +1,272 @@
+//! Directions and zeros of the joints of one chain in terms of another: the search over what brings the axes of both
+//! together.
+//!
+//! Joint after joint from the base, the axis of the next one says how far this one must be turned or shifted; where two
+//! directions of an axis are possible, both are followed.
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use crate::axis::{Axis, shift_towards, turn_of_vectors, turn_towards};
+
+/// An axis that is farther off than this is not that of the same joint. Kind: choice, far beyond what calibrations and
+/// mistakes of a digit change.
+const OTHER_ANGLE_RAD: f64 = 0.35;
+/// The same for the distance, as a share of the reach.
+const OTHER_DISTANCE: f64 = 0.2;
+/// Most ways that are followed to their end; wrists with axes at right angles have a few.
+const MOST_WAYS: usize = 256;
+/// Offsets of less are the rounding of calculation.
+const ROUNDING: f64 = 1e-9;
+
+/// Two chains of the same kinds of joints, each in the frame of its root, at zero.
+#[derive(Debug, Clone)]
+pub(crate) struct ChainPair {
+    pub(crate) a: Vec<Axis>,
+    pub(crate) b: Vec<Axis>,
+    /// Poses of the two tips at zero, if their frames are the same.
+    pub(crate) tips: Option<[Isometry3<f64>; 2]>,
+    /// Pose of B's root in A's, if it is known.
+    pub(crate) a_from_b: Option<Isometry3<f64>>,
+    /// Variables that are known already, from a chain with the same joints.
+    pub(crate) known: Vec<Option<JointVariable>>,
+    /// Reach of A, m: the lever with which angles count.
+    pub(crate) reach_m: f64,
+}
+
+/// JointVariable of a joint of B: `q_b = q_a + offset`, or `-q_a + offset` if it is flipped.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct JointVariable {
+    pub(crate) is_flipped: bool,
+    pub(crate) offset: f64,
+}
+
+/// A way to bring the axes together.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Way {
+    pub(crate) variables: Vec<JointVariable>,
+    /// Pose of B's root in A's.
+    pub(crate) a_from_b: Isometry3<f64>,
+    /// The largest angle between two axes, rad.
+    pub(crate) angle_rad: f64,
+    /// The largest distance of two axes, or of the tips, m.
+    pub(crate) distance_m: f64,
+}
+
+impl Way {
+    /// Both as a distance.
+    pub(crate) fn off_m(&self, reach_m: f64) -> f64 {
+        self.distance_m + reach_m * self.angle_rad
+    }
+
+    pub(crate) fn flips(&self) -> usize {
+        self.variables.iter().filter(|of| of.is_flipped).count()
+    }
+
+    /// Number and sum of the offsets.
+    fn offsets(&self) -> (usize, f64) {
+        let offsets = self.variables.iter().map(|of| of.offset.abs()).filter(|&offset| offset > ROUNDING);
+        (offsets.clone().count(), offsets.sum())
+    }
+}
+
+impl ChainPair {
+    /// The ways that bring the axes nearest together, the simplest first: fewest flips, fewest offsets, smallest offsets.
+    /// Empty if the axes are those of other chains.
+    pub(crate) fn ways(&self) -> Vec<Way> {
+        let mut ways = Vec::new();
+        for start in self.starts() {
+            self.follow(&start, start, &mut Vec::new(), &mut ways);
+        }
+        let rounded: Vec<Way> = ways.into_iter().map(|way| self.with_round_offsets(way)).collect();
+        let best_m = rounded.iter().map(|way| way.off_m(self.reach_m)).fold(f64::INFINITY, f64::min);
+        let limit_m = 2.0 * best_m + 1e-7 * self.reach_m;
+        let mut ways: Vec<Way> = Vec::new();
+        for way in rounded.into_iter().filter(|way| way.off_m(self.reach_m) <= limit_m) {
+            if !ways.iter().any(|known| is_same(known, &way)) {
+                ways.push(way);
+            }
+        }
+        let cost = |way: &Way| {
+            let (count, sum) = way.offsets();
+            (way.flips(), count, sum)
+        };
+        ways.sort_by(|a, b| cost(a).partial_cmp(&cost(b)).unwrap_or(std::cmp::Ordering::Equal));
+        ways
+    }
+
+    /// Where the root of B may be in A before any joint: as known, or with the first axes on each other.
+    fn starts(&self) -> Vec<Isometry3<f64>> {
+        if let Some(a_from_b) = self.a_from_b {
+            return vec![a_from_b];
+        }
+        let (Some(a), Some(b)) = (self.a.first(), self.b.first()) else { return Vec::new() };
+        let mut starts = Vec::new();
+        for sign in [1.0, -1.0] {
+            let turn = turn_between(&(b.direction * sign), &a.direction);
+            let onto = Isometry3::from_parts(Translation3::from(a.through - turn * b.through), turn);
+            let known = self.known.first().copied().flatten().unwrap_or_default();
+            let bent = b.motion(known.offset);
+            // The turn about the first axis and the shift along it are those of the base.
+            for turned in self.turns(0, a, &(onto * bent)) {
+                let turned = Axis { slides: false, ..*a }.motion(turned) * onto;
+                starts.push(self.shifted_base(a, turned, &bent));
+            }
+        }
+        starts
+    }
+
+    /// The base, shifted so that the next axis is at its height, or the first turning axis in its place.
+    fn shifted_base(&self, first: &Axis, a_from_b: Isometry3<f64>, bent: &Isometry3<f64>) -> Isometry3<f64> {
+        let moved = a_from_b * bent;
+        let shift = if first.slides {
+            let turning = self.a.iter().zip(&self.b).find(|(a, _)| !a.slides);
+            turning.map(|(a, b)| a.through - b.moved(&moved).through)
+        } else {
+            let lines = self.a.iter().zip(&self.b).skip(1);
+            let mut shifts = lines
+                .filter_map(|(a, b)| shift_towards(&first.direction, &first.through, &b.moved(&moved), a));
+            shifts.next().map(|shift| first.direction * shift)
+        };
+        Translation3::from(shift.unwrap_or_else(Vector3::zeros)) * a_from_b
+    }
+
+    /// Follows all ways from the joint behind the known variables on.
+    fn follow(
+        &self,
+        a_from_b: &Isometry3<f64>,
+        moved: Isometry3<f64>,
+        variables: &mut Vec<JointVariable>,
+        ways: &mut Vec<Way>,
+    ) {
+        if ways.len() >= MOST_WAYS {
+            return;
+        }
+        let at = variables.len();
+        let Some(axis) = self.a.get(at) else {
+            ways.extend(self.finished(a_from_b, variables));
+            return;
+        };
+        let there = self.b[at].moved(&moved);
+        let is_flipped =
+            self.known[at].map_or(there.direction.dot(&axis.direction) < 0.0, |known| known.is_flipped);
+        let directed = if is_flipped { Axis { direction: -there.direction, ..there } } else { there };
+        let (angle_rad, distance_m) = directed.difference(axis);
+        if angle_rad > OTHER_ANGLE_RAD || distance_m > OTHER_DISTANCE * self.reach_m {
+            return;
+        }
+        for offset in self.offsets(at, &there, &moved) {
+            variables.push(JointVariable { is_flipped, offset });
+            self.follow(a_from_b, moved * self.b[at].motion(offset), variables, ways);
+            variables.pop();
+        }
+    }
+
+    /// The positions of joint `at` of B, whose axis is `there` in A, that bring the next axis to its place.
+    fn offsets(&self, at: usize, there: &Axis, moved: &Isometry3<f64>) -> Vec<f64> {
+        if let Some(known) = self.known[at] {
+            return vec![known.offset];
+        }
+        // What the first joint turns is the base, if that is free.
+        if at == 0 && self.a_from_b.is_none() {
+            return vec![0.0];
+        }
+        if there.slides { vec![self.shift(at, there, moved)] } else { self.turns(at, there, moved) }
+    }
+
+    /// The turns of joint `at` about its axis: one for each direction of the next axis that says something.
+    fn turns(&self, at: usize, axis: &Axis, moved: &Isometry3<f64>) -> Vec<f64> {
+        for (a, b) in self.a.iter().zip(&self.b).skip(at + 1) {
+            let there = b.moved(moved);
+            let turn = |sign: f64| {
+                turn_towards(axis, &Axis { direction: there.direction * sign, ..there }, a, self.reach_m)
+            };
+            let (Some(one), Some(other)) = (turn(1.0), turn(-1.0)) else { continue };
+            let is_one = (one - other).abs() < ROUNDING;
+            return if is_one { vec![one] } else { vec![one, other] };
+        }
+        vec![self.turn_of_tip(axis, moved).unwrap_or(0.0)]
+    }
+
+    fn turn_of_tip(&self, axis: &Axis, moved: &Isometry3<f64>) -> Option<f64> {
+        let [a, b] = self.tips?;
+        let there = moved * b;
+        let mut pairs = vec![(there.translation.vector - axis.through, a.translation.vector - axis.through)];
+        for unit in [Vector3::x(), Vector3::y(), Vector3::z()] {
+            pairs.push((there.rotation * unit * self.reach_m, a.rotation * unit * self.reach_m));
+        }
+        turn_of_vectors(&axis.direction, &pairs)
+    }
+
+    /// The shift of joint `at` along its axis that brings the next line, or the tip, to its height.
+    fn shift(&self, at: usize, axis: &Axis, moved: &Isometry3<f64>) -> f64 {
+        for (next, (a, b)) in self.a.iter().zip(&self.b).enumerate().skip(at + 1) {
+            let through = if next == at + 1 { &a.through } else { &self.a[next - 1].through };
+            if let Some(shift) = shift_towards(&axis.direction, through, &b.moved(moved), a) {
+                return shift;
+            }
+        }
+        self.tips.map_or(0.0, |[a, b]| {
+            axis.direction.dot(&(a.translation.vector - (moved * b).translation.vector))
+        })
+    }
+
+    /// A complete way, with what it leaves.
+    fn finished(&self, a_from_b: &Isometry3<f64>, variables: &[JointVariable]) -> Option<Way> {
+        let mut way =
+            Way { variables: variables.to_vec(), a_from_b: *a_from_b, angle_rad: 0.0, distance_m: 0.0 };
+        let mut moved = *a_from_b;
+        for ((a, b), variable) in self.a.iter().zip(&self.b).zip(variables) {
+            let there = b.moved(&moved);
+            let direction = if variable.is_flipped { -there.direction } else { there.direction };
+            let (angle_rad, distance_m) = Axis { direction, ..there }.difference(a);
+            way.angle_rad = way.angle_rad.max(angle_rad);
+            way.distance_m = way.distance_m.max(distance_m);
+            moved *= b.motion(variable.offset);
+        }
+        if let Some([a, b]) = self.tips {
+            let off = a.inverse() * moved * b;
+            way.angle_rad = way.angle_rad.max(off.rotation.angle());
+            way.distance_m = way.distance_m.max(off.translation.vector.norm());
+        }
+        way.off_m(self.reach_m).is_finite().then_some(way)
+    }
+
+    /// Offsets near 0 and near quarter turns as these, where nothing speaks against it.
+    fn with_round_offsets(&self, mut way: Way) -> Way {
+        /// A calibrated zero is up to a few degrees off.
+        const NEAR_RAD: f64 = 0.05;
+        for at in 0..way.variables.len() {
+            let offset = way.variables[at].offset;
+            let step = if self.b[at].slides { f64::INFINITY } else { std::f64::consts::FRAC_PI_2 };
+            let round = if step.is_finite() { (offset / step).round() * step } else { 0.0 };
+            if self.known[at].is_some() || (offset - round).abs() > NEAR_RAD {
+                continue;
+            }
+            let mut variables = way.variables.clone();
+            variables[at].offset = round + 0.0;
+            let Some(rounded) = self.finished(&way.a_from_b, &variables) else { continue };
+            if rounded.off_m(self.reach_m) <= 1.2 * way.off_m(self.reach_m) + 1e-10 * self.reach_m {
+                way = rounded;
+            }
+        }
+        way
+    }
+}
+
+/// Whether two ways are the same but for rounding and whole turns.
+fn is_same(a: &Way, b: &Way) -> bool {
+    let is_near = |(a, b): (&JointVariable, &JointVariable)| {
+        let off = a.offset - b.offset;
+        a.is_flipped == b.is_flipped && off.sin().abs() < 1e-6 && off.cos() > 0.0
+    };
+    a.variables.iter().zip(&b.variables).all(is_near)
+}
+
+/// The smallest turn that brings one direction to another.
+fn turn_between(from: &Vector3<f64>, to: &Vector3<f64>) -> UnitQuaternion<f64> {
+    UnitQuaternion::rotation_between(from, to).unwrap_or_else(|| {
+        // Opposite: half a turn about any direction across.
+        let across = if from.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+        UnitQuaternion::from_scaled_axis(from.cross(&across).normalize() * std::f64::consts::PI)
+    })
+}

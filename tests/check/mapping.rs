@@ -1,0 +1,258 @@
+//! `congruent check --against` of descriptions whose joints have other names, directions and zeros: what is found is what was
+//! written, and what is declared counts as the same.
+
+use std::fs;
+
+use ::congruent::nalgebra::{Isometry3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
+use regex_lite::Regex;
+use serde_json::Value;
+
+use crate::support::{
+    command::{Answer, congruent, congruent_json},
+    corpus::{corpus, workspace},
+    scratch_folder::ScratchFolder,
+};
+
+/// A joint of a URDF in another variable: `q_there = sign * q_here + zero`.
+struct Change {
+    joint: &'static str,
+    there: &'static str,
+    sign: f64,
+    zero: f64,
+}
+
+/// Rounding of a rotation matrix to angles and back.
+const ROUNDING: f64 = 1e-9;
+
+fn change(joint: &'static str, there: &'static str, sign: f64, zero: f64) -> Change {
+    Change { joint, there, sign, zero }
+}
+
+/// Every joint of a UR5e in other variables, as another vendor might count them.
+fn ur5e() -> Vec<Change> {
+    vec![
+        change("shoulder_pan_joint", "J1", -1.0, 0.7),
+        change("shoulder_lift_joint", "J2", 1.0, 1.570_796_326_794_896_6),
+        change("elbow_joint", "J3", -1.0, 0.0),
+        change("wrist_1_joint", "J4", -1.0, -1.1),
+        change("wrist_2_joint", "J5", 1.0, 0.0),
+        change("wrist_3_joint", "J6", -1.0, 0.25),
+    ]
+}
+
+/// The URDF with its joints in other variables: with `q = sign (q_there - zero)` the turn about `a` is a constant one, which
+/// goes to the origin, and one about `sign a`.
+fn in_variables(urdf: &str, changes: &[Change]) -> String {
+    let mut text = urdf.to_owned();
+    for Change { joint, there, sign, zero } in changes {
+        let start = text.find(&format!("<joint name=\"{joint}\"")).unwrap_or_else(|| panic!("no {joint}"));
+        let end = start + text[start..].find("</joint>").unwrap();
+        let block = &text[start..end];
+        let numbers = |attribute: &str| -> Option<Vec<f64>> {
+            let found = Regex::new(&format!(r#"\b{attribute}="([^"]*)""#)).unwrap();
+            let list = found.captures(block)?.get(1)?.as_str().to_owned();
+            Some(list.split_whitespace().map(|number| number.parse().unwrap()).collect())
+        };
+        let origin = Regex::new(r"<origin[^>]*/>").unwrap();
+        let tag = origin.find(block).map_or("", |found| found.as_str());
+        let of_origin = |attribute: &str| tag.contains(attribute).then(|| numbers(attribute)).flatten();
+        let xyz = of_origin("xyz").unwrap_or_else(|| vec![0.0; 3]);
+        let rpy = of_origin("rpy").unwrap_or_else(|| vec![0.0; 3]);
+        let axis = Regex::new(r#"<axis xyz="([^"]*)"/>"#).unwrap();
+        let written: Vec<f64> = axis.captures(block).unwrap()[1]
+            .split_whitespace()
+            .map(|number| number.parse().unwrap())
+            .collect();
+        let direction = Unit::new_normalize(Vector3::from_vec(written));
+        let before = Isometry3::from_parts(
+            Translation3::new(xyz[0], xyz[1], xyz[2]),
+            UnitQuaternion::from_euler_angles(rpy[0], rpy[1], rpy[2]),
+        );
+        let after = before * UnitQuaternion::from_axis_angle(&direction, -sign * zero);
+        let (roll, pitch, yaw) = Rotation3::from(after.rotation).euler_angles();
+        let moved = direction.into_inner() * *sign;
+        let range = numbers("lower").zip(numbers("upper"));
+        let mut new = origin
+            .replace(
+                block,
+                format!(
+                    "<origin xyz=\"{} {} {}\" rpy=\"{roll:?} {pitch:?} {yaw:?}\"/>",
+                    xyz[0], xyz[1], xyz[2]
+                ),
+            )
+            .into_owned();
+        new = axis
+            .replace(&new, format!("<axis xyz=\"{:?} {:?} {:?}\"/>", moved.x, moved.y, moved.z))
+            .into_owned();
+        if let Some((lower, upper)) = range {
+            let ends = [lower[0], upper[0]].map(|end| sign * end + zero);
+            let (lower, upper) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            new = Regex::new(r#"lower="[^"]*" upper="[^"]*""#)
+                .unwrap()
+                .replace(&new, format!("lower=\"{lower:?}\" upper=\"{upper:?}\""))
+                .into_owned();
+        }
+        let new = new.replace(&format!("name=\"{joint}\""), &format!("name=\"{there}\""));
+        text.replace_range(start..end, &new);
+    }
+    text
+}
+
+/// A robot file in a folder of its own, with its URDF and the other one.
+struct Robots {
+    scratch: ScratchFolder,
+    robot_file: String,
+    other: String,
+}
+
+impl Robots {
+    fn new(other: &str) -> Self {
+        let scratch = ScratchFolder::new();
+        scratch.write("ur5e.urdf", &urdf());
+        let other = scratch.write("other.urdf", other);
+        let robot_file = scratch.write("robot.toml", "urdf = \"ur5e.urdf\"\ntip = \"tool0\"\n");
+        Self { scratch, robot_file, other }
+    }
+
+    fn check(&self) -> Answer {
+        congruent_json(&["check", &self.robot_file, "--against", &self.other])
+    }
+
+    /// The robot file with these lines added.
+    fn declare(&self, lines: &[&str]) {
+        let before = fs::read_to_string(&self.robot_file).unwrap();
+        self.scratch.write("robot.toml", &format!("{before}\n{}\n", lines.join("\n")));
+    }
+}
+
+fn urdf() -> String {
+    fs::read_to_string(workspace().join("robots/ur5e/ur5e.urdf")).unwrap()
+}
+
+/// The lines that the report would declare.
+fn lines(report: &Value) -> Vec<String> {
+    let lines = report["against"]["mapping"]["lines"].as_array().unwrap().iter();
+    lines.map(|line| line.as_str().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn other_names_directions_and_zeros_are_found_as_they_were_written() {
+    let changes = ur5e();
+    let robots = Robots::new(&in_variables(&urdf(), &changes));
+    let answer = robots.check();
+    assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+    let report = answer.json();
+    assert_eq!([&report["verdict"], &report["grade"]], ["disagree", "equal_after_mapping"]);
+    let mapping = &report["against"]["mapping"];
+    assert_eq!(mapping["matched_by"], "order");
+    for (found, change) in mapping["joints"].as_array().unwrap().iter().zip(&changes) {
+        assert_eq!([&found["joint"], &found["other"]], [change.joint, change.there]);
+        assert_eq!(found["sign"].as_f64(), Some(change.sign), "{found}");
+        assert!((found["offset"].as_f64().unwrap() - change.zero).abs() < ROUNDING, "{found}");
+    }
+    // In the same variables everything is compared, and agrees.
+    assert_eq!(report["against"]["dynamics_not_compared"], Value::Null);
+    assert_eq!(report["dynamics"]["verdict"], "agree", "{:#}", report["dynamics"]);
+}
+
+#[test]
+fn what_the_report_would_declare_makes_the_two_the_same() {
+    let robots = Robots::new(&in_variables(&urdf(), &ur5e()));
+    let lines = lines(&robots.check().json());
+    robots.declare(&lines.iter().map(String::as_str).collect::<Vec<_>>());
+    let answer = robots.check();
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    // A wrong direction is not.
+    let wrong: Vec<String> =
+        lines.iter().map(|line| line.replace("sign = -1, offset_rad = 0.7", "offset_rad = 0.7")).collect();
+    assert_ne!(wrong, lines);
+    let robots = Robots::new(&in_variables(&urdf(), &ur5e()));
+    robots.declare(&wrong.iter().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!(robots.check().code, 1);
+}
+
+#[test]
+fn a_fault_in_other_variables_is_named_at_the_joint_and_link_of_the_robot() {
+    let other = in_variables(&urdf(), &ur5e());
+    let heavier = other.replacen("<mass value=\"8.058\"/>", "<mass value=\"9.058\"/>", 1);
+    assert_ne!(other, heavier);
+    let robots = Robots::new(&heavier);
+    robots.declare(&lines(&robots.check().json()).iter().map(String::as_str).collect::<Vec<_>>());
+    let report = robots.check().json();
+    assert_eq!(report["dynamics"]["verdict"], "disagree");
+    let first = &report["dynamics"]["explanations"][0]["parameters"][0];
+    assert_eq!([&first["link"], &first["parameter"]], ["upper_arm_link", "mass"], "{first:#}");
+}
+
+#[test]
+fn a_robot_file_holds_its_references_together() {
+    let other = in_variables(&urdf(), &ur5e());
+    let robots = Robots::new(&other);
+    let mapping = lines(&robots.check().json());
+    let mapping: Vec<String> =
+        mapping.iter().map(|line| line.replace("[mapping", "[reference.mapping")).collect();
+    let mut declared =
+        vec!["[[reference]]", "file = \"ur5e.urdf\"", "[[reference]]", "file = \"other.urdf\""];
+    declared.extend(mapping.iter().map(String::as_str));
+    robots.declare(&declared);
+    let answer = congruent(&["check", "-q", &robots.robot_file]);
+    assert_eq!(answer.code, 0, "{}", answer.stdout);
+    assert_eq!(answer.stdout.matches("SAME ROBOT").count(), 2);
+    // One of them changes.
+    let wrong = other.replacen("lower=", "lower=\"-0.5\" was=", 1);
+    robots.scratch.write("other.urdf", &wrong);
+    let answer = congruent(&["check", "-q", &robots.robot_file]);
+    assert_eq!(answer.code, 1, "{}", answer.stdout);
+}
+
+#[test]
+fn other_robots_are_not_mapped() {
+    let panda = fs::read_to_string(workspace().join("robots/panda/panda.urdf")).unwrap();
+    let robots = Robots::new(&panda);
+    let answer = congruent(&["check", "-q", &robots.robot_file, "--against", &robots.other]);
+    let printed = &answer.stdout;
+    assert!(printed.contains("DIFFERENT JOINTS"), "{printed}");
+    assert_eq!(answer.code, 1);
+}
+
+#[test]
+fn faults_of_a_mapping_say_what_is_known() {
+    for (line, message) in [
+        ("elbow_join = \"J3\"", "elbow_joint"),
+        ("elbow_joint = { joint = \"J3\", sign = 2 }", "sign of \"elbow_joint\" must be 1 or -1"),
+        ("elbow_joint = { joint = \"J3\", offset_m = 0.1 }", "joint \"elbow_joint\" turns"),
+        (
+            "elbow_joint = { joint = \"J3\", offset_rad = 1, offset_deg = 3 }",
+            "by offset_rad and by offset_deg",
+        ),
+        ("elbow_joint = 3", "the name of the joint there"),
+    ] {
+        let robots = Robots::new(&urdf());
+        robots.declare(&["[mapping.joints]", line]);
+        let answer = congruent(&["check", &robots.robot_file, "--against", &robots.other]);
+        let printed = answer.stdout.clone() + &answer.stderr;
+        assert_eq!(answer.code, 2, "{line}: {printed}");
+        assert!(
+            printed.split_whitespace().collect::<Vec<_>>().join(" ").replace(" │ ", " ").contains(message),
+            "{line}: {printed}"
+        );
+    }
+}
+
+/// Two public URDFs of one arm, whose joints 2 and 3 have their zeros half a turn apart, as an independent program found.
+#[test]
+fn two_descriptions_of_a_jaco_differ_by_two_zeros() {
+    let Some(corpus) = corpus() else { return };
+    let pair = corpus.join("pairs/urdf-jaco-kinova-drake");
+    let [a, b] = ["a.urdf", "b.urdf"].map(|name| pair.join(name).display().to_string());
+    let report = congruent_json(&["check", &a, "--against", &b]).json();
+    let expected: Value = serde_json::from_str(&fs::read_to_string(pair.join("pair.json")).unwrap()).unwrap();
+    let found = report["against"]["mapping"]["joints"].as_array().unwrap();
+    for joint in expected["joints"].as_array().unwrap() {
+        let here = found.iter().find(|of| of["joint"] == joint["a"]).unwrap();
+        assert_eq!([&here["other"], &here["sign"]], [&joint["b"], &joint["sign"]]);
+        let off = here["offset"].as_f64().unwrap() - joint["offset_rad"].as_f64().unwrap();
+        // The independent fit is of random poses, to some picometres.
+        assert!(off.abs() < 1e-9, "{here} {joint}");
+    }
+}
