@@ -28,6 +28,8 @@ congruent_input::codes! {
             "The dynamics of the physics cannot be identified; the message has the reason.";
         OTHER_DYNAMICS = "CGR-COMMAND-069", "check::other_dynamics",
             "The dynamics of the two descriptions cannot be compared; the message has the reason.";
+        MAPPING = "CGR-COMMAND-074", "check::mapping",
+            "Joints have another name, direction or zero in the other description, or move in one of the two alone, and the robot file does not declare it. What is compared is compared in the variables of the first. The help has the lines to declare it.\n    [mapping.joints]\n    elbow = { joint = \"A3\", sign = -1, offset_deg = 90 }";
         NO_SECOND_SOURCE = "CGR-COMMAND-071", "check::no_second_source",
             "Geometry or dynamics is stated by one description alone, so the check says nothing about whether it is right: the physics is built from the same file. A [dh] table or [[inertial]] entries in robot.toml, or a second file, give something to compare it with.\n    congruent check arm.urdf --against other.urdf";
     }

@@ -4,24 +4,21 @@ use std::iter::once;
 
 use congruent_agreement::{
     SourcePair,
-    compare::{
-        Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, Grade, NotCompared,
-    },
+    compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, NotCompared},
 };
 use congruent_description::{DynamicsTable, InertialFrame, RobotDescription};
 use congruent_dynamics_agreement::DynamicsReport;
-use congruent_input::{Diagnostic, Finding};
+use congruent_input::Diagnostic;
 use congruent_kinematics::LinkPoses;
 
 use super::{
-    against::{self, OtherDescription},
+    against::OtherDescription,
     declared::{self, DeclaredSource},
-    mapped::MappedPair,
     model_frames::unreadable_value,
-    narrowed::NarrowedPair,
     physics,
     poses_of_other::PosesOfOther,
     robot_check::RobotCheck,
+    with_other::with_other,
 };
 use crate::{
     codes,
@@ -62,41 +59,14 @@ fn checked(
     let poses = poses.as_mut().map(|poses| poses as &mut dyn LinkPoses).map_err(|found| found.clone());
     let mut geometry = congruent_agreement::compare::check(description, poses, options)?;
     let mut compared = Vec::new();
-    let narrowed = other.and_then(|other| NarrowedPair::new(description, other, options));
-    let (own, other, own_options) = match &narrowed {
-        Some(pair) => (&pair.description, Some(&pair.other), &pair.options),
-        None => (description, other, options),
-    };
-    let mapped = other.map(|other| in_own_variables(own, other, own_options)).transpose();
-    let (mapped, refused) = mapped.map_or_else(|why| (None, Some(why)), |mapped| (mapped.flatten(), None));
-    let (own, other, own_options) = match &mapped {
-        Some(pair) => (&pair.description, Some(&pair.other), &pair.options),
-        None => (own, other, own_options),
-    };
-    let against = match (other, refused) {
-        (Some(other), Some(why)) => Some(OtherDescription::refused(other, why)),
-        (Some(other), None) => {
-            // First, since it adds to the geometry on which the verdicts of dynamics below depend.
-            let before = geometry.clone();
-            let (mut against, mut dynamics) = against::compared(&mut geometry, own, other, own_options)?;
-            against.joints_left_out = narrowed.as_ref().map_or_else(Vec::new, |pair| pair.left_out.clone());
-            against.mapping = mapped.as_ref().map(|pair| pair.report_with_worst(&geometry));
-            if mapped.is_none() && against.dynamics_not_compared.is_some() {
-                let in_variables = MappedPair::of_other_variables(own, other, own_options);
-                if let Some(pair) = in_variables {
-                    dynamics = in_same_variables(&mut against, before, &pair)?;
-                }
-            }
-            compared.extend(dynamics);
-            geometry.warnings.extend(other.warnings.iter().map(Finding::from));
-            Some(against)
-        }
-        (None, _) => None,
-    };
-    if against.as_ref().is_some_and(|of| of.is_equal_after_mapping(&description.tolerance)) {
-        geometry.grade = Some(Grade::EqualAfterMapping);
-    }
-    let at_configurations = at_configurations(own, other, &geometry, own_options)?;
+    // First, since it adds to the geometry on which the verdicts of dynamics below depend.
+    let mut with_other =
+        other.map(|other| with_other(&mut geometry, description, other, options)).transpose()?;
+    compared.extend(with_other.as_mut().and_then(|of| of.dynamics.take()));
+    let (own, own_options) =
+        with_other.as_ref().map_or((description, options), |of| (&of.description, &of.options));
+    let there = with_other.as_ref().map(|of| &of.other);
+    let at_configurations = at_configurations(own, there, &geometry, own_options)?;
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
         match compared_with_declared(description, declared, &geometry, options.seed) {
@@ -122,9 +92,12 @@ fn checked(
     }
     // A comparison that disagrees comes first; the order is otherwise kept.
     compared.sort_by_key(DynamicsReport::agrees);
-    geometry.verdict = verdict(&geometry, against.as_ref(), &compared);
+    let against = with_other.as_ref().map(|of| &of.against);
+    geometry.verdict = verdict(&geometry, against, &compared);
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
+    let is_mapped = against.is_some_and(|against| against.mapping.is_some());
+    let (against, mapped) = with_other.map(|of| (of.against, [of.description, of.other])).unzip();
     Ok(RobotCheck {
         geometry,
         at_configurations,
@@ -132,38 +105,11 @@ fn checked(
         declared_dynamics,
         dynamics,
         other_dynamics,
+        mapped: mapped.filter(|_| is_mapped).map(Box::new),
         lint: LintSummary::from_reports(once(description).chain(other).map(lint_robot)),
         tolerance_line: description.places.robot_file.as_ref().and_then(|places| places.tolerance_line()),
         fix: None,
     })
-}
-
-/// Two descriptions in the joints of the first, as its file declares or as names and axes show; `None` if all joints have
-/// the same names, or nothing in common.
-fn in_own_variables(
-    description: &RobotDescription,
-    other: &RobotDescription,
-    options: &CheckOptions,
-) -> Result<Option<MappedPair>, String> {
-    let declared = MappedPair::declared(description, other, options)?;
-    let has_other_names = || against::other_joint(&description.robot, &other.robot).is_some();
-    Ok(declared.or_else(|| {
-        has_other_names().then(|| MappedPair::of_other_names(description, other, options)).flatten()
-    }))
-}
-
-/// The dynamics of two descriptions with the same joints by name in the same variables, where poses are compared in the
-/// variables that both files write. Adds the mapping to `against`.
-fn in_same_variables(
-    against: &mut OtherDescription,
-    mut geometry: CheckReport,
-    pair: &MappedPair,
-) -> Result<Option<DynamicsReport>, CheckError> {
-    let (mapped, dynamics) = against::compared(&mut geometry, &pair.description, &pair.other, &pair.options)?;
-    against.mapping = Some(pair.report_with_worst(&geometry));
-    against.dynamics_not_compared = mapped.dynamics_not_compared;
-    against.links_in_other_frames = mapped.links_in_other_frames;
-    Ok(dynamics)
 }
 
 /// What only one description states, if there is no other. Physics and screws are made of the URDF: they are no second

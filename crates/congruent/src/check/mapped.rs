@@ -147,11 +147,11 @@ impl MappedPair {
     }
 }
 
-impl MappedPair {
-    /// The mapping, with the largest difference of poses that the comparison of the pair has found.
-    pub(super) fn report_with_worst(&self, geometry: &CheckReport) -> ReportedMapping {
+impl ReportedMapping {
+    /// The mapping with the largest difference of poses that the comparison of the two has found.
+    pub(super) fn with_worst(self, geometry: &CheckReport) -> Self {
         let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
-        ReportedMapping { worst: compared.map(|of| of.worst.error), ..self.report.clone() }
+        Self { worst: compared.map(|of| of.worst.error), ..self }
     }
 }
 

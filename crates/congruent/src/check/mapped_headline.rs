@@ -40,7 +40,7 @@ pub(super) fn after_mapping(check: &RobotCheck) -> Option<Headline> {
 }
 
 /// What differs in joints, in words: `2 of 6 joints have other zeros (joint_2, joint_3)`.
-fn mapped_joints(mapping: &ReportedMapping) -> String {
+pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
     let all = mapping.joints.len();
     let kinds: [(&str, fn(&ReportedJoint) -> bool); 3] = [
         ("another name", |of| of.joint != of.other),

@@ -13,6 +13,7 @@ mod physics;
 mod poses_of_other;
 mod robot_check;
 mod suite;
+mod with_other;
 
 pub use against::OtherDescription;
 pub use checked::{check, check_against};

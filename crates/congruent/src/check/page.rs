@@ -28,7 +28,19 @@ pub fn checked_robot<'a>(
     let mut findings = report.geometry.warnings.clone();
     let further = report.lint.worst.iter().filter(|found| !report.geometry.warnings.contains(found));
     findings.extend(further.cloned());
+    if let Some(mapping) = report.against.as_ref().and_then(|against| against.mapping.as_ref()) {
+        let left_out = [&mapping.left_out[..], &mapping.other_left_out].concat();
+        if !left_out.is_empty() {
+            let joints = left_out.join(", ");
+            not_compared
+                .push(format!("joints that move in one description alone, with what they carry: {joints}"));
+        }
+    }
     let Headline { answer, details } = report.headline();
+    let (description, other) = match report.mapped.as_deref() {
+        Some([own, there]) => (own, Some(there)),
+        None => (description, other),
+    };
     CheckedRobot {
         answer,
         details,

@@ -5,6 +5,7 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport, DifferenceAt, DifferencesAt},
     report::ReportedDiagnosis,
 };
+use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -38,6 +39,9 @@ pub struct RobotCheck {
     pub other_dynamics: Vec<DynamicsReport>,
     /// What lint finds in the descriptions: values that are suspicious whatever they are compared with.
     pub lint: LintSummary,
+    /// The two descriptions as they were compared, if joints are called or counted otherwise in the other.
+    #[serde(skip)]
+    pub mapped: Option<Box<[RobotDescription; 2]>>,
     /// Line of the robot file that declares the tolerance, if one does.
     #[serde(skip)]
     pub tolerance_line: Option<usize>,

@@ -10,7 +10,7 @@ use congruent_input::{Diagnostic, display::length_and_angle, serde_name};
 use congruent_kinematics::PoseError;
 use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
-use super::robot_check::RobotCheck;
+use super::{mapped_headline::mapped_joints, robot_check::RobotCheck};
 
 /// The comparisons of a report as test cases; what failed names its cause with the line.
 ///
@@ -27,6 +27,7 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
         place: None,
         further: Vec::new(),
     }));
+    cases.extend(mapping_case(report));
     cases.extend(report.all_dynamics().map(dynamics_case));
     cases.extend(geometry.not_asked.iter().map(|source| not_compared_case(source, report)));
     let dropped = geometry
@@ -117,6 +118,20 @@ fn dynamics_case(report: &DynamicsReport) -> TestCase {
             .and_then(|first| CasePlace::if_known(first.file.as_deref(), first.line)),
         further: Vec::new(),
     }
+}
+
+/// Whether the joints of the other description are those that the robot file declares.
+fn mapping_case(report: &RobotCheck) -> Option<TestCase> {
+    let mapping = report.against.as_ref()?.mapping.as_ref()?;
+    let joints = mapped_joints(mapping);
+    let output = format!("{joints}\nto declare it:\n{}", mapping.lines.join("\n"));
+    let result = if mapping.is_declared {
+        TestResult::Passed
+    } else {
+        TestResult::Failed(Reason { kind: "mapping".to_owned(), message: output.clone() })
+    };
+    let name = "joints of the other description".to_owned();
+    Some(TestCase { name, result, output, place: None, further: Vec::new() })
 }
 
 /// What lint finds, which fails if the caller says so.

@@ -1,0 +1,110 @@
+//! A robot with another description: which parts of the two are compared, in which variables, and the comparison.
+
+use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport, Grade};
+use congruent_description::RobotDescription;
+use congruent_dynamics_agreement::DynamicsReport;
+use congruent_input::{Diagnostic, Finding};
+
+use super::{
+    against::{OtherDescription, compared, other_joint},
+    mapped::{MappedPair, ReportedMapping},
+    mapped_headline::mapped_joints,
+    narrowed::NarrowedPair,
+};
+use crate::codes;
+
+/// The comparison with another description.
+pub(super) struct WithOther {
+    pub(super) against: OtherDescription,
+    pub(super) dynamics: Option<DynamicsReport>,
+    /// The two as they were compared: the parts that `--tip` names, the other in the variables of the robot.
+    pub(super) description: RobotDescription,
+    pub(super) other: RobotDescription,
+    /// The options with the requested configurations in the joints that are compared.
+    pub(super) options: CheckOptions,
+}
+
+/// Compares the two and adds their poses to `geometry`.
+pub(super) fn with_other(
+    geometry: &mut CheckReport,
+    description: &RobotDescription,
+    other: &RobotDescription,
+    options: &CheckOptions,
+) -> Result<WithOther, CheckError> {
+    let mut left_out = Vec::new();
+    let (mut own, mut there, mut own_options) = (description.clone(), other.clone(), options.clone());
+    if let Some(pair) = NarrowedPair::new(description, other, options) {
+        (own, there, own_options) = (pair.description, pair.other, pair.options);
+        left_out = pair.left_out;
+    }
+    let mut mapping = None;
+    match in_own_variables(&own, &there, &own_options) {
+        Err(why) => {
+            let against = OtherDescription::refused(other, why);
+            return Ok(WithOther {
+                against,
+                dynamics: None,
+                description: own,
+                other: there,
+                options: own_options,
+            });
+        }
+        Ok(None) => {}
+        Ok(Some(pair)) => {
+            (own, there, own_options) = (pair.description, pair.other, pair.options);
+            mapping = Some(pair.report);
+        }
+    }
+    let before = geometry.clone();
+    let (mut against, mut dynamics) = compared(geometry, &own, &there, &own_options)?;
+    against.joints_left_out = left_out;
+    against.mapping = mapping.map(|mapping| mapping.with_worst(geometry));
+    if against.mapping.is_none()
+        && against.dynamics_not_compared.is_some()
+        && let Some(pair) = MappedPair::of_other_variables(&own, &there, &own_options)
+    {
+        dynamics = in_same_variables(&mut against, before, &pair)?;
+    }
+    geometry.warnings.extend(other.warnings.iter().map(Finding::from));
+    geometry.warnings.extend(undeclared(&against).iter().map(Finding::from));
+    if against.is_equal_after_mapping(&description.tolerance) {
+        geometry.grade = Some(Grade::EqualAfterMapping);
+    }
+    Ok(WithOther { against, dynamics, description: own, other: there, options: own_options })
+}
+
+/// Two descriptions in the joints of the first, as its file declares or as names and axes show; `None` if all joints have
+/// the same names, or nothing in common.
+fn in_own_variables(
+    description: &RobotDescription,
+    other: &RobotDescription,
+    options: &CheckOptions,
+) -> Result<Option<MappedPair>, String> {
+    let declared = MappedPair::declared(description, other, options)?;
+    let has_other_names = || other_joint(&description.robot, &other.robot).is_some();
+    Ok(declared.or_else(|| {
+        has_other_names().then(|| MappedPair::of_other_names(description, other, options)).flatten()
+    }))
+}
+
+/// The dynamics of two descriptions with the same joints by name in the same variables, where poses are compared in the
+/// variables that both files write. Adds the mapping to `against`.
+fn in_same_variables(
+    against: &mut OtherDescription,
+    mut geometry: CheckReport,
+    pair: &MappedPair,
+) -> Result<Option<DynamicsReport>, CheckError> {
+    let (mapped, dynamics) = compared(&mut geometry, &pair.description, &pair.other, &pair.options)?;
+    against.mapping = Some(ReportedMapping::with_worst(pair.report.clone(), &geometry));
+    against.dynamics_not_compared = mapped.dynamics_not_compared;
+    against.links_in_other_frames = mapped.links_in_other_frames;
+    Ok(dynamics)
+}
+
+/// That joints are called or counted otherwise, with the lines that declare it, if nothing does.
+fn undeclared(against: &OtherDescription) -> Option<Diagnostic> {
+    let mapping = against.mapping.as_ref().filter(|mapping| !mapping.is_declared)?;
+    let message = format!("{}: {}", against.file, mapped_joints(mapping));
+    let help = format!("if this is meant, declare it in robot.toml:\n{}", mapping.lines.join("\n"));
+    Some(Diagnostic::warning(codes::check::MAPPING, message).with_help(help))
+}
