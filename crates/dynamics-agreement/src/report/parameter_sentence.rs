@@ -71,7 +71,8 @@ impl ParameterDifference {
         }
         both.map(|value| match value {
             None => nothing.to_owned(),
-            Some(metres) if self.unit == SiUnit::Metre => {
+            // As elsewhere, lengths of ten metres and more, which no robot has, are in m.
+            Some(metres) if self.unit == SiUnit::Metre && metres.abs() < 10.0 => {
                 quantity_with_digits(metres * 1e3, "mm", MOST_TYPED_DIGITS)
             }
             Some(value) => quantity_with_digits(value, unit, MOST_TYPED_DIGITS),
