@@ -84,7 +84,15 @@ fn values_of_a_table_in_another_form() {
     for (from, to, words) in [
         ("dhn_from_tip = {}", "dhn_from_tip = [0, 0, 70]", "dhn_from_tip = { xyz_mm = [0, 0, 70] }"),
         ("alpha_deg = 0.0", "alpha_deg = pi/2", "TOML has no expressions such as pi/2: alpha_deg = 90.0"),
-        ("alpha_deg = 0.0", "alpha_deg = 0,5", "the decimal comma in 0,5 must be a point: alpha_deg = 0.5"),
+        ("alpha_deg = 0.0", "alpha_deg = 0,5", "0,5 is not a number: use a point for decimals"),
+        ("alpha_deg = 0.0", "alpha_deg = 0,5", "write alpha_deg = 0.5"),
+        (
+            "alpha_deg = 0.0",
+            "alpha_deg = 90\u{b0}",
+            "write 90 without the sign: the unit is in the key, alpha_deg = 90",
+        ),
+        ("alpha_deg = 0.0", "alpha_deg = \"0,5\"", "write 0.5 without quotes: use a point for decimals"),
+        ("dhn_from_tip = {}", "dhn_from_tip = {", "the table { ... } that begins in line"),
         ("kind = \"revolute\"\n", "", "kind = \"revolute\" or kind = \"prismatic\""),
         ("\"revolute\"", "\"continuous\"", "\"continuous\" is called \"revolute\" here"),
         ("\"standard\"", "\"craig\"", "\"craig\" is called \"modified\" here"),
@@ -94,6 +102,26 @@ fn values_of_a_table_in_another_form() {
     let table = fs::read_to_string(desk.path("arm/robot.toml")).unwrap();
     let second = &table[table.rfind("[[dh.row]]").unwrap()..table.find("[tolerance]").unwrap()];
     refused(&["check", &desk.robot_with(second, "")], &["no row for joint_2", "add a row for each of them"]);
+    let twice = second.replace("joint_2", "joint_1");
+    refused(
+        &["check", &desk.robot_with(second, &twice)],
+        &["joint \"joint_1\" has two rows (lines", "joint \"joint_2\" has none"],
+    );
+}
+
+/// A misspelt key is one finding: that the key is missing follows from it.
+#[test]
+fn a_misspelt_key_of_a_table_is_one_finding() {
+    let desk = Desk::new();
+    for (from, to) in [("convention", "conventon"), ("alpha_deg", "alfa_deg"), ("[[dh.row]]", "[[dh.rows]]")]
+    {
+        let table = fs::read_to_string(desk.path("arm/robot.toml")).unwrap().replace(from, to);
+        let path = desk.path("arm/misspelt.toml");
+        fs::write(&path, table).unwrap();
+        let said = refused(&["check", &text(&path)], &["unknown key", "did you mean"]);
+        let lines = said.matches("error:").count();
+        assert_eq!(lines, said.matches("unknown key").count(), "{said}");
+    }
 }
 
 #[test]
@@ -104,6 +132,11 @@ fn values_of_a_scenario_in_another_form() {
     refused(&["run", &desk.scenario_with(obstacle)], &["write box_m = [0.1, 0.1, 0.2]"]);
     let pairs = "[[check]]\nkind = \"clearance\"\nminimum_mm = 1\nignore = [\"link_1--link_2\"]\n";
     refused(&["run", &desk.scenario_with(pairs)], &["write [\"link_1\", \"link_2\"]"]);
+    let said = refused(
+        &["run", &desk.scenario_with("[[motion]]\nmove_joint_deg = { joint_1 = 1 }\n")],
+        &["unknown key \"move_joint_deg\"", "did you mean \"move_joints_deg\"?"],
+    );
+    assert!(!said.contains("has no target"), "{said}");
     let collision = "[[check]]\nkind = \"collision\"\n";
     refused(&["run", &desk.scenario_with(collision)], &["did you mean \"clearance\" or \"contact\"?"]);
 }
@@ -132,7 +165,7 @@ fn targets_in_millimetres() {
     refused(&["ik", robot, "--xyz", "0.4", "0.1", "0.3"], &["no spaces: --xyz 0.4,0.1,0.3"]);
     let far = congruent(&["ik", robot, "--xyz", "350,100,450"]);
     assert_eq!(far.code, 1, "{}", far.stderr);
-    assert!(far.stdout.contains("(in mm? write 350mm,100mm,450mm)"), "{}", far.stdout);
+    assert!(far.stdout.contains("(in mm? --xyz 350mm,100mm,450mm)"), "{}", far.stdout);
     let near = congruent(&["ik", robot, "--xyz", "350mm,100mm,450mm"]);
     assert!(near.stdout.contains("target 1, [350 mm, 100 mm, 450 mm]: reached"), "{}", near.stdout);
 }

@@ -1,5 +1,6 @@
 //! What people and other programs read: text, JSON, JUnit, annotations, pages, schemas, terminals.
 
+mod answers;
 mod batch;
 mod browser;
 mod ci;

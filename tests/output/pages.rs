@@ -263,6 +263,9 @@ fn a_run_without_recording_links_to_none() {
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     let html = read(&scratch.path().join("out/ur5e_into_table/report.html"));
     assert!(!html.contains("recording.rrd") && html.contains("href=\"junit.xml\""));
+    // Before uPlot, which ends with an error in a browser whose language is not a valid tag.
+    let at = |text: &str| html.find(text).unwrap_or_else(|| panic!("no {text}"));
+    assert!(at("new Intl.NumberFormat(navigator.language)") < at("github.com/leeoniya/uPlot"));
 }
 
 #[test]

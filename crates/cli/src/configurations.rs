@@ -50,11 +50,12 @@ impl ConfigurationArguments {
             return Ok(with_warning(read, description, printer));
         }
         let robot = &description.robot;
-        let mut values = BTreeMap::new();
+        let (mut values, mut written) = (BTreeMap::new(), BTreeMap::new());
         for assignment in &self.at {
             let (joint, value) = position(assignment, robot)?;
-            if let Some(before) = values.insert(joint, value) {
-                let message = format!("--at {assignment}: the joint is given as {before} already");
+            values.insert(joint.clone(), value);
+            if let Some(before) = written.insert(joint, assignment) {
+                let message = format!("--at {assignment}: the joint is given already, by --at {before}");
                 return Err(Diagnostic::error(codes::cli::AT, message).into());
             }
         }

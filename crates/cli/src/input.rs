@@ -30,6 +30,11 @@ pub(crate) fn shown_arguments(arguments: &[OsString]) -> Result<(), Failure> {
     }
 }
 
+/// The seed of random numbers.
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "a seed is a whole number from 0 on: --seed 7".to_owned())
+}
+
 /// A robot on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RobotArgument {

@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use congruent::{
+    agreement::compare::RequestedTolerance,
     description::{Tolerance, ToleranceScale},
     input::{Diagnostic, Severity, units::Unit},
 };
@@ -30,6 +31,11 @@ impl ToleranceArgument {
     /// The length in m and the angle in rad.
     pub(crate) fn parts(self) -> (Option<f64>, Option<f64>) {
         (self.position_m, self.orientation_rad)
+    }
+
+    /// As a report has it.
+    pub(crate) fn requested(self) -> RequestedTolerance {
+        RequestedTolerance { position_m: self.position_m, orientation_rad: self.orientation_rad }
     }
 
     /// What is wrong with it for a robot of this scale: errors, and warnings.

@@ -29,6 +29,14 @@ pub(crate) fn with_hint(mut error: Error, words: &[OsString], command: &Command)
     let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
     let hint = list_without_commas(&words, unexpected).or_else(|| guessed(&words, unexpected, command));
     if let Some(hint) = hint {
+        // What clap finds similar by its letters, as --quiet for --q, is not what was meant.
+        if error.remove(ContextKind::SuggestedArg).is_some() {
+            let used = words.iter().find_map(|word| command.find_subcommand(word));
+            let usage = used
+                .map(|used| format!("Usage: {} {} [OPTIONS] <ROBOT>", command.get_name(), used.get_name()));
+            let usage = usage.map(|usage| ContextValue::StyledStr(StyledStr::from(usage)));
+            usage.map(|usage| error.insert(ContextKind::Usage, usage));
+        }
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(hint)]));
     }
     error
@@ -92,5 +100,18 @@ mod tests {
         check("congruent jacobian arm --q 1,2", Some("write --at JOINT=POSITION"));
         check("congruent ik arm --pose 1,2", Some("write --xyz 0.4,0.1,0.3"));
         check("congruent lint arm --joints 1,2", None);
+        check("congruent fk arm --q joint_1=10", Some("tip: write --at JOINT=POSITION"));
+        check("congruent fk arm --q joint_1=10", Some("Usage: congruent fk [OPTIONS] <ROBOT>"));
+    }
+
+    #[test]
+    fn both_ways_to_give_a_target_are_in_the_usage() {
+        for line in ["congruent ik arm", "congruent ik arm --rpy 0,0,0"] {
+            let mut command = all_commands();
+            let error = command.try_get_matches_from_mut(line.split(' ')).unwrap_err();
+            let text = error.render().to_string();
+            assert!(text.contains("congruent ik <ROBOT> --xyz <X,Y,Z> [--rpy <ROLL,PITCH,YAW>]"), "{text}");
+            assert!(text.contains("congruent ik <ROBOT> --targets <FILE>"), "{text}");
+        }
     }
 }

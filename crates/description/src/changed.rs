@@ -13,10 +13,22 @@ use crate::robot_file::{ROBOT_FILE, ROBOT_FILE_BYTES};
 /// Folders below the one that is searched. Kind: choice; deeper trees are built or downloaded, and not written by people.
 const MOST_DEPTH: usize = 12;
 
-/// The robots of files that changed, in their order and each once: for a URDF the robot files `robot.toml` below
-/// `folder` that name it, for any other file and for a URDF that none of them names the file itself.
-pub fn robots_of_changed(changed: &[PathBuf], folder: &Path) -> Vec<PathBuf> {
-    let is_urdf = |path: &Path| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
+/// What to check after files have changed.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ChangedRobots {
+    /// The robots, in the order of the files and each once.
+    pub robots: Vec<PathBuf>,
+    /// The other files, each with the reason why there is nothing to check of it.
+    pub ignored: Vec<(PathBuf, &'static str)>,
+}
+
+/// The robots of files that changed: for a URDF the robot files `robot.toml` below `folder` that name it, for a robot file, and
+/// for a URDF that none of them names, the file itself. A repository passes all files of a change, of which many are no robots.
+pub fn robots_of_changed(changed: &[PathBuf], folder: &Path) -> ChangedRobots {
+    let why = |path: &PathBuf| Some((path.clone(), why_no_robot(path)?));
+    let ignored: Vec<(PathBuf, &'static str)> = changed.iter().filter_map(why).collect();
+    let is_robot = |path: &&PathBuf| ignored.iter().all(|(other, _)| other != *path);
+    let changed: Vec<&PathBuf> = changed.iter().filter(is_robot).collect();
     let mut named = Vec::new();
     if changed.iter().any(|path| is_urdf(path)) {
         urdfs_named_below(folder, MOST_DEPTH, &mut named);
@@ -28,7 +40,7 @@ pub fn robots_of_changed(changed: &[PathBuf], folder: &Path) -> Vec<PathBuf> {
             robots.push(path.to_owned());
         }
     };
-    for path in changed {
+    for path in changed.into_iter().map(PathBuf::as_path) {
         let mut is_named = false;
         for (robot_file, _) in named.iter().filter(|(_, urdf)| is_urdf(path) && is_same(urdf, path)) {
             is_named = true;
@@ -38,7 +50,34 @@ pub fn robots_of_changed(changed: &[PathBuf], folder: &Path) -> Vec<PathBuf> {
             add(path);
         }
     }
-    robots
+    ChangedRobots { robots, ignored }
+}
+
+fn is_urdf(path: &Path) -> bool {
+    path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"))
+}
+
+/// Why a file of a change is no robot to check; `None` if it is one, or cannot be read, which the check then says.
+fn why_no_robot(path: &Path) -> Option<&'static str> {
+    if !path.exists() {
+        return Some("it does not exist");
+    }
+    let is_toml = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+    if is_urdf(path) || path.is_dir() || path.file_name().is_some_and(|name| name == ROBOT_FILE) {
+        return None;
+    }
+    let is_robot_file = || {
+        let text = FileAccess::default().read_text(path, ROBOT_FILE_BYTES, TextKind::RobotFile).ok();
+        text.is_some_and(|source| source.text.lines().any(is_line_of_robot_file))
+    };
+    (!is_toml || !is_robot_file()).then_some("it is neither a robot file nor a URDF")
+}
+
+/// Whether a line is one that robot files have and other files in TOML do not: the URDF or the table.
+fn is_line_of_robot_file(line: &str) -> bool {
+    let line = line.trim_start();
+    let is_urdf = line.strip_prefix("urdf").is_some_and(|rest| rest.trim_start().starts_with('='));
+    is_urdf || ["[dh]", "[dh.", "[[dh.", "dh."].iter().any(|start| line.starts_with(start))
 }
 
 /// Whether two paths are one file, whatever links lead to it.
@@ -100,10 +139,18 @@ mod tests {
         let check = |changed: &[&PathBuf], expected: &[&PathBuf]| {
             let changed: Vec<PathBuf> = changed.iter().map(|path| (*path).clone()).collect();
             let expected: Vec<PathBuf> = expected.iter().map(|path| (*path).clone()).collect();
-            assert_eq!(robots_of_changed(&changed, scratch.path()), expected);
+            assert_eq!(robots_of_changed(&changed, scratch.path()).robots, expected);
         };
         check(&[&urdf], &[&left, &right]);
         check(&[&right, &urdf], &[&right, &left]);
         check(&[&lone], &[&lone]);
+        // A robot file has any name, and the other files of a commit are no robots.
+        let named = write("robots/cell/left_arm.toml", "urdf = \"arm.urdf\"");
+        let others = [write("README.md", "# Arms"), write("pyproject.toml", "packages = [\"arm\"]")];
+        let gone = scratch.path().join("gone.urdf");
+        check(&[&named, &others[0], &others[1], &gone], &[&named]);
+        let ignored = robots_of_changed(&[others[1].clone(), gone.clone()], scratch.path()).ignored;
+        let not_a_robot = (others[1].clone(), "it is neither a robot file nor a URDF");
+        assert_eq!(ignored, [not_a_robot, (gone, "it does not exist")]);
     }
 }

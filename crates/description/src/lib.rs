@@ -18,7 +18,7 @@ mod toml_literal;
 mod urdf;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
-pub use changed::robots_of_changed;
+pub use changed::{ChangedRobots, robots_of_changed};
 pub use configuration_file::{
     Configurations, JointState, JointStateList, JsonList, LiveEntries, LiveInput, LiveState, LiveStates,
     RobotQList, configuration, configurations_schema, outside_limits, outside_limits_warning,

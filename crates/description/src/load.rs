@@ -8,8 +8,8 @@ use std::{
 };
 
 use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of,
-    not_found,
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, direct_path,
+    folder_of, not_found,
 };
 use congruent_meshes::MeshStore;
 use toml::Spanned;
@@ -19,7 +19,7 @@ use crate::{
     codes,
     description::{NamedFiles, Places, RobotDescription},
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
-    named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_scenario},
+    named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_other_text, refuse_scenario},
     robot_file::{self, DeclaredReference, InertialPlaces, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
     srdf::{self, SRDF_BYTES},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
@@ -59,6 +59,7 @@ fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> 
     let most_bytes = if is_toml(&path) { ROBOT_FILE_BYTES } else { URDF_BYTES };
     let source = open(&path, access, most_bytes)?;
     refuse_scenario(&source)?;
+    refuse_other_text(&source)?;
     load_source(&source, access)
 }
 
@@ -343,7 +344,7 @@ fn written_robot(
         diagnostics.push(fault.at(urdf.span()));
         return None;
     }
-    Some((written, urdf_path))
+    Some((written, direct_path(&urdf_path)))
 }
 
 /// A URDF that is not where the robot file says: the help has a similar name, or the same name in another folder nearby.

@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind, TomlKind};
+use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind, TomlKind, direct_path};
 
 use crate::{codes, robot_file::ROBOT_FILE};
 
@@ -31,8 +31,10 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
         .is_ok_and(|entries| entries.flatten().any(|entry| entry.path().join(ROBOT_FILE).is_file()));
     let help = if has_robots {
         format!("for the robots in it: {}", path.join("*/").display())
-    } else if let Some(urdf) = urdf_below(path) {
-        format!("it has {}: give that file", urdf.display())
+    } else if let Some(file) = robot_file_below(path).or_else(|| urdf_below(path)) {
+        format!("it has {}: give that file", direct_path(&file).display())
+    } else if find_below(path, 0, &is_toml).is_some() {
+        format!("for the files in it: {}", path.join("*.toml").display())
     } else {
         ACCEPTED.to_owned()
     };
@@ -43,6 +45,11 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
 const SEARCHED_DEPTH: usize = 2;
 /// Most entries of a folder that are looked at. Kind: choice; a message must not take long.
 const MOST_ENTRIES: usize = 200;
+
+/// A robot file in a folder or below it: it says more than the URDF that it names.
+fn robot_file_below(folder: &Path) -> Option<PathBuf> {
+    find_below(folder, SEARCHED_DEPTH, &|path| path.file_name().is_some_and(|name| name == ROBOT_FILE))
+}
 
 /// A URDF in a folder or below it.
 fn urdf_below(folder: &Path) -> Option<PathBuf> {
@@ -90,6 +97,19 @@ pub(crate) fn refuse_scenario(source: &SourceFile) -> Result<(), Diagnostic> {
     let path = source.path.display();
     Err(Diagnostic::error(codes::load::SCENARIO, format!("{path} is a scenario, not a robot"))
         .with_help(format!("to run it: congruent run {path}")))
+}
+
+/// Refuses a text under another name than those of URDFs that is no XML: as a URDF it would be malformed, which it is not meant
+/// to be.
+pub(crate) fn refuse_other_text(source: &SourceFile) -> Result<(), Diagnostic> {
+    let ending = source.path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let is_expected = ["toml", "urdf", "xacro", "xml", ""].contains(&ending.as_str());
+    let text = source.text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']);
+    if is_expected || text.is_empty() || text.starts_with('<') {
+        return Ok(());
+    }
+    let message = format!("{} is neither a robot file (.toml) nor a URDF", source.path.display());
+    Err(Diagnostic::error(congruent_input::codes::xml::MALFORMED, message).with_help(ACCEPTED))
 }
 
 pub(crate) fn is_toml(path: &Path) -> bool {

@@ -1,6 +1,6 @@
 //! Writes a robot file and its `[dh]` section as text that the reader of this crate reads back to the same values.
 
-use std::{fmt::Write, path::Path};
+use std::{f64::consts::FRAC_PI_2, fmt::Write, path::Path};
 
 use congruent_input::{
     number::{number, numbers, short_degrees},
@@ -99,13 +99,21 @@ fn transform(pose: &Isometry3<f64>) -> String {
         return "{}".to_owned();
     }
     let xyz_m = numbers(pose.translation.vector.iter().copied(), ", ");
-    let rpy_rad = rpy_fixed_xyz_rad(pose);
+    let rpy_rad = rpy_fixed_xyz_rad(pose).map(without_noise);
     let in_degrees: Option<Vec<f64>> = rpy_rad.into_iter().map(short_degrees).collect();
     let rpy = match in_degrees {
         Some(rpy_deg) => format!("rpy_deg = [{}]", numbers(rpy_deg, ", ")),
         None => format!("rpy_rad = [{}]", numbers(rpy_rad, ", ")),
     };
     format!("{{ xyz_m = [{xyz_m}], {rpy} }}")
+}
+
+/// An angle that is a quarter turn but for the rounding of a URDF that writes pi with ten digits.
+fn without_noise(angle_rad: f64) -> f64 {
+    /// Unit: rad. Kind: rounding; half of the last of eleven digits of pi, and a hundredth of the tolerance of a table.
+    const NOISE_RAD: f64 = 1e-11;
+    let quarters = (angle_rad / FRAC_PI_2).round() * FRAC_PI_2;
+    if (angle_rad - quarters).abs() <= NOISE_RAD { quarters } else { angle_rad }
 }
 
 /// Whether a pose is exactly the identity.

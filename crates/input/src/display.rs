@@ -128,6 +128,33 @@ pub fn quantity_with_digits(value: f64, unit: &str, digits: usize) -> String {
     format!("{text} {unit}").trim_end().to_owned()
 }
 
+/// Two values that are compared, in the same unit: with three digits, or with as many more as it takes to see which one is
+/// larger.
+///
+/// # Examples
+/// ```
+/// use congruent_input::display::compared_quantities;
+/// let speeds = [250.02_f64, 250.0].map(f64::to_radians);
+/// assert_eq!(compared_quantities(speeds, "rad/s"), ["250.02 deg/s", "250 deg/s"]);
+/// assert_eq!(compared_quantities([0.01, 0.02], "m"), ["10 mm", "20 mm"]);
+/// ```
+pub fn compared_quantities(values: [f64; 2], unit: &str) -> [String; 2] {
+    /// Beyond these only rounding is left.
+    const MOST_DIGITS: usize = 9;
+    let texts = values.map(|value| quantity(value, unit));
+    if texts[0] != texts[1] || values[0].total_cmp(&values[1]).is_eq() {
+        return texts;
+    }
+    // In the unit of the text, which is the same for both; its factor is the one that its three digits show.
+    let (size, shown) = texts[0].split_once(' ').unwrap_or((&texts[0], ""));
+    let per_si = size.parse::<f64>().map_or(f64::NAN, |size| size / values[0]);
+    let is_near = |factor: &&f64| (per_si / **factor - 1.0).abs() < 0.1;
+    let Some(factor) = [1.0, 180.0 / PI, 1e3, 1e6, 1e9, 1e12].iter().find(is_near) else { return texts };
+    let rounded = |digits| values.map(|value| quantity_with_digits(value * factor, shown, digits));
+    let distinct = (4..=MOST_DIGITS).map(rounded).find(|texts| texts[0] != texts[1]);
+    distinct.unwrap_or(texts)
+}
+
 /// A position or a limit of a joint in rad or m, with digits enough to see on which side of the limit it is.
 pub fn limit_number(value: f64) -> String {
     quantity_with_digits(value, "", 7)

@@ -25,8 +25,8 @@ pub use diagnostic::{
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines, edited, line_end};
 pub use files::{
-    FileAccess, InputFile, Packages, Resolved, RosPackages, TextKind, TextLines, TomlKind, folder_of,
-    head_of, is_standard_input, not_found, portable_path, portable_text, read_text, relative_path,
+    FileAccess, InputFile, Packages, Resolved, RosPackages, TextKind, TextLines, TomlKind, direct_path,
+    folder_of, head_of, is_standard_input, not_found, portable_path, portable_text, read_text, relative_path,
 };
 pub use nearest::{known_names, nearest};
 pub use quantity::{Quantity, SiUnit};

@@ -2,7 +2,7 @@
 
 /// The known name that `name` was probably meant to be: at most two letters are other, missing, too much or exchanged, and
 /// fewer than half of them; or it is the only name of which this one is some of the words, as `elbow` of `elbow_joint`, or
-/// nearly one of them, or one without its unit.
+/// nearly one of them, or one without its unit; or it is how the only name begins, as `track` of `tracking`.
 /// `None` if there is none.
 ///
 /// # Examples
@@ -13,6 +13,7 @@
 /// assert_eq!(nearest("elbow", joints), Some("elbow_joint"));
 /// assert_eq!(nearest("elbw", joints), Some("elbow_joint"));
 /// assert_eq!(nearest("wrist", joints), None);
+/// assert_eq!(nearest("track", ["twist", "tracking"]), Some("tracking"));
 /// ```
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     /// Most letters that are other. Kind: choice; two mistyped keys.
@@ -39,15 +40,16 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     match containing[..] {
         _ if best.is_some() => best.map(|(_, candidate)| candidate),
         [only] => Some(only),
-        [] => one_with_word(&lower, &known),
+        [] => one_with_word(&lower, &known).or_else(|| only_with_beginning(&lower, &known)),
         _ => containing.iter().find(is_with_unit).copied(),
     }
 }
 
+/// Shorter words are like many others, letters. Kind: choice.
+const SHORTEST: usize = 4;
+
 /// The only known name of which one word differs in one letter: `elbow_joint` for `elbw`.
 fn one_with_word<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    /// Shorter words are like many others. Kind: choice.
-    const SHORTEST: usize = 4;
     if name.chars().count() < SHORTEST {
         return None;
     }
@@ -64,11 +66,23 @@ fn one_with_word<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     }
 }
 
+/// The only known name that begins with this one.
+fn only_with_beginning<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    let mut longer = known.iter().filter(|known| known.to_lowercase().starts_with(name));
+    match (longer.next(), longer.next()) {
+        (Some(only), None) if name.chars().count() >= SHORTEST => Some(only),
+        _ => None,
+    }
+}
+
+/// How the help begins that has a guess.
+pub(crate) const DID_YOU_MEAN: &str = "did you mean ";
+
 /// Help for an unknown name: the most similar known name, then all known names.
 pub fn known_names<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> String {
     const MOST_LISTED: usize = 40;
     let guess =
-        nearest(name, known.clone()).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
+        nearest(name, known.clone()).map_or(String::new(), |near| format!("{DID_YOU_MEAN}\"{near}\"? "));
     let all: Vec<&str> = known.into_iter().collect();
     let listed = all[..all.len().min(MOST_LISTED)].join(", ");
     let rest = all.len().saturating_sub(MOST_LISTED);

@@ -3,7 +3,7 @@
 use congruent_description::{RobotDescription, RobotQ};
 use congruent_input::{
     Diagnostic,
-    display::{quantity, quantity_in_full},
+    display::{compared_quantities, quantity, quantity_in_full},
 };
 use congruent_scenario::{FilePlace, OverLimit, ScenarioFolder};
 
@@ -101,7 +101,7 @@ impl Planning<'_> {
         let robot = &self.description.robot;
         let joint = robot.joint(robot.movable_joints()[violation.coordinate]);
         let unit = format!("{}{}", joint.kind.unit(), violation.rate.per());
-        let [value, limit] = [violation.value, violation.limit].map(|value| quantity(value, &unit));
+        let [value, limit] = compared_quantities([violation.value, violation.limit], &unit);
         format!(
             "joint \"{}\" {} {value} at {}{where_}, its limit is {limit}",
             joint.name,

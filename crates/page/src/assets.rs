@@ -3,6 +3,8 @@
 /// The script that draws plots (uPlot), embedded in each page.
 pub(crate) const UPLOT_JS: &str = include_str!("../assets/uPlot.iife.min.js");
 pub(crate) const UPLOT_CSS: &str = include_str!("../assets/uPlot.min.css");
+/// What uPlot needs before it is loaded.
+pub(crate) const LOCALE_JS: &str = include_str!("../assets/locale.js");
 /// The look of the page, and what draws its plots.
 pub(crate) const PAGE_CSS: &str = include_str!("../assets/page.css");
 pub(crate) const PAGE_JS: &str = include_str!("../assets/page.js");
@@ -30,7 +32,7 @@ mod tests {
     /// The elements that they stand in end with `</script>` and `</style>`.
     #[test]
     fn no_asset_ends_its_element() {
-        for text in [UPLOT_JS, PAGE_JS, UPLOT_CSS, PAGE_CSS] {
+        for text in [UPLOT_JS, LOCALE_JS, PAGE_JS, UPLOT_CSS, PAGE_CSS] {
             assert!(!text.contains("</"));
         }
     }

@@ -14,4 +14,4 @@ mod table;
 pub use read::read_table;
 pub use row_reader::{RowReader, Value};
 pub use stream::{TableError, is_csv, open};
-pub use table::{Cell, Header, MOST_FAULTS, Row, TableRows, WrittenTable};
+pub use table::{Cell, Header, MOST_FAULTS, Row, TableRows, WrittenTable, separated_with_commas};

@@ -106,6 +106,21 @@ impl<'a> WrittenTable<'a> {
     }
 }
 
+/// What to write for the name of a column that is all columns of a table with another separator; `None` if it is one name.
+///
+/// # Examples
+/// ```
+/// use congruent_tables::separated_with_commas;
+/// let help = separated_with_commas("x_mm;y_mm");
+/// assert_eq!(help.as_deref(), Some("separate the columns with commas: x_mm,y_mm"));
+/// assert_eq!(separated_with_commas("x_mm"), None);
+/// ```
+pub fn separated_with_commas(column: &str) -> Option<String> {
+    let separator = [';', '\t'].into_iter().find(|separator| column.contains(*separator))?;
+    let names: Vec<&str> = column.split(separator).map(str::trim).collect();
+    Some(format!("separate the columns with commas: {}", names.join(",")))
+}
+
 /// What all CSV files have in common here.
 pub(crate) fn reader_builder() -> ReaderBuilder {
     let mut builder = ReaderBuilder::new();

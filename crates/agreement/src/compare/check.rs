@@ -104,6 +104,8 @@ pub(super) fn compared(
         allowed_by_digits,
         worst: worst_difference(&comparisons, &description.tolerance),
         tolerance: description.tolerance,
+        tolerance_is_declared: description.tolerance_is_declared,
+        requested_tolerance: None,
         replaced_tolerance: None,
         configurations: configurations.len(),
         seed: options.seed,

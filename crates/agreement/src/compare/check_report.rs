@@ -12,6 +12,7 @@ use super::{
     basics::Basics,
     certificate::{Brackets, ReportedCertificate},
     grade::Grade,
+    judged_by::RequestedTolerance,
     model::PoseSource,
 };
 use crate::{
@@ -157,7 +158,12 @@ pub struct CheckReport {
     pub worst: WorstDifference,
     /// The largest difference that counts as agreement.
     pub tolerance: Tolerance,
-    /// The robot file's tolerance, if the caller checked with another one.
+    /// Whether the robot file or the caller has declared a tolerance; if not, the digits of table and URDF decide.
+    pub tolerance_is_declared: bool,
+    /// The tolerance that the caller gave in place of the robot file's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub requested_tolerance: Option<RequestedTolerance>,
+    /// The tolerance that the robot file declares, if the caller checked with another one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replaced_tolerance: Option<Tolerance>,
     /// Number of configurations: zero, single axes, random ones, limits, the worst one of each certificate,

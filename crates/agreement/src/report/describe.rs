@@ -178,7 +178,8 @@ pub(super) fn finding(fault_message: &FaultMessage, stage: &ReportedStage) -> Di
         formatted(&stage.before),
         formatted(&stage.after)
     );
-    let advice = if fault.pasted.is_empty() { fault.suggestion.clone() } else { fault.pasted.join("\n") };
+    let pasted: Vec<String> = fault.pasted.iter().map(ToString::to_string).collect();
+    let advice = if pasted.is_empty() { fault.suggestion.clone() } else { pasted.join("\n") };
     let finding =
         Diagnostic::error(fault.cause.code(), message.clone()).with_help(format!("{advice}\n{error}"));
     match location {

@@ -15,7 +15,11 @@ use congruent_input::{
 };
 use congruent_kinematics::{Pose, rotation_log};
 
-use super::{content::Fault, names::ModelNames, values::ReportedValue};
+use super::{
+    content::{Fault, PastedLines},
+    names::ModelNames,
+    values::ReportedValue,
+};
 use crate::diagnosis::{CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants};
 
 /// A fault for programs, its message for people, and its place.
@@ -35,7 +39,7 @@ impl FaultMessage {
         for change in &changes {
             let (new, place) = new_lines(change, &source.text);
             lines.push(new);
-            pasted.push(format!("{new}  # {place}{file}"));
+            pasted.push(PastedLines { text: new.to_owned(), place: format!("{place}{file}") });
         }
         self.fault.suggestion = if lines.is_empty() {
             "nothing more: the lines to write for another cause correct this as well".to_owned()

@@ -72,10 +72,19 @@ fn for_kinematics(description: &RobotDescription) -> Vec<Missing> {
     missing
 }
 
+/// What is said of a robot without shapes.
+const NOTHING_TO_MEASURE: &str = "nothing to measure: no link has a collision shape";
+
+impl UseSummary {
+    /// Why there is nothing that the use could be ready for.
+    pub fn why_nothing(&self) -> Option<&'static str> {
+        self.missing.iter().map(|missing| missing.what).find(|what| *what == NOTHING_TO_MEASURE)
+    }
+}
+
 fn for_clearance(robot: &Robot) -> Vec<Missing> {
     if robot.links().iter().all(|link| link.collisions.is_empty()) {
-        let what = "no link has a collision shape: there is nothing to measure";
-        return vec![Missing { what, names: Vec::new() }];
+        return vec![Missing { what: NOTHING_TO_MEASURE, names: Vec::new() }];
     }
     let lacks = |link: &Link| link.collisions.is_empty() && !link.visuals.is_empty();
     missing_at_links(robot, "visual shape without a collision shape: clearance ignores it", lacks)

@@ -7,7 +7,7 @@ use congruent_input::{
     Diagnostic, Findings, known_names, rotation_from_rpy_fixed_xyz,
     units::{Unit, WrittenUnit},
 };
-use congruent_tables::{Header, Row, WrittenTable};
+use congruent_tables::{Header, Row, WrittenTable, separated_with_commas};
 
 use super::written_target::WrittenTarget;
 use crate::codes;
@@ -172,6 +172,9 @@ fn unknown(refused: &[(Range<usize>, &str, RefusedColumn)], robot: &Robot) -> Op
     let joints = robot.movable_joint_names();
     let known = ["x", "y", "z", "roll", "pitch", "yaw", "qw", "qx", "qy", "qz"].into_iter().chain(joints);
     let mut help = known_names(stem, "columns (with units)", known.collect::<Vec<_>>());
+    if let Some(commas) = separated_with_commas(names[0]) {
+        help = commas;
+    }
     if ["rx", "ry", "rz"].contains(&stem) {
         help = format!(
             "rotation vectors are not read: give roll_deg, pitch_deg, yaw_deg, or qw, qx, qy, qz; {help}"

@@ -13,7 +13,7 @@ use congruent::{
 use crate::{
     codes,
     failure::{Failure, NOTHING},
-    input::files_of,
+    input::{files_of, seed},
     output::file::{NewFile, folder_of},
     terminal::{print::Printer, progress::waiting},
 };
@@ -33,7 +33,7 @@ pub(super) struct DisabledPairsArguments {
     #[arg(long, default_value_t = 10_000, requires = "write_srdf", value_parser = clap::value_parser!(u32).range(100..=10_000_000))]
     samples: u32,
     /// Seed of the random configurations of --write-srdf.
-    #[arg(long, default_value_t = 0, requires = "write_srdf")]
+    #[arg(long, default_value_t = 0, requires = "write_srdf", value_parser = seed)]
     seed: u64,
     /// Replace the file of --write-srdf if it exists.
     #[arg(long, requires = "write_srdf")]

@@ -17,7 +17,7 @@ use congruent::{
 use crate::{
     codes,
     failure::{FAILED, Failure, NOTHING},
-    input::{ArmArguments, named},
+    input::{ArmArguments, named, seed},
     quantity::{three_angles, three_lengths},
     terminal::print::{Printer, text_options},
     tolerance::ToleranceArgument,
@@ -28,6 +28,11 @@ use crate::{
 /// Targets count from 1, in the order of the file. Exit code 1 if one is not reached, with the residual
 /// and the joints at a limit; 4 if the file has none.
 #[derive(Debug, clap::Args)]
+#[command(
+    group = clap::ArgGroup::new("target").args(["xyz", "targets"]).required(true),
+    override_usage = "congruent ik <ROBOT> --xyz <X,Y,Z> [--rpy <ROLL,PITCH,YAW>] [OPTIONS]\n       \
+                      congruent ik <ROBOT> --targets <FILE> [OPTIONS]",
+)]
 pub(crate) struct Arguments {
     /// Position of the tool in link `base`: `0.4,0.1,0.3` in m, or `400mm,100mm,300mm`.
     #[arg(long, value_name = "X,Y,Z", value_parser = three_lengths, allow_hyphen_values = true)]
@@ -40,7 +45,7 @@ pub(crate) struct Arguments {
     /// where the search starts; or a file with a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
     /// value}}`; without a quaternion any orientation will do. Poses are in link `base`. - is standard input, where one target per
     /// line (JSON Lines) is answered at once, with --format json by a document in one line.
-    #[arg(long, value_name = "FILE", required_unless_present = "xyz", conflicts_with = "xyz")]
+    #[arg(long, value_name = "FILE")]
     targets: Option<PathBuf>,
     /// Method by which steps are found.
     #[arg(long, default_value = "lm", value_parser = named::<IkMethod>())]
@@ -49,7 +54,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     position_only: bool,
     /// Seed of the restarts.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
     /// Largest distance, largest angle, or both that count as reached: 1mm, or 1mm,0.1deg. By default 1nm,1nrad.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]

@@ -10,7 +10,7 @@ use congruent::{
 use crate::{
     codes,
     failure::Failure,
-    input::{ArmArguments, files_of},
+    input::{ArmArguments, files_of, seed},
     output::plot::PlotArgument,
     terminal::{
         print::{Printer, text_options},
@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     samples: u32,
     /// Seed of the random configurations.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
     /// Also for arms like this one with all lengths multiplied, for example 1,1.5.
     #[arg(long, value_delimiter = ',', default_values_t = [1.0], value_parser = factor)]

@@ -10,7 +10,7 @@ use congruent::{
 use crate::{
     codes,
     failure::Failure,
-    input::{ArmArguments, files_of},
+    input::{ArmArguments, files_of, seed},
     output::plot::PlotArgument,
     terminal::{
         print::{Printer, text_options},
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value_t = 400_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]
     samples: u32,
     /// Seed of the random configurations.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
     #[command(flatten)]
     plot: PlotArgument,

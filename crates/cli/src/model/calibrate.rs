@@ -19,7 +19,7 @@ use congruent::{
 use crate::{
     codes,
     failure::{FAILED, Failure, NOTHING},
-    input::{ArmArguments, files_of, named},
+    input::{ArmArguments, files_of, named, seed},
     invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{print::Printer, progress::waiting},
@@ -69,7 +69,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     page: PageArgument,
     /// Seed of the random configurations of which the most informative are chosen.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
 }
 

@@ -24,7 +24,7 @@ use crate::{
     ci::CiArguments,
     codes,
     failure::{FAILED, Failure, NOTHING},
-    input::{AccessArguments, ChainArguments, files_of},
+    input::{AccessArguments, ChainArguments, files_of, seed},
     invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{
@@ -58,13 +58,14 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "ROBOT")]
     against: Vec<PathBuf>,
     /// Take the files as those that changed in a repository: a .urdf leads to each robot.toml below the current folder that
-    /// names it, and is checked by itself only if none does.
+    /// names it, and is checked by itself only if none does. Files that are deleted, or neither a robot file nor a URDF, are
+    /// ignored.
     #[arg(long)]
     changed: bool,
     #[command(flatten)]
     chain: ChainArguments,
     /// Seed of the random configurations.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
     /// Also compare at the configurations of this file and show the difference at each: one {"q": {"joint": value}} per
     /// line (JSON Lines), or a JSON array of at most 100,000 of them, in rad and m; joints that are not named are at 0.
@@ -78,7 +79,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     fix: FixArgument,
     /// Tolerance of positions and orientations in place of the robot file's, each with its unit: 1mm,0.1deg; a part
-    /// that is not given is taken from the file.
+    /// that is not given is the file's, or 1 nm or 1 nrad if the file declares none.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArgument>,
     /// Findings of lint in the descriptions fail, too, and a robot without a second description: neither a table, nor
@@ -160,7 +161,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         return Err(error.with_help("give --configurations FILE: the joint positions of each row").into());
     }
     let changed = arguments.changed.then(|| robots_of_changed(&arguments.robots, Path::new(".")));
-    let robots = changed.as_ref().unwrap_or(&arguments.robots);
+    let robots = changed.as_ref().map_or(&arguments.robots, |changed| &changed.robots);
+    if let Some(changed) = &changed {
+        let ignored = changed.ignored.iter();
+        let notes: Vec<String> =
+            ignored.map(|(path, why)| format!("{}: not checked: {why}", visible_path(path))).collect();
+        printer.notes(notes.iter().map(String::as_str));
+    }
     let batch = Batch::begin(robots, &arguments.ci, printer)?;
     let mut answers: Vec<Answer<Checked>> = Vec::new();
     for path in robots {
@@ -171,6 +178,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     }
     let plotted = answers.iter().try_for_each(|answer| draw(answer, arguments, &batch));
     let written = arguments.page.write(|| page(&answers), &batch.read()).and(plotted);
+    if answers.is_empty() {
+        // A commit without robots is no fault.
+        printer.result(&[(); 0], |_| "nothing to check: no robot has changed\n".to_owned())?;
+    }
     batch.finish_with_page(answers, written)
 }
 
@@ -256,14 +267,14 @@ fn compared(
         description.inputs.extend(read.input);
         configurations = read.entries;
     }
-    let declared = description.tolerance;
+    let declared = description.tolerance_is_declared.then_some(description.tolerance);
     if let Some(tolerance) = arguments.tolerance {
         let (wrong, wide) = tolerance.examine(description.tolerance_scale());
         if !wrong.is_empty() {
             return Err(Findings::from(wrong).into());
         }
         of_options.extend(wide);
-        description.tolerance = tolerance.replace(declared);
+        description.tolerance = tolerance.replace(description.tolerance);
         description.tolerance_is_declared = true;
     }
     batch.warn(path, &[&of_options[..], &description.warnings].concat());
@@ -290,7 +301,8 @@ fn compared(
     }
     report.geometry.warnings.extend(of_options.iter().map(Finding::from));
     report.lint.is_strict = arguments.strict;
-    report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
+    report.geometry.requested_tolerance = arguments.tolerance.map(ToleranceArgument::requested);
+    report.geometry.replaced_tolerance = arguments.tolerance.and(declared);
     let (with_basics, with_table) = (arguments.basics, arguments.table);
     Ok(Checked { report, description, other, with_basics, with_table, options: text_options(), fixed: None })
 }

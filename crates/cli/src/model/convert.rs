@@ -13,7 +13,7 @@ use congruent::{
 use crate::{
     codes,
     failure::Failure,
-    input::{ArmArguments, named},
+    input::{ArmArguments, named, seed},
     model::written_model::answer,
     output::file::NewFile,
     terminal::print::Printer,
@@ -109,7 +109,7 @@ struct AccuracyArguments {
     #[arg(long, default_value = ACCURACY, value_parser = accuracy)]
     accuracy: f64,
     /// Seed of the random configurations of the proof.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
     /// Keep axes as written that are parallel or intersect except for rounding (a quarter turn of 1.5708).
     #[arg(long)]

@@ -140,7 +140,7 @@ fn extent(check: &RobotCheck) -> String {
 /// The sources that agree, and the bound of their difference.
 fn agreeing(report: &CheckReport) -> String {
     let sources = listed(&sources_of(report));
-    let tolerance = tolerance(report);
+    let tolerance = report.tolerance_in_words();
     match certified(report) {
         Some(bound) => {
             format!("{sources} agree over the whole joint range (difference {}, {tolerance})", at_most(bound))
@@ -186,7 +186,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
         format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
     };
     let pairs: Vec<String> = differ.map(of_pair).collect();
-    let found = format!("by up to {}; {}", pairs.join(", "), judged_by(check));
+    let found = format!("by up to {}; {}", pairs.join(", "), report.judged_by());
     if report.grade == Some(Grade::SameWithinDigits) {
         let advice = by_rounding_alone(check);
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));
@@ -198,7 +198,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
 /// What to do about a tolerance that is finer than the digits of the table.
 fn by_rounding_alone(check: &RobotCheck) -> String {
     let report = &check.geometry;
-    let removed = if report.replaced_tolerance.is_some() {
+    let removed = if report.requested_tolerance.is_some() {
         "without --tolerance".to_owned()
     } else {
         format!(
@@ -248,19 +248,40 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
         return Headline::new("DIFFERENT", String::new());
     };
     if !report.has_same_torques() {
-        return Headline::new(format!("{same}DIFFERENT DYNAMICS"), format!(": {}", cause_of_torques(report)));
+        return Headline::new(
+            format!("{same}DIFFERENT DYNAMICS"),
+            format!(": {}", check.cause_of_torques(report)),
+        );
     }
     let same = if has_geometry { "SAME GEOMETRY AND DYNAMICS, " } else { "SAME DYNAMICS, " };
     Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), limits(&report.limits))
 }
 
-pub(super) fn cause_of_torques(report: &DynamicsReport) -> String {
-    let Some(first) = report.explanations.first() else { return report.headline() };
-    let (sentence, line) = match &first.parameters[..] {
-        [only] => (only.sentence(), only.line),
-        _ => (first.sentence(), first.line),
-    };
-    sentence + &place(first.file.as_deref(), line) + &and_more(report.explanations.len() - 1)
+impl RobotCheck {
+    pub(super) fn cause_of_torques(&self, report: &DynamicsReport) -> String {
+        let Some(first) = report.explanations.first() else { return report.headline() };
+        let (sentence, line) = match (&first.parameters[..], self.files_of(report)) {
+            ([only], Some(files)) => (only.sentence_in(short_names(files)), None),
+            ([only], None) => (only.sentence(), only.line),
+            _ => (first.sentence(), first.line),
+        };
+        let remark = match &first.parameters[..] {
+            [only] => only.unit_remark().map_or_else(String::new, |remark| format!(": {remark}")),
+            _ => String::new(),
+        };
+        sentence + &remark + &place(first.file.as_deref(), line) + &and_more(report.explanations.len() - 1)
+    }
+
+    /// The two files of a comparison with --against: the caller has not said that one of them is right.
+    pub fn files_of<'r>(&self, report: &'r DynamicsReport) -> Option<[&'r str; 2]> {
+        report.sides.files().filter(|_| self.against.is_some())
+    }
+}
+
+/// The names of two files without their folders, if they differ.
+fn short_names(files: [&str; 2]) -> [&str; 2] {
+    let names = files.map(|file| Path::new(file).file_name().and_then(|name| name.to_str()).unwrap_or(file));
+    if names[0] == names[1] { files } else { names }
 }
 
 pub(super) fn limits(differences: &[LimitDifference]) -> String {
@@ -284,27 +305,6 @@ fn place(file: Option<&str>, line: Option<usize>) -> String {
 
 pub(super) fn largest(error: PoseError) -> String {
     length_and_angle(error.position_m, error.orientation_rad)
-}
-
-/// The tolerance, and that of the robot file if another one was requested.
-fn tolerance(report: &CheckReport) -> String {
-    let words = |tolerance: &Tolerance| length_and_angle(tolerance.position_m, tolerance.orientation_rad);
-    let replaced = report.replaced_tolerance.as_ref().map_or_else(String::new, |declared| {
-        format!(" by --tolerance, the robot file's is {}", words(declared))
-    });
-    format!("tolerance {}{replaced}", words(&report.tolerance))
-}
-
-/// What decides that poses differ: the tolerance if one is declared, otherwise the digits of table and URDF, or the rounding
-/// of computers if nothing was typed.
-fn judged_by(check: &RobotCheck) -> String {
-    let report = &check.geometry;
-    let is_declared = check.tolerance_line.is_some() || report.replaced_tolerance.is_some();
-    match report.allowed_by_digits {
-        _ if is_declared => tolerance(report),
-        Some(allowed) if allowed != PoseError::default() => "judged by the digits written".to_owned(),
-        _ => "judged by floating-point rounding, since no tolerance is declared".to_owned(),
-    }
 }
 
 /// What the digits of table and URDF allow, if the two are not identical and not written with all digits.

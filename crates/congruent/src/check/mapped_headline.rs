@@ -3,7 +3,7 @@
 use congruent_input::display::{counted, listed};
 
 use super::{
-    headline::{Headline, cause, cause_of_torques, largest, limits},
+    headline::{Headline, cause, largest, limits},
     mapped::{ReportedJoint, ReportedMapping},
     robot_check::RobotCheck,
 };
@@ -30,7 +30,7 @@ pub(super) fn after_mapping(check: &RobotCheck) -> Option<Headline> {
         let why = if report.has_same_torques() {
             limits(&report.limits)
         } else {
-            format!(": {}", cause_of_torques(report))
+            format!(": {}", check.cause_of_torques(report))
         };
         format!(", but dynamics or limits differ{why}")
     });

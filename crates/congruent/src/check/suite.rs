@@ -42,12 +42,12 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
 
 fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
     let worst = &comparison.worst;
-    let (limit, error) = (report.tolerance, worst.error);
+    let error = worst.error;
     let mut lines = vec![format!(
-        "largest difference {} at {}, tolerance {}",
+        "largest difference {} at {}, {}",
         length_and_angle(error.position_m, error.orientation_rad),
         worst.link,
-        length_and_angle(limit.position_m, limit.orientation_rad)
+        report.comparison_judged_by(comparison)
     )];
     lines.extend(grade(comparison, report));
     let result = if comparison.verdict == Agreement::Agree {

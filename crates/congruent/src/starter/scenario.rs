@@ -2,8 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{ReportedChain, RobotDescription, relative_path};
-use congruent_input::{Capability, Diagnostic, Finding, Findings, display::quantity};
+use congruent_agreement::compare::CheckOptions;
+use congruent_description::{ReportedChain, RobotDescription, Tolerance, relative_path};
+use congruent_input::{
+    Capability, Diagnostic, Finding, Findings,
+    display::{length_and_angle, quantity},
+};
 use congruent_monitors::{
     NoRecorder,
     verdict::{CheckResult, Status},
@@ -23,7 +27,7 @@ use super::{
     touching::{FarthestMove, PairDistances},
     written::absolute,
 };
-use crate::codes;
+use crate::{check::check, codes};
 
 /// Distance that links must keep at least, or half of the smallest distance of the motion if that is less. Unit: m.
 const MOST_MINIMUM_M: f64 = 0.02;
@@ -193,14 +197,49 @@ fn leave_out(content: &mut ScenarioContent, results: &[CheckResult]) {
 }
 
 fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
+    if let Some(found) = same_within_digits(description) {
+        return found;
+    }
     let message = format!("the model and the twin of \"{}\" are not the same robot: {why}", description.name);
-    let help = if description.tolerance_is_declared {
-        "`congruent check` says why; a scenario can only pass for a robot that agrees"
-    } else {
-        "`congruent check` says why. If it answers SAME GEOMETRY within the digits written, declare as [tolerance] of the robot file what it says that \
-         the digits allow: a run is judged by a tolerance"
-    };
-    Diagnostic::error(codes::new::AGREEMENT, message).with_help(help)
+    Diagnostic::error(codes::new::AGREEMENT, message)
+        .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
+}
+
+/// What to declare for a table that is the same as the URDF by its digits alone: a run is judged by a tolerance.
+fn same_within_digits(description: &RobotDescription) -> Option<Diagnostic> {
+    let report = check(description, &CheckOptions::default()).ok()?.geometry;
+    let allowed = report.allowed_by_digits.filter(|_| report.is_judged_by_digits())?;
+    let found = report.certificate.unwrap_or_default().larger(report.worst.error);
+    let message = format!(
+        "table and URDF of \"{}\" are the same robot within the digits that are written, up to {}; a run is judged by a \
+         tolerance, and none is declared",
+        description.name,
+        length_and_angle(found.position_m, found.orientation_rad)
+    );
+    // Twice the difference, or less where the digits do not allow as much.
+    let [position_m, orientation_rad] = [
+        (2.0 * found.position_m).min(allowed.position_m.max(found.position_m)),
+        (2.0 * found.orientation_rad).min(allowed.orientation_rad.max(found.orientation_rad)),
+    ];
+    let least = Tolerance::default();
+    let help = format!(
+        "add to {}:\n[tolerance]\nposition_mm = {}\norientation_deg = {}",
+        description.path.display(),
+        rounded_up(position_m.max(least.position_m) * 1e3),
+        rounded_up(orientation_rad.max(least.orientation_rad).to_degrees())
+    );
+    Some(Diagnostic::error(codes::new::AGREEMENT, message).with_help(help))
+}
+
+/// A number with two digits that is not smaller.
+fn rounded_up(value: f64) -> f64 {
+    let (mantissa, power) = (format!("{value:e}"), 10_f64);
+    let exponent: i32 =
+        mantissa.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or_default();
+    let per_digit = libm::pow(power, f64::from(1 - exponent));
+    // By a quotient, so that the number has the digits that a person would write.
+    let digits = (value * per_digit).ceil();
+    format!("{digits}e{}", exponent - 1).parse().unwrap_or(value)
 }
 
 /// The scenario without its controller, and its motion.

@@ -189,6 +189,10 @@ fn shape_words(shapes: &[ShapeSummary]) -> String {
 }
 
 fn describe_use(text: &mut String, of: &UseSummary) {
+    if let Some(why) = of.why_nothing() {
+        let _ = writeln!(text, "  {}: {why}", serde_name(&of.needed_for));
+        return;
+    }
     let verdict = if of.is_ready { "ready" } else { "cannot be used" };
     let _ = writeln!(text, "  {}: {verdict}", serde_name(&of.needed_for));
     for finding in &of.stopped_by {

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use congruent_input::{Diagnostic, display::quantity};
+use congruent_input::{
+    Diagnostic,
+    display::{compared_quantities, quantity},
+};
 
 use crate::{codes, model::Robot};
 
@@ -16,7 +19,15 @@ pub fn outside_limits(values: &BTreeMap<String, f64>, robot: &Robot) -> Vec<Stri
         let (lower, upper) = joint.position_range()?;
         // Formatted only if it is outside: of a million configurations nearly all are inside.
         (value < lower || value > upper).then(|| {
-            let [shown, lower, upper] = [value, lower, upper].map(|each| quantity(each, joint.kind.unit()));
+            let unit = joint.kind.unit();
+            // With digits enough to see on which side of the limit it is.
+            let (shown, [lower, upper]) = if value < lower {
+                let [shown, near] = compared_quantities([value, lower], unit);
+                (shown, [near, quantity(upper, unit)])
+            } else {
+                let [shown, near] = compared_quantities([value, upper], unit);
+                (shown, [quantity(lower, unit), near])
+            };
             format!("{name} at {shown} (limits {lower} to {upper})")
         })
     };

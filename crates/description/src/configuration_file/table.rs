@@ -10,6 +10,7 @@ use congruent_input::{
 use congruent_tables::{
     Header, Row, WrittenTable,
     run_columns::{POSITION, TIME, is_other_quantity},
+    separated_with_commas,
 };
 
 use super::written::WrittenConfiguration;
@@ -125,7 +126,8 @@ fn column<'a>(cell: usize, name: &'a str, robot: &Robot) -> Result<Option<Column
             let stem = WrittenUnit::split(name).map_or(name, |(stem, _)| stem);
             let message = format!("column \"{name}\" is no joint of robot \"{}\"", robot.name());
             let joints: Vec<&str> = robot.movable_joint_names().collect();
-            Err(refused(message).with_help(known_names(stem, "joints (with _deg, _rad, _mm or _m)", joints)))
+            let known = || known_names(stem, "joints (with _deg, _rad, _mm or _m)", joints);
+            Err(refused(message).with_help(separated_with_commas(name).unwrap_or_else(known)))
         }
     }
 }

@@ -147,6 +147,9 @@ fn table(
     let base_from_dh0 = transform(&dh.base_from_dh0, diagnostics);
     let dhn_from_tip = transform(&dh.dhn_from_tip, diagnostics);
     let rows = rows::check(written, context, diagnostics);
+    if dh.convention.is_none() && diagnostics.has_misspelt("convention") {
+        return None;
+    }
     let convention =
         diagnostics.keep(dh.convention.as_ref().map(|written| *written.get_ref()).ok_or_else(|| {
             Diagnostic::error(codes::robot_file::CONVENTION, "[dh] has no convention")

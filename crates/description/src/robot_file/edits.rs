@@ -22,7 +22,8 @@ impl RobotFilePlaces {
         Some(if place.is_written {
             TextEdit { span: place.span, text: literal.to_owned() }
         } else {
-            self.beside(&place.span, &format!("{} = {literal}", place.key))
+            let sibling = self.last_of_row(row).unwrap_or(place.span);
+            self.beside(&sibling, &format!("{} = {literal}", place.key))
         })
     }
 

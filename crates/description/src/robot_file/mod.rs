@@ -7,6 +7,7 @@ mod edits;
 mod inertials;
 mod limits;
 mod mapping;
+mod other_names;
 mod places;
 mod rows;
 mod unit_mistakes;
@@ -22,7 +23,11 @@ pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace}
 pub use written::{WrittenRobot, robot_file_schema};
 pub use written_lint::{WrittenIgnore, WrittenLint};
 
-use congruent_input::{Diagnostic, Diagnostics, codes::toml::MISSING_KEY, toml_text::parse_toml};
+use congruent_input::{
+    Diagnostic, Diagnostics,
+    codes::toml::{INVALID, MISSING_KEY},
+    toml_text::parse_toml,
+};
 
 /// Size limit of a robot file, bytes.
 pub(crate) const ROBOT_FILE_BYTES: u64 = 1 << 20;
@@ -30,14 +35,28 @@ pub(crate) const ROBOT_FILE_BYTES: u64 = 1 << 20;
 /// The name that a robot file has in a robot's folder.
 pub(crate) const ROBOT_FILE: &str = "robot.toml";
 
-/// Parses a robot file; of a row without `kind` the help has the two kinds, which the reader of TOML does not know.
+/// Parses a robot file; of a row without `kind` and of a tolerance that is a number the help has what the reader of TOML does
+/// not know.
 pub(crate) fn parse(text: &str, diagnostics: &mut Diagnostics) -> Option<WrittenRobot> {
     let mut found = Diagnostics::default();
     let written = parse_toml(text, &mut found);
     let with_kinds = |fault: Diagnostic| {
         let is_kind = fault.code == MISSING_KEY && fault.message.contains("\"kind\"");
-        if is_kind { fault.with_help("kind = \"revolute\" or kind = \"prismatic\"") } else { fault }
+        if is_kind {
+            return fault.with_help("kind = \"revolute\" or kind = \"prismatic\"");
+        }
+        let key = fault.span.as_ref().and_then(|span| key_before(text.get(..span.start)?));
+        if fault.code == INVALID && key == Some("tolerance") {
+            return fault.with_help("tolerance = { position_mm = 0.5, orientation_deg = 0.1 }");
+        }
+        fault
     };
     diagnostics.extend(found.map(with_kinds).into_vec());
     written
+}
+
+/// The key of the value that follows a text: `tolerance` of `tolerance = `.
+fn key_before(text: &str) -> Option<&str> {
+    let key = text.rsplit('\n').next()?.trim_end().strip_suffix('=')?.trim();
+    Some(key.rsplit(' ').next().unwrap_or(key))
 }

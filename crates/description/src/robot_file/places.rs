@@ -149,6 +149,15 @@ impl RobotFilePlaces {
         Some(place(if units == UnitSystem::Engineering { engineering_key } else { si_key }, units, span))
     }
 
+    /// The last value that a row has: a new one belongs behind it, where a reader expects it.
+    pub(super) fn last_of_row(&self, row: usize) -> Option<Range<usize>> {
+        let row = self.dh.get_ref().row.get(row)?.get_ref();
+        let values = [RowKey::A, RowKey::Alpha, RowKey::D, RowKey::Theta].into_iter();
+        let values =
+            values.flat_map(|key| row_values(row, key)).flatten().chain(&row.sign).map(Spanned::span);
+        values.chain([row.joint.span(), row.kind.span()]).max_by_key(|span| span.end)
+    }
+
     /// The units in which the rows write lengths or angles, and a new value should be written.
     fn units(&self, unit: Unit) -> UnitSystem {
         let keys = match unit {

@@ -5,7 +5,10 @@ use std::{f64::consts::TAU, ops::Range};
 use congruent_input::{Diagnostic, Diagnostics, display::counted, known_names, line_column, units::Unit};
 use toml::Spanned;
 
-use super::written::{WrittenDh, WrittenRow};
+use super::{
+    other_names::other_names,
+    written::{WrittenDh, WrittenRow},
+};
 use crate::{
     codes,
     model::{DhRow, DhRowKind, Joint, JointIndex, Robot},
@@ -25,27 +28,40 @@ pub(super) fn check(
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<DhRow>> {
     let written = &dh.get_ref().row;
-    let rows: Vec<Option<DhRow>> = written.iter().map(|row| self::row(row, context, diagnostics)).collect();
+    if let Some(found) = other_names(written, context) {
+        diagnostics.push(found);
+        return None;
+    }
+    let rows: Vec<Option<DhRow>> =
+        (0..written.len()).map(|index| row(index, written, context, diagnostics)).collect();
     // All or none: a row with a fault would be reported a second time, as missing.
     let rows: Vec<DhRow> = rows.into_iter().collect::<Option<_>>()?;
-    no_joint_twice(written, &rows, diagnostics);
-    every_joint_has_a_row(dh, &rows, context, diagnostics);
+    if !joints_twice(written, &rows, context, diagnostics) {
+        every_joint_has_a_row(dh, &rows, context, diagnostics);
+    }
     order(written, &rows, context, diagnostics);
     (!rows.is_empty()).then_some(rows)
 }
 
-/// Whether a finding is about this quantity under a key without a unit.
-fn is_without_unit(found: &Diagnostic, quantity: &str) -> bool {
-    found.code == congruent_input::codes::toml::UNKNOWN_KEY
-        && found.message.starts_with(&format!("\"{quantity}\" needs a unit"))
+/// Whether a finding is about this quantity: under a key without a unit, or under a misspelt one.
+fn is_under_another_key(found: &Diagnostic, quantity: &str, unit: Unit) -> bool {
+    let is_without_unit = found.code == congruent_input::codes::toml::UNKNOWN_KEY
+        && found.message.starts_with(&format!("\"{quantity}\" needs a unit"));
+    is_without_unit || unit.keys(quantity).iter().any(|key| found.is_misspelt(key))
 }
 
 fn row(
-    written: &Spanned<WrittenRow>,
+    index: usize,
+    all: &[Spanned<WrittenRow>],
     context: &ChainContext<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<DhRow> {
+    let written = &all[index];
     let row = written.get_ref();
+    let next = all.get(index + 1).map_or(context.text.len(), |next| next.span().start);
+    let is_in_row = |found: &Diagnostic| {
+        found.span.as_ref().is_some_and(|span| (written.span().start..next).contains(&span.start))
+    };
     let at = || first_line(written.span(), context.text);
     let mut value = |quantity, unit: Unit, si: &Option<Spanned<f64>>, engineering: &Option<Spanned<f64>>| {
         diagnostics.keep(unit.value(quantity, si.as_ref(), engineering.as_ref()))
@@ -55,8 +71,10 @@ fn row(
     let d_m = value("d", Unit::Length, &row.d_m, &row.d_mm);
     let theta_rad = value("theta", Unit::Angle, &row.theta_rad, &row.theta_deg);
     let mut needed = |quantity, unit: Unit, value: Option<Option<f64>>| {
-        // It is written under a key without a unit, which is reported already.
-        if value == Some(None) && diagnostics.any(|found| is_without_unit(found, quantity)) {
+        // It is written under another key, which is reported already.
+        if value == Some(None)
+            && diagnostics.any(|found| is_in_row(found) && is_under_another_key(found, quantity, unit))
+        {
             return None;
         }
         diagnostics.keep(value?.ok_or_else(|| {
@@ -139,14 +157,49 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnos
     Some(joint)
 }
 
-fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], diagnostics: &mut Diagnostics) {
-    for (index, row) in rows.iter().enumerate() {
-        if let Some(first) = rows[..index].iter().find(|first| first.joint == row.joint) {
-            let name = &written[index].get_ref().joint;
-            let message = format!("joint \"{}\" has a row already, at line {}", name.get_ref(), first.line);
-            diagnostics.push(Diagnostic::error(codes::robot_file::JOINT_TWICE, message).at(name.span()));
-        }
+/// Reports the joints that have several rows, with the joints that have none: usually one name is wrong. Whether there are
+/// any.
+fn joints_twice(
+    written: &[Spanned<WrittenRow>],
+    rows: &[DhRow],
+    context: &ChainContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> bool {
+    let robot = context.robot;
+    let lines_of = |joint: JointIndex| -> Vec<String> {
+        rows.iter().filter(|row| row.joint == joint).map(|row| row.line.to_string()).collect()
+    };
+    let without_row = context.chain.iter().map(|&joint| (joint, robot.joint(joint)));
+    let without_row: Vec<&str> = without_row
+        .filter(|(joint, of)| of.mimic.is_none() && lines_of(*joint).is_empty())
+        .map(|(_, of)| of.name.as_str())
+        .collect();
+    let is_second = |index: usize| {
+        let same = rows[..index].iter().filter(|first| first.joint == rows[index].joint);
+        same.count() == 1
+    };
+    let twice: Vec<usize> = (0..rows.len()).filter(|&index| is_second(index)).collect();
+    for (number, &index) in twice.iter().enumerate() {
+        let (name, lines) = (&written[index].get_ref().joint, lines_of(rows[index].joint));
+        let count = if lines.len() == 2 { "two".to_owned() } else { lines.len().to_string() };
+        // Once, however many joints have several rows.
+        let none = match &without_row[..] {
+            [] => String::new(),
+            _ if number > 0 => String::new(),
+            [only] => format!(", joint \"{only}\" has none"),
+            several => format!(", these joints have none: {}", several.join(", ")),
+        };
+        let message =
+            format!("joint \"{}\" has {count} rows (lines {}){none}", name.get_ref(), lines.join(", "));
+        let found = Diagnostic::error(codes::robot_file::JOINT_TWICE, message).at(name.span());
+        diagnostics.push(match without_row[..] {
+            [only] if twice.len() == 1 => {
+                found.with_help(format!("is one of them the row of \"{only}\"? each joint has one row"))
+            }
+            _ => found.with_help("each joint has one row"),
+        });
     }
+    !twice.is_empty()
 }
 
 fn every_joint_has_a_row(
@@ -160,6 +213,9 @@ fn every_joint_has_a_row(
     // A mimic joint is driven by its master, in the model as in the machine.
     let (following, missing): (Vec<&Joint>, Vec<&Joint>) =
         without_row.map(|&joint| robot.joint(joint)).partition(|joint| joint.mimic.is_some());
+    if rows.is_empty() && diagnostics.has_misspelt("row") {
+        return;
+    }
     if missing.is_empty() && !rows.is_empty() {
         followers_have_rows(dh, &following, context, diagnostics);
         return;

@@ -2,7 +2,9 @@
 
 use congruent_input::display::{length, limit_number, number, quantity, quantity_with_digits};
 
-use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict, TorqueCertificates};
+use super::content::{
+    ComparedModels, DynamicsExplanation, DynamicsReport, DynamicsVerdict, TorqueCertificates,
+};
 use crate::{
     bound::{CoveredMotion, TorqueBracket},
     diagnosis::{DynamicsCause, FaultySide},
@@ -28,16 +30,6 @@ pub(super) fn suggestion(faulty: FaultySide, parameters: &[ParameterDifference])
         })
         .collect();
     Some(values.join(", ").trim_start_matches(": ").to_owned())
-}
-
-impl ParameterDifference {
-    /// `shoulder_link: mass is 2.63 kg, expected 3.76 kg`.
-    pub fn sentence(&self) -> String {
-        let [found, expected] =
-            with_distinct_digits(self.found, self.expected, self.unit.symbol(), "not given");
-        let what = format!("{} is {found}, expected {expected}", self.parameter);
-        if self.of.is_empty() { what } else { format!("{}: {what}", self.of) }
-    }
 }
 
 impl DynamicsExplanation {
@@ -134,7 +126,12 @@ impl LimitDifference {
 
 /// Two values with three digits, or with as many as distinguish them. Values that differ in their last digits only, as by
 /// rounding, are one value and a difference.
-fn with_distinct_digits(found: Option<f64>, expected: Option<f64>, unit: &str, nothing: &str) -> [String; 2] {
+pub(super) fn with_distinct_digits(
+    found: Option<f64>,
+    expected: Option<f64>,
+    unit: &str,
+    nothing: &str,
+) -> [String; 2] {
     /// More digits are read one by one.
     const MOST_DIGITS: usize = 8;
     let texts = [found, expected]
@@ -185,6 +182,13 @@ impl Invariants {
             }),
         ];
         sentences.into_iter().flatten().collect()
+    }
+}
+
+impl ComparedModels {
+    /// The files of the two models, of which either may be wrong; `None` if the reference is the program's own physics.
+    pub fn files(&self) -> Option<[&str; 2]> {
+        (self.reference != "physics").then_some([&self.candidate, &self.reference])
     }
 }
 

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::line_counter::LineCounter;
 use crate::{
     code::Code,
+    codes,
+    nearest::DID_YOU_MEAN,
     visible::{visible, visible_lines},
 };
 
@@ -176,6 +178,14 @@ impl Diagnostic {
     pub fn in_file(mut self, source: &Arc<SourceFile>) -> Self {
         self.source.get_or_insert_with(|| Arc::clone(source));
         self
+    }
+
+    /// Whether it is about an unknown key which this one was probably meant to be: that the key is missing then needs no
+    /// finding of its own.
+    pub fn is_misspelt(&self, key: &str) -> bool {
+        let guess = format!("{DID_YOU_MEAN}\"{key}\"?");
+        self.code == codes::toml::UNKNOWN_KEY
+            && self.help.as_deref().is_some_and(|help| help.starts_with(&guess))
     }
 
     /// Line and column, both from 1, columns in characters; `None` without a span or a file.

@@ -44,6 +44,16 @@ impl Diagnostics {
         self.0.iter().any(is_meant)
     }
 
+    /// Drops the findings that are not as `is_kept` says.
+    pub fn retain(&mut self, is_kept: impl FnMut(&Diagnostic) -> bool) {
+        self.0.retain(is_kept);
+    }
+
+    /// Whether one of them is about a key that was meant to be this one.
+    pub fn has_misspelt(&self, key: &str) -> bool {
+        self.any(|found| found.is_misspelt(key))
+    }
+
     /// Whether a finding inside a byte range blocks physics.
     pub fn blocks_physics_within(&self, range: &Range<usize>) -> bool {
         let within = |found: &Diagnostic| found.span.as_ref().is_some_and(|span| range.contains(&span.start));

@@ -16,6 +16,6 @@ pub use kind::{TextKind, TomlKind};
 pub use open::{folder_of, head_of, is_standard_input, not_found, read_text};
 pub use packages::{Packages, Resolved};
 pub use portable::{portable_path, portable_text};
-pub use relative_path::relative_path;
+pub use relative_path::{direct_path, relative_path};
 pub use ros_packages::RosPackages;
 pub use text_lines::TextLines;

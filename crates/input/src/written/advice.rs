@@ -1,5 +1,5 @@
-//! What to write instead of a key with another unit, a transform that is a list, a decimal comma, or a number that is an
-//! expression: the reader of TOML names only what it has expected.
+//! What to write instead of a key with another unit, a transform that is a list, or a number that is an expression: the
+//! reader of TOML names only what it has expected.
 
 use std::ops::Range;
 
@@ -114,21 +114,6 @@ pub(super) fn for_expression(text: &str, at: usize) -> Option<String> {
     Some(format!("TOML has no expressions such as {value}: {meant}"))
 }
 
-/// The number that was meant by a decimal comma at this place of a text that is no TOML: `270.5` for `270,5`.
-pub(super) fn for_decimal_comma(text: &str, at: usize) -> Option<String> {
-    let (before, after) = (text.get(..at)?, text.get(at..)?.strip_prefix(',')?);
-    let line = before.rsplit('\n').next()?;
-    let (key, whole) = line.rsplit_once('=')?;
-    let key = key.rsplit([',', '{']).next()?.trim();
-    let whole = whole.trim();
-    let digits = whole.trim_start_matches(['-', '+']);
-    let fraction: String = after.chars().take_while(char::is_ascii_digit).collect();
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    (is_number(digits) && is_number(&fraction)).then(|| {
-        format!("the decimal comma in {whole},{fraction} must be a point: {key} = {whole}.{fraction}")
-    })
-}
-
 /// The factor of `-pi/2`, `2*pi/3` and their like.
 fn multiple_of_pi(value: &str) -> Option<f64> {
     let value: String = value.to_lowercase().replace("math.", "").replace("np.", "").replace(' ', "");
@@ -164,19 +149,6 @@ mod tests {
         check("turn_deg = 180", "turn_rad", Some("write turn_rad = 3.141592653589793"));
         check("box_mm = \"wide\"", "box_m", None);
         check("box_cm = 10", "box_m", None);
-    }
-
-    #[test]
-    fn a_decimal_comma_is_named() {
-        let check = |text: &str, expected: Option<&str>| {
-            let at = text.find(',').unwrap_or_default();
-            assert_eq!(for_decimal_comma(text, at).as_deref(), expected, "{text}");
-        };
-        let point = "the decimal comma in -270,05 must be a point: a_mm = -270.05";
-        check("d_mm = 1\na_mm = -270,05\n", Some(point));
-        check("row = { a_mm = -270,05 }", Some(point));
-        check("row = { a_mm = 270, d_mm = 1 }", None);
-        check("xyz_m = [1,5]", None);
     }
 
     #[test]

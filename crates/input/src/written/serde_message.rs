@@ -1,5 +1,7 @@
 //! What serde says of a value of another type, in the words of a person who writes files.
 
+use super::number_mistake::NumberMistake;
+
 /// A message such as `invalid type: string "270", expected f64` as `must be a number, not the text "270"`; other messages stay
 /// as they are. With it, what to do, if that is clear.
 pub fn in_words(message: &str) -> (String, Option<String>) {
@@ -19,9 +21,20 @@ pub fn in_words(message: &str) -> (String, Option<String>) {
         .filter(|_| expected == "an array of length 2");
     let help = match pair {
         Some((first, second)) => Some(format!("write [\"{first}\", \"{second}\"]")),
-        None => (is_number && is_quoted_number).then(|| "write it without quotes".to_owned()),
+        None if is_number && is_quoted_number => Some("write it without quotes".to_owned()),
+        None if is_number => quoted_mistake(found),
+        None => None,
     };
     (format!("must be {}, not {}", expected_in_words(expected), found_in_words(found)), help)
+}
+
+/// What to write for a text that is nearly a number: `"302,5"`, `"302 mm"`.
+fn quoted_mistake(found: &str) -> Option<String> {
+    let text = found.strip_prefix("string \"")?.strip_suffix('"')?.trim();
+    let mistake = NumberMistake::in_value("", text).filter(|mistake| mistake.written == text)?;
+    let has_comma = mistake.written.contains(',');
+    let comma = || format!("write {} without quotes: use a point for decimals", text.replace(',', "."));
+    Some(if has_comma { comma() } else { "write the number alone: the unit is in the key".to_owned() })
 }
 
 fn expected_number(expected: &str) -> Option<&'static str> {
@@ -112,6 +125,16 @@ mod tests {
             "invalid type: string \"link_4--link_6\", expected an array of length 2",
             "must be a list of 2 values, not the text \"link_4--link_6\"",
             Some("write [\"link_4\", \"link_6\"]"),
+        );
+        check(
+            "invalid type: string \"302,5\", expected f64",
+            "must be a number, not the text \"302,5\"",
+            Some("write 302.5 without quotes: use a point for decimals"),
+        );
+        check(
+            "invalid type: string \"302 mm\", expected f64",
+            "must be a number, not the text \"302 mm\"",
+            Some("write the number alone: the unit is in the key"),
         );
         check("duplicate key", "duplicate key", None);
     }

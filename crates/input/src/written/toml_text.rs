@@ -18,8 +18,10 @@ use crate::{
     units::WrittenUnit,
     visible::hidden_character,
     written::{
-        advice::{for_decimal_comma, for_expression, in_known_unit, transform_for_list},
+        advice::{for_expression, in_known_unit, transform_for_list},
+        number_mistake::mistake_in_line,
         serde_message::in_words,
+        unclosed::{Unclosed, unclosed},
     },
 };
 
@@ -39,14 +41,31 @@ pub fn parse_toml<T: DeserializeOwned>(text: &str, diagnostics: &mut Diagnostics
 pub fn parse_document(text: &str) -> Result<Spanned<DeTable<'_>>, Diagnostic> {
     let root = DeTable::parse(text).map_err(|error| {
         let found = diagnostic(&error);
-        let at = error.span().map(|span| span.start);
-        match at.and_then(|at| for_expression(text, at).or_else(|| for_decimal_comma(text, at))) {
-            Some(help) => found.with_help(help),
+        match error.span() {
+            Some(at) => syntax_in_words(found, text, at.start),
             None => found,
         }
     })?;
     check_all_visible(root.get_ref())?;
     Ok(root)
+}
+
+/// A fault of the syntax at its cause, in words, if it is a usual mistake of people who type numbers and rows.
+fn syntax_in_words(found: Diagnostic, text: &str, at: usize) -> Diagnostic {
+    if let Some(help) = for_expression(text, at) {
+        return found.with_help(help);
+    }
+    let line_start = text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
+    let line = text[line_start..].lines().next().unwrap_or_default();
+    if let Some((place, mistake)) = mistake_in_line(line) {
+        let start = line_start + place;
+        let fault = Diagnostic::error(codes::toml::INVALID, mistake.message).with_help(mistake.help);
+        return fault.at(start..start + mistake.written.len());
+    }
+    match unclosed(text, at) {
+        Some(Unclosed { span, message }) => Diagnostic::error(codes::toml::INVALID, message).at(span),
+        None => found,
+    }
 }
 
 /// Whether a text is TOML by itself.
@@ -88,7 +107,21 @@ pub fn read_table<T: DeserializeOwned>(
     table: Spanned<DeTable<'_>>,
     diagnostics: &mut Diagnostics,
 ) -> Option<T> {
-    each_fault(table, |error, root| diagnostics.push(with_advice(diagnostic(error), error, root)))
+    each_fault(table, |error, root| {
+        let found = with_advice(diagnostic(error), error, root);
+        // A key that is missing because it is misspelt is one fault, not two.
+        if !follows_from_misspelt(&found, diagnostics) {
+            diagnostics.push(found);
+        }
+    })
+}
+
+/// Whether a key is missing in a table in which another one was meant to be it.
+fn follows_from_misspelt(found: &Diagnostic, diagnostics: &Diagnostics) -> bool {
+    let missing = found.message.split('"').nth(1).filter(|_| found.code == codes::toml::MISSING_KEY);
+    // Reading ends at a missing key: what was found behind the beginning of its table is in this table.
+    let start = |of: &Diagnostic| of.span.as_ref().map_or(0, |span| span.start);
+    missing.is_some_and(|key| diagnostics.any(|other| other.is_misspelt(key) && start(other) >= start(found)))
 }
 
 /// The finding with the help that needs the value that is written.
@@ -190,6 +223,31 @@ fn same_meaning(word: &str) -> Option<&'static str> {
     }
 }
 
+/// The beginning of the key of a row that data sheets and other programs call differently.
+fn key_of_data_sheet(key: &str) -> Option<&'static str> {
+    let quantity = WrittenUnit::split(key).map_or(key, |(quantity, _)| quantity);
+    match quantity {
+        "offset" | "theta_offset" | "theta0" | "theta_0" | "joint_offset" => Some("theta_"),
+        "r" | "link_length" => Some("a_"),
+        "twist" | "link_twist" => Some("alpha_"),
+        "link_offset" => Some("d_"),
+        _ => None,
+    }
+}
+
+/// The help for such a key: `the offset of a data sheet is theta_deg`.
+fn of_data_sheet(key: &str, beginning: &str, known: &[&str]) -> String {
+    let (quantity, unit) = match WrittenUnit::split(key) {
+        Some((quantity, unit)) => (quantity, Some(unit.name())),
+        None => (key, None),
+    };
+    let meant = known.iter().filter(|known| {
+        known.strip_prefix(beginning).is_some_and(|ending| unit.is_none_or(|unit| unit == ending))
+    });
+    let meant: Vec<&str> = meant.copied().collect();
+    format!("the {} of a data sheet is {}", quantity.replace('_', " "), meant.join(" or "))
+}
+
 /// The error of the `toml` crate as a diagnostic.
 pub fn diagnostic(error: &Error) -> Diagnostic {
     let text = error.message();
@@ -209,7 +267,11 @@ pub fn diagnostic(error: &Error) -> Diagnostic {
             _ => format!("\"{first}\" needs a unit: {}", with_units.join(" or ")),
         };
         let found = Diagnostic::error(codes::toml::UNKNOWN_KEY, message);
-        if with_units.is_empty() { found.with_help(known_help("keys")) } else { found }
+        match key_of_data_sheet(first).filter(|key| known.iter().any(|known| known.starts_with(key))) {
+            Some(key) if with_units.is_empty() => found.with_help(of_data_sheet(first, key, &known)),
+            _ if with_units.is_empty() => found.with_help(known_help("keys")),
+            _ => found,
+        }
     } else if text.starts_with("unknown variant ") {
         Diagnostic::error(codes::toml::UNKNOWN_VALUE, format!("unknown value \"{first}\"")).with_help(
             match same_meaning(first).filter(|meant| known.contains(meant)) {
@@ -286,6 +348,28 @@ mod tests {
                 "2:1: unknown key \"seed\" (known keys: duration, row)",
                 "5:1: unknown key \"kinds\" (did you mean \"kind\"? known keys: kind)",
             ]
+        );
+    }
+
+    #[test]
+    fn a_misspelt_key_is_not_missing_as_well() {
+        let (value, diagnostics) = read("[[row]]\nkinde = \"revolute\"\n");
+        assert!(value.is_none());
+        assert_eq!(diagnostics, ["2:1: unknown key \"kinde\" (did you mean \"kind\"? known keys: kind)"]);
+        let other = "[[row]]\nkinde = \"revolute\"\nkind = \"revolute\"\n[[row]]\n";
+        assert_eq!(read(other).1.len(), 2, "the second row has no kind");
+    }
+
+    #[test]
+    fn usual_mistakes_of_syntax_are_named_at_their_cause() {
+        let first = |text: &str| read(text).1.remove(0);
+        let comma = "1:12: 2,5 is not a number: use a point for decimals (write duration = 2.5)";
+        assert_eq!(first("duration = 2,5\n"), comma);
+        let unit = "1:12: 2 s is not a number (write 2 without s: the unit is in the key, duration_s = 2)";
+        assert_eq!(first("duration = 2 s\n"), unit);
+        assert_eq!(
+            first("row = [\n  { kind = \"revolute\",\n  { kind = \"revolute\" },\n]\n"),
+            "2:3: the row that begins in line 2 is not closed: } is missing"
         );
     }
 

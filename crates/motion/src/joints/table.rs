@@ -6,7 +6,7 @@ use std::sync::Arc;
 use congruent_description::{Robot, RobotQ};
 use congruent_input::{
     Diagnostic, SourceFile,
-    display::quantity,
+    display::{compared_quantities, quantity},
     known_names,
     units::{Unit, WrittenUnit},
 };
@@ -144,7 +144,7 @@ impl JointTable {
         let [distance, interval] = [(q[joint] - before[joint], unit), (time_s - before_s, "s")]
             .map(|(value, unit)| quantity(value, unit));
         let [speed, limit] =
-            [speed(joint), limits.velocity[joint]].map(|value| quantity(value, &format!("{unit}/s")));
+            compared_quantities([speed(joint), limits.velocity[joint]], &format!("{unit}/s"));
         let message = format!(
             "line {}{}: joint \"{}\" jumps by {distance} in {interval}: {speed}, its limit is {limit}",
             row.line,

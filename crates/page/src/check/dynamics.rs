@@ -23,14 +23,43 @@ pub(super) fn dynamics(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
                         0 => at.key("dynamics"),
                         further => at.key("other_dynamics").key(further - 1),
                     };
-                    (compared(report, &at))
+                    (compared(robot, report, &at))
                 }
             }
         }
     }
 }
 
-fn compared(report: &DynamicsReport, at: &Pointer) -> Markup {
+/// The comparisons whose causes answer why the robots differ, since their poses do not.
+fn decisive<'r>(robot: &'r CheckedRobot<'_>) -> impl Iterator<Item = &'r DynamicsReport> {
+    let decide = !robot.geometry.poses_disagree();
+    robot.dynamics.iter().copied().filter(move |report| decide && !report.agrees())
+}
+
+/// The causes of a difference that is of dynamics alone; `None` if none is known.
+pub(super) fn causes(robot: &CheckedRobot<'_>) -> Option<Markup> {
+    let is_known = |report: &DynamicsReport| !report.explanations.is_empty() || report.has_other_limits();
+    decisive(robot).any(is_known).then(|| {
+        html! {
+            @for report in decisive(robot) {
+                @let files = files(robot, report);
+                @for explanation in &report.explanations { (explained(explanation, files)) }
+                @for limit in report.limits.iter().filter(|limit| limit.decides) {
+                    p.fault { (limit.sentence()) }
+                    (changed(&limit.changes, None))
+                }
+            }
+        }
+    })
+}
+
+/// The two files of a comparison of which neither is known to be right.
+fn files<'r>(robot: &CheckedRobot<'_>, report: &'r DynamicsReport) -> Option<[&'r str; 2]> {
+    report.sides.files().filter(|_| robot.other.is_some())
+}
+
+fn compared(robot: &CheckedRobot<'_>, report: &DynamicsReport, at: &Pointer) -> Markup {
+    let is_answered = decisive(robot).any(|other| std::ptr::eq(other, report));
     let (outcome, word) = match (report.agrees(), report.has_same_torques(), report.verdict) {
         (true, _, DynamicsVerdict::NotCompared) => (BadgeKind::Unclear, "not compared"),
         (true, ..) => (BadgeKind::Good, "agree"),
@@ -45,10 +74,13 @@ fn compared(report: &DynamicsReport, at: &Pointer) -> Markup {
                 (report.headline().trim_end_matches(':')) " (difference of torque "
                 (value(&at.key("difference_relative"), report.difference_relative, &percent)) ")"
             }
-            @for explanation in &report.explanations { (explained(explanation)) }
+            // What answers the question of the page is above.
+            @if !is_answered { @for explanation in &report.explanations { (explained(explanation, files(robot, report))) } }
             @let others = others(report);
             @if !others.is_empty() { ul { @for sentence in &others { li { (sentence) } } } }
-            @for limit in report.limits.iter().filter(|limit| limit.decides) { (changed(&limit.changes, None)) }
+            @if !is_answered {
+                @for limit in report.limits.iter().filter(|limit| limit.decides) { (changed(&limit.changes, None)) }
+            }
         }
     }
 }
@@ -63,15 +95,30 @@ fn sides(report: &DynamicsReport) -> String {
 }
 
 /// A cause, the values that it corrects with their lines, and what to write.
-fn explained(explanation: &DynamicsExplanation) -> Markup {
+fn explained(explanation: &DynamicsExplanation, files: Option<[&str; 2]>) -> Markup {
     let place = |parameter: &ParameterDifference| match (&explanation.file, parameter.line) {
         (Some(file), Some(line)) => format!("{file}:{line}: "),
         _ => String::new(),
     };
+    let remark = |parameter: &ParameterDifference| {
+        let remark = parameter.unit_remark().filter(|_| explanation.cause.is_of_free_values());
+        remark.map_or_else(String::new, |remark| format!(": {remark}"))
+    };
+    // The value to write here would be the wrong one.
+    let is_other_wrong =
+        files.is_some() && explanation.parameters.iter().any(ParameterDifference::is_reference_in_other_unit);
     html! {
         p.fault { (explanation.sentence()) }
-        ul { @for parameter in explanation.parameters.iter().take(SHOWN) { li { code { (place(parameter)) } (parameter.sentence()) } } }
-        (changed(&explanation.changes, None))
+        ul {
+            @for parameter in explanation.parameters.iter().take(SHOWN) {
+                li {
+                    @if let Some(files) = files { (parameter.sentence_in(files)) }
+                    @else { code { (place(parameter)) } (parameter.sentence()) }
+                    (remark(parameter))
+                }
+            }
+        }
+        @if !is_other_wrong { (changed(&explanation.changes, None)) }
     }
 }
 

@@ -6,6 +6,7 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport, DifferencesAt},
     report::{ReportedDiagnosis, foremost},
 };
+use congruent_description::Tolerance;
 use congruent_input::{
     InputFile,
     display::{angle, length, length_and_angle},
@@ -17,7 +18,7 @@ use super::{
     certificate::{certificate, picture},
     checked_robot::CheckedRobot,
     comparisons::comparisons,
-    dynamics::dynamics,
+    dynamics::{causes, dynamics},
 };
 use crate::parts::{
     BadgeKind, Pointer, Provenance, badge, capitalised, count, diagnosis, document, provenance, value,
@@ -169,12 +170,8 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
                 dt { "at" } dd { (count(&at.key("configurations"), report.configurations)) " configurations, seed " (count(&at.key("seed"), report.seed)) }
                 dt { "tolerance" }
                 dd {
-                    @let tolerance = (&report.tolerance, at.key("tolerance"));
-                    (value(&tolerance.1.key("position_m"), tolerance.0.position_m, &length(tolerance.0.position_m)))
-                    " and "
-                    (value(&tolerance.1.key("orientation_rad"), tolerance.0.orientation_rad, &angle(tolerance.0.orientation_rad)))
-                    @if report.replaced_tolerance.is_some() { " (by --tolerance)" }
-                    @else if !robot.description.tolerance_is_declared { " (the default: none is declared)" }
+                    @if report.has_digits() { (report.judged_by()) }
+                    @else { (tolerance(report, &at.key("tolerance"))) }
                 }
             }
             @for sentence in &robot.not_compared { p.note { (sentence) } }
@@ -182,6 +179,20 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
                 @for finding in &not_asked.findings { p.note { "not compared: " (not_asked.source.name().replace('_', " ")) ": " (finding.message) } }
             }
         }
+    }
+}
+
+/// The tolerance, and who gave it.
+fn tolerance(report: &CheckReport, at: &Pointer) -> Markup {
+    let Tolerance { position_m, orientation_rad } = report.tolerance;
+    html! {
+        (value(&at.key("position_m"), position_m, &length(position_m)))
+        " and "
+        (value(&at.key("orientation_rad"), orientation_rad, &angle(orientation_rad)))
+        @if let Some(requested) = report.requested_tolerance {
+            @let is_whole = requested.position_m.is_some() && requested.orientation_rad.is_some();
+            @if is_whole { " (by --tolerance)" } @else { " (" (report.tolerance_in_words()) ")" }
+        } @else if !report.tolerance_is_declared { " (floating-point rounding: none is declared)" }
     }
 }
 
@@ -206,6 +217,10 @@ fn provenance_of(robots: &[&CheckedRobot<'_>], command: &str) -> Markup {
 
 /// Why the poses disagree, beside the arm where they do most.
 fn why(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
+    if !robot.geometry.poses_disagree() {
+        // Two arms that are equal would answer nothing.
+        return html! { @if let Some(causes) = causes(robot) { section { h2 { "Why they differ" } (causes) } } };
+    }
     let shown = foremost(&robot.geometry.diagnoses);
     let index_of = |shown: &ReportedDiagnosis| {
         robot.geometry.diagnoses.iter().position(|other| std::ptr::eq(other, shown)).unwrap_or_default()

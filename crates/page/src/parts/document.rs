@@ -32,6 +32,7 @@ pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>, inputs
                 footer { "made by congruent" }
                 @if let Some(plots) = plots {
                     script type="application/json" #plots { (PreEscaped(plots.json())) }
+                    script { (PreEscaped(assets::LOCALE_JS)) }
                     script { (PreEscaped(assets::UPLOT_JS)) }
                     script { (PreEscaped(assets::PAGE_JS)) }
                 }

@@ -7,8 +7,8 @@ use std::{
 };
 
 use congruent_input::{
-    Diagnostic, Diagnostics, FileAccess, Findings, SourceFile, TomlKind, is_standard_input, known_names,
-    toml_text,
+    Diagnostic, Diagnostics, FileAccess, Findings, SourceFile, TomlKind, codes::toml::UNKNOWN_KEY,
+    direct_path, is_standard_input, known_names, nearest, toml_text,
 };
 use serde::Deserialize;
 use toml::Spanned;
@@ -118,7 +118,7 @@ impl ScenarioFile {
 
     /// The robot's path, relative to the folder of the file.
     pub fn robot_path(&self) -> PathBuf {
-        self.folder().join(&self.scenario.robot)
+        direct_path(&self.folder().join(&self.scenario.robot))
     }
 
     /// The folder to which paths in the file are relative: its own, unless it names another.
@@ -145,7 +145,7 @@ impl ScenarioFile {
 }
 
 fn is_unknown_key(finding: &Diagnostic) -> bool {
-    finding.code == congruent_input::codes::toml::UNKNOWN_KEY
+    finding.code == UNKNOWN_KEY
 }
 
 /// Refuses a key that is set twice: which of the values is meant is not known.
@@ -177,6 +177,10 @@ fn robot_given(path: &Path) -> Diagnostic {
 fn name_override(finding: Diagnostic, overrides: &[Override], set: &[Range<usize>]) -> Diagnostic {
     let cause = overrides.iter().zip(set).find(|(_, place)| finding.span.as_ref() == Some(place));
     match cause {
+        // The key is not in the file: a place there would be that of another one.
+        Some((change, _)) if is_unknown_key(&finding) => {
+            Diagnostic { message: format!("--set {change}: {}", finding.message), span: None, ..finding }
+        }
         Some((change, _)) => with_more_help(finding, &format!("it was set by --set {change}")),
         None => finding,
     }
@@ -219,6 +223,9 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
     let mut at_top = Diagnostics::default();
     let top: Option<Top> = document.read_into(&mut at_top);
     findings.extend(at_top.map(name_sections).into_vec());
+    if findings.has_misspelt("controller") {
+        findings.retain(|found| found.code != codes::scenario::NO_CONTROLLER);
+    }
     let top = top?;
     findings.keep(check_top(&top));
     Some(Scenario {
@@ -290,11 +297,16 @@ fn read_motion(section: Section<'_>, findings: &mut Diagnostics) -> Option<Motio
     } else {
         let one_key = [TCP_KEY, LINE_KEY, ARC_KEY, TCP_PATH_KEY, PLAYBACK_KEY, SERVO_KEY];
         let known: Vec<&str> = JOINT_KEYS.into_iter().chain(JOINT_PATH_KEYS).chain(one_key).collect();
-        findings.push(
-            Diagnostic::error(codes::scenario::UNKNOWN_MOTION, "the motion has no target")
+        findings.push(match section.misspelt(&known) {
+            Some((key, meant)) => {
+                Diagnostic::error(UNKNOWN_KEY, format!("unknown key \"{}\"", key.get_ref()))
+                    .with_help(format!("did you mean \"{meant}\"?"))
+                    .at(key.span())
+            }
+            None => Diagnostic::error(codes::scenario::UNKNOWN_MOTION, "the motion has no target")
                 .with_help(format!("give one of these keys: {}", known.join(", ")))
                 .at(section.span()),
-        );
+        });
         None
     }
 }
@@ -359,6 +371,10 @@ fn read_expect(mut section: Section<'_>) -> Result<Expectation, Findings> {
 fn name_sections(error: Diagnostic) -> Diagnostic {
     if !is_unknown_key(&error) {
         return error;
+    }
+    let unknown = error.message.split('"').nth(1).unwrap_or_default();
+    if let Some(meant) = nearest(unknown, SECTIONS) {
+        return error.with_help(format!("did you mean \"{meant}\"?"));
     }
     let sections = SECTIONS.map(|section| format!("[{section}]")).join(", ");
     with_more_help(error, &format!("sections: {sections}"))

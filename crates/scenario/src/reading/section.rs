@@ -1,6 +1,8 @@
 //! One table of a scenario file with its place.
 
-use congruent_input::{Diagnostic, Diagnostics, Findings, known_names, toml_text};
+use std::borrow::Cow;
+
+use congruent_input::{Diagnostic, Diagnostics, Findings, known_names, nearest, toml_text};
 use serde::de::DeserializeOwned;
 use toml::{
     Spanned,
@@ -29,6 +31,14 @@ impl<'a> Section<'a> {
     /// Whether the section has this key.
     pub(super) fn has(&self, key: &str) -> bool {
         self.table.get_ref().contains_key(key)
+    }
+
+    /// The key, with its place, which was probably meant to be one of the known ones, and that one.
+    pub(super) fn misspelt<'k>(&self, known: &[&'k str]) -> Option<(&Spanned<Cow<'a, str>>, &'k str)> {
+        self.table
+            .get_ref()
+            .keys()
+            .find_map(|key| Some((key, nearest(key.get_ref(), known.iter().copied())?)))
     }
 
     /// Takes a table out of this one.

@@ -80,16 +80,18 @@ fn pose(target: &IkTarget) -> String {
     }
 }
 
-/// The hint that a target was meant in mm, if it would then be within reach.
+/// The hint that a target was meant in mm, if it would then be within reach, or nearly.
 fn in_millimetres(target: &IkTarget, distance_m: f64, reach_m: f64) -> String {
     /// A target that is farther than this multiple of the reach is no target that was missed by a little. Kind: choice.
     const FAR: f64 = 20.0;
-    if distance_m < FAR * reach_m || distance_m / 1000.0 > reach_m {
+    /// One in mm that is missed by a little was meant in mm as well. Kind: choice.
+    const NEAR: f64 = 2.0;
+    if distance_m < FAR * reach_m || distance_m / 1000.0 > NEAR * reach_m {
         return String::new();
     }
     let xyz = target.base_from_tcp.translation;
     let xyz = [xyz.x, xyz.y, xyz.z].map(|value| format!("{value}mm")).join(",");
-    format!(" (in mm? write {xyz})")
+    format!(" (in mm? --xyz {xyz})")
 }
 
 /// Each joint with its position, its margin to the nearer limit, and its range.

@@ -129,7 +129,7 @@ fn found(text: &mut String, fault: &Fault, stage: Option<&ReportedStage>) {
         let _ = writeln!(text, "  to do: {}", fault.suggestion);
     } else {
         let _ = writeln!(text, "  to write:");
-        fault.pasted.iter().for_each(|lines| indented(text, lines));
+        fault.pasted.iter().for_each(|lines| indented(text, &lines.to_string()));
     }
     if let Some(ReportedStage { before, after }) = stage {
         let [before, after] =
@@ -153,7 +153,7 @@ fn equivalent(text: &mut String, alternative: &ReportedAlternative, named: &[&Fa
     let messages: Vec<&str> = others.iter().map(|fault| fault.message.as_str()).collect();
     let _ = writeln!(text, "  indistinguishable: {} ({})", messages.join("; "), alternative.reason);
     for fault in others.into_iter().filter(|fault| !is_pasted(fault, named)) {
-        fault.pasted.iter().for_each(|lines| indented(text, lines));
+        fault.pasted.iter().for_each(|lines| indented(text, &lines.to_string()));
     }
 }
 

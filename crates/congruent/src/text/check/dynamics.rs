@@ -48,13 +48,14 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
             writeln!(text, "  not compared: links that the other description lacks: {}", links.join(", "));
     }
     let disagrees = |report: &&DynamicsReport| !report.agrees();
-    check.dynamics_of_descriptions().for_each(|report| compared(text, report, robot));
+    let files = |report| check.files_of(report);
+    check.dynamics_of_descriptions().for_each(|report| compared(text, report, files(report), robot));
     // Of the physics only what is wrong.
     check
         .dynamics_of_physics()
         .filter(disagrees)
         .into_iter()
-        .for_each(|report| compared(text, report, robot));
+        .for_each(|report| compared(text, report, None, robot));
     let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
     if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
         let _ =
@@ -62,7 +63,8 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
     }
 }
 
-fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
+/// One comparison; `files` are its two files, if neither is known to be right.
+fn compared(text: &mut String, report: &DynamicsReport, files: Option<[&str; 2]>, robot: &Robot) {
     let verdict = match (report.has_same_torques(), report.verdict) {
         (_, DynamicsVerdict::NotCompared) => "not compared:",
         (true, _) => "agree",
@@ -72,12 +74,12 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
     let _ =
         writeln!(text, "  {verdict:9} dynamics of {candidate} against {reference}: {}", report.headline());
     for explanation in &report.explanations {
-        explained(text, explanation);
+        explained(text, explanation, files);
     }
     if report.explanations.is_empty() && !report.has_same_torques() {
         for difference in report.differences.iter().take(SHOWN) {
             let file = Some(report.sides.candidate.as_str());
-            let _ = writeln!(text, "      {}", placed(difference.sentence(), difference, file));
+            let _ = writeln!(text, "      {}", placed(difference, file, files));
         }
         if let Some(more) = more(report.differences.len(), "parameters") {
             let _ = writeln!(text, "      {more}");
@@ -148,15 +150,17 @@ fn is_rounded(parameter: &ParameterDifference) -> bool {
 }
 
 /// A cause, its parameters with the lines that say them, and what to write.
-fn explained(text: &mut String, explanation: &DynamicsExplanation) {
+fn explained(text: &mut String, explanation: &DynamicsExplanation, files: Option<[&str; 2]>) {
     let _ = writeln!(text, "    {}", explanation.sentence());
     let (rounded, off): (Vec<_>, Vec<_>) =
         explanation.parameters.iter().partition(|parameter| is_rounded(parameter));
     // If nothing else differs, rounding is the cause.
     let (listed, rounded) = if off.is_empty() { (rounded, 0) } else { (off, rounded.len()) };
     for parameter in listed.iter().take(SHOWN) {
-        let _ =
-            writeln!(text, "      {}", placed(parameter.sentence(), parameter, explanation.file.as_deref()));
+        let remark = parameter.unit_remark().filter(|_| explanation.cause.is_of_free_values());
+        let remark = remark.map_or_else(String::new, |remark| format!(": {remark}"));
+        let line = placed(parameter, explanation.file.as_deref(), files);
+        let _ = writeln!(text, "      {line}{remark}");
     }
     if let Some(more) = more(listed.len(), "parameters") {
         let _ = writeln!(text, "      {more}");
@@ -179,6 +183,13 @@ fn explained(text: &mut String, explanation: &DynamicsExplanation) {
     if explanation.changes.is_empty() {
         return;
     }
+    // The value to write here would be the wrong one.
+    let is_other_wrong = |parameter: &&&ParameterDifference| parameter.is_reference_in_other_unit();
+    if let Some(([_, other], wrong)) = files.zip(listed.iter().find(is_other_wrong)) {
+        let line = wrong.expected_line.map_or_else(String::new, |line| format!(":{line}"));
+        let _ = writeln!(text, "      to correct in {other}{line}: the unit of {}", wrong.parameter);
+        return;
+    }
     let _ = writeln!(text, "      to write in {}:", explanation.file.as_deref().unwrap_or("the file"));
     for change in &explanation.changes {
         let _ = writeln!(text, "      line {}:", change.from_line);
@@ -188,10 +199,12 @@ fn explained(text: &mut String, explanation: &DynamicsExplanation) {
     }
 }
 
-fn placed(sentence: String, parameter: &ParameterDifference, file: Option<&str>) -> String {
-    match (file, parameter.line) {
-        (Some(file), Some(line)) => format!("{file}:{line}: {sentence}"),
-        _ => sentence,
+/// A parameter that differs, with its place in the file to correct, or with those in both files.
+fn placed(parameter: &ParameterDifference, file: Option<&str>, files: Option<[&str; 2]>) -> String {
+    match (files, file, parameter.line) {
+        (Some(files), ..) => parameter.sentence_in(files),
+        (None, Some(file), Some(line)) => format!("{file}:{line}: {}", parameter.sentence()),
+        _ => parameter.sentence(),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Text in the columns of the terminal. In a pipe lines stay whole, so that programs can search them.
 
+use super::units::is_unit_of;
+
 /// Narrower than this no line is read with ease: fewer columns of a terminal count as these.
 pub const NARROWEST: usize = 40;
 /// Additional indent of a continued line, unless its own indent is deep already.
@@ -51,7 +53,7 @@ fn push_continued(text: &mut String, line: &str, columns: usize) {
     let (mut start, mut room) = (0, columns);
     while chars.len() - start > room {
         let begin = chars[start..].iter().position(|&c| c != ' ').map_or(start, |at| start + at);
-        let is_space = |at: &usize| chars[*at] == ' ';
+        let is_space = |at: &usize| chars[*at] == ' ' && !is_before_unit(&chars, *at);
         let last = (begin + 1..=start + room).rev().find(is_space);
         // A word that is longer than a line is not broken: the line ends at the first space after it.
         let Some(at) = last.or_else(|| (start + room..chars.len()).find(is_space)) else { break };
@@ -63,6 +65,13 @@ fn push_continued(text: &mut String, line: &str, columns: usize) {
         room = columns - indent;
     }
     text.extend(&chars[start..]);
+}
+
+/// Whether the space is between a number and its unit, or within a unit.
+fn is_before_unit(chars: &[char], at: usize) -> bool {
+    let behind: String = chars[at + 1..].iter().take_while(|c| !c.is_whitespace()).collect();
+    let start = chars[..at].iter().rposition(|c| c.is_whitespace()).map_or(0, |space| space + 1);
+    is_unit_of(&chars[start..at].iter().collect::<String>(), &behind)
 }
 
 /// Where a continued line begins: under the last of its columns that begins in the first third, else a little beyond its
@@ -99,6 +108,14 @@ mod tests {
             assert_eq!(fitted(whole, 40), whole);
         }
         assert_eq!(fitted(&format!("a {word} b"), 40), format!("a\n    {word}\n    b"));
+    }
+
+    #[test]
+    fn a_number_stays_with_its_unit() {
+        let line = "    joint_1: revolute about z, at most 250 deg/s and 100 N m";
+        for columns in line.len() - 5..line.len() {
+            assert!(fitted(line, columns).ends_with(" 100 N m"), "{}", fitted(line, columns));
+        }
     }
 
     #[test]

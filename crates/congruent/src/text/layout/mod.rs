@@ -5,6 +5,7 @@ mod columns;
 mod escape;
 mod status_colour;
 mod table;
+mod units;
 
 pub use columns::{NARROWEST, fitted};
 pub(super) use escape::with_visible_lines;

@@ -2,6 +2,7 @@
 
 use std::{fmt::Write, ops::Range};
 
+use super::units::is_unit_of;
 use crate::{input::display::in_column, kinematics::ReportedPose};
 
 /// Rows of a table: the first column is aligned to the left, the others to the right.
@@ -89,12 +90,12 @@ pub fn wrapped(list: &str) -> String {
 }
 
 /// Words in lines of at most 80 characters, the first line and those after it each with its indent. A word that is longer
-/// than a line has one of its own.
+/// than a line has one of its own; a number stays with its unit.
 pub fn paragraph(words: &str, first_indent: usize, indent: usize) -> String {
     const WIDTH: usize = 80;
     let (mut text, mut length) = (" ".repeat(first_indent), first_indent);
     let mut is_first = true;
-    for word in words.split_whitespace() {
+    for word in values(words) {
         let word_length = word.chars().count();
         if !is_first && length + 1 + word_length > WIDTH {
             text.push('\n');
@@ -104,12 +105,25 @@ pub fn paragraph(words: &str, first_indent: usize, indent: usize) -> String {
             text.push(' ');
             length += 1;
         }
-        text += word;
+        text += &word;
         length += word_length;
         is_first = false;
     }
     text.push('\n');
     text
+}
+
+/// The words of a text, numbers with their units as one.
+fn values(text: &str) -> Vec<String> {
+    let (mut values, mut before) = (Vec::<String>::new(), "");
+    for word in text.split_whitespace() {
+        match values.last_mut().filter(|_| is_unit_of(before, word)) {
+            Some(value) => *value = format!("{value} {word}"),
+            None => values.push(word.to_owned()),
+        }
+        before = word;
+    }
+    values
 }
 
 /// The columns of [`pose_cells`].

@@ -145,8 +145,7 @@ fn the_table_must_fit_the_chain() {
     assert_eq!(
         messages,
         [
-            "the table has 2 rows, but the chain from base to tip has 2 moving joints: no row for b",
-            "joint \"a\" has a row already, at line 8",
+            "joint \"a\" has two rows (lines 8, 16), joint \"b\" has none",
             "the row is prismatic, but joint \"a\" of the URDF moves in radians",
         ]
     );
@@ -155,6 +154,39 @@ fn the_table_must_fit_the_chain() {
     // Both rows are of the wrong kind, which is one warning.
     assert_eq!(codes, ["robot_file::row_kind", "robot_file::row_order"]);
     warning("kind = 'revolute'", "kind = 'prismatic'", 10, "the row is prismatic, but joint \"a\"");
+}
+
+#[test]
+fn a_misspelt_key_is_the_only_finding_about_it() {
+    for (from, to, message) in [
+        ("convention", "conventon", "unknown key \"conventon\""),
+        ("d_m = 0.2", "dd_m = 0.2", "unknown key \"dd_m\""),
+        ("alpha_rad = 0.0", "alfa_rad = 0.0", "unknown key \"alfa_rad\""),
+        ("joint = 'a'", "jiont = 'a'", "unknown key \"jiont\""),
+    ] {
+        let found = read(&GOOD.replacen(from, to, 1)).1;
+        let messages: Vec<&str> = found.iter().map(|found| found.message.as_str()).collect();
+        assert_eq!(messages, [message]);
+    }
+    let rows = read(&GOOD.replace("[[dh.row]]", "[[dh.rows]]")).1;
+    let messages: Vec<&str> = rows.iter().map(|found| found.message.as_str()).collect();
+    assert_eq!(messages, ["unknown key \"rows\""]);
+    // The key of another row is missing all the same.
+    let other = GOOD.replacen("d_m = 0.2\n", "", 1).replace("alpha_rad = 0.0", "alfa_rad = 0.0");
+    assert_eq!(read(&other).1.len(), 2);
+    let offset = read(&GOOD.replacen("d_m = 0.2", "d_m = 0.2\noffset_deg = 0", 1)).1;
+    assert_eq!(offset[0].help.as_deref(), Some("the offset of a data sheet is theta_deg"));
+}
+
+#[test]
+fn names_that_all_lack_a_prefix_are_one_finding() {
+    let prefixed = GOOD.replace("joint = 'a'", "joint = 'left_a'").replace("joint = 'b'", "joint = 'left_b'");
+    let found = read(&prefixed).1;
+    let messages: Vec<&str> = found.iter().map(|found| found.message.as_str()).collect();
+    let message =
+        "no joint of the table is in the robot: the URDF has all of them without the prefix \"left_\"";
+    assert_eq!(messages, [message]);
+    assert_eq!(found[0].help.as_deref(), Some("write in the rows: a, b"));
 }
 
 #[test]
