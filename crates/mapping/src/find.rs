@@ -144,7 +144,7 @@ impl Both<'_> {
         known: &[JointVariable],
         has_fitted_base: bool,
     ) -> Option<FoundMapping> {
-        let base = self.shared_root();
+        let base = self.shared_roots()[0];
         let of_chain = self.a.moving_chain();
         let is_of_chain = |pair: &&[JointIndex; 2]| of_chain.contains(&pair[0]);
         let chain: JointPairs = pairs.iter().filter(is_of_chain).copied().collect();
@@ -207,14 +207,20 @@ impl Both<'_> {
         };
         let mut solved = of_main(way);
         let (mut angle_rad, mut distance_m) = (way.angle_rad, way.distance_m);
-        for branch in branches {
+        for (end, branch) in branches {
             let known: Vec<_> = branch.iter().map(|pair| solved.get(&pair[0]).copied()).collect();
             if known.iter().all(Option::is_some) {
                 continue;
             }
+            let tips = self.tips_of(end, &self.a.robot.link(end).name);
+            let with_tips =
+                ChainPair { known: known.clone(), ..self.chain_pair(&branch, Some(way.a_from_b), tips) };
             let chain = ChainPair { known, ..self.chain_pair(&branch, Some(way.a_from_b), None) };
+            let ways = [with_tips.ways(), chain.ways()].into_iter().find(|ways| !ways.is_empty());
+            let ways =
+                by_bodies(ways.unwrap_or_default(), [self.a, self.b], &self.screws, (&branch, self.reach_m));
             // Joints of the same name whose axes are others are not the same joints.
-            let Some(found) = chain.ways().into_iter().next() else {
+            let Some(found) = ways.into_iter().next() else {
                 pairs.retain(|pair| solved.contains_key(&pair[0]) || !branch.contains(pair));
                 continue;
             };
@@ -240,10 +246,10 @@ impl Both<'_> {
     }
 
     /// The matched joints to the tip, with those of one branch beyond it: their axes show where the last joint has its zero.
-    fn main_branch(&self, pairs: &JointPairs, branches: &[JointPairs]) -> JointPairs {
+    fn main_branch(&self, pairs: &JointPairs, branches: &[(LinkIndex, JointPairs)]) -> JointPairs {
         let chain = self.a.moving_chain();
         let to_tip: JointPairs = pairs.iter().filter(|pair| chain.contains(&pair[0])).copied().collect();
-        let beyond = branches.iter().filter(|branch| branch.starts_with(&to_tip));
+        let beyond = branches.iter().map(|(_, branch)| branch).filter(|branch| branch.starts_with(&to_tip));
         beyond.max_by_key(|branch| branch.len()).cloned().unwrap_or(to_tip)
     }
 
@@ -252,17 +258,26 @@ impl Both<'_> {
     fn ways_of_chain(&self, pairs: &JointPairs) -> Option<Vec<Way>> {
         /// Axes that are nearer than this share of the reach are the same but for what a calibration changes.
         const NEAR: f64 = 1e-4;
-        let (base, tips) = (Some(self.shared_root()), self.shared_tips());
-        let attempts = [(base, tips), (base, None), (None, None)];
+        /// Kind: choice; a fault is smaller, a base elsewhere farther.
+        const SAME_BASE: f64 = 0.05;
+        let tips = [self.shared_tips(), self.both_tips()];
+        let bases = self.shared_roots().into_iter().map(Some).chain([None]);
+        let attempts = bases.flat_map(|base| {
+            tips.into_iter().flatten().map(Some).chain([None]).map(move |tips| (base, tips))
+        });
         let off = |ways: &Vec<Way>| ways.first().map_or(f64::INFINITY, |way| way.off_m(self.reach_m));
         let mut best: Option<Vec<Way>> = None;
         for (base, tips) in attempts {
             let ways = self.chain_pair(pairs, base, tips).ways();
-            if off(&ways) < NEAR * self.reach_m {
+            let is_fault = best.as_ref().is_some_and(|best| off(best) <= SAME_BASE * self.reach_m);
+            if off(&ways) < NEAR * self.reach_m && !(base.is_none() && is_fault) {
                 return Some(ways);
             }
-            // Another base or tool must explain much to be believed.
-            if best.as_ref().is_none_or(|best| off(&ways) < 0.3 * off(best)) && !ways.is_empty() {
+            // Another base or tool must explain much to be believed, and more than a fault of some centimetres, which it would
+            // hide.
+            let explains =
+                |best: &Vec<Way>| off(&ways) < 0.3 * off(best) && off(best) > SAME_BASE * self.reach_m;
+            if best.as_ref().is_none_or(explains) && !ways.is_empty() {
                 best = Some(ways);
             }
         }
@@ -283,21 +298,40 @@ impl Both<'_> {
         ChainPair { known: vec![None; a.len()], a, b, tips, a_from_b, reach_m: self.reach_m }
     }
 
-    /// Pose of the other root in this one if a link near the root has one name in both.
-    fn shared_root(&self) -> Isometry3<f64> {
+    /// Where the other root may be in this one: by links near the root that have one name in both, and the same frame.
+    fn shared_roots(&self) -> Vec<Isometry3<f64>> {
         let (a, b) = (&self.a.robot, &self.b.robot);
         let is_still = |robot: &Robot, link: LinkIndex| robot.body(link) == robot.root();
-        let shared = a.link_indices().filter(|&link| is_still(a, link)).find_map(|link| {
+        let shared = a.link_indices().filter(|&link| is_still(a, link)).filter_map(|link| {
             let there = b.find_link(&a.link(link).name).filter(|&there| is_still(b, there))?;
             Some(self.home(0, link) * self.home(1, there).inverse())
         });
-        shared.unwrap_or_else(Isometry3::identity)
+        let mut roots: Vec<Isometry3<f64>> = Vec::new();
+        for root in shared.chain([Isometry3::identity()]) {
+            let is_known = |known: &Isometry3<f64>| {
+                let off = known.inverse() * root;
+                off.translation.vector.norm() + off.rotation.angle() < 1e-9
+            };
+            if !roots.iter().any(is_known) {
+                roots.push(root);
+            }
+        }
+        roots
+    }
+
+    /// Poses of the tips of both chains, whatever they are called, if they are the ends of the same joints.
+    fn both_tips(&self) -> Option<[Isometry3<f64>; 2]> {
+        Some([self.home(0, self.a.tip), self.home(1, self.b.tip)])
     }
 
     /// Poses of the tips in their roots, if both tips have one name.
     fn shared_tips(&self) -> Option<[Isometry3<f64>; 2]> {
-        let there = self.b.robot.find_link(&self.a.robot.link(self.a.tip).name)?;
-        Some([self.home(0, self.a.tip), self.home(1, there)])
+        self.tips_of(self.a.tip, &self.a.robot.link(self.a.tip).name)
+    }
+
+    /// Poses of a link and of the one of this name in the other description.
+    fn tips_of(&self, link: LinkIndex, there: &str) -> Option<[Isometry3<f64>; 2]> {
+        Some([self.home(0, link), self.home(1, self.b.robot.find_link(there)?)])
     }
 
     /// Pose of a link in its root at zero.
@@ -306,13 +340,13 @@ impl Both<'_> {
     }
 
     /// For each end of the tree, its matched joints from the root.
-    fn branches(&self, pairs: &JointPairs) -> Vec<JointPairs> {
+    fn branches(&self, pairs: &JointPairs) -> Vec<(LinkIndex, JointPairs)> {
         let robot = &self.a.robot;
         let ends = robot.link_indices().filter(|&link| robot.joints().iter().all(|of| of.parent != link));
-        let branch = |end: LinkIndex| -> JointPairs {
+        let branch = |end: LinkIndex| -> (LinkIndex, JointPairs) {
             let joints = robot.chain(robot.root(), end).unwrap_or_default();
             let pair = |joint: &JointIndex| pairs.iter().find(|pair| pair[0] == *joint).copied();
-            joints.iter().filter_map(pair).collect()
+            (end, joints.iter().filter_map(pair).collect())
         };
         ends.map(branch).collect()
     }

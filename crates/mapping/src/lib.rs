@@ -11,6 +11,7 @@ mod find;
 mod frames;
 mod matched;
 mod names;
+mod polish;
 mod variables;
 
 pub use find::{FoundMapping, MatchedBy, declared, find};

@@ -15,7 +15,10 @@ use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDiffere
 use congruent_input::display::{counted, length_and_angle, listed};
 use congruent_kinematics::PoseError;
 
-use super::{declared::DeclaredSource, mapped_headline::after_mapping, robot_check::RobotCheck};
+use super::{
+    against::OtherDescription, declared::DeclaredSource, mapped_headline::after_mapping,
+    robot_check::RobotCheck,
+};
 
 /// The answer of a check in a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -126,6 +129,11 @@ fn extent(check: &RobotCheck) -> String {
         Some(against) if !against.joints_left_out.is_empty() => {
             let compared = all.saturating_sub(against.joints_left_out.len());
             format!(" in {compared} of {all} joints (those that move the tip)")
+        }
+        Some(OtherDescription { mapping: Some(mapping), .. })
+            if !mapping.left_out.is_empty() || !mapping.other_left_out.is_empty() =>
+        {
+            format!(" in {} of {all} joints (those of both files)", mapping.joints.len())
         }
         Some(against) if against.links_not_found.contains(&report.chain.tip) => {
             format!(" without the tip \"{}\", which the other description lacks", report.chain.tip)

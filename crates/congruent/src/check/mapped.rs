@@ -1,17 +1,21 @@
 //! Two descriptions whose joints have other names, directions or zeros: the other one in the variables of the robot, so that
 //! everything that compares two descriptions works on it.
 
-use std::{collections::BTreeSet, sync::Arc};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
 
 use congruent_agreement::{
     SourcePair,
     compare::{CheckOptions, CheckReport},
 };
 use congruent_description::{
-    JointIndex, MappedJoint, Places, Robot, RobotDescription, RobotQList, toml_key, toml_string,
+    ChainEnd, ChainEnds, JointIndex, LinkIndex, MappedJoint, Places, Robot, RobotDescription, RobotQList,
+    toml_key, toml_string,
 };
 use congruent_input::number::significant;
-use congruent_kinematics::{Pose, PoseError, ReportedPose};
+use congruent_kinematics::{Pose, PoseError, ReportedPose, ScrewTree};
 use congruent_mapping::{FoundMapping, MatchedBy, declared, find, in_frames_of};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -96,6 +100,13 @@ impl MappedPair {
         options: &CheckOptions,
     ) -> Result<Option<Self>, String> {
         let Some(mapping) = &description.mapping else { return Ok(None) };
+        let robots = [&description.robot, &other.robot];
+        let is_known = |name: &&String| robots.iter().any(|robot| robot.find_joint(name).is_some());
+        if let Some(name) = mapping.left_out.iter().find(|name| !is_known(name)) {
+            return Err(format!(
+                "[mapping]: left_out names \"{name}\", a joint that neither description has"
+            ));
+        }
         let found = declared(description, other, mapping).map_err(|why| format!("[mapping]: {why}"))?;
         Ok(Some(Self::new(description, other, options, found)))
     }
@@ -137,9 +148,18 @@ impl MappedPair {
         let options =
             CheckOptions { configurations: kept_joints(description, &own, options), ..options.clone() };
         let in_variables = other.robot.locked(&other_locked).in_variables(&found.joints).moved_by(&kept);
-        let robot = in_frames_of(&own.robot, &in_variables, &found.root_from_other_root);
+        let in_frames = in_frames_of(&own.robot, &in_variables, &found.root_from_other_root);
+        let tip = other.robot.link(other.tip).name.clone();
+        let robot = in_frames.with_link_names(&link_names(&own, &in_frames, &tip));
         let names = found.joints.iter().map(|of| (of.name.clone(), other.robot.joint(of.joint).name.clone()));
         let names = names.collect();
+        // Which tip is meant is known by the joints; a frame that the other lacks is no obstacle then.
+        let own = match own.chain_ends.tip {
+            ChainEnd::Given => own,
+            _ => {
+                RobotDescription { chain_ends: ChainEnds { tip: ChainEnd::Chosen, ..own.chain_ends }, ..own }
+            }
+        };
         let there = part(other, robot);
         let urdf = there.places.urdf.clone().map(|urdf| urdf.of_rewritten(names));
         let places = Places { urdf, ..there.places };
@@ -153,6 +173,28 @@ impl ReportedMapping {
         let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
         Self { worst: compared.map(|of| of.worst.error), ..self }
     }
+}
+
+/// The names that links of the other description have in this one: of the root, of those that the joints carry, and of the tip if
+/// both are the same frame.
+fn link_names(own: &RobotDescription, other: &Robot, tip: &str) -> BTreeMap<LinkIndex, String> {
+    let robot = &own.robot;
+    let mut names = BTreeMap::from([(other.root(), robot.link(robot.root()).name.clone())]);
+    for joint in other.joints().iter().filter(|joint| joint.kind.is_movable()) {
+        let Some(here) = robot.find_joint(&joint.name) else { continue };
+        names.insert(joint.child, robot.link(robot.joint(here).child).name.clone());
+    }
+    let own_tip = &robot.link(own.tip).name;
+    let trees = [robot, other].map(ScrewTree::new);
+    let there = other.find_link(tip).filter(|there| !names.contains_key(there));
+    if let Some(there) = there.filter(|_| other.find_link(own_tip).is_none()) {
+        let off = PoseError::between(trees[0].home(own.tip), trees[1].home(there));
+        let is_same_body = !names.values().any(|name| name == own_tip);
+        if is_same_body && off.is_within(&own.tolerance) {
+            names.insert(there, own_tip.clone());
+        }
+    }
+    names
 }
 
 /// How far the axes are apart, as a share of the reach.
@@ -170,8 +212,11 @@ fn locked(
     let robots = [&description.robot, &other.robot];
     let of = |from: usize| {
         let is_fixed = |joint: &JointIndex| {
-            let there = robots[1 - from].find_joint(&robots[from].joint(*joint).name);
-            there.is_some_and(|there| !robots[1 - from].joint(there).kind.is_movable())
+            let (own, other) = (robots[from], robots[1 - from]);
+            let by_name = other.find_joint(&own.joint(*joint).name);
+            let by_link = other.find_link(&own.link(own.joint(*joint).child).name);
+            let there = by_name.or_else(|| other.parent_joint(by_link?));
+            there.is_some_and(|there| !other.joint(there).kind.is_movable())
         };
         unmatched[from].iter().copied().filter(is_fixed).collect()
     };

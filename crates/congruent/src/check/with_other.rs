@@ -31,29 +31,30 @@ pub(super) fn with_other(
     other: &RobotDescription,
     options: &CheckOptions,
 ) -> Result<WithOther, CheckError> {
-    let mut left_out = Vec::new();
     let (mut own, mut there, mut own_options) = (description.clone(), other.clone(), options.clone());
-    if let Some(pair) = NarrowedPair::new(description, other, options) {
+    let (mut left_out, mut mapping) = (Vec::new(), None);
+    if !has_same_names_to_tip(description, other, options) {
+        match in_own_variables(description, other, options) {
+            Err(why) => {
+                let against = OtherDescription::refused(other, why);
+                return Ok(WithOther {
+                    against,
+                    dynamics: None,
+                    description: own,
+                    other: there,
+                    options: own_options,
+                });
+            }
+            Ok(None) => {}
+            Ok(Some(pair)) => {
+                (own, there, own_options) = (pair.description, pair.other, pair.options);
+                mapping = Some(pair.report);
+            }
+        }
+    }
+    if let Some(pair) = NarrowedPair::new(&own, &there, &own_options) {
         (own, there, own_options) = (pair.description, pair.other, pair.options);
         left_out = pair.left_out;
-    }
-    let mut mapping = None;
-    match in_own_variables(&own, &there, &own_options) {
-        Err(why) => {
-            let against = OtherDescription::refused(other, why);
-            return Ok(WithOther {
-                against,
-                dynamics: None,
-                description: own,
-                other: there,
-                options: own_options,
-            });
-        }
-        Ok(None) => {}
-        Ok(Some(pair)) => {
-            (own, there, own_options) = (pair.description, pair.other, pair.options);
-            mapping = Some(pair.report);
-        }
     }
     let before = geometry.clone();
     let (mut against, mut dynamics) = compared(geometry, &own, &there, &own_options)?;
@@ -71,6 +72,18 @@ pub(super) fn with_other(
         geometry.grade = Some(Grade::EqualAfterMapping);
     }
     Ok(WithOther { against, dynamics, description: own, other: there, options: own_options })
+}
+
+/// Whether the joints to the tip that the caller names have the same names in both, and nothing else is declared: then the
+/// others, which are left out, need no partner.
+fn has_same_names_to_tip(
+    description: &RobotDescription,
+    other: &RobotDescription,
+    options: &CheckOptions,
+) -> bool {
+    let narrowed = NarrowedPair::new(description, other, options);
+    let has_same = |pair: NarrowedPair| other_joint(&pair.description.robot, &pair.other.robot).is_none();
+    description.mapping.is_none() && narrowed.is_some_and(has_same)
 }
 
 /// Two descriptions in the joints of the first, as its file declares or as names and axes show; `None` if all joints have

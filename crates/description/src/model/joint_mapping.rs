@@ -1,12 +1,12 @@
 //! The joints of one description in the variables of another: names, directions, zeros.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use super::{
     joint::{Joint, JointIndex, JointKind, JointLimit, JointParts},
-    link::Link,
+    link::{Link, LinkIndex},
     robot::Robot,
 };
 
@@ -155,6 +155,22 @@ impl Robot {
             self.parts(moved, mimic)
         });
         let links = self.links().iter().zip(link_from_frame).map(|(link, frame)| link_in_frame(link, frame));
+        self.rebuilt(links.collect(), parts.collect())
+    }
+
+    /// The same robot with other names of some links; a link that has one of these names already gets a mark behind its own.
+    #[must_use]
+    pub fn with_link_names(&self, names: &BTreeMap<LinkIndex, String>) -> Self {
+        let taken: BTreeSet<&str> = names.values().map(String::as_str).collect();
+        let name = |index: LinkIndex| {
+            names.get(&index).cloned().unwrap_or_else(|| free_name(&self.link(index).name, &taken))
+        };
+        let links = self.link_indices().map(|index| Link { name: name(index), ..self.link(index).clone() });
+        let parts = self.joints().iter().map(|joint| {
+            let mimic = joint.mimic.map(|of| (self.joint(of.master).name.clone(), of.multiplier, of.offset));
+            let [parent, child] = [joint.parent, joint.child].map(name);
+            JointParts { joint: joint.clone(), parent, child, mimic }
+        });
         self.rebuilt(links.collect(), parts.collect())
     }
 

@@ -1,0 +1,107 @@
+//! Offsets and base of a way brought nearest to the axes of the robot, all together: the search finds them one after the
+//! other, which is exact only as long as no later offset moves what an earlier one was found by.
+
+use congruent_kinematics::least_squares::{Damping, NormalEquations};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use crate::variables::{ChainPair, JointVariable, Way};
+
+/// Steps at most; the search begins so near that three are enough. Kind: loop bound.
+const MOST_STEPS: usize = 10;
+/// Step of the differences, rad or m. Kind: truncation of central differences.
+const STEP: f64 = 1e-6;
+/// Unknowns without effect keep their values. Kind: solver.
+const DAMPING: Damping = Damping { relative: 0.0, absolute: 1e-9 };
+
+impl ChainPair {
+    /// The way with the offsets, and the base if it is free, at which the axes are nearest.
+    pub(crate) fn polished(&self, way: Way) -> Way {
+        let mut best = way;
+        for _ in 0..MOST_STEPS {
+            let rest = self.rest(&best);
+            let unknowns = self.unknowns();
+            let columns: Vec<Vec<f64>> = unknowns
+                .iter()
+                .map(|&unknown| {
+                    let [up, down] = [STEP, -STEP].map(|by| self.rest(&moved(&best, unknown, by)));
+                    up.iter().zip(&down).map(|(up, down)| (up - down) / (2.0 * STEP)).collect()
+                })
+                .collect();
+            let step = NormalEquations::from_columns(&columns, &rest).damped_step(DAMPING);
+            let Some(step) = step else { break };
+            let stepped = unknowns
+                .iter()
+                .zip(step.iter())
+                .fold(best.clone(), |way, (&unknown, &by)| moved(&way, unknown, by));
+            let (before, after) = (norm(&rest), norm(&self.rest(&stepped)));
+            if after >= before {
+                break;
+            }
+            best = stepped;
+        }
+        self.judged(&best.a_from_b, &best.variables).unwrap_or(best)
+    }
+
+    fn unknowns(&self) -> Vec<Unknown> {
+        let is_free = self.a_from_b.is_none();
+        let offsets = (0..self.a.len()).filter(|&at| self.known[at].is_none() && !(is_free && at == 0));
+        // Without a tool that says it, the zero of the last joint is a choice, and stays.
+        let last = self.a.len().saturating_sub(1);
+        let offsets = offsets.filter(|&at| self.tips.is_some() || at != last || self.a[at].slides);
+        let base = (0..6).filter(|_| is_free).map(Unknown::Base);
+        offsets.map(Unknown::Offset).chain(base).collect()
+    }
+
+    /// What is left: for each axis its difference in direction, as a length, and in place; for the tips likewise.
+    fn rest(&self, way: &Way) -> Vec<f64> {
+        let mut rest = Vec::new();
+        let mut moved = way.a_from_b;
+        for ((a, b), variable) in self.a.iter().zip(&self.b).zip(&way.variables) {
+            let there = b.moved(&moved);
+            let direction = if variable.is_flipped { -there.direction } else { there.direction };
+            rest.extend((a.direction.cross(&direction) * self.reach_m).iter());
+            if !a.slides {
+                let between = there.through - a.through;
+                rest.extend((between - a.direction * a.direction.dot(&between)).iter());
+            }
+            moved *= b.motion(variable.offset);
+        }
+        if let Some([a, b]) = self.tips {
+            let off = a.inverse() * moved * b;
+            rest.extend(off.translation.vector.iter());
+            rest.extend((off.rotation.scaled_axis() * self.reach_m).iter());
+        }
+        rest
+    }
+}
+
+/// A number that is fitted.
+#[derive(Debug, Clone, Copy)]
+enum Unknown {
+    /// The offset of a joint.
+    Offset(usize),
+    /// A component of a small motion of the base: shift, then turn.
+    Base(usize),
+}
+
+fn moved(way: &Way, unknown: Unknown, by: f64) -> Way {
+    let mut moved = way.clone();
+    match unknown {
+        Unknown::Offset(at) => {
+            let JointVariable { offset, .. } = &mut moved.variables[at];
+            *offset += by;
+        }
+        Unknown::Base(component) if component < 3 => {
+            moved.a_from_b = Translation3::from(Vector3::ith(component, by)) * way.a_from_b;
+        }
+        Unknown::Base(component) => {
+            let turn = UnitQuaternion::from_scaled_axis(Vector3::ith(component - 3, by));
+            moved.a_from_b = Isometry3::from_parts(Translation3::identity(), turn) * way.a_from_b;
+        }
+    }
+    moved
+}
+
+fn norm(rest: &[f64]) -> f64 {
+    rest.iter().map(|part| part * part).sum::<f64>().sqrt()
+}
