@@ -1,4 +1,4 @@
-//! What a robot is: URDF, SRDF, `robot.toml` and meshes, read into a validated [`Robot`] or refused with
+//! What a robot is: URDF, MJCF, SRDF, `robot.toml` and meshes, read into a validated [`Robot`] or refused with
 //! diagnostics that say what is wrong, at which place, and what to do.
 //!
 //! Parsers take text and give a value or diagnostics; only `files/` of crate `input` opens files.
@@ -9,7 +9,9 @@ pub mod codes;
 mod configuration_file;
 mod description;
 mod load;
+mod mjcf;
 mod model;
+mod model_file;
 mod named_robot;
 mod robot_file;
 mod robot_file_text;

@@ -4,6 +4,7 @@ mod bodies;
 mod possible;
 mod repair;
 
+pub(crate) use bodies::repair_inertias;
 pub(super) use bodies::judge;
 pub(crate) use repair::Repairs;
 
