@@ -47,7 +47,7 @@ pub(crate) struct ModelRobot {
 
 /// Whether the root element of a text is `<mujoco>`, as far as its first tag says. What is before it is skipped: a byte order
 /// mark, the declaration, comments.
-pub(crate) fn is_mjcf(text: &str) -> bool {
+pub fn is_mjcf(text: &str) -> bool {
     let mut rest = text.trim_start_matches('\u{feff}').trim_start();
     loop {
         let end = match rest {
