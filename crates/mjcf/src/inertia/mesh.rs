@@ -32,6 +32,23 @@ struct MjMoments {
 }
 
 impl MjMoments {
+    /// Those of all simplices about a point, which is a corner of each pyramid.
+    fn about(apex: &Vector3<f64>, mesh: &MjMesh, triangles: &[[Point3<f64>; 3]]) -> Self {
+        let mirrored = mesh.scale.value.product().signum();
+        let mut moments = Self::default();
+        for triangle in triangles {
+            let corners = triangle.map(|corner| corner.coords - apex);
+            let [a, b, c] = &corners;
+            let volume = mirrored * a.dot(&b.cross(c)) / 6.0;
+            match mesh.inertia {
+                MjMeshInertia::Shell => moments.add(&corners, area(triangle), 3.0),
+                MjMeshInertia::Exact => moments.add(&corners, volume, 4.0),
+                MjMeshInertia::Convex | MjMeshInertia::Legacy => moments.add(&corners, volume.abs(), 4.0),
+            }
+        }
+        moments
+    }
+
     /// Adds a simplex with the given corners and, if it is a pyramid, the point as one more: the integral of `x x'` over a
     /// simplex of n corners is `amount / (n (n + 1)) (sum v v' + s s')` with the sum `s` of the corners.
     fn add(&mut self, corners: &[Vector3<f64>; 3], amount: f64, corner_count: f64) {
@@ -41,6 +58,10 @@ impl MjMoments {
         self.first += sum * (amount / corner_count);
         self.second += (squares + sum * sum.transpose()) * (amount / (corner_count * (corner_count + 1.0)));
     }
+}
+
+fn area([a, b, c]: &[Point3<f64>; 3]) -> f64 {
+    (b - a).cross(&(c - a)).norm() / 2.0
 }
 
 /// Amount, centre and inertia of a mesh by its rule, as MuJoCo 4.0 computes them.
@@ -58,8 +79,6 @@ pub fn mesh_mass(mesh: &MjMesh, triangles: &[[Point3<f64>; 3]]) -> Result<MeshMa
         let help = "give the body an <inertial>, or the mesh inertia=\"shell\"";
         mesh.place.fault(codes::mjcf::MESH_INERTIA, message).with_help(help)
     };
-    let rule = mesh.inertia;
-    let area = |[a, b, c]: &[Point3<f64>; 3]| (b - a).cross(&(c - a)).norm() / 2.0;
     let total_area: f64 = triangles.iter().map(area).sum();
     if total_area < SMALLEST {
         return Err(fault("its triangles have no area"));
@@ -70,18 +89,7 @@ pub fn mesh_mass(mesh: &MjMesh, triangles: &[[Point3<f64>; 3]]) -> Result<MeshMa
         (a.coords + b.coords + c.coords) * (area(triangle) / 3.0)
     });
     let apex = weighted.sum::<Vector3<f64>>() / total_area;
-    let mirrored = mesh.scale.value.product().signum();
-    let mut moments = MjMoments::default();
-    for triangle in triangles {
-        let corners = triangle.map(|corner| corner.coords - apex);
-        let [a, b, c] = &corners;
-        let volume = mirrored * a.dot(&b.cross(c)) / 6.0;
-        match rule {
-            MjMeshInertia::Shell => moments.add(&corners, area(triangle), 3.0),
-            MjMeshInertia::Exact => moments.add(&corners, volume, 4.0),
-            MjMeshInertia::Convex | MjMeshInertia::Legacy => moments.add(&corners, volume.abs(), 4.0),
-        }
-    }
+    let moments = MjMoments::about(&apex, mesh, triangles);
     if moments.amount < -SMALLEST {
         return Err(fault("its volume is negative: its triangles are clockwise in an outer view"));
     }
@@ -89,6 +97,13 @@ pub fn mesh_mass(mesh: &MjMesh, triangles: &[[Point3<f64>; 3]]) -> Result<MeshMa
         return Err(fault("it encloses no volume"));
     }
     let center = moments.first / moments.amount;
+    if mesh.inertia == MjMeshInertia::Legacy {
+        // MuJoCo first moves the mesh to this centre and then sums again. Of pyramids without sign the sum depends on their common
+        // point, so the centre does not move a second time: 5e-4 of the mass of a hollow part.
+        let again = MjMoments::about(&(apex + center), mesh, triangles);
+        let inertia = from_covariance(&again.second);
+        return Ok(MeshMass { amount: again.amount, center: apex + center, inertia });
+    }
     let about_center = moments.second - center * center.transpose() * moments.amount;
     Ok(MeshMass { amount: moments.amount, center: apex + center, inertia: from_covariance(&about_center) })
 }
