@@ -28,8 +28,8 @@ pub use configuration_file::{
 };
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use description::{NamedFiles, Places, RobotDescription};
-pub use mjcf::is_mjcf;
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
+pub use mjcf::is_mjcf;
 pub use model::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
     Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex,

@@ -111,8 +111,7 @@ pub fn parse_robot(
     let declared = written.and_then(|written| {
         let repairs = written.repairs(robot_file);
         // Faults of both files are collected, since each must be corrected anyway.
-        let mut model =
-            ModelFile::parse(urdf, &repairs).map_err(|faults| diagnostics.extend(faults)).ok()?;
+        let mut model = ModelFile::parse(urdf, &repairs).map_err(|faults| diagnostics.extend(faults)).ok()?;
         diagnostics.extend(std::mem::take(&mut model.warnings));
         declared(written, robot_file, urdf, model, &mut diagnostics)
     });

@@ -6,7 +6,9 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of};
+use congruent_input::{
+    Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of,
+};
 use congruent_meshes::MeshStore;
 
 use crate::{
@@ -58,7 +60,8 @@ impl ModelFile {
             return Self::from_urdf(source, UrdfInputs { find_mesh: &mut urdf::no_mesh, repairs });
         }
         let mut include = |name: &str| {
-            let message = format!("\"{name}\" cannot be opened: the MJCF was given as text, without a folder");
+            let message =
+                format!("\"{name}\" cannot be opened: the MJCF was given as text, without a folder");
             Err(Diagnostic::error(congruent_mjcf::codes::mjcf::INCLUDE, message))
         };
         let inputs = MjcfInputs { include: &mut include, find_mesh: &mut urdf::no_mesh };

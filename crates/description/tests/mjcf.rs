@@ -125,7 +125,12 @@ fn check_joints(name: &str, robot: &Robot, golden: &Value) {
         assert_eq!(golden["type"].as_str(), Some(joint.kind.name()), "{name} {}", joint.name);
         let range = golden["lower"].as_f64().zip(golden["upper"].as_f64());
         assert_eq!(joint.position_range(), range, "{name} {}", joint.name);
-        assert_eq!(joint.limit.and_then(|limit| limit.effort), golden["effort"].as_f64(), "{name} {}", joint.name);
+        assert_eq!(
+            joint.limit.and_then(|limit| limit.effort),
+            golden["effort"].as_f64(),
+            "{name} {}",
+            joint.name
+        );
         let losses = [&golden["damping"], &golden["friction"]].map(|it| it.as_f64().unwrap());
         assert_eq!([joint.damping, joint.friction], losses, "{name} {}", joint.name);
         let mimic = joint.mimic.map(|of| (robot.joint(of.master).name.as_str(), of.multiplier, of.offset));
@@ -203,7 +208,9 @@ const MASS: &str = "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>";
 
 /// An arm with one joint that includes a file.
 fn arm(inside: &str) -> String {
-    format!("<mujoco model='arm'>{inside}<worldbody><body name='link'>{MASS}<joint name='j' axis='0 1 0' range='-90 90'/></body></worldbody></mujoco>")
+    format!(
+        "<mujoco model='arm'>{inside}<worldbody><body name='link'>{MASS}<joint name='j' axis='0 1 0' range='-90 90'/></body></worldbody></mujoco>"
+    )
 }
 
 /// A folder with these files.
@@ -293,7 +300,9 @@ fn a_mesh_that_is_missing_stops_what_needs_it() {
 
 #[test]
 fn nothing_and_a_free_robot() {
-    let free = format!("<mujoco><worldbody><body name='b' pos='0 0 1'><freejoint/>{MASS}<body>{MASS}<joint name='j'/></body></body></worldbody></mujoco>");
+    let free = format!(
+        "<mujoco><worldbody><body name='b' pos='0 0 1'><freejoint/>{MASS}<body>{MASS}<joint name='j'/></body></body></worldbody></mujoco>"
+    );
     let folder = folder(&[("empty.xml", "<mujoco/>"), ("free.xml", &free)]);
     let empty = load(&folder.path().join("empty.xml"));
     assert_eq!((empty.robot.links().len(), empty.name.as_str()), (1, "empty"));

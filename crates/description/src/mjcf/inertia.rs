@@ -24,7 +24,8 @@ pub(super) fn add(
         // The reader hands out the mesh, of which only the position in the list is needed.
         let index = model.meshes.iter().position(|of| std::ptr::eq(of, mesh)).unwrap_or_default();
         Ok(meshes.mass(index, diagnostics).unwrap_or_else(|fault| {
-            let message = format!("{}, so the inertia of bodies that follows from it is not known", fault.message);
+            let message =
+                format!("{}, so the inertia of bodies that follows from it is not known", fault.message);
             let found = Diagnostic { message, ..fault }.needed_by(Some(Capability::Physics));
             diagnostics.push(found.with_help("give the body an <inertial>, or the path of its mesh"));
             unknown[index] = true;

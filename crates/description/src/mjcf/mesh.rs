@@ -32,29 +32,38 @@ impl<'a, 'm> ModelMeshes<'a, 'm> {
         }
         let mesh = &self.model.meshes[index];
         let found = match &mesh.file {
-            Some(file) => (self.find_mesh)(&file.value, mesh.scale.value).map(|FoundMesh { mesh, warnings }| {
-                let at = file.place.as_ref();
-                let warnings = warnings.into_iter();
-                diagnostics.extend(warnings.map(|warning| match at {
-                    Some(place) => placed(warning, place),
-                    None => warning,
-                }));
-                mesh
-            }),
+            Some(file) => {
+                (self.find_mesh)(&file.value, mesh.scale.value).map(|FoundMesh { mesh, warnings }| {
+                    let at = file.place.as_ref();
+                    let warnings = warnings.into_iter();
+                    diagnostics.extend(warnings.map(|warning| match at {
+                        Some(place) => placed(warning, place),
+                        None => warning,
+                    }));
+                    mesh
+                })
+            }
             None => inline(mesh),
         };
         // At the mesh, not at each geom that uses it: the file is named there.
-        let found = found.map_err(|fault| placed(fault, mesh.file.as_ref().and_then(|file| file.place.as_ref()).unwrap_or(&mesh.place)));
+        let found = found.map_err(|fault| {
+            placed(fault, mesh.file.as_ref().and_then(|file| file.place.as_ref()).unwrap_or(&mesh.place))
+        });
         self.found[index] = Some(found.clone());
         found
     }
 
     /// Amount and inertia of a mesh.
-    pub(super) fn mass(&mut self, index: usize, diagnostics: &mut Diagnostics) -> Result<MeshMass, Diagnostic> {
+    pub(super) fn mass(
+        &mut self,
+        index: usize,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<MeshMass, Diagnostic> {
         let found = self.find(index, diagnostics)?;
         let mesh = &self.model.meshes[index];
         let mesh_from_scaled = scaled_from_mesh(mesh).inverse();
-        let corners: Vec<Point3<f64>> = found.vertices_m.iter().map(|vertex| mesh_from_scaled * vertex).collect();
+        let corners: Vec<Point3<f64>> =
+            found.vertices_m.iter().map(|vertex| mesh_from_scaled * vertex).collect();
         let is_mirrored = mesh.scale.value.product() < 0.0;
         let triangles: Vec<[Point3<f64>; 3]> = if mesh.inertia == MjMeshInertia::Convex {
             hull_triangles(&corners).into_iter().map(|of| of.map(|corner| corners[corner])).collect()

@@ -99,11 +99,7 @@ fn bounded(model: &MjModel) -> Result<(), Diagnostic> {
     }
 }
 
-fn robot(
-    model: &MjModel,
-    find_mesh: &mut FindMesh<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Option<ModelRobot> {
+fn robot(model: &MjModel, find_mesh: &mut FindMesh<'_>, diagnostics: &mut Diagnostics) -> Option<ModelRobot> {
     let mut parts = RobotParts::from_model(model, diagnostics);
     let mut meshes = ModelMeshes::new(model, find_mesh);
     shape::add(model, &mut parts, &mut meshes, diagnostics);

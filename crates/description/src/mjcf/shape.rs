@@ -89,7 +89,9 @@ fn shapes(
         MjShape::Plane => return Err(left_out("plane")),
         MjShape::HeightField => return Err(left_out("height field")),
         MjShape::Ellipsoid { .. } => return Err(left_out("ellipsoid")),
-        MjShape::Fitted { ref kind, .. } => return Err(left_out(&format!("{kind} that is fitted to a mesh"))),
+        MjShape::Fitted { ref kind, .. } => {
+            return Err(left_out(&format!("{kind} that is fitted to a mesh")));
+        }
     };
     if parts.iter().any(|(at, geometry)| !(extent_m(&(geom.body_from_geom * at), geometry) <= LARGEST)) {
         let message = format!("the geom reaches beyond {LARGEST:e} m, so it is left out");

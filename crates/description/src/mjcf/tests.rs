@@ -30,7 +30,9 @@ fn link_names(robot: &Robot) -> Vec<&str> {
 
 #[test]
 fn the_root_element_decides() {
-    for text in ["<mujoco/>", "\u{feff} <?xml version='1.0'?>\n<!-- <robot> -->\n<mujoco model='a'>", "<mujoco>"] {
+    for text in
+        ["<mujoco/>", "\u{feff} <?xml version='1.0'?>\n<!-- <robot> -->\n<mujoco model='a'>", "<mujoco>"]
+    {
         assert!(is_mjcf(text), "{text}");
     }
     for text in ["", "<robot name='mujoco'/>", "<mujocoinclude/>", "<!-- <mujoco>", "<mujoco"] {
@@ -64,8 +66,7 @@ fn at_its_ref_a_body_is_where_it_is_written() {
 
 #[test]
 fn a_free_body_is_fixed_and_a_ball_joint_only_where_nothing_follows() {
-    let (robot, found) =
-        read(&format!("<worldbody><body name='b'>{MASS}<freejoint/></body></worldbody>"));
+    let (robot, found) = read(&format!("<worldbody><body name='b'>{MASS}<freejoint/></body></worldbody>"));
     assert_eq!(robot.map(|robot| robot.dof()), Some(0));
     assert_eq!((found[0].code.name, found[0].stops), ("mjcf::free", None));
 

@@ -158,11 +158,15 @@ fn cut_joints(model: &MjModel, index: usize, is_moving_below: bool, diagnostics:
             MjJointKind::Free => {
                 let message =
                     format!("body \"{body}\" is free; it is fixed here at the pose that the file gives it");
-                Diagnostic::warning(codes::mjcf::FREE, message)
-                    .one_of("bodies are free; they are fixed here at the poses that the file gives them", &body.text)
+                Diagnostic::warning(codes::mjcf::FREE, message).one_of(
+                    "bodies are free; they are fixed here at the poses that the file gives them",
+                    &body.text,
+                )
             }
             _ if is_moving_below || model.joints_of(index)[at + 1..].iter().any(|of| moves(of.kind)) => {
-                let message = format!("joint \"{name}\" of body \"{body}\" is a ball joint, and joints that move follow it");
+                let message = format!(
+                    "joint \"{name}\" of body \"{body}\" is a ball joint, and joints that move follow it"
+                );
                 let help = "replace it by three hinges in the same body";
                 Diagnostic::error(codes::mjcf::BALL, message).with_help(help)
             }

@@ -16,7 +16,8 @@ pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diag
     let gravity = &model.gravity_in_world;
     if <[f64; 3]>::from(gravity.value) != GRAVITY {
         let [x, y, z] = gravity.value.into();
-        let message = format!("gravity is ({x}, {y}, {z}) m/s^2; forces are computed with (0, 0, -9.81) m/s^2");
+        let message =
+            format!("gravity is ({x}, {y}, {z}) m/s^2; forces are computed with (0, 0, -9.81) m/s^2");
         let found = Diagnostic::warning(codes::mjcf::GRAVITY, message);
         diagnostics.push(match &gravity.place {
             Some(place) => placed(found, place),
@@ -25,13 +26,16 @@ pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diag
     }
     for body in model.bodies.iter().filter(|body| body.gravcomp.value != 0.0) {
         let share = body.gravcomp.value;
-        let message =
-            format!("body \"{}\": gravcomp {share} carries a part of its weight, which is left out", body.name);
+        let message = format!(
+            "body \"{}\": gravcomp {share} carries a part of its weight, which is left out",
+            body.name
+        );
         let kind = "bodies have a gravcomp, which is left out: their weight counts in full";
         let found = Diagnostic::warning(codes::mjcf::GRAVITY, message).one_of(kind, &body.name.text);
         diagnostics.push(placed(found, &body.place));
     }
-    for (number, joint) in model.joints.iter().enumerate().filter(|(at, _)| parts.joint_positions[*at].is_some())
+    for (number, joint) in
+        model.joints.iter().enumerate().filter(|(at, _)| parts.joint_positions[*at].is_some())
     {
         of_joint(model, number, joint, diagnostics);
     }
@@ -56,7 +60,8 @@ fn of_joint(model: &MjModel, number: usize, joint: &MjJoint, diagnostics: &mut D
     let [linear, square, cube] = joint.stiffness.value;
     if joint.stiffness.value != [0.0; 3] {
         let is_linear = square == 0.0 && cube == 0.0;
-        let value = if is_linear { quantity(linear, stiffness) } else { format!("{linear}, {square}, {cube}") };
+        let value =
+            if is_linear { quantity(linear, stiffness) } else { format!("{linear}, {square}, {cube}") };
         left_out(codes::mjcf::SPRING, "a spring of", &value);
     }
     let [_, square, cube] = joint.damping.value;

@@ -45,14 +45,12 @@ impl TextKind {
         let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
         match self {
             Self::Robot => {
-                text.trim_start().starts_with('<')
-                    && (text.contains("<robot") || text.contains("<mujoco"))
+                text.trim_start().starts_with('<') && (text.contains("<robot") || text.contains("<mujoco"))
             }
             Self::RobotFile => lines.any(|line| {
                 let has_value = |rest: &str| rest.trim_start().starts_with('=');
-                let names_model = ["urdf", "description"]
-                    .iter()
-                    .any(|key| line.strip_prefix(key).is_some_and(has_value));
+                let names_model =
+                    ["urdf", "description"].iter().any(|key| line.strip_prefix(key).is_some_and(has_value));
                 names_model || line.starts_with("[dh")
             }),
             Self::Table => lines.nth(1).is_some_and(|line| line.split([',', ';', '\t']).all(is_number)),

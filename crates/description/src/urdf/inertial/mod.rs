@@ -4,8 +4,8 @@ mod bodies;
 mod possible;
 mod repair;
 
-pub(crate) use bodies::repair_inertias;
 pub(super) use bodies::judge;
+pub(crate) use bodies::repair_inertias;
 pub(crate) use repair::Repairs;
 
 #[cfg(test)]
