@@ -3,7 +3,7 @@
 use congruent_input::{Capability, Diagnostic, Diagnostics};
 use congruent_mjcf::{MjEquality, MjEqualityKind, MjModel};
 
-use super::{placed, tree::RobotParts};
+use super::{placed::placed, tree::RobotParts};
 use crate::codes;
 
 /// Makes followers of the linear equalities that hold; what else holds is reported. Loops were reported by the reader.

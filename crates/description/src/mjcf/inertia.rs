@@ -6,7 +6,7 @@ use congruent_mjcf::{
 };
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
-use super::{mesh::ModelMeshes, placed, tree::RobotParts};
+use super::{mesh::ModelMeshes, placed::placed, tree::RobotParts};
 use crate::model::Inertia;
 
 /// Gives the links their inertia. A body whose inertia follows from a mesh that cannot be read has none, which stops forces

@@ -7,7 +7,7 @@ use congruent_meshes::{FindMesh, FoundMesh, Mesh, hull_triangles};
 use congruent_mjcf::{MeshMass, MjMesh, MjMeshInertia, MjModel, mesh_mass};
 use nalgebra::{Isometry3, Point3, Translation3};
 
-use super::placed;
+use super::placed::placed;
 use crate::codes;
 
 /// A mesh that was looked for: the mesh, scaled but not moved, or why there is none.

@@ -12,6 +12,7 @@ mod inertia;
 mod joint;
 mod mesh;
 mod names;
+mod placed;
 mod shape;
 mod site;
 mod tree;
@@ -21,7 +22,7 @@ use std::{collections::BTreeSet, sync::Arc};
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, SourceFile};
 use congruent_meshes::FindMesh;
-use congruent_mjcf::{MjModel, MjPlace, ReadFile, codes::mjcf::LOOP};
+use congruent_mjcf::{MjModel, ReadFile, codes::mjcf::LOOP};
 
 use self::{mesh::ModelMeshes, tree::RobotParts};
 use crate::{
@@ -101,6 +102,7 @@ fn bounded(model: &MjModel) -> Result<(), Diagnostic> {
 
 fn robot(model: &MjModel, find_mesh: &mut FindMesh<'_>, diagnostics: &mut Diagnostics) -> Option<ModelRobot> {
     let mut parts = RobotParts::from_model(model, diagnostics);
+    site::add(model, &mut parts, diagnostics);
     let mut meshes = ModelMeshes::new(model, find_mesh);
     shape::add(model, &mut parts, &mut meshes, diagnostics);
     inertia::add(model, &mut parts, &mut meshes, diagnostics);
@@ -122,11 +124,6 @@ fn robot(model: &MjModel, find_mesh: &mut FindMesh<'_>, diagnostics: &mut Diagno
 fn robot_name(model: &MjModel) -> String {
     let file = || model.files[0].path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     if model.name.is_empty() { file().unwrap_or_default() } else { model.name.clone() }
-}
-
-/// A finding at a place of the model.
-fn placed(found: Diagnostic, place: &MjPlace) -> Diagnostic {
-    found.at(place.span.clone()).in_file(&place.source)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::{
     mesh::{ModelMeshes, scaled_from_mesh},
-    placed,
+    placed::placed,
     tree::RobotParts,
 };
 use crate::{

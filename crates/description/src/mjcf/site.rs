@@ -3,14 +3,14 @@
 use congruent_input::{Diagnostic, Diagnostics, units::LARGEST};
 use congruent_mjcf::{MjModel, codes::mjcf::NUMBER};
 
-use super::{placed, tree::RobotParts};
+use super::{placed::placed, tree::RobotParts};
 
-/// Adds the sites of a body. One without a name is left out, since nothing can refer to it.
-pub(super) fn add(model: &MjModel, body: usize, parts: &mut RobotParts, diagnostics: &mut Diagnostics) {
-    for site in model.sites_of(body).iter().filter(|site| site.name.is_written) {
+/// Adds the sites of all bodies. One without a name is left out, since nothing can refer to it.
+pub(super) fn add(model: &MjModel, parts: &mut RobotParts, diagnostics: &mut Diagnostics) {
+    for site in model.sites.iter().filter(|site| site.name.is_written) {
         let far_m = site.body_from_site.translation.vector.amax();
         if far_m <= LARGEST {
-            let parent = parts.body_links[body].clone();
+            let parent = parts.body_links[site.body].clone();
             parts.push_frame(&parent, &site.name.text, site.body_from_site);
         } else {
             let message = format!("site \"{}\" is {far_m:e} m away, limit <= {LARGEST:e} m", site.name);

@@ -8,7 +8,7 @@ use congruent_input::{Capability, Diagnostic, Diagnostics, units::LARGEST};
 use congruent_mjcf::{MjBody, MjJoint, MjJointKind, MjModel, codes::mjcf::NUMBER};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::{joint, names::TakenNames, placed, site};
+use super::{joint, names::TakenNames, placed::placed};
 use crate::{
     codes,
     model::{JointKind, JointParts, Link},
@@ -46,7 +46,6 @@ impl RobotParts {
             refuse_far(body, model.joints_of(index), diagnostics);
             cut_joints(model, index, moving_below[index], diagnostics);
             parts.add_body(model, index);
-            site::add(model, index, &mut parts, diagnostics);
         }
         parts
     }

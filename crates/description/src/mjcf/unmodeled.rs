@@ -5,7 +5,7 @@ use std::fmt::Display;
 use congruent_input::{Diagnostic, Diagnostics, display::quantity};
 use congruent_mjcf::{MjJoint, MjJointKind, MjModel, MjTarget};
 
-use super::{placed, tree::RobotParts};
+use super::{placed::placed, tree::RobotParts};
 use crate::codes;
 
 /// The gravity with which all forces are computed, m/s^2.
