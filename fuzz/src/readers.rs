@@ -22,6 +22,7 @@ use congruent::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     Urdf,
+    Mjcf,
     RobotToml,
     Srdf,
     Scenario,
@@ -41,8 +42,9 @@ impl Kind {
     /// Every kind with the name of its fuzz target and of its folder of the corpus, and the file that the bytes are
     /// written to.
     #[allow(dead_code, reason = "the fuzz targets name theirs")]
-    pub const ALL: [(Self, &str); 14] = [
+    pub const ALL: [(Self, &str); 15] = [
         (Self::Urdf, "urdf"),
+        (Self::Mjcf, "mjcf"),
         (Self::RobotToml, "robot_toml"),
         (Self::Srdf, "srdf"),
         (Self::Scenario, "scenario"),
@@ -61,6 +63,7 @@ impl Kind {
     fn file(self) -> &'static str {
         match self {
             Self::Urdf => "fuzzed.urdf",
+            Self::Mjcf => "fuzzed.xml",
             Self::RobotToml => "fuzzed.toml",
             Self::Srdf => "fuzzed.srdf",
             Self::Scenario => "fuzzed_scenario.toml",
@@ -115,6 +118,11 @@ impl Readers {
                     written_and_read_again(&loaded);
                 }
             }
+            Kind::Mjcf => {
+                if let Ok(loaded) = as_text(load_robot(&path)) {
+                    has_poses(&loaded);
+                }
+            }
             Kind::Srdf => _ = as_text(load_robot(&self.folder.path().join("robot.toml"))),
             Kind::Scenario => _ = as_text(RunSetup::load(&path, &[])),
             Kind::Playback => _ = as_text(RunSetup::load(&self.folder.path().join("playing.toml"), &[])),
@@ -154,8 +162,8 @@ fn as_text<T>(result: Result<T, Findings>) -> Result<T, ()> {
     })
 }
 
-/// A robot that was accepted has poses, can be written, and is the same when it is read again.
-fn written_and_read_again(loaded: &RobotDescription) {
+/// A robot that was accepted has poses.
+fn has_poses(loaded: &RobotDescription) {
     for needed in [Capability::Kinematics, Capability::Clearance, Capability::Physics] {
         let _ = loaded.check_capability(needed);
     }
@@ -164,6 +172,12 @@ fn written_and_read_again(loaded: &RobotDescription) {
     for link in robot.link_indices() {
         tree.root_from_link(&zero, link).expect("a robot's configuration");
     }
+}
+
+/// It can be written as well, and is the same when it is read again. A URDF cannot express all of an MJCF: a slide without limits.
+fn written_and_read_again(loaded: &RobotDescription) {
+    has_poses(loaded);
+    let robot = &loaded.robot;
     let again = parse_urdf(&urdf_text(robot)).expect("what is written is a URDF");
     assert_eq!(again.joints().len(), robot.joints().len());
 }

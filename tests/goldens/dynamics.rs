@@ -35,7 +35,7 @@ fn relative(found: &[f64], expected: &[f64]) -> f64 {
 }
 
 /// The worst relative difference of a source from the golden, which counts each joint as driven.
-fn worst(urdf: &str, batch: &str, golden: &Golden, source: &str) -> f64 {
+pub(super) fn worst(urdf: &str, batch: &str, golden: &Golden, source: &str) -> f64 {
     let arguments = ["dynamics", urdf, "--configurations", batch, "--source", source, "--free-followers"];
     let answer = congruent_json(&arguments);
     assert_eq!(answer.code, 0, "{urdf}: {}", answer.stderr);

@@ -6,4 +6,5 @@ mod dynamics;
 mod forward;
 mod frames;
 mod jacobian;
+mod mjcf;
 mod robots;

@@ -10,8 +10,9 @@ use support::{all_sources, code_lines, crate_names, program_sources, read, root}
 const ARROWS: &[(&str, &[&str])] = &[
     ("input", &[]),
     ("tables", &["input"]),
+    ("mjcf", &["input"]),
     ("meshes", &["input"]),
-    ("description", &["input", "tables", "meshes"]),
+    ("description", &["input", "tables", "mjcf", "meshes"]),
     ("lint", &["input", "description"]),
     ("kinematics", &["input", "description"]),
     ("dynamics", &["description", "kinematics"]),
@@ -96,6 +97,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "input",
             "tables",
+            "mjcf",
             "meshes",
             "description",
             "lint",

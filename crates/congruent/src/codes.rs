@@ -60,6 +60,7 @@ pub fn all_codes() -> Vec<&'static Code> {
         congruent_input::codes::ALL,
         congruent_lint::codes::ALL,
         congruent_meshes::codes::ALL,
+        congruent_mjcf::codes::ALL,
         congruent_monitors::codes::ALL,
         congruent_motion::codes::ALL,
         congruent_proximity::codes::ALL,

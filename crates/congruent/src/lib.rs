@@ -15,6 +15,7 @@ pub use congruent_kinematics as kinematics;
 pub use congruent_lint as lint_rules;
 pub use congruent_mapping as mapping;
 pub use congruent_meshes as meshes;
+pub use congruent_mjcf as mjcf;
 pub use congruent_monitors as monitors;
 pub use congruent_motion as motion;
 pub use congruent_page as page;

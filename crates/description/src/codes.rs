@@ -7,6 +7,28 @@ congruent_input::codes! {
         NO_ROBOT_FILE = "CGR-FILE-015", "load::no_robot_file" unreadable,
             "The folder has no robot.toml, so it is not a robot. Give a folder with a robot.toml, a robot file or a .urdf.";
     }
+    mjcf {
+        TREE = "CGR-MJCF-051", "mjcf::tree",
+            "The bodies and joints of an MJCF make no robot, as joints that follow each other in a circle. The message has the reason.";
+        FREE = "CGR-MJCF-052", "mjcf::free",
+            "A body moves freely. A robot here is fixed to the world, so the body is fixed at the pose that the file gives it.";
+        BALL = "CGR-MJCF-053", "mjcf::ball",
+            "A ball joint has no position that is one number. A body on which nothing moves is fixed at its written pose, and forces are refused; with moving joints behind it the robot is refused. Replace it by three hinges in the same body.";
+        SHAPE = "CGR-MJCF-054", "mjcf::shape",
+            "A geom has a shape that is not read: an ellipsoid, a plane on a body that moves, a height field, or a shape that is fitted to a mesh. Distances are refused if it collides.";
+        MESH = "CGR-MJCF-055", "mjcf::mesh",
+            "A mesh has neither a file nor vertices that enclose a volume: meshes that MuJoCo builds itself are not read.";
+        COUPLING = "CGR-MJCF-056", "mjcf::coupling",
+            "An equality that is no linear coupling of two joints: a polynomial of degree 2 or more, a locked joint, tendons. The joint is read as one that moves by itself, and forces are refused.";
+        GRAVITY = "CGR-MJCF-057", "mjcf::gravity",
+            "MuJoCo would simulate another weight: the file has another gravity, or a body has a gravcomp. Forces are computed with 9.81 m/s^2 downwards and the whole weight.";
+        ARMATURE = "CGR-MJCF-058", "mjcf::armature",
+            "A joint has an armature, the inertia of its motor, which MuJoCo adds to the mass matrix. Forces are computed without it.";
+        SPRING = "CGR-MJCF-059", "mjcf::spring",
+            "A joint has a spring (`stiffness`), whose torque is left out of forces.";
+        DAMPING = "CGR-MJCF-060", "mjcf::damping",
+            "A joint has a damping that grows with a power of the speed. Only the part that is proportional to the speed is read.";
+    }
     srdf {
         UNKNOWN_LINK = "CGR-SRDF-001", "srdf::unknown_link",
             "The SRDF names a link that the robot does not have; a disabled collision pair with this link has no effect. Often the link was renamed.";

@@ -1,4 +1,4 @@
-//! What a robot is: URDF, SRDF, `robot.toml` and meshes, read into a validated [`Robot`] or refused with
+//! What a robot is: URDF, MJCF, SRDF, `robot.toml` and meshes, read into a validated [`Robot`] or refused with
 //! diagnostics that say what is wrong, at which place, and what to do.
 //!
 //! Parsers take text and give a value or diagnostics; only `files/` of crate `input` opens files.
@@ -9,7 +9,9 @@ pub mod codes;
 mod configuration_file;
 mod description;
 mod load;
+mod mjcf;
 mod model;
+mod model_file;
 mod named_robot;
 mod robot_file;
 mod robot_file_text;
@@ -27,6 +29,7 @@ pub use configuration_file::{
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
+pub use mjcf::is_mjcf;
 pub use model::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
     Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex,

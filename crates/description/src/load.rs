@@ -8,10 +8,9 @@ use std::{
 };
 
 use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, direct_path,
-    folder_of, not_found,
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, SourceFile, TextKind, direct_path, folder_of,
+    not_found,
 };
-use congruent_meshes::MeshStore;
 use toml::Spanned;
 
 use crate::{
@@ -19,16 +18,17 @@ use crate::{
     codes,
     description::{NamedFiles, Places, RobotDescription},
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
+    model_file::ModelFile,
     named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_other_text, refuse_scenario},
     robot_file::{self, DeclaredReference, InertialPlaces, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
     srdf::{self, SRDF_BYTES},
-    urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
+    urdf::{Repairs, URDF_BYTES},
 };
 
-/// Loads a robot: a folder with `robot.toml`, that file under any name, or a bare `.urdf`, which may come from
-/// a pipe or as `-` from standard input.
+/// Loads a robot: a folder with `robot.toml`, that file under any name, or a bare URDF or MJCF, which may come from
+/// a pipe or as `-` from standard input. Which of the two it is, its root element says.
 ///
-/// A bare URDF has its root as base, the frame for tools at the end of its longest chain of moving joints (before
+/// A bare URDF or MJCF has its root as base, the frame for tools at the end of its longest chain of moving joints (before
 /// a gripper) as tip, and no Denavit-Hartenberg table.
 ///
 /// A fault in a part that kinematics does not need, such as a missing mesh, is a warning here;
@@ -63,7 +63,7 @@ fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> 
     load_source(&source, access)
 }
 
-/// The same from a robot file or a URDF that was opened already.
+/// The same from a robot file, a URDF or an MJCF that was opened already.
 ///
 /// # Errors
 /// As [`load_robot`].
@@ -79,13 +79,13 @@ pub fn load_opened_robot(
 }
 
 fn load_source(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
-    if is_toml(&source.path) { load_robot_file(source, access) } else { load_bare_urdf(source, access) }
+    if is_toml(&source.path) { load_robot_file(source, access) } else { load_bare_model(source, access) }
 }
 
 /// The same from texts alone, whose paths only name them: nothing is opened.
 ///
-/// Meshes cannot be found, so a URDF with meshes is refused for clearance; of the robot file the keys `urdf`,
-/// `srdf` and `packages` are not followed.
+/// Meshes cannot be found, so a URDF with meshes is refused for clearance, and an MJCF that includes files is refused; of the robot
+/// file the keys `urdf`, `description`, `srdf` and `packages` are not followed.
 ///
 /// # Errors
 /// Every diagnostic, errors and warnings, if at least one is an error.
@@ -105,37 +105,35 @@ pub fn parse_robot(
     urdf: &Arc<SourceFile>,
 ) -> Result<RobotDescription, Findings> {
     let Some(robot_file) = robot_file else {
-        let inputs = UrdfInputs { find_mesh: &mut urdf::no_mesh, repairs: &Repairs::default() };
-        let (robot, warnings) = read_urdf(urdf, inputs)?;
-        return Ok(bare(urdf, robot, warnings));
+        return Ok(bare(urdf, ModelFile::parse(urdf, &Repairs::default())?));
     };
     let mut diagnostics = Diagnostics::default();
     // Unknown keys are faults but still give a value, so that the URDF and the names are checked in the same run.
     let written: Option<WrittenRobot> = robot_file::parse(&robot_file.text, &mut diagnostics);
     let declared = written.and_then(|written| {
         let repairs = written.repairs(robot_file);
-        let inputs = UrdfInputs { find_mesh: &mut urdf::no_mesh, repairs: &repairs };
         // Faults of both files are collected, since each must be corrected anyway.
-        let (robot, warnings) = read_urdf(urdf, inputs).map_err(|faults| diagnostics.extend(faults)).ok()?;
-        diagnostics.extend(warnings);
-        declared(written, robot_file, urdf, robot, &mut diagnostics)
+        let mut model = ModelFile::parse(urdf, &repairs).map_err(|faults| diagnostics.extend(faults)).ok()?;
+        diagnostics.extend(std::mem::take(&mut model.warnings));
+        declared(written, robot_file, urdf, model, &mut diagnostics)
     });
     checked(declared, diagnostics, robot_file)
 }
 
-fn load_bare_urdf(urdf: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
-    let (robot, warnings) = load_urdf(urdf, BTreeMap::new(), access, &Repairs::default())?;
+fn load_bare_model(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
+    let model = ModelFile::load(source, BTreeMap::new(), access, &Repairs::default())?;
     let named_files = NamedFiles { packages: access.packages().clone(), ..NamedFiles::default() };
-    Ok(RobotDescription { named_files, ..bare(urdf, robot, warnings) })
+    Ok(RobotDescription { named_files, ..bare(source, model) })
 }
 
-/// The description of a bare URDF: root as base, a chosen tip, no table, default tolerance.
-fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> RobotDescription {
+/// The description of a bare URDF or MJCF: root as base, a chosen tip, no table, default tolerance.
+fn bare(source: &Arc<SourceFile>, model: ModelFile) -> RobotDescription {
+    let ModelFile { robot, warnings, excluded, places } = model;
     let base = robot.root();
     RobotDescription {
-        path: urdf.path.clone(),
+        path: source.path.clone(),
         name: robot.name().to_owned(),
-        urdf_path: urdf.path.clone(),
+        urdf_path: source.path.clone(),
         base,
         tip: choose_tip(&robot, base).tip,
         chain_ends: ChainEnds::default(),
@@ -149,47 +147,12 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
         mapping: None,
         references: Vec::new(),
         named_files: NamedFiles::default(),
-        disabled_collisions: BTreeSet::new(),
+        disabled_collisions: excluded,
         warnings,
         inputs: Vec::new(),
-        places: Places { urdf: Some(UrdfPlaces::new(Arc::clone(urdf))), ..Places::default() },
+        places: Places { urdf: places, ..Places::default() },
     }
     .with_tip_warning()
-}
-
-/// Reads a URDF with its meshes.
-fn load_urdf(
-    source: &Arc<SourceFile>,
-    declared: BTreeMap<String, PathBuf>,
-    access: &FileAccess,
-    repairs: &Repairs,
-) -> Result<(Robot, Vec<Diagnostic>), Findings> {
-    let path = &source.path;
-    let mut packages = Packages::new(folder_of(path), declared, access).map_err(|error| {
-        let message = format!("{}: its folder cannot be read: {error}", path.display());
-        Diagnostic::error(congruent_input::codes::file::UNREADABLE, message)
-    })?;
-    // One store for the whole URDF: a mesh that several links use is read and checked once.
-    let mut meshes = MeshStore::new(&mut packages, access);
-    read_urdf(source, UrdfInputs { find_mesh: &mut |uri, scale| meshes.find(uri, scale), repairs })
-}
-
-/// A robot with its warnings, or every diagnostic if one is an error.
-fn read_urdf(
-    source: &Arc<SourceFile>,
-    inputs: UrdfInputs<'_, '_>,
-) -> Result<(Robot, Vec<Diagnostic>), Findings> {
-    let mut diagnostics = Diagnostics::default();
-    let robot = urdf::parse(&source.text, inputs, &mut diagnostics);
-    let diagnostics = diagnostics.in_file(source);
-    match robot {
-        Some(robot) => {
-            // Sizes are warned of part by part; which links are large, and so explain their sizes, is known only now.
-            let warnings = urdf::without_large_links(&robot, diagnostics);
-            Ok((robot, warnings))
-        }
-        None => Err(diagnostics.into()),
-    }
 }
 
 fn load_robot_file(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
@@ -217,8 +180,8 @@ fn checked(
     }
 }
 
-/// Reads a robot file and the files that it names. The order is that of need: the URDF needs packages and repairs, SRDF and
-/// table need the links and joints of the URDF.
+/// Reads a robot file and the files that it names. The order is that of need: URDF or MJCF need packages and repairs, SRDF and
+/// table need its links and joints.
 fn read_robot_file(
     robot_file: &Arc<SourceFile>,
     access: &FileAccess,
@@ -234,19 +197,21 @@ fn read_robot_file(
     let repairs = written.repairs(robot_file);
     // If the URDF cannot be used, nothing after it can be checked: names of links and joints would all be unknown.
     let urdf = access.read_text(&urdf_path, URDF_BYTES, TextKind::Robot).map_err(Findings::from);
-    let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, packages, access, &repairs)?, urdf)));
-    let ((robot, warnings), urdf) = match robot {
+    let model = urdf.and_then(|urdf| Ok((ModelFile::load(&urdf, packages, access, &repairs)?, urdf)));
+    let (mut model, urdf) = match model {
         Ok(read) => read,
         Err(faults) => {
-            let urdf = written.urdf.as_ref().map_or(0..0, Spanned::span);
+            let urdf = written.model().map_or(0..0, |(_, path)| path.span());
             diagnostics.extend(faults.into_iter().map(|fault| placed(fault, &urdf)));
             return None;
         }
     };
-    diagnostics.extend(warnings);
+    diagnostics.extend(std::mem::take(&mut model.warnings));
     let srdf = written.srdf.clone();
-    let disabled_collisions = disabled_collisions(srdf.as_ref(), folder, access, &robot, diagnostics);
-    let description = declared(written, robot_file, &urdf, robot, diagnostics)?;
+    let mut disabled_collisions =
+        disabled_collisions(srdf.as_ref(), folder, access, &model.robot, diagnostics);
+    disabled_collisions.extend(&model.excluded);
+    let description = declared(written, robot_file, &urdf, model, diagnostics)?;
     Some(RobotDescription { named_files, disabled_collisions, ..description })
 }
 
@@ -255,9 +220,10 @@ fn declared(
     written: WrittenRobot,
     robot_file: &Arc<SourceFile>,
     urdf: &Arc<SourceFile>,
-    robot: Robot,
+    model: ModelFile,
     diagnostics: &mut Diagnostics,
 ) -> Option<RobotDescription> {
+    let ModelFile { robot, excluded, places, .. } = model;
     let declared = robot_file::check(&written, &robot_file.text, &robot, diagnostics);
     let declared = declared?;
     // Only here is the reach known (tip and tool are resolved), with which a tolerance is compared.
@@ -290,10 +256,10 @@ fn declared(
         mapping: declared.mapping,
         references: declared.references.into_iter().map(in_folder).collect(),
         named_files: NamedFiles::default(),
-        disabled_collisions: BTreeSet::new(),
+        disabled_collisions: excluded,
         warnings: Vec::new(),
         inputs: Vec::new(),
-        places: Places { robot_file: table, inertials, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
+        places: Places { robot_file: table, inertials, urdf: places },
     })
 }
 
@@ -330,33 +296,39 @@ fn written_robot(
     diagnostics: &mut Diagnostics,
 ) -> Option<(WrittenRobot, PathBuf)> {
     let written: WrittenRobot = robot_file::parse(&robot_file.text, diagnostics)?;
-    let urdf = diagnostics.keep(written.urdf.as_ref().ok_or_else(|| {
+    let (key, urdf) = diagnostics.keep(written.model().ok_or_else(|| {
         Diagnostic::error(codes::robot_file::URDF, "the robot file has no key \"urdf\"")
             .at(0..0)
             .with_help("urdf = \"robot.urdf\", relative to the robot file")
     }))?;
+    if let (Some(_), Some(description)) = (&written.urdf, &written.description) {
+        let message = "the robot file has both keys \"urdf\" and \"description\", which are two names of one";
+        let fault = Diagnostic::error(codes::robot_file::URDF, message).at(description.span());
+        diagnostics.push(fault.with_help("keep one of them"));
+        return None;
+    }
     let urdf_path = folder_of(&robot_file.path).join(urdf.get_ref());
     // Permission before existence, so that a message does not reveal which files exist outside the project.
     diagnostics.keep(access.check(&urdf_path).map_err(|fault| fault.at(urdf.span())))?;
     // Here instead of when it is read, so that the message points at the key and quotes the path as written.
     if !urdf_path.exists() {
-        let fault = urdf_not_found(urdf.get_ref(), folder_of(&robot_file.path), access);
+        let fault = urdf_not_found(key, urdf.get_ref(), folder_of(&robot_file.path), access);
         diagnostics.push(fault.at(urdf.span()));
         return None;
     }
     Some((written, direct_path(&urdf_path)))
 }
 
-/// A URDF that is not where the robot file says: the help has a similar name, or the same name in another folder nearby.
-fn urdf_not_found(written: &Path, folder: &Path, access: &FileAccess) -> Diagnostic {
+/// A URDF or MJCF that is not where the robot file says: the help has a similar name, or the same name in another folder nearby.
+fn urdf_not_found(key: &str, written: &Path, folder: &Path, access: &FileAccess) -> Diagnostic {
     if written.to_string_lossy().contains("://") {
-        let message = format!("urdf = \"{}\" is no path", written.display());
+        let message = format!("{key} = \"{}\" is no path", written.display());
         return Diagnostic::error(congruent_input::codes::file::NOT_FOUND, message).with_help(
             "package:// is for meshes in a URDF; give the path of the URDF, relative to this file",
         );
     }
     let path = folder.join(written);
-    let message = format!("urdf = \"{}\": {} does not exist", written.display(), path.display());
+    let message = format!("{key} = \"{}\": {} does not exist", written.display(), path.display());
     let fault = not_found(&path, message);
     if fault.help.is_some() {
         return fault;

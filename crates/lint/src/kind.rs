@@ -1,8 +1,8 @@
-//! Decides by its content of which kind a file is: `.xml` may be a URDF or an SRDF, `.toml` a robot file or a scenario.
+//! Decides by its content of which kind a file is: `.xml` may be a URDF, an MJCF or an SRDF, `.toml` a robot file or a scenario.
 
 use std::{path::Path, sync::Arc};
 
-use congruent_description::{URDF_BYTES, file_of_robot, open};
+use congruent_description::{URDF_BYTES, file_of_robot, is_mjcf, open};
 use congruent_input::{Diagnostic, FileAccess, SourceFile, TomlKind, head_of, xml};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -15,6 +15,8 @@ use crate::codes;
 pub enum FileKind {
     /// A robot description in URDF.
     Urdf,
+    /// A robot description in MJCF, the XML of MuJoCo; rules about the text of a URDF do not apply.
+    Mjcf,
     /// A robot file with what it names, or a folder with one.
     RobotFile,
     /// A semantic robot description (SRDF): groups, named states, disabled collision pairs.
@@ -78,6 +80,7 @@ impl FileToLint {
         let begin = source.text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']);
         let kind = match extension.as_str() {
             "srdf" => FileKind::Srdf,
+            _ if is_mjcf(&source.text) => FileKind::Mjcf,
             "urdf" | "xacro" => FileKind::Urdf,
             "toml" if path.is_dir() => FileKind::RobotFile,
             "toml" => match TomlKind::from_text(&source.text) {
@@ -93,11 +96,11 @@ impl FileToLint {
 
 fn no_kind(path: &Path, why: &str) -> Diagnostic {
     let message = format!(
-        "{} is not a URDF, SRDF, robot file, scenario or table of configurations: {why}",
+        "{} is not a URDF, MJCF, SRDF, robot file, scenario or table of configurations: {why}",
         path.display()
     );
     Diagnostic::error(codes::lint::KIND, message).with_help(
-        "give a .urdf, .srdf or .toml, a folder with robot.toml, or a .json, .jsonl or .csv that `fk`, `ik` or `calibrate` reads",
+        "give a .urdf, an .xml with <mujoco>, a .srdf or .toml, a folder with robot.toml, or a .json, .jsonl or .csv that `fk`, `ik` or `calibrate` reads",
     )
 }
 
@@ -163,6 +166,7 @@ mod tests {
         assert_eq!(kind("d.xml", "<robot name='r'><link name='a'/></robot>"), Ok(FileKind::Urdf));
         assert_eq!(kind("e.xml", "<robot name='r'><group name='arm'/></robot>"), Ok(FileKind::Srdf));
         assert_eq!(kind("f.xml", "<robot"), Ok(FileKind::Urdf));
+        assert_eq!(kind("i.xml", "<!-- arm -->\n<mujoco model='m'>"), Ok(FileKind::Mjcf));
         assert_eq!(kind("g.txt", "a,b\n1,2\n"), Err("lint::kind"));
         assert_eq!(kind("h.mcap", "\u{89}MCAP0"), Err("lint::kind"));
         let folder = FileToLint::open(folder.path(), &FileAccess::default());

@@ -11,6 +11,6 @@ mod obj;
 mod stl;
 mod store;
 
-pub use hull::HullPoints;
+pub use hull::{HullPoints, hull_triangles};
 pub use mesh::Mesh;
 pub use store::{FindMesh, FoundMesh, MeshStore, read_mesh};

@@ -27,7 +27,7 @@ fn robots<'a>(
         let is_other = other.as_path() != path && (other.is_file() || other.is_dir());
         let opened = is_other.then(|| FileToLint::open(other, &access.fresh()));
         opened.is_some_and(|file| {
-            file.is_ok_and(|file| matches!(file.kind, FileKind::Urdf | FileKind::RobotFile))
+            file.is_ok_and(|file| matches!(file.kind, FileKind::Urdf | FileKind::Mjcf | FileKind::RobotFile))
         })
     };
     others.iter().filter(is_robot)

@@ -72,7 +72,11 @@ pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintRe
 /// What [`lint`] finds in a robot that has been read.
 pub(crate) fn lint_robot(description: &RobotDescription) -> LintReport {
     let is_bare = description.path == description.urdf_path;
-    let kind = if is_bare { FileKind::Urdf } else { FileKind::RobotFile };
+    let kind = match &description.places.urdf {
+        _ if !is_bare => FileKind::RobotFile,
+        Some(_) => FileKind::Urdf,
+        None => FileKind::Mjcf,
+    };
     let ignores = if is_bare { Ignores::default() } else { ignores_of_robot(description) };
     report(Examined { kind: Some(kind), found: suspicions(description), ignores })
 }
@@ -138,7 +142,9 @@ const ALL_USES: [Capability; 3] = [Capability::Kinematics, Capability::Clearance
 fn stopped_uses(found: &Diagnostic, kind: Option<FileKind>) -> Vec<Capability> {
     match (found.severity, found.stops, kind) {
         (_, Some(stopped), _) => vec![stopped],
-        (Severity::Error, None, Some(FileKind::Urdf | FileKind::RobotFile)) => ALL_USES.to_vec(),
+        (Severity::Error, None, Some(FileKind::Urdf | FileKind::Mjcf | FileKind::RobotFile)) => {
+            ALL_USES.to_vec()
+        }
         _ => Vec::new(),
     }
 }

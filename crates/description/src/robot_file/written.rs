@@ -36,6 +36,10 @@ pub struct WrittenRobot {
     /// The URDF, relative to this file.
     #[schemars(with = "String")]
     pub(crate) urdf: Option<Spanned<PathBuf>>,
+    /// The URDF or MJCF, relative to this file: another name of the key `urdf`.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub(crate) description: Option<Spanned<PathBuf>>,
     /// The SRDF that disables collisions, relative to this file.
     #[serde(default)]
     #[schemars(with = "String")]
@@ -99,6 +103,12 @@ impl WrittenRobot {
     /// Byte range of the first value of the tolerance; `None` if there is none.
     pub(crate) fn tolerance_span(&self) -> Option<Range<usize>> {
         self.tolerance.as_ref()?.span()
+    }
+
+    /// The URDF or MJCF of the robot, and the key that names it.
+    pub(crate) fn model(&self) -> Option<(&'static str, &Spanned<PathBuf>)> {
+        let keys = [("urdf", &self.urdf), ("description", &self.description)];
+        keys.into_iter().find_map(|(key, path)| Some((key, path.as_ref()?)))
     }
 
     /// The links whose inertia is to be repaired.

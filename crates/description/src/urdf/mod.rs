@@ -41,7 +41,7 @@ use crate::{
     model::{Link, Robot, RobotError},
 };
 
-pub(crate) use inertial::Repairs;
+pub(crate) use inertial::{Repairs, repair_inertias};
 pub(crate) use large::without_large_links;
 
 /// Size limit of a URDF, bytes.

@@ -11,9 +11,9 @@ use crate::{
 /// A kind of text that a file may name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextKind {
-    /// A URDF or an SRDF: XML with the element `robot`.
+    /// A URDF, an SRDF or an MJCF: XML with the element `robot` or `mujoco`.
     Robot,
-    /// A robot file: TOML with the key `urdf` or a table `dh`.
+    /// A robot file: TOML with the key `urdf` or `description`, or a table `dh`.
     RobotFile,
     /// A table: a line of names, then numbers.
     Table,
@@ -35,7 +35,7 @@ impl TextKind {
 
     fn words(self) -> &'static str {
         match self {
-            Self::Robot => "a URDF or an SRDF",
+            Self::Robot => "a URDF, an SRDF or an MJCF",
             Self::RobotFile => "a robot file",
             Self::Table => "a table of numbers",
         }
@@ -44,10 +44,14 @@ impl TextKind {
     fn is_met_by(self, text: &str) -> bool {
         let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
         match self {
-            Self::Robot => text.trim_start().starts_with('<') && text.contains("<robot"),
+            Self::Robot => {
+                text.trim_start().starts_with('<') && (text.contains("<robot") || text.contains("<mujoco"))
+            }
             Self::RobotFile => lines.any(|line| {
-                let has_urdf = |rest: &str| rest.trim_start().starts_with('=');
-                line.strip_prefix("urdf").is_some_and(has_urdf) || line.starts_with("[dh")
+                let has_value = |rest: &str| rest.trim_start().starts_with('=');
+                let names_model =
+                    ["urdf", "description"].iter().any(|key| line.strip_prefix(key).is_some_and(has_value));
+                names_model || line.starts_with("[dh")
             }),
             Self::Table => lines.nth(1).is_some_and(|line| line.split([',', ';', '\t']).all(is_number)),
         }

@@ -84,6 +84,26 @@ impl HullPoints {
     }
 }
 
+/// The triangles of the convex hull of some points, as indices, counter-clockwise in a view from outside; none if the points have no
+/// plane. Of points in one plane they are one side.
+///
+/// # Examples
+/// ```
+/// use congruent_meshes::hull_triangles;
+/// use nalgebra::Point3;
+/// let corner = |n: u8| Point3::from([n & 1, n >> 1 & 1, n >> 2].map(f64::from));
+/// let cube: Vec<_> = (0..8).map(corner).collect();
+/// assert_eq!(hull_triangles(&cube).len(), 12);
+/// ```
+pub fn hull_triangles(vertices_m: &[Point3<f64>]) -> Vec<[usize; 3]> {
+    let size_m = size(vertices_m);
+    let Some(mut polytope) = Polytope::new(vertices_m, size_m) else { return Vec::new() };
+    while polytope.farthest_m() > NEGLIGIBLE * size_m && polytope.tests() < MOST_TESTS {
+        polytope.add_farthest();
+    }
+    polytope.triangles()
+}
+
 /// The diagonal of the box around points.
 fn size(points: &[Point3<f64>]) -> f64 {
     let Some(first) = points.first() else { return 0.0 };

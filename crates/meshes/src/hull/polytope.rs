@@ -195,6 +195,12 @@ impl Polytope {
         corners
     }
 
+    /// The facets of given points, by the indices of their corners.
+    pub(super) fn triangles(&self) -> Vec<[usize; 3]> {
+        let facets = self.facets.iter().filter(|facet| !facet.is_removed).map(|facet| facet.corners);
+        facets.filter(|corners| corners.iter().all(|corner| *corner < self.given)).collect()
+    }
+
     /// All facets that `point` is above, starting from one of them (`first`), and the edges around them.
     fn hole(&self, first: usize, point: usize) -> (Vec<usize>, Vec<HorizonEdge>) {
         // The facets visible from a point of a convex body are connected, so a search over neighbors finds them all. `visible`

@@ -26,6 +26,15 @@ pub(in crate::urdf) fn judge(
     diagnostics: &mut Diagnostics,
 ) {
     // Repairs before the checks, which then see the repaired tensors.
+    repair_inertias(robot, repairs, diagnostics);
+    let nodes: BTreeMap<&str, Node<'_, '_>> =
+        elements(root, "link").filter_map(|node| Some((node.attribute("name")?, node))).collect();
+    let judge = InertiaCheck { robot, nodes, bodies: LinkBodies::from_robot(robot), diagnostics };
+    judge.all();
+}
+
+/// Repairs the inertias that the robot file names.
+pub(crate) fn repair_inertias(robot: &mut Robot, repairs: &Repairs, diagnostics: &mut Diagnostics) {
     for (name, at) in &repairs.links {
         let repair_finding = repair(robot, name).unwrap_or_else(|fault| fault).at(at.clone());
         diagnostics.push(match &repairs.source {
@@ -33,10 +42,6 @@ pub(in crate::urdf) fn judge(
             None => repair_finding,
         });
     }
-    let nodes: BTreeMap<&str, Node<'_, '_>> =
-        elements(root, "link").filter_map(|node| Some((node.attribute("name")?, node))).collect();
-    let judge = InertiaCheck { robot, nodes, bodies: LinkBodies::from_robot(robot), diagnostics };
-    judge.all();
 }
 
 /// Replaces the tensor of a link by the nearest possible one.

@@ -5,6 +5,7 @@ mod possible;
 mod repair;
 
 pub(super) use bodies::judge;
+pub(crate) use bodies::repair_inertias;
 pub(crate) use repair::Repairs;
 
 #[cfg(test)]

@@ -1,0 +1,51 @@
+//! The values of a joint: kind, axis, limits, losses.
+
+use congruent_mjcf::{MjEffort, MjJoint, MjJointKind, MjModel, MjTarget};
+
+use crate::model::{Joint, JointKind, JointLimit, JointParts};
+
+/// Ranges from here on stand for "no limit"; squares of such positions overflow. Unit: rad or m; kind: range of numbers.
+const UNLIMITED: f64 = 1e30;
+
+/// A joint whose frame is known, with the other values of a hinge or a slide.
+pub(super) fn with_values(frame: JointParts, model: &MjModel, number: usize) -> JointParts {
+    let joint = &model.joints[number];
+    let range = joint.range.as_ref().map(|range| range.value).filter(is_limit);
+    let kind = match (joint.kind, range) {
+        (MjJointKind::Slide, _) => JointKind::Prismatic,
+        (_, Some(_)) => JointKind::Revolute,
+        (_, None) => JointKind::Continuous,
+    };
+    // A slide without a range has no limit at all: the two ends that a limit needs would not be true.
+    let [lower, upper] = range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let has_limit = range.is_some() || kind == JointKind::Continuous;
+    let limit = JointLimit { lower, upper, velocity: None, effort: effort(joint) };
+    let joint = Joint {
+        kind,
+        axis_in_joint: joint.axis_in_body.value,
+        limit: has_limit.then_some(limit),
+        damping: joint.damping.value[0] + damping_of_actuators(model, number),
+        friction: joint.friction_loss.value,
+        ..frame.joint
+    };
+    JointParts { joint, ..frame }
+}
+
+fn is_limit([lower, upper]: &[f64; 2]) -> bool {
+    lower.abs() < UNLIMITED && upper.abs() < UNLIMITED
+}
+
+/// The largest effort; `None` if it is not known.
+fn effort(joint: &MjJoint) -> Option<f64> {
+    match joint.effort {
+        MjEffort::Within { range: [lower, upper], .. } => Some(upper.max(-lower)),
+        MjEffort::Unactuated | MjEffort::Unlimited | MjEffort::ThroughTendon => None,
+    }
+}
+
+/// The passive damping that actuators of MuJoCo 4.0 add to their joint.
+fn damping_of_actuators(model: &MjModel, joint: usize) -> f64 {
+    let own = model.actuators.iter().filter(|actuator| actuator.target == MjTarget::Joint(joint));
+    // Adding zero makes the sum of nothing, which is -0.0, plain zero.
+    own.map(|actuator| actuator.damping).sum::<f64>() + 0.0
+}

@@ -1,0 +1,71 @@
+//! What forces would need and a robot has no place for: each is reported with its value, and left out.
+
+use std::fmt::Display;
+
+use congruent_input::{Diagnostic, Diagnostics, display::quantity};
+use congruent_mjcf::{MjJoint, MjJointKind, MjModel, MjTarget};
+
+use super::{placed::placed, tree::RobotParts};
+use crate::codes;
+
+/// The gravity with which all forces are computed, m/s^2.
+const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
+
+/// Reports armature, springs, damping that is not linear, gravity and its compensation.
+pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diagnostics) {
+    let gravity = &model.gravity_in_world;
+    if <[f64; 3]>::from(gravity.value) != GRAVITY {
+        let [x, y, z] = gravity.value.into();
+        let message =
+            format!("gravity is ({x}, {y}, {z}) m/s^2; forces are computed with (0, 0, -9.81) m/s^2");
+        let found = Diagnostic::warning(codes::mjcf::GRAVITY, message);
+        diagnostics.push(match &gravity.place {
+            Some(place) => placed(found, place),
+            None => found,
+        });
+    }
+    for body in model.bodies.iter().filter(|body| body.gravcomp.value != 0.0) {
+        let share = body.gravcomp.value;
+        let message = format!(
+            "body \"{}\": gravcomp {share} carries a part of its weight, which is left out",
+            body.name
+        );
+        let kind = "bodies have a gravcomp, which is left out: their weight counts in full";
+        let found = Diagnostic::warning(codes::mjcf::GRAVITY, message).one_of(kind, &body.name.text);
+        diagnostics.push(placed(found, &body.place));
+    }
+    for (number, joint) in
+        model.joints.iter().enumerate().filter(|(at, _)| parts.joint_positions[*at].is_some())
+    {
+        of_joint(model, number, joint, diagnostics);
+    }
+}
+
+fn of_joint(model: &MjModel, number: usize, joint: &MjJoint, diagnostics: &mut Diagnostics) {
+    let of_actuators = model.actuators.iter().filter(|of| of.target == MjTarget::Joint(number));
+    let armature = joint.armature.value + of_actuators.map(|of| of.armature).sum::<f64>();
+    let [inertia, stiffness] = match joint.kind {
+        MjJointKind::Slide => ["kg", "N/m"],
+        _ => ["kg m2", "N m/rad"],
+    };
+    let mut left_out = |code, what: &str, value: &dyn Display| {
+        let message = format!("joint \"{}\": {what} {value} is left out of forces", joint.name);
+        let kind = format!("joints have {what} {value}, which is left out of forces");
+        let found = Diagnostic::warning(code, message).one_of(kind, &joint.name.text);
+        diagnostics.push(placed(found, &joint.place));
+    };
+    if armature != 0.0 {
+        left_out(codes::mjcf::ARMATURE, "an armature of", &quantity(armature, inertia));
+    }
+    let [linear, square, cube] = joint.stiffness.value;
+    if joint.stiffness.value != [0.0; 3] {
+        let is_linear = square == 0.0 && cube == 0.0;
+        let value =
+            if is_linear { quantity(linear, stiffness) } else { format!("{linear}, {square}, {cube}") };
+        left_out(codes::mjcf::SPRING, "a spring of", &value);
+    }
+    let [_, square, cube] = joint.damping.value;
+    if [square, cube] != [0.0; 2] {
+        left_out(codes::mjcf::DAMPING, "a damping by powers of the speed", &format!("{square}, {cube}"));
+    }
+}
