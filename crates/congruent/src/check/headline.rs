@@ -15,7 +15,11 @@ use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDiffere
 use congruent_input::display::{counted, length_and_angle, listed};
 use congruent_kinematics::PoseError;
 
-use super::{declared::DeclaredSource, robot_check::RobotCheck};
+use super::{
+    declared::DeclaredSource,
+    judged_by::{judged_by, tolerance_in_words},
+    robot_check::RobotCheck,
+};
 
 /// The answer of a check in a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -137,7 +141,7 @@ fn extent(check: &RobotCheck) -> String {
 /// The sources that agree, and the bound of their difference.
 fn agreeing(report: &CheckReport) -> String {
     let sources = listed(&sources_of(report));
-    let tolerance = report.tolerance_in_words();
+    let tolerance = tolerance_in_words(report);
     match certified(report) {
         Some(bound) => {
             format!("{sources} agree over the whole joint range (difference {}, {tolerance})", at_most(bound))
@@ -183,7 +187,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
         format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
     };
     let pairs: Vec<String> = differ.map(of_pair).collect();
-    let found = format!("by up to {}; {}", pairs.join(", "), report.judged_by());
+    let found = format!("by up to {}; {}", pairs.join(", "), judged_by(report));
     if report.grade == Some(Grade::SameWithinDigits) {
         let advice = by_rounding_alone(check);
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));

@@ -4,6 +4,7 @@ mod against;
 mod checked;
 mod declared;
 mod headline;
+mod judged_by;
 mod model_frames;
 mod narrowed;
 mod page;
