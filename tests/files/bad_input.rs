@@ -374,7 +374,7 @@ fn a_run_that_ends_before_its_motions_says_so() {
 fn a_joint_that_is_given_twice() {
     let answer = congruent(&["fk", "robots/ur5e", "--at", "elbow_joint=1rad", "--at", "elbow_joint=2rad"]);
     assert_eq!(answer.code, 2);
-    assert!(answer.stderr.contains("given as 1 already"), "{}", answer.stderr);
+    assert!(answer.stderr.contains("given already, by --at elbow_joint=1rad"), "{}", answer.stderr);
 }
 
 #[test]

@@ -3,8 +3,7 @@
 use std::str::FromStr;
 
 use congruent::{
-    agreement::compare::RequestedTolerance,
-    description::{Tolerance, ToleranceScale},
+    description::{RequestedTolerance, Tolerance, ToleranceScale},
     input::{Diagnostic, Severity, units::Unit},
 };
 

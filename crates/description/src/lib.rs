@@ -33,8 +33,8 @@ pub use mjcf::is_mjcf;
 pub use model::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
     Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex,
-    MappedJoint, Mimic, Obstacle, Robot, RobotError, RobotQ, SPEED_MARGIN, Shape, Tolerance, ToleranceScale,
-    principal_moments,
+    MappedJoint, Mimic, Obstacle, RequestedTolerance, Robot, RobotError, RobotQ, SPEED_MARGIN, Shape,
+    Tolerance, ToleranceScale, principal_moments,
 };
 pub use named_robot::{file_of_robot, open};
 pub use robot_file::{

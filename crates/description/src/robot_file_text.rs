@@ -108,7 +108,7 @@ fn transform(pose: &Isometry3<f64>) -> String {
     format!("{{ xyz_m = [{xyz_m}], {rpy} }}")
 }
 
-/// An angle that is a quarter turn but for the rounding of a URDF that writes pi with ten digits.
+/// An angle that is a quarter turn up to the rounding of a URDF that writes pi with ten digits.
 fn without_noise(angle_rad: f64) -> f64 {
     /// Unit: rad. Kind: rounding; half of the last of eleven digits of pi, and a hundredth of the tolerance of a table.
     const NOISE_RAD: f64 = 1e-11;

@@ -1,6 +1,6 @@
 //! Corrections of a file as changes of its text; the rest of each line is kept.
 
-use std::ops::Range;
+use std::{fmt, ops::Range};
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -25,6 +25,43 @@ pub struct ChangedLines {
     pub to_line: usize,
     /// The lines that replace them, without the final line break.
     pub text: String,
+}
+
+/// New lines of a file, and the place where they belong; they read as the lines with the place as a comment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PastedLines {
+    /// The lines.
+    pub text: String,
+    /// The place: `line 13`, `below line 12`, with the file if it is not that of the fault.
+    pub place: String,
+}
+
+impl fmt::Display for PastedLines {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}  # {}", self.text, self.place)
+    }
+}
+
+/// Lines to paste as a part of a sentence; `None` if there are none.
+///
+/// # Examples
+/// ```
+/// use congruent_input::{PastedLines, lines_in_words};
+/// let row = PastedLines { text: "  { joint = \"j\", d_mm = 302 },".to_owned(), place: "line 13".to_owned() };
+/// let key = PastedLines { text: "sign = -1".to_owned(), place: "below line 8".to_owned() };
+/// let words = "write in line 13: { joint = \"j\", d_mm = 302 }; write below line 8: sign = -1";
+/// assert_eq!(lines_in_words(&[row, key]).as_deref(), Some(words));
+/// ```
+pub fn lines_in_words(pasted: &[PastedLines]) -> Option<String> {
+    let in_words = |PastedLines { text, place }: &PastedLines| {
+        let text = text.lines().map(str::trim).collect::<Vec<_>>().join(" ");
+        // The comma belongs to the list in the file, not to the sentence.
+        let text = text.strip_suffix(',').unwrap_or(&text);
+        let in_line = if place.starts_with("line") { "in " } else { "" };
+        format!("write {in_line}{place}: {text}")
+    };
+    let all: Vec<String> = pasted.iter().map(in_words).collect();
+    (!all.is_empty()).then(|| all.join("; "))
 }
 
 /// The lines that edits change, each with all edits in it; in the order of the file. Of edits that overlap, such as two of

@@ -23,7 +23,7 @@ pub use diagnostic::{
     Capability, Diagnostic, Diagnostics, Finding, FindingPlace, Findings, Grouping, LineCounter, Occurrence,
     Severity, SourceFile, line_column,
 };
-pub use edits::{ChangedLines, TextEdit, changed_lines, edited, line_end};
+pub use edits::{ChangedLines, PastedLines, TextEdit, changed_lines, edited, line_end, lines_in_words};
 pub use files::{
     FileAccess, InputFile, Packages, Resolved, RosPackages, TextKind, TextLines, TomlKind, direct_path,
     folder_of, head_of, is_standard_input, not_found, portable_path, portable_text, read_text, relative_path,

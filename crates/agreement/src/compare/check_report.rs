@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use congruent_description::{JointValues, ReportedChain, Tolerance};
+use congruent_description::{JointValues, ReportedChain, RequestedTolerance, Tolerance};
 use congruent_input::{Diagnostic, Finding, serde_name};
 use congruent_kinematics::{PoseError, ReportedPose};
 use schemars::JsonSchema;
@@ -12,7 +12,6 @@ use super::{
     basics::Basics,
     certificate::{Brackets, ReportedCertificate},
     grade::Grade,
-    judged_by::RequestedTolerance,
     model::PoseSource,
 };
 use crate::{

@@ -14,7 +14,6 @@ pub(crate) mod error;
 mod grade;
 mod graded;
 pub(crate) mod identified;
-mod judged_by;
 mod mimic;
 pub(crate) mod model;
 
@@ -29,5 +28,4 @@ pub use diagnosis::diagnose;
 pub use differences_at::{DifferenceAt, DifferencesAt};
 pub use error::CheckError;
 pub use grade::Grade;
-pub use judged_by::RequestedTolerance;
 pub use model::{Model, PoseSource};

@@ -1,8 +1,8 @@
 //! The diagnosis as programs read it.
 
-use std::fmt;
-
-use congruent_input::{ChangedLines, Diagnostic, SourceFile, TextEdit, edited, toml_text::is_toml};
+use congruent_input::{
+    ChangedLines, Diagnostic, PastedLines, SourceFile, TextEdit, edited, toml_text::is_toml,
+};
 use congruent_kinematics::PoseError;
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -179,33 +179,6 @@ pub struct Fault {
     /// The new lines to paste, and where.
     #[serde(skip)]
     pub pasted: Vec<PastedLines>,
-}
-
-/// New lines of a file, and the place where they belong; they read as the lines with the place as a comment.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PastedLines {
-    /// The lines.
-    pub text: String,
-    /// The place: `line 13`, `below line 12`, with the file if it is not that of the fault.
-    pub place: String,
-}
-
-impl fmt::Display for PastedLines {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}  # {}", self.text, self.place)
-    }
-}
-
-impl PastedLines {
-    /// As a part of a sentence, in one line.
-    pub(super) fn in_words(&self) -> String {
-        let lines: Vec<&str> = self.text.lines().map(str::trim).collect();
-        let text = lines.join(" ");
-        // The comma belongs to the list in the file, not to the sentence.
-        let text = text.strip_suffix(',').unwrap_or(&text);
-        let in_line = if self.place.starts_with("line") { "in " } else { "" };
-        format!("write {in_line}{}: {text}", self.place)
-    }
 }
 
 /// Lines of files as they are, and words behind `#`, so that no program pastes words into a file.

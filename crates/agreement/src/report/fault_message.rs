@@ -8,18 +8,14 @@ use std::{
 
 use congruent_description::{ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey};
 use congruent_input::{
-    ChangedLines, Slack, SourceFile, TypingError, WrongUnit,
+    ChangedLines, PastedLines, Slack, SourceFile, TypingError, WrongUnit,
     display::{angle, length, length_and_angle, number},
     fitted_number, fitted_transform, line_column,
     units::{Unit, UnitSystem},
 };
 use congruent_kinematics::{Pose, rotation_log};
 
-use super::{
-    content::{Fault, PastedLines},
-    names::ModelNames,
-    values::ReportedValue,
-};
+use super::{content::Fault, names::ModelNames, values::ReportedValue};
 use crate::diagnosis::{CandidateModel, Cause, DhEntry, ExplainedFault, FaultPlace, ModelPair, RowConstants};
 
 /// A fault for programs, its message for people, and its place.

@@ -20,7 +20,7 @@ mod units;
 mod values;
 
 pub use content::{
-    ComparedValue, CorrectedFile, Fault, PastedLines, ReportedAlternative, ReportedCause, ReportedDiagnosis,
+    ComparedValue, CorrectedFile, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis,
     ReportedDifference, ReportedStage, TableComparison,
 };
 pub use diagnose_models::diagnose_models;

@@ -2,9 +2,9 @@
 
 use std::slice;
 
-use congruent_input::{Diagnostic, Finding, display::length_and_angle};
+use congruent_input::{Diagnostic, Finding, display::length_and_angle, lines_in_words};
 
-use super::content::{Fault, PastedLines, ReportedCause, ReportedDiagnosis};
+use super::content::{Fault, ReportedCause, ReportedDiagnosis};
 use crate::diagnosis::Cause;
 
 impl ReportedCause {
@@ -31,46 +31,20 @@ impl ReportedDiagnosis {
         let Some(cause) = self.named_cause() else { return Vec::new() };
         let line = |(finding, fault): (&Diagnostic, &Fault)| {
             // Without the lines to paste: a report of a run has one line for each fault.
-            let help = Some(correction(fault));
+            let help = Some(lines_in_words(&fault.pasted).unwrap_or_else(|| fault.suggestion.clone()));
             Finding { help, ..Finding::from(finding) }.to_string()
         };
         let mut lines: Vec<String> = self.findings.iter().zip(cause.faults()).map(line).collect();
         if let Some(last) = lines.last_mut() {
             let residual = length_and_angle(cause.residual_m, cause.residual_rad);
-            let remains = if residual.contains(" and ") { "remain" } else { "remains" };
-            last.push_str(&format!("; then {residual} {remains}"));
+            last.push_str(&format!("; then {residual} remain"));
         }
         lines
     }
-}
-
-/// What to do about a fault, in a line: what to write in which line of its file, or advice in words.
-fn correction(fault: &Fault) -> String {
-    if fault.pasted.is_empty() {
-        return fault.suggestion.clone();
-    }
-    let pasted: Vec<String> = fault.pasted.iter().map(PastedLines::in_words).collect();
-    pasted.join("; ")
 }
 
 /// Of several diagnoses the one to show: the first that is explained, otherwise the first with a difference.
 pub fn foremost(diagnoses: &[ReportedDiagnosis]) -> Option<&ReportedDiagnosis> {
     let explained = diagnoses.iter().find(|diagnosis| diagnosis.is_explained());
     explained.or_else(|| diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_to_write_are_part_of_a_sentence() {
-        let pasted = |text: &str, place: &str| PastedLines { text: text.to_owned(), place: place.to_owned() };
-        let row = pasted("    { joint = \"j\", d_mm = 302 },", "line 13");
-        let fault = Fault { pasted: vec![row, pasted("sign = -1", "below line 8")], ..Fault::default() };
-        let expected = "write in line 13: { joint = \"j\", d_mm = 302 }; write below line 8: sign = -1";
-        assert_eq!(correction(&fault), expected);
-        let words = Fault { suggestion: "exchange the two joints".to_owned(), ..Fault::default() };
-        assert_eq!(correction(&words), "exchange the two joints");
-    }
 }

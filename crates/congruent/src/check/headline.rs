@@ -16,7 +16,10 @@ use congruent_input::display::{counted, length_and_angle, listed};
 use congruent_kinematics::PoseError;
 
 use super::{
-    against::OtherDescription, declared::DeclaredSource, mapped_headline::after_mapping,
+    against::OtherDescription,
+    declared::DeclaredSource,
+    judged_by::{judged_by, tolerance_in_words},
+    mapped_headline::after_mapping,
     robot_check::RobotCheck,
 };
 
@@ -148,7 +151,7 @@ fn extent(check: &RobotCheck) -> String {
 /// The sources that agree, and the bound of their difference.
 fn agreeing(report: &CheckReport) -> String {
     let sources = listed(&sources_of(report));
-    let tolerance = report.tolerance_in_words();
+    let tolerance = tolerance_in_words(report);
     match certified(report) {
         Some(bound) => {
             format!("{sources} agree over the whole joint range (difference {}, {tolerance})", at_most(bound))
@@ -194,7 +197,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
         format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
     };
     let pairs: Vec<String> = differ.map(of_pair).collect();
-    let found = format!("by up to {}; {}", pairs.join(", "), report.judged_by());
+    let found = format!("by up to {}; {}", pairs.join(", "), judged_by(report));
     if report.grade == Some(Grade::SameWithinDigits) {
         let advice = by_rounding_alone(check);
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));

@@ -4,6 +4,7 @@ mod against;
 mod checked;
 mod declared;
 mod headline;
+mod judged_by;
 mod mapped;
 mod mapped_headline;
 mod model_frames;

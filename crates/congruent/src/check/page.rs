@@ -4,7 +4,7 @@ use congruent_agreement::SourcePair;
 use congruent_description::RobotDescription;
 use congruent_page::CheckedRobot;
 
-use super::{headline::Headline, robot_check::RobotCheck};
+use super::{headline::Headline, judged_by::judged_by_more, robot_check::RobotCheck};
 
 /// The report on a robot for [`check_page`](congruent_page::check_page), with the descriptions that it is about.
 pub fn checked_robot<'a>(
@@ -44,6 +44,7 @@ pub fn checked_robot<'a>(
     CheckedRobot {
         answer,
         details,
+        judged_by: judged_by_more(&report.geometry),
         findings,
         description,
         geometry: &report.geometry,

@@ -10,7 +10,7 @@ use congruent_input::{Diagnostic, display::length_and_angle, serde_name};
 use congruent_kinematics::PoseError;
 use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
-use super::{mapped_headline::mapped_joints, robot_check::RobotCheck};
+use super::{judged_by::comparison_judged_by, mapped_headline::mapped_joints, robot_check::RobotCheck};
 
 /// The comparisons of a report as test cases; what failed names its cause with the line.
 ///
@@ -47,7 +47,7 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
         "largest difference {} at {}, {}",
         length_and_angle(error.position_m, error.orientation_rad),
         worst.link,
-        report.comparison_judged_by(comparison)
+        comparison_judged_by(report, comparison)
     )];
     lines.extend(grade(comparison, report));
     let result = if comparison.verdict == Agreement::Agree {

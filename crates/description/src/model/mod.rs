@@ -31,4 +31,4 @@ pub use link::{Link, LinkIndex};
 pub use obstacle::Obstacle;
 pub use positions::{ArmQ, ChainQ, RobotQ};
 pub use robot::Robot;
-pub use tolerance::{Tolerance, ToleranceScale};
+pub use tolerance::{RequestedTolerance, Tolerance, ToleranceScale};

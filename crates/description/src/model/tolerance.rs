@@ -28,6 +28,18 @@ impl Default for Tolerance {
     }
 }
 
+/// A tolerance that a caller gives in place of a declared one; a part that is missing is the declared one, or 1e-9 if there is
+/// none.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct RequestedTolerance {
+    /// Largest distance of the origins, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position_m: Option<f64>,
+    /// Largest angle between the orientations, rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orientation_rad: Option<f64>,
+}
+
 /// The scale that a tolerance is compared with: one as large as the robot, or as half a turn, accepts every pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToleranceScale {

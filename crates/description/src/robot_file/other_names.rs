@@ -3,15 +3,21 @@
 use congruent_input::Diagnostic;
 use toml::Spanned;
 
-use super::{rows::ChainContext, written::WrittenRow};
-use crate::codes;
+use super::written::WrittenRow;
+use crate::{
+    codes,
+    model::{JointIndex, Robot},
+};
 
 /// The one finding about such a table: an error for each row would hide what is wrong.
-pub(super) fn other_names(rows: &[Spanned<WrittenRow>], context: &ChainContext<'_>) -> Option<Diagnostic> {
+pub(super) fn other_names(
+    rows: &[Spanned<WrittenRow>],
+    robot: &Robot,
+    chain: &[JointIndex],
+) -> Option<Diagnostic> {
     let written: Vec<&str> = rows.iter().map(|row| row.get_ref().joint.get_ref().as_str()).collect();
-    let of_chain: Vec<&str> =
-        context.chain.iter().map(|&joint| context.robot.joint(joint).name.as_str()).collect();
-    if written.iter().any(|name| context.robot.find_joint(name).is_some()) {
+    let of_chain: Vec<&str> = chain.iter().map(|&joint| robot.joint(joint).name.as_str()).collect();
+    if written.iter().any(|name| robot.find_joint(name).is_some()) {
         return None;
     }
     let (affix, names) = renamed(&written, &of_chain)?;

@@ -28,7 +28,7 @@ pub(super) fn check(
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<DhRow>> {
     let written = &dh.get_ref().row;
-    if let Some(found) = other_names(written, context) {
+    if let Some(found) = other_names(written, context.robot, context.chain) {
         diagnostics.push(found);
         return None;
     }
@@ -157,6 +157,9 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnos
     Some(joint)
 }
 
+/// Rows of one joint whose lines are listed. Kind: choice.
+const MOST_LINES: usize = 8;
+
 /// Reports the joints that have several rows, with the joints that have none: usually one name is wrong. Whether there are
 /// any.
 fn joints_twice(
@@ -182,6 +185,8 @@ fn joints_twice(
     for (number, &index) in twice.iter().enumerate() {
         let (name, lines) = (&written[index].get_ref().joint, lines_of(rows[index].joint));
         let count = if lines.len() == 2 { "two".to_owned() } else { lines.len().to_string() };
+        let listed = lines[..lines.len().min(MOST_LINES)].join(", ");
+        let listed = if lines.len() > MOST_LINES { listed + ", ..." } else { listed };
         // Once, however many joints have several rows.
         let none = match &without_row[..] {
             [] => String::new(),
@@ -189,8 +194,7 @@ fn joints_twice(
             [only] => format!(", joint \"{only}\" has none"),
             several => format!(", these joints have none: {}", several.join(", ")),
         };
-        let message =
-            format!("joint \"{}\" has {count} rows (lines {}){none}", name.get_ref(), lines.join(", "));
+        let message = format!("joint \"{}\" has {count} rows (lines {listed}){none}", name.get_ref());
         let found = Diagnostic::error(codes::robot_file::JOINT_TWICE, message).at(name.span());
         diagnostics.push(match without_row[..] {
             [only] if twice.len() == 1 => {

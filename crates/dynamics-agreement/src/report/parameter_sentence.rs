@@ -80,7 +80,7 @@ impl ParameterDifference {
     }
 }
 
-/// Whether a value is one with few digits, but for the rounding of a product with a factor between units.
+/// Whether a value is one with few digits, up to the rounding of a product with a factor between units.
 fn is_typed(value: f64) -> bool {
     /// Some units of the last place. No unit, relative; kind: rounding.
     const ROUNDING: f64 = 1e-14;

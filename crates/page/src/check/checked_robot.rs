@@ -12,6 +12,8 @@ pub struct CheckedRobot<'a> {
     pub answer: String,
     /// What follows the answer, with the punctuation between the two.
     pub details: String,
+    /// What decides whether poses agree, if that is not the tolerance of the report alone.
+    pub judged_by: Option<String>,
     /// Warnings about the descriptions, and the worst findings of lint.
     pub findings: Vec<Finding>,
     /// The robot as it was read, whose URDF the pictures draw.

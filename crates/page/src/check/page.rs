@@ -170,8 +170,10 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
                 dt { "at" } dd { (count(&at.key("configurations"), report.configurations)) " configurations, seed " (count(&at.key("seed"), report.seed)) }
                 dt { "tolerance" }
                 dd {
-                    @if report.has_digits() { (report.judged_by()) }
-                    @else { (tolerance(report, &at.key("tolerance"))) }
+                    @match &robot.judged_by {
+                        Some(judged_by) => (judged_by),
+                        None => (tolerance(report, &at.key("tolerance"))),
+                    }
                 }
             }
             @for sentence in &robot.not_compared { p.note { (sentence) } }
@@ -189,10 +191,8 @@ fn tolerance(report: &CheckReport, at: &Pointer) -> Markup {
         (value(&at.key("position_m"), position_m, &length(position_m)))
         " and "
         (value(&at.key("orientation_rad"), orientation_rad, &angle(orientation_rad)))
-        @if let Some(requested) = report.requested_tolerance {
-            @let is_whole = requested.position_m.is_some() && requested.orientation_rad.is_some();
-            @if is_whole { " (by --tolerance)" } @else { " (" (report.tolerance_in_words()) ")" }
-        } @else if !report.tolerance_is_declared { " (floating-point rounding: none is declared)" }
+        @if report.requested_tolerance.is_some() { " (by --tolerance)" }
+        @else if !report.tolerance_is_declared { " (floating-point rounding: none is declared)" }
     }
 }
 

@@ -13,15 +13,10 @@ use congruent_input::{
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{faults::read_fault, overrides::Override, section::Section};
+use super::{faults::read_fault, motion::read_motion, overrides::Override, section::Section};
 use crate::{
-    ArcMotion, Check, CheckKind, ControllerKind, ControllerSettings, Expectation, FilePlace, JointMotion,
-    JointPathMotion, LineMotion, MotionSettings, PlaybackMotion, SCHEMA_VERSION, Scenario, ServoMotion,
-    TcpMotion, TcpPathMotion, codes,
-    motions::{
-        ARC_KEY, JOINT_KEYS, JOINT_PATH_KEYS, LINE_KEY, PLAYBACK_KEY, SERVO_KEY, TCP_KEY, TCP_PATH_KEY,
-    },
-    place::PlaceNode,
+    Check, CheckKind, ControllerKind, ControllerSettings, Expectation, FilePlace, SCHEMA_VERSION, Scenario,
+    codes, place::PlaceNode,
 };
 
 /// Largest scenario file that is read.
@@ -277,40 +272,6 @@ fn all<'a, T>(
     read.into_iter().collect()
 }
 
-fn read_motion(section: Section<'_>, findings: &mut Diagnostics) -> Option<MotionSettings> {
-    if JOINT_KEYS.iter().any(|key| section.has(key)) {
-        section.read_into::<JointMotion>(findings).map(MotionSettings::Joints)
-    } else if section.has(TCP_KEY) {
-        section.read_into::<TcpMotion>(findings).map(MotionSettings::Tcp)
-    } else if section.has(SERVO_KEY) {
-        section.read_into::<ServoMotion>(findings).map(MotionSettings::Servo)
-    } else if section.has(LINE_KEY) {
-        section.read_into::<LineMotion>(findings).map(MotionSettings::Line)
-    } else if section.has(ARC_KEY) {
-        section.read_into::<ArcMotion>(findings).map(MotionSettings::Arc)
-    } else if section.has(TCP_PATH_KEY) {
-        section.read_into::<TcpPathMotion>(findings).map(MotionSettings::TcpPath)
-    } else if JOINT_PATH_KEYS.iter().any(|key| section.has(key)) {
-        section.read_into::<JointPathMotion>(findings).map(MotionSettings::JointPath)
-    } else if section.has(PLAYBACK_KEY) {
-        section.read_into::<PlaybackMotion>(findings).map(MotionSettings::Playback)
-    } else {
-        let one_key = [TCP_KEY, LINE_KEY, ARC_KEY, TCP_PATH_KEY, PLAYBACK_KEY, SERVO_KEY];
-        let known: Vec<&str> = JOINT_KEYS.into_iter().chain(JOINT_PATH_KEYS).chain(one_key).collect();
-        findings.push(match section.misspelt(&known) {
-            Some((key, meant)) => {
-                Diagnostic::error(UNKNOWN_KEY, format!("unknown key \"{}\"", key.get_ref()))
-                    .with_help(format!("did you mean \"{meant}\"?"))
-                    .at(key.span())
-            }
-            None => Diagnostic::error(codes::scenario::UNKNOWN_MOTION, "the motion has no target")
-                .with_help(format!("give one of these keys: {}", known.join(", ")))
-                .at(section.span()),
-        });
-        None
-    }
-}
-
 fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Check> {
     let kind = *findings.keep(section.select("kind", "check", &CheckKind::ALL, |kind| kind.word()))?;
     let mut found = Diagnostics::default();
@@ -373,11 +334,15 @@ fn name_sections(error: Diagnostic) -> Diagnostic {
         return error;
     }
     let unknown = error.message.split('"').nth(1).unwrap_or_default();
-    if let Some(meant) = nearest(unknown, SECTIONS) {
-        return error.with_help(format!("did you mean \"{meant}\"?"));
-    }
+    let meant = nearest(unknown, SECTIONS);
     let sections = SECTIONS.map(|section| format!("[{section}]")).join(", ");
-    with_more_help(error, &format!("sections: {sections}"))
+    let error = with_more_help(error, &format!("sections: {sections}"));
+    match (meant, error.help.clone()) {
+        (Some(meant), Some(help)) if !help.starts_with("did you mean") => {
+            error.with_help(format!("did you mean \"{meant}\"? {help}"))
+        }
+        _ => error,
+    }
 }
 
 fn check_top(top: &Top) -> Result<(), Diagnostic> {

@@ -2,6 +2,7 @@
 
 mod faults;
 mod file;
+mod motion;
 mod name;
 mod overrides;
 mod section;

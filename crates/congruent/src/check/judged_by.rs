@@ -1,0 +1,75 @@
+//! What decides whether two sources agree, in words: a tolerance that somebody has declared, or the digits that are
+//! written.
+
+use congruent_agreement::{
+    SourcePair,
+    compare::{CheckReport, Comparison},
+};
+use congruent_description::Tolerance;
+use congruent_input::display::{angle, length, length_and_angle};
+use congruent_kinematics::PoseError;
+
+/// If nobody has declared a tolerance, and table and URDF are typed.
+const BY_DIGITS: &str = "judged by the digits written (no tolerance declared)";
+
+/// What decides whether table and URDF agree: the tolerance if one is declared, otherwise the digits of the two, or
+/// the rounding of computers if nothing was typed.
+pub(super) fn judged_by(report: &CheckReport) -> String {
+    if report.tolerance_is_declared {
+        return tolerance_in_words(report);
+    }
+    if is_by_digits(report) {
+        return BY_DIGITS.to_owned();
+    }
+    "judged by floating-point rounding, since no tolerance is declared".to_owned()
+}
+
+/// The same of one comparison: two sources that nobody has typed are compared within a tolerance, declared or not.
+pub(super) fn comparison_judged_by(report: &CheckReport, comparison: &Comparison) -> String {
+    if comparison.name == SourcePair::ModelUrdf { judged_by(report) } else { tolerance_in_words(report) }
+}
+
+/// The tolerance, who gave it, and that of the robot file in whose place it is.
+pub(super) fn tolerance_in_words(report: &CheckReport) -> String {
+    let Tolerance { position_m, orientation_rad } = report.tolerance;
+    let Some(requested) = report.requested_tolerance else {
+        return format!("tolerance {}", length_and_angle(position_m, orientation_rad));
+    };
+    // A part that was not requested is not silently 1e-9.
+    let other_part = match report.replaced_tolerance {
+        Some(_) => "by the robot file",
+        None => "since none is declared",
+    };
+    match (requested.position_m, requested.orientation_rad) {
+        (Some(_), None) => {
+            let (length, angle) = (length(position_m), angle(orientation_rad));
+            format!("tolerance {length} by --tolerance, and for angles {angle} {other_part}")
+        }
+        (None, Some(_)) => {
+            let (length, angle) = (length(position_m), angle(orientation_rad));
+            format!("tolerance {angle} by --tolerance, and for lengths {length} {other_part}")
+        }
+        _ => {
+            let replaced = report.replaced_tolerance.map_or_else(String::new, |declared| {
+                let declared = length_and_angle(declared.position_m, declared.orientation_rad);
+                format!(", the robot file's is {declared}")
+            });
+            format!("tolerance {} by --tolerance{replaced}", length_and_angle(position_m, orientation_rad))
+        }
+    }
+}
+
+/// Whether the digits of table and URDF decide: nobody has declared a tolerance, and some were typed.
+fn is_by_digits(report: &CheckReport) -> bool {
+    let is_typed = report.allowed_by_digits.is_some_and(|allowed| allowed != PoseError::default());
+    is_typed && !report.tolerance_is_declared
+}
+
+/// What decides, for a page that has the values of the tolerance: the digits, or a tolerance of which one part was requested.
+pub(super) fn judged_by_more(report: &CheckReport) -> Option<String> {
+    let is_in_part = report
+        .requested_tolerance
+        .is_some_and(|requested| requested.position_m.is_none() || requested.orientation_rad.is_none());
+    let words = judged_by(report);
+    (is_by_digits(report) || is_in_part).then(|| words.trim_start_matches("tolerance ").to_owned())
+}
