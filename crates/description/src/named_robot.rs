@@ -12,7 +12,7 @@ use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind, TomlKind, di
 use crate::{codes, robot_file::ROBOT_FILE};
 
 const ACCEPTED: &str =
-    "give a folder with robot.toml, a robot file (.toml), a .urdf, or - for a URDF on standard input";
+    "give a folder with robot.toml, a robot file (.toml), a URDF, an MJCF, or - for one on standard input";
 
 /// The file that the path of a robot means: `robot.toml` in a folder, otherwise the path itself.
 ///

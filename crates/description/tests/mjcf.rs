@@ -142,7 +142,7 @@ fn check_joints(name: &str, robot: &Robot, golden: &Value) {
     }
 }
 
-/// Each file with one construct. A body that a robot cannot have is refused or fixed; MuJoCo leaves out the names of the bodies
+/// Each file with one construct. A body that a robot cannot have is refused or fixed; MuJoCo drops the names of the bodies
 /// that `fusestatic` joins.
 #[test]
 fn constructs_are_read_as_mujoco_reads_them() {

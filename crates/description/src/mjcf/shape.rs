@@ -31,7 +31,7 @@ pub(super) fn add(
             let collides = geom.contact_type != 0 || geom.contact_affinity != 0;
             let shapes = match shapes(model, geom, meshes, diagnostics) {
                 Ok(shapes) => shapes,
-                // A floor that the robot stands on is no part of it.
+                // A floor under the robot is no part of it.
                 Err(_) if geom.shape == MjShape::Plane && !is_moving => continue,
                 Err(fault) => {
                     let message = format!("body \"{}\": {}", of.name, fault.message);

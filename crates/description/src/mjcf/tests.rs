@@ -1,3 +1,5 @@
+//! Small models, a construct or two each.
+
 use std::sync::Arc;
 
 use congruent_input::{Capability, Diagnostics, Severity, SourceFile};

@@ -27,16 +27,18 @@ pub fn robot_file_schema() -> Schema {
 /// A robot: its URDF, the chain from base to tip, and the analytical model of that chain.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(title = "Robot file")]
+// Either key names the robot. `parse_robot` takes a robot file without one.
+#[schemars(title = "Robot file", extend("oneOf" = [{ "required": ["urdf"] }, { "required": ["description"] }]))]
 pub struct WrittenRobot {
     /// Name in reports; the URDF's name by default.
     #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) name: Option<Spanned<String>>,
-    /// The URDF, relative to this file.
+    /// The URDF or MJCF, relative to this file.
+    #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) urdf: Option<Spanned<PathBuf>>,
-    /// The URDF or MJCF, relative to this file: another name of the key `urdf`.
+    /// The same, under another name: a robot file has either this key or `urdf`.
     #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) description: Option<Spanned<PathBuf>>,

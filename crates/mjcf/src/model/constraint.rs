@@ -69,6 +69,6 @@ pub struct MjContactExclusion {
 pub struct MjKeyframe {
     /// Name; empty if the file has none.
     pub name: String,
-    /// Positions of all joints, in their order, rad and m, quaternions w first; `None` if the file leaves them out.
+    /// Positions of all joints, in their order, rad and m, quaternions w first; `None` if the file gives none.
     pub positions: Option<MjWritten<Vec<f64>>>,
 }
