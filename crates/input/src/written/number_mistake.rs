@@ -111,6 +111,11 @@ fn number_at_start(text: &str) -> Option<&str> {
 /// The mistake in a line of a text that is no TOML, with its place in the line: of the assignments in it the first that
 /// has one.
 pub(super) fn mistake_in_line(line: &str) -> Option<(usize, NumberMistake)> {
+    /// Nobody types a longer line, and each assignment looks at all of the line before it.
+    const LONGEST: usize = 4000;
+    if line.len() > LONGEST {
+        return None;
+    }
     let assignments = line.match_indices('=').filter_map(|(at, _)| {
         let key = line[..at].trim_end().rsplit([',', '{', ' ', '\t']).next()?;
         let value = &line[at + 1..];
