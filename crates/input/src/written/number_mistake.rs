@@ -116,7 +116,7 @@ pub(super) fn mistake_in_line(line: &str) -> Option<(usize, NumberMistake)> {
     if line.len() > LONGEST {
         return None;
     }
-    let assignments = line.match_indices('=').filter_map(|(at, _)| {
+    line.match_indices('=').find_map(|(at, _)| {
         let key = line[..at].trim_end().rsplit([',', '{', ' ', '\t']).next()?;
         let value = &line[at + 1..];
         let spaces = value.len() - value.trim_start().len();
@@ -125,8 +125,7 @@ pub(super) fn mistake_in_line(line: &str) -> Option<(usize, NumberMistake)> {
         let is_quoted = line[..at].matches('"').count() % 2 == 1 || line[..at].contains('#');
         (is_key && !is_quoted).then_some(())?;
         Some((at + 1 + spaces, NumberMistake::in_value(key, value)?))
-    });
-    assignments.into_iter().next()
+    })
 }
 
 #[cfg(test)]
