@@ -37,7 +37,7 @@ impl ReportedDiagnosis {
         let mut lines: Vec<String> = self.findings.iter().zip(cause.faults()).map(line).collect();
         if let Some(last) = lines.last_mut() {
             let residual = length_and_angle(cause.residual_m, cause.residual_rad);
-            last.push_str(&format!("; then {residual} remain"));
+            last.extend(["; then ", &residual, " remain"]);
         }
         lines
     }

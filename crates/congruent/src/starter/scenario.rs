@@ -233,12 +233,10 @@ fn same_within_digits(description: &RobotDescription) -> Option<Diagnostic> {
 
 /// A number with two digits that is not smaller.
 fn rounded_up(value: f64) -> f64 {
-    let (mantissa, power) = (format!("{value:e}"), 10_f64);
-    let exponent: i32 =
-        mantissa.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or_default();
-    let per_digit = libm::pow(power, f64::from(1 - exponent));
-    // By a quotient, so that the number has the digits that a person would write.
-    let digits = (value * per_digit).ceil();
+    let text = format!("{value:e}");
+    let exponent: i32 = text.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or_default();
+    let digits = (value * libm::pow(10.0, f64::from(1 - exponent))).ceil();
+    // Read from a text, so that the number has the digits that a person would write.
     format!("{digits}e{}", exponent - 1).parse().unwrap_or(value)
 }
 

@@ -41,9 +41,10 @@ fn renamed<'a>(written: &[&'a str], known: &[&'a str]) -> Option<(Affix<'a>, Vec
     let [first, _, ..] = written else { return None };
     known.iter().find_map(|known_name| {
         let affix = Affix::between(first, known_name)?;
-        let names: Option<Vec<String>> = written.iter().map(|name| affix.applied(name)).collect();
-        let names = names.filter(|names| names.iter().all(|name| known.contains(&name.as_str())))?;
-        Some((affix, names))
+        // Up to the first that is not known: of hostile files any name may begin or end as any other.
+        let renamed = |name: &&str| affix.applied(name).filter(|name| known.contains(&name.as_str()));
+        let names: Option<Vec<String>> = written.iter().map(renamed).collect();
+        Some((affix, names?))
     })
 }
 

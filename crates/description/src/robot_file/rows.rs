@@ -87,22 +87,7 @@ fn row(
     let a_m = needed("a", Unit::Length, a_m);
     let alpha_rad = needed("alpha", Unit::Angle, alpha_rad);
     let d_m = needed("d", Unit::Length, d_m);
-    // Only under the keys in radians: in degrees such values are usual.
-    for (quantity, value, span) in [
-        ("alpha", alpha_rad, row.alpha_rad.as_ref().map(Spanned::span)),
-        ("theta", theta_rad.flatten(), row.theta_rad.as_ref().map(Spanned::span)),
-    ] {
-        if let (Some(value), Some(span)) = (value, span)
-            && value.abs() > TAU
-        {
-            let message = format!("{quantity}_rad = {value} is more than a full turn");
-            diagnostics.push(
-                Diagnostic::warning(codes::robot_file::DEGREES, message)
-                    .at(span)
-                    .with_help(format!("if the value is in degrees, the key is {quantity}_deg")),
-            );
-        }
-    }
+    more_than_a_turn(row, [alpha_rad, theta_rad.flatten()], diagnostics);
     let sign = sign(row, diagnostics);
     let joint = joint(row, context, diagnostics);
     Some(DhRow {
@@ -115,6 +100,30 @@ fn row(
         sign: sign?,
         line: line_column(context.text, written.span().start).0,
     })
+}
+
+/// Warns of angles in radians that are probably in degrees.
+fn more_than_a_turn(
+    row: &WrittenRow,
+    [alpha_rad, theta_rad]: [Option<f64>; 2],
+    diagnostics: &mut Diagnostics,
+) {
+    // Only under the keys in radians: in degrees such values are usual.
+    for (quantity, value, span) in [
+        ("alpha", alpha_rad, row.alpha_rad.as_ref().map(Spanned::span)),
+        ("theta", theta_rad, row.theta_rad.as_ref().map(Spanned::span)),
+    ] {
+        if let (Some(value), Some(span)) = (value, span)
+            && value.abs() > TAU
+        {
+            let message = format!("{quantity}_rad = {value} is more than a full turn");
+            diagnostics.push(
+                Diagnostic::warning(codes::robot_file::DEGREES, message)
+                    .at(span)
+                    .with_help(format!("if the value is in degrees, the key is {quantity}_deg")),
+            );
+        }
+    }
 }
 
 fn sign(row: &WrittenRow, diagnostics: &mut Diagnostics) -> Option<f64> {

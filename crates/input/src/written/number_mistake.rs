@@ -111,7 +111,12 @@ fn number_at_start(text: &str) -> Option<&str> {
 /// The mistake in a line of a text that is no TOML, with its place in the line: of the assignments in it the first that
 /// has one.
 pub(super) fn mistake_in_line(line: &str) -> Option<(usize, NumberMistake)> {
-    let assignments = line.match_indices('=').filter_map(|(at, _)| {
+    /// Nobody types a longer line, and each assignment looks at all of the line before it.
+    const LONGEST: usize = 4000;
+    if line.len() > LONGEST {
+        return None;
+    }
+    line.match_indices('=').find_map(|(at, _)| {
         let key = line[..at].trim_end().rsplit([',', '{', ' ', '\t']).next()?;
         let value = &line[at + 1..];
         let spaces = value.len() - value.trim_start().len();
@@ -120,8 +125,7 @@ pub(super) fn mistake_in_line(line: &str) -> Option<(usize, NumberMistake)> {
         let is_quoted = line[..at].matches('"').count() % 2 == 1 || line[..at].contains('#');
         (is_key && !is_quoted).then_some(())?;
         Some((at + 1 + spaces, NumberMistake::in_value(key, value)?))
-    });
-    assignments.into_iter().next()
+    })
 }
 
 #[cfg(test)]

@@ -76,7 +76,9 @@ fn open_brackets(text: &str, end: usize) -> Vec<(usize, char)> {
             (None, '"' | '\'') => quote = Some(letter),
             (None, '#') => is_comment = true,
             (None, '{' | '[') => open.push((at, letter)),
-            (None, '}' | ']') => drop(open.pop()),
+            (None, '}' | ']') => {
+                open.pop();
+            }
             (None, _) => {}
         }
         escaped = false;
