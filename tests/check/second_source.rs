@@ -63,23 +63,31 @@ fn a_strict_check_needs_a_second_description() {
     assert_eq!(congruent(&["check", "--strict", "robots/planar_2r", &path]).code, 4);
 }
 
-/// The fingers of one file are fixed in the other: the answer names the link up to which the two can be compared.
+/// The fingers of one file are fixed in the other: the arm is compared, the answer names the fingers, and both ways to leave
+/// them out make the two the same.
 #[test]
-fn other_joints_are_named_with_the_tip_of_the_common_ones() {
+fn joints_that_move_in_one_file_alone_do_not_stop_the_comparison_of_the_others() {
     let scratch = ScratchFolder::new();
     let own = "robots/panda/panda.urdf";
     let urdf = fs::read_to_string(workspace().join(own)).unwrap();
     let other = scratch.write("fixed.urdf", &urdf.replace("type=\"prismatic\"", "type=\"fixed\""));
     let whole = congruent(&["check", own, "--against", &other]);
     assert_eq!(whole.code, 1, "{}", whole.stderr);
-    let answer = format!("{own}: DIFFERENT JOINTS: joint \"panda_finger_joint1\" does not move in the other");
+    let answer = format!("{own}: EQUAL AFTER MAPPING: 2 joints in one file alone");
     assert!(whole.stdout.starts_with(&answer), "{}", whole.stdout);
-    assert!(!whole.stdout.contains("disagree"), "{}", whole.stdout);
-    let report = congruent_json(&["check", own, "--against", &other]).json();
-    let tip = report["against"]["common_tip"].as_str().unwrap();
-    assert!(whole.stdout.contains(&format!("alone: --tip {tip}\n")), "{}", whole.stdout);
-    let part = congruent(&["check", own, "--against", &other, "--tip", tip, "-q"]);
+    let left_out = "left_out = [\"panda_finger_joint1\", \"panda_finger_joint2\"]";
+    assert!(whole.stdout.contains(left_out), "{}", whole.stdout);
+    let part = congruent(&["check", own, "--against", &other, "--tip", "panda_hand", "-q"]);
     assert!(part.stdout.starts_with(&format!("{own}: SAME ")), "{}", part.stdout);
+    scratch.write("panda.urdf", &urdf);
+    let robot_file = scratch.write("robot.toml", &format!("urdf = \"panda.urdf\"\n[mapping]\n{left_out}\n"));
+    let declared = congruent(&["check", &robot_file, "--against", &other, "-q"]);
+    assert!(
+        declared.stdout.contains(": SAME ROBOT in 7 of 9 joints"),
+        "{}{}",
+        declared.stdout,
+        declared.stderr
+    );
 }
 
 /// A mass of 8058 kg agrees with the physics that is built from it.

@@ -70,8 +70,14 @@ pub(crate) const SAME_UNIT_RATIO: f64 = 1e-3;
 /// rows for each joint. Kind: speed.
 pub(super) const MOST_WEIGHTED_JOINTS: usize = 24;
 
-/// By how much a typed value must be nearer than half of its last place. Relative; kind: rounding of differences of values.
-pub(super) const DIGITS_MARGIN: f64 = 1e-3;
+/// A typed value may be off by this much more than half of its last place. Relative; kind: rounding of sums of values
+/// that are off by exactly half a place, such as 0.05 mm of 0.28475 m typed as 0.2848.
+pub(super) const DIGITS_MARGIN: f64 = 1e-4;
+
+/// The part of half its last place by which a value of the reference model may be off. No unit; kind: judgement: two values
+/// that differ by one unit of the place that both are typed with are the same only if both were rounded from the middle, one
+/// up and one down.
+pub(crate) const OF_REFERENCE: f64 = 0.998;
 
 /// A residual below this part of what the digits of the files allow is no rounding. No unit; kind: judgement; rounding
 /// gives some fifth of what is allowed.

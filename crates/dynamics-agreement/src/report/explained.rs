@@ -61,8 +61,10 @@ impl ExplanationContext<'_> {
         let law_broken = corrected.law_broken(self.candidate);
         let changes = self.changes(&corrected);
         // Where something is to be written: a rotation of the inertial frame changes every entry of the tensor.
-        let line = changes.first().map(|first| first.from_line);
-        let line = line.or_else(|| parameters.iter().find_map(|parameter| parameter.line));
+        let lines = || parameters.iter().filter_map(|parameter| parameter.line);
+        let is_changed = |line: &usize| changes.iter().any(|of| (of.from_line..=of.to_line).contains(line));
+        let first = changes.first().map(|first| first.from_line);
+        let line = lines().find(is_changed).or(first).or_else(|| lines().next());
         DynamicsExplanation {
             cause: first.cause,
             detail: first.detail,

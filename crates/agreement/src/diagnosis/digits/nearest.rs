@@ -13,9 +13,9 @@ use crate::diagnosis::{
     },
 };
 
-/// The most that a value may be off, in half places. A little less than all: two values that differ by one unit of the last
-/// place that both are typed with could be the same only if both were rounded from the middle, one up and one down.
-const MOST: f64 = 1.0 - DIGITS_MARGIN;
+/// The most that a value may be off, in half places. A value that is rounded from exactly the middle of two is off by half
+/// a place: without the margin, rounding of the last bit would decide.
+const MOST: f64 = 1.0 + DIGITS_MARGIN;
 
 impl WrittenDigits {
     /// Whether values within half of the last place of the typed ones make the models the same, up to the rounding of
