@@ -22,9 +22,9 @@ mod urdf;
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use changed::{ChangedRobots, robots_of_changed};
 pub use configuration_file::{
-    Configurations, JointState, JointStateList, JsonList, LiveEntries, LiveInput, LiveState, LiveStates,
-    RobotQList, configuration, configurations_schema, outside_limits, outside_limits_warning,
-    read_configurations, read_configurations_from, read_states, read_states_from, unique_names,
+    Configurations, JointState, JointStateList, LiveEntries, LiveInput, LiveState, LiveStates, RobotQList,
+    configuration, configurations_schema, outside_limits, outside_limits_warning, read_configurations,
+    read_configurations_from, read_states, read_states_from, unique_names,
 };
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use description::{NamedFiles, Places, RobotDescription};

@@ -4,6 +4,7 @@
 //! length without keeping it in memory. Both skip lines that begin with `#`.
 
 pub mod codes;
+mod json_list;
 mod parquet;
 mod read;
 mod row_reader;
@@ -11,6 +12,7 @@ pub mod run_columns;
 mod stream;
 mod table;
 
+pub use json_list::{JsonList, is_entry};
 pub use read::read_table;
 pub use row_reader::{RowReader, Value};
 pub use stream::{TableError, is_csv, open};

@@ -2,13 +2,13 @@
 
 use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path, sync::Arc};
 
-use congruent_description::{JsonList, LiveEntries, LiveInput, Robot, configuration};
+use congruent_description::{LiveEntries, LiveInput, Robot, configuration};
 use congruent_input::{
     Diagnostic, Findings, SourceFile, TextLines, display::limit_number, read_text,
     rotation_from_rpy_fixed_xyz, units::LARGEST,
 };
 use congruent_kinematics::{IkTarget, Pose, TargetPart};
-use congruent_tables::is_csv;
+use congruent_tables::{JsonList, is_csv};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::{table::read_rows, written_target::WrittenTarget};

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{JsonList, Robot, configuration, unique_names};
+use congruent_description::{Robot, configuration, unique_names};
 use congruent_input::{Diagnostic, Findings, LineCounter, units::Unit};
+use congruent_tables::JsonList;
 use serde::Deserialize;
 
 use super::{

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use congruent_input::{Diagnostic, TextLines};
+use congruent_tables::{JsonList, is_entry};
 use serde::de::DeserializeOwned;
 
 use super::{
     beyond_limits::{outside_limits, outside_limits_warning},
-    json_list::{JsonList, is_entry},
     read::{LIST, MOST_BYTES},
     states::JointState,
     written::WrittenConfiguration,

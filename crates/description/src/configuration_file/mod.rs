@@ -1,7 +1,6 @@
 //! Configurations by joint name, as batch commands read them: JSON in SI units, or a table whose columns have units.
 
 mod beyond_limits;
-mod json_list;
 mod live;
 mod read;
 mod rows;
@@ -12,7 +11,6 @@ mod written;
 
 pub use self::{
     beyond_limits::{outside_limits, outside_limits_warning},
-    json_list::JsonList,
     live::{LiveEntries, LiveInput, LiveState, LiveStates},
     read::{
         Configurations, configuration, configurations_schema, read_configurations, read_configurations_from,

@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, ops::Range, path::Path};
 
 use congruent_input::{Diagnostic, Findings, InputFile, TextLines, known_names};
-use congruent_tables::is_csv;
+use congruent_tables::{JsonList, is_csv};
 use schemars::{Schema, schema_for};
 
 use crate::{
@@ -13,7 +13,6 @@ use crate::{
 
 use super::{
     beyond_limits::{OutsideLimits, outside_limits},
-    json_list::JsonList,
     rows::RobotQList,
     states::{JointState, JointStateList},
     table::read_rows,

@@ -63,8 +63,8 @@ impl ExplanationContext<'_> {
         // Where something is to be written: a rotation of the inertial frame changes every entry of the tensor.
         let lines = || parameters.iter().filter_map(|parameter| parameter.line);
         let is_changed = |line: &usize| changes.iter().any(|of| (of.from_line..=of.to_line).contains(line));
-        let first = changes.first().map(|first| first.from_line);
-        let line = lines().find(is_changed).or(first).or_else(|| lines().next());
+        let written = changes.first().map(|of| of.from_line);
+        let line = lines().find(is_changed).or(written).or_else(|| lines().next());
         DynamicsExplanation {
             cause: first.cause,
             detail: first.detail,

@@ -44,7 +44,7 @@ impl JsonList {
     ///
     /// # Errors
     /// The faults of the entries, or the one fault for which the file is no such list.
-    pub(super) fn read_file<Written: DeserializeOwned>(
+    pub fn read_file<Written: DeserializeOwned>(
         &self,
         mut lines: TextLines,
         mut check: impl FnMut(Written, &mut dyn FnMut() -> Range<usize>) -> Result<(), Diagnostic>,
@@ -65,7 +65,10 @@ impl JsonList {
     }
 
     /// The entry in the line that was read last, which has this number from 1.
-    pub(super) fn read_line<Written: DeserializeOwned, T>(
+    ///
+    /// # Errors
+    /// The line is no entry.
+    pub fn read_line<Written: DeserializeOwned, T>(
         &self,
         lines: &mut TextLines,
         number: usize,
@@ -170,7 +173,7 @@ impl JsonList {
 }
 
 /// Whether a line begins an entry, so that the list is one of lines.
-pub(super) fn is_entry(line: &str) -> bool {
+pub fn is_entry(line: &str) -> bool {
     line.trim_start().starts_with('{')
 }
 
@@ -239,7 +242,7 @@ mod tests {
     use super::*;
 
     const LIST: JsonList =
-        JsonList { entry: "entry", code: crate::codes::configurations::JSON, help: "expected a list" };
+        JsonList { entry: "entry", code: congruent_input::codes::xml::MALFORMED, help: "expected a list" };
 
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -253,7 +256,7 @@ mod tests {
         let mut read = Vec::new();
         let check = |written: Written, _: &mut dyn FnMut() -> Range<usize>| {
             if written.a < 0.0 {
-                return Err(Diagnostic::error(crate::codes::configurations::JSON, "is negative"));
+                return Err(Diagnostic::error(congruent_input::codes::xml::MALFORMED, "is negative"));
             }
             read.push(written.a);
             Ok(())
