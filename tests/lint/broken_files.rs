@@ -161,7 +161,7 @@ const FILES: &[(&str, &str, &str)] = &[
     ("h.urdf", "404: Not Found", "XML|no URDF"),
     ("i.urdf", "<robot name='r'/>", "no link"),
     ("j.urdf", "<robot name='r'><group name='arm'/></robot>", "no link"),
-    ("k.urdf", "<mujoco/>", "MuJoCo"),
+    ("k.urdf", "<mujoco><body/></mujoco>", "no element of <mujoco>"),
     ("l.srdf", "<robot name='r'><disable_collisions link1='a'/></robot>", "no link2"),
     ("m.toml", "urdf = 'missing.urdf'\n", "does not exist"),
     ("n.toml", "urdf = 'n.urdf\n", "string|TOML|quote|invalid"),
