@@ -181,7 +181,7 @@ fn a_fault_in_other_variables_is_named_at_the_joint_and_link_of_the_robot() {
     let report = robots.check().json();
     assert_eq!(report["dynamics"]["verdict"], "explained");
     let first = &report["dynamics"]["explanations"][0]["figures"][0];
-    assert_eq!([&first["link"], &first["parameter"]], ["upper_arm_link", "mass"], "{first:#}");
+    assert_eq!([&first["of"], &first["figure"]], ["upper_arm_link", "mass"], "{first:#}");
 }
 
 #[test]

@@ -81,11 +81,11 @@ impl ModelFile {
 
     fn from_mjcf(
         source: &Arc<SourceFile>,
-        inputs: MjcfInputs<'_, '_, '_>,
+        mut inputs: MjcfInputs<'_, '_, '_>,
         repairs: &Repairs,
     ) -> Result<Self, Findings> {
         let mut diagnostics = Diagnostics::default();
-        let read = mjcf::parse(source, inputs, &mut diagnostics).map(|mut read| {
+        let read = mjcf::parse(source, &mut inputs, &mut diagnostics).map(|mut read| {
             urdf::repair_inertias(&mut read.robot, repairs, &mut diagnostics);
             read
         });

@@ -53,7 +53,8 @@ impl Axis {
     /// How far the axis is from another one with the same direction: the angle, rad, and the distance at the point of this
     /// axis, m.
     pub(crate) fn difference(&self, other: &Self) -> (f64, f64) {
-        let angle = self.direction.cross(&other.direction).norm().atan2(self.direction.dot(&other.direction));
+        let angle =
+            libm::atan2(self.direction.cross(&other.direction).norm(), self.direction.dot(&other.direction));
         let distance = if self.slides { 0.0 } else { other.across(self.through - other.through).norm() };
         (angle, distance)
     }
@@ -104,10 +105,10 @@ pub(crate) fn turn_of_vectors(
         cosine += from.dot(to) - from.dot(direction) * to.dot(direction);
         lever = lever.max(from.cross(direction).norm().min(to.cross(direction).norm()));
     }
-    (lever > LEAST_LEVER_M).then(|| sine.atan2(cosine))
+    (lever > LEAST_LEVER_M).then(|| libm::atan2(sine, cosine))
 }
 
-/// The shift along `direction` that brings `line` nearest to `place`, seen from the line along the direction through
+/// The shift along `direction` that brings `line` nearest to `place`, along the line in that direction through
 /// `through`; `None` if both are parallel to the direction, or are directions alone.
 pub(crate) fn shift_towards(
     direction: &Vector3<f64>,

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Point3};
 use crate::{
     axis::{Axis, isometry},
     names::JointPairs,
-    variables::{JointVariable, Way},
+    variables::{JointVariable, Solution},
 };
 
 /// Differences of centres of mass below this share of the reach say nothing. Kind: choice; two sets of inertials of one arm
@@ -17,33 +17,38 @@ const SAME_BODY: f64 = 0.01;
 /// The lever with which a turned frame counts. Unit: m; kind: choice, a hand.
 const HAND_M: f64 = 0.1;
 
-/// The ways in the order of their choice: those whose bodies lie where those of the robot are before those that turn some
+/// The solutions in the order of their choice: those whose bodies lie where those of the robot are before those that turn some
 /// round, and else as they were.
 pub(crate) fn by_bodies(
-    ways: Vec<Way>,
+    solutions: Vec<Solution>,
     descriptions: [&RobotDescription; 2],
     screws: &[ScrewTree; 2],
     (pairs, reach_m): (&JointPairs, f64),
-) -> Vec<Way> {
-    if ways.len() < 2 {
-        return ways;
+) -> Vec<Solution> {
+    if solutions.len() < 2 {
+        return solutions;
     }
-    let apart = |way: &Way| apart_m(way, descriptions, screws, pairs);
-    let apart_m: Vec<f64> = ways.iter().map(apart).collect();
+    let apart = |solution: &Solution| apart_m(solution, descriptions, screws, pairs);
+    let apart_m: Vec<f64> = solutions.iter().map(apart).collect();
     let least = apart_m.iter().copied().fold(f64::INFINITY, f64::min);
     let is_other = |apart_m: f64| apart_m > 2.0 * least + SAME_BODY * reach_m;
-    let mut ordered: Vec<(bool, Way)> = apart_m.into_iter().map(is_other).zip(ways).collect();
-    // Stable: the simplest way stays first.
+    let mut ordered: Vec<(bool, Solution)> = apart_m.into_iter().map(is_other).zip(solutions).collect();
+    // Stable: the simplest solution stays first.
     ordered.sort_by_key(|(is_other, _)| *is_other);
-    ordered.into_iter().map(|(_, way)| way).collect()
+    ordered.into_iter().map(|(_, solution)| solution).collect()
 }
 
 /// The sum of the distances between the centres of mass of the links that matched joints carry, between frames of one name, and
 /// between limits, at zero.
-fn apart_m(way: &Way, [a, b]: [&RobotDescription; 2], screws: &[ScrewTree; 2], pairs: &JointPairs) -> f64 {
-    let mut moved = way.a_from_b;
+fn apart_m(
+    solution: &Solution,
+    [a, b]: [&RobotDescription; 2],
+    screws: &[ScrewTree; 2],
+    pairs: &JointPairs,
+) -> f64 {
+    let mut moved = solution.a_from_b;
     let mut apart_m = of_links(a, [a.robot.root(), b.robot.root()], b, screws, &moved);
-    for ([of_a, of_b], variable) in pairs.iter().zip(&way.variables) {
+    for ([of_a, of_b], variable) in pairs.iter().zip(&solution.variables) {
         if let Some(screw) = screws[1].screw(*of_b) {
             moved *= Axis::from_screw(screw).motion(variable.offset);
         }

@@ -3,8 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use congruent_description::{DeclaredMapping, JointIndex, LinkIndex, MappedJoint, Robot, RobotDescription};
-use congruent_input::known_names;
+use congruent_description::{JointIndex, LinkIndex, MappedJoint, Robot, RobotDescription};
 use congruent_kinematics::ScrewTree;
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
@@ -14,7 +13,7 @@ use crate::{
     axis::{Axis, isometry},
     bodies::by_bodies,
     names::{JointPairs, is_alike, with_one_name, with_similar_names},
-    variables::{ChainPair, JointVariable, Way},
+    variables::{ChainPair, JointVariable, Solution},
 };
 
 /// How the joints of two descriptions were found to be the same.
@@ -61,15 +60,15 @@ impl FoundMapping {
 type KnownVariables = BTreeMap<JointIndex, JointVariable>;
 
 /// What is known of two robots beside their files.
-struct Both<'a> {
-    a: &'a RobotDescription,
-    b: &'a RobotDescription,
+pub(crate) struct Both<'a> {
+    pub(crate) a: &'a RobotDescription,
+    pub(crate) b: &'a RobotDescription,
     screws: [ScrewTree; 2],
     reach_m: f64,
 }
 
 /// The joints of `b` in the variables of `a`; `None` if the two have no chain in common. The axes are near each other then,
-/// which does not mean that they agree: what is left is a difference of the two.
+/// which does not mean that they agree: the rest is a difference of the two.
 pub fn find(a: &RobotDescription, b: &RobotDescription) -> Option<FoundMapping> {
     let both = Both::new(a, b);
     let named = [
@@ -88,91 +87,18 @@ pub fn find(a: &RobotDescription, b: &RobotDescription) -> Option<FoundMapping> 
     })
 }
 
-/// The joints of `b` in the variables of `a` as a robot file declares them; joints that it does not name have the same name
-/// and variable.
-///
-/// # Errors
-/// A joint that `b` lacks, that slides in one of the two and turns in the other, or that is meant twice.
-pub fn declared(
-    a: &RobotDescription,
-    b: &RobotDescription,
-    mapping: &DeclaredMapping,
-) -> Result<FoundMapping, String> {
-    let both = Both::new(a, b);
-    let mut pairs: JointPairs = Vec::new();
-    let mut known = Vec::new();
-    for &index in a.robot.movable_joints() {
-        let name = &a.robot.joint(index).name;
-        if mapping.left_out.contains(name) {
-            continue;
-        }
-        let written = mapping.joints.iter().find(|of| of.joint == *name);
-        let there = written.map_or(name, |of| &of.there);
-        let found = b.robot.find_joint(there).filter(|&found| b.robot.joint(found).kind.is_movable());
-        let Some(found) = found else {
-            if written.is_some() {
-                let names = known_names(there, "moving joints", b.robot.movable_joint_names());
-                return Err(format!("{} has no moving joint \"{there}\"; {names}", b.path.display()));
-            }
-            continue;
-        };
-        if !is_alike([&a.robot, &b.robot], [index, found]) {
-            return Err(format!("joint \"{name}\" turns in one description and slides in the other"));
-        }
-        if pairs.iter().any(|pair| pair[1] == found) {
-            return Err(format!("two joints are \"{there}\" in {}", b.path.display()));
-        }
-        pairs.push([index, found]);
-        let variable = written.map(|of| JointVariable { is_flipped: of.is_flipped, offset: of.offset });
-        known.push(variable.unwrap_or_default());
-    }
-    both.with_known(pairs, &known, mapping.has_fitted_base).ok_or_else(|| "no joint moves in both".to_owned())
-}
-
 impl<'a> Both<'a> {
-    fn new(a: &'a RobotDescription, b: &'a RobotDescription) -> Self {
+    pub(crate) fn new(a: &'a RobotDescription, b: &'a RobotDescription) -> Self {
         let reach_m = a.tolerance_scale().reach_m().unwrap_or(1.0);
         Self { a, b, screws: [&a.robot, &b.robot].map(ScrewTree::new), reach_m }
     }
 }
 
 impl Both<'_> {
-    /// The mapping of these pairs with the variables that are known.
-    fn with_known(
-        &self,
-        pairs: JointPairs,
-        known: &[JointVariable],
-        has_fitted_base: bool,
-    ) -> Option<FoundMapping> {
-        let base = self.shared_roots()[0];
-        let of_chain = self.a.moving_chain();
-        let is_of_chain = |pair: &&[JointIndex; 2]| of_chain.contains(&pair[0]);
-        let chain: JointPairs = pairs.iter().filter(is_of_chain).copied().collect();
-        let variable = |pair: &[JointIndex; 2]| {
-            pairs.iter().zip(known).find(|(of, _)| *of == pair).map(|(_, variable)| *variable)
-        };
-        let fitted = || {
-            let known = chain.iter().map(variable).collect();
-            ChainPair { known, ..self.chain_pair(&chain, None, None) }.ways().into_iter().next()
-        };
-        let way = if has_fitted_base { fitted() } else { None };
-        let mapped = pairs.iter().zip(known).map(|(pair, variable)| self.in_variable(*pair, *variable));
-        let mapped = mapped.collect::<Vec<_>>();
-        (!pairs.is_empty()).then(|| FoundMapping {
-            joints: mapped,
-            matched_by: MatchedBy::Declared,
-            unmatched: self.unmatched(&pairs),
-            root_from_other_root: way.as_ref().map_or(base, |way| way.a_from_b),
-            angle_rad: way.as_ref().map_or(0.0, |way| way.angle_rad),
-            distance_m: way.as_ref().map_or(0.0, |way| way.distance_m),
-            equivalent: Vec::new(),
-        })
-    }
-
-    /// What a mapping leaves, as a distance; joints without a partner count.
+    /// The rest of a mapping, as a distance; joints without a partner count.
     fn cost(&self, found: &FoundMapping) -> f64 {
-        let left_out: usize = found.unmatched.iter().map(Vec::len).sum();
-        found.distance_m + self.reach_m * (found.angle_rad + 1e-3 * left_out as f64)
+        let left_out: f64 = found.unmatched.iter().flatten().map(|_| 1e-3).sum();
+        found.distance_m + self.reach_m * (found.angle_rad + left_out)
     }
 
     /// The joints of both chains in order; if one is longer, at its beginning and at its end.
@@ -183,30 +109,30 @@ impl Both<'_> {
         };
         let (a, b) = (chain(self.a), chain(self.b));
         let count = a.len().min(b.len());
-        let mut ways = BTreeSet::new();
-        ways.insert((0, 0));
-        ways.insert((a.len() - count, b.len() - count));
+        let mut solutions = BTreeSet::new();
+        solutions.insert((0, 0));
+        solutions.insert((a.len() - count, b.len() - count));
         let pairs = |(from_a, from_b): (usize, usize)| -> JointPairs {
             (0..count).map(|at| [a[from_a + at], b[from_b + at]]).collect()
         };
         let robots = [&self.a.robot, &self.b.robot];
         let is_possible =
             |pairs: &JointPairs| !pairs.is_empty() && pairs.iter().all(|pair| is_alike(robots, *pair));
-        ways.into_iter().map(pairs).filter(is_possible).collect()
+        solutions.into_iter().map(pairs).filter(is_possible).collect()
     }
 
     /// The variables of these pairs: first on the chain to the tip and beyond, then on all other branches.
     fn solved(&self, matched_by: MatchedBy, mut pairs: JointPairs) -> Option<FoundMapping> {
         let branches = self.branches(&pairs);
         let main = self.main_branch(&pairs, &branches);
-        let ways = self.ways_of_chain(&main)?;
-        let ways = by_bodies(ways, [self.a, self.b], &self.screws, (&main, self.reach_m));
-        let way = ways.first()?;
-        let of_main = |way: &Way| -> KnownVariables {
-            main.iter().map(|pair| pair[0]).zip(way.variables.iter().copied()).collect()
+        let solutions = self.solutions_of_chain(&main)?;
+        let solutions = by_bodies(solutions, [self.a, self.b], &self.screws, (&main, self.reach_m));
+        let solution = solutions.first()?;
+        let of_main = |solution: &Solution| -> KnownVariables {
+            main.iter().map(|pair| pair[0]).zip(solution.variables.iter().copied()).collect()
         };
-        let mut solved = of_main(way);
-        let (mut angle_rad, mut distance_m) = (way.angle_rad, way.distance_m);
+        let mut solved = of_main(solution);
+        let (mut angle_rad, mut distance_m) = (solution.angle_rad, solution.distance_m);
         for (end, branch) in branches {
             let known: Vec<_> = branch.iter().map(|pair| solved.get(&pair[0]).copied()).collect();
             if known.iter().all(Option::is_some) {
@@ -214,13 +140,19 @@ impl Both<'_> {
             }
             let tips = self.tips_of(end, &self.a.robot.link(end).name);
             let with_tips =
-                ChainPair { known: known.clone(), ..self.chain_pair(&branch, Some(way.a_from_b), tips) };
-            let chain = ChainPair { known, ..self.chain_pair(&branch, Some(way.a_from_b), None) };
-            let ways = [with_tips.ways(), chain.ways()].into_iter().find(|ways| !ways.is_empty());
-            let ways =
-                by_bodies(ways.unwrap_or_default(), [self.a, self.b], &self.screws, (&branch, self.reach_m));
+                ChainPair { known: known.clone(), ..self.chain_pair(&branch, Some(solution.a_from_b), tips) };
+            let chain = ChainPair { known, ..self.chain_pair(&branch, Some(solution.a_from_b), None) };
+            let solutions = [with_tips.solutions(), chain.solutions()]
+                .into_iter()
+                .find(|solutions| !solutions.is_empty());
+            let solutions = by_bodies(
+                solutions.unwrap_or_default(),
+                [self.a, self.b],
+                &self.screws,
+                (&branch, self.reach_m),
+            );
             // Joints of the same name whose axes are others are not the same joints.
-            let Some(found) = ways.into_iter().next() else {
+            let Some(found) = solutions.into_iter().next() else {
                 pairs.retain(|pair| solved.contains_key(&pair[0]) || !branch.contains(pair));
                 continue;
             };
@@ -238,10 +170,10 @@ impl Both<'_> {
             joints: mapped(&solved),
             matched_by,
             unmatched: self.unmatched(&pairs),
-            root_from_other_root: way.a_from_b,
+            root_from_other_root: solution.a_from_b,
             angle_rad,
             distance_m,
-            equivalent: ways.iter().skip(1).map(|other| mapped(&of_main(other))).collect(),
+            equivalent: solutions.iter().skip(1).map(|other| mapped(&of_main(other))).collect(),
         })
     }
 
@@ -253,38 +185,41 @@ impl Both<'_> {
         beyond.max_by_key(|branch| branch.len()).cloned().unwrap_or(to_tip)
     }
 
-    /// The ways of the chain from base to tip: with the same frames at both ends if these explain it, else with another tool,
+    /// The solutions of the chain from base to tip: with the same frames at both ends if these explain it, else with another tool,
     /// else with another base as well.
-    fn ways_of_chain(&self, pairs: &JointPairs) -> Option<Vec<Way>> {
-        /// Axes that are nearer than this share of the reach are the same but for what a calibration changes.
+    fn solutions_of_chain(&self, pairs: &JointPairs) -> Option<Vec<Solution>> {
+        /// Axes that are nearer than this share of the reach are the same up to what a calibration changes.
         const NEAR: f64 = 1e-4;
         /// Kind: choice; a fault is smaller, a base elsewhere farther.
         const SAME_BASE: f64 = 0.05;
-        let tips = [self.shared_tips(), self.both_tips()];
+        let tips = [self.shared_tips(), Some(self.both_tips())];
         let bases = self.shared_roots().into_iter().map(Some).chain([None]);
         let attempts = bases.flat_map(|base| {
             tips.into_iter().flatten().map(Some).chain([None]).map(move |tips| (base, tips))
         });
-        let off = |ways: &Vec<Way>| ways.first().map_or(f64::INFINITY, |way| way.off_m(self.reach_m));
-        let mut best: Option<Vec<Way>> = None;
+        let off = |solutions: &Vec<Solution>| {
+            solutions.first().map_or(f64::INFINITY, |solution| solution.off_m(self.reach_m))
+        };
+        let mut best: Option<Vec<Solution>> = None;
         for (base, tips) in attempts {
-            let ways = self.chain_pair(pairs, base, tips).ways();
+            let solutions = self.chain_pair(pairs, base, tips).solutions();
             let is_fault = best.as_ref().is_some_and(|best| off(best) <= SAME_BASE * self.reach_m);
-            if off(&ways) < NEAR * self.reach_m && !(base.is_none() && is_fault) {
-                return Some(ways);
+            if off(&solutions) < NEAR * self.reach_m && !(base.is_none() && is_fault) {
+                return Some(solutions);
             }
             // Another base or tool must explain much to be believed, and more than a fault of some centimetres, which it would
             // hide.
-            let explains =
-                |best: &Vec<Way>| off(&ways) < 0.3 * off(best) && off(best) > SAME_BASE * self.reach_m;
-            if best.as_ref().is_none_or(explains) && !ways.is_empty() {
-                best = Some(ways);
+            let explains = |best: &Vec<Solution>| {
+                off(&solutions) < 0.3 * off(best) && off(best) > SAME_BASE * self.reach_m
+            };
+            if best.as_ref().is_none_or(explains) && !solutions.is_empty() {
+                best = Some(solutions);
             }
         }
         best
     }
 
-    fn chain_pair(
+    pub(crate) fn chain_pair(
         &self,
         pairs: &JointPairs,
         a_from_b: Option<Isometry3<f64>>,
@@ -299,7 +234,7 @@ impl Both<'_> {
     }
 
     /// Where the other root may be in this one: by links near the root that have one name in both, and the same frame.
-    fn shared_roots(&self) -> Vec<Isometry3<f64>> {
+    pub(crate) fn shared_roots(&self) -> Vec<Isometry3<f64>> {
         let (a, b) = (&self.a.robot, &self.b.robot);
         let is_still = |robot: &Robot, link: LinkIndex| robot.body(link) == robot.root();
         let shared = a.link_indices().filter(|&link| is_still(a, link)).filter_map(|link| {
@@ -320,8 +255,8 @@ impl Both<'_> {
     }
 
     /// Poses of the tips of both chains, whatever they are called, if they are the ends of the same joints.
-    fn both_tips(&self) -> Option<[Isometry3<f64>; 2]> {
-        Some([self.home(0, self.a.tip), self.home(1, self.b.tip)])
+    fn both_tips(&self) -> [Isometry3<f64>; 2] {
+        [self.home(0, self.a.tip), self.home(1, self.b.tip)]
     }
 
     /// Poses of the tips in their roots, if both tips have one name.
@@ -351,7 +286,7 @@ impl Both<'_> {
         ends.map(branch).collect()
     }
 
-    fn unmatched(&self, pairs: &JointPairs) -> [Vec<JointIndex>; 2] {
+    pub(crate) fn unmatched(&self, pairs: &JointPairs) -> [Vec<JointIndex>; 2] {
         let without = |of: usize, robot: &Robot| {
             let is_free = |joint: &JointIndex| pairs.iter().all(|pair| pair[of] != *joint);
             robot.movable_joints().iter().copied().filter(is_free).collect()
@@ -360,7 +295,7 @@ impl Both<'_> {
     }
 
     /// A joint of the other description in this variable.
-    fn in_variable(&self, pair: [JointIndex; 2], variable: JointVariable) -> MappedJoint {
+    pub(crate) fn in_variable(&self, pair: [JointIndex; 2], variable: JointVariable) -> MappedJoint {
         MappedJoint {
             joint: pair[1],
             name: self.a.robot.joint(pair[0]).name.clone(),
@@ -380,14 +315,14 @@ impl Both<'_> {
         let offset = variable.offset - turn * (variable.offset / turn).round();
         let candidates = [offset, offset - turn, offset + turn].map(mapped);
         // Degrees of the common range, so that rounding does not choose a turn.
-        let overlap = |candidate: &MappedJoint| -> i64 {
+        let overlap = |candidate: &MappedJoint| -> f64 {
             let (Some((lower, upper)), Some(range)) = (a.position_range(), b.position_range()) else {
-                return 0;
+                return 0.0;
             };
             let ends = [range.0, range.1].map(|end| candidate.there(end));
-            (upper.min(ends[0].max(ends[1])) - lower.max(ends[0].min(ends[1]))).to_degrees() as i64
+            (upper.min(ends[0].max(ends[1])) - lower.max(ends[0].min(ends[1]))).to_degrees().floor()
         };
-        let most = candidates.iter().map(&overlap).max().unwrap_or(0);
-        candidates.into_iter().find(|candidate| overlap(candidate) == most).expect("one has the most")
+        let most = candidates.iter().map(&overlap).fold(f64::NEG_INFINITY, f64::max);
+        candidates.into_iter().find(|candidate| overlap(candidate) >= most).expect("one has the most")
     }
 }

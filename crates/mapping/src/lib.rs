@@ -1,5 +1,5 @@
 //! Two descriptions of a robot in the same variables: which joint of one is which of the other, whether it moves the other
-//! way, and where it has its zero.
+//! solution, and where it has its zero.
 //!
 //! A mapping is found by names or by the order along the chain, with the axes of the joints as proof ([`find`]). The
 //! other description is then rewritten in the variables (`Robot::in_variables`) and the link frames ([`in_frames_of`]) of the
@@ -7,6 +7,7 @@
 
 mod axis;
 mod bodies;
+mod declared;
 mod find;
 mod frames;
 mod matched;
@@ -14,6 +15,7 @@ mod names;
 mod polish;
 mod variables;
 
-pub use find::{FoundMapping, MatchedBy, declared, find};
+pub use declared::declared;
+pub use find::{FoundMapping, MatchedBy, find};
 pub use frames::in_frames_of;
 pub use matched::MatchedRobots;

@@ -1,4 +1,4 @@
-//! Which joints of two descriptions have the same name, or the same one but for what descriptions add: a prefix of the robot,
+//! Which joints of two descriptions have the same name, or the same one except for what descriptions add: a prefix of the robot,
 //! the word "joint", capitals.
 
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ pub(crate) fn is_alike(robots: [&Robot; 2], pair: [JointIndex; 2]) -> bool {
     b.is_movable() && a.is_angular() == b.is_angular()
 }
 
-/// The joints by what is left of their names; without those that share it.
+/// The joints by the rest of their names; without those that share it.
 fn by_stem(robot: &Robot) -> BTreeMap<String, JointIndex> {
     let words: Vec<Vec<String>> = robot.movable_joint_names().map(words).collect();
     let mut stems: BTreeMap<String, Vec<JointIndex>> = BTreeMap::new();

@@ -1,10 +1,10 @@
-//! Offsets and base of a way brought nearest to the axes of the robot, all together: the search finds them one after the
+//! Offsets and base of a solution brought nearest to the axes of the robot, all together: the search finds them one after the
 //! other, which is exact only as long as no later offset moves what an earlier one was found by.
 
 use congruent_kinematics::least_squares::{Damping, NormalEquations};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use crate::variables::{ChainPair, JointVariable, Way};
+use crate::variables::{ChainPair, JointVariable, Solution};
 
 /// Steps at most; the search begins so near that three are enough. Kind: loop bound.
 const MOST_STEPS: usize = 10;
@@ -14,9 +14,9 @@ const STEP: f64 = 1e-6;
 const DAMPING: Damping = Damping { relative: 0.0, absolute: 1e-9 };
 
 impl ChainPair {
-    /// The way with the offsets, and the base if it is free, at which the axes are nearest.
-    pub(crate) fn polished(&self, way: Way) -> Way {
-        let mut best = way;
+    /// The solution with the offsets, and the base if it is free, at which the axes are nearest.
+    pub(crate) fn polished(&self, solution: Solution) -> Solution {
+        let mut best = solution;
         for _ in 0..MOST_STEPS {
             let rest = self.rest(&best);
             let unknowns = self.unknowns();
@@ -32,7 +32,7 @@ impl ChainPair {
             let stepped = unknowns
                 .iter()
                 .zip(step.iter())
-                .fold(best.clone(), |way, (&unknown, &by)| moved(&way, unknown, by));
+                .fold(best.clone(), |solution, (&unknown, &by)| moved(&solution, unknown, by));
             let (before, after) = (norm(&rest), norm(&self.rest(&stepped)));
             if after >= before {
                 break;
@@ -52,11 +52,11 @@ impl ChainPair {
         offsets.map(Unknown::Offset).chain(base).collect()
     }
 
-    /// What is left: for each axis its difference in direction, as a length, and in place; for the tips likewise.
-    fn rest(&self, way: &Way) -> Vec<f64> {
+    /// The rest: for each axis its difference in direction, as a length, and in place; for the tips likewise.
+    fn rest(&self, solution: &Solution) -> Vec<f64> {
         let mut rest = Vec::new();
-        let mut moved = way.a_from_b;
-        for ((a, b), variable) in self.a.iter().zip(&self.b).zip(&way.variables) {
+        let mut moved = solution.a_from_b;
+        for ((a, b), variable) in self.a.iter().zip(&self.b).zip(&solution.variables) {
             let there = b.moved(&moved);
             let direction = if variable.is_flipped { -there.direction } else { there.direction };
             rest.extend((a.direction.cross(&direction) * self.reach_m).iter());
@@ -84,19 +84,19 @@ enum Unknown {
     Base(usize),
 }
 
-fn moved(way: &Way, unknown: Unknown, by: f64) -> Way {
-    let mut moved = way.clone();
+fn moved(solution: &Solution, unknown: Unknown, by: f64) -> Solution {
+    let mut moved = solution.clone();
     match unknown {
         Unknown::Offset(at) => {
             let JointVariable { offset, .. } = &mut moved.variables[at];
             *offset += by;
         }
         Unknown::Base(component) if component < 3 => {
-            moved.a_from_b = Translation3::from(Vector3::ith(component, by)) * way.a_from_b;
+            moved.a_from_b = Translation3::from(Vector3::ith(component, by)) * solution.a_from_b;
         }
         Unknown::Base(component) => {
             let turn = UnitQuaternion::from_scaled_axis(Vector3::ith(component - 3, by));
-            moved.a_from_b = Isometry3::from_parts(Translation3::identity(), turn) * way.a_from_b;
+            moved.a_from_b = Isometry3::from_parts(Translation3::identity(), turn) * solution.a_from_b;
         }
     }
     moved

@@ -13,13 +13,13 @@ use crate::axis::{Axis, shift_towards, turn_of_vectors, turn_towards};
 const OTHER_ANGLE_RAD: f64 = 0.35;
 /// The same for the distance, as a share of the reach.
 const OTHER_DISTANCE: f64 = 0.2;
-/// Most ways that are followed to their end; wrists with axes at right angles have a few.
-const MOST_WAYS: usize = 256;
-/// Axes agree exactly, but for the digits of pi, below this share of the reach. Kind: choice.
+/// Most solutions that are followed to their end; wrists with axes at right angles have a few.
+const MOST_SOLUTIONS: usize = 256;
+/// Axes agree exactly, up to the digits of pi, below this share of the reach. Kind: choice.
 const EXACT: f64 = 1e-7;
 /// What an offset near a quarter turn may hide of a fault, as a share of the reach. Kind: choice, some centimetres.
 const FAULT: f64 = 0.02;
-/// Cosine of the tilt of a base that stands upright. Kind: choice, a degree.
+/// Cosine of the tilt of an upright base. Kind: choice, a degree.
 const UPRIGHT: f64 = 0.9998;
 /// Offsets of less are the rounding of calculation.
 const ROUNDING: f64 = 1e-9;
@@ -39,16 +39,16 @@ pub(crate) struct ChainPair {
     pub(crate) reach_m: f64,
 }
 
-/// JointVariable of a joint of B: `q_b = q_a + offset`, or `-q_a + offset` if it is flipped.
+/// The variable of a joint of B: `q_b = q_a + offset`, or `-q_a + offset` if it is flipped.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct JointVariable {
     pub(crate) is_flipped: bool,
     pub(crate) offset: f64,
 }
 
-/// A way to bring the axes together.
+/// A solution to bring the axes together.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Way {
+pub(crate) struct Solution {
     pub(crate) variables: Vec<JointVariable>,
     /// Pose of B's root in A's.
     pub(crate) a_from_b: Isometry3<f64>,
@@ -58,7 +58,7 @@ pub(crate) struct Way {
     pub(crate) distance_m: f64,
 }
 
-impl Way {
+impl Solution {
     /// Both as a distance.
     pub(crate) fn off_m(&self, reach_m: f64) -> f64 {
         self.distance_m + reach_m * self.angle_rad
@@ -76,31 +76,33 @@ impl Way {
 }
 
 impl ChainPair {
-    /// The ways that bring the axes nearest together, the simplest first: fewest flips, fewest offsets, smallest offsets.
+    /// The solutions that bring the axes nearest together, the simplest first: fewest flips, fewest offsets, smallest offsets.
     /// Empty if the axes are those of other chains.
-    pub(crate) fn ways(&self) -> Vec<Way> {
-        let mut ways = Vec::new();
+    pub(crate) fn solutions(&self) -> Vec<Solution> {
+        let mut solutions = Vec::new();
         for start in self.starts() {
-            self.follow(&start, start, &mut Vec::new(), &mut ways);
+            self.follow(&start, start, &mut Vec::new(), &mut solutions);
         }
-        let polished = ways.into_iter().map(|way| self.polished(way));
-        let rounded: Vec<Way> = polished.map(|way| self.with_round_offsets(way)).collect();
-        let best_m = rounded.iter().map(|way| way.off_m(self.reach_m)).fold(f64::INFINITY, f64::min);
+        let polished = solutions.into_iter().map(|solution| self.polished(solution));
+        let rounded: Vec<Solution> = polished.map(|solution| self.with_round_offsets(solution)).collect();
+        let best_m =
+            rounded.iter().map(|solution| solution.off_m(self.reach_m)).fold(f64::INFINITY, f64::min);
         let limit_m = 2.0 * best_m + 1e-9 * self.reach_m;
-        let mut ways: Vec<Way> = Vec::new();
-        for way in rounded.into_iter().filter(|way| way.off_m(self.reach_m) <= limit_m) {
-            if !ways.iter().any(|known| is_same(known, &way)) {
-                ways.push(way);
+        let mut solutions: Vec<Solution> = Vec::new();
+        for solution in rounded.into_iter().filter(|solution| solution.off_m(self.reach_m) <= limit_m) {
+            if !solutions.iter().any(|known| is_same(known, &solution)) {
+                solutions.push(solution);
             }
         }
-        let cost = |way: &Way| {
-            let (count, sum) = way.offsets();
-            // A base stands upright in both files.
-            let is_tilted = self.a_from_b.is_none() && (way.a_from_b.rotation * Vector3::z()).z < UPRIGHT;
-            (is_tilted, way.flips(), count, sum)
+        let cost = |solution: &Solution| {
+            let (count, sum) = solution.offsets();
+            // A base is upright in both files.
+            let is_tilted =
+                self.a_from_b.is_none() && (solution.a_from_b.rotation * Vector3::z()).z < UPRIGHT;
+            (is_tilted, solution.flips(), count, sum)
         };
-        ways.sort_by(|a, b| cost(a).partial_cmp(&cost(b)).unwrap_or(std::cmp::Ordering::Equal));
-        ways
+        solutions.sort_by(|a, b| cost(a).partial_cmp(&cost(b)).unwrap_or(std::cmp::Ordering::Equal));
+        solutions
     }
 
     /// Where the root of B may be in A before any joint: as known, or with the first axes on each other.
@@ -139,20 +141,20 @@ impl ChainPair {
         Translation3::from(shift.unwrap_or_else(Vector3::zeros)) * a_from_b
     }
 
-    /// Follows all ways from the joint behind the known variables on.
+    /// Follows all solutions from the joint behind the known variables on.
     fn follow(
         &self,
         a_from_b: &Isometry3<f64>,
         moved: Isometry3<f64>,
         variables: &mut Vec<JointVariable>,
-        ways: &mut Vec<Way>,
+        solutions: &mut Vec<Solution>,
     ) {
-        if ways.len() >= MOST_WAYS {
+        if solutions.len() >= MOST_SOLUTIONS {
             return;
         }
         let at = variables.len();
         let Some(axis) = self.a.get(at) else {
-            ways.extend(self.judged(a_from_b, variables));
+            solutions.extend(self.judged(a_from_b, variables));
             return;
         };
         let there = self.b[at].moved(&moved);
@@ -165,7 +167,7 @@ impl ChainPair {
         }
         for offset in self.offsets(at, &there, &moved) {
             variables.push(JointVariable { is_flipped, offset });
-            self.follow(a_from_b, moved * self.b[at].motion(offset), variables, ways);
+            self.follow(a_from_b, moved * self.b[at].motion(offset), variables, solutions);
             variables.pop();
         }
     }
@@ -219,57 +221,57 @@ impl ChainPair {
         })
     }
 
-    /// A complete way, with what it leaves.
-    pub(crate) fn judged(&self, a_from_b: &Isometry3<f64>, variables: &[JointVariable]) -> Option<Way> {
-        let mut way =
-            Way { variables: variables.to_vec(), a_from_b: *a_from_b, angle_rad: 0.0, distance_m: 0.0 };
+    /// A complete solution, with its residual.
+    pub(crate) fn judged(&self, a_from_b: &Isometry3<f64>, variables: &[JointVariable]) -> Option<Solution> {
+        let mut solution =
+            Solution { variables: variables.to_vec(), a_from_b: *a_from_b, angle_rad: 0.0, distance_m: 0.0 };
         let mut moved = *a_from_b;
         for ((a, b), variable) in self.a.iter().zip(&self.b).zip(variables) {
             let there = b.moved(&moved);
             let direction = if variable.is_flipped { -there.direction } else { there.direction };
             let (angle_rad, distance_m) = Axis { direction, ..there }.difference(a);
-            way.angle_rad = way.angle_rad.max(angle_rad);
-            way.distance_m = way.distance_m.max(distance_m);
+            solution.angle_rad = solution.angle_rad.max(angle_rad);
+            solution.distance_m = solution.distance_m.max(distance_m);
             moved *= b.motion(variable.offset);
         }
         if let Some([a, b]) = self.tips {
             let off = a.inverse() * moved * b;
-            way.angle_rad = way.angle_rad.max(off.rotation.angle());
-            way.distance_m = way.distance_m.max(off.translation.vector.norm());
+            solution.angle_rad = solution.angle_rad.max(off.rotation.angle());
+            solution.distance_m = solution.distance_m.max(off.translation.vector.norm());
         }
-        way.off_m(self.reach_m).is_finite().then_some(way)
+        solution.off_m(self.reach_m).is_finite().then_some(solution)
     }
 
     /// Offsets near 0 and near quarter turns as these, where nothing speaks against it.
-    fn with_round_offsets(&self, mut way: Way) -> Way {
+    fn with_round_offsets(&self, mut solution: Solution) -> Solution {
         /// A calibrated zero is up to a few degrees off.
         const NEAR_RAD: f64 = 0.05;
-        for at in 0..way.variables.len() {
-            let offset = way.variables[at].offset;
+        for at in 0..solution.variables.len() {
+            let offset = solution.variables[at].offset;
             let step = if self.b[at].slides { f64::INFINITY } else { std::f64::consts::FRAC_PI_2 };
             let round = if step.is_finite() { (offset / step).round() * step } else { 0.0 };
             if self.known[at].is_some() || (offset - round).abs() > NEAR_RAD {
                 continue;
             }
-            let mut variables = way.variables.clone();
+            let mut variables = solution.variables.clone();
             variables[at].offset = round + 0.0;
-            let Some(rounded) = self.judged(&way.a_from_b, &variables) else { continue };
+            let Some(rounded) = self.judged(&solution.a_from_b, &variables) else { continue };
             // Between files that do not agree exactly, an offset of a degree may only make up for a fault.
-            let is_exact = way.off_m(self.reach_m) <= EXACT * self.reach_m;
+            let is_exact = solution.off_m(self.reach_m) <= EXACT * self.reach_m;
             let slack = if is_exact { 1e-10 } else { FAULT };
-            if rounded.off_m(self.reach_m) <= 1.2 * way.off_m(self.reach_m) + slack * self.reach_m {
-                way = rounded;
+            if rounded.off_m(self.reach_m) <= 1.2 * solution.off_m(self.reach_m) + slack * self.reach_m {
+                solution = rounded;
             }
         }
-        way
+        solution
     }
 }
 
-/// Whether two ways are the same but for rounding and whole turns.
-fn is_same(a: &Way, b: &Way) -> bool {
+/// Whether two solutions are the same except for rounding and whole turns.
+fn is_same(a: &Solution, b: &Solution) -> bool {
     let is_near = |(a, b): (&JointVariable, &JointVariable)| {
         let off = a.offset - b.offset;
-        a.is_flipped == b.is_flipped && off.sin().abs() < 1e-6 && off.cos() > 0.0
+        a.is_flipped == b.is_flipped && libm::sin(off).abs() < 1e-6 && libm::cos(off) > 0.0
     };
     a.variables.iter().zip(&b.variables).all(is_near)
 }

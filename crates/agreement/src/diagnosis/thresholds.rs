@@ -74,11 +74,6 @@ pub(super) const MOST_WEIGHTED_JOINTS: usize = 24;
 /// that are off by exactly half a place, such as 0.05 mm of 0.28475 m typed as 0.2848.
 pub(super) const DIGITS_MARGIN: f64 = 1e-4;
 
-/// The part of half its last place by which a value of the reference model may be off. No unit; kind: judgement: two values
-/// that differ by one unit of the place that both are typed with are the same only if both were rounded from the middle, one
-/// up and one down.
-pub(crate) const OF_REFERENCE: f64 = 0.998;
-
 /// A residual below this part of what the digits of the files allow is no rounding. No unit; kind: judgement; rounding
 /// gives some fifth of what is allowed.
 pub(super) const BEYOND_DIGITS: f64 = 1e-2;

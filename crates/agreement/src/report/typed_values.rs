@@ -3,10 +3,7 @@
 use congruent_description::{JointDigits, TableDigits};
 
 use super::names::ModelNames;
-use crate::diagnosis::{
-    Criterion, DhEntry, ModelPair, TransformPart, TypedPlace, TypedValue, WrittenDigits,
-    thresholds::OF_REFERENCE,
-};
+use crate::diagnosis::{Criterion, DhEntry, ModelPair, TransformPart, TypedPlace, TypedValue, WrittenDigits};
 
 impl ModelNames<'_> {
     /// The digits of the files that both models were read from. A model in screws is computed, so it has none.
@@ -38,8 +35,7 @@ fn table(TableDigits { rows, base, tool }: &TableDigits, values: &mut Vec<TypedV
 }
 
 fn joint_values(joint: usize, JointDigits { origin, axis }: &JointDigits, values: &mut Vec<TypedValue>) {
-    let origin = origin.map(|half_place| OF_REFERENCE * half_place);
-    transform(|part| TypedPlace::Origin(joint, part), &origin, values);
+    transform(|part| TypedPlace::Origin(joint, part), origin, values);
     let components = axis.iter().enumerate();
     values.extend(components.map(|(component, &half_place)| TypedValue {
         place: TypedPlace::Axis(joint, component),

@@ -64,7 +64,7 @@ pub struct ReportedJoint {
     pub joint: String,
     /// Its name in the other one.
     pub other: String,
-    /// 1, or -1 if it moves the other way there.
+    /// 1, or -1 if it moves in the opposite direction there.
     pub sign: i8,
     /// Its position there if it is at 0 here, rad or m.
     pub offset: f64,
@@ -108,7 +108,7 @@ impl MappedPair {
             ));
         }
         let found = declared(description, other, mapping).map_err(|why| format!("[mapping]: {why}"))?;
-        Ok(Some(Self::new(description, other, options, found)))
+        Ok(Some(Self::new(description, other, options, &found)))
     }
 
     /// Two descriptions with other joints by name; `None` if they have no chain in common.
@@ -119,7 +119,7 @@ impl MappedPair {
     ) -> Option<Self> {
         let found = find(description, other)?;
         let is_proved = found.matched_by != MatchedBy::Order || off(&found, description) < SAME_CHAIN;
-        is_proved.then(|| Self::new(description, other, options, found))
+        is_proved.then(|| Self::new(description, other, options, &found))
     }
 
     /// Two descriptions with the same joints by name whose directions and zeros explain why the poses differ.
@@ -131,16 +131,16 @@ impl MappedPair {
         let found = find(description, other)?;
         let is_convention = |of: &MappedJoint| of.is_flipped || of.offset.abs() > LEAST_ZERO_RAD;
         let explains = found.joints.iter().any(is_convention) && off(&found, description) < EXPLAINED;
-        explains.then(|| Self::new(description, other, options, found))
+        explains.then(|| Self::new(description, other, options, &found))
     }
 
     fn new(
         description: &RobotDescription,
         other: &RobotDescription,
         options: &CheckOptions,
-        found: FoundMapping,
+        found: &FoundMapping,
     ) -> Self {
-        let report = reported(description, other, &found);
+        let report = reported(description, other, found);
         let kept: BTreeSet<&str> = found.joints.iter().map(|of| of.name.as_str()).collect();
         let [locked, other_locked] = locked(description, other, &found.unmatched);
         let robot = description.robot.locked(&locked).moved_by(&kept);
@@ -281,13 +281,14 @@ fn reported(
     let is_known = |name: &String| description.mapping.as_ref().is_some_and(|of| of.left_out.contains(name));
     let is_declared =
         found.matched_by == MatchedBy::Declared && left_out.iter().chain(&other_left_out).all(is_known);
+    let root_from_other_root = (!is_same).then(|| ReportedPose::from(&root));
     ReportedMapping {
         matched_by: found.matched_by,
-        lines: lines(&joints, [&left_out, &other_left_out], !is_same),
+        lines: lines(&joints, [&left_out, &other_left_out], root_from_other_root.as_ref()),
         joints,
         left_out,
         other_left_out,
-        root_from_other_root: (!is_same).then(|| ReportedPose::from(&root)),
+        root_from_other_root,
         equivalent: found.equivalent.len(),
         worst: None,
         is_declared,
@@ -295,14 +296,18 @@ fn reported(
 }
 
 /// The section of a robot file that declares a mapping.
-fn lines(joints: &[ReportedJoint], left_out: [&[String]; 2], is_based: bool) -> Vec<String> {
+fn lines(
+    joints: &[ReportedJoint],
+    left_out: [&[String]; 2],
+    root_from_other_root: Option<&ReportedPose>,
+) -> Vec<String> {
     let mut lines = vec!["[mapping]".to_owned()];
     let left_out: BTreeSet<&String> = left_out.into_iter().flatten().collect();
     let names: Vec<String> = left_out.into_iter().map(|name| toml_string(name)).collect();
     if !names.is_empty() {
         lines.push(format!("left_out = [{}]", names.join(", ")));
     }
-    if is_based {
+    if root_from_other_root.is_some() {
         lines.push("base = \"fitted\"".to_owned());
     }
     let is_other = |of: &&ReportedJoint| !of.has_same_variable() || of.joint != of.other;

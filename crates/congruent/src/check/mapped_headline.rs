@@ -39,10 +39,13 @@ pub(super) fn after_mapping(check: &RobotCheck) -> Option<Headline> {
     Some(Headline::new("EQUAL AFTER MAPPING", details))
 }
 
+/// Whether a joint is of a kind.
+type IsSuch = fn(&ReportedJoint) -> bool;
+
 /// What differs in joints, in words: `2 of 6 joints have other zeros (joint_2, joint_3)`.
 pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
     let all = mapping.joints.len();
-    let kinds: [(&str, fn(&ReportedJoint) -> bool); 3] = [
+    let kinds: [(&str, IsSuch); 3] = [
         ("another name", |of| of.joint != of.other),
         ("the opposite direction", |of| of.sign < 0),
         ("another zero", |of| of.offset != 0.0),

@@ -30,10 +30,10 @@ fn follow(model: &MjModel, equality: &MjEquality, parts: &mut RobotParts) -> Res
     };
     let [constant, factor, higher @ ..] = coefficients;
     let name = &model.joints[follower].name;
-    let Some(leader) = leader.filter(|_| coefficients[1..] != [0.0; 4]) else {
+    let Some(leader) = leader.filter(|_| is_any(&coefficients[1..])) else {
         return refused(format!("an equality locks joint \"{name}\", which is not read"));
     };
-    if higher != [0.0; 3] {
+    if is_any(&higher) {
         let message = format!(
             "joint \"{name}\" follows joint \"{}\" by a polynomial of degree 2 or more, which is not read",
             model.joints[leader].name
@@ -52,4 +52,9 @@ fn follow(model: &MjModel, equality: &MjEquality, parts: &mut RobotParts) -> Res
     let master = parts.joints[of].joint.name.clone();
     parts.joints[at].mimic = Some((master, factor, offset));
     Ok(())
+}
+
+/// Whether one of the numbers is not zero.
+fn is_any(numbers: &[f64]) -> bool {
+    numbers.iter().any(|&number| number != 0.0)
 }

@@ -66,7 +66,7 @@ pub fn is_mjcf(text: &str) -> bool {
 /// Reads a robot; `None` if `diagnostics` holds an error.
 pub(crate) fn parse(
     source: &Arc<SourceFile>,
-    inputs: MjcfInputs<'_, '_, '_>,
+    inputs: &mut MjcfInputs<'_, '_, '_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<ModelRobot> {
     let mut found = Diagnostics::default();

@@ -93,7 +93,8 @@ fn shapes(
             return Err(left_out(&format!("{kind} that is fitted to a mesh")));
         }
     };
-    if parts.iter().any(|(at, geometry)| !(extent_m(&(geom.body_from_geom * at), geometry) <= LARGEST)) {
+    let is_far = |extent_m: f64| extent_m.is_nan() || extent_m > LARGEST;
+    if parts.iter().any(|(at, geometry)| is_far(extent_m(&(geom.body_from_geom * at), geometry))) {
         let message = format!("the geom reaches beyond {LARGEST:e} m, so it is left out");
         return Err(placed(Diagnostic::warning(codes::mjcf::SHAPE, message), &geom.place));
     }

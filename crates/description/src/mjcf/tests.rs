@@ -14,7 +14,7 @@ fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
     let mut diagnostics = Diagnostics::default();
     let mut include = |_: &str| unreachable!();
     let inputs = MjcfInputs { include: &mut include, find_mesh: &mut crate::urdf::no_mesh };
-    let read = parse(&source, inputs, &mut diagnostics);
+    let read = parse(&source, &mut { inputs }, &mut diagnostics);
     (read.map(|read| read.robot), diagnostics.into_vec())
 }
 

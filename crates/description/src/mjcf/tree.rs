@@ -44,7 +44,7 @@ impl RobotParts {
         let moving_below = moving_below(model);
         for (index, body) in model.bodies.iter().enumerate() {
             refuse_far(body, model.joints_of(index), diagnostics);
-            cut_joints(model, index, moving_below[index], diagnostics);
+            cut_joints(model, index, &moving_below, diagnostics);
             parts.add_body(model, index);
         }
         parts
@@ -149,7 +149,7 @@ fn moving_below(model: &MjModel) -> Vec<bool> {
 }
 
 /// Free and ball joints, which a robot does not have: the body is fixed where the file puts it, if nothing depends on it.
-fn cut_joints(model: &MjModel, index: usize, is_moving_below: bool, diagnostics: &mut Diagnostics) {
+fn cut_joints(model: &MjModel, index: usize, is_moving_below: &[bool], diagnostics: &mut Diagnostics) {
     for (at, joint) in model.joints_of(index).iter().enumerate() {
         let (name, body) = (&joint.name, &model.bodies[index].name);
         let found = match joint.kind {
@@ -162,14 +162,17 @@ fn cut_joints(model: &MjModel, index: usize, is_moving_below: bool, diagnostics:
                     &body.text,
                 )
             }
-            _ if is_moving_below || model.joints_of(index)[at + 1..].iter().any(|of| moves(of.kind)) => {
+            MjJointKind::Ball
+                if is_moving_below[index]
+                    || model.joints_of(index)[at + 1..].iter().any(|of| moves(of.kind)) =>
+            {
                 let message = format!(
                     "joint \"{name}\" of body \"{body}\" is a ball joint, and joints that move follow it"
                 );
                 let help = "replace it by three hinges in the same body";
                 Diagnostic::error(codes::mjcf::BALL, message).with_help(help)
             }
-            _ => {
+            MjJointKind::Ball => {
                 let message =
                     format!("joint \"{name}\" of body \"{body}\" is a ball joint; the body is fixed here");
                 Diagnostic::warning(codes::mjcf::BALL, message)
@@ -192,7 +195,7 @@ fn refuse_far(body: &MjBody, joints: &[MjJoint], diagnostics: &mut Diagnostics) 
     let far = [("body", &body.name, own, &body.place)]
         .into_iter()
         .chain(joints.iter().map(|joint| ("joint", &joint.name, of_joint(joint), &joint.place)))
-        .filter(|(_, _, far_m, _)| !(*far_m <= LARGEST));
+        .filter(|(_, _, far_m, _)| far_m.is_nan() || *far_m > LARGEST);
     for (what, name, far_m, place) in far {
         let message = format!("{what} \"{name}\" is {far_m:e} m away, limit <= {LARGEST:e} m");
         diagnostics.push(placed(Diagnostic::error(NUMBER, message), place));

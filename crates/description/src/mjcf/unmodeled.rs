@@ -14,7 +14,7 @@ const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 /// Reports armature, springs, damping that is not linear, gravity and its compensation.
 pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diagnostics) {
     let gravity = &model.gravity_in_world;
-    if <[f64; 3]>::from(gravity.value) != GRAVITY {
+    if gravity.value.iter().zip(GRAVITY).any(|(found, usual)| (found - usual).abs() > 0.0) {
         let [x, y, z] = gravity.value.into();
         let message =
             format!("gravity is ({x}, {y}, {z}) m/s^2; forces are computed with (0, 0, -9.81) m/s^2");
@@ -58,14 +58,14 @@ fn of_joint(model: &MjModel, number: usize, joint: &MjJoint, diagnostics: &mut D
         left_out(codes::mjcf::ARMATURE, "an armature of", &quantity(armature, inertia));
     }
     let [linear, square, cube] = joint.stiffness.value;
-    if joint.stiffness.value != [0.0; 3] {
+    if joint.stiffness.value.iter().any(|&value| value != 0.0) {
         let is_linear = square == 0.0 && cube == 0.0;
         let value =
             if is_linear { quantity(linear, stiffness) } else { format!("{linear}, {square}, {cube}") };
         left_out(codes::mjcf::SPRING, "a spring of", &value);
     }
     let [_, square, cube] = joint.damping.value;
-    if [square, cube] != [0.0; 2] {
+    if square != 0.0 || cube != 0.0 {
         left_out(codes::mjcf::DAMPING, "a damping by powers of the speed", &format!("{square}, {cube}"));
     }
 }

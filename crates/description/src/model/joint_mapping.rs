@@ -17,14 +17,14 @@ pub struct MappedJoint {
     pub joint: JointIndex,
     /// Its name in the other description.
     pub name: String,
-    /// Whether it moves the other way there: then `sign` is -1.
+    /// Whether it moves in the opposite direction there: then `sign` is -1.
     pub is_flipped: bool,
     /// Its position where the other description has its zero, rad or m.
     pub offset: f64,
 }
 
 impl MappedJoint {
-    /// 1, or -1 if the joint moves the other way.
+    /// 1, or -1 if the joint moves in the opposite direction.
     pub fn sign(&self) -> f64 {
         if self.is_flipped { -1.0 } else { 1.0 }
     }

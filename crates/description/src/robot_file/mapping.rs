@@ -67,7 +67,7 @@ pub(crate) enum WrittenMappedJoint {
 pub(crate) struct WrittenVariable {
     /// Its name there; by default the same.
     joint: Option<String>,
-    /// 1, or -1 if it moves the other way there.
+    /// 1, or -1 if it moves in the opposite direction there.
     #[serde(default = "same_way")]
     sign: i64,
     /// Its position there if it is at 0 here, in radians.

@@ -72,14 +72,13 @@ fn open_brackets(text: &str, end: usize) -> Vec<(usize, char)> {
                 continue;
             }
             (Some(mark), letter) if letter == mark && !escaped => quote = None,
-            (Some(_), _) => {}
             (None, '"' | '\'') => quote = Some(letter),
             (None, '#') => is_comment = true,
             (None, '{' | '[') => open.push((at, letter)),
             (None, '}' | ']') => {
                 open.pop();
             }
-            (None, _) => {}
+            (Some(_) | None, _) => {}
         }
         escaped = false;
     }

@@ -14,7 +14,7 @@ use crate::diagnosis::{
 };
 
 /// The most that a value may be off, in half places. A value that is rounded from exactly the middle of two is off by half
-/// a place: without the margin, rounding of the last bit would decide.
+/// a place, and the sum of two such values by twice that: without the margin, rounding of the last bit would decide.
 const MOST: f64 = 1.0 + DIGITS_MARGIN;
 
 impl WrittenDigits {
@@ -230,11 +230,11 @@ mod tests {
         // Within: exact.
         let b = DVector::from_vec(vec![0.3, 0.4]);
         let x = bounded(&a, &b);
-        assert!((&a * &x - &b).norm() < 1e-9 && x.amax() <= MOST, "{x}");
+        assert!((&a * &x - &b).norm() < 1e-9 && x.amax() <= 1.0 + DIGITS_MARGIN, "{x}");
         // Beyond: the nearest, at the bounds.
         let x = bounded(&a, &DVector::from_vec(vec![3.0, 0.0]));
         // By hand: with x1 = 1 the rest is (x3 - 2)^2 + (x2 + x3)^2, smallest at x3 = 1 and x2 = -1.
-        let expected = DVector::from_vec(vec![1.0, -1.0, 1.0]) * MOST;
+        let expected = DVector::from_vec(vec![1.0, -1.0, 1.0]) * (1.0 + DIGITS_MARGIN);
         assert!((&x - &expected).amax() < 1e-6, "{x}");
     }
 

@@ -13,8 +13,8 @@ use congruent_mapping::MatchedRobots;
 use nalgebra::Vector3;
 
 use super::{
+    compared_at::ComparedAt,
     correction::{JointCorrection, JointPart},
-    explained::ComparedAt,
 };
 
 /// Whether all joints move alike, and the last links and the tip are where they are in the other description: then only

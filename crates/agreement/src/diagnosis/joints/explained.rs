@@ -1,24 +1,15 @@
 //! The fewest corrections of joints after which two descriptions agree.
 
-use congruent_description::{LinkIndex, Robot, RobotQ, Tolerance};
+use congruent_description::{LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree};
 use congruent_mapping::MatchedRobots;
 
 use super::{
+    compared_at::ComparedAt,
     correction::{JointCorrection, JointPart, between, corrected, corrections, moved_to},
     displacement::{displaced, moves_alike},
 };
 use crate::diagnosis::thresholds::{MAX_PARAMETERS, SAME_UNIT_RATIO};
-
-/// Where two descriptions are compared, and what counts as agreement.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ComparedAt<'a> {
-    pub(crate) configurations: &'a [RobotQ],
-    pub(crate) tolerance: &'a Tolerance,
-    /// First and last link of the chain.
-    pub(crate) base: LinkIndex,
-    pub(crate) tip: LinkIndex,
-}
 
 /// Corrections of joints that explain the difference of two descriptions.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,9 +6,11 @@
 //! elsewhere in their links as well, one displacement that brings all screws and the tip into agreement is searched
 //! (`displacement.rs`).
 
+mod compared_at;
 mod correction;
 mod displacement;
 mod explained;
 
+pub(crate) use compared_at::ComparedAt;
 pub(crate) use correction::{JointCorrection, JointPart};
-pub(crate) use explained::{ComparedAt, ExplainedByJoints, explained_by_joints};
+pub(crate) use explained::{ExplainedByJoints, explained_by_joints};

@@ -41,9 +41,9 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
         let _ = writeln!(text, "    its root frame is at {} in that of this file (fitted)", pose(root));
     }
     if mapping.equivalent > 0 {
-        let ways = counted(mapping.equivalent, "other choice");
+        let others = counted(mapping.equivalent, "other choice");
         let _ =
-            writeln!(text, "    the same motion as with {ways} of directions and zeros, as wrists have it");
+            writeln!(text, "    the same motion as with {others} of directions and zeros, as wrists have it");
     }
     if let Some(worst) = &mapping.worst {
         let difference = length_and_angle(worst.position_m, worst.orientation_rad);
