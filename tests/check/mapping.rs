@@ -32,7 +32,7 @@ fn change(joint: &'static str, there: &'static str, sign: f64, zero: f64) -> Cha
 fn ur5e() -> Vec<Change> {
     vec![
         change("shoulder_pan_joint", "J1", -1.0, 0.7),
-        change("shoulder_lift_joint", "J2", 1.0, 1.570_796_326_794_896_6),
+        change("shoulder_lift_joint", "J2", 1.0, std::f64::consts::FRAC_PI_2),
         change("elbow_joint", "J3", -1.0, 0.0),
         change("wrist_1_joint", "J4", -1.0, -1.1),
         change("wrist_2_joint", "J5", 1.0, 0.0),

@@ -172,8 +172,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let mut answers: Vec<Answer<Checked>> = Vec::new();
     for path in robots {
         for (at, other) in others(path, arguments).into_iter().enumerate() {
-            let is_fixed = arguments.fix.fix && at == 0;
-            answers.push(batch.answer(path, || check(path, other.as_ref(), is_fixed, (arguments, &batch))));
+            // The file is corrected once, whatever it is compared with afterwards.
+            let answer = if at == 0 { check } else { compared };
+            answers.push(batch.answer(path, || answer(path, other.as_ref(), arguments, &batch)));
         }
     }
     let plotted = answers.iter().try_for_each(|answer| draw(answer, arguments, &batch));
@@ -239,11 +240,11 @@ fn others(path: &Path, arguments: &Arguments) -> Vec<Option<PathBuf>> {
 fn check(
     path: &Path,
     other: Option<&PathBuf>,
-    is_fixed: bool,
-    (arguments, batch): (&Arguments, &Batch<'_>),
+    arguments: &Arguments,
+    batch: &Batch<'_>,
 ) -> Result<Checked, Failure> {
     let mut checked = compared(path, other, arguments, batch)?;
-    if is_fixed {
+    if arguments.fix.fix {
         let again = |path: &Path| Ok(compared(path, other, arguments, batch)?.report);
         let (fix, fixed) = fix(&checked.report, &checked.description, &batch.read(), again)?;
         (checked.report.fix, checked.fixed) = (Some(fix), fixed);

@@ -19,7 +19,7 @@ use super::{
     against::OtherDescription,
     declared::DeclaredSource,
     judged_by::{judged_by, tolerance_in_words},
-    mapped_headline::after_mapping,
+    mapped_joints::mapped_joints,
     robot_check::RobotCheck,
 };
 
@@ -40,7 +40,7 @@ impl fmt::Display for Headline {
 }
 
 impl Headline {
-    pub(super) fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
+    fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
         Self { answer: answer.into(), details: details.into() }
     }
 }
@@ -225,7 +225,7 @@ fn unknown() -> String {
 }
 
 /// The first fault with its place, and how many there are.
-pub(super) fn cause(diagnosis: &ReportedDiagnosis) -> String {
+fn cause(diagnosis: &ReportedDiagnosis) -> String {
     let Some(cause) = diagnosis.named_cause() else { return unknown() };
     let faults = cause.faults();
     let Some(first) = faults.first() else { return unknown() };
@@ -245,6 +245,37 @@ fn unexplained(cause: &ReportedCause) -> String {
     }
     let residual = PoseError { position_m: cause.residual_m, orientation_rad: cause.residual_rad };
     format!("; that leaves {}", largest(residual))
+}
+
+/// Joints that are called or counted otherwise, or that only one description has, if nothing declares it.
+fn after_mapping(check: &RobotCheck) -> Option<Headline> {
+    let against = check.against.as_ref()?;
+    let mapping = against.mapping.as_ref().filter(|mapping| !mapping.is_declared)?;
+    let joints = mapped_joints(mapping);
+    let worst = mapping.worst.map_or_else(
+        || "poses were not compared".to_owned(),
+        |worst| {
+            let words =
+                if worst.is_within(&check.geometry.tolerance) { "poses agree" } else { "poses still differ" };
+            format!("{words} ({})", largest(worst))
+        },
+    );
+    if !against.is_equal_after_mapping(&check.geometry.tolerance) {
+        let cause = check.diagnosis().map_or_else(String::new, |diagnosis| format!(". {}", cause(diagnosis)));
+        return Some(Headline::new("DIFFERENT", format!(": {joints}; in the same variables {worst}{cause}")));
+    }
+    let torques = check.all_dynamics().find(|report| !report.agrees());
+    let but = torques.map_or_else(String::new, |report| {
+        let why = if report.has_same_torques() {
+            limits(&report.limits)
+        } else {
+            format!(": {}", check.cause_of_torques(report))
+        };
+        format!(", but dynamics or limits differ{why}")
+    });
+    let details =
+        format!(": {joints}; in the same variables {worst}{but}. Declare [mapping] if this is meant");
+    Some(Headline::new("EQUAL AFTER MAPPING", details))
 }
 
 /// Poses agree, but masses, friction, gravity or limits do not.
@@ -269,7 +300,7 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
 }
 
 impl RobotCheck {
-    pub(super) fn cause_of_torques(&self, report: &DynamicsReport) -> String {
+    fn cause_of_torques(&self, report: &DynamicsReport) -> String {
         let Some(first) = report.explanations.first() else { return report.headline() };
         let (sentence, line) = match (&first.parameters[..], self.files_of(report)) {
             ([only], Some(files)) => (only.sentence_in(short_names(files)), None),
@@ -295,7 +326,7 @@ fn short_names(files: [&str; 2]) -> [&str; 2] {
     if names[0] == names[1] { files } else { names }
 }
 
-pub(super) fn limits(differences: &[LimitDifference]) -> String {
+fn limits(differences: &[LimitDifference]) -> String {
     let mut decide = differences.iter().filter(|difference| difference.decides);
     let Some(first) = decide.next() else { return String::new() };
     let rest = and_more(decide.count());
@@ -314,7 +345,7 @@ fn place(file: Option<&str>, line: Option<usize>) -> String {
     place.unwrap_or_default()
 }
 
-pub(super) fn largest(error: PoseError) -> String {
+fn largest(error: PoseError) -> String {
     length_and_angle(error.position_m, error.orientation_rad)
 }
 

@@ -6,7 +6,7 @@ mod declared;
 mod headline;
 mod judged_by;
 mod mapped;
-mod mapped_headline;
+mod mapped_joints;
 mod model_frames;
 mod narrowed;
 mod page;

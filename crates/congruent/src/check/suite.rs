@@ -10,7 +10,7 @@ use congruent_input::{Diagnostic, display::length_and_angle, serde_name};
 use congruent_kinematics::PoseError;
 use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
-use super::{judged_by::comparison_judged_by, mapped_headline::mapped_joints, robot_check::RobotCheck};
+use super::{judged_by::comparison_judged_by, mapped_joints::mapped_joints, robot_check::RobotCheck};
 
 /// The comparisons of a report as test cases; what failed names its cause with the line.
 ///

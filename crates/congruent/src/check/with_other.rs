@@ -8,7 +8,7 @@ use congruent_input::{Diagnostic, Finding};
 use super::{
     against::{OtherDescription, compared, other_joint},
     mapped::{MappedPair, ReportedMapping},
-    mapped_headline::mapped_joints,
+    mapped_joints::mapped_joints,
     narrowed::NarrowedPair,
 };
 use crate::codes;
