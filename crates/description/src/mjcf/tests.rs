@@ -52,7 +52,7 @@ fn joints_in_one_body_get_links_between_them() {
     assert_eq!(robot.movable_joint_names().collect::<Vec<_>>(), ["x", "y"]);
     let back = &robot.joints()[2];
     assert_eq!((back.kind, back.parent_from_joint.translation.x), (JointKind::Fixed, -0.1));
-    assert_eq!(robot.links()[3].inertia.unwrap().mass_kg, 1.0);
+    assert!((robot.links()[3].inertia.unwrap().mass_kg - 1.0).abs() < 1e-15);
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn at_its_ref_a_body_is_where_it_is_written() {
     ));
     let joint = &robot.joints()[0];
     assert_eq!(joint.position_range(), Some((0.0, 1.0)));
-    assert_eq!(joint.parent_from_joint.translation.z, 0.5);
+    assert!((joint.parent_from_joint.translation.z - 0.5).abs() < 1e-15);
 }
 
 #[test]

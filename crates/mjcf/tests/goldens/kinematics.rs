@@ -24,13 +24,11 @@ pub(crate) fn world_from_bodies(model: &MjModel, q: &[f64]) -> Vec<Isometry3<f64
 /// What a joint adds, in the body: a turn about an axis through its point, or a shift.
 fn motion(joint: &MjJoint, position: f64) -> Isometry3<f64> {
     let axis = joint.axis_in_body.value;
-    match joint.kind {
-        MjJointKind::Slide => Translation3::from(axis.into_inner() * position).into(),
-        _ => {
-            let to_axis = Translation3::from(joint.pos_in_body.value);
-            to_axis * UnitQuaternion::from_axis_angle(&axis, position) * to_axis.inverse()
-        }
+    if joint.kind == MjJointKind::Slide {
+        return Translation3::from(axis.into_inner() * position).into();
     }
+    let to_axis = Translation3::from(joint.pos_in_body.value);
+    to_axis * UnitQuaternion::from_axis_angle(&axis, position) * to_axis.inverse()
 }
 
 /// A pose of a golden: position, then quaternion with w first.
