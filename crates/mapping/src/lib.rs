@@ -1,5 +1,5 @@
-//! Two descriptions of a robot in the same variables: which joint of one is which of the other, whether it moves the other
-//! solution, and where it has its zero.
+//! Two descriptions of a robot in the same variables: which joint of one is which of the other, in which direction it moves, and
+//! where it has its zero.
 //!
 //! A mapping is found by names or by the order along the chain, with the axes of the joints as proof ([`find`]). The
 //! other description is then rewritten in the variables (`Robot::in_variables`) and the link frames ([`in_frames_of`]) of the

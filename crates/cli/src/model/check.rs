@@ -171,11 +171,11 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let batch = Batch::begin(robots, &arguments.ci, printer)?;
     let mut answers: Vec<Answer<Checked>> = Vec::new();
     for path in robots {
-        for (at, other) in others(path, arguments).into_iter().enumerate() {
-            // The file is corrected once, whatever it is compared with afterwards.
-            let answer = if at == 0 { check } else { compared };
-            answers.push(batch.answer(path, || answer(path, other.as_ref(), arguments, &batch)));
-        }
+        let first = batch.answer(path, || check(path, arguments, &batch));
+        let others = first.report().map_or(0, |of| others(&of.description, arguments).len());
+        answers.push(first);
+        // The file is corrected once, whatever it is compared with afterwards.
+        answers.extend((1..others).map(|at| batch.answer(path, || compared(path, at, arguments, &batch))));
     }
     let plotted = answers.iter().try_for_each(|answer| draw(answer, arguments, &batch));
     let written = arguments.page.write(|| page(&answers), &batch.read()).and(plotted);
@@ -223,41 +223,28 @@ fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
 }
 
 /// The other descriptions with which a robot is compared, one after the other: those of --against, or those that its file
-/// names; once without any if there are none.
-fn others(path: &Path, arguments: &Arguments) -> Vec<Option<PathBuf>> {
-    let mut others = arguments.against.clone();
-    // A URDF names none, and one from a pipe can be read only once.
-    let is_robot_file = path.is_dir() || path.extension().is_some_and(|ending| ending == "toml");
-    if others.is_empty() && is_robot_file {
-        // What cannot be loaded is refused by the check itself.
-        let loaded = arguments.access.access().ok().and_then(|access| load_robot_with(path, &access).ok());
-        others.extend(loaded.into_iter().flat_map(|of| of.references).map(|reference| reference.path));
+/// names.
+fn others(description: &RobotDescription, arguments: &Arguments) -> Vec<PathBuf> {
+    if arguments.against.is_empty() {
+        description.references.iter().map(|reference| reference.path.clone()).collect()
+    } else {
+        arguments.against.clone()
     }
-    if others.is_empty() { vec![None] } else { others.into_iter().map(Some).collect() }
 }
 
 /// The check of a robot, and with --fix that of its corrected file.
-fn check(
-    path: &Path,
-    other: Option<&PathBuf>,
-    arguments: &Arguments,
-    batch: &Batch<'_>,
-) -> Result<Checked, Failure> {
-    let mut checked = compared(path, other, arguments, batch)?;
+fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
+    let mut checked = compared(path, 0, arguments, batch)?;
     if arguments.fix.fix {
-        let again = |path: &Path| Ok(compared(path, other, arguments, batch)?.report);
+        let again = |path: &Path| Ok(compared(path, 0, arguments, batch)?.report);
         let (fix, fixed) = fix(&checked.report, &checked.description, &batch.read(), again)?;
         (checked.report.fix, checked.fixed) = (Some(fix), fixed);
     }
     Ok(checked)
 }
 
-fn compared(
-    path: &Path,
-    other: Option<&PathBuf>,
-    arguments: &Arguments,
-    batch: &Batch<'_>,
-) -> Result<Checked, Failure> {
+/// The check against the other description at this place of the list, if there is one.
+fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
     let mut description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
     let mut configurations = RobotQList::new(description.robot.dof());
     // About the options, and not about the descriptions that lint examines.
@@ -280,7 +267,8 @@ fn compared(
     }
     batch.warn(path, &[&of_options[..], &description.warnings].concat());
     let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };
-    let other = other.map(|other| other_description(&mut description, other, arguments)).transpose()?;
+    let other = others(&description, arguments).into_iter().nth(at);
+    let other = other.map(|other| other_description(&mut description, &other, arguments)).transpose()?;
     let mut inputs = files_of(&description);
     inputs.extend(other.iter().flat_map(files_of));
     batch.reads(&inputs)?;

@@ -1,24 +1,23 @@
 //! Two descriptions whose joints have other names, directions or zeros: the other one in the variables of the robot, so that
 //! everything that compares two descriptions works on it.
 
-use std::{
-    collections::{BTreeMap, BTreeSet},
-    sync::Arc,
-};
+use std::collections::{BTreeMap, BTreeSet};
 
 use congruent_agreement::{
     SourcePair,
     compare::{CheckOptions, CheckReport},
 };
 use congruent_description::{
-    ChainEnd, ChainEnds, JointIndex, LinkIndex, MappedJoint, Places, Robot, RobotDescription, RobotQList,
-    toml_key, toml_string,
+    ChainEnd, ChainEnds, JointIndex, LinkIndex, MappedJoint, Places, Robot, RobotDescription, toml_key,
+    toml_string,
 };
 use congruent_input::number::significant;
 use congruent_kinematics::{Pose, PoseError, ReportedPose, ScrewTree};
 use congruent_mapping::{FoundMapping, MatchedBy, declared, find, in_frames_of};
 use schemars::JsonSchema;
 use serde::Serialize;
+
+use super::part::{kept_joints, part};
 
 /// Axes that are farther apart than this, as a share of the reach, are no proof that joints in the same order are the same.
 /// Kind: choice; revisions of one robot differ by some centimetres, sizes of a family by more.
@@ -221,38 +220,6 @@ fn locked(
         unmatched[from].iter().copied().filter(is_fixed).collect()
     };
     [of(0), of(1)]
-}
-
-/// The description of a part of the robot, or of the robot in other variables. Its table and declared inertias are of the whole
-/// robot and are left out.
-fn part(whole: &RobotDescription, robot: Robot) -> RobotDescription {
-    let link = |of| robot.find_link(&whole.robot.link(of).name).unwrap_or(robot.root());
-    let acceleration = |name: &str| {
-        let coordinate = whole.robot.coordinate(whole.robot.find_joint(name)?)?;
-        whole.accelerations[coordinate]
-    };
-    RobotDescription {
-        base: link(whole.base),
-        tip: link(whole.tip),
-        accelerations: robot.movable_joint_names().map(acceleration).collect(),
-        dh: None,
-        dynamics: None,
-        disabled_collisions: BTreeSet::new(),
-        places: Places { robot_file: None, inertials: None, urdf: whole.places.urdf.clone() },
-        robot,
-        ..whole.clone()
-    }
-}
-
-/// The requested configurations in the joints of the part.
-fn kept_joints(whole: &RobotDescription, part: &RobotDescription, options: &CheckOptions) -> Arc<RobotQList> {
-    let mut configurations = RobotQList::new(part.robot.dof());
-    let coordinate = |name: &str| whole.robot.coordinate(whole.robot.find_joint(name)?);
-    for q in options.configurations.iter() {
-        let kept = part.robot.movable_joint_names().filter_map(coordinate);
-        configurations.push(&kept.map(|at| q[at]).collect::<Vec<f64>>());
-    }
-    configurations.into()
 }
 
 fn reported(

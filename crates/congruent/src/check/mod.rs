@@ -10,6 +10,7 @@ mod mapped_joints;
 mod model_frames;
 mod narrowed;
 mod page;
+mod part;
 mod physics;
 mod poses_of_other;
 mod robot_check;

@@ -1,9 +1,9 @@
 //! `check --against --tip`: two descriptions are compared from the root to the tip, whatever else either of them moves.
 
-use std::collections::BTreeSet;
-
 use congruent_agreement::compare::CheckOptions;
-use congruent_description::{ChainEnd, Places, Robot, RobotDescription, RobotQList};
+use congruent_description::{ChainEnd, RobotDescription};
+
+use super::part::{kept_joints, part};
 
 /// Two descriptions without the joints that do not move the tip, and the links beyond these joints.
 pub(super) struct NarrowedPair {
@@ -33,39 +33,14 @@ impl NarrowedPair {
                 left_out.push(name.to_owned());
             }
         }
-        let coordinates: Vec<usize> = robot
-            .movable_joint_names()
-            .enumerate()
-            .filter(|(_, name)| names.contains(name))
-            .map(|(coordinate, _)| coordinate)
-            .collect();
-        let mut configurations = RobotQList::new(coordinates.len());
-        for q in options.configurations.iter() {
-            configurations.push(&coordinates.iter().map(|&coordinate| q[coordinate]).collect::<Vec<f64>>());
-        }
-        let options = CheckOptions { configurations: configurations.into(), ..options.clone() };
         let tip = &robot.link(description.tip).name;
-        let [description, other] = [description, other].map(|of| part(of, &names, tip));
-        (!left_out.is_empty()).then_some(Self { description, other, options, left_out })
-    }
-}
-
-/// The part of a description that these joints move. Its table and declared inertias are of the whole robot and are left out.
-fn part(whole: &RobotDescription, names: &BTreeSet<&str>, tip: &str) -> RobotDescription {
-    let robot = whole.robot.moved_by(names);
-    let is_kept = |robot: &Robot, name: &str| robot.find_joint(name).is_some();
-    let accelerations = whole.robot.movable_joint_names().zip(&whole.accelerations);
-    let accelerations =
-        accelerations.filter(|(name, _)| is_kept(&robot, name)).map(|(_, acceleration)| *acceleration);
-    RobotDescription {
-        base: robot.find_link(&whole.robot.link(whole.base).name).unwrap_or(robot.root()),
-        tip: robot.find_link(tip).unwrap_or(robot.root()),
-        accelerations: accelerations.collect(),
-        dh: None,
-        dynamics: None,
-        disabled_collisions: BTreeSet::new(),
-        places: Places { robot_file: None, inertials: None, urdf: whole.places.urdf.clone() },
-        robot,
-        ..whole.clone()
+        let [own, other] = [description, other].map(|of| {
+            let part = part(of, of.robot.moved_by(&names));
+            let tip = part.robot.find_link(tip).unwrap_or(part.robot.root());
+            RobotDescription { tip, ..part }
+        });
+        let options =
+            CheckOptions { configurations: kept_joints(description, &own, options), ..options.clone() };
+        (!left_out.is_empty()).then_some(Self { description: own, other, options, left_out })
     }
 }

@@ -33,7 +33,12 @@ pub(super) fn with_other(
 ) -> Result<WithOther, CheckError> {
     let (mut own, mut there, mut own_options) = (description.clone(), other.clone(), options.clone());
     let (mut left_out, mut mapping) = (Vec::new(), None);
-    if !has_same_names_to_tip(description, other, options) {
+    let mut narrowed = NarrowedPair::new(description, other, options);
+    // Joints to the tip with the same names need no mapping: the others, which are left out, need no partner.
+    let needs_none = |pair: &NarrowedPair| {
+        description.mapping.is_none() && other_joint(&pair.description.robot, &pair.other.robot).is_none()
+    };
+    if !narrowed.as_ref().is_some_and(needs_none) {
         match in_own_variables(description, other, options) {
             Err(why) => {
                 let against = OtherDescription::refused(other, why);
@@ -47,12 +52,13 @@ pub(super) fn with_other(
             }
             Ok(None) => {}
             Ok(Some(pair)) => {
+                narrowed = NarrowedPair::new(&pair.description, &pair.other, &pair.options);
                 (own, there, own_options) = (pair.description, pair.other, pair.options);
                 mapping = Some(pair.report);
             }
         }
     }
-    if let Some(pair) = NarrowedPair::new(&own, &there, &own_options) {
+    if let Some(pair) = narrowed {
         (own, there, own_options) = (pair.description, pair.other, pair.options);
         left_out = pair.left_out;
     }
@@ -72,18 +78,6 @@ pub(super) fn with_other(
         geometry.grade = Some(Grade::EqualAfterMapping);
     }
     Ok(WithOther { against, dynamics, description: own, other: there, options: own_options })
-}
-
-/// Whether the joints to the tip that the caller names have the same names in both, and nothing else is declared: then the
-/// others, which are left out, need no partner.
-fn has_same_names_to_tip(
-    description: &RobotDescription,
-    other: &RobotDescription,
-    options: &CheckOptions,
-) -> bool {
-    let narrowed = NarrowedPair::new(description, other, options);
-    let has_same = |pair: NarrowedPair| other_joint(&pair.description.robot, &pair.other.robot).is_none();
-    description.mapping.is_none() && narrowed.is_some_and(has_same)
 }
 
 /// Two descriptions in the joints of the first, as its file declares or as names and axes show; `None` if all joints have
