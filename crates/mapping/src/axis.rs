@@ -1,8 +1,8 @@
 //! The axis of a joint as a line in space, and the turn or shift about one axis that brings another line nearest to its
 //! place.
 
-use congruent_kinematics::{Pose, Screw};
-use nalgebra::{Isometry3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
+use congruent_kinematics::Screw;
+use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// Sine of an angle below which two axes count as parallel: calibrated parallel axes are up to a few milliradians off. Kind:
 /// choice.
@@ -24,7 +24,7 @@ pub(crate) struct Axis {
 impl Axis {
     pub(crate) fn from_screw(screw: &Screw) -> Self {
         let twist = screw.twist();
-        if twist.angular.norm() > 0.5 {
+        if screw.is_revolute() {
             // w x v, the point nearest to the origin.
             Self { direction: twist.angular, through: twist.angular.cross(&twist.linear), slides: false }
         } else {
@@ -121,10 +121,4 @@ pub(crate) fn shift_towards(
     }
     let along = Axis { direction: *direction, through: *through, slides: false };
     Some(along.foot_of(place)? - along.foot_of(line)?)
-}
-
-/// A pose of kinematics in the form of descriptions.
-pub(crate) fn isometry(pose: &Pose) -> Isometry3<f64> {
-    let turn = Rotation3::from_matrix_unchecked(pose.rotation);
-    Isometry3::from_parts(Translation3::from(pose.translation), UnitQuaternion::from_rotation_matrix(&turn))
 }

@@ -6,7 +6,7 @@ use congruent_kinematics::ScrewTree;
 use nalgebra::{Isometry3, Point3};
 
 use crate::{
-    axis::{Axis, isometry},
+    axis::Axis,
     names::JointPairs,
     variables::{JointVariable, Solution},
 };
@@ -69,13 +69,13 @@ fn of_links(
     let com = |description: &RobotDescription, of: usize| {
         let inertia = description.robot.link(bodies[of]).inertia.filter(|inertia| inertia.mass_kg > 0.0)?;
         let com = Point3::from(inertia.link_from_inertial.translation.vector);
-        Some(isometry(screws[of].home(bodies[of])) * com)
+        Some(screws[of].home(bodies[of]).to_isometry() * com)
     };
     let of_com = com(a, 0).zip(com(b, 1)).map_or(0.0, |(here, there)| (here - moved * there).norm());
     let of_body = a.robot.link_indices().filter(|&link| a.robot.body(link) == bodies[0]);
     let of_named = of_body.filter_map(|link| {
         let there = b.robot.find_link(&a.robot.link(link).name)?;
-        let off = isometry(screws[0].home(link)).inverse() * moved * isometry(screws[1].home(there));
+        let off = screws[0].home(link).to_isometry().inverse() * moved * screws[1].home(there).to_isometry();
         let apart_m = off.translation.vector.norm() + HAND_M * off.rotation.angle();
         (b.robot.body(there) == bodies[1]).then_some(apart_m)
     });

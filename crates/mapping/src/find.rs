@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
-    axis::{Axis, isometry},
+    axis::Axis,
     bodies::by_bodies,
     names::{JointPairs, is_alike, with_one_name, with_similar_names},
     variables::{ChainPair, JointVariable, Solution},
@@ -271,7 +271,7 @@ impl Both<'_> {
 
     /// Pose of a link in its root at zero.
     fn home(&self, of: usize, link: LinkIndex) -> Isometry3<f64> {
-        isometry(self.screws[of].home(link))
+        self.screws[of].home(link).to_isometry()
     }
 
     /// For each end of the tree, its matched joints from the root.

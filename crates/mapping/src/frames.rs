@@ -4,15 +4,13 @@ use congruent_description::{JointKind, LinkIndex, Robot};
 use congruent_kinematics::ScrewTree;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use crate::axis::isometry;
-
 /// The other description with its root and the links of its moving joints in the frames of `robot`: it has the same moving
 /// joints by name, in the same variables. A frame is turned and shifted along the axis of its joint, which changes no motion;
 /// an axis that lies elsewhere stays there.
 #[must_use]
 pub fn in_frames_of(robot: &Robot, other: &Robot, root_from_other_root: &Isometry3<f64>) -> Robot {
     let trees = [robot, other].map(ScrewTree::new);
-    let home = |of: usize, link: LinkIndex| isometry(trees[of].home(link));
+    let home = |of: usize, link: LinkIndex| trees[of].home(link).to_isometry();
     let mut frames = vec![Isometry3::identity(); other.links().len()];
     frames[other.root().get()] = root_from_other_root.inverse();
     for joint in other.joints().iter().filter(|joint| joint.kind != JointKind::Fixed) {
