@@ -49,13 +49,6 @@ pub struct FoundMapping {
     pub equivalent: Vec<Vec<MappedJoint>>,
 }
 
-impl FoundMapping {
-    /// Whether no joint has another variable.
-    pub fn has_same_variables(&self) -> bool {
-        self.joints.iter().all(MappedJoint::has_same_variable)
-    }
-}
-
 /// Variables by joint of the robot.
 type KnownVariables = BTreeMap<JointIndex, JointVariable>;
 

@@ -107,11 +107,3 @@ pub fn mesh_mass(mesh: &MjMesh, triangles: &[[Point3<f64>; 3]]) -> Result<MeshMa
     let about_center = moments.second - center * center.transpose() * moments.amount;
     Ok(MeshMass { amount: moments.amount, center: apex + center, inertia: from_covariance(&about_center) })
 }
-
-impl MjMesh {
-    /// The triangles of a mesh that is given inline, in its frame, m; empty if it is in a file, or without faces.
-    pub fn inline_triangles(&self) -> Vec<[Point3<f64>; 3]> {
-        let corner = |index: usize| self.vertex(self.vertices[index]);
-        self.faces.iter().map(|face| face.map(corner)).collect()
-    }
-}

@@ -63,11 +63,6 @@ impl MjModel {
         &self.geoms[self.bodies[body].geoms.clone()]
     }
 
-    /// The sites of a body.
-    pub fn sites_of(&self, body: usize) -> &[MjSite] {
-        &self.sites[self.bodies[body].sites.clone()]
-    }
-
     /// Number of positions: one for each hinge and slide joint, four for a ball joint, seven for a free joint.
     pub fn positions(&self) -> usize {
         self.joints.iter().map(|joint| joint.kind.positions()).sum()

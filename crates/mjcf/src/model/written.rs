@@ -3,7 +3,7 @@
 use std::{fmt, ops::Range, sync::Arc};
 
 use congruent_input::{Code, Diagnostic, SourceFile, line_column};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Isometry3;
 
 /// Where a value is written: the file, and the text between the quotes of its attribute.
 #[derive(Clone, PartialEq)]
@@ -88,16 +88,4 @@ pub struct MjNotation {
     pub euler_sequence: [u8; 3],
     /// Pose of the innermost `<frame>` in the body (for a body: in its parent): values are written in that frame.
     pub body_from_frame: Isometry3<f64>,
-}
-
-impl MjNotation {
-    /// A point of the body, m, in the frame in which it is written.
-    pub fn point_as_written(&self, point_in_body: Vector3<f64>) -> Vector3<f64> {
-        self.body_from_frame.inverse_transform_point(&point_in_body.into()).coords
-    }
-
-    /// A direction of the body in the frame in which it is written.
-    pub fn direction_as_written(&self, direction_in_body: Vector3<f64>) -> Vector3<f64> {
-        self.body_from_frame.inverse_transform_vector(&direction_in_body)
-    }
 }
