@@ -6,10 +6,8 @@ use std::{fs, path::Path};
 use congruent::{
     analysis::inverse::read_targets,
     calibration::measurements::read_measurements,
-    description::{
-        RobotDescription, RobotQ, load_robot, parse_urdf, read_configurations, read_mesh, read_states,
-        urdf_text,
-    },
+    configurations::{read_configurations, read_states},
+    description::{RobotDescription, RobotQ, load_robot, parse_urdf, read_mesh, urdf_text},
     input::{Capability, FileAccess, Findings},
     kinematics::UrdfTree,
     nalgebra::Vector3,

@@ -1,8 +1,7 @@
 //! `congruent dynamics`: torques and accelerations of a robot at given states.
 
-use congruent_description::{
-    DrivenCoordinates, Followers, JointState, JointStateList, ReportedChain, Robot, RobotDescription,
-};
+use congruent_configurations::{JointState, JointStateList};
+use congruent_description::{DrivenCoordinates, Followers, ReportedChain, Robot, RobotDescription};
 use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError, JointMotionState, SpatialInertia};
 use congruent_input::{Diagnostic, Finding, SiUnit};
 use nalgebra::{DMatrix, Point3, Vector3};

@@ -1,7 +1,8 @@
 //! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
+use congruent_configurations::JointState;
 use congruent_description::{
-    DrivenCoordinates, Followers, JointState, LinkIndex, ReportedChain, RobotDescription, RobotQ,
+    DrivenCoordinates, Followers, LinkIndex, ReportedChain, RobotDescription, RobotQ,
 };
 use congruent_input::{Diagnostic, Finding, known_names};
 use congruent_kinematics::{Jacobian, KinematicsError, Pose, ReportedPose, UrdfTree};

@@ -9,11 +9,12 @@ use std::{
 };
 
 use congruent::{
-    description::{
-        Configurations, JointState, JointStateList, LiveInput, LiveState, LiveStates, Robot,
-        RobotDescription, RobotQList, configuration, outside_limits, outside_limits_warning,
-        read_configurations, read_configurations_from, read_states, read_states_from,
+    configurations::{
+        Configurations, JointState, JointStateList, LiveInput, LiveState, LiveStates, configuration,
+        outside_limits, outside_limits_warning, read_configurations, read_configurations_from, read_states,
+        read_states_from,
     },
+    description::{Robot, RobotDescription, RobotQList},
     input::{Diagnostic, TextLines, is_standard_input},
 };
 

@@ -56,6 +56,7 @@ pub fn all_codes() -> Vec<&'static Code> {
     [
         congruent_analysis::codes::ALL,
         congruent_calibration::codes::ALL,
+        congruent_configurations::codes::ALL,
         congruent_description::codes::ALL,
         congruent_input::codes::ALL,
         congruent_lint::codes::ALL,

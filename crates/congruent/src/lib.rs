@@ -6,6 +6,7 @@
 pub use congruent_agreement as agreement;
 pub use congruent_analysis as analysis;
 pub use congruent_calibration as calibration;
+pub use congruent_configurations as configurations;
 pub use congruent_description as description;
 pub use congruent_dynamics as dynamics;
 pub use congruent_dynamics_agreement as dynamics_agreement;

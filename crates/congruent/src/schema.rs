@@ -14,7 +14,8 @@ use congruent_analysis::{
     workspace::WorkspaceReport,
 };
 use congruent_calibration::report::CalibrationReport;
-use congruent_description::{configurations_schema, robot_file_schema};
+use congruent_configurations::configurations_schema;
+use congruent_description::robot_file_schema;
 use congruent_proximity::{DisabledPairs, DistanceReport};
 use congruent_results::report::{FaultTable, RunReport};
 use congruent_scenario::Scenario;

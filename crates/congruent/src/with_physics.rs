@@ -9,7 +9,8 @@ use congruent_analysis::{
     },
     forward::{ForwardReport, PoseStream, Source, forward_by_table},
 };
-use congruent_description::{DrivenCoordinates, JointStateList, Robot, RobotDescription, RobotQ};
+use congruent_configurations::JointStateList;
+use congruent_description::{DrivenCoordinates, Robot, RobotDescription, RobotQ};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_input::{Capability, Diagnostic, Findings};
 use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};

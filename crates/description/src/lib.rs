@@ -6,7 +6,6 @@
 mod chain;
 mod changed;
 pub mod codes;
-mod configuration_file;
 mod description;
 mod load;
 mod mjcf;
@@ -21,11 +20,6 @@ mod urdf;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use changed::{ChangedRobots, robots_of_changed};
-pub use configuration_file::{
-    Configurations, JointState, JointStateList, LiveEntries, LiveInput, LiveState, LiveStates, RobotQList,
-    configuration, configurations_schema, outside_limits, outside_limits_warning, read_configurations,
-    read_configurations_from, read_states, read_states_from, unique_names,
-};
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
@@ -33,8 +27,8 @@ pub use mjcf::is_mjcf;
 pub use model::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
     Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex,
-    MappedJoint, Mimic, Obstacle, RequestedTolerance, Robot, RobotError, RobotQ, SPEED_MARGIN, Shape,
-    Tolerance, ToleranceScale, principal_moments,
+    MappedJoint, Mimic, Obstacle, RequestedTolerance, Robot, RobotError, RobotQ, RobotQList, SPEED_MARGIN,
+    Shape, Tolerance, ToleranceScale, principal_moments,
 };
 pub use named_robot::{file_of_robot, open};
 pub use robot_file::{

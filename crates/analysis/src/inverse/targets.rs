@@ -2,7 +2,8 @@
 
 use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path, sync::Arc};
 
-use congruent_description::{LiveEntries, LiveInput, Robot, configuration};
+use congruent_configurations::{LiveEntries, LiveInput, configuration};
+use congruent_description::Robot;
 use congruent_input::{
     Diagnostic, Findings, SourceFile, TextLines, display::limit_number, read_text,
     rotation_from_rpy_fixed_xyz, units::LARGEST,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::unique_names;
+use congruent_configurations::unique_names;
 use serde::Deserialize;
 
 /// One target as written.

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{Robot, configuration, unique_names};
+use congruent_configurations::{configuration, unique_names};
+use congruent_description::Robot;
 use congruent_input::{Diagnostic, Findings, LineCounter, units::Unit};
 use congruent_tables::JsonList;
 use serde::Deserialize;

@@ -2,7 +2,8 @@
 
 use congruent::{
     analysis::dynamics::{DynamicsOptions, DynamicsSource, PointPayload, robot_with_options, stiction},
-    description::{JointStateList, RobotDescription},
+    configurations::JointStateList,
+    description::RobotDescription,
     input::Capability,
     text::joint_dynamics_text_parts,
 };

@@ -9,7 +9,8 @@ use congruent::{
         IkMethod, IkOptions, InverseTarget, InverseTargets, LiveTargets, TargetPart, inverse, read_targets,
         read_targets_from,
     },
-    description::{LiveInput, RobotDescription, Tolerance},
+    configurations::LiveInput,
+    description::{RobotDescription, Tolerance},
     input::{Diagnostic, Findings, is_standard_input},
     text::inverse_text,
 };

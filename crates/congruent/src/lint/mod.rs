@@ -12,7 +12,8 @@ use std::{
 
 use congruent_analysis::inverse::read_targets;
 use congruent_calibration::{measurements::read_measurements, needed_coordinates};
-use congruent_description::{RobotDescription, load_opened_robot, read_states};
+use congruent_configurations::read_states;
+use congruent_description::{RobotDescription, load_opened_robot};
 use congruent_input::{
     Capability, Diagnostic, FileAccess, Finding, Findings, Severity, SourceFile, TextKind, read_text,
 };

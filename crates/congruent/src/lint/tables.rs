@@ -4,7 +4,8 @@ use std::{collections::BTreeMap, ops::Range, sync::Arc};
 
 use congruent_analysis::inverse::InverseTargets;
 use congruent_calibration::measurements::MeasuredRow;
-use congruent_description::{Robot, RobotDescription, outside_limits};
+use congruent_configurations::outside_limits;
+use congruent_description::{Robot, RobotDescription};
 use congruent_input::{Diagnostic, Diagnostics, SourceFile, display::length};
 use congruent_kinematics::Pose;
 

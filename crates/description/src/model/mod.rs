@@ -14,6 +14,7 @@ mod link;
 mod obstacle;
 mod positions;
 mod robot;
+mod robot_q_list;
 mod tolerance;
 mod tree;
 
@@ -31,4 +32,5 @@ pub use link::{Link, LinkIndex};
 pub use obstacle::Obstacle;
 pub use positions::{ArmQ, ChainQ, RobotQ};
 pub use robot::Robot;
+pub use robot_q_list::RobotQList;
 pub use tolerance::{RequestedTolerance, Tolerance, ToleranceScale};

@@ -2,17 +2,17 @@
 
 use std::path::Path;
 
+use congruent_description::Robot;
 use congruent_input::{Diagnostic, TextLines};
 use congruent_tables::{JsonList, is_entry};
 use serde::de::DeserializeOwned;
 
-use super::{
+use crate::{
     beyond_limits::{outside_limits, outside_limits_warning},
     read::{LIST, MOST_BYTES},
     states::JointState,
     written::WrittenConfiguration,
 };
-use crate::model::Robot;
 
 /// A list, as its first line shows.
 pub enum LiveInput<Lines> {

@@ -1,7 +1,6 @@
 //! States of a robot: positions with speeds, accelerations and torques.
 
-use super::rows::Rows;
-use crate::model::RobotQ;
+use congruent_description::{RobotQ, RobotQList};
 
 /// One entry of a batch in full: one value for each movable joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,13 +20,13 @@ pub struct JointState {
 pub struct JointStateList {
     count: usize,
     /// Positions, speeds, accelerations and torques.
-    parts: [Rows; 4],
+    parts: [RobotQList; 4],
 }
 
 impl JointStateList {
     /// An empty list for a robot with this number of movable joints.
     pub fn new(joints: usize) -> Self {
-        Self { count: 0, parts: std::array::from_fn(|_| Rows::new(joints)) }
+        Self { count: 0, parts: std::array::from_fn(|_| RobotQList::new(joints)) }
     }
 
     /// Adds a state at the end.
@@ -44,7 +43,8 @@ impl JointStateList {
     /// All states in the order in which they were added.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = JointState> + Clone + '_ {
         (0..self.count).map(|index| {
-            let [q, qd, qdd, tau] = self.parts.each_ref().map(|rows| rows.row(index).to_vec());
+            let [q, qd, qdd, tau] =
+                self.parts.each_ref().map(|rows| rows.get(index).unwrap_or_default().to_vec());
             JointState { q: q.into(), qd, qdd, tau }
         })
     }

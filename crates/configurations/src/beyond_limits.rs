@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use congruent_description::Robot;
 use congruent_input::{
     Diagnostic,
     display::{compared_quantities, quantity},
 };
 
-use crate::{codes, model::Robot};
+use crate::codes;
 
 /// Values that one finding lists.
 const MOST_LISTED: usize = 10;

@@ -2,18 +2,14 @@
 
 use std::{collections::BTreeMap, ops::Range, path::Path};
 
+use congruent_description::{Robot, RobotQ, RobotQList};
 use congruent_input::{Diagnostic, Findings, InputFile, TextLines, known_names};
 use congruent_tables::{JsonList, is_csv};
 use schemars::{Schema, schema_for};
 
 use crate::{
-    codes,
-    model::{Robot, RobotQ},
-};
-
-use super::{
     beyond_limits::{OutsideLimits, outside_limits},
-    rows::RobotQList,
+    codes,
     states::{JointState, JointStateList},
     table::read_rows,
     written::WrittenConfiguration,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::model::RobotQ;
+use super::RobotQ;
 
 /// Configurations of one robot, one after the other: 8 bytes for each value.
 ///
@@ -63,7 +63,7 @@ impl From<&RobotQ> for RobotQList {
 /// Rows of equally many values. The leading rows that are zero throughout take no memory: torques and accelerations are often
 /// zero in the whole file.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Rows {
+struct Rows {
     width: usize,
     count: usize,
     /// Rows of zeros at the beginning, which are not stored.
@@ -73,11 +73,11 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    pub(super) fn new(width: usize) -> Self {
+    fn new(width: usize) -> Self {
         Self { width, zeros: vec![0.0; width], ..Self::default() }
     }
 
-    pub(super) fn push(&mut self, row: &[f64]) {
+    fn push(&mut self, row: &[f64]) {
         assert_eq!(row.len(), self.width, "one value for each movable joint");
         self.count += 1;
         // By bits, since a row with -0.0 must be read back as -0.0.
@@ -88,7 +88,7 @@ impl Rows {
         }
     }
 
-    pub(super) fn row(&self, index: usize) -> &[f64] {
+    fn row(&self, index: usize) -> &[f64] {
         let place = |at: usize| -> Range<usize> { at * self.width..(at + 1) * self.width };
         index.checked_sub(self.leading).map_or(&self.zeros[..], |stored| &self.values[place(stored)])
     }

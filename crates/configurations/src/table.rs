@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use congruent_description::Robot;
 use congruent_input::{
     Diagnostic, Findings, known_names,
     units::{Unit, WrittenUnit},
@@ -13,8 +14,7 @@ use congruent_tables::{
     separated_with_commas,
 };
 
-use super::written::WrittenConfiguration;
-use crate::{codes, model::Robot};
+use crate::{codes, written::WrittenConfiguration};
 
 /// What a column of a joint gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -159,7 +159,8 @@ fn is_follower(name: &str, robot: &Robot) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Configurations, parse_urdf, read_configurations, read_states};
+    use crate::{Configurations, read_configurations, read_states};
+    use congruent_description::parse_urdf;
 
     fn robot() -> Robot {
         parse_urdf(

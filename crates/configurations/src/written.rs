@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::unique::unique_names;
+use crate::unique::unique_names;
 
 /// One entry of a batch, joints by name; joints of groups that a command does not use are checked too.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]

@@ -1,9 +1,10 @@
-//! Configurations by joint name, as batch commands read them: JSON in SI units, or a table whose columns have units.
+//! Files of configurations and states of a robot, joints by name, as batch commands read them: JSON in SI units, or a table whose
+//! columns have units.
 
 mod beyond_limits;
+pub mod codes;
 mod live;
 mod read;
-mod rows;
 mod states;
 mod table;
 mod unique;
@@ -16,7 +17,6 @@ pub use self::{
         Configurations, configuration, configurations_schema, read_configurations, read_configurations_from,
         read_states, read_states_from,
     },
-    rows::RobotQList,
     states::{JointState, JointStateList},
     unique::unique_names,
 };

@@ -14,7 +14,7 @@ use serde::{
 /// # Examples
 /// ```
 /// use std::collections::BTreeMap;
-/// use congruent_description::unique_names;
+/// use congruent_configurations::unique_names;
 /// let read = |text: &str| unique_names(&mut serde_json::Deserializer::from_str(text));
 /// assert_eq!(read(r#"{"a": 1}"#).unwrap(), BTreeMap::from([("a".to_owned(), 1.0)]));
 /// assert!(read(r#"{"a": 1, "a": 2}"#).unwrap_err().to_string().starts_with(r#""a" is given twice"#));
