@@ -13,6 +13,7 @@ mod mapping;
 mod mimics;
 mod planted_dynamics;
 mod published_tables;
+mod revisions;
 mod second_source;
 mod stated;
 mod suggestions;

@@ -42,8 +42,8 @@ pub mod text;
 mod with_physics;
 
 pub use check::{
-    DeclaredSource, Headline, OtherDescription, ReportedJoint, ReportedMapping, RobotCheck, WrittenFix,
-    check, check_against, check_suite, checked_robot,
+    ChangedMass, ChangedTorque, DeclaredSource, Headline, OtherDescription, ReportedJoint, ReportedMapping,
+    RevisionChange, RobotCheck, WrittenFix, check, check_against, check_suite, checked_robot,
 };
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};

@@ -12,6 +12,7 @@ mod mjcf;
 mod model;
 mod model_file;
 mod named_robot;
+mod revision;
 mod robot_file;
 mod robot_file_text;
 mod srdf;

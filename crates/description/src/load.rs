@@ -8,8 +8,8 @@ use std::{
 };
 
 use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, SourceFile, TextKind, direct_path, folder_of,
-    not_found,
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, RevisionName, SourceFile, TextKind,
+    direct_path, folder_of, not_found,
 };
 use toml::Spanned;
 
@@ -20,13 +20,14 @@ use crate::{
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
     model_file::ModelFile,
     named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_other_text, refuse_scenario},
+    revision::load_revision,
     robot_file::{self, DeclaredReference, InertialPlaces, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
     srdf::{self, SRDF_BYTES},
     urdf::{Repairs, URDF_BYTES},
 };
 
 /// Loads a robot: a folder with `robot.toml`, that file under any name, or a bare URDF or MJCF, which may come from
-/// a pipe or as `-` from standard input. Which of the two it is, its root element says.
+/// a pipe, as `-` from standard input, or as `git:REV:PATH` from a revision in git. Which of the two it is, its root element says.
 ///
 /// A bare URDF or MJCF has its root as base, the frame for tools at the end of its longest chain of moving joints (before
 /// a gripper) as tip, and no Denavit-Hartenberg table.
@@ -45,6 +46,9 @@ pub fn load_robot(path: &Path) -> Result<RobotDescription, Findings> {
 /// # Errors
 /// As [`load_robot`].
 pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
+    if let Some(name) = RevisionName::of(path) {
+        return load_revision(&name, access);
+    }
     // A record of its own, so that `inputs` has the files of this robot only, whatever the caller has read before.
     let own = access.fresh();
     let loaded = load(path, &own);

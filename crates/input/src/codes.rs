@@ -28,6 +28,8 @@ crate::codes! {
             "With --fence, a file that another file names is not opened outside the project. The project is the nearest folder, at or above the given file, that holds package.xml or .git; without one it is the parent of the folder of that file. Allow another folder with --allow, or leave out --fence.";
         ALLOW = "CGR-FILE-013", "file::allow" unreadable,
             "--allow or --package does not name a folder. Give a folder that exists: --allow DIR, --package NAME=DIR.";
+        REVISION = "CGR-FILE-021", "file::revision" unreadable,
+            "A robot is named as git:REV:PATH, and git does not give it: there is no repository, no such revision, or no such file in it. The message has the reason. A clone of a CI often has only the newest commit; then fetch the other one.\n    congruent check robots/arm --against git:main";
         STANDARD_INPUT = "CGR-FILE-014", "file::standard_input" unreadable,
             "Two arguments are standard input (-), which can be read only once. Give one of them as a file.";
         KIND = "CGR-FILE-018", "file::kind" unreadable,

@@ -9,7 +9,7 @@ use congruent::{
     check_suite, checked_robot,
     configurations::read_configurations,
     description::{RobotDescription, RobotQList, load_robot_with, robots_of_changed},
-    input::{Diagnostic, Finding, Findings, Severity},
+    input::{Diagnostic, Finding, Findings, RevisionName, Severity},
     page::{CheckEntry, check_page},
     results::report::TestSuite,
     text::{CheckTextParts, TextOptions, check_text_parts, layout::visible_path},
@@ -54,8 +54,9 @@ pub(crate) struct Arguments {
     robots: Vec<PathBuf>,
     /// Also compare with another description of the robot (a folder with robot.toml, a robot file, or a bare .urdf), in
     /// geometry and, if both are the same chain within the tolerance, in dynamics. Joints with other names, directions or
-    /// zeros are found, or declared by [mapping] in robot.toml. Given several times, each is compared. By default the
-    /// files of [[reference]] in robot.toml.
+    /// zeros are found, or declared by [mapping] in robot.toml. git:REV is the robot as the branch, tag or commit REV has
+    /// it, git:REV:PATH another file of it. Given several times, each is compared. By default the files of [[reference]]
+    /// in robot.toml.
     #[arg(long, value_name = "ROBOT")]
     against: Vec<PathBuf>,
     /// Take the files as those that changed in a repository: a .urdf leads to each robot.toml below the current folder that
@@ -313,7 +314,9 @@ fn other_description(
         }
         description.mapping = reference.mapping;
     }
-    Ok(load_robot_with(other, &access)?)
+    // Without a path it is the same robot in another revision.
+    let revision = RevisionName::of(other).map(|name| name.beside(&description.path).to_path());
+    Ok(load_robot_with(revision.as_deref().unwrap_or(other), &access)?)
 }
 
 /// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the

@@ -13,6 +13,7 @@ use congruent_kinematics::LinkPoses;
 
 use super::{
     against::OtherDescription,
+    change::RevisionChange,
     declared::{self, DeclaredSource},
     model_frames::unreadable_value,
     physics,
@@ -96,12 +97,14 @@ fn checked(
     geometry.verdict = verdict(&geometry, against, &compared);
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
+    let change = there.map(|there| RevisionChange::new(own, there, options.seed)).transpose()?.flatten();
     let is_mapped = against.is_some_and(|against| against.mapping.is_some());
     let (against, mapped) = with_other.map(|of| (of.against, [of.description, of.other])).unzip();
     Ok(RobotCheck {
         geometry,
         at_configurations,
         against,
+        change,
         declared_dynamics,
         dynamics,
         other_dynamics,

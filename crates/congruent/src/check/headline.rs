@@ -17,6 +17,7 @@ use congruent_kinematics::PoseError;
 
 use super::{
     against::OtherDescription,
+    change::headline_of_change,
     declared::DeclaredSource,
     judged_by::{judged_by, tolerance_in_words},
     mapped_joints::mapped_joints,
@@ -40,7 +41,7 @@ impl fmt::Display for Headline {
 }
 
 impl Headline {
-    fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
+    pub(super) fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
         Self { answer: answer.into(), details: details.into() }
     }
 }
@@ -75,6 +76,9 @@ impl RobotCheck {
         }
         if let Some(mapped) = after_mapping(self) {
             return mapped;
+        }
+        if let Some(change) = headline_of_change(self) {
+            return change;
         }
         if report.verdict == Agreement::NothingCompared {
             let why = Agreement::why_nothing(&report.chain);
@@ -225,7 +229,7 @@ fn unknown() -> String {
 }
 
 /// The first fault with its place, and how many there are.
-fn cause(diagnosis: &ReportedDiagnosis) -> String {
+pub(super) fn cause(diagnosis: &ReportedDiagnosis) -> String {
     let Some(cause) = diagnosis.named_cause() else { return unknown() };
     let faults = cause.faults();
     let Some(first) = faults.first() else { return unknown() };
@@ -300,7 +304,7 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
 }
 
 impl RobotCheck {
-    fn cause_of_torques(&self, report: &DynamicsReport) -> String {
+    pub(super) fn cause_of_torques(&self, report: &DynamicsReport) -> String {
         let Some(first) = report.explanations.first() else { return report.headline() };
         let (sentence, line) = match (&first.parameters[..], self.files_of(report)) {
             ([only], Some(files)) => (only.sentence_in(short_names(files)), None),

@@ -1,6 +1,7 @@
 //! `check`: one file for each pair of sources whose dynamics is compared, and the report of all.
 
 mod against;
+mod change;
 mod checked;
 mod declared;
 mod headline;
@@ -18,6 +19,7 @@ mod suite;
 mod with_other;
 
 pub use against::OtherDescription;
+pub use change::{ChangedMass, ChangedTorque, RevisionChange};
 pub use checked::{check, check_against};
 pub use declared::DeclaredSource;
 pub use headline::Headline;

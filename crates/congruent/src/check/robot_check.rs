@@ -10,7 +10,7 @@ use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{against::OtherDescription, declared::DeclaredSource, physics};
+use super::{against::OtherDescription, change::RevisionChange, declared::DeclaredSource, physics};
 use crate::lint::LintSummary;
 
 /// The answer of `congruent check` for one robot.
@@ -27,6 +27,9 @@ pub struct RobotCheck {
     /// The other description, of --against.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<OtherDescription>,
+    /// What has changed since the revision of --against.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub change: Option<RevisionChange>,
     /// The dynamics that the robot file declares.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub declared_dynamics: Option<DeclaredSource>,

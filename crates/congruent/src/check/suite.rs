@@ -10,7 +10,10 @@ use congruent_input::{Diagnostic, display::length_and_angle, serde_name};
 use congruent_kinematics::PoseError;
 use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
-use super::{judged_by::comparison_judged_by, mapped_joints::mapped_joints, robot_check::RobotCheck};
+use super::{
+    change::change_case, judged_by::comparison_judged_by, mapped_joints::mapped_joints,
+    robot_check::RobotCheck,
+};
 
 /// The comparisons of a report as test cases; what failed names its cause with the line.
 ///
@@ -27,6 +30,7 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
         place: None,
         further: Vec::new(),
     }));
+    cases.extend(change_case(report));
     cases.extend(mapping_case(report));
     cases.extend(report.all_dynamics().map(dynamics_case));
     cases.extend(geometry.not_asked.iter().map(|source| not_compared_case(source, report)));

@@ -116,6 +116,11 @@ impl RobotFilePlaces {
         &self.source
     }
 
+    /// The same, to name its file in another form.
+    pub(crate) fn source_mut(&mut self) -> &mut Arc<SourceFile> {
+        &mut self.source
+    }
+
     pub(super) fn row_count(&self) -> usize {
         self.dh.get_ref().row.len()
     }

@@ -54,6 +54,11 @@ impl UrdfPlaces {
         &self.source
     }
 
+    /// The same, to name its file in another form.
+    pub(crate) fn source_mut(&mut self) -> &mut Arc<SourceFile> {
+        &mut self.source
+    }
+
     /// Place of the `<origin>` of a joint, or of the joint if it has none; `None` if there is no joint of
     /// that name.
     pub fn joint_origin(&self, name: &str) -> Option<Range<usize>> {

@@ -8,6 +8,7 @@ mod portable;
 mod project;
 mod pseudo;
 mod relative_path;
+mod revision;
 mod ros_packages;
 mod text_lines;
 
@@ -17,5 +18,6 @@ pub use open::{folder_of, head_of, is_standard_input, not_found, read_text};
 pub use packages::{Packages, Resolved};
 pub use portable::{portable_path, portable_text};
 pub use relative_path::{direct_path, relative_path};
+pub use revision::{RevisionFiles, RevisionName};
 pub use ros_packages::RosPackages;
 pub use text_lines::TextLines;

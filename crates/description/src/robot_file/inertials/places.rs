@@ -29,6 +29,11 @@ impl InertialPlaces {
         Self { source, dynamics, entries }
     }
 
+    /// The same, to name its file in another form.
+    pub(crate) fn source_mut(&mut self) -> &mut Arc<SourceFile> {
+        &mut self.source
+    }
+
     /// The robot file that the places are in.
     pub fn source(&self) -> &Arc<SourceFile> {
         &self.source

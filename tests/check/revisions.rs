@@ -1,0 +1,131 @@
+//! `congruent check ROBOT --against git:REV`: a robot against what a revision of its repository has.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use crate::support::{
+    command::{congruent, congruent_json},
+    corpus::workspace,
+    scratch_folder::ScratchFolder,
+};
+
+/// A repository with the UR5e, committed and tagged `before`, and its folder.
+fn repository() -> (ScratchFolder, PathBuf) {
+    let folder = ScratchFolder::new();
+    let robot = PathBuf::from(folder.robot("ur5e", &[]));
+    git(folder.path(), &["init", "-q", "-b", "main"]);
+    commit(folder.path());
+    git(folder.path(), &["tag", "before"]);
+    (folder, robot)
+}
+
+fn git(folder: &Path, arguments: &[&str]) {
+    let identity = ["-c", "user.name=n", "-c", "user.email=n@example.org"];
+    let status = Command::new("git").arg("-C").arg(folder).args(identity).args(arguments).status();
+    assert!(status.unwrap().success(), "git {arguments:?}");
+}
+
+fn commit(folder: &Path) {
+    git(folder, &["add", "-A"]);
+    git(folder, &["commit", "-q", "-m", "change"]);
+}
+
+fn edit(file: &Path, from: &str, to: &str) {
+    let text = fs::read_to_string(file).unwrap();
+    assert!(text.contains(from), "{from}");
+    fs::write(file, text.replacen(from, to, 1)).unwrap();
+}
+
+#[track_caller]
+fn answers(robot: &Path, other: &str, code: i32, expected: &str) {
+    let answer = congruent(&["check", robot.to_str().unwrap(), "--against", other, "-q"]);
+    assert_eq!(answer.code, code, "{}{}", answer.stdout, answer.stderr);
+    let printed = answer.stdout + &answer.stderr;
+    assert!(printed.contains(expected), "{printed}");
+}
+
+#[test]
+fn the_answer_says_what_a_change_does() {
+    let (_folder, robot) = repository();
+    answers(&robot, "git:before", 0, "UNCHANGED since before: poses, torques and limits are the same");
+    let urdf = robot.join("ur5e.urdf");
+    edit(&urdf, "xyz=\"-0.3922 0 0.1333\"", "xyz=\"-0.3932 0 0.1333\"");
+    edit(&urdf, "<mass value=\"2.846\"/>", "<mass value=\"3.246\"/>");
+    answers(
+        &urdf,
+        "git:main",
+        1,
+        "CHANGED since main: moves tool0 by up to 1 mm; adds 0.4 kg at forearm_link; largest gravity torque of",
+    );
+    let answer = congruent_json(&["check", urdf.to_str().unwrap(), "--against", "git:main"]);
+    let report = answer.json();
+    let change = &report["change"];
+    assert_eq!(change["revision"], "main");
+    assert!((change["position_m"].as_f64().unwrap() - 1e-3).abs() < 1e-9, "{change}");
+    let mass = &change["masses"][0];
+    assert_eq!((mass["found_kg"].as_f64(), mass["before_kg"].as_f64()), (Some(3.246), Some(2.846)));
+    assert!(report["against"]["file"].as_str().unwrap().starts_with("git:main:ur5e/ur5e.urdf"));
+    // Nothing was checked out, and the working tree is as it was.
+    assert!(fs::read_to_string(&urdf).unwrap().contains("3.246"));
+}
+
+#[test]
+fn a_limit_and_a_mass_that_nothing_moves_are_told() {
+    let (folder, robot) = repository();
+    let urdf = robot.join("ur5e.urdf");
+    edit(&urdf, "effort=\"150\"", "effort=\"200\"");
+    answers(
+        &robot,
+        "git:before",
+        1,
+        "CHANGED since before: shoulder_pan_joint: effort limit 200 N m, was 150 N m",
+    );
+    commit(folder.path());
+    answers(&robot, "git:HEAD~1", 1, "effort limit");
+    answers(&robot, "git:HEAD", 0, "UNCHANGED since HEAD");
+    edit(&urdf, "<mass value=\"4\"/>", "<mass value=\"5.5\"/>");
+    answers(
+        &robot,
+        "git:HEAD",
+        0,
+        "UNCHANGED since HEAD in poses, torques and limits, though it adds 1.5 kg at base_link_inertia",
+    );
+}
+
+#[test]
+fn a_file_that_moved_is_named_by_its_old_path_and_includes_come_from_the_same_revision() {
+    let (folder, robot) = repository();
+    let xml = folder.path().join("arm.xml");
+    fs::write(&xml, "<mujoco><include file='body.xml'/></mujoco>").unwrap();
+    let body = "<mujoco><worldbody><body name='arm'><joint name='q' axis='0 1 0' range='-90 90'/><geom size='.1' mass='1' pos='0 0 .3'/>\
+                </body></worldbody></mujoco>";
+    fs::write(folder.path().join("body.xml"), body).unwrap();
+    commit(folder.path());
+    answers(&xml, "git:HEAD", 0, "UNCHANGED since HEAD");
+    edit(&folder.path().join("body.xml"), "mass='1'", "mass='2'");
+    answers(&xml, "git:HEAD", 1, "CHANGED since HEAD: adds 1 kg at arm");
+    fs::rename(robot.join("ur5e.urdf"), robot.join("arm.urdf")).unwrap();
+    answers(&robot.join("arm.urdf"), "git:HEAD:ur5e/ur5e.urdf", 0, "UNCHANGED since HEAD");
+    answers(&robot.join("arm.urdf"), "git:HEAD", 2, "HEAD has no file");
+}
+
+#[test]
+fn what_git_does_not_have_is_said_with_the_nearest_name() {
+    let (folder, robot) = repository();
+    answers(&robot, "git:mian", 2, "did you mean git:main?");
+    answers(&robot, "git:", 2, "has no revision \"\"");
+    answers(&robot, "git:--help", 2, "has no revision \"--help\"");
+    answers(&robot, "git:main:ur5/ur5e.urdf", 2, "it has git:main:ur5e/ur5e.urdf");
+    let urdf = robot.join("ur5e.urdf");
+    edit(&urdf, "type=\"revolute\"", "type=\"revolut\"");
+    commit(folder.path());
+    edit(&urdf, "type=\"revolut\"", "type=\"revolute\"");
+    // The place of a fault is in the revision.
+    answers(&robot, "git:HEAD", 2, "git:HEAD:ur5e/ur5e.urdf:");
+    let elsewhere = ScratchFolder::new();
+    fs::copy(workspace().join("robots/ur5e/ur5e.urdf"), elsewhere.path().join("a.urdf")).unwrap();
+    answers(&elsewhere.path().join("a.urdf"), "git:main", 2, "is in no git repository");
+}
