@@ -73,7 +73,7 @@ fn the_answer_says_what_a_change_does() {
 }
 
 #[test]
-fn a_limit_and_a_mass_that_nothing_moves_are_told() {
+fn a_limit_and_a_mass_that_nothing_moves_are_reported() {
     let (folder, robot) = repository();
     let urdf = robot.join("ur5e.urdf");
     edit(&urdf, "effort=\"150\"", "effort=\"200\"");

@@ -101,6 +101,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "mjcf",
             "meshes",
             "description",
+            "configurations",
             "lint",
             "kinematics",
             "dynamics",

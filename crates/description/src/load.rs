@@ -8,8 +8,8 @@ use std::{
 };
 
 use congruent_input::{
-    Capability, Diagnostic, Diagnostics, FileAccess, Findings, RevisionName, SourceFile, TextKind,
-    direct_path, folder_of, not_found,
+    Capability, Diagnostic, Diagnostics, FileAccess, Findings, RevisionFiles, RevisionName, SourceFile,
+    TextKind, direct_path, folder_of, not_found,
 };
 use toml::Spanned;
 
@@ -20,8 +20,10 @@ use crate::{
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
     model_file::ModelFile,
     named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_other_text, refuse_scenario},
-    revision::load_revision,
-    robot_file::{self, DeclaredReference, InertialPlaces, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
+    revision::as_named,
+    robot_file::{
+        self, DeclaredReference, InertialPlaces, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot,
+    },
     srdf::{self, SRDF_BYTES},
     urdf::{Repairs, URDF_BYTES},
 };
@@ -47,7 +49,11 @@ pub fn load_robot(path: &Path) -> Result<RobotDescription, Findings> {
 /// As [`load_robot`].
 pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
     if let Some(name) = RevisionName::of(path) {
-        return load_revision(&name, access);
+        // With the URDF, the includes and the meshes of the same revision.
+        let files = RevisionFiles::read(&name, ROBOT_FILE)?;
+        let own = access.fresh();
+        let loaded = load_robot_with(&files.file(), &own);
+        return as_named(loaded, own.files(), &files, access);
     }
     // A record of its own, so that `inputs` has the files of this robot only, whatever the caller has read before.
     let own = access.fresh();

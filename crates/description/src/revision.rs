@@ -5,22 +5,24 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Diagnostic, FileAccess, Findings, InputFile, RevisionFiles, RevisionName, SourceFile};
+use congruent_input::{Diagnostic, FileAccess, Findings, InputFile, RevisionFiles, SourceFile};
 
-use crate::{RobotDescription, load_robot_with, robot_file::ROBOT_FILE};
+use crate::RobotDescription;
 
-/// Loads a robot of a revision, with the URDF, the includes and the meshes of the same revision. Its paths are those that a person
-/// can give again: `git:main:robots/arm.urdf`.
-pub(crate) fn load_revision(name: &RevisionName, access: &FileAccess) -> Result<RobotDescription, Findings> {
-    let files = RevisionFiles::read(name, ROBOT_FILE)?;
-    let own = access.fresh();
-    let loaded = load_robot_with(&files.file(), &own);
-    let inputs = own.files().into_iter().map(|input| named_input(input, &files)).collect::<Vec<_>>();
+/// What was loaded from the files of a revision, with paths that a person can give again: `git:main:robots/arm.urdf`. The files that
+/// were read are added to those of `access`.
+pub(crate) fn as_named(
+    loaded: Result<RobotDescription, Findings>,
+    read: Vec<InputFile>,
+    files: &RevisionFiles,
+    access: &FileAccess,
+) -> Result<RobotDescription, Findings> {
+    let inputs = read.into_iter().map(|input| named_input(input, files)).collect::<Vec<_>>();
     access.add(&inputs);
     match loaded {
-        Ok(description) => Ok(RobotDescription { inputs, ..named(description, &files) }),
+        Ok(description) => Ok(RobotDescription { inputs, ..named(description, files) }),
         Err(faults) => {
-            Err(faults.into_iter().map(|fault| named_fault(fault, &files)).collect::<Vec<_>>().into())
+            Err(faults.into_iter().map(|fault| named_fault(fault, files)).collect::<Vec<_>>().into())
         }
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Point3};
 use crate::{
     axis::Axis,
     names::JointPairs,
-    variables::{JointVariable, Solution},
+    variables::{ChainSolution, JointVariable},
 };
 
 /// Differences of centres of mass below this share of the reach say nothing. Kind: choice; two sets of inertials of one arm
@@ -20,19 +20,20 @@ const HAND_M: f64 = 0.1;
 /// The solutions in the order of their choice: those whose bodies lie where those of the robot are before those that turn some
 /// round, and else as they were.
 pub(crate) fn by_bodies(
-    solutions: Vec<Solution>,
+    solutions: Vec<ChainSolution>,
     descriptions: [&RobotDescription; 2],
     screws: &[ScrewTree; 2],
-    (pairs, reach_m): (&JointPairs, f64),
-) -> Vec<Solution> {
+    pairs: &JointPairs,
+    reach_m: f64,
+) -> Vec<ChainSolution> {
     if solutions.len() < 2 {
         return solutions;
     }
-    let apart = |solution: &Solution| apart_m(solution, descriptions, screws, pairs);
+    let apart = |solution: &ChainSolution| apart_m(solution, descriptions, screws, pairs);
     let apart_m: Vec<f64> = solutions.iter().map(apart).collect();
     let least = apart_m.iter().copied().fold(f64::INFINITY, f64::min);
     let is_other = |apart_m: f64| apart_m > 2.0 * least + SAME_BODY * reach_m;
-    let mut ordered: Vec<(bool, Solution)> = apart_m.into_iter().map(is_other).zip(solutions).collect();
+    let mut ordered: Vec<(bool, ChainSolution)> = apart_m.into_iter().map(is_other).zip(solutions).collect();
     // Stable: the simplest solution stays first.
     ordered.sort_by_key(|(is_other, _)| *is_other);
     ordered.into_iter().map(|(_, solution)| solution).collect()
@@ -41,7 +42,7 @@ pub(crate) fn by_bodies(
 /// The sum of the distances between the centres of mass of the links that matched joints carry, between frames of one name, and
 /// between limits, at zero.
 fn apart_m(
-    solution: &Solution,
+    solution: &ChainSolution,
     [a, b]: [&RobotDescription; 2],
     screws: &[ScrewTree; 2],
     pairs: &JointPairs,

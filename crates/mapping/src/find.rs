@@ -13,7 +13,7 @@ use crate::{
     axis::Axis,
     bodies::by_bodies,
     names::{JointPairs, is_alike, with_one_name, with_similar_names},
-    variables::{ChainPair, JointVariable, Solution},
+    variables::{ChainPair, ChainSolution, JointVariable},
 };
 
 /// How the joints of two descriptions were found to be the same.
@@ -119,9 +119,9 @@ impl Both<'_> {
         let branches = self.branches(&pairs);
         let main = self.main_branch(&pairs, &branches);
         let solutions = self.solutions_of_chain(&main)?;
-        let solutions = by_bodies(solutions, [self.a, self.b], &self.screws, (&main, self.reach_m));
+        let solutions = by_bodies(solutions, [self.a, self.b], &self.screws, &main, self.reach_m);
         let solution = solutions.first()?;
-        let of_main = |solution: &Solution| -> KnownVariables {
+        let of_main = |solution: &ChainSolution| -> KnownVariables {
             main.iter().map(|pair| pair[0]).zip(solution.variables.iter().copied()).collect()
         };
         let mut solved = of_main(solution);
@@ -142,7 +142,8 @@ impl Both<'_> {
                 solutions.unwrap_or_default(),
                 [self.a, self.b],
                 &self.screws,
-                (&branch, self.reach_m),
+                &branch,
+                self.reach_m,
             );
             // Joints of the same name whose axes are others are not the same joints.
             let Some(found) = solutions.into_iter().next() else {
@@ -180,7 +181,7 @@ impl Both<'_> {
 
     /// The solutions of the chain from base to tip: with the same frames at both ends if these explain it, else with another tool,
     /// else with another base as well.
-    fn solutions_of_chain(&self, pairs: &JointPairs) -> Option<Vec<Solution>> {
+    fn solutions_of_chain(&self, pairs: &JointPairs) -> Option<Vec<ChainSolution>> {
         /// Axes that are nearer than this share of the reach are the same up to what a calibration changes.
         const NEAR: f64 = 1e-4;
         /// Kind: choice; a fault is smaller, a base elsewhere farther.
@@ -190,10 +191,10 @@ impl Both<'_> {
         let attempts = bases.flat_map(|base| {
             tips.into_iter().flatten().map(Some).chain([None]).map(move |tips| (base, tips))
         });
-        let off = |solutions: &Vec<Solution>| {
+        let off = |solutions: &Vec<ChainSolution>| {
             solutions.first().map_or(f64::INFINITY, |solution| solution.off_m(self.reach_m))
         };
-        let mut best: Option<Vec<Solution>> = None;
+        let mut best: Option<Vec<ChainSolution>> = None;
         for (base, tips) in attempts {
             let solutions = self.chain_pair(pairs, base, tips).solutions();
             let is_fault = best.as_ref().is_some_and(|best| off(best) <= SAME_BASE * self.reach_m);
@@ -202,7 +203,7 @@ impl Both<'_> {
             }
             // Another base or tool must explain much to be believed, and more than a fault of some centimetres, which it would
             // hide.
-            let explains = |best: &Vec<Solution>| {
+            let explains = |best: &Vec<ChainSolution>| {
                 off(&solutions) < 0.3 * off(best) && off(best) > SAME_BASE * self.reach_m
             };
             if best.as_ref().is_none_or(explains) && !solutions.is_empty() {

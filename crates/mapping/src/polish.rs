@@ -4,7 +4,7 @@
 use congruent_kinematics::least_squares::{Damping, NormalEquations};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use crate::variables::{ChainPair, JointVariable, Solution};
+use crate::variables::{ChainPair, ChainSolution, JointVariable};
 
 /// Steps at most; the search begins so near that three are enough. Kind: loop bound.
 const MOST_STEPS: usize = 10;
@@ -15,7 +15,7 @@ const DAMPING: Damping = Damping { relative: 0.0, absolute: 1e-9 };
 
 impl ChainPair {
     /// The solution with the offsets, and the base if it is free, at which the axes are nearest.
-    pub(crate) fn polished(&self, solution: Solution) -> Solution {
+    pub(crate) fn polished(&self, solution: ChainSolution) -> ChainSolution {
         let mut best = solution;
         for _ in 0..MOST_STEPS {
             let rest = self.rest(&best);
@@ -53,7 +53,7 @@ impl ChainPair {
     }
 
     /// The rest: for each axis its difference in direction, as a length, and in place; for the tips likewise.
-    fn rest(&self, solution: &Solution) -> Vec<f64> {
+    fn rest(&self, solution: &ChainSolution) -> Vec<f64> {
         let mut rest = Vec::new();
         let mut moved = solution.a_from_b;
         for ((a, b), variable) in self.a.iter().zip(&self.b).zip(&solution.variables) {
@@ -84,7 +84,7 @@ enum Unknown {
     Base(usize),
 }
 
-fn moved(solution: &Solution, unknown: Unknown, by: f64) -> Solution {
+fn moved(solution: &ChainSolution, unknown: Unknown, by: f64) -> ChainSolution {
     let mut moved = solution.clone();
     match unknown {
         Unknown::Offset(at) => {

@@ -48,7 +48,7 @@ pub(crate) struct JointVariable {
 
 /// A solution to bring the axes together.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Solution {
+pub(crate) struct ChainSolution {
     pub(crate) variables: Vec<JointVariable>,
     /// Pose of B's root in A's.
     pub(crate) a_from_b: Isometry3<f64>,
@@ -58,7 +58,7 @@ pub(crate) struct Solution {
     pub(crate) distance_m: f64,
 }
 
-impl Solution {
+impl ChainSolution {
     /// Both as a distance.
     pub(crate) fn off_m(&self, reach_m: f64) -> f64 {
         self.distance_m + reach_m * self.angle_rad
@@ -78,23 +78,24 @@ impl Solution {
 impl ChainPair {
     /// The solutions that bring the axes nearest together, the simplest first: fewest flips, fewest offsets, smallest offsets.
     /// Empty if the axes are those of other chains.
-    pub(crate) fn solutions(&self) -> Vec<Solution> {
+    pub(crate) fn solutions(&self) -> Vec<ChainSolution> {
         let mut solutions = Vec::new();
         for start in self.starts() {
             self.follow(&start, start, &mut Vec::new(), &mut solutions);
         }
         let polished = solutions.into_iter().map(|solution| self.polished(solution));
-        let rounded: Vec<Solution> = polished.map(|solution| self.with_round_offsets(solution)).collect();
+        let rounded: Vec<ChainSolution> =
+            polished.map(|solution| self.with_round_offsets(solution)).collect();
         let best_m =
             rounded.iter().map(|solution| solution.off_m(self.reach_m)).fold(f64::INFINITY, f64::min);
         let limit_m = 2.0 * best_m + 1e-9 * self.reach_m;
-        let mut solutions: Vec<Solution> = Vec::new();
+        let mut solutions: Vec<ChainSolution> = Vec::new();
         for solution in rounded.into_iter().filter(|solution| solution.off_m(self.reach_m) <= limit_m) {
             if !solutions.iter().any(|known| is_same(known, &solution)) {
                 solutions.push(solution);
             }
         }
-        let cost = |solution: &Solution| {
+        let cost = |solution: &ChainSolution| {
             let (count, sum) = solution.offsets();
             // A base is upright in both files.
             let is_tilted =
@@ -147,7 +148,7 @@ impl ChainPair {
         a_from_b: &Isometry3<f64>,
         moved: Isometry3<f64>,
         variables: &mut Vec<JointVariable>,
-        solutions: &mut Vec<Solution>,
+        solutions: &mut Vec<ChainSolution>,
     ) {
         if solutions.len() >= MOST_SOLUTIONS {
             return;
@@ -222,9 +223,17 @@ impl ChainPair {
     }
 
     /// A complete solution, with its residual.
-    pub(crate) fn judged(&self, a_from_b: &Isometry3<f64>, variables: &[JointVariable]) -> Option<Solution> {
-        let mut solution =
-            Solution { variables: variables.to_vec(), a_from_b: *a_from_b, angle_rad: 0.0, distance_m: 0.0 };
+    pub(crate) fn judged(
+        &self,
+        a_from_b: &Isometry3<f64>,
+        variables: &[JointVariable],
+    ) -> Option<ChainSolution> {
+        let mut solution = ChainSolution {
+            variables: variables.to_vec(),
+            a_from_b: *a_from_b,
+            angle_rad: 0.0,
+            distance_m: 0.0,
+        };
         let mut moved = *a_from_b;
         for ((a, b), variable) in self.a.iter().zip(&self.b).zip(variables) {
             let there = b.moved(&moved);
@@ -243,7 +252,7 @@ impl ChainPair {
     }
 
     /// Offsets near 0 and near quarter turns as these, where nothing speaks against it.
-    fn with_round_offsets(&self, mut solution: Solution) -> Solution {
+    fn with_round_offsets(&self, mut solution: ChainSolution) -> ChainSolution {
         /// A calibrated zero is up to a few degrees off.
         const NEAR_RAD: f64 = 0.05;
         for at in 0..solution.variables.len() {
@@ -268,7 +277,7 @@ impl ChainPair {
 }
 
 /// Whether two solutions are the same except for rounding and whole turns.
-fn is_same(a: &Solution, b: &Solution) -> bool {
+fn is_same(a: &ChainSolution, b: &ChainSolution) -> bool {
     let is_near = |(a, b): (&JointVariable, &JointVariable)| {
         let off = a.offset - b.offset;
         a.is_flipped == b.is_flipped && libm::sin(off).abs() < 1e-6 && libm::cos(off) > 0.0

@@ -1,22 +1,14 @@
 //! What a change does to a robot: the description of today against that of a revision, in the terms of who reviews it.
 
-use congruent_agreement::{SourcePair, compare::Agreement};
 use congruent_description::{Robot, RobotDescription, RobotQ};
 use congruent_dynamics::BodyTree;
-use congruent_dynamics_agreement::{DynamicsVerdict, LimitDifference};
 use congruent_input::{
     RevisionName, SiUnit,
-    display::{counted, length_and_angle, quantity},
+    display::{counted, quantity},
 };
 use congruent_kinematics::{KinematicsError, PoseError, UrdfTree, sample_configurations};
-use congruent_results::report::{Reason, TestCase, TestResult};
 use schemars::JsonSchema;
 use serde::Serialize;
-
-use super::{
-    headline::{Headline, cause},
-    robot_check::RobotCheck,
-};
 
 /// Random configurations beside zero, single axes and the limits.
 const RANDOM: usize = 200;
@@ -96,7 +88,7 @@ impl RevisionChange {
     }
 
     /// What it does to masses and torques, in words.
-    fn parts(&self) -> Vec<String> {
+    pub(super) fn parts(&self) -> Vec<String> {
         let mut parts = Vec::new();
         let added = |mass: &ChangedMass| {
             let added_kg = mass.added_kg();
@@ -216,78 +208,4 @@ fn changed_masses(robot: &Robot, before: &Robot) -> Vec<ChangedMass> {
             > ROUNDED * mass.found_kg.unwrap_or_default().max(mass.before_kg.unwrap_or_default())
     };
     own.chain(only_before).map(of).filter(differs).collect()
-}
-
-/// The answer of a check against a revision, if both have the same joints; `None` if what disagrees is not the revision.
-pub(super) fn headline_of_change(check: &RobotCheck) -> Option<Headline> {
-    let change = check.change.as_ref()?;
-    let since = format!("since {}", change.revision);
-    let parts = parts(check, change);
-    if check.geometry.verdict == Agreement::Disagree {
-        let of_poses = check.geometry.diagnoses.iter().find(|of| of.name == SourcePair::UrdfOther);
-        let known = of_poses.filter(|of| of.named_cause().is_some());
-        let cause = known.map_or_else(String::new, |of| format!(". {}", cause(of)));
-        let details = format!(" {since}: {}{cause}", parts.join("; "));
-        return (!parts.is_empty()).then(|| Headline::new("CHANGED", details));
-    }
-    let compared = if check.dynamics_of_descriptions().any(|of| of.verdict != DynamicsVerdict::NotCompared) {
-        "poses, torques and limits"
-    } else {
-        "poses"
-    };
-    let details = if parts.is_empty() {
-        format!(" {since}: {compared} are the same")
-    } else {
-        format!(" {since} in {compared}, though it {}", parts.join("; "))
-    };
-    Some(Headline::new("UNCHANGED", details))
-}
-
-/// The answer as a test case, of which a summary and the annotations of a change show the message.
-pub(super) fn change_case(check: &RobotCheck) -> Option<TestCase> {
-    let change = check.change.as_ref()?;
-    let answer = headline_of_change(check)?.to_string();
-    let result = if parts(check, change).is_empty() || check.geometry.verdict == Agreement::Agree {
-        TestResult::Passed
-    } else {
-        TestResult::Failed(Reason { kind: "changed".to_owned(), message: answer.clone() })
-    };
-    let name = format!("change since {}", change.revision);
-    Some(TestCase { name, result, output: answer, place: None, further: Vec::new() })
-}
-
-/// What the change does, in words; empty if nothing.
-fn parts(check: &RobotCheck, change: &RevisionChange) -> Vec<String> {
-    let mut parts = Vec::new();
-    let of_poses = check.geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
-    if !change.moved.is_within(&check.geometry.tolerance) {
-        let PoseError { position_m, orientation_rad } = change.moved;
-        parts.push(format!(
-            "moves {} by up to {}",
-            change.link,
-            length_and_angle(position_m, orientation_rad)
-        ));
-    } else if let Some(of) = of_poses.filter(|of| of.verdict == Agreement::Disagree) {
-        let PoseError { position_m, orientation_rad } = of.worst.error;
-        let by = length_and_angle(position_m, orientation_rad);
-        parts.push(format!("moves {} by up to {by}, and not the tip", of.worst.link));
-    }
-    parts.extend(change.parts());
-    let reports = || check.dynamics_of_descriptions();
-    if parts.is_empty() {
-        let torques = reports().find(|report| !report.has_same_torques());
-        parts.extend(torques.map(|report| check.cause_of_torques(report)));
-    }
-    parts
-        .extend(reports().flat_map(|report| &report.limits).filter(|limit| limit.decides).map(changed_limit));
-    parts
-}
-
-/// `elbow_joint: effort limit 200 N m, was 150 N m`.
-fn changed_limit(limit: &LimitDifference) -> String {
-    let value = |value: Option<f64>| {
-        value.map_or_else(|| "not stated".to_owned(), |value| quantity(value, limit.unit.symbol()))
-    };
-    let (found, before) = (value(limit.found), value(limit.expected));
-    format!("{}: {} limit {found}, was {before}", limit.joint, limit.parameter)
 }

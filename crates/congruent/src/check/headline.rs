@@ -8,16 +8,16 @@ use std::{
 use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckReport, Comparison, Grade},
-    report::{ReportedCause, ReportedDiagnosis},
 };
 use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
 use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDifference};
-use congruent_input::display::{counted, length_and_angle, listed};
+use congruent_input::display::{counted, listed};
 use congruent_kinematics::PoseError;
 
 use super::{
     against::OtherDescription,
-    change::headline_of_change,
+    cause_in_words::{and_more, cause, largest, place, unknown},
+    change_answer::answer_of_change,
     declared::DeclaredSource,
     judged_by::{judged_by, tolerance_in_words},
     mapped_joints::mapped_joints,
@@ -41,7 +41,7 @@ impl fmt::Display for Headline {
 }
 
 impl Headline {
-    pub(super) fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
+    fn new(answer: impl Into<String>, details: impl Into<String>) -> Self {
         Self { answer: answer.into(), details: details.into() }
     }
 }
@@ -77,8 +77,8 @@ impl RobotCheck {
         if let Some(mapped) = after_mapping(self) {
             return mapped;
         }
-        if let Some(change) = headline_of_change(self) {
-            return change;
+        if let Some((answer, details)) = answer_of_change(self) {
+            return Headline::new(answer, details);
         }
         if report.verdict == Agreement::NothingCompared {
             let why = Agreement::why_nothing(&report.chain);
@@ -224,33 +224,6 @@ fn by_rounding_alone(check: &RobotCheck) -> String {
     format!("{removed} the digits decide")
 }
 
-fn unknown() -> String {
-    "No known cause explains it".to_owned()
-}
-
-/// The first fault with its place, and how many there are.
-pub(super) fn cause(diagnosis: &ReportedDiagnosis) -> String {
-    let Some(cause) = diagnosis.named_cause() else { return unknown() };
-    let faults = cause.faults();
-    let Some(first) = faults.first() else { return unknown() };
-    let place = place(first.file.as_deref(), first.line);
-    let rest = and_more(faults.len() - 1);
-    let label = match faults.len() {
-        1 => "Cause".to_owned(),
-        _ => format!("{} causes", faults.len()),
-    };
-    format!("{label}: {}{place}{rest}{}", first.message, unexplained(cause))
-}
-
-/// The residual of the cause, if that is too much.
-fn unexplained(cause: &ReportedCause) -> String {
-    if cause.within_tolerance {
-        return String::new();
-    }
-    let residual = PoseError { position_m: cause.residual_m, orientation_rad: cause.residual_rad };
-    format!("; that leaves {}", largest(residual))
-}
-
 /// Joints that are called or counted otherwise, or that only one description has, if nothing declares it.
 fn after_mapping(check: &RobotCheck) -> Option<Headline> {
     let against = check.against.as_ref()?;
@@ -335,22 +308,6 @@ fn limits(differences: &[LimitDifference]) -> String {
     let Some(first) = decide.next() else { return String::new() };
     let rest = and_more(decide.count());
     format!(": {}{}{rest}", first.sentence(), place(first.file.as_deref(), first.line))
-}
-
-/// How many others there are beside the one that is named.
-fn and_more(others: usize) -> String {
-    if others > 0 { format!(", and {others} more") } else { String::new() }
-}
-
-/// ` (robot.toml:8)`.
-fn place(file: Option<&str>, line: Option<usize>) -> String {
-    let name = file.and_then(|file| Path::new(file).file_name());
-    let place = name.zip(line).map(|(name, line)| format!(" ({}:{line})", name.display()));
-    place.unwrap_or_default()
-}
-
-fn largest(error: PoseError) -> String {
-    length_and_angle(error.position_m, error.orientation_rad)
 }
 
 /// What the digits of table and URDF allow, if the two are not identical and not written with all digits.

@@ -1,7 +1,9 @@
 //! `check`: one file for each pair of sources whose dynamics is compared, and the report of all.
 
 mod against;
+mod cause_in_words;
 mod change;
+mod change_answer;
 mod checked;
 mod declared;
 mod headline;

@@ -11,7 +11,7 @@ use congruent_kinematics::PoseError;
 use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
 use super::{
-    change::change_case, judged_by::comparison_judged_by, mapped_joints::mapped_joints,
+    change_answer::change_case, judged_by::comparison_judged_by, mapped_joints::mapped_joints,
     robot_check::RobotCheck,
 };
 

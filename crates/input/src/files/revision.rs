@@ -106,8 +106,9 @@ impl RevisionFiles {
         let repository = Repository::around(path, &name.revision)?;
         let tree = repository.tree()?;
         let path = repository.in_tree(path, &tree, in_folder)?;
-        let folder = tempfile::Builder::new().prefix("congruent-").tempdir().map_err(unwritable)?;
-        let top = folder.path().canonicalize().map_err(unwritable)?;
+        let folder =
+            tempfile::Builder::new().prefix("congruent-").tempdir().map_err(|error| unwritable(&error))?;
+        let top = folder.path().canonicalize().map_err(|error| unwritable(&error))?;
         repository.write_mentioned(&path, &tree, &top)?;
         Ok(Self { folder, top, revision: name.revision.clone(), path })
     }
@@ -145,7 +146,7 @@ struct Blob {
 }
 
 /// The files of a revision, by their path from the top.
-type Tree = BTreeMap<PathBuf, Blob>;
+type RevisionTree = BTreeMap<PathBuf, Blob>;
 
 /// A repository at a revision.
 struct Repository {
@@ -171,7 +172,7 @@ impl Repository {
     }
 
     /// Its files; links and submodules are left out.
-    fn tree(&self) -> Result<Tree, Diagnostic> {
+    fn tree(&self) -> Result<RevisionTree, Diagnostic> {
         let listed = git(&self.top, ["ls-tree", "-r", "-z", "-l", "--full-tree", &self.commit])?;
         if !listed.status.success() {
             return Err(failed(&listed));
@@ -190,7 +191,7 @@ impl Repository {
     }
 
     /// The file that is meant: from the top of the repository, or else from the current folder.
-    fn in_tree(&self, path: &Path, tree: &Tree, in_folder: &str) -> Result<PathBuf, Diagnostic> {
+    fn in_tree(&self, path: &Path, tree: &RevisionTree, in_folder: &str) -> Result<PathBuf, Diagnostic> {
         let real = || path.canonicalize().ok().or_else(|| Some(std::env::current_dir().ok()?.join(path)));
         let top = self.top.canonicalize().unwrap_or_else(|_| self.top.clone());
         let here = real().and_then(|real| Some(normalised(&real).strip_prefix(&top).ok()?.to_owned()));
@@ -213,12 +214,12 @@ impl Repository {
     }
 
     /// Writes the file, and every file whose name is mentioned in one that was written, below `top`.
-    fn write_mentioned(&self, path: &Path, tree: &Tree, top: &Path) -> Result<(), Diagnostic> {
+    fn write_mentioned(&self, path: &Path, tree: &RevisionTree, top: &Path) -> Result<(), Diagnostic> {
         // Packages and relative paths are found by their folders, and the top of a project by its mark.
         for folder in tree.keys().filter_map(|path| path.parent()).collect::<BTreeSet<_>>() {
-            fs::create_dir_all(top.join(folder)).map_err(unwritable)?;
+            fs::create_dir_all(top.join(folder)).map_err(|error| unwritable(&error))?;
         }
-        fs::create_dir_all(top.join(".git")).map_err(unwritable)?;
+        fs::create_dir_all(top.join(".git")).map_err(|error| unwritable(&error))?;
         let by_name = names(tree);
         let marks = by_name.get(OsStr::new("package.xml")).into_iter().flatten().copied();
         let mut pending: Vec<&Path> = std::iter::once(path).chain(marks).collect();
@@ -242,7 +243,7 @@ impl Repository {
             if !is_mark && is_text(path) {
                 pending.extend(mentioned(&String::from_utf8_lossy(&read.stdout), &by_name));
             }
-            fs::write(top.join(path), &read.stdout).map_err(unwritable)?;
+            fs::write(top.join(path), &read.stdout).map_err(|error| unwritable(&error))?;
         }
         Ok(())
     }
@@ -260,7 +261,7 @@ fn top_of(folder: &Path) -> Result<PathBuf, Diagnostic> {
 }
 
 /// The files by their name without folders.
-fn names(tree: &Tree) -> BTreeMap<&OsStr, Vec<&Path>> {
+fn names(tree: &RevisionTree) -> BTreeMap<&OsStr, Vec<&Path>> {
     let mut names: BTreeMap<&OsStr, Vec<&Path>> = BTreeMap::new();
     for path in tree.keys() {
         names.entry(path.file_name().unwrap_or_default()).or_default().push(path);
@@ -321,6 +322,6 @@ fn unknown_revision(top: &Path, revision: &str) -> Result<Diagnostic, Diagnostic
     })
 }
 
-fn unwritable(error: std::io::Error) -> Diagnostic {
+fn unwritable(error: &std::io::Error) -> Diagnostic {
     Diagnostic::error(codes::file::REVISION, format!("the files of the revision cannot be written: {error}"))
 }

@@ -1,0 +1,50 @@
+//! The cause of a difference as one sentence, with its place.
+
+use std::path::Path;
+
+use congruent_agreement::report::{ReportedCause, ReportedDiagnosis};
+use congruent_input::display::length_and_angle;
+use congruent_kinematics::PoseError;
+
+pub(super) fn unknown() -> String {
+    "No known cause explains it".to_owned()
+}
+
+/// The first fault with its place, and how many there are.
+pub(super) fn cause(diagnosis: &ReportedDiagnosis) -> String {
+    let Some(cause) = diagnosis.named_cause() else { return unknown() };
+    let faults = cause.faults();
+    let Some(first) = faults.first() else { return unknown() };
+    let place = place(first.file.as_deref(), first.line);
+    let rest = and_more(faults.len() - 1);
+    let label = match faults.len() {
+        1 => "Cause".to_owned(),
+        _ => format!("{} causes", faults.len()),
+    };
+    format!("{label}: {}{place}{rest}{}", first.message, unexplained(cause))
+}
+
+/// The residual of the cause, if that is too much.
+fn unexplained(cause: &ReportedCause) -> String {
+    if cause.within_tolerance {
+        return String::new();
+    }
+    let residual = PoseError { position_m: cause.residual_m, orientation_rad: cause.residual_rad };
+    format!("; that leaves {}", largest(residual))
+}
+
+/// How many others there are beside the one that is named.
+pub(super) fn and_more(others: usize) -> String {
+    if others > 0 { format!(", and {others} more") } else { String::new() }
+}
+
+/// ` (robot.toml:8)`.
+pub(super) fn place(file: Option<&str>, line: Option<usize>) -> String {
+    let name = file.and_then(|file| Path::new(file).file_name());
+    let place = name.zip(line).map(|(name, line)| format!(" ({}:{line})", name.display()));
+    place.unwrap_or_default()
+}
+
+pub(super) fn largest(error: PoseError) -> String {
+    length_and_angle(error.position_m, error.orientation_rad)
+}

@@ -1,0 +1,82 @@
+//! The answer of a check against a revision: what the change does, as the first line and as a test case.
+
+use congruent_agreement::{SourcePair, compare::Agreement};
+use congruent_dynamics_agreement::{DynamicsVerdict, LimitDifference};
+use congruent_input::display::quantity;
+use congruent_results::report::{Reason, TestCase, TestResult};
+
+use super::{
+    cause_in_words::{cause, largest},
+    change::RevisionChange,
+    robot_check::RobotCheck,
+};
+
+/// The answer of a check against a revision in capitals, and what follows it; `None` if they have other joints, or if what
+/// disagrees is not the revision.
+pub(super) fn answer_of_change(check: &RobotCheck) -> Option<(&'static str, String)> {
+    let change = check.change.as_ref()?;
+    let since = format!("since {}", change.revision);
+    let parts = parts(check, change);
+    if check.geometry.verdict == Agreement::Disagree {
+        let of_poses = check.geometry.diagnoses.iter().find(|of| of.name == SourcePair::UrdfOther);
+        let known = of_poses.filter(|of| of.named_cause().is_some());
+        let cause = known.map_or_else(String::new, |of| format!(". {}", cause(of)));
+        let details = format!(" {since}: {}{cause}", parts.join("; "));
+        return (!parts.is_empty()).then_some(("CHANGED", details));
+    }
+    let compared = if check.dynamics_of_descriptions().any(|of| of.verdict != DynamicsVerdict::NotCompared) {
+        "poses, torques and limits"
+    } else {
+        "poses"
+    };
+    let details = if parts.is_empty() {
+        format!(" {since}: {compared} are the same")
+    } else {
+        format!(" {since} in {compared}, though it {}", parts.join("; "))
+    };
+    Some(("UNCHANGED", details))
+}
+
+/// The answer as a test case, of which a summary and the annotations of a change show the message.
+pub(super) fn change_case(check: &RobotCheck) -> Option<TestCase> {
+    let change = check.change.as_ref()?;
+    let (answer, details) = answer_of_change(check)?;
+    let answer = answer.to_owned() + &details;
+    let result = if parts(check, change).is_empty() || check.geometry.verdict == Agreement::Agree {
+        TestResult::Passed
+    } else {
+        TestResult::Failed(Reason { kind: "changed".to_owned(), message: answer.clone() })
+    };
+    let name = format!("change since {}", change.revision);
+    Some(TestCase { name, result, output: answer, place: None, further: Vec::new() })
+}
+
+/// What the change does, in words; empty if nothing.
+fn parts(check: &RobotCheck, change: &RevisionChange) -> Vec<String> {
+    let mut parts = Vec::new();
+    let of_poses = check.geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
+    if !change.moved.is_within(&check.geometry.tolerance) {
+        parts.push(format!("moves {} by up to {}", change.link, largest(change.moved)));
+    } else if let Some(of) = of_poses.filter(|of| of.verdict == Agreement::Disagree) {
+        let by = largest(of.worst.error);
+        parts.push(format!("moves {} by up to {by}, and not the tip", of.worst.link));
+    }
+    parts.extend(change.parts());
+    let reports = || check.dynamics_of_descriptions();
+    if parts.is_empty() {
+        let torques = reports().find(|report| !report.has_same_torques());
+        parts.extend(torques.map(|report| check.cause_of_torques(report)));
+    }
+    parts
+        .extend(reports().flat_map(|report| &report.limits).filter(|limit| limit.decides).map(changed_limit));
+    parts
+}
+
+/// `elbow_joint: effort limit 200 N m, was 150 N m`.
+fn changed_limit(limit: &LimitDifference) -> String {
+    let value = |value: Option<f64>| {
+        value.map_or_else(|| "not stated".to_owned(), |value| quantity(value, limit.unit.symbol()))
+    };
+    let (found, before) = (value(limit.found), value(limit.expected));
+    format!("{}: {} limit {found}, was {before}", limit.joint, limit.parameter)
+}
