@@ -133,7 +133,7 @@ const CASES: &[Case] = &[
     ("<cylinder radius=\"0.04\" length=\"0.4\"/>", "<cylinder radius=\"-0.04\" length=\"0.4\"/>", "error", "positive", 0),
     ("<cylinder radius=\"0.04\" length=\"0.4\"/>", "<sphere radius=\"0\"/>", "error", "positive", 0),
     ("<cylinder radius=\"0.04\" length=\"0.4\"/>", "<cone radius=\"0.04\" length=\"0.4\"/>", "error", "cone", 17),
-    ("<cylinder radius=\"0.04\" length=\"0.4\"/>", "<capsule radius=\"0.04\" length=\"0.4\"/>", "error", "capsule", 0),
+    ("<cylinder radius=\"0.04\" length=\"0.4\"/>", "<capsule radius=\"0\" length=\"0.4\"/>", "error", "capsule", 0),
     ("<cylinder radius=\"0.04\" length=\"0.4\"/>", "<sphere radius=\"1\"/><sphere radius=\"1\"/>", "error", "more than one shape", 17),
     ("<cylinder radius=\"0.04\" length=\"0.4\"/>", "<mesh/>", "error", "filename", 17),
     ("<cylinder radius=\"0.04\" length=\"0.4\"/>", "<mesh filename=\"\"/>", "error", "mesh", 0),

@@ -3,7 +3,7 @@
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, units::LARGEST};
 use congruent_mjcf::{MjGeom, MjModel, MjShape};
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::{Isometry3, Vector3};
 
 use super::{
     mesh::{ModelMeshes, scaled_from_mesh},
@@ -81,7 +81,7 @@ fn shapes(
             at_center(Geometry::Cylinder { radius_m: radius, length_m: 2.0 * half_length })
         }
         MjShape::Box { half_sizes } => at_center(Geometry::Box { size_m: Vector3::from(half_sizes) * 2.0 }),
-        MjShape::Capsule { radius, half_length } => capsule(radius, half_length),
+        MjShape::Capsule { radius, half_length } => Geometry::capsule(radius, 2.0 * half_length),
         MjShape::Mesh { mesh } => {
             let found = meshes.find(mesh, diagnostics)?;
             vec![(scaled_from_mesh(&model.meshes[mesh]).inverse(), Geometry::Mesh(found))]
@@ -110,13 +110,6 @@ fn shapes(
 
 fn name_of(geom: &MjGeom) -> String {
     if geom.name.is_empty() { "one without a name".to_owned() } else { geom.name.clone() }
-}
-
-/// A cylinder with a sphere at each end.
-fn capsule(radius: f64, half_length: f64) -> Vec<(Isometry3<f64>, Geometry)> {
-    let end = |z: f64| (Translation3::new(0.0, 0.0, z).into(), Geometry::Sphere { radius_m: radius });
-    let middle = Geometry::Cylinder { radius_m: radius, length_m: 2.0 * half_length };
-    vec![(Isometry3::identity(), middle), end(-half_length), end(half_length)]
 }
 
 /// How far the origin of a shape is away, or its largest size; a mesh was bounded when it was read.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use congruent_meshes::Mesh;
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 /// One visual or collision element of a link.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,4 +38,14 @@ pub enum Geometry {
     },
     /// A triangle mesh, shared by all shapes that use the same file and scale.
     Mesh(Arc<Mesh>),
+}
+
+impl Geometry {
+    /// A capsule along z by parts, each with its pose in the capsule: a cylinder and a sphere at each end, so that distances are
+    /// exact. `length_m` is that of the cylinder, as in SDFormat 1.8 (`capsule_shape.sdf`); URDF 1.1 took the element over.
+    pub(crate) fn capsule(radius_m: f64, length_m: f64) -> Vec<(Isometry3<f64>, Self)> {
+        let end = |z: f64| (Translation3::new(0.0, 0.0, z).into(), Self::Sphere { radius_m });
+        let middle = Self::Cylinder { radius_m, length_m };
+        vec![(Isometry3::identity(), middle), end(-length_m / 2.0), end(length_m / 2.0)]
+    }
 }

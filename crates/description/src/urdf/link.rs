@@ -17,13 +17,13 @@ pub(super) fn read(link: &urdf_rs::Link, node: Node<'_, '_>, shapes: &mut ShapeR
         .visual
         .iter()
         .zip(elements(node, "visual"))
-        .filter_map(|(visual, node)| shapes.visual(visual, node))
+        .flat_map(|(visual, node)| shapes.visual(visual, node))
         .collect();
     let collisions = link
         .collision
         .iter()
         .zip(elements(node, "collision"))
-        .filter_map(|(collision, node)| shapes.collision(collision, node))
+        .flat_map(|(collision, node)| shapes.collision(collision, node))
         .collect();
     Link { name: link.name.clone(), inertia, visuals, collisions }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, units::LARGEST_PLAUSIBLE_M};
 use congruent_meshes::{FindMesh, Mesh};
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 use roxmltree::Node;
 
 use super::{
@@ -29,6 +29,9 @@ fn own_color(material: &urdf_rs::Material) -> Option<[f32; 4]> {
     material.color.as_ref().map(|color| color.rgba.0.map(|channel| channel.clamp(0.0, 1.0) as f32))
 }
 
+/// A shape with its pose in the frame of its element.
+type PlacedGeometry = (Isometry3<f64>, Geometry);
+
 /// Reads shapes, with what is defined outside their own element: named colours and meshes.
 pub(super) struct ShapeReader<'a, 'm> {
     pub(super) colors: BTreeMap<&'a str, [f32; 4]>,
@@ -37,49 +40,54 @@ pub(super) struct ShapeReader<'a, 'm> {
 }
 
 impl ShapeReader<'_, '_> {
-    /// A visual shape; `None` if something is wrong with it.
-    pub(super) fn visual(&mut self, visual: &urdf_rs::Visual, node: Node<'_, '_>) -> Option<Shape> {
+    /// The shapes of a visual, of which only a capsule has several; none if something is wrong with it.
+    pub(super) fn visual(&mut self, visual: &urdf_rs::Visual, node: Node<'_, '_>) -> Vec<Shape> {
         let color = |material: &urdf_rs::Material| {
             own_color(material).or_else(|| self.colors.get(material.name.as_str()).copied())
         };
         let color_rgba = visual.material.as_ref().and_then(color);
-        let shape = self.shape(&visual.origin, &visual.geometry, node, None)?;
-        Some(Shape { color_rgba, ..shape })
+        let shapes = self.shapes(&visual.origin, &visual.geometry, node, None);
+        shapes.into_iter().map(|shape| Shape { color_rgba, ..shape }).collect()
     }
 
-    /// A collision shape; `None` if something is wrong with it.
-    pub(super) fn collision(&mut self, collision: &urdf_rs::Collision, node: Node<'_, '_>) -> Option<Shape> {
-        self.shape(&collision.origin, &collision.geometry, node, Some(Capability::Clearance))
+    /// The shapes of a collision, of which only a capsule has several; none if something is wrong with it.
+    pub(super) fn collision(&mut self, collision: &urdf_rs::Collision, node: Node<'_, '_>) -> Vec<Shape> {
+        self.shapes(&collision.origin, &collision.geometry, node, Some(Capability::Clearance))
     }
 
-    fn shape(
+    fn shapes(
         &mut self,
         origin: &urdf_rs::Pose,
         geometry: &urdf_rs::Geometry,
         node: Node<'_, '_>,
         needed_by: Option<Capability>,
-    ) -> Option<Shape> {
+    ) -> Vec<Shape> {
         let owner = node.parent_element().unwrap_or(node);
         let link_from_shape =
             pose::read(origin, pose::OriginPlace { parent: node, owner, needed_by }, self.diagnostics);
         let place =
             element(node, "geometry").and_then(|geometry| geometry.first_element_child()).unwrap_or(node);
-        let geometry = match self.geometry(geometry) {
-            Ok((geometry, warnings)) => {
+        let parts = match self.parts(geometry) {
+            Ok((parts, warnings)) => {
                 self.diagnostics.extend(warnings.into_iter().map(|warning| placed(warning, owner, place)));
-                geometry
+                parts
             }
             Err(fault) => {
                 self.diagnostics.push(placed(fault, owner, place).needed_by(needed_by));
-                return None;
+                return Vec::new();
             }
         };
-        Some(Shape { link_from_shape, geometry, color_rgba: None })
+        let shape =
+            |(at, geometry)| Shape { link_from_shape: link_from_shape * at, geometry, color_rgba: None };
+        parts.into_iter().map(shape).collect()
     }
 
-    fn geometry(&mut self, geometry: &urdf_rs::Geometry) -> Result<(Geometry, Vec<Diagnostic>), Diagnostic> {
+    fn parts(
+        &mut self,
+        geometry: &urdf_rs::Geometry,
+    ) -> Result<(Vec<PlacedGeometry>, Vec<Diagnostic>), Diagnostic> {
         use urdf_rs::Geometry as Written;
-        let geometry = match *geometry {
+        let (geometry, smallest_m) = match *geometry {
             Written::Box { size } => {
                 let smallest =
                     check_sizes("box", &[("size", size[0]), ("size", size[1]), ("size", size[2])])?;
@@ -93,19 +101,22 @@ impl ShapeReader<'_, '_> {
                 let smallest = check_sizes("sphere", &[("radius", radius)])?;
                 (Geometry::Sphere { radius_m: radius }, smallest)
             }
-            Written::Capsule { .. } => {
-                let message = "shape <capsule> is not supported";
-                let help = "use a cylinder and two spheres, each in an element of its own";
-                return Err(Diagnostic::error(codes::urdf::GEOMETRY, message).with_help(help));
+            Written::Capsule { radius, length } => {
+                let smallest = check_sizes("capsule", &[("radius", radius), ("length", length)])?;
+                return Ok((
+                    Geometry::capsule(radius, length),
+                    too_large("shape", smallest).into_iter().collect(),
+                ));
             }
             Written::Mesh { ref filename, scale } => {
-                return self.mesh(filename, scale.map_or(Vector3::repeat(1.0), |scale| scale.0.into()));
+                let scale = scale.map_or(Vector3::repeat(1.0), |scale| scale.0.into());
+                let (mesh, warnings) = self.mesh(filename, scale)?;
+                return Ok((vec![(Isometry3::identity(), mesh)], warnings));
             }
         };
-        let (geometry, smallest_m) = geometry;
         // The smallest side, so that a wide floor raises no warning.
         let warnings = too_large("shape", smallest_m).into_iter().collect();
-        Ok((geometry, warnings))
+        Ok((vec![(Isometry3::identity(), geometry)], warnings))
     }
 
     fn mesh(&mut self, uri: &str, scale: Vector3<f64>) -> Result<(Geometry, Vec<Diagnostic>), Diagnostic> {

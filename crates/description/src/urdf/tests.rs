@@ -251,6 +251,21 @@ fn escaped_names_arrive() {
     assert_eq!(good(&text).links()[1].name, "a<b&\"A");
 }
 
+/// Half a metre of cylinder with ends of 0.1 m reaches 0.35 m from its middle, turned and shifted as its element.
+#[test]
+fn a_capsule_is_a_cylinder_with_round_ends() {
+    let capsule = "<collision><origin xyz='1 0 0' rpy='0 1.5707963267948966 0'/><geometry>\
+                   <capsule radius='0.1' length='0.5'/></geometry></collision>";
+    let robot = good(&arm(LIMIT, &format!("{INERTIAL}{capsule}")));
+    let [middle, low, high] = &robot.links()[1].collisions[..] else { panic!("{robot:#?}") };
+    assert_eq!(middle.geometry, Geometry::Cylinder { radius_m: 0.1, length_m: 0.5 });
+    for (end, x_m) in [(low, 0.75), (high, 1.25)] {
+        assert_eq!(end.geometry, Geometry::Sphere { radius_m: 0.1 });
+        let apart_m = (end.link_from_shape.translation.vector - Vector3::new(x_m, 0.0, 0.0)).norm();
+        assert!(apart_m < 1e-15, "{apart_m:e} m");
+    }
+}
+
 #[test]
 fn shapes_are_checked() {
     let shape = |shape: &str| format!("<collision><geometry>{shape}</geometry></collision>");
@@ -259,7 +274,7 @@ fn shapes_are_checked() {
         (shape("<box size='1 0 1'/>"), "urdf::geometry", "box size 0 must be positive"),
         (shape("<box size='1 1'/>"), "urdf::number", "expected 3 numbers, found 2"),
         (shape("<cylinder radius='-1' length='1'/>"), "urdf::geometry", "cylinder radius -1"),
-        (shape("<capsule radius='1' length='1'/>"), "urdf::geometry", "<capsule> is not supported"),
+        (shape("<capsule radius='0' length='1'/>"), "urdf::geometry", "capsule radius 0 must be positive"),
         (shape("<sphere radius='1'/><box size='1 1 1'/>"), "urdf::geometry", "more than one shape"),
         (shape("<mesh filename='a.stl' scale='0 1 1'/>"), "urdf::scale", "flattens"),
         (shape("<mesh filename='a.stl'/>"), "mesh::empty", "link \"tip\": no mesh a.stl"),
