@@ -3,3 +3,4 @@
 mod conversions;
 mod disabled_pairs;
 mod new_files;
+mod whole_robots;

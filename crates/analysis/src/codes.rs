@@ -28,6 +28,8 @@ congruent_input::codes! {
             "Two joint axes are nearly parallel, so their common normal is far away and a value of the table becomes very large.";
         ROUNDED_AXES = "CGR-COMMAND-036", "convert::rounded_axes",
             "Two joint axes are so nearly parallel, or so nearly intersecting, that they are treated as parallel or intersecting.";
+        WHOLE = "CGR-COMMAND-076", "convert::whole",
+            "A whole robot is written, so a chain or a table cannot be chosen. A URDF of a chain is written with --base or --tip, one of a table with --from dh.";
     }
     dynamics {
         AT_REST = "CGR-COMMAND-039", "dynamics::at_rest",

@@ -124,6 +124,8 @@ const EXAMPLES: [(&str, &[&str]); 21] = [
             "congruent convert robots/ur5e/ur5e.urdf --to dh",
             "congruent convert robots/ur5e --to modified --to ur5e_modified.toml",
             "congruent convert robots/ur5e --to ur5e_from_table.urdf",
+            "congruent convert robots/ur5e --out ur5e.xml",
+            "congruent convert ur5e.xml --to urdf",
         ],
     ),
     (

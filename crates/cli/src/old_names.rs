@@ -22,7 +22,7 @@ impl Renamed {
                 call.replace(at..=at, &["run", "--faults"], "`faults` is now `run --faults`");
             }
             Some("convert") => {
-                call.rename(&["--out", "--output"], "--to");
+                call.rename(&["--output"], "--to");
             }
             Some("new") if words.get(at + 1).is_some_and(|word| word == "scenario") => {
                 call.rename(&["--out"], "--to");

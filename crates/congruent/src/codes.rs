@@ -68,6 +68,7 @@ pub fn all_codes() -> Vec<&'static Code> {
         congruent_scenario::codes::ALL,
         congruent_tables::codes::ALL,
         congruent_twin::codes::ALL,
+        congruent_writers::codes::ALL,
         ALL,
     ]
     .concat()

@@ -41,5 +41,5 @@ pub use robot_file_text::{dh_section, relative_path, robot_file_text, robot_file
 pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{
     JointDigits, LARGEST_GYRATION_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES, UrdfPlaces, misspellings,
-    node, parse_urdf, urdf_text,
+    nearest_possible_tensor, node, parse_urdf,
 };

@@ -140,7 +140,7 @@ fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, Me
             corners.swap(1, 2);
         }
     }
-    Ok(Mesh { path, vertices_m, triangles })
+    Ok(Mesh { path, scale, vertices_m, triangles })
 }
 
 #[cfg(test)]

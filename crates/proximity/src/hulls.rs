@@ -524,7 +524,8 @@ mod tests {
             Point3::new(0.3 * radius * cos, 0.3 * radius * sin, 0.3 * height)
         };
         let vertices_m = (0..9000).map(on_ball).collect();
-        let mesh = Mesh { path: "ball".into(), vertices_m, triangles: vec![[0, 1, 2]] };
+        let mesh =
+            Mesh { path: "ball".into(), scale: Vector3::repeat(1.0), vertices_m, triangles: vec![[0, 1, 2]] };
         let cut = hulls(Geometry::Mesh(mesh.into()));
         let hull_error_m = cut.hull_error_m();
         // A thousandth of the diameter; it is 0.30 mm.
@@ -576,7 +577,12 @@ mod tests {
 
     #[test]
     fn a_mesh_without_triangles_is_nothing() {
-        let empty = Mesh { path: "empty".into(), vertices_m: Vec::new(), triangles: Vec::new() };
+        let empty = Mesh {
+            path: "empty".into(),
+            scale: Vector3::repeat(1.0),
+            vertices_m: Vec::new(),
+            triangles: Vec::new(),
+        };
         assert!(hulls(Geometry::Mesh(empty.into())).is_empty());
     }
 }

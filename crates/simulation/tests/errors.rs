@@ -53,7 +53,7 @@ fn more_joints_than_the_physics_can_carry() {
 }
 
 fn mesh_obstacle(vertices_m: Vec<Point3<f64>>) -> WorldSettings {
-    let mesh = Mesh { path: "sheet.stl".into(), vertices_m, triangles: vec![] };
+    let mesh = Mesh { path: "sheet.stl".into(), scale: Vector3::repeat(1.0), vertices_m, triangles: vec![] };
     let obstacle = Obstacle {
         name: "sheet".into(),
         world_from_obstacle: Isometry3::identity(),

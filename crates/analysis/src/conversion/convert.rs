@@ -1,7 +1,9 @@
 //! One model of a chain written as another, and the proof of it.
 
+use std::path::Path;
+
 use congruent_description::{
-    ChainQ, DhConvention, JointIndex, RobotDescription, RobotQ, dh_section, parse_urdf, urdf_text,
+    ChainQ, DhConvention, JointIndex, RobotDescription, RobotQ, dh_section, parse_urdf,
 };
 use congruent_input::{
     Diagnostic, Findings,
@@ -11,6 +13,7 @@ use congruent_kinematics::{
     DeriveError, Pose, Proof, ScrewChain, SerialDh, UrdfTree, derive_dh, sample_configurations,
     without_rounding,
 };
+use congruent_writers::urdf_text;
 
 use super::{
     converted_model::ConvertedModel,
@@ -24,10 +27,11 @@ use crate::codes;
 /// Random configurations of a proof, in addition to zero, single axes and limits.
 const RANDOM_CONFIGURATIONS: usize = 100;
 
-/// Writes the model of a robot's chain from base to tip as another and proves it.
+/// Writes the model of a robot's chain from base to tip as another and proves it. [`convert_robot`](super::convert_robot) writes
+/// whole robots.
 ///
 /// # Errors
-/// The robot has no such model, a joint fits no row, or the proof fails.
+/// The robot has no such model, a joint fits no row, the target is an MJCF, or the proof fails.
 pub fn convert(
     description: &RobotDescription,
     conversion: &Conversion,
@@ -39,6 +43,12 @@ pub fn convert(
         ConversionTarget::Modified => return to_table(&model, DhConvention::Modified, conversion, report),
         ConversionTarget::Poe => to_screws(&model, conversion, &mut report),
         ConversionTarget::Urdf => to_urdf(&model, conversion, &mut report)?,
+        ConversionTarget::Mjcf => {
+            let message = "an MJCF has the whole robot and no chain alone";
+            return Err(
+                Diagnostic::error(codes::convert::WHOLE, message).with_help("leave --base and --tip out")
+            );
+        }
     };
     report.proof = ProofReport::new(&proof, conversion);
     within_limit(&proof, &report)?;
@@ -154,7 +164,7 @@ fn to_urdf(
     conversion: &Conversion,
     report: &mut ConversionReport,
 ) -> Result<Proof, Diagnostic> {
-    let text = urdf_text(&tree::tree(model)?);
+    let text = urdf_text(&tree::tree(model)?, Path::new(""));
     report.notes.push(
         "links have names only, without masses and shapes; at zero every joint frame is parallel to the base"
             .to_owned(),

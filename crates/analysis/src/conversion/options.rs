@@ -1,7 +1,13 @@
 //! Options of a conversion: source, target, accuracy.
 
+use std::path::Path;
+
+use congruent_description::{ChainEnd, RobotDescription};
+use congruent_input::{Diagnostic, FileAccess};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::codes;
 
 /// Largest error of a conversion unless a coarser one is given: rad and m.
 pub const DEFAULT_ACCURACY: f64 = 1e-12;
@@ -16,8 +22,10 @@ pub enum ConversionTarget {
     Modified,
     /// Space and body screws with the home pose.
     Poe,
-    /// A URDF of joints and named links.
+    /// A URDF: the whole robot, or of a table and of a chosen chain joints and named links.
     Urdf,
+    /// An MJCF, the XML of MuJoCo: the whole robot.
+    Mjcf,
 }
 
 /// Which model of the robot is converted.
@@ -53,4 +61,42 @@ pub struct Conversion {
     pub seed: u64,
     /// How a table treats axes that are parallel or intersecting within rounded values.
     pub rounded_axes: RoundedAxes,
+}
+
+impl Conversion {
+    /// Whether the whole robot is written, with masses and shapes, and not the chain from base to tip.
+    ///
+    /// # Errors
+    /// A part of a robot, or a table, cannot be written as MJCF.
+    pub fn is_whole(&self, description: &RobotDescription) -> Result<bool, Diagnostic> {
+        let ends = description.chain_ends;
+        let has_chain = ends.base == ChainEnd::Given || ends.tip == ChainEnd::Given;
+        let is_table = self.from == Some(ConversionSource::Dh);
+        match self.to {
+            ConversionTarget::Mjcf if is_table => {
+                let message = "a table has no masses and no shapes, which an MJCF needs";
+                Err(Diagnostic::error(codes::convert::WHOLE, message)
+                    .with_help("leave --from out: the robot of the URDF or MJCF is written"))
+            }
+            ConversionTarget::Mjcf if has_chain => {
+                let message = "an MJCF has the whole robot, so --base and --tip choose nothing";
+                Err(Diagnostic::error(codes::convert::WHOLE, message).with_help("leave --base and --tip out"))
+            }
+            ConversionTarget::Mjcf => Ok(true),
+            ConversionTarget::Urdf => {
+                let from_table = is_table || (self.from.is_none() && description.dh.is_some());
+                Ok(!from_table && !has_chain)
+            }
+            _ => Ok(false),
+        }
+    }
+}
+
+/// Where a whole robot will be written.
+#[derive(Debug, Clone, Copy)]
+pub struct Destination<'a> {
+    /// The path of the file, or of one beside the source if the text is printed; it need not exist, its folder must.
+    pub path: &'a Path,
+    /// Which files may be opened when the text is read back: the meshes are.
+    pub access: &'a FileAccess,
 }

@@ -5,6 +5,7 @@ use congruent_input::{Diagnostic, Finding};
 use congruent_kinematics::{
     AxisRelation, Choice, DhDerivation, Pose, Proof, ReportedPose, ScrewChain, Twist,
 };
+use congruent_writers::ReadBackReport;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -42,6 +43,12 @@ pub struct ConversionReport {
     /// Text of the URDF, if the target is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub urdf: Option<String>,
+    /// Text of the MJCF, if the target is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mjcf: Option<String>,
+    /// What reading the text again has found, if the whole robot was written; `proof` then is of all its links.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub read_back: Option<ReadBackReport>,
     /// Relations of consecutive axes, if a table was derived from them.
     pub axes: Vec<AxisReport>,
     /// Pairs of axes that were made parallel, intersecting or collinear, which they are in the source within rounding.
@@ -205,6 +212,8 @@ impl ConversionReport {
             robot_toml: None,
             poe: None,
             urdf: None,
+            mjcf: None,
+            read_back: None,
             axes: Vec::new(),
             rounded_axes: Vec::new(),
             free_choices: Vec::new(),

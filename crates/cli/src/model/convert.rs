@@ -19,20 +19,24 @@ use crate::{
     terminal::print::Printer,
 };
 
-/// Converts a robot's model between DH tables, screws and URDF, proved by comparing back.
+/// Converts a robot between DH tables, screws, URDF and MJCF, proved by comparing back.
 ///
 /// Converts the declared table, or the chain of the URDF if no table is declared: `--to dh` of a URDF derives a table from its axes,
 /// with the free choices as comments. Axes that are parallel or intersect except for rounding in the URDF are taken as exactly so,
-/// and reported.
+/// and reported. `--to mjcf`, and `--to urdf` of a URDF or MJCF, write the whole robot with masses, limits and shapes; --base and --tip
+/// write the chain between them alone. What the format cannot hold is a warning.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
     /// The model, the file, or both in two options: `dh` (the same as `standard`) for rows Rz(theta) Tz(d) Tx(a) Rx(alpha),
-    /// `modified` for rows Rx(alpha) Tx(a) Rz(theta) Tz(d) (Craig), `poe` for screws, `urdf`; a name with a point is a file, of
-    /// which .urdf says the model. A table in a file is a whole robot file (.toml). Without a file, the model is printed.
-    #[arg(long, value_name = "MODEL|FILE", required = true)]
+    /// `modified` for rows Rx(alpha) Tx(a) Rz(theta) Tz(d) (Craig), `poe` for screws, `urdf`, `mjcf`; a name with a point is a file, of
+    /// which .urdf and .xml (MJCF) say the model. A table in a file is a whole robot file (.toml). Without a file, the model is printed.
+    #[arg(long, value_name = "MODEL|FILE", required_unless_present = "out")]
     to: Vec<ConversionOutput>,
+    /// The file, as --to may name it.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
     /// Which model is converted.
     #[arg(long, value_parser = named::<ConversionSource>())]
     from: Option<ConversionSource>,
@@ -59,8 +63,13 @@ impl FromStr for ConversionOutput {
             "modified" => ConversionTarget::Modified,
             "poe" => ConversionTarget::Poe,
             "urdf" => ConversionTarget::Urdf,
+            "mjcf" => ConversionTarget::Mjcf,
             file if file.contains(['.', '/']) => return Ok(Self::File(file.into())),
-            _ => return Err("expected dh, standard, modified, poe, urdf, or the name of a file".to_owned()),
+            _ => {
+                return Err(
+                    "expected dh, standard, modified, poe, urdf, mjcf, or the name of a file".to_owned()
+                );
+            }
         }))
     }
 }
@@ -70,7 +79,7 @@ impl Arguments {
     fn target(&self) -> Result<(ConversionTarget, Option<&Path>), Diagnostic> {
         let refused =
             |message: String, help: &str| Err(Diagnostic::error(codes::convert::TO, message).with_help(help));
-        let (mut model, mut file) = (None, None);
+        let (mut model, mut file) = (None, self.out.as_deref());
         for written in &self.to {
             let is_second = match written {
                 ConversionOutput::Model(named) => model.replace(*named).is_some(),
@@ -83,15 +92,16 @@ impl Arguments {
                 );
             }
         }
-        let is_urdf =
-            |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("urdf"));
+        let ends =
+            |path: &Path, known: &str| path.extension().is_some_and(|of| of.eq_ignore_ascii_case(known));
         match (model, file) {
             (Some(model), file) => Ok((model, file)),
-            (None, Some(path)) if is_urdf(path) => Ok((ConversionTarget::Urdf, file)),
+            (None, Some(path)) if ends(path, "urdf") => Ok((ConversionTarget::Urdf, file)),
+            (None, Some(path)) if ends(path, "xml") => Ok((ConversionTarget::Mjcf, file)),
             (None, path) => {
                 let path = path.unwrap_or(Path::new("")).display();
                 let message = format!(
-                    "--to {path} does not say which model is written: a table in which convention, or screws"
+                    "{path} does not say which model is written: a table in which convention, or screws"
                 );
                 refused(message, &format!("for example --to dh --to {path}"))
             }

@@ -1,9 +1,9 @@
 //! A converted model as text, printed or written to a file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use congruent::{
-    analysis::conversion::{Conversion, ConversionReport, convert},
+    analysis::conversion::{Conversion, ConversionReport, Destination, convert, convert_robot},
     description::{RobotDescription, Tolerance, load_robot_with, robot_file_text},
     input::{Diagnostic, FileAccess, is_standard_input},
     text::{conversion_comments, conversion_remarks, conversion_text},
@@ -28,7 +28,11 @@ pub(super) fn answer(
     file: Option<NewFile<'_>>,
     printer: &Printer,
 ) -> Result<u8, Failure> {
-    let report = convert(description, conversion)?;
+    let report = if conversion.is_whole(description)? {
+        whole_robot(description, conversion, file.as_ref())?
+    } else {
+        convert(description, conversion)?
+    };
     printer.warnings(None, &report.findings);
     let Some(file) = file else {
         printer.verbatim(&report, conversion_text)?;
@@ -56,12 +60,30 @@ pub(super) fn answer(
     Ok(0)
 }
 
+/// The whole robot, for the file that is asked for, or, if it is printed, for one beside the source.
+fn whole_robot(
+    description: &RobotDescription,
+    conversion: &Conversion,
+    file: Option<&NewFile<'_>>,
+) -> Result<ConversionReport, Diagnostic> {
+    let source =
+        if is_standard_input(&description.urdf_path) { Path::new("") } else { &description.urdf_path };
+    let beside = source.with_file_name("converted.xml");
+    if let Some(file) = file {
+        file.may_be_written(&files_of(description))?;
+        folder_of(file.path)?;
+    }
+    let access = allowing_inputs(FileAccess::default(), description);
+    let path = file.map_or(beside.as_path(), |file| file.path);
+    convert_robot(description, conversion, Destination { path, access: &access })
+}
+
 /// A whole robot file, with paths relative to its folder.
 fn robot_file(
     description: &RobotDescription,
     report: &ConversionReport,
     section: &str,
-    folder: &std::path::Path,
+    folder: &Path,
 ) -> Result<String, Diagnostic> {
     if is_standard_input(&description.urdf_path) {
         let message = "the URDF came from standard input, but a robot file must name its URDF by a path";

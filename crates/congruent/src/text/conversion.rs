@@ -5,19 +5,20 @@ use std::fmt::Write;
 use crate::{
     analysis::conversion::{ConversionReport, ConversionSource, PoeReport, ScrewReport},
     input::{
-        display::{angle, length, length_and_angle},
+        display::{angle, counted, length, length_and_angle},
         serde_name,
     },
     text::layout::column_width,
+    writers::ReadBackReport,
 };
 
 /// What `congruent convert` and `derive` print: a text that can be pasted or saved as it is. Everything but the model itself is
 /// a comment.
 pub fn conversion_text(report: &ConversionReport) -> String {
-    if let Some(urdf) = &report.urdf {
+    if let Some(xml) = report.urdf.as_ref().or(report.mjcf.as_ref()) {
         // Two hyphens end a comment in XML.
         let remarks = conversion_remarks(report).replace("--", "- -");
-        return urdf.replacen('\n', &format!("\n<!--\n{remarks}-->\n"), 1);
+        return xml.replacen('\n', &format!("\n<!--\n{remarks}-->\n"), 1);
     }
     let mut text = conversion_comments(report);
     if let Some(section) = &report.robot_toml {
@@ -41,6 +42,10 @@ pub fn conversion_remarks(report: &ConversionReport) -> String {
         ConversionSource::Dh => "its [dh] table",
         ConversionSource::Urdf => "its URDF",
     };
+    if let Some(found) = &report.read_back {
+        whole_robot(&mut text, report, found);
+        return text;
+    }
     let _ = writeln!(text, "{}: {}, from {from}", report.robot, report.chain);
     if let Some(table) = &report.table {
         let _ = writeln!(text, "each row is {}", table.equation);
@@ -76,6 +81,38 @@ pub fn conversion_remarks(report: &ConversionReport) -> String {
         let _ = writeln!(text, "free choice at {}: {}", free.joint, free.text);
     }
     text
+}
+
+/// The remarks on a whole robot.
+fn whole_robot(text: &mut String, report: &ConversionReport, found: &ReadBackReport) {
+    let ReadBackReport { links, joints, shapes, .. } = found;
+    let _ = writeln!(
+        text,
+        "{}: the whole robot, {}, {}, {}",
+        report.robot,
+        counted(*links, "link"),
+        counted(*joints, "moving joint"),
+        counted(*shapes, "shape")
+    );
+    let _ = writeln!(
+        text,
+        "read back: poses of all links at {} configurations agree within {}, masses within {:.0e}, centres of mass within {}, \
+         inertias within {:.0e}, limits and losses within {:.0e} (relative), shapes within {}; limit {:e}",
+        report.proof.configurations,
+        length_and_angle(found.position_m, found.orientation_rad),
+        found.mass,
+        length(found.center_of_mass),
+        found.inertia,
+        found.terms,
+        length(found.shape_m),
+        found.limit
+    );
+    for warning in &report.findings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    for note in &report.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
 }
 
 fn screws(text: &mut String, poe: &PoeReport) {

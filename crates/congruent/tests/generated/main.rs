@@ -7,7 +7,7 @@
 
 mod robot;
 
-use std::{cell::Cell, sync::Arc};
+use std::{cell::Cell, path::Path, sync::Arc};
 
 use congruent::{
     agreement::{
@@ -18,8 +18,9 @@ use congruent::{
         Conversion, ConversionReport, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes,
     },
     check,
-    description::{Robot, RobotDescription, parse_robot, parse_urdf, toml_string, urdf_text},
+    description::{Robot, RobotDescription, parse_robot, parse_urdf, toml_string},
     kinematics::{UrdfTree, sample_configurations},
+    writers::urdf_text,
 };
 use congruent_analysis::conversion::convert;
 use congruent_input::{Findings, SourceFile};
@@ -75,7 +76,7 @@ fn what_is_written_is_read_again() {
     for_robots(256, |robot, _| {
         let text = robot.urdf();
         let robot = parse_urdf(&text).map_err(|found| failed(&found, &text))?;
-        let written = urdf_text(&robot);
+        let written = urdf_text(&robot, Path::new("/"));
         let again = parse_urdf(&written).map_err(|found| failed(&found, &written))?;
         let names = |robot: &Robot| -> Vec<String> {
             let links = robot.links().iter().map(|link| link.name.clone());

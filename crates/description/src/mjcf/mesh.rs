@@ -96,5 +96,6 @@ fn inline(mesh: &MjMesh) -> FoundOnce {
         let [a, b, c] = face.map(|corner| corner as u32);
         if is_mirrored { [a, c, b] } else { [a, b, c] }
     };
-    Ok(Arc::new(Mesh { path: PathBuf::new(), triangles: faces.iter().map(triangle).collect(), vertices_m }))
+    let triangles = faces.iter().map(triangle).collect();
+    Ok(Arc::new(Mesh { path: PathBuf::new(), scale: mesh.scale.value, triangles, vertices_m }))
 }

@@ -23,10 +23,8 @@ pub mod node;
 mod places;
 mod pose;
 mod shape;
-mod write;
 
 pub use places::{JointDigits, UrdfPlaces};
-pub use write::urdf_text;
 
 use std::{fmt::Write, ops::Range};
 
@@ -129,7 +127,10 @@ fn read(root: Node<'_, '_>, inputs: &mut UrdfInputs<'_, '_>, diagnostics: &mut D
 /// # Errors
 /// Every diagnostic if at least one is an error or blocks a use.
 /// # Examples
-/// See [`urdf_text`].
+/// ```
+/// use congruent_description::parse_urdf;
+/// assert_eq!(parse_urdf("<robot name='stand'><link name='base'/></robot>").unwrap().links().len(), 1);
+/// ```
 pub fn parse_urdf(text: &str) -> Result<Robot, Findings> {
     let mut diagnostics = Diagnostics::default();
     let inputs = UrdfInputs { find_mesh: &mut no_mesh, repairs: &Repairs::default() };
@@ -238,5 +239,5 @@ fn first_at(fault: Diagnostic, root: Node<'_, '_>, tag_name: &str, name: &str) -
 #[cfg(test)]
 mod tests;
 pub use grammar::{Misspelling, Misspelt, misspellings};
-pub use inertial::LARGEST_GYRATION_M;
+pub use inertial::{LARGEST_GYRATION_M, nearest_possible_tensor};
 pub use large::LargeLinks;

@@ -9,7 +9,7 @@ use roxmltree::Node;
 
 use super::{
     possible::{Impossible, UNIT, suspicious_size},
-    repair::{Repairs, nearest_possible},
+    repair::{Repairs, nearest_possible_tensor},
 };
 use crate::{
     codes,
@@ -73,7 +73,7 @@ fn repair(robot: &mut Robot, name: &str) -> Result<Diagnostic, Diagnostic> {
         );
         return Ok(Diagnostic::warning(codes::robot_file::INERTIA, message).with_help("remove the line"));
     }
-    let tensor_kg_m2 = nearest_possible(&inertia.tensor_kg_m2);
+    let tensor_kg_m2 = nearest_possible_tensor(&inertia.tensor_kg_m2);
     let listed = |tensor| principal_moments(tensor).map(|moment| quantity(moment, UNIT)).join(", ");
     let message = format!(
         "link \"{name}\": inertia repaired: principal moments {} in the URDF, {} after the repair ({} apart in the Frobenius \

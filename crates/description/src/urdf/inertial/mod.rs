@@ -11,3 +11,4 @@ pub(crate) use repair::Repairs;
 #[cfg(test)]
 mod tests;
 pub use possible::LARGEST_GYRATION_M;
+pub use repair::nearest_possible_tensor;

@@ -23,8 +23,8 @@ pub(crate) struct Repairs {
     pub(crate) source: Option<Arc<SourceFile>>,
 }
 
-/// The nearest tensor in the Frobenius norm that a rigid body can have.
-pub(super) fn nearest_possible(tensor_kg_m2: &Matrix3<f64>) -> Matrix3<f64> {
+/// The nearest tensor in the Frobenius norm that a rigid body can have, kg m^2, about the same centre and in the same axes.
+pub fn nearest_possible_tensor(tensor_kg_m2: &Matrix3<f64>) -> Matrix3<f64> {
     // Scaled to entries of at most 1: the eigenvalue solver overflows on entries near the largest double.
     let largest = tensor_kg_m2.amax();
     if largest == 0.0 {
@@ -82,7 +82,7 @@ mod tests {
 
     #[track_caller]
     fn check(moments: [f64; 3], expected: [f64; 3]) {
-        let repaired = nearest_possible(&turned(moments));
+        let repaired = nearest_possible_tensor(&turned(moments));
         // The floor moves each principal moment by at most twice itself.
         let floor = 4.0 * LEAST_SECOND_MOMENT;
         assert!((repaired - turned(expected)).norm() < floor + ROUNDING, "{repaired}");
@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn nothing_possible_is_nearer() {
         let wrong = turned([-0.2, 0.1, 0.7]);
-        let least = (nearest_possible(&wrong) - wrong).norm();
+        let least = (nearest_possible_tensor(&wrong) - wrong).norm();
         let steps = || (0..12).map(|step| f64::from(step) * 0.1);
         for (a, b) in steps().flat_map(|a| steps().map(move |b| (a, b))) {
             for c in steps() {

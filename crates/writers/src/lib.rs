@@ -1,0 +1,23 @@
+//! Whole robots as text: URDF and MJCF, with inertias, limits, losses, couplings and shapes.
+//!
+//! 1. `fit` makes the robot that the format can hold: what it cannot hold is changed or left out there, each with a warning.
+//! 2. `urdf` and `mjcf` write this robot, and lose nothing of it.
+//! 3. `read_back` reads the text with the readers of crate `description` and compares what they find with the robot.
+//!
+//! No file is written here: the caller does that once the text has been read back.
+
+pub mod codes;
+mod fit;
+mod fit_inertia;
+mod format;
+mod links;
+mod mesh_file;
+mod mjcf;
+mod read_back;
+mod shape;
+mod urdf;
+mod xml_text;
+
+pub use format::{RobotFormat, RobotText, robot_text};
+pub use read_back::{ReadBack, ReadBackReport, read_back};
+pub use urdf::urdf_text;

@@ -1,0 +1,108 @@
+//! Which links are bodies, and which joints move each.
+//!
+//! MuJoCo refuses bodies that move without mass, which a URDF needs between two joints that meet. There, as in every MJCF, the
+//! joints are those of one body, and act in their order. The reader makes such links again, as `BODY (before JOINT)`.
+
+use congruent_description::{Joint, JointIndex, Link, LinkIndex, Robot};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+use super::WORLD;
+
+/// The most degrees of freedom of a body. Source: `mjCBody::Compile` of MuJoCo 4.0.
+const MOST_JOINTS: usize = 6;
+
+/// A link that is written as a body.
+#[derive(Debug, Clone)]
+pub(crate) struct BodyPlan {
+    pub(crate) link: LinkIndex,
+    /// The link that carries it.
+    pub(crate) parent: LinkIndex,
+    /// Pose in the parent with all joints at zero.
+    pub(crate) parent_from_body: Isometry3<f64>,
+    /// The joints that move it, the one nearest to the parent first; empty for a fixed link.
+    pub(crate) joints: Vec<PlannedJoint>,
+}
+
+/// A joint of a body.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlannedJoint {
+    pub(crate) index: JointIndex,
+    /// Frame of the joint in the body at zero.
+    pub(crate) body_from_joint: Isometry3<f64>,
+}
+
+/// The bodies of a robot, parents before children. The root is one too unless it is the world itself; its parent is itself.
+pub(crate) fn bodies(robot: &Robot) -> Vec<BodyPlan> {
+    let mut is_merged = vec![false; robot.links().len()];
+    let mut children = vec![0; robot.links().len()];
+    robot.joints().iter().for_each(|joint| children[joint.parent.get()] += 1);
+    let mut plans = Vec::new();
+    // From the end, since a body takes the links before it.
+    for link in robot.joints().iter().rev().map(|joint| joint.child) {
+        if let Some(joint) = robot.parent_joint(link).filter(|_| !is_merged[link.get()]) {
+            plans.push(planned(robot, joint, &children, &mut is_merged));
+        }
+    }
+    let root = robot.root();
+    if robot.link(root).name != WORLD {
+        let parent_from_body = Isometry3::identity();
+        plans.push(BodyPlan { link: root, parent: root, parent_from_body, joints: Vec::new() });
+    }
+    plans.reverse();
+    plans
+}
+
+fn planned(robot: &Robot, last: JointIndex, children: &[usize], is_merged: &mut [bool]) -> BodyPlan {
+    let body = robot.joint(last).child;
+    let mut at = robot.joint(last);
+    let mut link_from_body = at.parent_from_joint;
+    let mut joints = Vec::new();
+    if at.kind.is_movable() {
+        joints.push(PlannedJoint { index: last, body_from_joint: Isometry3::identity() });
+    }
+    while let Some(above) = taken(robot, at, &joints, children) {
+        is_merged[at.parent.get()] = true;
+        joints.push(PlannedJoint { index: above, body_from_joint: link_from_body.inverse() });
+        at = robot.joint(above);
+        link_from_body = at.parent_from_joint * link_from_body;
+    }
+    joints.reverse();
+    BodyPlan { link: body, parent: at.parent, parent_from_body: link_from_body, joints }
+}
+
+/// The joint of the link above, if that link needs no body of its own.
+fn taken(robot: &Robot, at: &Joint, joints: &[PlannedJoint], children: &[usize]) -> Option<JointIndex> {
+    let above = robot.parent_joint(at.parent)?;
+    let link = robot.link(at.parent);
+    let is_frame_of_joints =
+        robot.joint(above).kind.is_movable() && is_frame(link) && children[at.parent.get()] == 1;
+    if !is_frame_of_joints || joints.len() == MOST_JOINTS {
+        return None;
+    }
+    // Below a fixed joint such a link is a body of no mass, which is allowed, unless the reader has made it of an axis beside
+    // the origin of its body.
+    let is_axis = || {
+        let made = format!("{} (axis of {})", robot.link(at.child).name, robot.joint(above).name);
+        link.name == made && at.parent_from_joint.rotation == UnitQuaternion::identity()
+    };
+    (at.kind.is_movable() || (joints.is_empty() && is_axis())).then_some(above)
+}
+
+/// Whether the reader makes the link below a joint of a body as it is: parallel to the body, and on the axis of the joint.
+pub(crate) fn keeps_frame(robot: &Robot, joint: &PlannedJoint) -> bool {
+    let pose = &joint.body_from_joint;
+    let is_on_axis =
+        robot.joint(joint.index).kind.is_angular() || pose.translation.vector == Vector3::zeros();
+    is_on_axis && pose.rotation == UnitQuaternion::identity()
+}
+
+/// What the reader calls the link between two joints of a body.
+pub(crate) fn before_name(body: &str, joint: &str) -> String {
+    format!("{body} (before {joint})")
+}
+
+/// Whether a link has neither mass nor shapes.
+fn is_frame(link: &Link) -> bool {
+    let is_massless = link.inertia.is_none_or(|of| of.mass_kg == 0.0 && of.tensor_kg_m2.amax() == 0.0);
+    is_massless && link.visuals.is_empty() && link.collisions.is_empty()
+}
