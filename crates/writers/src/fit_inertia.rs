@@ -4,13 +4,13 @@ use congruent_description::{Inertia, Link, Robot, nearest_possible_tensor, princ
 use congruent_input::{Diagnostic, Diagnostics, display::quantity};
 use nalgebra::{Isometry3, Matrix3};
 
-use crate::{codes, mjcf::bodies};
+use crate::{
+    codes,
+    mjcf::{LEAST, bodies, has_mass},
+};
 
 /// Relative to the largest principal moment. Kind: rounding of an eigenvalue problem; the writer removes it.
 const ROUNDING: f64 = 1e-12;
-/// Mass and moment of a body that moves with none, kg and kg m^2: MuJoCo demands 1e-15 (`mjMINVAL`), the real parts have 1e-3.
-const LEAST: f64 = 1e-12;
-
 /// Replaces inertias that no body has, and reports them.
 pub(crate) fn possible(links: &mut [Link], diagnostics: &mut Diagnostics) {
     for Link { name, inertia, .. } in links {
@@ -35,11 +35,7 @@ pub(crate) fn possible(links: &mut [Link], diagnostics: &mut Diagnostics) {
 
 /// Gives a tiny mass and inertia to links that move and have none, nor a link that is fixed to them, and reports them.
 pub(crate) fn massive(robot: &Robot, links: &mut [Link], diagnostics: &mut Diagnostics) {
-    let mut has_mass: Vec<bool> = links.iter().map(|link| is_massive(link.inertia.as_ref())).collect();
-    // Parents are before their children, so from the end a fixed link passes its mass on before its parent is judged.
-    for joint in robot.joints().iter().rev().filter(|joint| !joint.kind.is_movable()) {
-        has_mass[joint.parent.get()] |= has_mass[joint.child.get()];
-    }
+    let has_mass = has_mass(robot);
     for body in bodies(robot).iter().filter(|body| !body.joints.is_empty()) {
         let at = body.link.get();
         if has_mass[at] {
@@ -63,8 +59,4 @@ pub(crate) fn massive(robot: &Robot, links: &mut [Link], diagnostics: &mut Diagn
         let found = Diagnostic::warning(codes::write::MASSLESS, message).one_of(kind, name);
         diagnostics.push(found.with_help("give them an <inertial> before you simulate them"));
     }
-}
-
-fn is_massive(inertia: Option<&Inertia>) -> bool {
-    inertia.is_some_and(|of| of.mass_kg >= LEAST && principal_moments(&of.tensor_kg_m2)[0] >= LEAST)
 }

@@ -94,6 +94,10 @@ fn a_body_without_mass_gets_as_good_as_none_and_says_so() {
     let (written, _) = written(&text, RobotFormat::Mjcf);
     assert_eq!(codes(&written), ["write::massless"]);
     assert!(written.text.contains("mass=\"1e-12\""), "{}", written.text);
+    // Links of a robot without masses stay links, and keep their names.
+    let chain = joint("j", "continuous", ["a", "b"], "") + &joint("k", "continuous", ["b", "c"], "");
+    let (chain, _) = self::written(&urdf(&[("a", ""), ("b", ""), ("c", "")], &chain), RobotFormat::Mjcf);
+    assert_eq!(link_names(&chain.robot), ["a", "b", "c"]);
     // The mass of a link that is fixed to it is enough for MuJoCo.
     let fixed = joint("j", "continuous", ["a", "b"], "") + &joint("f", "fixed", ["b", "c"], "");
     let text = urdf(&[("a", ""), ("b", ""), ("c", INERTIAL)], &fixed);

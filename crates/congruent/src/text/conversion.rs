@@ -96,14 +96,14 @@ fn whole_robot(text: &mut String, report: &ConversionReport, found: &ReadBackRep
     );
     let _ = writeln!(
         text,
-        "read back: poses of all links at {} configurations agree within {}, masses within {:.0e}, centres of mass within {}, \
-         inertias within {:.0e}, limits and losses within {:.0e} (relative), shapes within {}; limit {:e}",
+        "read back: poses of all links at {} configurations agree within {}, masses within {}, centres of mass within {}, \
+         inertias within {}, limits and losses within {} (relative), shapes within {}; limit {:e}",
         report.proof.configurations,
         length_and_angle(found.position_m, found.orientation_rad),
-        found.mass,
+        relative(found.mass),
         length(found.center_of_mass),
-        found.inertia,
-        found.terms,
+        relative(found.inertia),
+        relative(found.terms),
         length(found.shape_m),
         found.limit
     );
@@ -113,6 +113,10 @@ fn whole_robot(text: &mut String, report: &ConversionReport, found: &ReadBackRep
     for note in &report.notes {
         let _ = writeln!(text, "note: {note}");
     }
+}
+
+fn relative(difference: f64) -> String {
+    if difference == 0.0 { "0".to_owned() } else { format!("{difference:.0e}") }
 }
 
 fn screws(text: &mut String, poe: &PoeReport) {

@@ -7,7 +7,7 @@ mod plan;
 mod text;
 
 pub(crate) use names::fit_names;
-pub(crate) use plan::{bodies, keeps_frame};
+pub(crate) use plan::{LEAST, bodies, has_mass, keeps_frame};
 pub(crate) use text::{excluded_bodies, mjcf_text};
 
 /// Ranges from here on are no limits to the reader of MJCF. Unit: rad or m; kind: range of numbers.

@@ -3,13 +3,16 @@
 //! MuJoCo refuses bodies that move without mass, which a URDF needs between two joints that meet. There, as in every MJCF, the
 //! joints are those of one body, and act in their order. The reader makes such links again, as `BODY (before JOINT)`.
 
-use congruent_description::{Joint, JointIndex, Link, LinkIndex, Robot};
+use congruent_description::{Inertia, Joint, JointIndex, Link, LinkIndex, Robot, principal_moments};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::WORLD;
 
 /// The most degrees of freedom of a body. Source: `mjCBody::Compile` of MuJoCo 4.0.
 const MOST_JOINTS: usize = 6;
+
+/// Mass and moment of a body that moves with none, kg and kg m^2: MuJoCo demands 1e-15 (`mjMINVAL`), the real parts have 1e-3.
+pub(crate) const LEAST: f64 = 1e-12;
 
 /// A link that is written as a body.
 #[derive(Debug, Clone)]
@@ -36,11 +39,12 @@ pub(crate) fn bodies(robot: &Robot) -> Vec<BodyPlan> {
     let mut is_merged = vec![false; robot.links().len()];
     let mut children = vec![0; robot.links().len()];
     robot.joints().iter().for_each(|joint| children[joint.parent.get()] += 1);
+    let tree = Tree { robot, children, has_mass: has_mass(robot) };
     let mut plans = Vec::new();
     // From the end, since a body takes the links before it.
     for link in robot.joints().iter().rev().map(|joint| joint.child) {
         if let Some(joint) = robot.parent_joint(link).filter(|_| !is_merged[link.get()]) {
-            plans.push(planned(robot, joint, &children, &mut is_merged));
+            plans.push(planned(&tree, joint, &mut is_merged));
         }
     }
     let root = robot.root();
@@ -52,7 +56,16 @@ pub(crate) fn bodies(robot: &Robot) -> Vec<BodyPlan> {
     plans
 }
 
-fn planned(robot: &Robot, last: JointIndex, children: &[usize], is_merged: &mut [bool]) -> BodyPlan {
+/// A robot with what decides which links are bodies.
+struct Tree<'a> {
+    robot: &'a Robot,
+    /// How many joints each link carries.
+    children: Vec<usize>,
+    has_mass: Vec<bool>,
+}
+
+fn planned(tree: &Tree<'_>, last: JointIndex, is_merged: &mut [bool]) -> BodyPlan {
+    let robot = tree.robot;
     let body = robot.joint(last).child;
     let mut at = robot.joint(last);
     let mut link_from_body = at.parent_from_joint;
@@ -60,7 +73,7 @@ fn planned(robot: &Robot, last: JointIndex, children: &[usize], is_merged: &mut 
     if at.kind.is_movable() {
         joints.push(PlannedJoint { index: last, body_from_joint: Isometry3::identity() });
     }
-    while let Some(above) = taken(robot, at, &joints, children) {
+    while let Some(above) = taken(tree, at, &joints, body) {
         is_merged[at.parent.get()] = true;
         joints.push(PlannedJoint { index: above, body_from_joint: link_from_body.inverse() });
         at = robot.joint(above);
@@ -71,7 +84,8 @@ fn planned(robot: &Robot, last: JointIndex, children: &[usize], is_merged: &mut 
 }
 
 /// The joint of the link above, if that link needs no body of its own.
-fn taken(robot: &Robot, at: &Joint, joints: &[PlannedJoint], children: &[usize]) -> Option<JointIndex> {
+fn taken(tree: &Tree<'_>, at: &Joint, joints: &[PlannedJoint], body: LinkIndex) -> Option<JointIndex> {
+    let Tree { robot, children, has_mass } = tree;
     let above = robot.parent_joint(at.parent)?;
     let link = robot.link(at.parent);
     let is_frame_of_joints =
@@ -85,7 +99,9 @@ fn taken(robot: &Robot, at: &Joint, joints: &[PlannedJoint], children: &[usize])
         let made = format!("{} (axis of {})", robot.link(at.child).name, robot.joint(above).name);
         link.name == made && at.parent_from_joint.rotation == UnitQuaternion::identity()
     };
-    (at.kind.is_movable() || (joints.is_empty() && is_axis())).then_some(above)
+    // Of a robot without masses every link is a body: they get as good as none, and keep their names.
+    let is_between = at.kind.is_movable() && has_mass[body.get()];
+    (is_between || (joints.is_empty() && is_axis())).then_some(above)
 }
 
 /// Whether the reader makes the link below a joint of a body as it is: parallel to the body, and on the axis of the joint.
@@ -94,6 +110,18 @@ pub(crate) fn keeps_frame(robot: &Robot, joint: &PlannedJoint) -> bool {
     let is_on_axis =
         robot.joint(joint.index).kind.is_angular() || pose.translation.vector == Vector3::zeros();
     is_on_axis && pose.rotation == UnitQuaternion::identity()
+}
+
+/// For each link whether it, or one that is fixed to it, has mass and inertia enough for MuJoCo.
+pub(crate) fn has_mass(robot: &Robot) -> Vec<bool> {
+    let is_massive = |of: Inertia| of.mass_kg >= LEAST && principal_moments(&of.tensor_kg_m2)[0] >= LEAST;
+    let mut has_mass: Vec<bool> =
+        robot.links().iter().map(|link| link.inertia.is_some_and(is_massive)).collect();
+    // Parents are before their children, so from the end a fixed link passes its mass on before its parent is judged.
+    for joint in robot.joints().iter().rev().filter(|joint| !joint.kind.is_movable()) {
+        has_mass[joint.parent.get()] |= has_mass[joint.child.get()];
+    }
+    has_mass
 }
 
 /// What the reader calls the link between two joints of a body.
