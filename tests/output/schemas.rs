@@ -124,6 +124,7 @@ fn documents_follow_their_schemas() {
         ("clearance", &["clearance", "robots/ur5e", at]),
         ("convert", &["convert", "robots/ur5e", "--to", "modified"]),
         ("convert", &["convert", "robots/ur5e", "--from", "urdf", "--to", "standard"]),
+        ("convert", &["convert", "robots/ur5e", "--to", "mjcf"]),
     ];
     for (name, arguments) in commands {
         let answer = congruent_json(arguments);

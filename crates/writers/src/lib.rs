@@ -14,10 +14,12 @@ mod links;
 mod mesh_file;
 mod mjcf;
 mod read_back;
+mod robot_text;
 mod shape;
 mod urdf;
 mod xml_text;
 
-pub use format::{RobotFormat, RobotText, robot_text};
+pub use format::RobotFormat;
 pub use read_back::{ReadBack, ReadBackReport, read_back};
+pub use robot_text::{RobotText, robot_text};
 pub use urdf::urdf_text;

@@ -47,13 +47,13 @@ impl XmlText {
     }
 
     /// An element without children.
-    pub(crate) fn element(&mut self, tag: &str, attributes: Attributes) {
-        self.line(&format!("<{tag}{}/>", attributes.0));
+    pub(crate) fn element(&mut self, tag: &str, Attributes(attributes): Attributes) {
+        self.line(&format!("<{tag}{attributes}/>"));
     }
 
     /// The beginning of an element whose children follow.
-    pub(crate) fn begin(&mut self, tag: &'static str, attributes: Attributes) {
-        self.line(&format!("<{tag}{}>", attributes.0));
+    pub(crate) fn begin(&mut self, tag: &'static str, Attributes(attributes): Attributes) {
+        self.line(&format!("<{tag}{attributes}>"));
         self.open.push(tag);
     }
 

@@ -40,8 +40,9 @@ const INERTIAL: &str = "<inertial><origin xyz='0.1 0.2 0.3' rpy='0.3 -0.2 1.1'/>
 
 /// A URDF of links and joints: names of links, then what each joint has.
 fn urdf(links: &[(&str, &str)], joints: &str) -> String {
-    let links: String = links.iter().map(|(name, has)| format!("<link name='{name}'>{has}</link>")).collect();
-    format!("<robot name='r'>{links}{joints}</robot>")
+    let links: Vec<String> =
+        links.iter().map(|(name, has)| format!("<link name='{name}'>{has}</link>")).collect();
+    format!("<robot name='r'>{}{joints}</robot>", links.concat())
 }
 
 fn joint(name: &str, kind: &str, [parent, child]: [&str; 2], has: &str) -> String {

@@ -254,15 +254,13 @@ fn escaped_names_arrive() {
 /// Half a metre of cylinder with ends of 0.1 m reaches 0.35 m from its middle, turned and shifted as its element.
 #[test]
 fn a_capsule_is_a_cylinder_with_round_ends() {
-    let capsule = "<collision><origin xyz='1 0 0' rpy='0 1.5707963267948966 0'/><geometry>\
-                   <capsule radius='0.1' length='0.5'/></geometry></collision>";
-    let robot = good(&arm(LIMIT, &format!("{INERTIAL}{capsule}")));
+    let capsule = "<collision><origin xyz='1 0 0' rpy='0 1.5707963267948966 0'/><geometry><capsule radius='0.1' length='0.5'/>";
+    let robot = good(&arm(LIMIT, &format!("{INERTIAL}{capsule}</geometry></collision>")));
     let [middle, low, high] = &robot.links()[1].collisions[..] else { panic!("{robot:#?}") };
     assert_eq!(middle.geometry, Geometry::Cylinder { radius_m: 0.1, length_m: 0.5 });
     for (end, x_m) in [(low, 0.75), (high, 1.25)] {
         assert_eq!(end.geometry, Geometry::Sphere { radius_m: 0.1 });
-        let apart_m = (end.link_from_shape.translation.vector - Vector3::new(x_m, 0.0, 0.0)).norm();
-        assert!(apart_m < 1e-15, "{apart_m:e} m");
+        assert!((end.link_from_shape.translation.vector - Vector3::new(x_m, 0.0, 0.0)).norm() < 1e-15);
     }
 }
 

@@ -6,8 +6,8 @@ use congruent_description::{JointKind, Link, Robot};
 use congruent_input::{Diagnostic, Diagnostics};
 
 use super::{
-    WORLD,
     plan::{before_name, bodies, keeps_frame},
+    world::WORLD,
 };
 use crate::{codes, links::Parts};
 

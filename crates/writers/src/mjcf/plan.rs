@@ -6,7 +6,7 @@
 use congruent_description::{Inertia, Joint, JointIndex, Link, LinkIndex, Robot, principal_moments};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use super::WORLD;
+use super::world::WORLD;
 
 /// The most degrees of freedom of a body. Source: `mjCBody::Compile` of MuJoCo 4.0.
 const MOST_JOINTS: usize = 6;
@@ -38,8 +38,10 @@ pub(crate) struct PlannedJoint {
 pub(crate) fn bodies(robot: &Robot) -> Vec<BodyPlan> {
     let mut is_merged = vec![false; robot.links().len()];
     let mut children = vec![0; robot.links().len()];
-    robot.joints().iter().for_each(|joint| children[joint.parent.get()] += 1);
-    let tree = Tree { robot, children, has_mass: has_mass(robot) };
+    for joint in robot.joints() {
+        children[joint.parent.get()] += 1;
+    }
+    let tree = PlannedTree { robot, children, has_mass: has_mass(robot) };
     let mut plans = Vec::new();
     // From the end, since a body takes the links before it.
     for link in robot.joints().iter().rev().map(|joint| joint.child) {
@@ -57,14 +59,14 @@ pub(crate) fn bodies(robot: &Robot) -> Vec<BodyPlan> {
 }
 
 /// A robot with what decides which links are bodies.
-struct Tree<'a> {
+struct PlannedTree<'a> {
     robot: &'a Robot,
     /// How many joints each link carries.
     children: Vec<usize>,
     has_mass: Vec<bool>,
 }
 
-fn planned(tree: &Tree<'_>, last: JointIndex, is_merged: &mut [bool]) -> BodyPlan {
+fn planned(tree: &PlannedTree<'_>, last: JointIndex, is_merged: &mut [bool]) -> BodyPlan {
     let robot = tree.robot;
     let body = robot.joint(last).child;
     let mut at = robot.joint(last);
@@ -84,8 +86,8 @@ fn planned(tree: &Tree<'_>, last: JointIndex, is_merged: &mut [bool]) -> BodyPla
 }
 
 /// The joint of the link above, if that link needs no body of its own.
-fn taken(tree: &Tree<'_>, at: &Joint, joints: &[PlannedJoint], body: LinkIndex) -> Option<JointIndex> {
-    let Tree { robot, children, has_mass } = tree;
+fn taken(tree: &PlannedTree<'_>, at: &Joint, joints: &[PlannedJoint], body: LinkIndex) -> Option<JointIndex> {
+    let PlannedTree { robot, children, has_mass } = tree;
     let above = robot.parent_joint(at.parent)?;
     let link = robot.link(at.parent);
     let is_frame_of_joints =

@@ -5,10 +5,10 @@ use std::{collections::BTreeSet, path::Path};
 use congruent_description::{Link, LinkIndex, Robot};
 
 use super::{
-    WORLD,
     assets::Assets,
     body::{pose, write_geom, write_inertia, write_joint},
     plan::{BodyPlan, bodies},
+    world::WORLD,
 };
 use crate::xml_text::{Attributes, XmlText};
 
@@ -71,7 +71,9 @@ impl BodyWriter<'_> {
             self.write_body(plan);
             open.push(plan.link);
         }
-        open.iter().for_each(|_| self.text.end());
+        for _ in &open {
+            self.text.end();
+        }
     }
 
     fn write_body(&mut self, plan: &BodyPlan) {
@@ -90,7 +92,9 @@ impl BodyWriter<'_> {
 
     fn write_shapes(&mut self, link: &Link) {
         for (class, shapes) in [("visual", &link.visuals), ("collision", &link.collisions)] {
-            shapes.iter().for_each(|shape| write_geom(self.text, class, shape, self.assets));
+            for shape in shapes {
+                write_geom(self.text, class, shape, self.assets);
+            }
         }
     }
 }
@@ -131,7 +135,9 @@ pub(crate) fn excluded_bodies<'a>(
 ) -> BTreeSet<[&'a str; 2]> {
     let mut is_body = vec![false; robot.links().len()];
     is_body[0] = true;
-    bodies(robot).iter().for_each(|plan| is_body[plan.link.get()] = true);
+    for plan in bodies(robot) {
+        is_body[plan.link.get()] = true;
+    }
     let pairs = excluded.iter().filter(|(one, other)| is_body[one.get()] && is_body[other.get()]);
     pairs.map(|&(one, other)| [one, other].map(|link| robot.link(link).name.as_str())).collect()
 }

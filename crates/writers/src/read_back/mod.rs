@@ -12,7 +12,7 @@ use congruent_input::{Diagnostic, FileAccess, Findings, SourceFile};
 use congruent_kinematics::Proof;
 
 use self::{matched::Matched, values::Differences};
-use crate::{codes, format::RobotText, mjcf::excluded_bodies};
+use crate::{codes, mjcf::excluded_bodies, robot_text::RobotText};
 
 pub use report::ReadBackReport;
 

@@ -59,7 +59,7 @@ impl Differences {
         self.0.get(kind).map_or(0.0, |worst| worst.0)
     }
 
-    /// The error of the first kind that differs by more than the limit; one that is no number does.
+    /// The error of the first kind that differs by more than the limit; one that is not a number does.
     pub(super) fn beyond(&self, limit: f64) -> Option<Diagnostic> {
         let (kind, (value, of)) = self.0.iter().find(|(_, (value, _))| value.is_nan() || *value > limit)?;
         let message = format!(
