@@ -394,7 +394,8 @@ mod tests {
             Point3::new(x * sign(0), y * sign(1), z * sign(2))
         };
         let vertices_m = (0..8).map(corner).collect();
-        hulls(Geometry::Mesh(Mesh { path: "corners".into(), vertices_m, triangles: vec![[0, 1, 2]] }.into()))
+        let (path, scale) = ("corners".into(), Vector3::repeat(1.0));
+        hulls(Geometry::Mesh(Mesh { path, scale, vertices_m, triangles: vec![[0, 1, 2]] }.into()))
     }
 
     fn at(x: f64, y: f64, z: f64) -> Isometry3<f64> {

@@ -48,7 +48,8 @@ fn corners_of(half: &Vector3<f64>) -> Vec<Point3<f64>> {
 
 /// A mesh of the same corners.
 fn mesh(vertices_m: Vec<Point3<f64>>) -> Hulls {
-    hulls(Geometry::Mesh(Mesh { path: "corners".into(), vertices_m, triangles: vec![[0, 1, 2]] }.into()))
+    let (path, scale) = ("corners".into(), Vector3::repeat(1.0));
+    hulls(Geometry::Mesh(Mesh { path, scale, vertices_m, triangles: vec![[0, 1, 2]] }.into()))
 }
 
 /// The depth of the origin in a polygon in the plane: its distance from the nearest side of the hull of the points; negative
