@@ -105,7 +105,7 @@ congruent_input::codes! {
         RADIANS = "CGR-UNIT-014", "robot_file::radians",
             "An angle under a key that ends in `_deg` is a multiple of 1.5708, a quarter turn in radians. Probably it is in radians, whose key ends in `_rad`.";
         URDF = "CGR-ROBOT-001", "robot_file::urdf",
-            "The robot file does not name its URDF.\n    urdf = \"robot.urdf\"";
+            "The robot file names no URDF or MJCF, and has neither a table ([dh]) nor screws ([poe]) that could be the robot.\n    urdf = \"robot.urdf\"";
         PACKAGE = "CGR-ROBOT-002", "robot_file::package",
             "A folder under `packages` does not exist. Meshes named by package://NAME/... are looked for there. Correct the path of the folder.";
         UNKNOWN_LINK = "CGR-ROBOT-003", "robot_file::unknown_link",
@@ -138,6 +138,14 @@ congruent_input::codes! {
             "An offset of [mapping.joints] has the wrong unit for its joint, is given twice, or is no position of a joint. `q_there = sign * q_here + offset`.\n    elbow = { joint = \"joint3\", sign = -1, offset_deg = 90 }";
         TOLERANCE = "CGR-ROBOT-016", "robot_file::tolerance",
             "A tolerance must be greater than 0. With a tolerance of 0, rounding alone would be a disagreement.";
+        OWN_MODEL = "CGR-ROBOT-028", "robot_file::own_model",
+            "A robot file without a URDF is a robot by itself: either a table ([dh]) or screws ([poe]). It cannot have both, nor keys that are about links, shapes and masses of a URDF; and a robot file with a URDF cannot have [poe]. Put the second model into a file of its own.\n    congruent check table.toml --against screws.toml";
+        RANGE = "CGR-ROBOT-029", "robot_file::range",
+            "The range of a joint has the wrong unit, no positions, or is given beside a URDF, which has the ranges of its joints.\n    range_deg = [-170, 170]";
+        SCREW = "CGR-ROBOT-030", "robot_file::screw",
+            "An entry of [[poe.joint]] is no screw of a joint: its direction is not of length 1, its joint turns and slides at once, or a part is missing. A joint that turns about an axis omega through a point q has v_m = -omega x q.\n    omega = [0, 0, 1]\n    v_m = [0, -0.6, 0]";
+        NO_BODIES = "CGR-ROBOT-031", "robot_file::no_bodies",
+            "The robot is a table or screws without a URDF: it has joints, but neither masses nor shapes, which forces and distances need. Name a URDF or an MJCF.\n    urdf = \"robot.urdf\"";
         TCP_NAME = "CGR-ROBOT-017", "robot_file::tcp_name",
             "A link of the URDF is called `tcp`, as the declared tool centre point usually is. The declared one is called `declared_tcp`.";
     }

@@ -13,6 +13,7 @@ use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
     codes,
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance, ToleranceScale},
+    own_model::{OwnModelForm, OwnModelPlaces, without_bodies},
     robot_file::{DeclaredMapping, DeclaredReference, DynamicsTable, InertialPlaces, RobotFilePlaces},
     urdf::UrdfPlaces,
 };
@@ -26,6 +27,8 @@ pub struct Places {
     pub inertials: Option<Arc<InertialPlaces>>,
     /// The URDF; `None` if the robot was made without one.
     pub urdf: Option<UrdfPlaces>,
+    /// The robot file whose table or screws are the robot; `None` if the robot is that of a URDF or an MJCF.
+    pub own_model: Option<Arc<OwnModelPlaces>>,
 }
 
 /// Files and folders that a robot file names in addition to the URDF.
@@ -44,7 +47,7 @@ pub struct RobotDescription {
     pub path: PathBuf,
     /// The name that the robot file gives, or the URDF's.
     pub name: String,
-    /// Path of the URDF.
+    /// Path of the URDF; of the robot file if its table or screws are the robot.
     pub urdf_path: PathBuf,
     /// The tree of links and joints, as the URDF gives it.
     pub robot: Robot,
@@ -94,10 +97,18 @@ impl RobotDescription {
     /// # Errors
     /// The findings that block this use, as errors.
     pub fn check_capability(&self, needed: Capability) -> Result<(), Findings> {
+        if let Some(fault) = self.places.own_model.as_ref().and_then(|of| without_bodies(of, needed)) {
+            return Err(fault.into());
+        }
         let stopping = self.warnings.iter().filter(|found| found.stops == Some(needed));
         let errors: Vec<Diagnostic> =
             stopping.map(|found| found.clone().needed_by(Some(Capability::Kinematics))).collect();
         if errors.is_empty() { Ok(()) } else { Err(errors.into()) }
+    }
+
+    /// What the robot is made of if there is no URDF: the table or the screws of its robot file.
+    pub fn own_model(&self) -> Option<OwnModelForm> {
+        self.places.own_model.as_ref().map(|places| places.form())
     }
 
     /// The same robot with another chain. A link that is not named stays; a new base without a tip gets a chosen tip. If the

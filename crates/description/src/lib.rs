@@ -12,6 +12,7 @@ mod mjcf;
 mod model;
 mod model_file;
 mod named_robot;
+mod own_model;
 mod revision;
 mod robot_file;
 mod robot_file_text;
@@ -28,16 +29,20 @@ pub use mjcf::is_mjcf;
 pub use model::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
     Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex,
-    MappedJoint, Mimic, Obstacle, RequestedTolerance, Robot, RobotError, RobotQ, RobotQList, SPEED_MARGIN,
-    Shape, Tolerance, ToleranceScale, principal_moments,
+    MappedJoint, Mimic, Obstacle, PlacedAxis, RequestedTolerance, Robot, RobotError, RobotQ, RobotQList,
+    SPEED_MARGIN, Shape, Tolerance, ToleranceScale, principal_moments,
 };
 pub use named_robot::{file_of_robot, open};
+pub use own_model::{OwnModelForm, OwnModelPlaces};
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DeclaredMapping, DeclaredReference, DeclaredVariable,
     DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey, TableDigits,
     ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
 };
-pub use robot_file_text::{dh_section, relative_path, robot_file_text, robot_file_values};
+pub use robot_file_text::{
+    dh_section, own_dh_section, own_robot_file_text, poe_section, relative_path, robot_file_text,
+    robot_file_values,
+};
 pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{
     JointDigits, LARGEST_GYRATION_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES, UrdfPlaces, misspellings,

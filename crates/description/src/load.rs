@@ -14,12 +14,13 @@ use congruent_input::{
 use toml::Spanned;
 
 use crate::{
-    chain::{ChainEnds, choose_tip},
+    chain::{ChainEnd, ChainEnds, choose_tip},
     codes,
     description::{NamedFiles, Places, RobotDescription},
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
     model_file::ModelFile,
     named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_other_text, refuse_scenario},
+    own_model::{OwnModel, TIP, is_own, own_model, refuse_beside_model},
     revision::as_named,
     robot_file::{
         self, DeclaredReference, InertialPlaces, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot,
@@ -121,6 +122,7 @@ pub fn parse_robot(
     // Unknown keys are faults but still give a value, so that the URDF and the names are checked in the same run.
     let written: Option<WrittenRobot> = robot_file::parse(&robot_file.text, &mut diagnostics);
     let declared = written.and_then(|written| {
+        refuse_beside_model(&written, &mut diagnostics);
         let repairs = written.repairs(robot_file);
         // Faults of both files are collected, since each must be corrected anyway.
         let mut model = ModelFile::parse(urdf, &repairs).map_err(|faults| diagnostics.extend(faults)).ok()?;
@@ -197,7 +199,12 @@ fn read_robot_file(
     access: &FileAccess,
     diagnostics: &mut Diagnostics,
 ) -> Option<RobotDescription> {
-    let (written, urdf_path) = written_robot(robot_file, access, diagnostics)?;
+    let written: WrittenRobot = robot_file::parse(&robot_file.text, diagnostics)?;
+    if is_own(&written) {
+        return read_own_model(written, robot_file, diagnostics);
+    }
+    let urdf_path = model_path(&written, robot_file, access, diagnostics)?;
+    refuse_beside_model(&written, diagnostics);
     let folder = folder_of(&robot_file.path);
     let packages = declared_packages(&written, folder, access, diagnostics);
     let named_files = NamedFiles {
@@ -223,6 +230,25 @@ fn read_robot_file(
     disabled_collisions.extend(&model.excluded);
     let description = declared(written, robot_file, &urdf, model, diagnostics)?;
     Some(RobotDescription { named_files, disabled_collisions, ..description })
+}
+
+/// The description of a robot file whose table or screws are the robot.
+fn read_own_model(
+    mut written: WrittenRobot,
+    robot_file: &Arc<SourceFile>,
+    diagnostics: &mut Diagnostics,
+) -> Option<RobotDescription> {
+    let OwnModel { robot, places } = own_model(&written, robot_file, diagnostics)?;
+    let is_tip_named = written.tip.is_some();
+    // Given, because a choice would end the chain before a last joint that slides, as before a gripper.
+    written.tip.get_or_insert_with(|| Spanned::new(0..0, TIP.to_owned()));
+    let model = ModelFile { robot, warnings: Vec::new(), excluded: BTreeSet::new(), places: None };
+    let mut own = declared(written, robot_file, robot_file, model, diagnostics)?;
+    if !is_tip_named {
+        own.chain_ends.tip = ChainEnd::Chosen;
+    }
+    own.places.own_model = Some(places);
+    Some(own)
 }
 
 /// The description that follows from a robot file and its robot; the caller adds SRDF and warnings.
@@ -269,7 +295,7 @@ fn declared(
         disabled_collisions: excluded,
         warnings: Vec::new(),
         inputs: Vec::new(),
-        places: Places { robot_file: table, inertials, urdf: places },
+        places: Places { robot_file: table, inertials, urdf: places, own_model: None },
     })
 }
 
@@ -300,16 +326,17 @@ fn placed(fault: Diagnostic, named_at: &Range<usize>) -> Diagnostic {
     if fault.source.is_some() { fault } else { fault.at(named_at.clone()) }
 }
 
-fn written_robot(
+/// The path of the URDF or MJCF that a robot file names.
+fn model_path(
+    written: &WrittenRobot,
     robot_file: &SourceFile,
     access: &FileAccess,
     diagnostics: &mut Diagnostics,
-) -> Option<(WrittenRobot, PathBuf)> {
-    let written: WrittenRobot = robot_file::parse(&robot_file.text, diagnostics)?;
+) -> Option<PathBuf> {
     let (key, urdf) = diagnostics.keep(written.model().ok_or_else(|| {
         Diagnostic::error(codes::robot_file::URDF, "the robot file has no key \"urdf\"")
             .at(0..0)
-            .with_help("urdf = \"robot.urdf\", relative to the robot file")
+            .with_help("urdf = \"robot.urdf\", relative to the robot file; without a URDF a table ([dh]) or screws ([poe]) are the robot")
     }))?;
     if let (Some(_), Some(description)) = (&written.urdf, &written.description) {
         let message = "the robot file has both keys \"urdf\" and \"description\", which are two names of one";
@@ -326,7 +353,7 @@ fn written_robot(
         diagnostics.push(fault.at(urdf.span()));
         return None;
     }
-    Some((written, direct_path(&urdf_path)))
+    Some(direct_path(&urdf_path))
 }
 
 /// A URDF or MJCF that is not where the robot file says: the help has a similar name, or the same name in another folder nearby.

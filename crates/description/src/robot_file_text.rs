@@ -10,13 +10,76 @@ use nalgebra::{Isometry3, Vector3};
 
 use crate::{
     description::RobotDescription,
-    model::{DhTable, Robot, Tolerance},
+    model::{DhRow, DhRowKind, DhTable, Joint, JointIndex, Robot, Tolerance},
     toml_literal::{toml_key, toml_string},
 };
 
 /// Writes a table as the section `[dh]` of a robot file: lengths in metres, angles in degrees if a
 /// short number says exactly the same, otherwise in radians with all digits.
 pub fn dh_section(table: &DhTable, robot: &Robot) -> String {
+    table_section(table, robot, |_| None)
+}
+
+/// The same of a robot file without a URDF: its rows have the ranges of the joints.
+pub fn own_dh_section(table: &DhTable, robot: &Robot) -> String {
+    table_section(table, robot, |row| range(robot.joint(row.joint)))
+}
+
+/// The space screws of a chain as the section `[poe]` of a robot file: one twist at zero for each joint, angular part first, in
+/// link `base`, and the pose of link `tip` there.
+///
+/// | value | shape | unit | frame |
+/// |---|---|---|---|
+/// | `twists` | angular and linear for each joint | 1, m per unit of the joint | base, at zero |
+/// | `base_from_tip_at_zero` | SE(3) | m | base |
+pub fn poe_section(
+    joints: &[JointIndex],
+    twists: &[[Vector3<f64>; 2]],
+    base_from_tip_at_zero: &Isometry3<f64>,
+    robot: &Robot,
+) -> String {
+    /// Smaller components are rounding of a dozen products within 2 m.
+    const NOISE: f64 = 1e-15;
+    let vector = |of: &Vector3<f64>| {
+        numbers(of.iter().map(|value| if value.abs() < NOISE { 0.0 } else { *value }), ", ")
+    };
+    let home = transform(base_from_tip_at_zero);
+    let mut text = format!("[poe]\nframe = \"space\"\nhome = {home}\n");
+    for (&joint, [angular, linear]) in joints.iter().zip(twists) {
+        let joint = robot.joint(joint);
+        let kind = if joint.kind.is_angular() { DhRowKind::Revolute } else { DhRowKind::Prismatic };
+        let (name, kind) = (toml_string(&joint.name), kind.name());
+        let _ = writeln!(text, "\n[[poe.joint]]\njoint = {name}\nkind = \"{kind}\"");
+        let _ = writeln!(text, "omega = [{}]\nv_m = [{}]", vector(angular), vector(linear));
+        if let Some(range) = range(joint) {
+            let _ = writeln!(text, "{range}");
+        }
+    }
+    text
+}
+
+/// A whole robot file without a URDF: its section `[dh]` or `[poe]` is the robot.
+pub fn own_robot_file_text(description: &RobotDescription, section: &str) -> String {
+    let is_of_model = |key: &str| !["urdf", "srdf", "packages", "tolerance"].contains(&key);
+    let values = robot_file_values(description, Path::new(""), description.tolerance);
+    let mut text = String::new();
+    for (key, value) in values.into_iter().filter(|(key, _)| is_of_model(key)) {
+        let _ = writeln!(text, "{key} = {value}");
+    }
+    text + "\n" + section
+}
+
+/// The key of a joint's range; none for a joint without limits.
+fn range(joint: &Joint) -> Option<String> {
+    let (lower, upper) = joint.position_range()?;
+    let degrees = [lower, upper].map(|angle| short_degrees(angle).filter(|_| joint.kind.is_angular()));
+    Some(match degrees {
+        [Some(lower), Some(upper)] => format!("range_deg = [{}, {}]", number(lower), number(upper)),
+        _ => format!("range_{} = [{}, {}]", joint.kind.unit(), number(lower), number(upper)),
+    })
+}
+
+fn table_section(table: &DhTable, robot: &Robot, range: impl Fn(&DhRow) -> Option<String>) -> String {
     let mut text = String::from("[dh]\n");
     let _ = writeln!(text, "convention = \"{}\"", table.convention.name());
     if let Some(source) = &table.source {
@@ -30,6 +93,9 @@ pub fn dh_section(table: &DhTable, robot: &Robot) -> String {
         let _ = writeln!(text, "a_m = {}\n{}", number(row.a_m), angle("alpha", row.alpha_rad));
         let _ = writeln!(text, "d_m = {}\n{}", number(row.d_m), angle("theta", row.theta_rad));
         let _ = writeln!(text, "sign = {}", if row.sign < 0.0 { "-1" } else { "1" });
+        if let Some(range) = range(row) {
+            let _ = writeln!(text, "{range}");
+        }
     }
     text
 }
@@ -61,7 +127,8 @@ pub fn robot_file_values(
 ) -> Vec<(&'static str, String)> {
     let named = |path: &Path| toml_string(&relative_path(folder, path));
     let link = |link| toml_string(&description.robot.link(link).name);
-    let mut values = vec![("name", toml_string(&description.name)), ("urdf", named(&description.urdf_path))];
+    let mut values = vec![("name", toml_string(&description.name))];
+    values.extend(description.own_model().is_none().then(|| ("urdf", named(&description.urdf_path))));
     values.extend(description.named_files.srdf.as_ref().map(|srdf| ("srdf", named(srdf))));
     values.extend([("base", link(description.base)), ("tip", link(description.tip))]);
     values.extend(description.tip_from_tcp.as_ref().map(|tip_from_tcp| ("tcp", transform(tip_from_tcp))));

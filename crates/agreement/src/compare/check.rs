@@ -125,7 +125,7 @@ pub(super) fn compared(
 
 impl CheckReport {
     /// Sets the diagnoses; the first one with a cause is that of the report.
-    pub(super) fn set_diagnoses(&mut self, diagnoses: Vec<ReportedDiagnosis>) {
+    pub fn set_diagnoses(&mut self, diagnoses: Vec<ReportedDiagnosis>) {
         let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
         self.diagnosis = named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default();
         self.indistinguishable =

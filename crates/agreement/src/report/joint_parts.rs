@@ -129,6 +129,12 @@ impl CorrectionMessages<'_> {
             let span = place(places, part, &joint.name)?;
             Some(FileLocation { source: Arc::clone(places.source()), span })
         });
+        // Screws that are the robot have no elements of a URDF: the row of the joint is the place.
+        let own_model = self.descriptions[0].places.own_model.as_ref();
+        let location = location.or_else(|| {
+            let span = own_model?.joint(&joint.name)?;
+            Some(FileLocation { source: Arc::clone(own_model?.source()), span })
+        });
         let there = self.there(joint, &correction.expected);
         let expected_at = there.zip(other).and_then(|(there, places)| place(places, part, &there.name));
         let expected_line =
@@ -144,7 +150,10 @@ impl CorrectionMessages<'_> {
         let fault = Fault {
             joint: Some(joint.name.clone()),
             parameter: Some(attributes.iter().map(|of| of.name).collect::<Vec<_>>().join(", ")),
-            suggestion: format!("write {expected} in the <{part}> of joint \"{}\"", joint.name),
+            suggestion: match own_model {
+                Some(_) => format!("correct the row of joint \"{}\": its axis is elsewhere", joint.name),
+                None => format!("write {expected} in the <{part}> of joint \"{}\"", joint.name),
+            },
             found: Some(ReportedValue::Text(found)),
             expected: Some(ReportedValue::Text(expected)),
             file: location.as_ref().map(|at| at.source.path.display().to_string()),

@@ -3,14 +3,15 @@
 use std::path::Path;
 
 use congruent_description::{
-    ChainQ, DhConvention, JointIndex, RobotDescription, RobotQ, dh_section, parse_urdf,
+    ChainQ, DhConvention, JointIndex, RobotDescription, RobotQ, dh_section, own_dh_section, parse_urdf,
+    poe_section,
 };
 use congruent_input::{
     Diagnostic, Findings,
     display::{angle, length},
 };
 use congruent_kinematics::{
-    DeriveError, Pose, Proof, ScrewChain, SerialDh, UrdfTree, derive_dh, sample_configurations,
+    DeriveError, Pose, Proof, ScrewChain, SerialDh, Twist, UrdfTree, derive_dh, sample_configurations,
     without_rounding,
 };
 use congruent_writers::urdf_text;
@@ -94,7 +95,8 @@ fn to_table(
     };
     let robot = &model.description.robot;
     let table = dh.to_table(&model.joints);
-    report.robot_toml = Some(dh_section(&table, robot));
+    let section = if model.description.own_model().is_some() { own_dh_section } else { dh_section };
+    report.robot_toml = Some(section(&table, robot));
     report.table = Some(TableReport::new(&table, robot));
     // The proof is of the table as it is written, with constants in quaternions.
     let written = SerialDh::from_table(&table);
@@ -153,10 +155,29 @@ fn reach_m(model: &ConvertedModel<'_>, conversion: &Conversion) -> f64 {
 fn to_screws(model: &ConvertedModel<'_>, conversion: &Conversion, report: &mut ConversionReport) -> Proof {
     let chain = model.screws();
     report.poe = Some(PoeReport::new(&chain, model));
+    report.robot_toml = poe_text(&chain, model);
     // By body screws, so that both kinds of screw are proved.
     let by_body = ScrewChain::from_twists_in_tip(&chain.twists_in_tip(), chain.base_from_tip_at_zero);
     let mut found = |q: &ChainQ| by_body.base_from_tip(q).expect("one position for each screw");
     prove(model, conversion, &mut found)
+}
+
+/// The section `[poe]` of a robot file; `None` if nothing moves, or if a joint moves less than its variable says, which no unit
+/// screw can say.
+fn poe_text(chain: &ScrewChain, model: &ConvertedModel<'_>) -> Option<String> {
+    /// How far a direction may be from length 1. Kind: rounding of the identification; worst seen 1e-14.
+    const UNIT: f64 = 1e-12;
+    let robot = &model.description.robot;
+    let is_unit = |(twist, &joint): (&Twist, &JointIndex)| {
+        let is_angular = robot.joint(joint).kind.is_angular();
+        let direction = if is_angular { twist.angular } else { twist.linear };
+        (direction.norm() - 1.0).abs() <= UNIT && (is_angular || twist.angular.norm() <= UNIT)
+    };
+    if model.joints.is_empty() || !chain.twists_in_base.iter().zip(&model.joints).all(is_unit) {
+        return None;
+    }
+    let twists: Vec<_> = chain.twists_in_base.iter().map(|twist| [twist.angular, twist.linear]).collect();
+    Some(poe_section(&model.joints, &twists, &chain.base_from_tip_at_zero.to_isometry(), robot))
 }
 
 fn to_urdf(

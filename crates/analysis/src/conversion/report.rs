@@ -34,7 +34,7 @@ pub struct ConversionReport {
     /// The table, if the target is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<TableReport>,
-    /// The section `[dh]` of a robot file.
+    /// The section `[dh]` of a robot file, or `[poe]` if the target are screws.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub robot_toml: Option<String>,
     /// Screws and home pose.

@@ -1,15 +1,14 @@
 //! Screws as a tree of joints: each joint frame on its axis, at zero parallel to the base.
 
-use congruent_description::{Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, Mimic, Robot};
+use congruent_description::{
+    Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, Mimic, PlacedAxis, Robot,
+};
 use congruent_input::Diagnostic;
 use congruent_kinematics::Twist;
-use nalgebra::{Isometry3, Unit, Vector3};
+use nalgebra::Vector3;
 
 use super::converted_model::ConvertedModel;
 use crate::codes;
-
-/// Components below this are written as 0. Kind: rounding of a dozen products within 2 m.
-const NOISE: f64 = 1e-15;
 
 /// The model's chain as a robot of its own: the base link, one link for each joint, the tip.
 pub(super) fn tree(model: &ConvertedModel<'_>) -> Result<Robot, Diagnostic> {
@@ -20,13 +19,13 @@ pub(super) fn tree(model: &ConvertedModel<'_>) -> Result<Robot, Diagnostic> {
     let (mut parent, mut here_in_base) = (base, Vector3::zeros());
     for (&joint, twist) in model.joints.iter().zip(&screws.twists_in_base) {
         let written = source.joint(joint);
-        let PlacedJoint { axis, origin_in_base } = placed(written, twist, &here_in_base)?;
+        let placed = placed(written, twist, &here_in_base)?;
         let child = moved_link(written, source, &tip);
         links.push(link(&child));
         parts.push(JointParts {
             joint: Joint {
-                parent_from_joint: shift(origin_in_base - here_in_base),
-                axis_in_joint: axis,
+                parent_from_joint: placed.shift_from(&here_in_base),
+                axis_in_joint: placed.axis_in_base,
                 mimic: None,
                 ..written.clone()
             },
@@ -34,42 +33,30 @@ pub(super) fn tree(model: &ConvertedModel<'_>) -> Result<Robot, Diagnostic> {
             child,
             mimic: written.mimic.and_then(|mimic| followed(source, &mimic, &model.joints)),
         });
-        here_in_base = origin_in_base;
+        here_in_base = placed.origin_in_base;
     }
-    let mut last = screws.base_from_tip_at_zero.to_isometry();
-    // The tip keeps its own orientation, which no joint frame has.
-    last.translation.vector = (last.translation.vector - here_in_base).map(clean);
+    let last = PlacedAxis::last_shift(&screws.base_from_tip_at_zero.to_isometry(), &here_in_base);
     links.push(link(&tip));
     parts.push(JointParts::new(&format!("{parent}_to_{tip}"), JointKind::Fixed, &parent, &tip, last));
     Robot::new(source.name(), links, parts)
         .map_err(|error| Diagnostic::error(codes::convert::TREE, error.to_string()))
 }
 
-/// A joint whose frame is parallel to the base.
-struct PlacedJoint {
-    axis: Unit<Vector3<f64>>,
-    origin_in_base: Vector3<f64>,
-}
-
-fn placed(written: &Joint, twist: &Twist, here_in_base: &Vector3<f64>) -> Result<PlacedJoint, Diagnostic> {
-    let is_revolute = twist.angular.norm() > twist.linear.norm() * NOISE;
-    if is_revolute != written.kind.is_angular() {
+fn placed(written: &Joint, twist: &Twist, here_in_base: &Vector3<f64>) -> Result<PlacedAxis, Diagnostic> {
+    let placed = PlacedAxis::on_screw(&twist.angular, &twist.linear, here_in_base);
+    if placed.is_angular != written.kind.is_angular() {
         let message =
             format!("joint \"{}\" is revolute in one model and prismatic in the other", written.name);
         return Err(Diagnostic::error(codes::convert::KIND, message).with_help(
             "a URDF joint needs limits, and an angle limit cannot become a length limit, or the reverse",
         ));
     }
-    if !is_revolute {
-        let axis = Unit::new_normalize(twist.linear.map(clean));
-        return Ok(PlacedJoint { axis, origin_in_base: *here_in_base });
+    if !placed.is_angular && written.limit.is_none() {
+        let message = format!("joint \"{}\" slides without a range, and a URDF needs one", written.name);
+        return Err(Diagnostic::error(codes::convert::KIND, message)
+            .with_help("a row of a robot file without a URDF gives it, for example range_mm = [0, 200]"));
     }
-    let axis = Unit::new_normalize(twist.angular.map(clean));
-    let on_axis = axis.cross(&twist.linear);
-    // The origin slides along the axis to the point nearest to the joint before: links stay short, and the model
-    // is the same.
-    let nearest = on_axis + axis.into_inner() * (here_in_base - on_axis).dot(&axis);
-    Ok(PlacedJoint { axis, origin_in_base: nearest.map(clean) })
+    Ok(placed)
 }
 
 /// Name of the link that a joint moves; if that is the name of the tip, which has a frame of its own, another.
@@ -90,12 +77,4 @@ fn link(name: &str) -> Link {
 
 fn name(robot: &Robot, link: LinkIndex) -> String {
     robot.link(link).name.clone()
-}
-
-fn clean(component: f64) -> f64 {
-    if component.abs() < NOISE { 0.0 } else { component }
-}
-
-fn shift(by: Vector3<f64>) -> Isometry3<f64> {
-    Isometry3::translation(clean(by.x), clean(by.y), clean(by.z))
 }

@@ -57,7 +57,10 @@ fn for_kinematics(description: &RobotDescription) -> Vec<Missing> {
     let mut missing = Vec::new();
     if description.dh.is_none() {
         missing.push(Missing {
-            what: "no [dh] table: `check` compares the URDF with the physics alone",
+            what: match description.own_model() {
+                Some(_) => "no [dh] table: the screws are the robot, and `check --against` gives a second description",
+                None => "no [dh] table: `check` compares the URDF with the physics alone",
+            },
             names: Vec::new(),
         });
     }

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    analysis::conversion::{Conversion, ConversionReport, Destination, convert, convert_robot},
-    description::{RobotDescription, Tolerance, load_robot_with, robot_file_text},
+    analysis::conversion::{
+        Conversion, ConversionReport, ConversionTarget, Destination, convert, convert_robot,
+    },
+    description::{RobotDescription, Tolerance, load_robot_with, own_robot_file_text, robot_file_text},
     input::{Diagnostic, FileAccess, is_standard_input},
     text::{conversion_comments, conversion_remarks, conversion_text},
 };
@@ -40,13 +42,22 @@ pub(super) fn answer(
     };
     let path = file.path;
     let inputs = files_of(description);
-    if let Some(section) = &report.robot_toml {
-        if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
+    // Screws are also written as text, under any other name.
+    let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    let is_robot_file = |_: &&String| is_toml || conversion.to != ConversionTarget::Poe;
+    if let Some(section) = report.robot_toml.as_ref().filter(is_robot_file) {
+        if !is_toml {
             let message = format!("--to {}: the name of a robot file must end in .toml", path.display());
             return Err(Diagnostic::error(codes::output::NAME, message).into());
         }
-        let text =
-            conversion_comments(&report) + &robot_file(description, &report, section, &folder_of(path)?)?;
+        let is_own = conversion.to == ConversionTarget::Poe || description.own_model().is_some();
+        let robot_file = if is_own {
+            folder_of(path)?;
+            own_robot_file_text(description, section)
+        } else {
+            robot_file(description, &report, section, &folder_of(path)?)?
+        };
+        let text = conversion_comments(&report) + &robot_file;
         file.write(&text, &inputs, |written| {
             let access = allowing_inputs(FileAccess::default(), description);
             Ok(load_robot_with(written, &access).map(drop)?)

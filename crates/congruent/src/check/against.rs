@@ -6,7 +6,7 @@ use congruent_agreement::{
 };
 use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription, RobotQ, Tolerance};
 use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedModel};
-use congruent_input::{Diagnostic, display::length_and_angle, nearest};
+use congruent_input::{Capability, Diagnostic, Finding, display::length_and_angle, nearest};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -124,6 +124,10 @@ pub(super) fn compared(
         against.dynamics_not_compared = misplaced;
         return Ok((against, None));
     }
+    if let Some(of) = no_masses([description, other]) {
+        geometry.not_asked.push(of);
+        return Ok((against, None));
+    }
     against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_value);
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
@@ -159,6 +163,14 @@ pub(super) fn compared(
             Ok((against, None))
         }
     }
+}
+
+/// Why torques of a table or screws are not compared: they have no masses, which is no difference of the two.
+fn no_masses(descriptions: [&RobotDescription; 2]) -> Option<NotCompared> {
+    let own = descriptions.into_iter().find(|of| of.own_model().is_some())?;
+    let findings = own.check_capability(Capability::Physics).err()?;
+    let findings = findings.iter().map(Finding::from).collect();
+    Some(NotCompared { source: ComparedSource::Dynamics, findings })
 }
 
 /// Links whose frames lie elsewhere in the other description, if all links move alike otherwise: then each differs from

@@ -16,6 +16,8 @@ use super::{
     change::RevisionChange,
     declared::{self, DeclaredSource},
     model_frames::unreadable_value,
+    own_model::{ONE_MODEL, diagnose_by_table, entitle, placed_as_in, without_own_table},
+    own_screws::diagnose_by_screw,
     physics,
     poses_of_other::PosesOfOther,
     robot_check::RobotCheck,
@@ -55,6 +57,30 @@ fn checked(
     other: Option<&RobotDescription>,
     options: &CheckOptions,
 ) -> Result<RobotCheck, CheckError> {
+    // A table or screws that are the robot get the links of the other description, and are no second source by themselves.
+    let written = [description, other.unwrap_or(description)];
+    let owned = other
+        .and_then(|other| placed_as_in(description, other))
+        .or_else(|| description.own_model().map(|_| without_own_table(description)));
+    let description = owned.as_ref().unwrap_or(description);
+    let other_owned = other.and_then(|other| placed_as_in(other, description));
+    let other = other_owned.as_ref().or(other);
+    let mut check = checked_in_links(description, other, written, options)?;
+    if description.own_model().is_some() {
+        // It has no masses, so the physics is no source that is missing.
+        check.geometry.not_asked.retain(|of| of.source != ComparedSource::Simulation);
+    }
+    Ok(check)
+}
+
+/// The same of descriptions whose links have the frames in which they are compared; `written` are the two as their files have
+/// them.
+fn checked_in_links(
+    description: &RobotDescription,
+    other: Option<&RobotDescription>,
+    written: [&RobotDescription; 2],
+    options: &CheckOptions,
+) -> Result<RobotCheck, CheckError> {
     let mut poses = simulated_poses(description);
     let is_simulated = poses.is_ok();
     let poses = poses.as_mut().map(|poses| poses as &mut dyn LinkPoses).map_err(|found| found.clone());
@@ -63,6 +89,9 @@ fn checked(
     // First, since it adds to the geometry on which the verdicts of dynamics below depend.
     let mut with_other =
         other.map(|other| with_other(&mut geometry, description, other, options)).transpose()?;
+    if let Some(of) = &with_other {
+        diagnose_own_model(&mut geometry, written, [&of.description, &of.other], &of.options)?;
+    }
     compared.extend(with_other.as_mut().and_then(|of| of.dynamics.take()));
     let (own, own_options) =
         with_other.as_ref().map_or((description, options), |of| (&of.description, &of.options));
@@ -89,7 +118,7 @@ fn checked(
         }
     }
     if other.is_none() {
-        geometry.not_asked.extend(stated_once(&geometry, &compared));
+        geometry.not_asked.extend(stated_once(description, &geometry, &compared));
     }
     // A comparison that disagrees comes first; the order is otherwise kept.
     compared.sort_by_key(DynamicsReport::agrees);
@@ -115,21 +144,46 @@ fn checked(
     })
 }
 
+/// Names a difference from a table or screws that are the robot by their rows, and entitles the comparison. `compared` are the two
+/// in the same variables.
+fn diagnose_own_model(
+    geometry: &mut CheckReport,
+    written: [&RobotDescription; 2],
+    compared: [&RobotDescription; 2],
+    options: &CheckOptions,
+) -> Result<(), CheckError> {
+    // A row of a table comes before a screw: its entries are what a data sheet has.
+    if !diagnose_by_table(geometry, written, compared, options)? {
+        diagnose_by_screw(geometry, written, compared);
+    }
+    entitle(geometry, written);
+    Ok(())
+}
+
 /// What only one description states, if there is no other. Physics and screws are made of the URDF: they are no second
 /// source.
-fn stated_once(geometry: &CheckReport, dynamics: &[DynamicsReport]) -> Vec<NotCompared> {
+fn stated_once(
+    description: &RobotDescription,
+    geometry: &CheckReport,
+    dynamics: &[DynamicsReport],
+) -> Vec<NotCompared> {
     let mut missing = Vec::new();
+    let is_own_model = description.own_model().is_some();
     if geometry.chain.joints.is_empty() {
         return missing;
     }
     let because =
         |source, why| NotCompared::because(source, &Diagnostic::warning(codes::check::NO_SECOND_SOURCE, why));
     if !geometry.table_compared {
-        let why = "there is one description: a table ([dh] in robot.toml) or --against gives a second one";
+        let why = if is_own_model {
+            ONE_MODEL
+        } else {
+            "there is one description: a table ([dh] in robot.toml) or --against gives a second one"
+        };
         missing.push(because(ComparedSource::Geometry, why));
     }
     let is_declared = geometry.not_asked.iter().any(|of| of.source == ComparedSource::DeclaredDynamics);
-    if !is_declared && dynamics.iter().all(physics::is_of_physics) {
+    if !is_own_model && !is_declared && dynamics.iter().all(physics::is_of_physics) {
         let why = "masses, friction and gravity are stated once: [[inertial]] in robot.toml or --against gives a second \
                    source";
         missing.push(because(ComparedSource::Dynamics, why));

@@ -7,7 +7,7 @@ use std::{
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckReport, Comparison, Grade},
+    compare::{Agreement, CheckReport, Comparison, Grade, NotCompared},
 };
 use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
 use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDifference};
@@ -21,6 +21,7 @@ use super::{
     declared::DeclaredSource,
     judged_by::{judged_by, tolerance_in_words},
     mapped_joints::mapped_joints,
+    own_model::ONE_MODEL,
     robot_check::RobotCheck,
 };
 
@@ -81,7 +82,11 @@ impl RobotCheck {
             return Headline::new(answer, details);
         }
         if report.verdict == Agreement::NothingCompared {
-            let why = Agreement::why_nothing(&report.chain);
+            let is_alone = |of: &&NotCompared| of.findings.iter().any(|of| of.message == ONE_MODEL);
+            let why = match report.not_asked.iter().find(is_alone) {
+                Some(_) => "the table or the screws are the robot, and there is no second description",
+                None => Agreement::why_nothing(&report.chain),
+            };
             return Headline::new("NOTHING COMPARED", format!(": {why}"));
         }
         if report.poses_disagree() {
@@ -195,7 +200,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
     let report = &check.geometry;
     let differ = report.comparisons.iter().filter(|comparison| comparison.verdict == Agreement::Disagree);
     let of_pair = |comparison: &Comparison| {
-        let [a, b] = sources(comparison.name);
+        let [a, b] = sources(comparison);
         let allowed = if comparison.name == SourcePair::ModelUrdf { allowed(report) } else { String::new() };
         let worst = &comparison.worst;
         format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
@@ -328,21 +333,28 @@ fn allowed(report: &CheckReport) -> String {
     format!("; rounding of the written digits could explain {}{but}", largest(allowed))
 }
 
-/// The two sources of a pair.
-fn sources(pair: SourcePair) -> [&'static str; 2] {
-    match pair {
+/// The two sources of a comparison.
+fn sources(comparison: &Comparison) -> [&'static str; 2] {
+    match comparison.name {
         SourcePair::ModelUrdf => ["DH table", "URDF"],
         SourcePair::PoeUrdf => ["screws", "URDF"],
         SourcePair::ModelSimulation => ["DH table", "physics"],
         SourcePair::UrdfSimulation => ["URDF", "physics"],
-        SourcePair::UrdfOther => ["URDF", "other URDF"],
+        SourcePair::UrdfOther => {
+            // Of a table or screws that are the robot the title says which of the two they are.
+            let (first, second) = comparison.title.split_once(" against ").unwrap_or(("URDF", "other URDF"));
+            [first, second].map(|source| source.strip_suffix(" chain").unwrap_or(source))
+        }
     }
 }
 
-/// The sources that were compared: descriptions first, then the physics. Screws are the URDF in another form.
+/// The sources that were compared: descriptions first, then the physics. Screws that are made of the URDF are no source.
 fn sources_of(report: &CheckReport) -> Vec<&'static str> {
-    let compared: Vec<&str> =
-        report.comparisons.iter().flat_map(|comparison| sources(comparison.name)).collect();
-    let named = ["DH table", "URDF", "other URDF", "physics"].into_iter();
+    let is_of_own_model = |of: &Comparison| of.name == SourcePair::UrdfOther && of.title != of.name.title();
+    let has_own_model = report.comparisons.iter().any(is_of_own_model);
+    let counts = |of: &&Comparison| !has_own_model || of.name != SourcePair::PoeUrdf;
+    let compared: Vec<&str> = report.comparisons.iter().filter(counts).flat_map(sources).collect();
+    let named = ["DH table", "URDF", "screws", "other URDF", "other DH table", "other screws", "physics"];
+    let named = named.into_iter().filter(|source| has_own_model || *source != "screws");
     named.filter(|source| compared.contains(source)).collect()
 }

@@ -12,6 +12,8 @@ mod mapped;
 mod mapped_joints;
 mod model_frames;
 mod narrowed;
+mod own_model;
+mod own_screws;
 mod page;
 mod part;
 mod physics;

@@ -1,4 +1,5 @@
-//! `check --against --tip`: two descriptions are compared from the root to the tip, whatever else either of them moves.
+//! `check --against --tip`: two descriptions are compared from the root to the tip, whatever else either of them moves. A table
+//! and screws that are the robot describe no more than that.
 
 use congruent_agreement::compare::CheckOptions;
 use congruent_description::{ChainEnd, RobotDescription};
@@ -16,17 +17,22 @@ pub(super) struct NarrowedPair {
 }
 
 impl NarrowedPair {
-    /// `None` if the caller did not name the tip, or if all joints move it.
+    /// `None` if the caller did not name the tip and neither of the two is a table or screws, or if all joints move the tip.
     pub(super) fn new(
         description: &RobotDescription,
         other: &RobotDescription,
         options: &CheckOptions,
     ) -> Option<Self> {
         let robot = &description.robot;
-        if description.chain_ends.tip != ChainEnd::Given {
+        let has_own_model = [description, other].iter().any(|of| of.own_model().is_some());
+        if description.chain_ends.tip != ChainEnd::Given && !has_own_model {
             return None;
         }
-        let names = robot.joints_that_move(description.tip);
+        let mut names = robot.joints_that_move(description.tip);
+        if has_own_model {
+            // A joint that only the other chain has is a difference of the two.
+            names.extend(other.robot.joints_that_move(other.tip));
+        }
         let mut left_out: Vec<String> = Vec::new();
         for name in robot.movable_joint_names().chain(other.robot.movable_joint_names()) {
             if !names.contains(name) && !left_out.iter().any(|known| known == name) {

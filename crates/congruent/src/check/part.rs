@@ -20,7 +20,7 @@ pub(super) fn part(whole: &RobotDescription, robot: Robot) -> RobotDescription {
         dh: None,
         dynamics: None,
         disabled_collisions: BTreeSet::new(),
-        places: Places { robot_file: None, inertials: None, urdf: whole.places.urdf.clone() },
+        places: Places { robot_file: None, inertials: None, ..whole.places.clone() },
         robot,
         ..whole.clone()
     }

@@ -10,6 +10,7 @@ use super::{
     mapped::{MappedPair, ReportedMapping},
     mapped_joints::mapped_joints,
     narrowed::NarrowedPair,
+    own_model::placed_as_in,
 };
 use crate::codes;
 
@@ -61,7 +62,14 @@ pub(super) fn with_other(
     if let Some(pair) = narrowed {
         (own, there, own_options) = (pair.description, pair.other, pair.options);
         left_out = pair.left_out;
+        // A table and screws are compared whole: what the other moves in addition is no part of the answer.
+        if description.own_model().is_some() {
+            left_out.retain(|name| description.robot.find_joint(name).is_some());
+        }
     }
+    // Again, now that joints have the same names.
+    own = placed_as_in(&own, &there).unwrap_or(own);
+    there = placed_as_in(&there, &own).unwrap_or(there);
     let before = geometry.clone();
     let (mut against, mut dynamics) = compared(geometry, &own, &there, &own_options)?;
     against.joints_left_out = left_out;

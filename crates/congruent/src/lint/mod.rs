@@ -72,7 +72,7 @@ pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintRe
 
 /// What [`lint`] finds in a robot that has been read.
 pub(crate) fn lint_robot(description: &RobotDescription) -> LintReport {
-    let is_bare = description.path == description.urdf_path;
+    let is_bare = description.own_model().is_none() && description.path == description.urdf_path;
     let kind = match &description.places.urdf {
         _ if !is_bare => FileKind::RobotFile,
         Some(_) => FileKind::Urdf,

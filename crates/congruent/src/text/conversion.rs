@@ -21,11 +21,11 @@ pub fn conversion_text(report: &ConversionReport) -> String {
         return xml.replacen('\n', &format!("\n<!--\n{remarks}-->\n"), 1);
     }
     let mut text = conversion_comments(report);
-    if let Some(section) = &report.robot_toml {
-        text += section;
-    }
     if let Some(poe) = &report.poe {
         screws(&mut text, poe);
+    }
+    if let Some(section) = &report.robot_toml {
+        text += section;
     }
     text
 }
@@ -119,19 +119,20 @@ fn relative(difference: f64) -> String {
     if difference == 0.0 { "0".to_owned() } else { format!("{difference:.0e}") }
 }
 
+/// Screws as comments, so that the whole text is a robot file.
 fn screws(text: &mut String, poe: &PoeReport) {
     let mut list = |title: &str, screws: &[ScrewReport]| {
-        let _ = writeln!(text, "{title}: angular, linear");
+        let _ = writeln!(text, "# {title}: angular, linear");
         let width = column_width(screws.iter().map(|screw| screw.joint.len()));
         for ScrewReport { joint, angular: [a, b, c], linear: [x, y, z] } in screws {
             let _ =
-                writeln!(text, "  {joint:width$}  {a:13.9} {b:13.9} {c:13.9}   {x:13.9} {y:13.9} {z:13.9}");
+                writeln!(text, "#   {joint:width$}  {a:13.9} {b:13.9} {c:13.9}   {x:13.9} {y:13.9} {z:13.9}");
         }
     };
     list("space screws", &poe.space_screws);
     list("body screws", &poe.body_screws);
     let [x, y, z] = poe.base_from_tip_at_zero.translation_m;
     let [qw, qx, qy, qz] = poe.base_from_tip_at_zero.quaternion_wxyz;
-    let _ = writeln!(text, "tip at zero: translation in m, quaternion w x y z");
-    let _ = writeln!(text, "  {x:13.9} {y:13.9} {z:13.9}   {qw:12.9} {qx:12.9} {qy:12.9} {qz:12.9}");
+    let _ = writeln!(text, "# tip at zero: translation in m, quaternion w x y z");
+    let _ = writeln!(text, "#   {x:13.9} {y:13.9} {z:13.9}   {qw:12.9} {qx:12.9} {qy:12.9} {qz:12.9}");
 }

@@ -9,6 +9,8 @@ mod limits;
 mod mapping;
 mod other_names;
 mod places;
+mod poe;
+mod range;
 mod rows;
 mod unit_mistakes;
 mod written;
@@ -20,6 +22,8 @@ pub use digits::TableDigits;
 pub use inertials::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint};
 pub use mapping::{DeclaredMapping, DeclaredReference, DeclaredVariable};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
+pub(crate) use poe::{WrittenPoe, screw_twist, space_twist};
+pub(crate) use written::{WrittenDh, WrittenRow};
 pub use written::{WrittenRobot, robot_file_schema};
 pub use written_lint::{WrittenIgnore, WrittenLint};
 
@@ -44,6 +48,14 @@ pub(crate) fn parse(text: &str, diagnostics: &mut Diagnostics) -> Option<Written
         let is_kind = fault.code == MISSING_KEY && fault.message.contains("\"kind\"");
         if is_kind {
             return fault.with_help("kind = \"revolute\" or kind = \"prismatic\"");
+        }
+        if fault.code == MISSING_KEY && fault.message.contains("\"frame\"") {
+            return fault.with_help(
+                "frame = \"space\" if the twists are in the base, frame = \"body\" if they are in the tip",
+            );
+        }
+        if fault.code == MISSING_KEY && fault.message.contains("\"home\"") {
+            return fault.with_help("home is the pose of the tip in the base at zero: home = { xyz_m = [0, 0, 0], rpy_deg = [0, 0, 0] }");
         }
         let key = fault.span.as_ref().and_then(|span| key_before(text.get(..span.start)?));
         if fault.code == INVALID && key == Some("tolerance") {

@@ -3,7 +3,7 @@
 
 use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
 
-use congruent_input::{Diagnostic, SourceFile, WrittenTransform, units::WrittenUnit};
+use congruent_input::{Diagnostic, SourceFile, WrittenTransform, fixed_array, units::WrittenUnit};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
@@ -12,6 +12,8 @@ use super::{
     inertials::{WrittenDynamics, WrittenInertial},
     limits::WrittenLimits,
     mapping::{WrittenMapping, WrittenReference},
+    poe::WrittenPoe,
+    range::WrittenRange,
 };
 use crate::{
     WrittenLint,
@@ -24,13 +26,19 @@ pub fn robot_file_schema() -> Schema {
     schema_for!(WrittenRobot)
 }
 
-/// A robot: its URDF, the chain from base to tip, and the analytical model of that chain.
+/// A robot: its URDF, the chain from base to tip, and the analytical model of that chain. Without a URDF the table or the screws
+/// are the robot.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-// Either key names the robot. `parse_robot` takes a robot file without one.
-#[schemars(title = "Robot file", extend("oneOf" = [{ "required": ["urdf"] }, { "required": ["description"] }]))]
+// Either key names the robot, or the file is one by itself. `parse_robot` takes a robot file without any of them.
+#[schemars(title = "Robot file", extend("oneOf" = [
+    { "required": ["urdf"], "not": { "required": ["poe"] } },
+    { "required": ["description"], "not": { "required": ["poe"] } },
+    { "required": ["dh"], "not": { "anyOf": [{ "required": ["urdf"] }, { "required": ["description"] }, { "required": ["poe"] }] } },
+    { "required": ["poe"], "not": { "anyOf": [{ "required": ["urdf"] }, { "required": ["description"] }, { "required": ["dh"] }] } },
+]))]
 pub struct WrittenRobot {
-    /// Name in reports; the URDF's name by default.
+    /// Name in reports; the URDF's name by default, or the name of this file if there is none.
     #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) name: Option<Spanned<String>>,
@@ -46,11 +54,12 @@ pub struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) srdf: Option<Spanned<PathBuf>>,
-    /// First link of the chain; the root by default.
+    /// First link of the chain; the root by default. Without a URDF the link is given this name, `base` by default.
     #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) base: Option<Spanned<String>>,
     /// Last link of the chain; by default the frame for tools at the end of the longest chain, before a gripper.
+    /// Without a URDF the link is given this name, `tip` by default.
     #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) tip: Option<Spanned<String>>,
@@ -62,10 +71,14 @@ pub struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, WrittenInertia>")]
     pub(crate) inertia: BTreeMap<String, Spanned<WrittenInertia>>,
-    /// The Denavit-Hartenberg table; without one the URDF is compared with the physics alone.
+    /// The Denavit-Hartenberg table; without one the URDF is compared with the physics alone. Without a URDF the table is the robot.
     #[serde(default)]
     #[schemars(with = "WrittenDh")]
     pub(crate) dh: Option<Spanned<WrittenDh>>,
+    /// The screws of the chain, which are the robot: in the place of a URDF and of a table.
+    #[serde(default)]
+    #[schemars(with = "WrittenPoe")]
+    pub(crate) poe: Option<Spanned<WrittenPoe>>,
     /// A second description of the dynamics, such as a vendor's: the values that hold for all bodies.
     #[serde(default)]
     #[schemars(with = "WrittenDynamics")]
@@ -163,7 +176,7 @@ pub(crate) struct WrittenDh {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "DhRow")]
 pub(crate) struct WrittenRow {
-    /// Name of the joint in the URDF.
+    /// Name of the joint in the URDF; without a URDF the joint is given this name.
     #[schemars(with = "String")]
     pub(crate) joint: Spanned<String>,
     /// Whether the joint's position is added to theta or to d.
@@ -205,6 +218,31 @@ pub(crate) struct WrittenRow {
     #[serde(default)]
     #[schemars(with = "f64")]
     pub(crate) sign: Option<Spanned<f64>>,
+    /// Lowest and highest position in radians, of a joint that turns, in a file without a URDF; without it the joint turns freely.
+    #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 2]")]
+    pub(crate) range_rad: Option<Spanned<[f64; 2]>>,
+    /// Lowest and highest position in degrees, of a joint that turns, in a file without a URDF.
+    #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 2]")]
+    pub(crate) range_deg: Option<Spanned<[f64; 2]>>,
+    /// Lowest and highest position in metres, of a joint that slides, in a file without a URDF.
+    #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 2]")]
+    pub(crate) range_m: Option<Spanned<[f64; 2]>>,
+    /// Lowest and highest position in millimetres, of a joint that slides, in a file without a URDF.
+    #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 2]")]
+    pub(crate) range_mm: Option<Spanned<[f64; 2]>>,
+}
+
+impl WrittenRow {
+    /// The range of the joint as it is written.
+    pub(crate) fn range(&self) -> WrittenRange<'_> {
+        let Self { range_rad, range_deg, range_m, range_mm, .. } = self;
+        let [rad, deg, m, mm] = [range_rad, range_deg, range_m, range_mm].map(Option::as_ref);
+        WrittenRange { rad, deg, m, mm }
+    }
 }
 
 /// How far two poses may be apart and still agree.

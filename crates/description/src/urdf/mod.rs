@@ -48,7 +48,7 @@ pub const URDF_BYTES: u64 = 16 << 20;
 const MOST_LINKS: usize = 10_000;
 /// The largest number of joints that move. Matrices have one entry for each pair of them, and a check four configurations for each:
 /// 130 MB for these, a few GB for 10,000. A humanoid with two hands has 100.
-const MOST_MOVING: usize = 2_000;
+pub(crate) const MOST_MOVING: usize = 2_000;
 
 /// The inputs beside the text of a URDF: a source of its meshes, and the repairs that the robot file declares.
 pub(crate) struct UrdfInputs<'a, 'm> {

@@ -13,7 +13,7 @@ use crate::{
 pub enum TextKind {
     /// A URDF, an SRDF or an MJCF: XML with the element `robot` or `mujoco`.
     Robot,
-    /// A robot file: TOML with the key `urdf` or `description`, or a table `dh`.
+    /// A robot file: TOML with the key `urdf` or `description`, or a table `dh` or `poe`.
     RobotFile,
     /// A table: a line of names, then numbers.
     Table,
@@ -51,7 +51,7 @@ impl TextKind {
                 let has_value = |rest: &str| rest.trim_start().starts_with('=');
                 let names_model =
                     ["urdf", "description"].iter().any(|key| line.strip_prefix(key).is_some_and(has_value));
-                names_model || line.starts_with("[dh")
+                names_model || line.starts_with("[dh") || line.starts_with("[poe")
             }),
             Self::Table => lines.nth(1).is_some_and(|line| line.split([',', ';', '\t']).all(is_number)),
         }
@@ -68,7 +68,7 @@ pub enum TomlKind {
 }
 
 /// Keys at the top of a robot file, and of a scenario.
-const ROBOT_KEYS: [&str; 7] = ["urdf", "dh", "tcp", "inertia", "inertial", "packages", "tolerance"];
+const ROBOT_KEYS: [&str; 8] = ["urdf", "dh", "poe", "tcp", "inertia", "inertial", "packages", "tolerance"];
 const SCENARIO_KEYS: [&str; 7] =
     ["schema_version", "simulation", "motion", "controller", "check", "robot", "start"];
 

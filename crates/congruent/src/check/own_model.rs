@@ -1,0 +1,222 @@
+//! A description without a URDF, a table or screws, against another one: its links are called and placed as there, and a cause
+//! is named in the lines of its table.
+
+use std::{collections::BTreeSet, sync::Arc};
+
+use congruent_agreement::{
+    SourcePair,
+    compare::{CheckError, CheckOptions, CheckReport},
+};
+use congruent_description::{
+    ChainEnd, DhRow, DhTable, Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, OwnModelForm,
+    Places, Robot, RobotDescription,
+};
+use congruent_input::{Capability, Findings};
+use congruent_kinematics::{Pose, ScrewTree, Twist};
+use nalgebra::{Isometry3, Unit, Vector3};
+
+/// Why a model on its own is not compared with anything.
+pub(super) const ONE_MODEL: &str =
+    "there is one description, which is the robot: --against gives a second one";
+
+/// The description as its links and joints alone describe it: a table that is the robot is no second source.
+pub(super) fn without_own_table(description: &RobotDescription) -> RobotDescription {
+    let places = Places { robot_file: None, ..description.places.clone() };
+    RobotDescription { dh: None, places, ..description.clone() }
+}
+
+/// A model on its own with the links of another description: neither a table nor screws say where the frames of links lie, so
+/// each gets the frame that its joint's link has there, moved to the nearest point of its own axis. Base and tip are the ends of
+/// the chain there, or the links of their names. `None` if it is no model on its own.
+///
+/// Joints move as the model says: only frames are chosen.
+pub(super) fn placed_as_in(own: &RobotDescription, other: &RobotDescription) -> Option<RobotDescription> {
+    own.own_model()?;
+    let screws = [&own.robot, &other.robot].map(ScrewTree::new);
+    let end = |link, end: ChainEnd, there| {
+        let name = &own.robot.link(link).name;
+        (end != ChainEnd::Chosen).then(|| other.robot.find_link(name)).flatten().unwrap_or(there)
+    };
+    let base = end(own.base, own.chain_ends.base, other.base);
+    let tip = end(own.tip, own.chain_ends.tip, other.tip);
+    let root_from_own_root = *screws[1].home(base) * screws[0].home(own.base).inverse();
+    let mut tree = PlacedTree::new(&other.robot, base, tip, &screws[1]);
+    for &joint in own.robot.movable_joints() {
+        let twist = screws[0].screw(joint)?.twist().transformed_by(&root_from_own_root);
+        tree.add(own.robot.joint(joint), &twist, &screws[1]);
+    }
+    let tip_name = other.robot.link(tip).name.clone();
+    let robot = tree.finish(own.robot.name(), &tip_name, root_from_own_root * *screws[0].home(own.tip))?;
+    let base = robot.find_link(&other.robot.link(base).name)?;
+    let tip = robot.find_link(&tip_name)?;
+    Some(RobotDescription { base, tip, robot, ..without_own_table(own) })
+}
+
+/// The tree of a model on its own while it grows along its chain.
+struct PlacedTree<'a> {
+    other: &'a Robot,
+    links: Vec<Link>,
+    parts: Vec<JointParts>,
+    /// Names that a link of a joint must not have.
+    taken: BTreeSet<String>,
+    parent: String,
+    root_from_parent: Pose,
+}
+
+impl<'a> PlacedTree<'a> {
+    fn new(other: &'a Robot, base: LinkIndex, tip: LinkIndex, there: &ScrewTree) -> Self {
+        let [root, base_name, tip] = [other.root(), base, tip].map(|link| other.link(link).name.clone());
+        let mut tree = Self {
+            other,
+            links: vec![named(&root)],
+            parts: Vec::new(),
+            taken: [root.clone(), base_name.clone(), tip].into(),
+            parent: root,
+            root_from_parent: Pose::identity(),
+        };
+        if base != other.root() {
+            let name = format!("{}_to_{base_name}", tree.parent);
+            tree.put(
+                &JointParts::new(&name, JointKind::Fixed, "", "", Isometry3::identity()).joint,
+                base_name,
+                *there.home(base),
+            );
+        }
+        tree
+    }
+
+    /// Adds a joint that moves by `twist`, in the root at zero.
+    fn add(&mut self, joint: &Joint, twist: &Twist, there: &ScrewTree) {
+        let same = self.other.find_joint(&joint.name).map(|same| self.other.joint(same).child);
+        let frame = same.map_or(self.root_from_parent, |link| *there.home(link));
+        let direction = if joint.kind.is_angular() { twist.angular } else { twist.linear };
+        let axis = Unit::new_normalize(direction);
+        let at = if joint.kind.is_angular() {
+            let on_axis = axis.cross(&twist.linear);
+            on_axis + axis.into_inner() * (frame.translation - on_axis).dot(&axis)
+        } else {
+            frame.translation
+        };
+        let wanted = same.map(|link| self.other.link(link).name.clone());
+        let name = wanted
+            .filter(|name| !self.taken.contains(name))
+            .unwrap_or_else(|| format!("{}_link", joint.name));
+        let name = if self.taken.contains(&name) { format!("{}_frame", joint.name) } else { name };
+        let axis_in_joint: Vector3<f64> = frame.rotation.transpose() * axis.into_inner();
+        let moved = Joint { axis_in_joint: Unit::new_normalize(axis_in_joint), ..joint.clone() };
+        self.put(&moved, name, Pose { translation: at, ..frame });
+    }
+
+    fn put(&mut self, joint: &Joint, child: String, root_from_child: Pose) {
+        let parent_from_joint = (self.root_from_parent.inverse() * root_from_child).to_isometry();
+        self.links.push(named(&child));
+        self.taken.insert(child.clone());
+        self.parts.push(JointParts {
+            joint: Joint { parent_from_joint, mimic: None, ..joint.clone() },
+            parent: std::mem::replace(&mut self.parent, child.clone()),
+            child,
+            mimic: None,
+        });
+        self.root_from_parent = root_from_child;
+    }
+
+    fn finish(mut self, name: &str, tip: &str, root_from_tip: Pose) -> Option<Robot> {
+        let joint = format!("{}_to_{tip}", self.parent);
+        let fixed = JointParts::new(&joint, JointKind::Fixed, "", "", Isometry3::identity()).joint;
+        self.put(&fixed, tip.to_owned(), root_from_tip);
+        Robot::new(name, self.links, self.parts).ok()
+    }
+}
+
+fn named(name: &str) -> Link {
+    Link { name: name.to_owned(), ..Link::default() }
+}
+
+/// Gives the comparison of the two a title that says which of them is a table or screws.
+pub(super) fn entitle(geometry: &mut CheckReport, written: [&RobotDescription; 2]) {
+    use OwnModelForm::{Screws, Table};
+    let pair = SourcePair::UrdfOther;
+    let has_table = written[0].dh.is_some();
+    let title = match written.map(RobotDescription::own_model) {
+        [None, None] => return,
+        [Some(Table), Some(Table)] => "DH table against other DH table",
+        [Some(Table), Some(Screws)] => "DH table against screws",
+        [Some(Table), None] => "DH table against URDF chain",
+        [Some(Screws), Some(Table)] => "screws against DH table",
+        [Some(Screws), Some(Screws)] => "screws against other screws",
+        [Some(Screws), None] => "screws against URDF chain",
+        [None, Some(Table)] if has_table => "URDF chain against other DH table",
+        [None, Some(Table)] => "URDF chain against DH table",
+        [None, Some(Screws)] => "URDF chain against screws",
+    };
+    geometry.comparisons.iter_mut().filter(|of| of.name == pair).for_each(|of| of.title = title);
+    geometry.certificates.iter_mut().filter(|of| of.name == pair).for_each(|of| of.title = title);
+    geometry.diagnoses.iter_mut().filter(|of| of.name == pair).for_each(|of| of.title = title);
+}
+
+/// Replaces the diagnosis of a difference by one in the lines of a table that is the robot of one of the two, if the table has
+/// a cause: that of the first before that of the second. `compared` are the two in the same variables. Whether it has one.
+pub(super) fn diagnose_by_table(
+    geometry: &mut CheckReport,
+    written: [&RobotDescription; 2],
+    compared: [&RobotDescription; 2],
+    options: &CheckOptions,
+) -> Result<bool, CheckError> {
+    if !geometry.poses_disagree() {
+        return Ok(false);
+    }
+    for of in [0, 1] {
+        let Some(with_table) = with_table_of(written[of], compared[of], compared[1 - of]) else { continue };
+        let no_physics = with_table.check_capability(Capability::Physics).err();
+        let no_physics = no_physics.unwrap_or_else(|| Findings::from(Vec::new()));
+        let options = CheckOptions { configurations: Arc::default(), ..options.clone() };
+        let found = congruent_agreement::compare::check(&with_table, Err(no_physics), &options)?;
+        let pair = SourcePair::UrdfOther;
+        let mut of_table = found.diagnoses.into_iter();
+        let named = of_table.find(|of| of.name == SourcePair::ModelUrdf && !of.causes.is_empty());
+        if let Some(mut diagnosis) = named {
+            (diagnosis.name, diagnosis.title) = (pair, pair.title());
+            let others = std::mem::take(&mut geometry.diagnoses);
+            let others = others.into_iter().filter(|of| of.name != pair);
+            geometry.set_diagnoses(std::iter::once(diagnosis).chain(others).collect());
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The other description with the table of a model on its own, as a robot file with both would declare it; `None` if `written` is
+/// no table, or if the chains have other joints.
+fn with_table_of(
+    written: &RobotDescription,
+    placed: &RobotDescription,
+    other: &RobotDescription,
+) -> Option<RobotDescription> {
+    written.own_model()?;
+    let table = written.dh.as_ref()?;
+    let link = |of| other.robot.find_link(&placed.robot.link(of).name);
+    let (base, tip) = (link(placed.base)?, link(placed.tip)?);
+    let is_in_chain = |joint: &JointIndex| other.robot.joint(*joint).kind.is_movable();
+    let chain: Vec<JointIndex> = other.robot.chain(base, tip)?.into_iter().filter(is_in_chain).collect();
+    let row = |row: &DhRow| {
+        let joint = other.robot.find_joint(&written.robot.joint(row.joint).name)?;
+        chain.contains(&joint).then_some(DhRow { joint, ..*row })
+    };
+    let rows: Vec<DhRow> = table.rows.iter().map(row).collect::<Option<_>>()?;
+    if rows.len() != chain.len() {
+        return None;
+    }
+    Some(RobotDescription {
+        path: written.path.clone(),
+        base,
+        tip,
+        dh: Some(DhTable { rows, ..table.clone() }),
+        dynamics: None,
+        tip_from_tcp: written.tip_from_tcp,
+        tolerance: placed.tolerance,
+        tolerance_is_declared: placed.tolerance_is_declared,
+        warnings: Vec::new(),
+        places: Places { robot_file: written.places.robot_file.clone(), ..other.places.clone() },
+        ..other.clone()
+    })
+}

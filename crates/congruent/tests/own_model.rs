@@ -1,0 +1,210 @@
+//! Robot files without a URDF: a table of either convention and the screws of one robot are the same robot, a wrong value is
+//! found with its line, and what needs masses or shapes is refused.
+//!
+//! The files in `own_models` are four published arms in four forms each. Their screws and the poses below are from numpy
+//! (products of the 4x4 matrices of the rows, screws from axis and origin of each frame), which shares nothing with this code.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
+#![expect(clippy::unreadable_literal, reason = "numbers as numpy prints them")]
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use congruent::{
+    agreement::compare::{Agreement, CheckOptions},
+    analysis::conversion::{Conversion, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes, convert},
+    check, check_against,
+    description::{Joint, RobotDescription, RobotQ, load_robot, own_robot_file_text, parse_robot},
+    kinematics::UrdfTree,
+};
+use congruent_input::{Capability, SourceFile};
+
+const ROBOTS: [&str; 4] = ["puma560", "ur5e", "scara", "stanford"];
+const FORMS: [&str; 4] = ["standard", "modified", "space", "body"];
+
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/own_models").join(format!("{name}.toml"))
+}
+
+fn robot(name: &str) -> RobotDescription {
+    load_robot(&file(name)).unwrap()
+}
+
+/// A robot of this text.
+fn robot_of(text: &str) -> RobotDescription {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("arm.toml");
+    fs::write(&path, text).unwrap();
+    load_robot(&path).unwrap()
+}
+
+#[track_caller]
+fn agree(a: &RobotDescription, b: &RobotDescription) {
+    let report = check_against(a, b, &CheckOptions::default()).unwrap();
+    let worst = report.geometry.worst.error;
+    assert_eq!(report.geometry.verdict, Agreement::Agree, "{} and {}: {worst:?}", a.name, b.name);
+    assert!(!report.geometry.comparisons.is_empty());
+}
+
+#[test]
+fn every_form_has_the_poses_of_the_matrices() {
+    /// Rounding of six products within 1 m, and of the twelve digits of the screws; worst seen 3e-13.
+    const ROUNDING: f64 = 1e-11;
+    let expected: [(&str, [[f64; 4]; 3]); 4] = [
+        (
+            "puma560",
+            [
+                [-0.18882722763110865, -0.3907245885378842, 0.900932058491122, 0.4886924424222684],
+                [-0.9620471887654423, -0.11044335785657387, -0.24953450922442427, 0.30823536516226097],
+                [0.1970012301831107, -0.9138580637151843, -0.3550407789100784, -0.18645175654355872],
+            ],
+        ),
+        (
+            "ur5e",
+            [
+                [-0.11713309367827253, -0.4323825296523309, 0.8940498791548536, -0.5458674004813097],
+                [0.3356920369053968, -0.8644959039193737, -0.37410919323765723, -0.37319541742407725],
+                [0.9346607377672729, 0.2563048578511071, 0.24640845179957, 0.44163437262697586],
+            ],
+        ),
+        (
+            "scara",
+            [
+                [0.6216099682706646, -0.7833269096274833, 0.0, 0.5800026678721634],
+                [-0.7833269096274833, -0.6216099682706645, 0.0, 0.041410001196293476],
+                [0.0, 0.0, -1.0, 0.117],
+            ],
+        ),
+        (
+            "stanford",
+            [
+                [0.45508403540355147, 0.09982424071199698, -0.8848353754722358, -0.4705871541309069],
+                [0.5160100906412307, 0.7802743768121283, 0.35341969844205595, 0.18056562763184802],
+                [0.7256942242275656, -0.6174196448581128, 0.303580096623665, 0.8604262414059805],
+            ],
+        ),
+    ];
+    let q = [0.3, -0.5, 0.12, 0.7, -0.9, 1.1];
+    for (name, rows) in expected {
+        for form in FORMS {
+            let arm = robot(&format!("{name}_{form}"));
+            let q = RobotQ::from(q[..arm.robot.dof()].to_vec());
+            let pose = UrdfTree::new(&arm.robot).root_from_link(&q, arm.tip).unwrap();
+            for (at, row) in rows.iter().enumerate() {
+                let found = [
+                    pose.rotation[(at, 0)],
+                    pose.rotation[(at, 1)],
+                    pose.rotation[(at, 2)],
+                    pose.translation[at],
+                ];
+                let off = found.iter().zip(row).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                assert!(off <= ROUNDING, "{name} {form} row {at}: {found:?}, expected {row:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_forms_of_one_robot_agree() {
+    for name in ROBOTS {
+        let [standard, modified, space, body] = FORMS.map(|form| robot(&format!("{name}_{form}")));
+        agree(&standard, &modified);
+        agree(&modified, &space);
+        agree(&space, &body);
+        agree(&body, &standard);
+    }
+}
+
+#[test]
+fn a_table_and_the_urdf_of_the_arm_agree_in_either_order() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/ur5e");
+    let with_urdf = load_robot(&folder).unwrap();
+    let text = fs::read_to_string(folder.join("robot.toml")).unwrap();
+    let kept = text.lines().filter(|line| !line.starts_with("urdf") && !line.starts_with("srdf"));
+    let table: Vec<&str> =
+        kept.take_while(|line| !line.starts_with("[dynamics]") && !line.starts_with("[[inertial")).collect();
+    let table = robot_of(&table.join("\n"));
+    agree(&table, &with_urdf);
+    agree(&with_urdf, &table);
+}
+
+#[test]
+fn a_wrong_value_is_named_with_its_line() {
+    let right = fs::read_to_string(file("ur5e_standard")).unwrap();
+    let line = right.lines().position(|line| line == "a_m = -0.3922").unwrap() + 1;
+    let wrong = robot_of(&right.replace("a_m = -0.3922", "a_m = -0.3722"));
+    for reference in ["ur5e_modified", "ur5e_space", "ur5e_body"] {
+        let reference = robot(reference);
+        // Of either order: the table is named where it is the only one.
+        for pair in [[&wrong, &reference], [&reference, &wrong]] {
+            if reference.dh.is_some() && pair[0].dh.is_some() && !std::ptr::eq(pair[0], &raw const wrong) {
+                continue;
+            }
+            let report = check_against(pair[0], pair[1], &CheckOptions::default()).unwrap();
+            assert_eq!(report.geometry.verdict, Agreement::Disagree);
+            let cause = &report.geometry.diagnosis[0].fault;
+            assert_eq!((cause.joint.as_deref(), cause.parameter.as_deref()), (Some("q3"), Some("a")));
+            assert_eq!(cause.line, Some(line), "{}", cause.message);
+            assert!(cause.suggestion.contains("-0.3922"), "{}", cause.suggestion);
+        }
+    }
+}
+
+#[test]
+fn wrong_screws_are_named_with_their_row() {
+    let right = fs::read_to_string(file("scara_space")).unwrap();
+    let wrong = robot_of(&right.replace("v_m = [0.0, -0.325, 0.0]", "v_m = [0.0, -0.335, 0.0]"));
+    let report = check_against(&wrong, &robot("scara_body"), &CheckOptions::default()).unwrap();
+    assert_eq!(report.geometry.verdict, Agreement::Disagree);
+    let cause = &report.geometry.diagnosis[0].fault;
+    assert_eq!(cause.joint.as_deref(), Some("q2"), "{}", cause.message);
+    let line = right.lines().position(|line| line == "joint = \"q2\"").unwrap() + 1;
+    assert_eq!(cause.line, Some(line), "{}", cause.message);
+}
+
+#[test]
+fn alone_there_is_nothing_to_compare() {
+    for form in FORMS {
+        let arm = robot(&format!("scara_{form}"));
+        let report = check(&arm, &CheckOptions::default()).unwrap();
+        assert_eq!(report.geometry.verdict, Agreement::NothingCompared);
+        assert_eq!(arm.check_capability(Capability::Kinematics), Ok(()));
+        for needed in [Capability::Physics, Capability::Clearance] {
+            let refused = arm.check_capability(needed).unwrap_err();
+            assert_eq!(refused[0].code.name, "robot_file::no_bodies");
+        }
+    }
+}
+
+#[test]
+fn conversions_are_the_same_robot() {
+    let conversion = |to| Conversion {
+        from: None,
+        to,
+        accuracy: DEFAULT_ACCURACY,
+        seed: 0,
+        rounded_axes: RoundedAxes::Corrected,
+    };
+    for name in ROBOTS {
+        for form in ["standard", "body"] {
+            let arm = robot(&format!("{name}_{form}"));
+            for to in [ConversionTarget::Standard, ConversionTarget::Modified, ConversionTarget::Poe] {
+                let report = convert(&arm, &conversion(to)).unwrap();
+                let text = own_robot_file_text(&arm, report.robot_toml.as_deref().unwrap());
+                let back = robot_of(&text);
+                agree(&back, &arm);
+                let ranges = |of: &RobotDescription| {
+                    of.robot.joints().iter().map(Joint::position_range).collect::<Vec<_>>()
+                };
+                assert_eq!(ranges(&back), ranges(&arm), "{text}");
+            }
+            let report = convert(&arm, &conversion(ConversionTarget::Urdf)).unwrap();
+            let text = report.urdf.unwrap();
+            let source = SourceFile { path: "arm.urdf".into(), text, is_foreign: false };
+            agree(&parse_robot(None, &Arc::new(source)).unwrap(), &arm);
+        }
+    }
+}
