@@ -83,6 +83,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "input",
             "description",
             "kinematics",
+            "writers",
             "dynamics-agreement",
             "agreement",
             "calibration",

@@ -17,8 +17,9 @@ use congruent::{
     agreement::compare::{Agreement, CheckOptions},
     analysis::conversion::{Conversion, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes, convert},
     check, check_against,
-    description::{Joint, RobotDescription, RobotQ, load_robot, own_robot_file_text, parse_robot},
+    description::{Joint, RobotDescription, RobotQ, load_robot, parse_robot},
     kinematics::UrdfTree,
+    writers::own_robot_file_text,
 };
 use congruent_input::{Capability, SourceFile};
 

@@ -8,10 +8,17 @@ use std::{
 use congruent_input::{FileAccess, TextKind};
 use toml::{Table, Value};
 
-use crate::robot_file::{ROBOT_FILE, ROBOT_FILE_BYTES};
+use crate::{
+    mjcf::is_mjcf,
+    robot_file::{ROBOT_FILE, ROBOT_FILE_BYTES},
+    urdf::URDF_BYTES,
+};
 
 /// Folders below the one that is searched. Kind: choice; deeper trees are built or downloaded, and not written by people.
 const MOST_DEPTH: usize = 12;
+
+/// The keys of a robot file that name its URDF or MJCF.
+const MODEL_KEYS: [&str; 2] = ["urdf", "description"];
 
 /// What to check after files have changed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -53,8 +60,14 @@ pub fn robots_of_changed(changed: &[PathBuf], folder: &Path) -> ChangedRobots {
     ChangedRobots { robots, ignored }
 }
 
+/// Whether a file is a URDF by its name, or an MJCF by its text.
 fn is_urdf(path: &Path) -> bool {
-    path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"))
+    let ends = |ending| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(ending));
+    let is_mjcf = || {
+        let source = FileAccess::default().read_text(path, URDF_BYTES, TextKind::Robot).ok();
+        source.is_some_and(|source| is_mjcf(&source.text))
+    };
+    ends("urdf") || ends("xml") && is_mjcf()
 }
 
 /// Why a file of a change is no robot to check; `None` if it is one, or cannot be read, which the check then says.
@@ -73,11 +86,12 @@ fn why_no_robot(path: &Path) -> Option<&'static str> {
     (!is_toml || !is_robot_file()).then_some("it is neither a robot file nor a URDF")
 }
 
-/// Whether a line is one that robot files have and other files in TOML do not: the URDF or the table.
+/// Whether a line is one that robot files have and other files in TOML do not: the model, the table or the screws.
 fn is_line_of_robot_file(line: &str) -> bool {
     let line = line.trim_start();
-    let is_urdf = line.strip_prefix("urdf").is_some_and(|rest| rest.trim_start().starts_with('='));
-    is_urdf || ["[dh]", "[dh.", "[[dh.", "dh."].iter().any(|start| line.starts_with(start))
+    let is_key = |key: &str| line.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('='));
+    let begins = ["[dh]", "[dh.", "[[dh.", "dh.", "[poe]", "[[poe."];
+    MODEL_KEYS.iter().any(|key| is_key(key)) || begins.iter().any(|start| line.starts_with(start))
 }
 
 /// Whether two paths are one file, whatever links lead to it.
@@ -113,7 +127,7 @@ fn urdf_named_in(robot_file: &Path) -> Option<PathBuf> {
     }
     let source = FileAccess::default().read_text(robot_file, ROBOT_FILE_BYTES, TextKind::RobotFile).ok()?;
     let written: Table = source.text.parse().ok()?;
-    let urdf = written.get("urdf").and_then(Value::as_str)?;
+    let urdf = MODEL_KEYS.iter().find_map(|key| written.get(*key)).and_then(Value::as_str)?;
     Some(robot_file.parent()?.join(urdf))
 }
 

@@ -15,7 +15,6 @@ mod named_robot;
 mod own_model;
 mod revision;
 mod robot_file;
-mod robot_file_text;
 mod srdf;
 mod toml_literal;
 mod urdf;
@@ -38,10 +37,6 @@ pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DeclaredMapping, DeclaredReference, DeclaredVariable,
     DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey, TableDigits,
     ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
-};
-pub use robot_file_text::{
-    dh_section, own_dh_section, own_robot_file_text, poe_section, relative_path, robot_file_text,
-    robot_file_values,
 };
 pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{

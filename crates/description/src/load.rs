@@ -9,7 +9,7 @@ use std::{
 
 use congruent_input::{
     Capability, Diagnostic, Diagnostics, FileAccess, Findings, RevisionFiles, RevisionName, SourceFile,
-    TextKind, direct_path, folder_of, not_found,
+    TextKind, direct_path, folder_of,
 };
 use toml::Spanned;
 
@@ -19,7 +19,7 @@ use crate::{
     description::{NamedFiles, Places, RobotDescription},
     model::{LinkIndex, Robot, Tolerance, ToleranceScale},
     model_file::ModelFile,
-    named_robot::{file_nearby, file_of_robot, is_toml, open, refuse_other_text, refuse_scenario},
+    named_robot::{file_of_robot, is_toml, open, refuse_other_text, refuse_scenario, urdf_not_found},
     own_model::{OwnModel, TIP, is_own, own_model, refuse_beside_model},
     revision::as_named,
     robot_file::{
@@ -60,9 +60,8 @@ pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescript
     let own = access.fresh();
     let loaded = load(path, &own);
     // Before `?`: files that were read by a load that failed are inputs of the caller, too.
-    let inputs = own.files();
-    access.add(&inputs);
-    Ok(RobotDescription { inputs, ..loaded? })
+    access.add(&own.files());
+    Ok(RobotDescription { inputs: own.files(), ..loaded? })
 }
 
 fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
@@ -354,31 +353,6 @@ fn model_path(
         return None;
     }
     Some(direct_path(&urdf_path))
-}
-
-/// A URDF or MJCF that is not where the robot file says: the help has a similar name, or the same name in another folder nearby.
-fn urdf_not_found(key: &str, written: &Path, folder: &Path, access: &FileAccess) -> Diagnostic {
-    if written.to_string_lossy().contains("://") {
-        let message = format!("{key} = \"{}\" is no path", written.display());
-        return Diagnostic::error(congruent_input::codes::file::NOT_FOUND, message).with_help(
-            "package:// is for meshes in a URDF; give the path of the URDF, relative to this file",
-        );
-    }
-    let path = folder.join(written);
-    let message = format!("{key} = \"{}\": {} does not exist", written.display(), path.display());
-    let fault = not_found(&path, message);
-    if fault.help.is_some() {
-        return fault;
-    }
-    let found = written.file_name().and_then(|name| file_nearby(folder, name));
-    // What may not be opened is not named either.
-    match found.filter(|found| access.check(found).is_ok()) {
-        Some(found) => {
-            let found = found.strip_prefix(folder).unwrap_or(&found).display();
-            fault.with_help(format!("the path is relative to the robot file; did you mean {found}?"))
-        }
-        None => fault.with_help("the path is relative to the robot file"),
-    }
 }
 
 fn declared_packages(

@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind, TomlKind, direct_path};
+use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind, TomlKind, direct_path, not_found};
 
 use crate::{codes, robot_file::ROBOT_FILE};
 
@@ -57,7 +57,7 @@ fn urdf_below(folder: &Path) -> Option<PathBuf> {
 }
 
 /// A file of this name in a folder, below it, or below the folder above.
-pub(crate) fn file_nearby(folder: &Path, name: &OsStr) -> Option<PathBuf> {
+fn file_nearby(folder: &Path, name: &OsStr) -> Option<PathBuf> {
     let above = folder.join("..");
     let is_named = |path: &Path| path.file_name() == Some(name);
     find_below(folder, SEARCHED_DEPTH, &is_named).or_else(|| find_below(&above, SEARCHED_DEPTH, &is_named))
@@ -74,6 +74,31 @@ fn find_below(folder: &Path, depth: usize, is_wanted: &dyn Fn(&Path) -> bool) ->
         let deeper = depth.checked_sub(1)?;
         folders.iter().find_map(|folder| find_below(folder, deeper, is_wanted))
     })
+}
+
+/// A URDF or MJCF that is not where the robot file says: the help has a similar name, or the same name in another folder nearby.
+pub(crate) fn urdf_not_found(key: &str, written: &Path, folder: &Path, access: &FileAccess) -> Diagnostic {
+    if written.to_string_lossy().contains("://") {
+        let message = format!("{key} = \"{}\" is no path", written.display());
+        return Diagnostic::error(congruent_input::codes::file::NOT_FOUND, message).with_help(
+            "package:// is for meshes in a URDF; give the path of the URDF, relative to this file",
+        );
+    }
+    let path = folder.join(written);
+    let message = format!("{key} = \"{}\": {} does not exist", written.display(), path.display());
+    let fault = not_found(&path, message);
+    if fault.help.is_some() {
+        return fault;
+    }
+    let found = written.file_name().and_then(|name| file_nearby(folder, name));
+    // What may not be opened is not named either.
+    match found.filter(|found| access.check(found).is_ok()) {
+        Some(found) => {
+            let found = found.strip_prefix(folder).unwrap_or(&found).display();
+            fault.with_help(format!("the path is relative to the robot file; did you mean {found}?"))
+        }
+        None => fault.with_help("the path is relative to the robot file"),
+    }
 }
 
 /// Opens a file that a person gives as a robot. If it does not exist and no similar name does, the help lists what is accepted.

@@ -10,12 +10,13 @@ use congruent_calibration::{
         plot,
     },
 };
-use congruent_description::{DhRow, DhTable, Robot, RobotDescription, dh_section};
+use congruent_description::{DhRow, DhTable, Robot, RobotDescription};
 use congruent_input::{
     InputFile,
     display::{counted, number},
     portable_path,
 };
+use congruent_writers::dh_section;
 use maud::{Markup, html};
 
 use crate::parts::{

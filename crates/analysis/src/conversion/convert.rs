@@ -2,10 +2,7 @@
 
 use std::path::Path;
 
-use congruent_description::{
-    ChainQ, DhConvention, JointIndex, RobotDescription, RobotQ, dh_section, own_dh_section, parse_urdf,
-    poe_section,
-};
+use congruent_description::{ChainQ, DhConvention, JointIndex, RobotDescription, RobotQ, parse_urdf};
 use congruent_input::{
     Diagnostic, Findings,
     display::{angle, length},
@@ -14,7 +11,7 @@ use congruent_kinematics::{
     DeriveError, Pose, Proof, ScrewChain, SerialDh, Twist, UrdfTree, derive_dh, sample_configurations,
     without_rounding,
 };
-use congruent_writers::urdf_text;
+use congruent_writers::{dh_section, own_dh_section, poe_section, urdf_text};
 
 use super::{
     converted_model::ConvertedModel,

@@ -6,9 +6,10 @@ use congruent::{
     analysis::conversion::{
         Conversion, ConversionReport, ConversionTarget, Destination, convert, convert_robot,
     },
-    description::{RobotDescription, Tolerance, load_robot_with, own_robot_file_text, robot_file_text},
+    description::{RobotDescription, Tolerance, load_robot_with},
     input::{Diagnostic, FileAccess, is_standard_input},
     text::{conversion_comments, conversion_remarks, conversion_text},
+    writers::{own_robot_file_text, robot_file_text},
 };
 
 use crate::{

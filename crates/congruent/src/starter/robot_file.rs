@@ -6,8 +6,9 @@ use congruent_agreement::compare::{Agreement, WorstDifference};
 use congruent_analysis::conversion::{
     Conversion, ConversionReport, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes, convert,
 };
-use congruent_description::{ChainEnd, ReportedChain, RobotDescription, Tolerance, robot_file_values};
+use congruent_description::{ChainEnd, ReportedChain, RobotDescription, Tolerance};
 use congruent_input::{Diagnostic, Finding, display::length_and_angle};
+use congruent_writers::robot_file_values;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use congruent_agreement::compare::CheckOptions;
-use congruent_description::{ReportedChain, RobotDescription, Tolerance, relative_path};
+use congruent_description::{ReportedChain, RobotDescription, Tolerance};
 use congruent_input::{
     Capability, Diagnostic, Finding, Findings,
     display::{length_and_angle, quantity},
@@ -17,6 +17,7 @@ use congruent_scenario::{
     Check, CheckKind, ClearanceCheck, ContactCheck, ControllerKind, ControllerSettings, OnViolation, Scenario,
 };
 use congruent_twin::{Outcome, Run, RunError, RunSetup};
+use congruent_writers::relative_path;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -1,18 +1,15 @@
-//! Writes a robot file and its `[dh]` section as text that the reader of this crate reads back to the same values.
+//! Writes a robot file and its `[dh]` section as text that the reader of robot files reads back to the same values.
 
 use std::{f64::consts::FRAC_PI_2, fmt::Write, path::Path};
 
+use congruent_description::{
+    DhRow, DhRowKind, DhTable, Joint, JointIndex, Robot, RobotDescription, Tolerance, toml_key, toml_string,
+};
 use congruent_input::{
     number::{number, numbers, short_degrees},
     rpy_fixed_xyz_rad,
 };
 use nalgebra::{Isometry3, Vector3};
-
-use crate::{
-    description::RobotDescription,
-    model::{DhRow, DhRowKind, DhTable, Joint, JointIndex, Robot, Tolerance},
-    toml_literal::{toml_key, toml_string},
-};
 
 /// Writes a table as the section `[dh]` of a robot file: lengths in metres, angles in degrees if a
 /// short number says exactly the same, otherwise in radians with all digits.
