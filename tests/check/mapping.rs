@@ -185,6 +185,23 @@ fn a_fault_in_other_variables_is_named_at_the_joint_and_link_of_the_robot() {
 }
 
 #[test]
+fn an_origin_behind_other_names_is_off_by_what_was_changed() {
+    let names: Vec<Change> = ur5e().into_iter().map(|of| Change { sign: 1.0, zero: 0.0, ..of }).collect();
+    let other = in_variables(&urdf(), &names);
+    let moved = other.replacen("-0.3922 0 0.1333\"", "-0.3922 0 0.1373\"", 1);
+    assert_ne!(other, moved);
+    let robots = Robots::new(&moved);
+    let report = robots.check().json();
+    let worst = report["against"]["mapping"]["position_m"].as_f64().unwrap();
+    assert!((worst - 0.004).abs() < 1e-9, "{worst}");
+    let fault = &report["diagnosis"][0];
+    assert_eq!(
+        (fault["cause"].as_str(), fault["joint"].as_str()),
+        (Some("joint_origin"), Some("wrist_1_joint"))
+    );
+}
+
+#[test]
 fn a_robot_file_holds_its_references_together() {
     let other = in_variables(&urdf(), &ur5e());
     let robots = Robots::new(&other);

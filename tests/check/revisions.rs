@@ -129,3 +129,27 @@ fn what_git_does_not_have_is_said_with_the_nearest_name() {
     fs::copy(workspace().join("robots/ur5e/ur5e.urdf"), elsewhere.path().join("a.urdf")).unwrap();
     answers(&elsewhere.path().join("a.urdf"), "git:main", 2, "is in no git repository");
 }
+
+#[test]
+fn everything_that_changes_is_named_beside_an_origin() {
+    let (folder, robot) = repository();
+    let urdf = robot.join("ur5e.urdf");
+    edit(&urdf, "xyz=\"-0.3922 0 0.1333\"", "xyz=\"-0.3932 0 0.1333\"");
+    edit(&urdf, "effort=\"150\"", "effort=\"200\"");
+    answers(
+        &urdf,
+        "git:main",
+        1,
+        "moves tool0 by up to 1 mm; shoulder_pan_joint: effort 200 N m, was 150 N m",
+    );
+    git(folder.path(), &["checkout", "-q", "."]);
+    // A frame that is gone moves nothing, and whoever names it misses it.
+    let text = fs::read_to_string(&urdf).unwrap();
+    let start =
+        text.find("<joint name=\"ft_frame").or_else(|| text.find("<joint name=\"wrist_3_link-ft_frame"));
+    let start = start.unwrap_or_else(|| panic!("{text}"));
+    let end = start + text[start..].find("</joint>").unwrap() + "</joint>".len();
+    let without = text[..start].to_owned() + &text[end..];
+    fs::write(&urdf, without.replacen("<link name=\"ft_frame\"/>", "", 1)).unwrap();
+    answers(&urdf, "git:main", 1, "CHANGED since main: removes link ft_frame");
+}

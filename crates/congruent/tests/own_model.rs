@@ -155,6 +155,37 @@ fn a_wrong_value_is_named_with_its_line() {
 }
 
 #[test]
+fn a_wrong_table_against_a_urdf_is_named_in_either_order() {
+    let right = robot("scara_standard");
+    let report = convert(&right, &conversion(ConversionTarget::Urdf)).unwrap();
+    let source = SourceFile { path: "arm.urdf".into(), text: report.urdf.unwrap(), is_foreign: false };
+    let urdf = parse_robot(None, &Arc::new(source)).unwrap();
+    let text = fs::read_to_string(file("scara_standard")).unwrap();
+    let length = text.lines().find(|line| line.starts_with("a_m = ") && !line.ends_with("= 0.0")).unwrap();
+    let wrong = robot_of(&text.replacen(length, "a_m = 0.4567", 1));
+    let line = text.lines().position(|of| of == length).unwrap() + 1;
+    for pair in [[&wrong, &urdf], [&urdf, &wrong]] {
+        let report = check_against(pair[0], pair[1], &CheckOptions::default()).unwrap();
+        assert_eq!(report.geometry.verdict, Agreement::Disagree);
+        assert_eq!(report.geometry.diagnosis[0].fault.line, Some(line));
+    }
+}
+
+#[test]
+fn other_ranges_in_the_rows_are_a_disagreement() {
+    let text = fs::read_to_string(file("scara_standard")).unwrap();
+    let range = text.lines().find(|line| line.starts_with("range_deg")).unwrap();
+    let other = robot_of(&text.replacen(range, "range_deg = [-1, 1]", 1));
+    let report = check_against(&other, &robot("scara_modified"), &CheckOptions::default()).unwrap();
+    assert_eq!(report.geometry.verdict, Agreement::Disagree);
+    let answer = report.headline().to_string();
+    assert!(
+        answer.starts_with("SAME GEOMETRY, DIFFERENT JOINT LIMITS: q1: range -1 deg to 1 deg"),
+        "{answer}"
+    );
+}
+
+#[test]
 fn wrong_screws_are_named_with_their_row() {
     let right = fs::read_to_string(file("scara_space")).unwrap();
     let wrong = robot_of(&right.replace("v_m = [0.0, -0.325, 0.0]", "v_m = [0.0, -0.335, 0.0]"));
@@ -180,15 +211,12 @@ fn alone_there_is_nothing_to_compare() {
     }
 }
 
+fn conversion(to: ConversionTarget) -> Conversion {
+    Conversion { from: None, to, accuracy: DEFAULT_ACCURACY, seed: 0, rounded_axes: RoundedAxes::Corrected }
+}
+
 #[test]
 fn conversions_are_the_same_robot() {
-    let conversion = |to| Conversion {
-        from: None,
-        to,
-        accuracy: DEFAULT_ACCURACY,
-        seed: 0,
-        rounded_axes: RoundedAxes::Corrected,
-    };
     for name in ROBOTS {
         for form in ["standard", "body"] {
             let arm = robot(&format!("{name}_{form}"));

@@ -4,6 +4,10 @@ use congruent_description::{JointKind, LinkIndex, Robot};
 use congruent_kinematics::ScrewTree;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
+/// Frames of links of one name that are turned by less are the same frame: what differs is a difference. Kind: choice; other frames of
+/// a link are quarter turns away.
+const SAME_FRAME_RAD: f64 = 0.2;
+
 /// The other description with its root and the links of its moving joints in the frames of `robot`: it has the same moving
 /// joints by name, in the same variables. A frame is turned and shifted along the axis of its joint, which changes no motion;
 /// an axis that lies elsewhere stays there.
@@ -16,6 +20,10 @@ pub fn in_frames_of(robot: &Robot, other: &Robot, root_from_other_root: &Isometr
     for joint in other.joints().iter().filter(|joint| joint.kind != JointKind::Fixed) {
         let Some(here) = robot.find_joint(&joint.name).map(|index| robot.joint(index)) else { continue };
         let link_from_frame = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here.child);
+        let is_same_link = robot.link(here.child).name == other.link(joint.child).name;
+        if is_same_link && link_from_frame.rotation.angle() < SAME_FRAME_RAD {
+            continue;
+        }
         frames[joint.child.get()] = on_axis(&link_from_frame, &joint.axis_in_joint, &here.axis_in_joint);
     }
     other.with_link_frames(&frames)

@@ -7,7 +7,7 @@ use congruent::{
         Conversion, ConversionReport, ConversionTarget, Destination, convert, convert_robot,
     },
     description::{RobotDescription, Tolerance, load_robot_with},
-    input::{Diagnostic, FileAccess, is_standard_input},
+    input::{Diagnostic, FileAccess, RevisionName, is_standard_input},
     text::{conversion_comments, conversion_remarks, conversion_text},
     writers::{own_robot_file_text, robot_file_text},
 };
@@ -78,8 +78,9 @@ fn whole_robot(
     conversion: &Conversion,
     file: Option<&NewFile<'_>>,
 ) -> Result<ConversionReport, Diagnostic> {
-    let source =
-        if is_standard_input(&description.urdf_path) { Path::new("") } else { &description.urdf_path };
+    let has_no_folder =
+        is_standard_input(&description.urdf_path) || RevisionName::of(&description.urdf_path).is_some();
+    let source = if has_no_folder { Path::new("") } else { &description.urdf_path };
     let beside = source.with_file_name("converted.xml");
     if let Some(file) = file {
         file.may_be_written(&files_of(description))?;

@@ -6,17 +6,25 @@ use congruent_agreement::{
 };
 use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription, RobotQ, Tolerance};
 use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedModel};
-use congruent_input::{Capability, Diagnostic, Finding, display::length_and_angle, nearest};
+use congruent_input::{
+    Capability, Diagnostic, Finding,
+    display::{length_and_angle, position},
+    nearest,
+};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
+    cause_in_words::and_more,
     mapped::ReportedMapping,
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::{POSITIONS, PosesOfOther},
 };
 use crate::codes;
+
+/// Ends of ranges that are nearer are rounding, relative to the larger. Kind: choice; six digits of pi.
+const SAME_RANGE: f64 = 1e-6;
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -27,6 +35,10 @@ pub struct OtherDescription {
     pub robot: String,
     /// Why the two dynamics are not compared, with the first joint that differs; `null` if they are.
     pub dynamics_not_compared: Option<String>,
+    /// If one of the two is a table or screws, without dynamics to compare: the joints whose ranges both state and that
+    /// differ.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ranges_differ: Option<String>,
     /// Links that both files move alike, though their frames lie elsewhere in them: dynamics is compared in the frames of
     /// this description.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -53,6 +65,7 @@ impl OtherDescription {
             file: other.path.display().to_string(),
             robot: other.name.clone(),
             dynamics_not_compared: Some(why),
+            ranges_differ: None,
             links_in_other_frames: Vec::new(),
             joints_left_out: Vec::new(),
             mapping: None,
@@ -82,6 +95,7 @@ impl OtherDescription {
             file: other.path.display().to_string(),
             robot: other.name.clone(),
             dynamics_not_compared: other_joint.or_else(|| missing_tip(description, &other.robot, poses)),
+            ranges_differ: None,
             links_in_other_frames: Vec::new(),
             joints_left_out: Vec::new(),
             mapping: None,
@@ -126,6 +140,7 @@ pub(super) fn compared(
     }
     if let Some(of) = no_masses([description, other]) {
         geometry.not_asked.push(of);
+        against.ranges_differ = ranges_differ(&description.robot, other);
         return Ok((against, None));
     }
     against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_value);
@@ -171,6 +186,26 @@ fn no_masses(descriptions: [&RobotDescription; 2]) -> Option<NotCompared> {
     let findings = own.check_capability(Capability::Physics).err()?;
     let findings = findings.iter().map(Finding::from).collect();
     Some(NotCompared { source: ComparedSource::Dynamics, findings })
+}
+
+/// Joints whose ranges both descriptions state, and state otherwise: the first, and how many there are.
+fn ranges_differ(robot: &Robot, other: &RobotDescription) -> Option<String> {
+    let of_joint = |&joint: &JointIndex| {
+        let joint = robot.joint(joint);
+        let there = other.robot.joint(other.robot.find_joint(&joint.name)?);
+        let [own, there] = [joint.position_range()?, there.position_range()?];
+        let is_same = |a: f64, b: f64| (a - b).abs() <= SAME_RANGE * a.abs().max(b.abs());
+        if is_same(own.0, there.0) && is_same(own.1, there.1) {
+            return None;
+        }
+        let unit = joint.kind.unit();
+        let [own, there] = [own, there]
+            .map(|(lower, upper)| format!("{} to {}", position(lower, unit), position(upper, unit)));
+        Some(format!("{}: range {own}, {there} in {}", joint.name, other.path.display()))
+    };
+    let mut found = robot.movable_joints().iter().filter_map(of_joint);
+    let first = found.next()?;
+    Some(first + &and_more(found.count()))
 }
 
 /// Links whose frames lie elsewhere in the other description, if all links move alike otherwise: then each differs from

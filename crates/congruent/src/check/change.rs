@@ -1,19 +1,28 @@
 //! What a change does to a robot: the description of today against that of a revision, in the terms of who reviews it.
 
-use congruent_description::{Robot, RobotDescription, RobotQ};
+use std::collections::BTreeSet;
+
+use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, Tolerance, codes::mjcf};
 use congruent_dynamics::BodyTree;
 use congruent_input::{
-    RevisionName, SiUnit,
-    display::{counted, quantity},
+    Code, RevisionName, SiUnit,
+    display::{counted, listed, quantity},
 };
-use congruent_kinematics::{KinematicsError, PoseError, UrdfTree, sample_configurations};
+use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree, sample_configurations};
 use schemars::JsonSchema;
 use serde::Serialize;
+
+use super::{
+    changed_values::{ChangedValue, changed_inertias, changed_values},
+    mapped::ReportedMapping,
+};
 
 /// Random configurations beside zero, single axes and the limits.
 const RANDOM: usize = 200;
 /// Smaller changes of a mass or torque are rounding, relative to the value.
 const ROUNDED: f64 = 1e-9;
+/// What the reader of an MJCF leaves out of forces.
+const LEFT_OUT: [&Code; 4] = [mjcf::ARMATURE, mjcf::SPRING, mjcf::DAMPING, mjcf::GRAVITY];
 /// Links whose masses a headline names.
 const MOST_NAMED: usize = 3;
 
@@ -22,16 +31,37 @@ const MOST_NAMED: usize = 3;
 pub struct RevisionChange {
     /// The revision, as the caller names it.
     pub revision: String,
-    /// The tip.
+    /// The tip, or `TCP` if a tool is declared.
     pub link: String,
     /// The largest change of its pose at zero, single axes, the limits and 200 random configurations.
     #[serde(flatten)]
     pub moved: PoseError,
+    /// Joints that the revision lacks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joints_added: Vec<String>,
+    /// Joints that only the revision has.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joints_removed: Vec<String>,
+    /// Links that the revision lacks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub links_added: Vec<String>,
+    /// Links that only the revision has.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub links_removed: Vec<String>,
     /// Links whose masses differ.
     pub masses: Vec<ChangedMass>,
+    /// Links of both with another centre of mass or inertia.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub inertias: Vec<String>,
+    /// Limits and losses of joints that differ.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values: Vec<ChangedValue>,
     /// The joint whose largest gravity torque at these configurations changes most; missing if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity: Option<ChangedTorque>,
+    /// What is read and not compared, as an armature, if it differs.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub not_compared: Vec<String>,
 }
 
 /// A link whose mass differs.
@@ -66,30 +96,65 @@ pub struct ChangedTorque {
 }
 
 impl RevisionChange {
-    /// Compares a robot with one of a revision; `None` if the other is of no revision, or if they have other joints.
+    /// Compares a robot with one of a revision; `None` if the other is of no revision. Joints with other names, directions or
+    /// zeros are those of `mapping`.
     ///
     /// # Errors
     /// The poses of one of them cannot be computed.
     pub(super) fn new(
         description: &RobotDescription,
         before: &RobotDescription,
+        mapping: Option<&ReportedMapping>,
         seed: u64,
     ) -> Result<Option<Self>, KinematicsError> {
         let Some(name) = RevisionName::of(&before.path) else { return Ok(None) };
-        let Some(pair) = SameJoints::new([&description.robot, &before.robot], seed) else { return Ok(None) };
-        let link = description.robot.link(description.tip).name.clone();
+        let pair = CommonJoints::new([&description.robot, &before.robot], mapping, seed);
+        let has_tool = description.tip_from_tcp.is_some() || before.tip_from_tcp.is_some();
+        let tip = &description.robot.link(description.tip).name;
         Ok(Some(Self {
             revision: name.revision,
-            moved: pair.moved(&link)?,
-            link,
+            moved: pair.moved([description, before])?,
+            link: if has_tool { "the TCP".to_owned() } else { tip.clone() },
+            joints_added: pair.alone(0),
+            joints_removed: pair.alone(1),
+            links_added: links_alone(&description.robot, &before.robot),
+            links_removed: links_alone(&before.robot, &description.robot),
             masses: changed_masses(&description.robot, &before.robot),
+            inertias: changed_inertias(&description.robot, &before.robot),
+            values: pair.values(),
             gravity: pair.gravity(),
+            not_compared: not_compared(description, before),
         }))
+    }
+
+    /// Whether the pose of the tip or the TCP changes by more than a tolerance.
+    pub(super) fn is_moved(&self, tolerance: &Tolerance) -> bool {
+        !self.moved.is_within(tolerance)
+    }
+
+    /// Whether a frame, a joint, a limit or a loss is another, or the tip moves: what other programs rely on.
+    pub(super) fn decides(&self, tolerance: &Tolerance) -> bool {
+        let lists = [&self.joints_added, &self.joints_removed, &self.links_added, &self.links_removed];
+        self.is_moved(tolerance) || !self.values.is_empty() || lists.iter().any(|list| !list.is_empty())
     }
 
     /// What it does to masses and torques, in words.
     pub(super) fn parts(&self) -> Vec<String> {
         let mut parts = Vec::new();
+        let lists = [
+            ("adds", "joint", &self.joints_added),
+            ("removes", "joint", &self.joints_removed),
+            ("adds", "link", &self.links_added),
+            ("removes", "link", &self.links_removed),
+        ];
+        for (verb, what, names) in lists {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            match names.len() {
+                0 => {}
+                1..=MOST_NAMED => parts.push(format!("{verb} {what} {}", listed(&names))),
+                count => parts.push(format!("{verb} {}", counted(count, what))),
+            }
+        }
         let added = |mass: &ChangedMass| {
             let added_kg = mass.added_kg();
             let verb = if added_kg > 0.0 { "adds" } else { "removes" };
@@ -112,48 +177,110 @@ impl RevisionChange {
             let [by, found] = [by.abs(), torque.found].map(|value| quantity(value, torque.unit.symbol()));
             format!("largest gravity torque of {} {sign}{by} (now {found})", torque.joint)
         }));
+        let names: Vec<&str> = self.inertias.iter().map(String::as_str).collect();
+        match names.len() {
+            0 => {}
+            1..=MOST_NAMED => parts.push(format!("other centre of mass or inertia of {}", listed(&names))),
+            count => parts.push(format!("other centres of mass or inertias of {}", counted(count, "link"))),
+        }
+        parts.extend(self.values.iter().take(MOST_NAMED).map(ChangedValue::sentence));
+        if self.values.len() > MOST_NAMED {
+            parts.push(format!("{} more", counted(self.values.len() - MOST_NAMED, "value")));
+        }
+        parts.extend(self.not_compared.first().map(|first| match self.not_compared.len() {
+            1 => format!("not compared, and changed: {first}"),
+            count => format!("not compared, and changed: {first}, and {} more", count - 1),
+        }));
         parts
     }
 }
 
-/// Two robots with the same moving joints by name.
-struct SameJoints<'a> {
+/// A joint of a robot in one of a revision: `q_before = sign * q + offset`.
+#[derive(Clone, Copy)]
+struct Counterpart {
+    coordinate: usize,
+    sign: f64,
+    offset: f64,
+}
+
+/// Two robots at the same positions of the joints that both have; the others are at 0.
+struct CommonJoints<'a> {
     robots: [&'a Robot; 2],
+    /// For each moving joint of the first the one of the second.
+    counterparts: Vec<Option<Counterpart>>,
     /// Pairs of configurations, each in the coordinates of its robot.
     configurations: Vec<[RobotQ; 2]>,
 }
 
-impl<'a> SameJoints<'a> {
-    fn new(robots: [&'a Robot; 2], seed: u64) -> Option<Self> {
+impl<'a> CommonJoints<'a> {
+    fn new(robots: [&'a Robot; 2], mapping: Option<&ReportedMapping>, seed: u64) -> Self {
         let [own, before] = robots;
-        let coordinate = |&joint| {
-            let other = before.find_joint(&own.joint(joint).name)?;
-            before.coordinate(other)
+        let counterpart = |&joint: &JointIndex| {
+            let name = &own.joint(joint).name;
+            let mapped = mapping.and_then(|mapping| mapping.joints.iter().find(|of| of.joint == *name));
+            let other = mapped.map_or(name, |of| &of.other);
+            let coordinate = before.coordinate(before.find_joint(other)?)?;
+            let (sign, offset) = mapped.map_or((1.0, 0.0), |of| (f64::from(of.sign), of.offset));
+            Some(Counterpart { coordinate, sign, offset })
         };
-        let coordinates: Vec<usize> = own.movable_joints().iter().map(coordinate).collect::<Option<_>>()?;
-        if coordinates.len() != before.dof() {
-            return None;
-        }
-        let of_both = |q: RobotQ| {
+        let counterparts: Vec<Option<Counterpart>> = own.movable_joints().iter().map(counterpart).collect();
+        let of_both = |mut q: RobotQ| {
             let mut there = RobotQ::zeros(before.dof());
-            for (value, &coordinate) in q.iter().zip(&coordinates) {
-                there[coordinate] = *value;
+            for (coordinate, of) in counterparts.iter().enumerate() {
+                match of {
+                    Some(of) => there[of.coordinate] = of.sign * q[coordinate] + of.offset,
+                    None => q[coordinate] = 0.0,
+                }
             }
             [q, there]
         };
         let configurations = sample_configurations(own, seed, RANDOM).into_iter().map(of_both).collect();
-        Some(Self { robots, configurations })
+        Self { robots, counterparts, configurations }
     }
 
-    /// The largest change of the pose of a link.
-    fn moved(&self, link: &str) -> Result<PoseError, KinematicsError> {
-        let mut largest = PoseError::default();
+    /// The moving joints that only one of the two has.
+    fn alone(&self, of: usize) -> Vec<String> {
+        let robot = self.robots[of];
+        let is_common = |coordinate: usize| {
+            let mut counterparts = self.counterparts.iter().flatten();
+            if of == 0 {
+                self.counterparts[coordinate].is_some()
+            } else {
+                counterparts.any(|other| other.coordinate == coordinate)
+            }
+        };
+        let alone =
+            robot.movable_joints().iter().enumerate().filter(|(coordinate, _)| !is_common(*coordinate));
+        alone.map(|(_, &joint)| robot.joint(joint).name.clone()).collect()
+    }
+
+    /// Limits and losses that differ.
+    fn values(&self) -> Vec<ChangedValue> {
         let [own, before] = self.robots;
-        let Some(indices) = own.find_link(link).zip(before.find_link(link)) else { return Ok(largest) };
-        let [own, before] = [UrdfTree::new(own), UrdfTree::new(before)];
-        for [q, there] in &self.configurations {
-            let poses = [own.root_from_link(q, indices.0)?, before.root_from_link(there, indices.1)?];
-            largest = largest.larger(PoseError::between(&poses[0], &poses[1]));
+        let of_joint = |(&joint, counterpart): (&JointIndex, &Option<Counterpart>)| {
+            let counterpart = (*counterpart)?;
+            let there = before.movable_joints()[counterpart.coordinate];
+            let is_counted_alike = counterpart.sign > 0.0 && counterpart.offset == 0.0;
+            let [joint, there] = [own.joint(joint), before.joint(there)];
+            let ranges = [joint, there].map(|of| of.position_range().filter(|_| is_counted_alike));
+            Some(changed_values(joint, there, ranges))
+        };
+        own.movable_joints().iter().zip(&self.counterparts).filter_map(of_joint).flatten().collect()
+    }
+
+    /// The largest change of the pose of the tip, with the tools that are declared.
+    fn moved(&self, descriptions: [&RobotDescription; 2]) -> Result<PoseError, KinematicsError> {
+        let mut largest = PoseError::default();
+        let [description, before] = descriptions;
+        let tip = &description.robot.link(description.tip).name;
+        // A tip with another name is still the tip.
+        let there = before.robot.find_link(tip).unwrap_or(before.tip);
+        let trees = self.robots.map(UrdfTree::new);
+        let tools = descriptions.map(|of| of.tip_from_tcp.map_or_else(Pose::identity, Pose::from));
+        for q in &self.configurations {
+            let own = trees[0].root_from_link(&q[0], description.tip)? * tools[0];
+            let other = trees[1].root_from_link(&q[1], there)? * tools[1];
+            largest = largest.larger(PoseError::between(&own, &other));
         }
         Ok(largest)
     }
@@ -162,10 +289,9 @@ impl<'a> SameJoints<'a> {
     fn gravity(&self) -> Option<ChangedTorque> {
         let [own, before] = [0, 1].map(|at| self.largest_gravity(at));
         let robot = self.robots[0];
-        let torque = |(coordinate, &joint): (usize, &congruent_description::JointIndex)| {
+        let torque = |(coordinate, &joint): (usize, &JointIndex)| {
             let joint = robot.joint(joint);
-            let there = self.robots[1].coordinate(self.robots[1].find_joint(&joint.name)?)?;
-            let (found, before) = (own[coordinate], before[there]);
+            let (found, before) = (own[coordinate], before[self.counterparts[coordinate]?.coordinate]);
             let is_rounding = (found - before).abs() <= ROUNDED * found.max(before);
             (!is_rounding).then(|| ChangedTorque {
                 joint: joint.name.clone(),
@@ -192,6 +318,11 @@ impl<'a> SameJoints<'a> {
     }
 }
 
+fn links_alone(robot: &Robot, other: &Robot) -> Vec<String> {
+    let names = robot.links().iter().map(|link| &link.name);
+    names.filter(|name| other.find_link(name).is_none()).cloned().collect()
+}
+
 fn changed_masses(robot: &Robot, before: &Robot) -> Vec<ChangedMass> {
     let mass =
         |robot: &Robot, name: &str| robot.link(robot.find_link(name)?).inertia.as_ref().map(|of| of.mass_kg);
@@ -208,4 +339,14 @@ fn changed_masses(robot: &Robot, before: &Robot) -> Vec<ChangedMass> {
             > ROUNDED * mass.found_kg.unwrap_or_default().max(mass.before_kg.unwrap_or_default())
     };
     own.chain(only_before).map(of).filter(differs).collect()
+}
+
+/// What the reader of an MJCF has left out of one of the two and not, or otherwise, of the other: armature, springs, gravity.
+fn not_compared(description: &RobotDescription, before: &RobotDescription) -> Vec<String> {
+    let of_mjcf = |of: &RobotDescription| -> BTreeSet<String> {
+        let warnings = of.warnings.iter().filter(|of| LEFT_OUT.contains(&of.code));
+        warnings.map(|of| of.message.clone()).collect()
+    };
+    let [own, before] = [description, before].map(of_mjcf);
+    own.symmetric_difference(&before).cloned().collect()
 }

@@ -1,18 +1,18 @@
 //! The answer of a check against a revision: what the change does, as the first line and as a test case.
 
 use congruent_agreement::{SourcePair, compare::Agreement};
-use congruent_dynamics_agreement::{DynamicsVerdict, LimitDifference};
-use congruent_input::display::quantity;
+use congruent_dynamics_agreement::DynamicsVerdict;
 use congruent_results::report::{Reason, TestCase, TestResult};
 
 use super::{
     cause_in_words::{cause, largest},
     change::RevisionChange,
+    mapped::ReportedMapping,
+    mapped_joints::mapped_joints,
     robot_check::RobotCheck,
 };
 
-/// The answer of a check against a revision in capitals, and what follows it; `None` if they have other joints, or if what
-/// disagrees is not the revision.
+/// The answer of a check against a revision in capitals, and what follows it; `None` if what disagrees is not the revision.
 pub(super) fn answer_of_change(check: &RobotCheck) -> Option<(&'static str, String)> {
     let change = check.change.as_ref()?;
     let since = format!("since {}", change.revision);
@@ -32,7 +32,7 @@ pub(super) fn answer_of_change(check: &RobotCheck) -> Option<(&'static str, Stri
     let details = if parts.is_empty() {
         format!(" {since}: {compared} are the same")
     } else {
-        format!(" {since} in {compared}, though it {}", parts.join("; "))
+        format!(" {since} in {compared}; {}", parts.join("; "))
     };
     Some(("UNCHANGED", details))
 }
@@ -54,29 +54,21 @@ pub(super) fn change_case(check: &RobotCheck) -> Option<TestCase> {
 /// What the change does, in words; empty if nothing.
 fn parts(check: &RobotCheck, change: &RevisionChange) -> Vec<String> {
     let mut parts = Vec::new();
+    let mapping = check.against.as_ref().and_then(|against| against.mapping.as_ref());
+    let is_renamed =
+        |of: &&ReportedMapping| of.joints.iter().any(|of| of.joint != of.other || !of.has_same_variable());
+    parts.extend(mapping.filter(is_renamed).map(mapped_joints));
     let of_poses = check.geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
-    if !change.moved.is_within(&check.geometry.tolerance) {
+    if change.is_moved(&check.geometry.tolerance) {
         parts.push(format!("moves {} by up to {}", change.link, largest(change.moved)));
-    } else if let Some(of) = of_poses.filter(|of| of.verdict == Agreement::Disagree) {
+    } else if let Some(of) = of_poses.filter(|of| of.verdict == Agreement::Disagree && mapping.is_none()) {
         let by = largest(of.worst.error);
         parts.push(format!("moves {} by up to {by}, and not the tip", of.worst.link));
     }
     parts.extend(change.parts());
-    let reports = || check.dynamics_of_descriptions();
     if parts.is_empty() {
-        let torques = reports().find(|report| !report.has_same_torques());
+        let torques = check.dynamics_of_descriptions().find(|report| !report.has_same_torques());
         parts.extend(torques.map(|report| check.cause_of_torques(report)));
     }
     parts
-        .extend(reports().flat_map(|report| &report.limits).filter(|limit| limit.decides).map(changed_limit));
-    parts
-}
-
-/// `elbow_joint: effort limit 200 N m, was 150 N m`.
-fn changed_limit(limit: &LimitDifference) -> String {
-    let value = |value: Option<f64>| {
-        value.map_or_else(|| "not stated".to_owned(), |value| quantity(value, limit.unit.symbol()))
-    };
-    let (found, before) = (value(limit.found), value(limit.expected));
-    format!("{}: {} limit {found}, was {before}", limit.joint, limit.parameter)
 }

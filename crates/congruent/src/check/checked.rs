@@ -66,6 +66,12 @@ fn checked(
     let other_owned = other.and_then(|other| placed_as_in(other, description));
     let other = other_owned.as_ref().or(other);
     let mut check = checked_in_links(description, other, written, options)?;
+    let mapping = check.against.as_ref().and_then(|against| against.mapping.as_ref());
+    check.change = RevisionChange::new(written[0], written[1], mapping, options.seed)?;
+    // A tool that is declared elsewhere moves no link, and a frame that is gone is missed by whoever names it.
+    if check.change.as_ref().is_some_and(|change| change.decides(&check.geometry.tolerance)) {
+        check.geometry.verdict = Agreement::Disagree;
+    }
     if description.own_model().is_some() {
         // It has no masses, so the physics is no source that is missing.
         check.geometry.not_asked.retain(|of| of.source != ComparedSource::Simulation);
@@ -126,14 +132,13 @@ fn checked_in_links(
     geometry.verdict = verdict(&geometry, against, &compared);
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
-    let change = there.map(|there| RevisionChange::new(own, there, options.seed)).transpose()?.flatten();
     let is_mapped = against.is_some_and(|against| against.mapping.is_some());
     let (against, mapped) = with_other.map(|of| (of.against, [of.description, of.other])).unzip();
     Ok(RobotCheck {
         geometry,
         at_configurations,
         against,
-        change,
+        change: None,
         declared_dynamics,
         dynamics,
         other_dynamics,
@@ -199,7 +204,7 @@ fn verdict(
 ) -> Agreement {
     let is_same = against.is_none_or(|against| {
         let is_declared = against.mapping.as_ref().is_none_or(|mapping| mapping.is_declared);
-        is_declared && against.dynamics_not_compared.is_none()
+        is_declared && against.dynamics_not_compared.is_none() && against.ranges_differ.is_none()
     });
     let poses = geometry.verdict;
     if !is_same || dynamics.iter().any(|report| !report.agrees()) {

@@ -68,6 +68,9 @@ impl RobotCheck {
 
     fn answer(&self) -> Headline {
         let report = &self.geometry;
+        if let Some((answer, details)) = answer_of_change(self) {
+            return Headline::new(answer, details);
+        }
         if let Some((other, why)) = self.other_chain() {
             let advice = other.common_tip.as_ref().map_or_else(String::new, |tip| {
                 format!(". To compare the joints up to link \"{tip}\" alone: --tip {tip}")
@@ -77,9 +80,6 @@ impl RobotCheck {
         }
         if let Some(mapped) = after_mapping(self) {
             return mapped;
-        }
-        if let Some((answer, details)) = answer_of_change(self) {
-            return Headline::new(answer, details);
         }
         if report.verdict == Agreement::NothingCompared {
             let is_alone = |of: &&NotCompared| of.findings.iter().any(|of| of.message == ONE_MODEL);
@@ -267,6 +267,9 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
     let not_compared = check.against.as_ref().and_then(|of| of.dynamics_not_compared.as_ref());
     if let Some(why) = not_compared {
         return Headline::new(format!("{same}DIFFERENT DYNAMICS"), format!(": {why}"));
+    }
+    if let Some(ranges) = check.against.as_ref().and_then(|of| of.ranges_differ.as_ref()) {
+        return Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), format!(": {ranges}"));
     }
     let Some(report) = check.all_dynamics().find(|report| !report.agrees()) else {
         return Headline::new("DIFFERENT", String::new());

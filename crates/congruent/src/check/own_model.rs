@@ -11,7 +11,7 @@ use congruent_description::{
     ChainEnd, DhRow, DhTable, Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, OwnModelForm,
     Places, Robot, RobotDescription,
 };
-use congruent_input::{Capability, Findings};
+use congruent_input::{Diagnostic, Findings};
 use congruent_kinematics::{Pose, ScrewTree, Twist};
 use nalgebra::{Isometry3, Unit, Vector3};
 
@@ -167,8 +167,9 @@ pub(super) fn diagnose_by_table(
     }
     for of in [0, 1] {
         let Some(with_table) = with_table_of(written[of], compared[of], compared[1 - of]) else { continue };
-        let no_physics = with_table.check_capability(Capability::Physics).err();
-        let no_physics = no_physics.unwrap_or_else(|| Findings::from(Vec::new()));
+        // The physics says nothing about a table; whoever reads the report has the comparison of the two as written.
+        let no_physics =
+            Findings::from(Diagnostic::warning(crate::codes::check::NO_SECOND_SOURCE, ONE_MODEL));
         let options = CheckOptions { configurations: Arc::default(), ..options.clone() };
         let found = congruent_agreement::compare::check(&with_table, Err(no_physics), &options)?;
         let pair = SourcePair::UrdfOther;

@@ -20,6 +20,15 @@ pub(super) struct PosesOfOther {
     poses: Vec<Pose>,
 }
 
+/// The link of the same name, if another joint of the robot moves it in the other description: names of joints are exchanged, and
+/// those of links are not.
+fn exchanged(link: LinkIndex, robot: &Robot, other: &Robot) -> Option<LinkIndex> {
+    let there = other.find_link(&robot.link(link).name)?;
+    let [own, moving] = [robot.joint(robot.parent_joint(link)?), other.joint(other.parent_joint(there)?)];
+    let is_of_both = robot.find_joint(&moving.name).is_some() && other.find_joint(&own.name).is_some();
+    (moving.kind.is_movable() && moving.name != own.name && is_of_both).then_some(there)
+}
+
 /// Where a link of the robot is found.
 enum LinkCorrespondence {
     /// At this link of the other, which moves as it does.
@@ -38,9 +47,8 @@ impl PosesOfOther {
             // A link of a moving joint is found by the name of the joint, which must be the same in both; the names
             // of links need not be.
             let there = match joint {
-                Some(joint) if joint.kind.is_movable() => {
-                    other.find_joint(&joint.name).map(|there| other.joint(there).child)
-                }
+                Some(joint) if joint.kind.is_movable() => exchanged(link, robot, other)
+                    .or_else(|| other.find_joint(&joint.name).map(|there| other.joint(there).child)),
                 _ => {
                     let is_end = robot.joints().iter().all(|joint| joint.parent != link);
                     let joint = joint.filter(|_| is_end).map(|joint| joint.name.as_str());

@@ -1,0 +1,115 @@
+//! What a change does to single values: limits and losses of joints, and inertias of links.
+
+use congruent_description::{Inertia, Joint, JointKind, Robot};
+use congruent_input::{SiUnit, display::compared_quantities};
+use nalgebra::{Isometry3, Matrix3};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Smaller changes are rounding, relative to the value. Kind: choice; six digits of pi.
+const ROUNDED: f64 = 1e-6;
+/// Smaller changes of a centre of mass are rounding. Unit: m; kind: choice.
+const ROUNDED_M: f64 = 1e-9;
+
+/// A limit or a loss of a joint that differs.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ChangedValue {
+    /// The joint.
+    pub joint: String,
+    /// `lower`, `upper`, `velocity`, `effort`, `damping` or `friction`.
+    #[serde(rename = "figure")]
+    pub parameter: &'static str,
+    /// Its value today; `null` if none is stated.
+    pub found: Option<f64>,
+    /// Its value in the revision.
+    pub before: Option<f64>,
+    /// The unit of both.
+    #[schemars(with = "String")]
+    pub unit: SiUnit,
+}
+
+impl ChangedValue {
+    /// `elbow_joint: effort 200 N m, was 150 N m`.
+    pub(super) fn sentence(&self) -> String {
+        let values = match (self.found, self.before) {
+            (Some(found), Some(before)) => {
+                let [found, before] = compared_quantities([found, before], self.unit.symbol());
+                format!("{found}, was {before}")
+            }
+            (found, before) => {
+                let [value, _] =
+                    compared_quantities([found.or(before).unwrap_or_default(), 0.0], self.unit.symbol());
+                if found.is_some() {
+                    format!("{value}, was not stated")
+                } else {
+                    format!("not stated, was {value}")
+                }
+            }
+        };
+        format!("{}: {} {values}", self.joint, self.parameter)
+    }
+}
+
+/// The range of a joint in rad or m, if it has one.
+pub(super) type JointRange = Option<(f64, f64)>;
+
+/// The values of a joint that differ; its ranges are those in the same variable.
+pub(super) fn changed_values(joint: &Joint, before: &Joint, ranges: [JointRange; 2]) -> Vec<ChangedValue> {
+    let [(lower, upper), (lower_before, upper_before)] = ranges.map(Option::unzip);
+    let limit = |of: &Joint| of.limit.map_or((None, None), |limit| (limit.velocity, limit.effort));
+    let [(velocity, effort), (velocity_before, effort_before)] = [limit(joint), limit(before)];
+    let loss = |value: f64| (value != 0.0).then_some(value);
+    let [position, speed, force, damping] = units(joint.kind);
+    let values = [
+        ("lower", lower, lower_before, position),
+        ("upper", upper, upper_before, position),
+        ("velocity", velocity, velocity_before, speed),
+        ("effort", effort, effort_before, force),
+        ("damping", loss(joint.damping), loss(before.damping), damping),
+        ("friction", loss(joint.friction), loss(before.friction), force),
+    ];
+    let differs = |found: Option<f64>, before: Option<f64>| match (found, before) {
+        (Some(found), Some(before)) => (found - before).abs() > ROUNDED * found.abs().max(before.abs()),
+        (found, before) => found.is_some() != before.is_some(),
+    };
+    let changed = values.into_iter().filter(|(_, found, before, _)| differs(*found, *before));
+    changed
+        .map(|(parameter, found, before, unit)| ChangedValue {
+            joint: joint.name.clone(),
+            parameter,
+            found,
+            before,
+            unit,
+        })
+        .collect()
+}
+
+/// The units of position, speed, force and damping.
+fn units(kind: JointKind) -> [SiUnit; 4] {
+    if kind.is_angular() {
+        [SiUnit::Radian, SiUnit::RadianPerSecond, SiUnit::NewtonMetre, SiUnit::NewtonMetreSecondPerRadian]
+    } else {
+        [SiUnit::Metre, SiUnit::MetrePerSecond, SiUnit::Newton, SiUnit::NewtonSecondPerMetre]
+    }
+}
+
+/// Links of both robots with another centre of mass or another inertia about it.
+pub(super) fn changed_inertias(robot: &Robot, before: &Robot) -> Vec<String> {
+    let differs = |name: &str| {
+        let of = |robot: &Robot| robot.link(robot.find_link(name)?).inertia;
+        of(robot).zip(of(before)).is_some_and(|(own, before)| {
+            let [(com, tensor), (com_before, tensor_before)] = [in_link(&own), in_link(&before)];
+            (com.translation.vector - com_before.translation.vector).norm() > ROUNDED_M
+                || (tensor - tensor_before).norm() > ROUNDED * tensor.norm().max(tensor_before.norm())
+        })
+    };
+    let names = robot.links().iter().map(|link| &link.name);
+    names.filter(|name| differs(name)).cloned().collect()
+}
+
+/// The inertial frame, and the tensor in the axes of the link.
+fn in_link(inertia: &Inertia) -> (Isometry3<f64>, Matrix3<f64>) {
+    let turn = inertia.link_from_inertial.rotation.to_rotation_matrix();
+    let tensor = turn.matrix() * inertia.tensor_kg_m2 * turn.matrix().transpose();
+    (inertia.link_from_inertial, tensor)
+}
