@@ -6,7 +6,7 @@ use congruent::{
     analysis::conversion::{
         Conversion, ConversionReport, ConversionTarget, Destination, convert, convert_robot,
     },
-    description::{RobotDescription, Tolerance, load_robot_with},
+    description::{Geometry, Robot, RobotDescription, Tolerance, load_robot_with},
     input::{Diagnostic, FileAccess, RevisionName, is_standard_input},
     text::{conversion_comments, conversion_remarks, conversion_text},
     writers::{own_robot_file_text, robot_file_text},
@@ -81,6 +81,14 @@ fn whole_robot(
     let has_no_folder =
         is_standard_input(&description.urdf_path) || RevisionName::of(&description.urdf_path).is_some();
     let source = if has_no_folder { Path::new("") } else { &description.urdf_path };
+    if RevisionName::of(&description.urdf_path).is_some() && has_meshes(&description.robot) {
+        let message = format!(
+            "{}: its meshes are files of a revision, which a file cannot name",
+            description.urdf_path.display()
+        );
+        return Err(Diagnostic::error(codes::convert::TO, message)
+            .with_help("check the revision out, and convert the robot there"));
+    }
     let beside = source.with_file_name("converted.xml");
     if let Some(file) = file {
         file.may_be_written(&files_of(description))?;
@@ -89,6 +97,11 @@ fn whole_robot(
     let access = allowing_inputs(FileAccess::default(), description);
     let path = file.map_or(beside.as_path(), |file| file.path);
     convert_robot(description, conversion, Destination { path, access: &access })
+}
+
+fn has_meshes(robot: &Robot) -> bool {
+    let shapes = robot.links().iter().flat_map(|link| link.visuals.iter().chain(&link.collisions));
+    shapes.into_iter().any(|shape| matches!(shape.geometry, Geometry::Mesh(_)))
 }
 
 /// A whole robot file, with paths relative to its folder.
