@@ -43,9 +43,8 @@ pub mod text;
 mod with_physics;
 
 pub use check::{
-    ChangedMass, ChangedTorque, ChangedValue, DeclaredSource, Headline, OtherDescription, ReportedJoint,
-    ReportedMapping, RevisionChange, RobotCheck, WrittenFix, check, check_against, check_suite,
-    checked_robot,
+    ChangedMass, ChangedTorque, DeclaredSource, Headline, OtherDescription, ReportedJoint, ReportedMapping,
+    RevisionChange, RobotCheck, WrittenFix, check, check_against, check_suite, checked_robot,
 };
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};

@@ -7,6 +7,7 @@
 
 mod axis;
 mod bodies;
+mod changed_values;
 mod declared;
 mod find;
 mod frames;
@@ -15,6 +16,7 @@ mod names;
 mod polish;
 mod variables;
 
+pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values};
 pub use declared::declared;
 pub use find::{FoundMapping, MatchedBy, find};
 pub use frames::in_frames_of;

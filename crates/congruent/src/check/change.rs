@@ -9,19 +9,17 @@ use congruent_input::{
     display::{counted, listed, quantity},
 };
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree, sample_configurations};
+use congruent_mapping::{ChangedValue, changed_inertias, changed_values};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{
-    changed_values::{ChangedValue, changed_inertias, changed_values},
-    mapped::ReportedMapping,
-};
+use super::mapped::ReportedMapping;
 
 /// Random configurations beside zero, single axes and the limits.
 const RANDOM: usize = 200;
 /// Smaller changes of a mass or torque are rounding, relative to the value.
 const ROUNDED: f64 = 1e-9;
-/// What the reader of an MJCF leaves out of forces.
+/// What the reader of an MJCF omits from forces.
 const LEFT_OUT: [&Code; 4] = [mjcf::ARMATURE, mjcf::SPRING, mjcf::DAMPING, mjcf::GRAVITY];
 /// Links whose masses a headline names.
 const MOST_NAMED: usize = 3;

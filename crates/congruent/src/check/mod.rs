@@ -4,7 +4,6 @@ mod against;
 mod cause_in_words;
 mod change;
 mod change_answer;
-mod changed_values;
 mod checked;
 mod declared;
 mod headline;
@@ -25,7 +24,6 @@ mod with_other;
 
 pub use against::OtherDescription;
 pub use change::{ChangedMass, ChangedTorque, RevisionChange};
-pub use changed_values::ChangedValue;
 pub use checked::{check, check_against};
 pub use declared::DeclaredSource;
 pub use headline::Headline;

@@ -39,7 +39,7 @@ impl HullPoints {
     /// # Examples
     /// What is inside of a cube is not needed:
     /// ```
-    /// use congruent_description::HullPoints;
+    /// use congruent_meshes::HullPoints;
     /// use nalgebra::Point3;
     /// let grid = |n: u32| Point3::from([n % 20, n / 20 % 20, n / 400].map(f64::from));
     /// let vertices: Vec<_> = (0..8000).map(grid).collect();

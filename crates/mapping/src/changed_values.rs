@@ -1,4 +1,4 @@
-//! What a change does to single values: limits and losses of joints, and inertias of links.
+//! Values of two descriptions that differ, one by one: limits and losses of matched joints, and inertias of links of one name.
 
 use congruent_description::{Inertia, Joint, JointKind, Robot};
 use congruent_input::{SiUnit, display::compared_quantities};
@@ -11,7 +11,7 @@ const ROUNDED: f64 = 1e-6;
 /// Smaller changes of a centre of mass are rounding. Unit: m; kind: choice.
 const ROUNDED_M: f64 = 1e-9;
 
-/// A limit or a loss of a joint that differs.
+/// A limit or a loss of a joint that differs from what it was in another description, as one of an earlier revision.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ChangedValue {
     /// The joint.
@@ -19,9 +19,9 @@ pub struct ChangedValue {
     /// `lower`, `upper`, `velocity`, `effort`, `damping` or `friction`.
     #[serde(rename = "figure")]
     pub parameter: &'static str,
-    /// Its value today; `null` if none is stated.
+    /// Its value; `null` if none is stated.
     pub found: Option<f64>,
-    /// Its value in the revision.
+    /// Its value in the other description.
     pub before: Option<f64>,
     /// The unit of both.
     #[schemars(with = "String")]
@@ -30,7 +30,7 @@ pub struct ChangedValue {
 
 impl ChangedValue {
     /// `elbow_joint: effort 200 N m, was 150 N m`.
-    pub(super) fn sentence(&self) -> String {
+    pub fn sentence(&self) -> String {
         let values = match (self.found, self.before) {
             (Some(found), Some(before)) => {
                 let [found, before] = compared_quantities([found, before], self.unit.symbol());
@@ -51,10 +51,10 @@ impl ChangedValue {
 }
 
 /// The range of a joint in rad or m, if it has one.
-pub(super) type JointRange = Option<(f64, f64)>;
+pub type JointRange = Option<(f64, f64)>;
 
 /// The values of a joint that differ; its ranges are those in the same variable.
-pub(super) fn changed_values(joint: &Joint, before: &Joint, ranges: [JointRange; 2]) -> Vec<ChangedValue> {
+pub fn changed_values(joint: &Joint, before: &Joint, ranges: [JointRange; 2]) -> Vec<ChangedValue> {
     let [(lower, upper), (lower_before, upper_before)] = ranges.map(Option::unzip);
     let limit = |of: &Joint| of.limit.map_or((None, None), |limit| (limit.velocity, limit.effort));
     let [(velocity, effort), (velocity_before, effort_before)] = [limit(joint), limit(before)];
@@ -94,7 +94,7 @@ fn units(kind: JointKind) -> [SiUnit; 4] {
 }
 
 /// Links of both robots with another centre of mass or another inertia about it.
-pub(super) fn changed_inertias(robot: &Robot, before: &Robot) -> Vec<String> {
+pub fn changed_inertias(robot: &Robot, before: &Robot) -> Vec<String> {
     let differs = |name: &str| {
         let of = |robot: &Robot| robot.link(robot.find_link(name)?).inertia;
         of(robot).zip(of(before)).is_some_and(|(own, before)| {
