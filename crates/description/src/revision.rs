@@ -45,6 +45,7 @@ fn named(mut description: RobotDescription, files: &RevisionFiles) -> RobotDescr
     let places = &mut description.places;
     places.robot_file.iter_mut().filter_map(Arc::get_mut).for_each(|places| source(places.source_mut()));
     places.inertials.iter_mut().filter_map(Arc::get_mut).for_each(|places| source(places.source_mut()));
+    places.own_model.iter_mut().filter_map(Arc::get_mut).for_each(|places| source(places.source_mut()));
     places.urdf.iter_mut().for_each(|places| source(places.source_mut()));
     description
 }

@@ -45,6 +45,11 @@ impl OwnModelPlaces {
         &self.source
     }
 
+    /// The same, to name its file in another form.
+    pub(crate) fn source_mut(&mut self) -> &mut Arc<SourceFile> {
+        &mut self.source
+    }
+
     /// Whether the model is a table or screws.
     pub fn form(&self) -> OwnModelForm {
         self.form
