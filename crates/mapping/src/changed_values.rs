@@ -69,7 +69,7 @@ pub fn changed_values(joint: &Joint, before: &Joint, ranges: [JointRange; 2]) ->
         ("friction", loss(joint.friction), loss(before.friction), force),
     ];
     let differs = |found: Option<f64>, before: Option<f64>| match (found, before) {
-        (Some(found), Some(before)) => (found - before).abs() > ROUNDED * found.abs().max(before.abs()),
+        (Some(found), Some(before)) => !is_same_value(found, before),
         (found, before) => found.is_some() != before.is_some(),
     };
     let changed = values.into_iter().filter(|(_, found, before, _)| differs(*found, *before));
@@ -82,6 +82,11 @@ pub fn changed_values(joint: &Joint, before: &Joint, ranges: [JointRange; 2]) ->
             unit,
         })
         .collect()
+}
+
+/// Whether two values of a joint differ by rounding alone.
+pub fn is_same_value(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ROUNDED * a.abs().max(b.abs())
 }
 
 /// The units of position, speed, force and damping.

@@ -16,7 +16,7 @@ mod names;
 mod polish;
 mod variables;
 
-pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values};
+pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values, is_same_value};
 pub use declared::declared;
 pub use find::{FoundMapping, MatchedBy, find};
 pub use frames::in_frames_of;

@@ -12,6 +12,7 @@ use congruent_input::{
     nearest,
 };
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
+use congruent_mapping::is_same_value;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -22,9 +23,6 @@ use super::{
     poses_of_other::{POSITIONS, PosesOfOther},
 };
 use crate::codes;
-
-/// Ends of ranges that are nearer are rounding, relative to the larger. Kind: choice; six digits of pi.
-const SAME_RANGE: f64 = 1e-6;
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -194,8 +192,7 @@ fn ranges_differ(robot: &Robot, other: &RobotDescription) -> Option<String> {
         let joint = robot.joint(joint);
         let there = other.robot.joint(other.robot.find_joint(&joint.name)?);
         let [own, there] = [joint.position_range()?, there.position_range()?];
-        let is_same = |a: f64, b: f64| (a - b).abs() <= SAME_RANGE * a.abs().max(b.abs());
-        if is_same(own.0, there.0) && is_same(own.1, there.1) {
+        if is_same_value(own.0, there.0) && is_same_value(own.1, there.1) {
             return None;
         }
         let unit = joint.kind.unit();

@@ -324,19 +324,14 @@ fn links_alone(robot: &Robot, other: &Robot) -> Vec<String> {
 fn changed_masses(robot: &Robot, before: &Robot) -> Vec<ChangedMass> {
     let mass =
         |robot: &Robot, name: &str| robot.link(robot.find_link(name)?).inertia.as_ref().map(|of| of.mass_kg);
-    let own = robot.links().iter().map(|link| &link.name);
-    let only_before =
-        before.links().iter().map(|link| &link.name).filter(|name| robot.find_link(name).is_none());
-    let of = |name: &String| ChangedMass {
-        link: name.clone(),
-        found_kg: mass(robot, name),
-        before_kg: mass(before, name),
-    };
+    let own = robot.links().iter().map(|link| link.name.clone());
+    let of =
+        |link: String| ChangedMass { found_kg: mass(robot, &link), before_kg: mass(before, &link), link };
     let differs = |mass: &ChangedMass| {
         mass.added_kg().abs()
             > ROUNDED * mass.found_kg.unwrap_or_default().max(mass.before_kg.unwrap_or_default())
     };
-    own.chain(only_before).map(of).filter(differs).collect()
+    own.chain(links_alone(before, robot)).map(of).filter(differs).collect()
 }
 
 /// What the reader of an MJCF has left out of one of the two and not, or otherwise, of the other: armature, springs, gravity.

@@ -12,6 +12,9 @@ use super::{
     robot_check::RobotCheck,
 };
 
+/// The answer if the change does anything that counts.
+const CHANGED: &str = "CHANGED";
+
 /// The answer of a check against a revision in capitals, and what follows it; `None` if what disagrees is not the revision.
 pub(super) fn answer_of_change(check: &RobotCheck) -> Option<(&'static str, String)> {
     let change = check.change.as_ref()?;
@@ -22,7 +25,7 @@ pub(super) fn answer_of_change(check: &RobotCheck) -> Option<(&'static str, Stri
         let known = of_poses.filter(|of| of.named_cause().is_some());
         let cause = known.map_or_else(String::new, |of| format!(". {}", cause(of)));
         let details = format!(" {since}: {}{cause}", parts.join("; "));
-        return (!parts.is_empty()).then_some(("CHANGED", details));
+        return (!parts.is_empty()).then_some((CHANGED, details));
     }
     let compared = if check.dynamics_of_descriptions().any(|of| of.verdict != DynamicsVerdict::NotCompared) {
         "poses, torques and limits"
@@ -39,16 +42,15 @@ pub(super) fn answer_of_change(check: &RobotCheck) -> Option<(&'static str, Stri
 
 /// The answer as a test case, of which a summary and the annotations of a change show the message.
 pub(super) fn change_case(check: &RobotCheck) -> Option<TestCase> {
-    let change = check.change.as_ref()?;
     let (answer, details) = answer_of_change(check)?;
-    let answer = answer.to_owned() + &details;
-    let result = if parts(check, change).is_empty() || check.geometry.verdict == Agreement::Agree {
-        TestResult::Passed
+    let output = answer.to_owned() + &details;
+    let result = if answer == CHANGED {
+        TestResult::Failed(Reason { kind: "changed".to_owned(), message: output.clone() })
     } else {
-        TestResult::Failed(Reason { kind: "changed".to_owned(), message: answer.clone() })
+        TestResult::Passed
     };
-    let name = format!("change since {}", change.revision);
-    Some(TestCase { name, result, output: answer, place: None, further: Vec::new() })
+    let name = format!("change since {}", check.change.as_ref()?.revision);
+    Some(TestCase { name, result, output, place: None, further: Vec::new() })
 }
 
 /// What the change does, in words; empty if nothing.

@@ -15,6 +15,8 @@ use congruent_input::{Diagnostic, Findings};
 use congruent_kinematics::{Pose, ScrewTree, Twist};
 use nalgebra::{Isometry3, Unit, Vector3};
 
+use super::own_screws::replace_diagnosis;
+
 /// Why a model on its own is not compared with anything.
 pub(super) const ONE_MODEL: &str =
     "there is one description, which is the robot: --against gives a second one";
@@ -177,9 +179,7 @@ pub(super) fn diagnose_by_table(
         let named = of_table.find(|of| of.name == SourcePair::ModelUrdf && !of.causes.is_empty());
         if let Some(mut diagnosis) = named {
             (diagnosis.name, diagnosis.title) = (pair, pair.title());
-            let others = std::mem::take(&mut geometry.diagnoses);
-            let others = others.into_iter().filter(|of| of.name != pair);
-            geometry.set_diagnoses(std::iter::once(diagnosis).chain(others).collect());
+            replace_diagnosis(geometry, diagnosis);
             return Ok(true);
         }
     }

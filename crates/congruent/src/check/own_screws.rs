@@ -30,12 +30,17 @@ pub(super) fn diagnose_by_screw(
             continue;
         }
         if let Some(diagnosis) = diagnosed(written[of], [compared[of], compared[1 - of]]) {
-            let others = std::mem::take(&mut geometry.diagnoses);
-            let others = others.into_iter().filter(|of| of.name != SourcePair::UrdfOther);
-            geometry.set_diagnoses(std::iter::once(diagnosis).chain(others).collect());
+            replace_diagnosis(geometry, diagnosis);
             return;
         }
     }
+}
+
+/// Puts a diagnosis of the two descriptions in the place of the one that the report has.
+pub(super) fn replace_diagnosis(geometry: &mut CheckReport, diagnosis: ReportedDiagnosis) {
+    let others = std::mem::take(&mut geometry.diagnoses);
+    let others = others.into_iter().filter(|of| of.name != SourcePair::UrdfOther);
+    geometry.set_diagnoses(std::iter::once(diagnosis).chain(others).collect());
 }
 
 /// The cause, if it is one screw.
