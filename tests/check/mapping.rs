@@ -202,6 +202,36 @@ fn an_origin_behind_other_names_is_off_by_what_was_changed() {
 }
 
 #[test]
+fn an_origin_behind_other_zeros_changes_no_zero() {
+    let other = in_variables(&urdf(), &ur5e());
+    let moved = other.replacen("-0.3922 0 0.1333\"", "-0.3822 0 0.1333\"", 1);
+    assert_ne!(other, moved);
+    let report = Robots::new(&moved).check().json();
+    let mapping = &report["against"]["mapping"];
+    assert!((mapping["position_m"].as_f64().unwrap() - 0.01).abs() < 1e-8, "{mapping:#}");
+    for (found, change) in mapping["joints"].as_array().unwrap().iter().zip(ur5e()) {
+        assert!((found["offset"].as_f64().unwrap() - change.zero).abs() < 1e-8, "{found}");
+    }
+    assert_eq!(report["diagnosis"].as_array().map(Vec::len), Some(1), "{:#}", report["diagnosis"]);
+    assert_eq!(report["diagnosis"][0]["joint"], "wrist_1_joint");
+}
+
+#[test]
+fn exchanged_names_of_joints_are_found_by_the_links_that_they_carry() {
+    let text = urdf();
+    let other = ["elbow_joint", "wrist_1_joint"].map(|name| format!("<joint name=\"{name}\""));
+    let exchanged = text.replace(&other[0], "<joint name=\"\"").replace(&other[1], &other[0]);
+    let exchanged = exchanged.replace("<joint name=\"\"", &other[1]);
+    let robots = Robots::new(&exchanged);
+    let report = robots.check().json();
+    assert_eq!(report["grade"], "equal_after_mapping");
+    assert_eq!(report["against"]["mapping"]["matched_by"], "links");
+    assert_eq!(report["dynamics"]["verdict"], "same", "{:#}", report["dynamics"]);
+    robots.declare(&lines(&report).iter().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!(robots.check().code, 0);
+}
+
+#[test]
 fn a_robot_file_holds_its_references_together() {
     let other = in_variables(&urdf(), &ur5e());
     let robots = Robots::new(&other);

@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::{
     axis::Axis,
     bodies::by_bodies,
-    names::{JointPairs, is_alike, with_one_name, with_similar_names},
+    names::{JointPairs, is_alike, with_one_link, with_one_name, with_similar_names},
     variables::{ChainPair, ChainSolution, JointVariable},
 };
 
@@ -26,6 +26,8 @@ pub enum MatchedBy {
     Names,
     /// By names that differ in a prefix, a suffix, capitals or the word "joint".
     SimilarNames,
+    /// By the names of the links that they carry: those of joints are exchanged.
+    Links,
     /// By their order along the chain.
     Order,
 }
@@ -78,6 +80,23 @@ pub fn find(a: &RobotDescription, b: &RobotDescription) -> Option<FoundMapping> 
         let ordered = both.by_order().into_iter().filter_map(|pairs| both.solved(MatchedBy::Order, pairs));
         ordered.min_by(|one, other| both.cost(one).total_cmp(&both.cost(other)))
     })
+}
+
+/// The joints of `b` in the variables of `a` by the links that they carry, if the names of joints are exchanged between them: both
+/// have the same moving joints by name, and the axes are those of the links.
+pub fn find_exchanged(a: &RobotDescription, b: &RobotDescription) -> Option<FoundMapping> {
+    /// Share of what the axes of the names are apart. Kind: choice; another difference of the two is in both readings.
+    const EXPLAINS: f64 = 0.3;
+    let by_link = with_one_link(&a.robot, &b.robot);
+    let is_exchanged = |pair: &[JointIndex; 2]| a.robot.joint(pair[0]).name != b.robot.joint(pair[1]).name;
+    if by_link.len() < a.robot.movable_joints().len() || !by_link.iter().any(is_exchanged) {
+        return None;
+    }
+    let both = Both::new(a, b);
+    let found = both.solved(MatchedBy::Links, by_link)?;
+    let by_name = both.solved(MatchedBy::Names, with_one_name(&a.robot, &b.robot));
+    let is_nearer = |by_name: FoundMapping| both.cost(&found) < EXPLAINS * both.cost(&by_name);
+    by_name.is_none_or(is_nearer).then_some(found)
 }
 
 impl<'a> Both<'a> {

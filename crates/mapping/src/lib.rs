@@ -18,6 +18,6 @@ mod variables;
 
 pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values, is_same_value};
 pub use declared::declared;
-pub use find::{FoundMapping, MatchedBy, find};
+pub use find::{FoundMapping, MatchedBy, find, find_exchanged};
 pub use frames::in_frames_of;
 pub use matched::MatchedRobots;

@@ -17,6 +17,15 @@ pub(crate) fn with_one_name(a: &Robot, b: &Robot) -> JointPairs {
     a.movable_joints().iter().filter_map(there).collect()
 }
 
+/// The moving joints that carry links of one name.
+pub(crate) fn with_one_link(a: &Robot, b: &Robot) -> JointPairs {
+    let there = |&index: &JointIndex| {
+        let found = b.parent_joint(b.find_link(&a.link(a.joint(index).child).name)?)?;
+        is_alike([a, b], [index, found]).then_some([index, found])
+    };
+    a.movable_joints().iter().filter_map(there).collect()
+}
+
 /// The moving joints whose names are the same without what is common to all names of a description, capitals, marks
 /// between words and the word "joint". Names that are then no longer unique are not used.
 pub(crate) fn with_similar_names(a: &Robot, b: &Robot) -> JointPairs {

@@ -13,17 +13,64 @@ const STEP: f64 = 1e-6;
 /// Unknowns without effect keep their values. Kind: solver.
 const DAMPING: Damping = Damping { relative: 0.0, absolute: 1e-9 };
 
+/// Repetitions with new weights. Kind: loop bound; the weights of a single fault settle in fewer.
+const REWEIGHTED: usize = 30;
+/// A difference, as a share of the reach, below which it counts no less for being large. Kind: solver.
+const SMALL: f64 = 1e-12;
+/// Differences of less, as a share of the reach, are those of what agrees in spite of a fault elsewhere. Kind: solver.
+const AGREES: f64 = 1e-6;
+
 impl ChainPair {
     /// The solution with the offsets, and the base if it is free, at which the axes are nearest.
     pub(crate) fn polished(&self, solution: ChainSolution) -> ChainSolution {
+        let weights = vec![1.0; self.rest(&solution).len()];
+        let best = self.nearest(solution, &weights);
+        self.judged(&best.a_from_b, &best.variables).unwrap_or(best)
+    }
+
+    /// The solution with the smallest sum of differences (not of their squares) while offsets of 0 and of quarter turns stay: one
+    /// joint whose origin is off then has all of the difference, and no other zero makes up for a part of it.
+    pub(crate) fn with_one_fault(&self, solution: ChainSolution) -> ChainSolution {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let is_round = |of: &JointVariable| (of.offset / quarter).fract() == 0.0;
+        let held = solution.variables.iter().zip(&self.known);
+        let known = held.map(|(of, known)| known.or_else(|| is_round(of).then_some(*of))).collect();
+        let held = Self { known, ..self.clone() };
+        let sum = |solution: &ChainSolution| held.rest(solution).iter().map(|part| part.abs()).sum::<f64>();
+        let mut best = solution;
+        for _ in 0..REWEIGHTED {
+            let small = SMALL * self.reach_m;
+            let weights: Vec<f64> =
+                held.rest(&best).iter().map(|part| (part.abs() + small).sqrt().recip()).collect();
+            let next = held.nearest(best.clone(), &weights);
+            if sum(&next) >= sum(&best) {
+                break;
+            }
+            best = next;
+        }
+        // Large weights beside small ones end short of the last digits: these are of what agrees alone.
+        let agrees = |part: &f64| f64::from(u8::from(part.abs() < AGREES * self.reach_m));
+        let weights: Vec<f64> = held.rest(&best).iter().map(agrees).collect();
+        let refined = held.nearest(best.clone(), &weights);
+        if sum(&refined) <= sum(&best) * (1.0 + AGREES) {
+            best = refined;
+        }
+        self.judged(&best.a_from_b, &best.variables).unwrap_or(best)
+    }
+
+    /// The solution at which the weighted differences are smallest by their squares.
+    fn nearest(&self, solution: ChainSolution, weights: &[f64]) -> ChainSolution {
+        let rest_of = |solution: &ChainSolution| -> Vec<f64> {
+            self.rest(solution).iter().zip(weights).map(|(part, weight)| part * weight).collect()
+        };
+        let unknowns = self.unknowns();
         let mut best = solution;
         for _ in 0..MOST_STEPS {
-            let rest = self.rest(&best);
-            let unknowns = self.unknowns();
+            let rest = rest_of(&best);
             let columns: Vec<Vec<f64>> = unknowns
                 .iter()
                 .map(|&unknown| {
-                    let [up, down] = [STEP, -STEP].map(|by| self.rest(&moved(&best, unknown, by)));
+                    let [up, down] = [STEP, -STEP].map(|by| rest_of(&moved(&best, unknown, by)));
                     up.iter().zip(&down).map(|(up, down)| (up - down) / (2.0 * STEP)).collect()
                 })
                 .collect();
@@ -33,13 +80,13 @@ impl ChainPair {
                 .iter()
                 .zip(step.iter())
                 .fold(best.clone(), |solution, (&unknown, &by)| moved(&solution, unknown, by));
-            let (before, after) = (norm(&rest), norm(&self.rest(&stepped)));
+            let (before, after) = (norm(&rest), norm(&rest_of(&stepped)));
             if after >= before {
                 break;
             }
             best = stepped;
         }
-        self.judged(&best.a_from_b, &best.variables).unwrap_or(best)
+        best
     }
 
     fn unknowns(&self) -> Vec<Unknown> {

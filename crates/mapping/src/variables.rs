@@ -85,7 +85,7 @@ impl ChainPair {
         }
         let polished = solutions.into_iter().map(|solution| self.polished(solution));
         let rounded: Vec<ChainSolution> =
-            polished.map(|solution| self.with_round_offsets(solution)).collect();
+            polished.map(|solution| self.with_one_fault(self.with_round_offsets(solution))).collect();
         let best_m =
             rounded.iter().map(|solution| solution.off_m(self.reach_m)).fold(f64::INFINITY, f64::min);
         let limit_m = 2.0 * best_m + 1e-9 * self.reach_m;

@@ -236,10 +236,12 @@ fn after_mapping(check: &RobotCheck) -> Option<Headline> {
     let joints = mapped_joints(mapping);
     let worst = mapping.worst.map_or_else(
         || "poses were not compared".to_owned(),
-        |worst| {
-            let words =
-                if worst.is_within(&check.geometry.tolerance) { "poses agree" } else { "poses still differ" };
-            format!("{words} ({})", largest(worst))
+        |worst| match worst {
+            worst if worst == PoseError::default() => "poses are equal".to_owned(),
+            worst if worst.is_within(&check.geometry.tolerance) => {
+                format!("poses agree ({})", at_most(worst))
+            }
+            worst => format!("poses still differ ({})", largest(worst)),
         },
     );
     if !against.is_equal_after_mapping(&check.geometry.tolerance) {

@@ -13,7 +13,7 @@ use congruent_description::{
 };
 use congruent_input::number::significant;
 use congruent_kinematics::{Pose, PoseError, ReportedPose, ScrewTree};
-use congruent_mapping::{FoundMapping, MatchedBy, declared, find, in_frames_of};
+use congruent_mapping::{FoundMapping, MatchedBy, declared, find, find_exchanged, in_frames_of};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -119,6 +119,16 @@ impl MappedPair {
         let found = find(description, other)?;
         let is_proved = found.matched_by != MatchedBy::Order || off(&found, description) < SAME_CHAIN;
         is_proved.then(|| Self::new(description, other, options, &found))
+    }
+
+    /// Two descriptions with the same joints by name, of which some are exchanged: their links show which is which.
+    pub(super) fn of_exchanged_names(
+        description: &RobotDescription,
+        other: &RobotDescription,
+        options: &CheckOptions,
+    ) -> Option<Self> {
+        let found = find_exchanged(description, other)?;
+        (off(&found, description) < SAME_CHAIN).then(|| Self::new(description, other, options, &found))
     }
 
     /// Two descriptions with the same joints by name whose directions and zeros explain why the poses differ.

@@ -4,29 +4,31 @@ use congruent_input::display::{counted, listed};
 
 use super::mapped::{ReportedJoint, ReportedMapping};
 
-/// Whether a joint is of a kind.
-type IsSuch = fn(&ReportedJoint) -> bool;
-
 /// What differs in joints, in words: `2 of 6 joints have other zeros (joint_2, joint_3)`.
 pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
     let all = mapping.joints.len();
-    let kinds: [(&str, IsSuch); 3] = [
-        ("another name", |of| of.joint != of.other),
-        ("the opposite direction", |of| of.sign < 0),
-        ("another zero", |of| of.offset != 0.0),
-    ];
+    let those = |is_such: &dyn Fn(&ReportedJoint) -> bool| -> Vec<&str> {
+        mapping.joints.iter().filter(|of| is_such(of)).map(|of| of.joint.as_str()).collect()
+    };
+    // A name that a joint of the robot has as well is no other name: it belongs to another joint there.
+    let names = those(&|_| true);
+    let is_known = |of: &ReportedJoint| names.contains(&of.other.as_str());
+    let exchanged = those(&|of| of.joint != of.other && is_known(of));
     let mut words = Vec::new();
-    for (what, is_such) in kinds {
-        let names: Vec<&str> =
-            mapping.joints.iter().filter(|of| is_such(of)).map(|of| of.joint.as_str()).collect();
+    if !exchanged.is_empty() {
+        words.push(format!("the names of joints {} are exchanged", listed(&exchanged)));
+    }
+    let kinds = [
+        ("another name", those(&|of| of.joint != of.other && !is_known(of))),
+        ("the opposite direction", those(&|of| of.sign < 0)),
+        ("another zero", those(&|of| of.offset != 0.0)),
+    ];
+    for (what, names) in kinds {
         match names.len() {
             0 => {}
             count if count == all => words.push(format!("all {all} joints have {what}")),
-            1 | 2 => words.push(format!(
-                "{} {} {what}",
-                listed(&names),
-                if names.len() == 1 { "has" } else { "have" }
-            )),
+            1 => words.push(format!("{} has {what}", names[0])),
+            2 => words.push(format!("{} have {what}", listed(&names))),
             count => words.push(format!("{count} of {all} joints have {what}")),
         }
     }

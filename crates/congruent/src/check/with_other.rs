@@ -89,7 +89,7 @@ pub(super) fn with_other(
 }
 
 /// Two descriptions in the joints of the first, as its file declares or as names and axes show; `None` if all joints have
-/// the same names, or nothing in common.
+/// the same names and links, or nothing in common.
 fn in_own_variables(
     description: &RobotDescription,
     other: &RobotDescription,
@@ -98,7 +98,11 @@ fn in_own_variables(
     let declared = MappedPair::declared(description, other, options)?;
     let has_other_names = || other_joint(&description.robot, &other.robot).is_some();
     Ok(declared.or_else(|| {
-        has_other_names().then(|| MappedPair::of_other_names(description, other, options)).flatten()
+        if has_other_names() {
+            MappedPair::of_other_names(description, other, options)
+        } else {
+            MappedPair::of_exchanged_names(description, other, options)
+        }
     }))
 }
 

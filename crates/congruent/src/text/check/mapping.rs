@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::{
     ReportedJoint, ReportedMapping,
-    input::display::{angle, counted, length, length_and_angle, position},
+    input::display::{angle, counted, length, position},
     kinematics::ReportedPose,
     mapping::MatchedBy,
     text::layout::column_width,
@@ -16,6 +16,7 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
         MatchedBy::Declared => "as [mapping] declares",
         MatchedBy::Names => "found by their names",
         MatchedBy::SimilarNames => "found by similar names",
+        MatchedBy::Links => "found by the names of the links that they carry",
         MatchedBy::Order => "found by their order along the chain",
     };
     let is_other = |of: &&ReportedJoint| !of.has_same_variable() || of.joint != of.other;
@@ -45,16 +46,11 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
         let _ =
             writeln!(text, "    the same motion as with {others} of directions and zeros, as wrists have it");
     }
-    if let Some(worst) = &mapping.worst {
-        let difference = length_and_angle(worst.position_m, worst.orientation_rad);
-        let _ = writeln!(text, "    in the same variables poses differ by {difference}");
-    }
     if !mapping.is_declared {
         let _ = writeln!(text, "    if this is meant, declare it in robot.toml:\n");
         for line in &mapping.lines {
             let _ = writeln!(text, "      {line}");
         }
-        text.push('\n');
     }
 }
 

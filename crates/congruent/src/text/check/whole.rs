@@ -90,7 +90,8 @@ fn answer_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> Stri
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}", report.file, check.headline());
     let _ = writeln!(text, "  {}", report.chain);
-    if let Some((against, mapping)) = check.against.as_ref().and_then(|of| Some((of, of.mapping.as_ref()?))) {
+    let mapping = check.against.as_ref().and_then(|of| Some((of, of.mapping.as_ref()?)));
+    if let Some((against, mapping)) = mapping {
         mapped(&mut text, mapping, &against.file);
     }
     if let Some(diagnosis) = check.diagnosis() {
@@ -98,6 +99,9 @@ fn answer_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> Stri
     }
     if report.poses_disagree() && report.grade == Some(Grade::SameWithinDigits) {
         rounded(&mut text, report);
+    }
+    if mapping.is_some_and(|(_, mapping)| !mapping.is_declared) && check.diagnosis().is_none() {
+        text.push('\n');
     }
     poses(&mut text, report, options);
     certified(&mut text, report, robot, options);
