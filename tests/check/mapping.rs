@@ -303,3 +303,47 @@ fn two_descriptions_of_a_jaco_differ_by_two_zeros() {
         assert!(off.abs() < 1e-9, "{here} {joint}");
     }
 }
+
+#[test]
+fn a_wrong_table_of_the_other_description_is_not_the_same_robot() {
+    let scratch = ScratchFolder::new();
+    let robot = fs::read_to_string(workspace().join("robots/ur5e/robot.toml")).unwrap();
+    scratch.write("ur5e.urdf", &urdf());
+    let own = scratch.write("own.toml", &robot);
+    let wrong = robot.replacen("d_m = 0.1625", "d_m = 0.1825", 1);
+    assert_ne!(robot, wrong);
+    let other = scratch.write("other.toml", &wrong);
+    let report = congruent_json(&["check", &own, "--against", &other]).json();
+    assert_eq!(report["verdict"], "disagree");
+    let named = report["comparisons"].as_array().unwrap().iter().map(|of| of["name"].as_str().unwrap());
+    assert!(named.into_iter().any(|name| name == "other_model_urdf"));
+    assert!(report["diagnosis"][0]["file"].as_str().unwrap().ends_with("other.toml"), "{report:#}");
+    let same = congruent(&["check", "-q", &own, "--against", &own]);
+    assert_eq!(same.code, 0, "{}", same.stdout);
+}
+
+#[test]
+fn fingers_that_another_finger_drives_have_the_same_coupling() {
+    let gripper = |left: &str, right: &str| {
+        let finger = |name: &str, y: &str, mimic: &str| {
+            format!(
+                "<link name=\"{name}\"/><joint name=\"{name}_joint\" type=\"prismatic\"><parent link=\"palm\"/>\
+                 <child link=\"{name}\"/><origin xyz=\"0.1 0 0\"/><axis xyz=\"0 {y} 0\"/>\
+                 <limit lower=\"0\" upper=\"0.04\" effort=\"1\" velocity=\"1\"/>{mimic}</joint>"
+            )
+        };
+        let fingers = finger("left", "1", left) + &finger("right", "-1", right);
+        format!("<robot name=\"gripper\"><link name=\"palm\"/>{fingers}</robot>")
+    };
+    let scratch = ScratchFolder::new();
+    let own = scratch.write("own.urdf", &gripper("", "<mimic joint=\"left_joint\"/>"));
+    let other = scratch.write("other.urdf", &gripper("<mimic joint=\"right_joint\"/>", ""));
+    let answer = congruent_json(&["check", &own, "--against", &other]);
+    let report = answer.json();
+    assert_eq!(report["comparisons"][1]["verdict"], "agree", "{report:#}");
+    let messages = report["warnings"].as_array().unwrap().iter().map(|of| of["message"].as_str().unwrap());
+    assert!(messages.into_iter().any(|of| of.contains("left_joint drives")), "{report:#}");
+    let wrong =
+        scratch.write("wrong.urdf", &gripper("<mimic joint=\"right_joint\" multiplier=\"0.5\"/>", ""));
+    assert_eq!(congruent(&["check", "-q", &own, "--against", &wrong]).code, 1);
+}

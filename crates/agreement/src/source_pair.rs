@@ -18,6 +18,8 @@ pub enum SourcePair {
     UrdfSimulation,
     /// The URDF chain and that of another description of the robot.
     UrdfOther,
+    /// The table of another description of the robot and its own URDF chain.
+    OtherModelUrdf,
 }
 
 impl SourcePair {
@@ -29,6 +31,7 @@ impl SourcePair {
             Self::ModelSimulation => "DH table against physics",
             Self::UrdfSimulation => "URDF chain against physics",
             Self::UrdfOther => "URDF chain against other URDF",
+            Self::OtherModelUrdf => "other DH table against its URDF chain",
         }
     }
 }

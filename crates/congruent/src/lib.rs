@@ -35,7 +35,6 @@ mod check;
 pub mod codes;
 #[cfg(feature = "recording")]
 mod joint_sweep;
-mod lint;
 mod run_comparison;
 pub mod schema;
 pub mod starter;
@@ -46,9 +45,11 @@ pub use check::{
     ChangedMass, ChangedTorque, DeclaredSource, Headline, OtherDescription, ReportedJoint, ReportedMapping,
     RevisionChange, RobotCheck, WrittenFix, check, check_against, check_suite, checked_robot,
 };
+pub use congruent_lint_report::{
+    LintFinding, LintFix, LintReport, LintSummary, LintVerdict, lint, lint_among,
+};
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};
-pub use lint::{LintFinding, LintFix, LintReport, LintSummary, LintVerdict, lint, lint_among};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 

@@ -28,8 +28,8 @@ use schemars::{
 use serde_json::Value;
 
 use crate::{
+    LintReport,
     check::RobotCheck,
-    lint::LintReport,
     run_comparison::RunComparison,
     starter::{NewRobot, NewScenario},
 };

@@ -64,7 +64,7 @@ pub struct WorstDifference {
 /// The comparison of two sources.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Comparison {
-    /// The pair: `model_urdf`, `poe_urdf`, `urdf_simulation` or `urdf_other`.
+    /// The pair: `model_urdf`, `poe_urdf`, `urdf_simulation`, `urdf_other` or `other_model_urdf`.
     pub name: SourcePair,
     /// The pair in words.
     pub title: &'static str,

@@ -5,7 +5,7 @@ use std::{ops::Range, sync::Arc};
 
 use congruent_description::{Joint, RobotDescription, UrdfPlaces};
 use congruent_input::{
-    Slack, changed_lines,
+    RevisionName, Slack, changed_lines,
     display::angle,
     fitted_rpy_fixed_xyz_rad, line_column,
     units::{Unit, UnitSystem},
@@ -146,7 +146,10 @@ impl CorrectionMessages<'_> {
         let [found, expected] = [words(|of| &of.found), words(|of| &of.expected)];
         let as_in = self.as_in(joint, there, expected_line);
         let unit = attributes.iter().find_map(JointAttribute::other_unit).unwrap_or_default();
-        let text = sentence(&fault, &joint.name, [&found, &format!("{expected}{as_in}")]) + unit;
+        // Of two files one may be right; a revision is what the file was.
+        let other = if self.is_revision() { "was" } else { "expected" };
+        let other = format!("{other} {expected}{as_in}");
+        let text = sentence(&fault, &joint.name, [&found, &other]) + unit;
         let fault = Fault {
             joint: Some(joint.name.clone()),
             parameter: Some(attributes.iter().map(|of| of.name).collect::<Vec<_>>().join(", ")),
@@ -170,6 +173,10 @@ impl CorrectionMessages<'_> {
         message
     }
 
+    fn is_revision(&self) -> bool {
+        RevisionName::of(&self.descriptions[1].path).is_some()
+    }
+
     /// The joint of the other file that has the expected value; `None` if none has it alone.
     fn there(&self, joint: &Joint, expected: &JointPart) -> Option<&Joint> {
         match expected {
@@ -190,7 +197,8 @@ impl CorrectionMessages<'_> {
         let file = self.descriptions[1].urdf_path.display();
         let named =
             if there.name == joint.name { String::new() } else { format!(" (joint \"{}\")", there.name) };
-        format!(" as in {file}:{line}{named}")
+        let preposition = if self.is_revision() { "in" } else { "as in" };
+        format!(" {preposition} {file}:{line}{named}")
     }
 
     /// `xyz` and `rpy` of an origin, each if it differs.
@@ -227,19 +235,19 @@ fn place(places: &UrdfPlaces, part: &str, joint: &str) -> Option<Range<usize>> {
     if part == "origin" { places.joint_origin(joint) } else { places.joint_axis(joint) }
 }
 
-/// The sentence for one fault: what the file has, and what is expected.
-fn sentence(fault: &Fault, joint: &str, [found, expected]: [&str; 2]) -> String {
+/// The sentence for one fault: what the file has, and what is expected or was before.
+fn sentence(fault: &Fault, joint: &str, [found, other]: [&str; 2]) -> String {
     match fault.cause {
         Cause::AxisFlipped => {
-            format!("joint \"{joint}\" moves in the opposite direction: axis {found}, expected {expected}")
+            format!("joint \"{joint}\" moves in the opposite direction: axis {found}, {other}")
         }
         Cause::JointAxis => {
             let off = angle(turn(fault));
-            format!("joint \"{joint}\": axis {found}, expected {expected}, off by {off}")
+            format!("joint \"{joint}\": axis {found}, {other}, off by {off}")
         }
         _ => {
             let off = off_by(shift(fault), turn(fault));
-            format!("joint \"{joint}\": origin {found}, expected {expected}, off by {off}")
+            format!("joint \"{joint}\": origin {found}, {other}, off by {off}")
         }
     }
 }

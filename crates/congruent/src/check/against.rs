@@ -141,6 +141,10 @@ pub(super) fn compared(
         against.ranges_differ = ranges_differ(&description.robot, other);
         return Ok((against, None));
     }
+    if let Some(of) = one_urdf([description, other]) {
+        geometry.not_asked.push(of);
+        return Ok((against, None));
+    }
     against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_value);
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
@@ -184,6 +188,18 @@ fn no_masses(descriptions: [&RobotDescription; 2]) -> Option<NotCompared> {
     let findings = own.check_capability(Capability::Physics).err()?;
     let findings = findings.iter().map(Finding::from).collect();
     Some(NotCompared { source: ComparedSource::Dynamics, findings })
+}
+
+/// That two robot files name one URDF, whose masses and limits are the same as themselves.
+fn one_urdf([description, other]: [&RobotDescription; 2]) -> Option<NotCompared> {
+    let are_robot_files = [description, other].iter().all(|of| of.path != of.urdf_path);
+    let is_one = description.urdf_path == other.urdf_path && description.path != other.path;
+    let why =
+        || format!("both robot files name {}: it has one set of masses", description.urdf_path.display());
+    (are_robot_files && is_one).then(|| {
+        let finding = Diagnostic::warning(codes::check::NO_SECOND_SOURCE, why());
+        NotCompared::because(ComparedSource::OtherDynamics, &finding)
+    })
 }
 
 /// Joints whose ranges both descriptions state, and state otherwise: the first, and how many there are.

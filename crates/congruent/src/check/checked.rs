@@ -10,24 +10,23 @@ use congruent_description::{DynamicsTable, InertialFrame, RobotDescription};
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::Diagnostic;
 use congruent_kinematics::LinkPoses;
+use congruent_lint_report::{LintSummary, lint_robot};
 
 use super::{
     against::OtherDescription,
     change::RevisionChange,
     declared::{self, DeclaredSource},
     model_frames::unreadable_value,
-    own_model::{ONE_MODEL, diagnose_by_table, entitle, placed_as_in, without_own_table},
+    own_model::{ONE_MODEL, diagnose_by_table, placed_as_in, without_own_table},
     own_screws::diagnose_by_screw,
     physics,
     poses_of_other::PosesOfOther,
     robot_check::RobotCheck,
+    table_of_other::add_table_of_other,
+    titles::entitle,
     with_other::with_other,
 };
-use crate::{
-    codes,
-    lint::{LintSummary, lint_robot},
-    with_physics::simulated_poses,
-};
+use crate::{codes, with_physics::simulated_poses};
 
 /// Compares table, URDF chain, screws and the physics twin of a robot, first their poses and then their dynamics. A robot
 /// that cannot be simulated is compared without the physics, and the report says why.
@@ -97,7 +96,9 @@ fn checked_in_links(
         other.map(|other| with_other(&mut geometry, description, other, options)).transpose()?;
     if let Some(of) = &with_other {
         diagnose_own_model(&mut geometry, written, [&of.description, &of.other], &of.options)?;
+        add_table_of_other(&mut geometry, written, options)?;
     }
+    entitle(&mut geometry, written[0], other.map(|_| written[1]));
     compared.extend(with_other.as_mut().and_then(|of| of.dynamics.take()));
     let (own, own_options) =
         with_other.as_ref().map_or((description, options), |of| (&of.description, &of.options));
@@ -149,7 +150,7 @@ fn checked_in_links(
     })
 }
 
-/// Names a difference from a table or screws that are the robot by their rows, and entitles the comparison. `compared` are the two
+/// Names a difference from a table or screws that are the robot by their rows. `compared` are the two
 /// in the same variables.
 fn diagnose_own_model(
     geometry: &mut CheckReport,
@@ -161,7 +162,6 @@ fn diagnose_own_model(
     if !diagnose_by_table(geometry, written, compared, options)? {
         diagnose_by_screw(geometry, written, compared);
     }
-    entitle(geometry, written);
     Ok(())
 }
 

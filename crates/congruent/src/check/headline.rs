@@ -75,8 +75,12 @@ impl RobotCheck {
             let advice = other.common_tip.as_ref().map_or_else(String::new, |tip| {
                 format!(". To compare the joints up to link \"{tip}\" alone: --tip {tip}")
             });
-            let details = format!(": {why}; poses and torques of {} were not compared{advice}", other.file);
-            return Headline::new("DIFFERENT JOINTS", details);
+            let details = format!("{why}; poses and torques of {} were not compared{advice}", other.file);
+            if report.poses_disagree() {
+                let own = different_poses(self);
+                return Headline { details: format!("{}. Other joints: {details}", own.details), ..own };
+            }
+            return Headline::new("DIFFERENT JOINTS", format!(": {details}"));
         }
         if let Some(mapped) = after_mapping(self) {
             return mapped;
@@ -338,28 +342,27 @@ fn allowed(report: &CheckReport) -> String {
     format!("; rounding of the written digits could explain {}{but}", largest(allowed))
 }
 
-/// The two sources of a comparison.
+/// The two sources of a comparison, as its title names them.
 fn sources(comparison: &Comparison) -> [&'static str; 2] {
-    match comparison.name {
-        SourcePair::ModelUrdf => ["DH table", "URDF"],
-        SourcePair::PoeUrdf => ["screws", "URDF"],
-        SourcePair::ModelSimulation => ["DH table", "physics"],
-        SourcePair::UrdfSimulation => ["URDF", "physics"],
-        SourcePair::UrdfOther => {
-            // Of a table or screws that are the robot the title says which of the two they are.
-            let (first, second) = comparison.title.split_once(" against ").unwrap_or(("URDF", "other URDF"));
-            [first, second].map(|source| source.strip_suffix(" chain").unwrap_or(source))
-        }
-    }
+    let (first, second) = comparison.title.split_once(" against ").unwrap_or((comparison.title, ""));
+    let short = |source: &'static str| {
+        let source = source.strip_suffix(" chain").unwrap_or(source);
+        source.strip_suffix(" (POE)").unwrap_or(source)
+    };
+    [first, second].map(short)
 }
 
 /// The sources that were compared: descriptions first, then the physics. Screws that are made of the URDF are no source.
 fn sources_of(report: &CheckReport) -> Vec<&'static str> {
-    let is_of_own_model = |of: &Comparison| of.name == SourcePair::UrdfOther && of.title != of.name.title();
-    let has_own_model = report.comparisons.iter().any(is_of_own_model);
-    let counts = |of: &&Comparison| !has_own_model || of.name != SourcePair::PoeUrdf;
-    let compared: Vec<&str> = report.comparisons.iter().filter(counts).flat_map(sources).collect();
-    let named = ["DH table", "URDF", "screws", "other URDF", "other DH table", "other screws", "physics"];
-    let named = named.into_iter().filter(|source| has_own_model || *source != "screws");
-    named.filter(|source| compared.contains(source)).collect()
+    let counts = |of: &&Comparison| of.name != SourcePair::PoeUrdf;
+    let mut named: Vec<&str> = Vec::new();
+    for source in report.comparisons.iter().filter(counts).flat_map(sources) {
+        // "its URDF" has a name already.
+        if !named.contains(&source) && source != "physics" && !source.starts_with("its ") {
+            named.push(source);
+        }
+    }
+    let has_physics = report.comparisons.iter().flat_map(sources).any(|source| source == "physics");
+    named.extend(has_physics.then_some("physics"));
+    named
 }

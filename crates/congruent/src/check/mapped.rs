@@ -13,7 +13,7 @@ use congruent_description::{
 };
 use congruent_input::number::significant;
 use congruent_kinematics::{Pose, PoseError, ReportedPose, ScrewTree};
-use congruent_mapping::{FoundMapping, MatchedBy, declared, find, find_exchanged, in_frames_of};
+use congruent_mapping::{CommonAxes, FoundMapping, MatchedBy, declared, find, find_exchanged, in_frames_of};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -157,7 +157,8 @@ impl MappedPair {
         let options =
             CheckOptions { configurations: kept_joints(description, &own, options), ..options.clone() };
         let in_variables = other.robot.locked(&other_locked).in_variables(&found.joints).moved_by(&kept);
-        let in_frames = in_frames_of(&own.robot, &in_variables, &found.root_from_other_root);
+        let axes = if off(found, description) < EXPLAINED { CommonAxes::Agree } else { CommonAxes::Differ };
+        let in_frames = in_frames_of(&own.robot, &in_variables, &found.root_from_other_root, axes);
         let tip = other.robot.link(other.tip).name.clone();
         let robot = in_frames.with_link_names(&link_names(&own, &in_frames, &tip));
         let names = found.joints.iter().map(|of| (of.name.clone(), other.robot.joint(of.joint).name.clone()));

@@ -20,6 +20,8 @@ mod physics;
 mod poses_of_other;
 mod robot_check;
 mod suite;
+mod table_of_other;
+mod titles;
 mod with_other;
 
 pub use against::OtherDescription;

@@ -8,8 +8,8 @@ use congruent_agreement::{
     compare::{CheckError, CheckOptions, CheckReport},
 };
 use congruent_description::{
-    ChainEnd, DhRow, DhTable, Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, OwnModelForm,
-    Places, Robot, RobotDescription,
+    ChainEnd, DhRow, DhTable, Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, Places, Robot,
+    RobotDescription,
 };
 use congruent_input::{Diagnostic, Findings};
 use congruent_kinematics::{Pose, ScrewTree, Twist};
@@ -132,28 +132,6 @@ impl<'a> PlacedTree<'a> {
 
 fn named(name: &str) -> Link {
     Link { name: name.to_owned(), ..Link::default() }
-}
-
-/// Gives the comparison of the two a title that says which of them is a table or screws.
-pub(super) fn entitle(geometry: &mut CheckReport, written: [&RobotDescription; 2]) {
-    use OwnModelForm::{Screws, Table};
-    let pair = SourcePair::UrdfOther;
-    let has_table = written[0].dh.is_some();
-    let title = match written.map(RobotDescription::own_model) {
-        [None, None] => return,
-        [Some(Table), Some(Table)] => "DH table against other DH table",
-        [Some(Table), Some(Screws)] => "DH table against screws",
-        [Some(Table), None] => "DH table against URDF chain",
-        [Some(Screws), Some(Table)] => "screws against DH table",
-        [Some(Screws), Some(Screws)] => "screws against other screws",
-        [Some(Screws), None] => "screws against URDF chain",
-        [None, Some(Table)] if has_table => "URDF chain against other DH table",
-        [None, Some(Table)] => "URDF chain against DH table",
-        [None, Some(Screws)] => "URDF chain against screws",
-    };
-    geometry.comparisons.iter_mut().filter(|of| of.name == pair).for_each(|of| of.title = title);
-    geometry.certificates.iter_mut().filter(|of| of.name == pair).for_each(|of| of.title = title);
-    geometry.diagnoses.iter_mut().filter(|of| of.name == pair).for_each(|of| of.title = title);
 }
 
 /// Replaces the diagnosis of a difference by one in the lines of a table that is the robot of one of the two, if the table has

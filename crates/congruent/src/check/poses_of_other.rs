@@ -81,7 +81,7 @@ impl PosesOfOther {
         robot.link_indices().filter(is_lacking)
     }
 
-    /// A link between joints that is but a name in the other description, without inertia and shape, has nothing that its
+    /// A link between joints that is but a name in one of the two descriptions, without inertia and shape, has nothing that its
     /// frame could misplace: there it may lie anywhere, if the joints move all links alike. The pose at zero is taken; base,
     /// tip and the ends of branches keep their frames.
     pub(super) fn with_free_frames(
@@ -104,7 +104,8 @@ impl PosesOfOther {
                 && index != description.tip;
             let at = index.get();
             let is_elsewhere = !PoseError::between(&here[at], &there[at]).is_within(&description.tolerance);
-            if is_moved && is_between && is_elsewhere && is_name(&other.links()[found]) {
+            let is_name = is_name(&other.links()[found]) || is_name(robot.link(index));
+            if is_moved && is_between && is_elsewhere && is_name {
                 self.there_from_links[at] = there[at].inverse() * here[at];
             }
         }

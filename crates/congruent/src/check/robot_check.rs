@@ -7,11 +7,11 @@ use congruent_agreement::{
 };
 use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
+use congruent_lint_report::LintSummary;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{against::OtherDescription, change::RevisionChange, declared::DeclaredSource, physics};
-use crate::lint::LintSummary;
 
 /// The answer of `congruent check` for one robot.
 #[derive(Debug, Serialize, JsonSchema)]

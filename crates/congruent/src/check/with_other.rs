@@ -3,7 +3,8 @@
 use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport, Grade};
 use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::DynamicsReport;
-use congruent_input::{Diagnostic, Finding};
+use congruent_input::{Diagnostic, Finding, display::listed};
+use congruent_mapping::driven_as_in;
 
 use super::{
     against::{OtherDescription, compared, other_joint},
@@ -70,6 +71,8 @@ pub(super) fn with_other(
     // Again, now that joints have the same names.
     own = placed_as_in(&own, &there).unwrap_or(own);
     there = placed_as_in(&there, &own).unwrap_or(there);
+    let (robot, driven_otherwise) = driven_as_in(&own.robot, &there.robot);
+    there.robot = robot;
     let before = geometry.clone();
     let (mut against, mut dynamics) = compared(geometry, &own, &there, &own_options)?;
     against.joints_left_out = left_out;
@@ -78,9 +81,16 @@ pub(super) fn with_other(
         && against.dynamics_not_compared.is_some()
         && let Some(pair) = MappedPair::of_other_variables(&own, &there, &own_options)
     {
-        dynamics = in_same_variables(&mut against, before, &pair)?;
+        let mut mapped = before;
+        dynamics = in_same_variables(&mut against, &mut mapped, &pair)?;
+        // Directions and zeros explain all, and the diagnosis names them; or what they do not explain is compared in these variables.
+        if !against.is_equal_after_mapping(&description.tolerance) {
+            *geometry = mapped;
+            (own, there, own_options) = (pair.description, pair.other, pair.options);
+        }
     }
     geometry.warnings.extend(other.warnings.iter().map(Finding::from));
+    geometry.warnings.extend(driven_by_another(&against.file, &driven_otherwise).iter().map(Finding::from));
     geometry.warnings.extend(undeclared(&against).iter().map(Finding::from));
     if against.is_equal_after_mapping(&description.tolerance) {
         geometry.grade = Some(Grade::EqualAfterMapping);
@@ -110,14 +120,29 @@ fn in_own_variables(
 /// variables that both files write. Adds the mapping to `against`.
 fn in_same_variables(
     against: &mut OtherDescription,
-    mut geometry: CheckReport,
+    geometry: &mut CheckReport,
     pair: &MappedPair,
 ) -> Result<Option<DynamicsReport>, CheckError> {
-    let (mapped, dynamics) = compared(&mut geometry, &pair.description, &pair.other, &pair.options)?;
-    against.mapping = Some(ReportedMapping::with_worst(pair.report.clone(), &geometry));
+    let (mapped, dynamics) = compared(geometry, &pair.description, &pair.other, &pair.options)?;
+    against.mapping = Some(ReportedMapping::with_worst(pair.report.clone(), geometry));
     against.dynamics_not_compared = mapped.dynamics_not_compared;
     against.links_in_other_frames = mapped.links_in_other_frames;
     Ok(dynamics)
+}
+
+/// That coupled joints are driven at another one of them, which changes no motion but what is commanded.
+fn driven_by_another(file: &str, joints: &[String]) -> Option<Diagnostic> {
+    let names: Vec<&str> = joints.iter().map(String::as_str).collect();
+    let follow = if joints.len() == 1 {
+        "drives the joint that it follows here"
+    } else {
+        "drive those that they follow here"
+    };
+    let message = format!(
+        "{file}: {} {follow}: the coupling is compared, not which joint is commanded",
+        listed(&names)
+    );
+    (!joints.is_empty()).then(|| Diagnostic::warning(codes::check::MAPPING, message))
 }
 
 /// That joints are called or counted otherwise, with the lines that declare it, if nothing does.

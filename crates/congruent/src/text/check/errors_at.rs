@@ -85,5 +85,6 @@ fn names(pair: SourcePair) -> [&'static str; 2] {
         SourcePair::ModelSimulation => ["table", "physics"],
         SourcePair::UrdfSimulation => ["URDF", "physics"],
         SourcePair::UrdfOther => ["URDF", "the other URDF"],
+        SourcePair::OtherModelUrdf => ["the other table", "its URDF"],
     }
 }

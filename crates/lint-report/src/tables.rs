@@ -19,7 +19,7 @@ const FARTHEST_TARGET: f64 = 10.0;
 
 /// Rows of measurements at positions outside the limits, and points that the robot cannot reach. Their frame may be far from
 /// the robot, so that they are judged against each other.
-pub(super) fn measured(
+pub(crate) fn measured(
     rows: &[MeasuredRow],
     description: &RobotDescription,
     source: &Arc<SourceFile>,
@@ -61,7 +61,7 @@ pub(super) fn measured(
 }
 
 /// Targets that are far beyond the reach of the robot.
-pub(super) fn targets(targets: &InverseTargets, description: &RobotDescription) -> Vec<Diagnostic> {
+pub(crate) fn targets(targets: &InverseTargets, description: &RobotDescription) -> Vec<Diagnostic> {
     let Some(reach_m) = description.tolerance_scale().reach_m() else { return Vec::new() };
     let mut found = Diagnostics::default();
     for (index, target) in targets.targets.iter().enumerate() {

@@ -25,7 +25,7 @@ impl LintSummary {
     const MOST_LISTED: usize = 3;
 
     /// What the reports of several descriptions have together.
-    pub(crate) fn from_reports(reports: impl IntoIterator<Item = LintReport>) -> Self {
+    pub fn from_reports(reports: impl IntoIterator<Item = LintReport>) -> Self {
         let (mut errors, mut warnings, mut found) = (0, 0, Vec::new());
         for report in reports {
             (errors, warnings) = (errors + report.errors, warnings + report.warnings);

@@ -79,7 +79,7 @@ pub struct LintFinding {
 }
 
 impl LintFix {
-    pub(super) fn from_safe_fix(fix: SafeFix, source: &Arc<SourceFile>) -> Self {
+    pub(crate) fn from_safe_fix(fix: SafeFix, source: &Arc<SourceFile>) -> Self {
         Self {
             id: fix.code.id_or_name().to_owned(),
             code: fix.code.name,

@@ -1,5 +1,6 @@
 //! `lint`: everything that is wrong or suspicious in a file, whatever its kind, as one report.
 
+pub mod codes;
 mod find_robot;
 mod report;
 mod summary;
@@ -23,8 +24,6 @@ use congruent_lint::{
     zero_limits,
 };
 use congruent_twin::RunSetup;
-
-use crate::codes;
 
 pub use self::{
     report::{LintFinding, LintFix, LintReport, LintVerdict},
@@ -53,7 +52,7 @@ struct Subject<'a> {
 /// # let folder = std::env::temp_dir().join("congruent_lint");
 /// # std::fs::create_dir_all(&folder).unwrap();
 /// # let path = folder.join("a.urdf");
-/// use congruent::{LintVerdict, lint};
+/// use congruent_lint_report::{LintVerdict, lint};
 /// use congruent_input::FileAccess;
 /// std::fs::write(&path, "<robot name='r'><link name='a'/><link name='a'/></robot>").unwrap();
 /// let report = lint(&path, &FileAccess::default());
@@ -71,7 +70,7 @@ pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintRe
 }
 
 /// What [`lint`] finds in a robot that has been read.
-pub(crate) fn lint_robot(description: &RobotDescription) -> LintReport {
+pub fn lint_robot(description: &RobotDescription) -> LintReport {
     let is_bare = description.own_model().is_none() && description.path == description.urdf_path;
     let kind = match &description.places.urdf {
         _ if !is_bare => FileKind::RobotFile,
@@ -85,7 +84,7 @@ pub(crate) fn lint_robot(description: &RobotDescription) -> LintReport {
 fn report(examined: Examined) -> LintReport {
     let Examined { kind, found, ignores } = examined;
     let is_unreadable = found.iter().any(|found| found.source.is_none() && found.code.is_unreadable);
-    let (kept, ignored) = ignores.apply(found, &codes::all_codes());
+    let (kept, ignored) = ignores.apply(found, &codes::known_codes());
     let diagnostics: Vec<Diagnostic> = kept.into_iter().map(judged).collect();
     let of = |severity| diagnostics.iter().filter(|found| found.severity == severity).count();
     let (errors, warnings) = (of(Severity::Error), of(Severity::Warning));

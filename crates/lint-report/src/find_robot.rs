@@ -35,7 +35,7 @@ fn robots<'a>(
 
 /// The robot of an SRDF: that of the same name in the call, else in the same folder, else the only one of the call. If there
 /// is none, the finding that says so.
-pub(super) fn robot_of_srdf(
+pub(crate) fn robot_of_srdf(
     path: &Path,
     source: &Arc<SourceFile>,
     others: &[PathBuf],
@@ -81,7 +81,7 @@ fn urdfs_named(name: &str, folder: &Path) -> Vec<PathBuf> {
 }
 
 /// The robot of a table: the only one of the call, else that of the robot file in the same folder.
-pub(super) fn robot_of_table(
+pub(crate) fn robot_of_table(
     path: &Path,
     others: &[PathBuf],
     access: &FileAccess,

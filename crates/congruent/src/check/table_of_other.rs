@@ -1,0 +1,57 @@
+//! The table of the other description against its own URDF: two descriptions that have the same URDF are not the same robot if
+//! one of them has a wrong table.
+
+use std::sync::Arc;
+
+use congruent_agreement::{
+    SourcePair,
+    compare::{Agreement, CheckError, CheckOptions, CheckReport, Comparison, Grade, ReportedCertificate},
+    report::ReportedDiagnosis,
+};
+use congruent_description::RobotDescription;
+use congruent_input::{Diagnostic, Findings, RevisionName};
+
+use super::own_model::ONE_MODEL;
+use crate::codes;
+
+/// Adds the comparison of the other description's table with its URDF, if it has both. A revision is what the robot was, not what
+/// it should be: its table is no part of the answer.
+pub(super) fn add_table_of_other(
+    geometry: &mut CheckReport,
+    [description, other]: [&RobotDescription; 2],
+    options: &CheckOptions,
+) -> Result<(), CheckError> {
+    let is_compared = geometry.comparisons.iter().any(|of| of.name == SourcePair::UrdfOther);
+    let is_of_revision = RevisionName::of(&other.path).is_some();
+    if other.dh.is_none() || other.own_model().is_some() || is_of_revision || !is_compared {
+        return Ok(());
+    }
+    let mut other = other.clone();
+    if description.tolerance_is_declared {
+        (other.tolerance, other.tolerance_is_declared) = (description.tolerance, true);
+    }
+    // Physics would compare the other's URDF with what is built from it.
+    let no_physics = Findings::from(Diagnostic::warning(codes::check::NO_SECOND_SOURCE, ONE_MODEL));
+    let options = CheckOptions { configurations: Arc::default(), ..options.clone() };
+    let found = congruent_agreement::compare::check(&other, Err(no_physics), &options)?;
+    let (of_table, pair) = (SourcePair::ModelUrdf, SourcePair::OtherModelUrdf);
+    let comparisons = found.comparisons.into_iter().filter(|of| of.name == of_table);
+    let comparisons: Vec<Comparison> =
+        comparisons.map(|of| Comparison { name: pair, title: pair.title(), ..of }).collect();
+    if comparisons.iter().any(|of| of.verdict == Agreement::Disagree) {
+        geometry.verdict = Agreement::Disagree;
+        geometry.grade = Some(Grade::Different);
+    }
+    geometry.comparisons.extend(comparisons);
+    let certificates = found.certificates.into_iter().filter(|of| of.name == of_table);
+    geometry.certificates.extend(certificates.map(|of| ReportedCertificate {
+        name: pair,
+        title: pair.title(),
+        ..of
+    }));
+    let mut diagnoses = std::mem::take(&mut geometry.diagnoses);
+    let of_other = found.diagnoses.into_iter().filter(|of| of.name == of_table);
+    diagnoses.extend(of_other.map(|of| ReportedDiagnosis { name: pair, title: pair.title(), ..of }));
+    geometry.set_diagnoses(diagnoses);
+    Ok(())
+}

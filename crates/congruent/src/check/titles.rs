@@ -1,0 +1,78 @@
+//! What the compared sources are called: a URDF, an MJCF, a table or screws.
+
+use congruent_agreement::{SourcePair, compare::CheckReport};
+use congruent_description::{OwnModelForm, RobotDescription};
+
+/// What describes a robot.
+#[derive(Clone, Copy, PartialEq)]
+enum Written {
+    Table,
+    Screws,
+    Urdf,
+    Mjcf,
+}
+
+impl Written {
+    fn of(description: &RobotDescription) -> Self {
+        let is_urdf = description.places.urdf.is_some()
+            || description.urdf_path.extension().is_some_and(|extension| extension == "urdf");
+        match description.own_model() {
+            Some(OwnModelForm::Table) => Self::Table,
+            Some(OwnModelForm::Screws) => Self::Screws,
+            None if is_urdf => Self::Urdf,
+            None => Self::Mjcf,
+        }
+    }
+
+    /// Two descriptions, the first against the second.
+    fn title(self, other: Self) -> &'static str {
+        use Written::{Mjcf, Screws, Table, Urdf};
+        match (self, other) {
+            (Table, Table) => "DH table against other DH table",
+            (Table, Screws) => "DH table against screws",
+            (Table, Urdf) => "DH table against URDF chain",
+            (Table, Mjcf) => "DH table against MJCF chain",
+            (Screws, Table) => "screws against DH table",
+            (Screws, Screws) => "screws against other screws",
+            (Screws, Urdf) => "screws against URDF chain",
+            (Screws, Mjcf) => "screws against MJCF chain",
+            (Urdf, Table) => "URDF chain against DH table",
+            (Urdf, Screws) => "URDF chain against screws",
+            (Urdf, Urdf) => SourcePair::UrdfOther.title(),
+            (Urdf, Mjcf) => "URDF chain against MJCF chain",
+            (Mjcf, Table) => "MJCF chain against DH table",
+            (Mjcf, Screws) => "MJCF chain against screws",
+            (Mjcf, Urdf) => "MJCF chain against URDF chain",
+            (Mjcf, Mjcf) => "MJCF chain against other MJCF",
+        }
+    }
+}
+
+/// The title of a pair of sources of `description`.
+fn title(pair: SourcePair, description: &RobotDescription, other: Option<&RobotDescription>) -> &'static str {
+    let own = Written::of(description);
+    match (pair, other.map(Written::of)) {
+        // The robot has a table as well: the other one is the other table.
+        (SourcePair::UrdfOther, Some(Written::Table)) if description.dh.is_some() && own == Written::Urdf => {
+            "URDF chain against other DH table"
+        }
+        (SourcePair::UrdfOther, Some(other)) => own.title(other),
+        (SourcePair::ModelUrdf, _) if own == Written::Mjcf => "DH table against MJCF chain",
+        (SourcePair::PoeUrdf, _) if own == Written::Mjcf => "screws (POE) against MJCF chain",
+        (SourcePair::UrdfSimulation, _) if own == Written::Mjcf => "MJCF chain against physics",
+        (SourcePair::OtherModelUrdf, Some(Written::Mjcf)) => "other DH table against its MJCF chain",
+        _ => pair.title(),
+    }
+}
+
+/// Gives the comparisons titles that say what the files are.
+pub(super) fn entitle(
+    geometry: &mut CheckReport,
+    description: &RobotDescription,
+    other: Option<&RobotDescription>,
+) {
+    let title = |pair| title(pair, description, other);
+    geometry.comparisons.iter_mut().for_each(|of| of.title = title(of.name));
+    geometry.certificates.iter_mut().for_each(|of| of.title = title(of.name));
+    geometry.diagnoses.iter_mut().for_each(|of| of.title = title(of.name));
+}
