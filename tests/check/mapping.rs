@@ -286,6 +286,25 @@ fn faults_of_a_mapping_say_what_is_known() {
     }
 }
 
+#[test]
+fn a_mapping_that_does_not_fit_the_other_file_is_bad_input() {
+    for (lines, message) in [
+        (&["[mapping.joints]", "elbow_joint = \"J33\""][..], "has no moving joint \"J33\""),
+        (&["[mapping.joints]", "elbow_joint = \"J4\"", "wrist_1_joint = \"J4\""], "two joints are \"J4\""),
+        (
+            &["[mapping]", "left_out = [\"finger\"]"],
+            "left_out names \"finger\", a joint that neither description has",
+        ),
+    ] {
+        let robots = Robots::new(&in_variables(&urdf(), &ur5e()));
+        robots.declare(lines);
+        let answer = congruent(&["check", &robots.robot_file, "--against", &robots.other]);
+        assert_eq!((answer.code, answer.stdout.as_str()), (2, ""), "{lines:?}: {}", answer.stdout);
+        let printed = answer.stderr.split_whitespace().collect::<Vec<_>>().join(" ").replace(" │ ", " ");
+        assert!(printed.contains(message) && printed.contains("check::declared_mapping"), "{printed}");
+    }
+}
+
 /// Two public URDFs of one arm, whose joints 2 and 3 have their zeros half a turn apart, as an independent program found.
 #[test]
 fn two_descriptions_of_a_jaco_differ_by_two_zeros() {

@@ -12,6 +12,7 @@ mod joint_origins;
 mod mapping;
 mod mimics;
 mod planted_dynamics;
+mod public_pairs;
 mod published_tables;
 mod revisions;
 mod second_source;

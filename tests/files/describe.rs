@@ -106,3 +106,65 @@ fn every_input_is_answered() {
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     assert!(answer.stdout.contains("turn: revolute about z"), "{}", answer.stdout);
 }
+
+/// Names of joints divided by spaces.
+fn names(orders: &Value, order: &str) -> String {
+    let names = orders[order].as_array().unwrap().iter().map(|name| name.as_str().unwrap());
+    names.collect::<Vec<_>>().join(" ")
+}
+
+/// The joints of a robot with two arms as MuJoCo 4.0.0 lists those of the model that it compiles from the URDF.
+const BAXTER_IN_MUJOCO: &str = "head_pan right_s0 right_s1 right_e0 right_e1 right_w0 right_w1 right_w2 r_gripper_l_finger_joint \
+    r_gripper_r_finger_joint left_s0 left_s1 left_e0 left_e1 left_w0 left_w1 left_w2 l_gripper_l_finger_joint \
+    l_gripper_r_finger_joint";
+
+/// The same by a queue of links in another language, with fixed joints merged and kept.
+const BAXTER_BREADTH_FIRST: &str = "head_pan right_s0 left_s0 right_s1 left_s1 right_e0 left_e0 right_e1 left_e1 right_w0 left_w0 \
+    right_w1 left_w1 right_w2 left_w2 r_gripper_l_finger_joint r_gripper_r_finger_joint l_gripper_l_finger_joint \
+    l_gripper_r_finger_joint";
+
+#[test]
+fn joints_of_two_arms_are_listed_in_the_orders_of_programs() {
+    let Some(corpus) = corpus() else { return };
+    let urdf = corpus.join("robots/baxter/robot.urdf");
+    let answer = congruent_json(&["describe", &text(&urdf), "--orders"]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    let orders = answer.json();
+    assert_eq!(names(&orders, "depth_first"), BAXTER_IN_MUJOCO);
+    assert_eq!(names(&orders, "breadth_first"), BAXTER_BREADTH_FIRST);
+    assert_eq!(names(&orders, "breadth_first_of_links"), BAXTER_BREADTH_FIRST);
+    let written = fs::read_to_string(&urdf).unwrap();
+    let document = roxmltree::Document::parse(&written).unwrap();
+    let moving = document.root_element().children().filter(|node| {
+        node.has_tag_name("joint") && node.attribute("type").is_some_and(|kind| kind != "fixed")
+    });
+    let in_file: Vec<&str> = moving.map(|joint| joint.attribute("name").unwrap()).collect();
+    assert_eq!(names(&orders, "in_file"), in_file.join(" "));
+    assert_eq!(orders["remarks"].as_array().unwrap().len(), 2, "{:#}", orders["remarks"]);
+    let printed = congruent(&["describe", &text(&urdf), "--orders"]).stdout;
+    let printed = printed.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        printed.contains("place 9 is left_s0 in the file, r_gripper_l_finger_joint in MuJoCo"),
+        "{printed}"
+    );
+}
+
+#[test]
+fn joints_of_an_mjcf_are_listed_in_the_order_of_the_compiled_model() {
+    let Some(corpus) = corpus() else { return };
+    for pair in ["panda", "piper", "so_arm100", "ur5e", "wx250s"] {
+        let folder = corpus.join("pairs").join(pair);
+        let golden: Value =
+            serde_json::from_str(&fs::read_to_string(folder.join("golden.json")).unwrap()).unwrap();
+        let orders = congruent_json(&["describe", &text(&folder.join("robot.xml")), "--orders"]).json();
+        let compiled = golden["joints"].as_array().unwrap().iter().map(|joint| joint["name"].clone());
+        assert_eq!(orders["depth_first"], compiled.collect::<Value>(), "{pair}");
+    }
+}
+
+#[test]
+fn a_chain_has_the_same_order_everywhere() {
+    let printed = congruent(&["describe", "robots/ur5e", "--orders"]).stdout;
+    assert!(printed.contains("all orders are the same"), "{printed}");
+    assert!(printed.contains("wrist_3_joint"), "{printed}");
+}

@@ -198,11 +198,37 @@ fn arrows_go_one_way() {
     for name in crate_names() {
         let (_, allowed) =
             ARROWS.iter().find(|(from, _)| *from == name).expect("a new crate needs its arrows");
-        let manifest = read(&root().join("crates").join(&name).join("Cargo.toml"));
-        let dependencies = manifest.split("[dev-dependencies]").next().unwrap_or_default();
-        for line in dependencies.lines().filter_map(|line| line.strip_prefix("congruent-")) {
-            let to = line.split(['.', ' ', '=']).next().unwrap_or_default();
-            assert!(allowed.contains(&to), "{name} -> {to} is no arrow of the architecture");
+        for to in crates_below(&name) {
+            assert!(allowed.contains(&to.as_str()), "{name} -> {to} is no arrow of the architecture");
+        }
+    }
+}
+
+/// The crates of the workspace that a crate depends on.
+fn crates_below(name: &str) -> Vec<String> {
+    let manifest = read(&root().join("crates").join(name).join("Cargo.toml"));
+    let dependencies = manifest.split("[dev-dependencies]").next().unwrap_or_default();
+    let lines = dependencies.lines().filter_map(|line| line.strip_prefix("congruent-"));
+    lines.map(|line| line.split(['.', ' ', '=']).next().unwrap_or_default().to_owned()).collect()
+}
+
+/// The fuzz targets are a workspace of their own, which no gate builds: without this, their lock has the crates of some earlier
+/// day, and `cargo fuzz` changes it or, offline, stops.
+#[test]
+fn the_lock_of_the_fuzz_targets_has_every_crate() {
+    let lock = read(&root().join("fuzz/Cargo.lock"));
+    for name in crate_names().into_iter().filter(|name| name != "cli") {
+        let package = if name == "congruent" { name.clone() } else { format!("congruent-{name}") };
+        let entry =
+            lock.split("[[package]]").find(|entry| entry.contains(&format!("name = \"{package}\"\n")));
+        let entry =
+            entry.unwrap_or_else(|| panic!("fuzz/Cargo.lock lacks {package}: run `cargo metadata` in fuzz/"));
+        for to in crates_below(&name) {
+            let is_listed = entry.contains(&format!("\"congruent-{to}\""));
+            assert!(
+                is_listed,
+                "fuzz/Cargo.lock: {package} lacks congruent-{to}: run `cargo metadata` in fuzz/"
+            );
         }
     }
 }

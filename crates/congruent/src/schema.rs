@@ -4,7 +4,7 @@
 use congruent_analysis::{
     base_parameters::BaseParameterReport,
     conversion::ConversionReport,
-    description_summary::DescriptionSummary,
+    description_summary::{DescriptionSummary, JointOrders},
     dynamics::{DynamicsStream, JointDynamicsReport},
     forward::{ForwardReport, PoseStream},
     inverse::InverseReport,
@@ -69,6 +69,11 @@ impl Document {
             "describe",
             "what a robot's files say, printed by `describe`",
             written::<DescriptionSummary>,
+        ),
+        Self::new(
+            "joint_orders",
+            "joints in the orders of programs, printed by `describe --orders`",
+            written::<JointOrders>,
         ),
         Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport<PoseStream<'static>>>),
         Self::new(

@@ -25,4 +25,7 @@ pub enum CheckError {
         /// Its position, the distance to the next number, and the tolerance, with their units.
         what: [String; 3],
     },
+    /// The robot file declares joints of the other description that it does not have.
+    #[error("{0}")]
+    Mapping(String),
 }

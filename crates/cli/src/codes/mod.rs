@@ -57,6 +57,8 @@ congruent::input::codes! {
             "--plot shows errors at configurations, but no configurations are given. Give --configurations FILE.";
         ROBOT = "CGR-COMMAND-026", "check::robot",
             "The robot cannot be checked; the message has the reason.";
+        DECLARED_MAPPING = "CGR-COMMAND-079", "check::declared_mapping",
+            "[mapping] of the robot file does not fit the other description: it names a joint there that does not move or does not exist, pairs a joint that turns with one that slides, means one joint twice, or has a joint in left_out that neither file has.\n    [mapping]\n    left_out = [\"finger_joint\"]\n    [mapping.joints]\n    elbow = \"A3\"";
         TABLE = "CGR-COMMAND-070", "check::table",
             "--table lists errors at configurations, but no configurations are given. Give --configurations FILE.";
     }

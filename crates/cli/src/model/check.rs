@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use congruent::{
     RobotCheck,
-    agreement::compare::{Agreement, CheckOptions},
+    agreement::compare::{Agreement, CheckError, CheckOptions},
     analysis::plot::errors,
     check_suite, checked_robot,
     configurations::read_configurations,
@@ -284,8 +284,7 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
         batch.warn(&other.path, &other.warnings);
     }
     let compared = waiting(batch.printer(), &format!("checking {}", visible_path(path)), compare);
-    let mut report = compared
-        .map_err(|error| Diagnostic::error(codes::check::ROBOT, format!("{}: {error}", path.display())))?;
+    let mut report = compared.map_err(|error| refused(path, &error))?;
     let unusable = unusable_inertials(&description);
     if report.geometry.verdict == Agreement::Agree && !unusable.is_empty() {
         return Err(Findings::from(unusable).into());
@@ -296,6 +295,19 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
     report.geometry.replaced_tolerance = arguments.tolerance.and(declared);
     let (with_basics, with_table) = (arguments.basics, arguments.table);
     Ok(Checked { report, description, other, with_basics, with_table, options: text_options(), fixed: None })
+}
+
+/// Why a robot cannot be checked.
+fn refused(path: &Path, error: &CheckError) -> Diagnostic {
+    let file = visible_path(path);
+    match error {
+        CheckError::Mapping(why) => {
+            let help = "correct [mapping] of the robot file, or name in left_out the joints that move in one file alone; \
+                        without [mapping], `congruent check --against` finds the joints and prints the lines to declare";
+            Diagnostic::error(codes::check::DECLARED_MAPPING, format!("{file}: {why}")).with_help(help)
+        }
+        error => Diagnostic::error(codes::check::ROBOT, format!("{file}: {error}")),
+    }
 }
 
 /// Another description, with the mapping that the robot file declares for it.

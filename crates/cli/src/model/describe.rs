@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    analysis::description_summary::{DescriptionSummary, describe},
+    analysis::description_summary::{DescriptionSummary, JointOrders, describe, joint_orders},
     description::load_robot_with,
     results::report::{TestResult, TestSuite},
-    text::description_text,
+    text::{description_text, joint_orders_text},
 };
 
 use crate::{
@@ -14,7 +14,7 @@ use crate::{
     ci::CiArguments,
     failure::Failure,
     input::{AccessArguments, ChainArguments},
-    terminal::print::Printer,
+    terminal::print::{Printer, text_options},
 };
 
 /// Summarises a robot's files: links, joints, and what is missing for kinematics, clearance or physics.
@@ -26,6 +26,10 @@ pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
+    /// Print the moving joints in the orders in which programs list them instead: the order of the file, depth first (MuJoCo) and
+    /// breadth first (Isaac Sim, Isaac Lab), and where these differ.
+    #[arg(long)]
+    orders: bool,
     #[command(flatten)]
     chain: ChainArguments,
     #[command(flatten)]
@@ -46,14 +50,33 @@ impl BatchReport for DescriptionSummary {
     }
 }
 
+impl BatchReport for JointOrders {
+    fn exit_code(&self) -> u8 {
+        0
+    }
+
+    fn text(&self) -> String {
+        joint_orders_text(self, &text_options())
+    }
+
+    fn test_suite(&self, input: &str) -> TestSuite {
+        TestSuite::with_case(input, "describe", TestResult::Passed)
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let ci = CiArguments::default();
     let batch = Batch::begin(&arguments.robots, &ci, printer)?;
-    let summary = |path: &Path| {
+    let loaded = |path: &Path| {
         let description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
         batch.warn(path, &description.warnings);
-        Ok(describe(&description))
+        Ok::<_, Failure>(description)
     };
     let robots = arguments.robots.iter();
+    if arguments.orders {
+        let orders = |path: &Path| Ok(joint_orders(&loaded(path)?));
+        return batch.finish(robots.map(|path| batch.answer(path, || orders(path))).collect());
+    }
+    let summary = |path: &Path| Ok(describe(&loaded(path)?));
     batch.finish(robots.map(|path| batch.answer(path, || summary(path))).collect())
 }

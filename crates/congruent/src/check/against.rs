@@ -57,21 +57,6 @@ pub struct OtherDescription {
 }
 
 impl OtherDescription {
-    /// Another description whose joints are not those that the robot file declares.
-    pub(super) fn refused(other: &RobotDescription, why: String) -> Self {
-        Self {
-            file: other.path.display().to_string(),
-            robot: other.name.clone(),
-            dynamics_not_compared: Some(why),
-            ranges_differ: None,
-            links_in_other_frames: Vec::new(),
-            joints_left_out: Vec::new(),
-            mapping: None,
-            common_tip: None,
-            links_not_found: Vec::new(),
-        }
-    }
-
     /// Whether the poses agree once the joints have the names, directions and zeros of this description, and nothing declares
     /// these.
     pub(super) fn is_equal_after_mapping(&self, tolerance: &Tolerance) -> bool {

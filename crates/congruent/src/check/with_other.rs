@@ -41,23 +41,11 @@ pub(super) fn with_other(
         description.mapping.is_none() && other_joint(&pair.description.robot, &pair.other.robot).is_none()
     };
     if !narrowed.as_ref().is_some_and(needs_none) {
-        match in_own_variables(description, other, options) {
-            Err(why) => {
-                let against = OtherDescription::refused(other, why);
-                return Ok(WithOther {
-                    against,
-                    dynamics: None,
-                    description: own,
-                    other: there,
-                    options: own_options,
-                });
-            }
-            Ok(None) => {}
-            Ok(Some(pair)) => {
-                narrowed = NarrowedPair::new(&pair.description, &pair.other, &pair.options);
-                (own, there, own_options) = (pair.description, pair.other, pair.options);
-                mapping = Some(pair.report);
-            }
+        let in_own = in_own_variables(description, other, options).map_err(CheckError::Mapping)?;
+        if let Some(pair) = in_own {
+            narrowed = NarrowedPair::new(&pair.description, &pair.other, &pair.options);
+            (own, there, own_options) = (pair.description, pair.other, pair.options);
+            mapping = Some(pair.report);
         }
     }
     if let Some(pair) = narrowed {

@@ -1,11 +1,14 @@
 //! The summary of a robot as text for people, in 80 columns.
 
-use std::{collections::BTreeMap, fmt::Write};
+use std::{collections::BTreeMap, fmt::Write, iter::once};
 
-use super::layout::paragraph;
+use super::{
+    TextOptions,
+    layout::{Table, paragraph},
+};
 use crate::{
     analysis::description_summary::{
-        DescriptionSummary, JointSummary, LinkSummary, ShapeSummary, UseSummary,
+        DescriptionSummary, JointOrders, JointSummary, LinkSummary, ShapeSummary, UseSummary,
     },
     description::JointKind,
     input::{
@@ -33,6 +36,32 @@ pub fn description_text(summary: &DescriptionSummary) -> String {
     for each in &summary.uses {
         describe_use(&mut text, each);
     }
+    text
+}
+
+/// What `congruent describe --orders` prints of a robot: a row for each place, a column for each order that differs from those
+/// before it, and where they differ.
+pub fn joint_orders_text(orders: &JointOrders, options: &TextOptions) -> String {
+    let named = [
+        ("file", &orders.in_file),
+        ("depth first (MuJoCo)", &orders.depth_first),
+        ("breadth first (Isaac)", &orders.breadth_first),
+        ("breadth first, fixed joints kept", &orders.breadth_first_of_links),
+    ];
+    // The last one is a special case of the one before.
+    let columns =
+        if orders.breadth_first == orders.breadth_first_of_links { &named[..3] } else { &named[..] };
+    let mut table = Table::default();
+    table.row(once("place").chain(columns.iter().map(|of| of.0)).map(str::to_owned));
+    for place in 0..orders.in_file.len() {
+        table.row(once((place + 1).to_string()).chain(columns.iter().map(|(_, order)| order[place].clone())));
+    }
+    let mut text = format!("  moving joints of {} in the orders of programs\n", orders.robot);
+    table.write(&mut text, options.columns);
+    if orders.remarks.is_empty() {
+        text += "  all orders are the same\n";
+    }
+    orders.remarks.iter().for_each(|remark| text += &paragraph(remark, 2, 4));
     text
 }
 

@@ -59,6 +59,13 @@ impl UrdfPlaces {
         &mut self.source
     }
 
+    /// The names of all joints in the order of the file.
+    pub fn joint_order(&self) -> Vec<String> {
+        let Ok(document) = xml::parse(&self.source.text) else { return Vec::new() };
+        let names = elements(document.root_element(), "joint").filter_map(|joint| joint.attribute("name"));
+        names.map(str::to_owned).collect()
+    }
+
     /// Place of the `<origin>` of a joint, or of the joint if it has none; `None` if there is no joint of
     /// that name.
     pub fn joint_origin(&self, name: &str) -> Option<Range<usize>> {
