@@ -91,6 +91,31 @@ fn a_limit_and_a_mass_that_nothing_moves_are_reported() {
 }
 
 #[test]
+fn an_armature_is_compared_with_that_of_a_revision_and_not_with_a_urdf() {
+    let (folder, robot) = repository();
+    let xml = folder.path().join("arm.xml");
+    let [mjcf, plain] =
+        [&xml, &folder.path().join("plain.urdf")].map(|path| path.to_str().unwrap().to_owned());
+    let converted = congruent(&["convert", robot.to_str().unwrap(), "--out", &mjcf]);
+    assert_eq!(converted.code, 0, "{}", converted.stderr);
+    let elbow = "<joint name=\"elbow_joint\"";
+    edit(&xml, elbow, &format!("{elbow} armature=\"0.1\""));
+    commit(folder.path());
+    answers(&xml, "git:HEAD", 0, "UNCHANGED since HEAD");
+    edit(&xml, "armature=\"0.1\"", "armature=\"0.3\"");
+    answers(&xml, "git:HEAD", 1, "elbow_joint: armature 0.3 kg m^2, was 0.1 kg m^2");
+    let answer = congruent(&["check", &mjcf, "--against", robot.to_str().unwrap()]);
+    let stated = format!("not compared: armature, stated by {mjcf} alone");
+    assert_eq!((answer.code, answer.stdout.matches(&stated).count()), (0, 1), "{}", answer.stdout);
+    let answer = congruent(&["describe", &mjcf]);
+    assert!(answer.stdout.contains("armature 0.3 kg m^2"), "{}", answer.stdout);
+    // A URDF has no place for it, and says so.
+    let answer = congruent(&["convert", &mjcf, "--out", &plain]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    assert!(answer.stderr.contains("its armature, 0.3 kg m^2, is not written"), "{}", answer.stderr);
+}
+
+#[test]
 fn a_file_that_moved_is_named_by_its_old_path_and_includes_come_from_the_same_revision() {
     let (folder, robot) = repository();
     let xml = folder.path().join("arm.xml");

@@ -22,8 +22,6 @@ congruent_input::codes! {
             "An equality that is no linear coupling of two joints: a polynomial of degree 2 or more, a locked joint, tendons. The joint is read as one that moves by itself, and forces are refused.";
         GRAVITY = "CGR-MJCF-057", "mjcf::gravity",
             "MuJoCo would simulate another weight: the file has another gravity, or a body has a gravcomp. Forces are computed with 9.81 m/s^2 downwards and the whole weight.";
-        ARMATURE = "CGR-MJCF-058", "mjcf::armature",
-            "A joint has an armature, the inertia of its motor, which MuJoCo adds to the mass matrix. Forces are computed without it.";
         SPRING = "CGR-MJCF-059", "mjcf::spring",
             "A joint has a spring (`stiffness`), whose torque is left out of forces.";
         DAMPING = "CGR-MJCF-060", "mjcf::damping",

@@ -4,7 +4,7 @@
 use congruent_description::{Geometry, JointKind, JointParts, Link, Robot, RobotDescription, Shape};
 use congruent_input::{
     Diagnostic, Diagnostics,
-    display::{counted, position},
+    display::{counted, position, quantity},
 };
 
 use crate::{codes, fit_inertia, format::RobotFormat, links::Parts, mjcf};
@@ -123,9 +123,18 @@ fn unwritable(shape: &Shape, format: RobotFormat) -> Option<String> {
     }
 }
 
-/// Ranges and limits as a URDF has them.
+/// Terms, ranges and limits as a URDF has them.
 fn joint_of_urdf(parts: &mut JointParts, diagnostics: &mut Diagnostics) {
     let joint = &mut parts.joint;
+    if let Some(armature) = joint.armature.take().filter(|armature| *armature != 0.0) {
+        let unit = if joint.kind.is_angular() { "kg m^2" } else { "kg" };
+        let armature = quantity(armature, unit);
+        let message =
+            format!("joint \"{}\": its armature, {armature}, is not written: a URDF has none", joint.name);
+        let kind = "joints have an armature, which a URDF cannot hold";
+        let found = Diagnostic::warning(codes::write::ARMATURE, message).one_of(kind, &joint.name);
+        diagnostics.push(found.with_help("keep it in a scenario: [joints] armature = { JOINT = VALUE }"));
+    }
     if joint.kind == JointKind::Prismatic && joint.limit.is_none() {
         let (lower, upper) = (-FARTHEST_SLIDE_M, FARTHEST_SLIDE_M);
         joint.limit = Some(congruent_description::JointLimit { lower, upper, velocity: None, effort: None });

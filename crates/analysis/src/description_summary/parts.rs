@@ -67,6 +67,8 @@ pub struct JointSummary {
     pub damping: f64,
     /// Dry friction, N m or N.
     pub friction: f64,
+    /// Inertia of motor and gear as the joint feels it, kg m^2 or kg; `null` if the description does not state it.
+    pub armature: Option<f64>,
     /// The joint that it follows.
     pub mimic: Option<MimicSummary>,
 }
@@ -147,6 +149,7 @@ fn joint(robot: &Robot, joint: &Joint) -> JointSummary {
         effort: stated(joint.limit.and_then(|limit| limit.effort)),
         damping: joint.damping,
         friction: joint.friction,
+        armature: joint.armature.filter(|_| joint.kind.is_movable()),
         mimic: joint.mimic.map(|mimic| MimicSummary {
             master: robot.joint(mimic.master).name.clone(),
             multiplier: mimic.multiplier,

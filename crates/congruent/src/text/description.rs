@@ -132,7 +132,13 @@ fn joint_line(joint: &JointSummary) -> String {
         let _ = write!(line, ", at most {}", most.join(" and "));
     }
     let per_speed = if joint.kind == JointKind::Prismatic { "N s/m" } else { "N m s/rad" };
-    for (what, value, unit) in [("damping", joint.damping, per_speed), ("friction", joint.friction, force)] {
+    let inertia = if joint.kind == JointKind::Prismatic { "kg" } else { "kg m^2" };
+    let terms = [
+        ("damping", joint.damping, per_speed),
+        ("friction", joint.friction, force),
+        ("armature", joint.armature.unwrap_or(0.0), inertia),
+    ];
+    for (what, value, unit) in terms {
         if value != 0.0 {
             let _ = write!(line, ", {what} {}", quantity(value, unit));
         }

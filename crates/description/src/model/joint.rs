@@ -114,6 +114,9 @@ pub struct Joint {
     pub damping: f64,
     /// Dry friction, N m or N.
     pub friction: f64,
+    /// Inertia of motor and gear as the joint feels it, kg m^2 or kg; `None` if the format cannot state it, as URDF, which is
+    /// not zero.
+    pub armature: Option<f64>,
     /// Set if the joint follows another.
     pub mimic: Option<Mimic>,
 }
@@ -179,6 +182,7 @@ impl JointParts {
             limit: None,
             damping: 0.0,
             friction: 0.0,
+            armature: None,
             mimic: None,
         };
         Self { joint, parent: parent.to_owned(), child: child.to_owned(), mimic: None }

@@ -53,6 +53,7 @@ pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut
         limit: reader.limit(kind),
         damping: reader.loss("damping", joint.dynamics.as_ref().map(|dynamics| dynamics.damping)),
         friction: reader.loss("friction", joint.dynamics.as_ref().map(|dynamics| dynamics.friction)),
+        armature: None,
         mimic: None,
     };
     let mimic = joint

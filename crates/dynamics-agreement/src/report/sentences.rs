@@ -218,6 +218,7 @@ impl DynamicsReport {
         sentences.extend(self.limits.iter().map(LimitDifference::sentence));
         sentences.extend(self.hidden_sentences());
         sentences.extend(self.not_stated_sentence());
+        sentences.extend(self.armature_sentence());
         if !self.has_same_torques() {
             sentences.extend(self.invariants.iter().flat_map(Invariants::sentences));
         }
@@ -298,6 +299,12 @@ impl DynamicsReport {
         let says_more = !self.not_stated.is_empty() && self.verdict != DynamicsVerdict::NotCompared;
         let what = || format!("not compared ({} does not state them): ", self.sides.reference);
         says_more.then(|| what() + &self.not_stated.join("; "))
+    }
+
+    /// That armatures are not compared, if only one of the two files states them.
+    pub fn armature_sentence(&self) -> Option<String> {
+        let file = self.armature_stated_by.as_ref()?;
+        Some(format!("not compared: armature, stated by {file} alone"))
     }
 
     /// On how many combinations of inertial parameters joint torques depend; `None` if it is not computed.

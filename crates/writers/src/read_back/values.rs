@@ -120,6 +120,8 @@ fn terms_apart(a: &Joint, b: &Joint) -> f64 {
         (range_a.1, range_b.1),
         (Some(a.damping), Some(b.damping)),
         (Some(a.friction), Some(b.friction)),
+        // An MJCF states 0 where a URDF states nothing.
+        (Some(a.armature.unwrap_or(0.0)), Some(b.armature.unwrap_or(0.0))),
         (mimic_a.map(|of| of.multiplier), mimic_b.map(|of| of.multiplier)),
         (mimic_a.map(|of| of.offset), mimic_b.map(|of| of.offset)),
     ];
