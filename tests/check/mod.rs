@@ -17,3 +17,4 @@ mod revisions;
 mod second_source;
 mod stated;
 mod suggestions;
+mod unranged_slides;

@@ -1,6 +1,7 @@
 //! The sentences of the report, for people.
 
 use congruent_input::display::{length, limit_number, number, quantity, quantity_with_digits};
+use congruent_kinematics::UNRANGED_SLIDE_M;
 
 use super::content::{
     ComparedModels, DynamicsExplanation, DynamicsReport, DynamicsVerdict, TorqueCertificates,
@@ -371,7 +372,14 @@ impl TorqueCertificates {
         } else {
             " ([limits] acceleration_rad_s2 of robot.toml declares them)"
         };
-        format!("{speeds}; {accelerations}{how}")
+        let unranged = named(|covered| covered.assumed_slide_m.is_some());
+        let positions = match &unranged[..] {
+            [] => String::new(),
+            names => {
+                format!("; positions of {} assumed within {UNRANGED_SLIDE_M} m of zero", names.join(", "))
+            }
+        };
+        format!("{speeds}; {accelerations}{how}{positions}")
     }
 }
 
