@@ -80,6 +80,12 @@ fn a_limit_and_a_mass_that_nothing_moves_are_reported() {
     answers(&robot, "git:before", 1, "CHANGED since before: shoulder_pan_joint: effort 200 N m, was 150 N m");
     commit(folder.path());
     answers(&robot, "git:HEAD~1", 1, "effort 200 N m");
+    edit(&urdf, "effort=\"200\"", "effort=\"200\" acceleration=\"4\" jerk=\"50\"");
+    edit(&urdf, "<robot ", "<robot version=\"1.2\" ");
+    commit(folder.path());
+    edit(&urdf, "acceleration=\"4\"", "acceleration=\"5\"");
+    answers(&robot, "git:HEAD", 1, "shoulder_pan_joint: acceleration 286 deg/s^2, was 229 deg/s^2");
+    git(folder.path(), &["checkout", "-q", "."]);
     answers(&robot, "git:HEAD", 0, "UNCHANGED since HEAD");
     edit(&urdf, "<mass value=\"4\"/>", "<mass value=\"5.5\"/>");
     answers(

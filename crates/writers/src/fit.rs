@@ -1,7 +1,9 @@
 //! The robot that a format can hold. What it cannot hold is changed or left out here, each with a warning, so that what is written
 //! of it is exact.
 
-use congruent_description::{Geometry, JointKind, JointParts, Link, Robot, RobotDescription, Shape};
+use congruent_description::{
+    Geometry, JointKind, JointLimit, JointParts, Link, Robot, RobotDescription, Shape,
+};
 use congruent_input::{
     Diagnostic, Diagnostics,
     display::{counted, position, quantity},
@@ -137,7 +139,7 @@ fn joint_of_urdf(parts: &mut JointParts, diagnostics: &mut Diagnostics) {
     }
     if joint.kind == JointKind::Prismatic && joint.limit.is_none() {
         let (lower, upper) = (-FARTHEST_SLIDE_M, FARTHEST_SLIDE_M);
-        joint.limit = Some(congruent_description::JointLimit { lower, upper, velocity: None, effort: None });
+        joint.limit = Some(JointLimit { lower, upper, ..JointLimit::default() });
         let message = format!(
             "joint \"{}\" slides without a range, which a URDF must state: {lower} to {upper} m is written",
             joint.name
@@ -180,11 +182,8 @@ fn joint_of_mjcf(parts: &mut JointParts, diagnostics: &mut Diagnostics) {
             format!("MJCF cannot hold its range {range}, so it is written without one"),
             kind,
         );
-        joint.limit = joint.limit.map(|limit| congruent_description::JointLimit {
-            lower: f64::NEG_INFINITY,
-            upper: f64::INFINITY,
-            ..limit
-        });
+        joint.limit =
+            joint.limit.map(|limit| JointLimit { lower: f64::NEG_INFINITY, upper: f64::INFINITY, ..limit });
         if joint.kind == JointKind::Revolute {
             joint.kind = JointKind::Continuous;
         }
@@ -193,6 +192,20 @@ fn joint_of_mjcf(parts: &mut JointParts, diagnostics: &mut Diagnostics) {
     if let Some(velocity) = limit.velocity.take() {
         let what = format!("its largest speed, {velocity} {}/s, is not written", joint.kind.unit());
         warn(codes::write::VELOCITY, what, "joints have a largest speed, which MJCF cannot hold");
+    }
+    let unit = joint.kind.unit();
+    let rates = [
+        ("acceleration", "^2", limit.acceleration.take()),
+        ("deceleration", "^2", limit.deceleration.take()),
+        ("jerk", "^3", limit.jerk.take()),
+    ];
+    let rates = rates.into_iter().filter_map(|(what, power, value)| {
+        Some(format!("{what}, {}", quantity(value?, &format!("{unit}/s{power}"))))
+    });
+    let rates: Vec<String> = rates.collect();
+    if !rates.is_empty() {
+        let what = format!("not written are its largest {}", rates.join(", largest "));
+        warn(codes::write::RATES, what, "joints have a largest acceleration or jerk, which MJCF cannot hold");
     }
     if limit.effort.is_some_and(|effort| effort <= 0.0) {
         limit.effort = None;

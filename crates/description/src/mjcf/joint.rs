@@ -19,7 +19,7 @@ pub(super) fn with_values(frame: JointParts, model: &MjModel, number: usize) -> 
     // A slide without a range has no limit at all: the two ends that a limit needs would not be true.
     let [lower, upper] = range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let has_limit = range.is_some() || kind == JointKind::Continuous;
-    let limit = JointLimit { lower, upper, velocity: None, effort: effort(joint) };
+    let limit = JointLimit { lower, upper, effort: effort(joint), ..JointLimit::default() };
     let joint = Joint {
         kind,
         axis_in_joint: joint.axis_in_body.value,
