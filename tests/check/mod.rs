@@ -18,3 +18,4 @@ mod revisions;
 mod second_source;
 mod stated;
 mod suggestions;
+mod unranged_slides;

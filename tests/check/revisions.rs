@@ -80,6 +80,12 @@ fn a_limit_and_a_mass_that_nothing_moves_are_reported() {
     answers(&robot, "git:before", 1, "CHANGED since before: shoulder_pan_joint: effort 200 N m, was 150 N m");
     commit(folder.path());
     answers(&robot, "git:HEAD~1", 1, "effort 200 N m");
+    edit(&urdf, "effort=\"200\"", "effort=\"200\" acceleration=\"4\" jerk=\"50\"");
+    edit(&urdf, "<robot ", "<robot version=\"1.2\" ");
+    commit(folder.path());
+    edit(&urdf, "acceleration=\"4\"", "acceleration=\"5\"");
+    answers(&robot, "git:HEAD", 1, "shoulder_pan_joint: acceleration 286 deg/s^2, was 229 deg/s^2");
+    git(folder.path(), &["checkout", "-q", "."]);
     answers(&robot, "git:HEAD", 0, "UNCHANGED since HEAD");
     edit(&urdf, "<mass value=\"4\"/>", "<mass value=\"5.5\"/>");
     answers(
@@ -88,6 +94,31 @@ fn a_limit_and_a_mass_that_nothing_moves_are_reported() {
         0,
         "UNCHANGED since HEAD in poses, torques and limits; adds 1.5 kg at base_link_inertia",
     );
+}
+
+#[test]
+fn an_armature_is_compared_with_that_of_a_revision_and_not_with_a_urdf() {
+    let (folder, robot) = repository();
+    let xml = folder.path().join("arm.xml");
+    let [mjcf, plain] =
+        [&xml, &folder.path().join("plain.urdf")].map(|path| path.to_str().unwrap().to_owned());
+    let converted = congruent(&["convert", robot.to_str().unwrap(), "--out", &mjcf]);
+    assert_eq!(converted.code, 0, "{}", converted.stderr);
+    let elbow = "<joint name=\"elbow_joint\"";
+    edit(&xml, elbow, &format!("{elbow} armature=\"0.1\""));
+    commit(folder.path());
+    answers(&xml, "git:HEAD", 0, "UNCHANGED since HEAD");
+    edit(&xml, "armature=\"0.1\"", "armature=\"0.3\"");
+    answers(&xml, "git:HEAD", 1, "elbow_joint: armature 0.3 kg m^2, was 0.1 kg m^2");
+    let answer = congruent(&["check", &mjcf, "--against", robot.to_str().unwrap()]);
+    let stated = format!("not compared: armature, stated by {mjcf} alone");
+    assert_eq!((answer.code, answer.stdout.matches(&stated).count()), (0, 1), "{}", answer.stdout);
+    let answer = congruent(&["describe", &mjcf]);
+    assert!(answer.stdout.contains("armature 0.3 kg m^2"), "{}", answer.stdout);
+    // A URDF has no place for it, and says so.
+    let answer = congruent(&["convert", &mjcf, "--out", &plain]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    assert!(answer.stderr.contains("its armature, 0.3 kg m^2, is not written"), "{}", answer.stderr);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
     python3 against_mujoco.py SOURCE WRITTEN
 
-A source in MJCF is loaded in MuJoCo too, without armature, which the project reports and leaves out. Of a URDF the poses and the
+A source in MJCF is loaded in MuJoCo too. Of a URDF the poses and the
 mass matrix, the sum of m Jv' Jv + Jw' I Jw over all links, are computed here. Printed are the largest differences: of positions
 in m, of rotation matrices, and of mass matrices relative to their largest entry.
 """
@@ -100,7 +100,6 @@ def full(model, data):
 
 def compare(source, written):
     model = mujoco.MjModel.from_xml_path(written)
-    model.dof_armature[:] = 0  # reported and left out by the reader
     data = mujoco.MjData(model)
     rng = np.random.default_rng(1)
     is_urdf = source.endswith("urdf")
@@ -109,7 +108,6 @@ def compare(source, written):
         names = urdf.moving
     else:
         other = mujoco.MjModel.from_xml_path(source)
-        other.dof_armature[:] = 0
         od = mujoco.MjData(other)
         names = [other.joint(i).name for i in range(other.njnt)]
     adr = [model.joint(n).qposadr[0] for n in names]

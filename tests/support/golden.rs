@@ -14,6 +14,29 @@ impl Golden {
         Self { document: read_json(&robot.join("golden.json")) }
     }
 
+    /// The golden with the armature of its joints in the equations of motion, if they were computed without it: on the diagonal of
+    /// the mass matrix `M`, and so `rnea` grows by armature times acceleration, and without torque `(M + A) qdd' = M qdd`.
+    pub(crate) fn with_armature(mut self) -> Self {
+        let joints = self.document["joints"].as_array().expect("joints");
+        let armature: Vec<f64> = joints.iter().map(|joint| number(&joint["armature"])).collect();
+        let product = |rows: &[Vec<f64>], vector: &[f64]| -> Vec<f64> {
+            rows.iter().map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum()).collect()
+        };
+        for configuration in self.document["configs"].as_array_mut().expect("configurations") {
+            let Some(rows) = configuration["mass_matrix"].as_array() else { continue };
+            let mut rows: Vec<Vec<f64>> = rows.iter().map(numbers).collect();
+            let torques = product(&rows, &numbers(&configuration["aba_zero_torque"]));
+            rows.iter_mut().enumerate().for_each(|(at, row)| row[at] += armature[at]);
+            configuration["mass_matrix"] = json!(rows);
+            let (rnea, qdd) = (numbers(&configuration["rnea"]), numbers(&configuration["a"]));
+            let added =
+                rnea.iter().zip(&armature).zip(&qdd).map(|((tau, armature), qdd)| tau + armature * qdd);
+            configuration["rnea"] = json!(added.collect::<Vec<f64>>());
+            configuration["aba_zero_torque"] = json!(solved(rows, torques));
+        }
+        self
+    }
+
     /// All configurations of some kinds.
     pub(crate) fn configurations(&self, kinds: &[&str]) -> Vec<&Value> {
         let all = self.document["configs"].as_array().expect("configurations");
@@ -42,6 +65,20 @@ impl Golden {
         let batch: Vec<Value> = configurations.iter().map(by_name).collect();
         fs::write(path, json!(batch).to_string()).expect("a temporary file is written");
     }
+}
+
+/// The solution of `matrix x = right` for a positive definite matrix, which needs no pivots.
+fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
+    let size = right.len();
+    for column in 0..size {
+        for row in (0..size).filter(|row| *row != column) {
+            let share = matrix[row][column] / matrix[column][column];
+            let eliminating = matrix[column].clone();
+            matrix[row].iter_mut().zip(eliminating).for_each(|(entry, above)| *entry -= share * above);
+            right[row] -= share * right[column];
+        }
+    }
+    right.iter().enumerate().map(|(at, value)| value / matrix[at][at]).collect()
 }
 
 /// A JSON file of the corpus.

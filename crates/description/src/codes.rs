@@ -22,8 +22,6 @@ congruent_input::codes! {
             "An equality that is no linear coupling of two joints: a polynomial of degree 2 or more, a locked joint, tendons. The joint is read as one that moves by itself, and forces are refused.";
         GRAVITY = "CGR-MJCF-057", "mjcf::gravity",
             "MuJoCo would simulate another weight: the file has another gravity, or a body has a gravcomp. Forces are computed with 9.81 m/s^2 downwards and the whole weight.";
-        ARMATURE = "CGR-MJCF-058", "mjcf::armature",
-            "A joint has an armature, the inertia of its motor, which MuJoCo adds to the mass matrix. Forces are computed without it.";
         SPRING = "CGR-MJCF-059", "mjcf::spring",
             "A joint has a spring (`stiffness`), whose torque is left out of forces.";
         DAMPING = "CGR-MJCF-060", "mjcf::damping",
@@ -76,6 +74,8 @@ congruent_input::codes! {
             "The damping or friction of a joint is negative, which would add energy. Write both as values of at least 0.";
         QUATERNION = "CGR-URDF-021", "urdf::quaternion",
             "A rotation is given as `quat_xyzw`, which only URDF 1.1 and later supports, or its quaternion is zero. Other readers ignore it and lose the rotation.\n    <robot name=\"r\" version=\"1.1\">";
+        VERSION = "CGR-URDF-035", "urdf::version",
+            "A limit of acceleration, deceleration or jerk, which URDF has from version 1.2 on. In an older file no reader takes it. State the version, with which a `<limit>` may also have no effort and no velocity.\n    <robot name=\"r\" version=\"1.2\">";
         GEOMETRY = "CGR-URDF-022", "urdf::geometry",
             "A shape is missing, unknown, or has a size that is not positive. Give each <geometry> exactly one shape with sizes above 0.\n    <geometry><box size=\"0.1 0.1 0.2\"/></geometry>";
         SCALE = "CGR-URDF-023", "urdf::scale",

@@ -155,6 +155,9 @@ fn check_joints(name: &str, robot: &Robot, golden: &Value) {
         for (found, golden) in [joint.damping, joint.friction].into_iter().zip(losses) {
             assert!((found - golden).abs() < 1e-15, "{name} {}", joint.name);
         }
+        let armature = joint.armature.expect("every MJCF states it");
+        let expected = golden["armature"].as_f64().expect("the golden has it");
+        assert!((armature - expected).abs() < 1e-15, "{name} {}", joint.name);
         let mimic = joint.mimic.map(|of| (robot.joint(of.master).name.as_str(), of.multiplier, of.offset));
         let expected = &golden["mimic"];
         let expected = expected["joint"].as_str().map(|master| {

@@ -26,7 +26,7 @@ pub use bound::{CoveredMotion, TorqueBracket, TorqueCertificate};
 pub use compare::{CompareError, NamedModel, certify, compare, compare_with_source};
 pub use diagnosis::{DynamicsCause, EquivalenceReason, FaultySide};
 pub use differences::{CandidateAndReference, Invariants, LimitCause, LimitDifference, ParameterDifference};
-pub use model::{BodyLaw, DynamicsModel, Frames, Inertial};
+pub use model::{BodyLaw, DynamicsModel, Frames, Inertial, one_sided_armature::without_one_sided_armature};
 pub use report::{
     ComparedModels, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, ParameterPlaces,
     PlacedCause, TorqueCertificates,

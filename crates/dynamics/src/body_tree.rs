@@ -1,6 +1,6 @@
 //! A robot as rigid bodies that joints move relative to each other, prepared for the algorithms.
 
-use congruent_description::{JointKind, LinkIndex, Robot, RobotQ};
+use congruent_description::{Joint, JointKind, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{Pose, Twist, frame_about, rotation_exp};
 use nalgebra::{Matrix3, Vector3};
 
@@ -24,12 +24,20 @@ pub struct JointResistance {
     pub armature: f64,
 }
 
+impl From<&Joint> for JointResistance {
+    /// The values of a description; an armature that it does not state counts as zero.
+    fn from(joint: &Joint) -> Self {
+        let armature = joint.armature.unwrap_or(0.0);
+        Self { damping: joint.damping, friction: joint.friction, armature }
+    }
+}
+
 /// A robot as a tree of rigid bodies: each moving joint carries one, the links that fixed joints hold together.
 ///
 /// Vectors go by the robot's moving joints in its own order. Mimic joints are independent, except in
 /// [`BodyTree::forward_into`], which keeps their ratio.
 ///
-/// Damping and dry friction are those of the description, armature is zero, gravity is [`GRAVITY_M_S2`].
+/// Damping, dry friction and armature are those of the description, gravity is [`GRAVITY_M_S2`].
 #[derive(Debug, Clone)]
 pub struct BodyTree {
     /// One for each moving joint, parents first.
@@ -115,9 +123,7 @@ impl BodyTree {
                     body_from_link: joint_from_body.rotation.transpose(),
                     link: joint.child,
                 });
-                let (damping, friction) = (joint.damping, joint.friction);
-                // A URDF has no armature.
-                tree.resistances.push(JointResistance { damping, friction, armature: 0.0 });
+                tree.resistances.push(JointResistance::from(joint));
                 tree.mimics.push(joint.mimic.and_then(|mimic| {
                     Some(FollowerRatio { master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
                 }));

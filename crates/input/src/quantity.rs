@@ -149,6 +149,15 @@ pub enum SiUnit {
     /// Metre per second squared.
     #[serde(rename = "m/s^2")]
     MetrePerSecondSquared,
+    /// Radian per second squared.
+    #[serde(rename = "rad/s^2")]
+    RadianPerSecondSquared,
+    /// Metre per second cubed.
+    #[serde(rename = "m/s^3")]
+    MetrePerSecondCubed,
+    /// Radian per second cubed.
+    #[serde(rename = "rad/s^3")]
+    RadianPerSecondCubed,
     /// Kilogram square metre.
     #[serde(rename = "kg m^2")]
     KilogramSquareMetre,

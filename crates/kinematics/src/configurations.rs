@@ -8,6 +8,8 @@ use crate::uniform::Uniform;
 const AXIS_STEP_RAD: f64 = std::f64::consts::PI / 18.0;
 /// Position of a single prismatic joint in an axis step, m.
 const AXIS_STEP_M: f64 = 0.01;
+/// How far from zero a joint that slides without a range is sampled, m. Kind: choice; about the size of an arm.
+pub const UNRANGED_SLIDE_M: f64 = 1.0;
 
 /// Zero, one axis at a time, `random` seeded draws within the limits, and the limits themselves:
 /// each joint alone at both ends with the others half way, then all at their lower and upper ends.
@@ -75,9 +77,26 @@ pub fn random_configurations(robot: &Robot, seed: u64, count: usize) -> Vec<Robo
     (0..count).map(|_| configuration()).collect()
 }
 
-/// The limits of a joint, or one turn if it has none.
+/// The limits of a joint; one turn of a joint that turns without limits, and [`UNRANGED_SLIDE_M`] in both directions of one that
+/// slides without. Of a range with one end the part of this width at that end.
+///
+/// # Examples
+/// ```
+/// use congruent_description::parse_urdf;
+/// use congruent_kinematics::range;
+/// let robot = parse_urdf("<robot name='r' version='1.2'><link name='a'/><link name='b'/><joint name='z' type='prismatic'>
+///     <parent link='a'/><child link='b'/><limit lower='0.5'/></joint></robot>").unwrap();
+/// assert_eq!(range(robot.joint(robot.movable_joints()[0])), (0.5, 2.5));
+/// ```
 pub fn range(joint: &Joint) -> (f64, f64) {
-    joint.position_range().unwrap_or((-std::f64::consts::PI, std::f64::consts::PI))
+    let end = if joint.kind.is_angular() { std::f64::consts::PI } else { UNRANGED_SLIDE_M };
+    let (lower, upper) = joint.position_range().unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+    match (lower.is_finite(), upper.is_finite()) {
+        (true, true) => (lower, upper),
+        (true, false) => (lower, lower + 2.0 * end),
+        (false, true) => (upper - 2.0 * end, upper),
+        (false, false) => (-end, end),
+    }
 }
 
 /// Moves each position that is outside its limits to the nearest limit; mimic joints follow.

@@ -33,7 +33,8 @@ pub use chain::{
     StandardDh, UrdfTree, derive_dh, without_rounding,
 };
 pub use configurations::{
-    AxisStep, axis_steps, move_inside_limits, random_configurations, range, sample_configurations,
+    AxisStep, UNRANGED_SLIDE_M, axis_steps, move_inside_limits, random_configurations, range,
+    sample_configurations,
 };
 pub use error::KinematicsError;
 pub use link_poses::{LinkPoses, LinkPosesError};

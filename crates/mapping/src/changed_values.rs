@@ -16,7 +16,7 @@ const ROUNDED_M: f64 = 1e-9;
 pub struct ChangedValue {
     /// The joint.
     pub joint: String,
-    /// `lower`, `upper`, `velocity`, `effort`, `damping` or `friction`.
+    /// `lower`, `upper`, `velocity`, `effort`, `acceleration`, `deceleration`, `jerk`, `damping`, `friction` or `armature`.
     #[serde(rename = "figure")]
     pub parameter: &'static str,
     /// Its value; `null` if none is stated.
@@ -56,17 +56,27 @@ pub type JointRange = Option<(f64, f64)>;
 /// The values of a joint that differ; its ranges are those in the same variable.
 pub fn changed_values(joint: &Joint, before: &Joint, ranges: [JointRange; 2]) -> Vec<ChangedValue> {
     let [(lower, upper), (lower_before, upper_before)] = ranges.map(Option::unzip);
-    let limit = |of: &Joint| of.limit.map_or((None, None), |limit| (limit.velocity, limit.effort));
-    let [(velocity, effort), (velocity_before, effort_before)] = [limit(joint), limit(before)];
+    let [limit, limit_before] = [joint.limit.unwrap_or_default(), before.limit.unwrap_or_default()];
+    let [per_s2, per_s3] = if joint.kind.is_angular() {
+        [SiUnit::RadianPerSecondSquared, SiUnit::RadianPerSecondCubed]
+    } else {
+        [SiUnit::MetrePerSecondSquared, SiUnit::MetrePerSecondCubed]
+    };
     let loss = |value: f64| (value != 0.0).then_some(value);
-    let [position, speed, force, damping] = units(joint.kind);
+    // Nothing is said of a value that only one of two formats can state.
+    let (armature, armature_before) = joint.armature.zip(before.armature).unzip();
+    let [position, speed, force, damping, inertia] = units(joint.kind);
     let values = [
         ("lower", lower, lower_before, position),
         ("upper", upper, upper_before, position),
-        ("velocity", velocity, velocity_before, speed),
-        ("effort", effort, effort_before, force),
+        ("velocity", limit.velocity, limit_before.velocity, speed),
+        ("effort", limit.effort, limit_before.effort, force),
+        ("acceleration", limit.acceleration, limit_before.acceleration, per_s2),
+        ("deceleration", limit.deceleration, limit_before.deceleration, per_s2),
+        ("jerk", limit.jerk, limit_before.jerk, per_s3),
         ("damping", loss(joint.damping), loss(before.damping), damping),
         ("friction", loss(joint.friction), loss(before.friction), force),
+        ("armature", armature, armature_before, inertia),
     ];
     let differs = |found: Option<f64>, before: Option<f64>| match (found, before) {
         (Some(found), Some(before)) => !is_same_value(found, before),
@@ -89,12 +99,24 @@ pub fn is_same_value(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUNDED * a.abs().max(b.abs())
 }
 
-/// The units of position, speed, force and damping.
-fn units(kind: JointKind) -> [SiUnit; 4] {
+/// The units of position, speed, force, damping and armature.
+fn units(kind: JointKind) -> [SiUnit; 5] {
     if kind.is_angular() {
-        [SiUnit::Radian, SiUnit::RadianPerSecond, SiUnit::NewtonMetre, SiUnit::NewtonMetreSecondPerRadian]
+        [
+            SiUnit::Radian,
+            SiUnit::RadianPerSecond,
+            SiUnit::NewtonMetre,
+            SiUnit::NewtonMetreSecondPerRadian,
+            SiUnit::KilogramSquareMetre,
+        ]
     } else {
-        [SiUnit::Metre, SiUnit::MetrePerSecond, SiUnit::Newton, SiUnit::NewtonSecondPerMetre]
+        [
+            SiUnit::Metre,
+            SiUnit::MetrePerSecond,
+            SiUnit::Newton,
+            SiUnit::NewtonSecondPerMetre,
+            SiUnit::Kilogram,
+        ]
     }
 }
 

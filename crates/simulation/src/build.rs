@@ -202,7 +202,7 @@ fn generic_joint(joint: &Joint, bodies: &Bodies, slot: &EngineSlot) -> GenericJo
     data
 }
 
-/// Damping, friction and couplings, and the first forward kinematics, which also turns the root
+/// Damping, friction, armature and couplings, and the first forward kinematics, which also turns the root
 /// from free to fixed and so gives the rows their final numbers.
 fn finish_multibody(sets: &mut EngineSets, index: MultibodyIndex, robot: &Robot, slots: &[EngineSlot]) {
     let multibody = sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
@@ -215,6 +215,7 @@ fn finish_multibody(sets: &mut EngineSets, index: MultibodyIndex, robot: &Robot,
         // rapier starts every angular joint with a damping of 0.1 N m s/rad: always overwrite.
         multibody.damping_mut()[row] = joint.damping;
         multibody.frictions_mut()[row] = joint.friction;
+        multibody.armature_mut()[row] = joint.armature.unwrap_or(0.0);
         if let Some(mimic) = joint.mimic {
             let master = robot.coordinate(mimic.master).expect("a mimicked joint moves");
             multibody.add_dof_coupling(MultibodyDofCoupling {

@@ -38,6 +38,24 @@ fn what_is_carried_is_as_what_was_built_in() {
 }
 
 #[test]
+fn the_armature_of_a_description_is_in_the_mass_matrix() {
+    let robot = support::arm();
+    let armature = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+    let mut values = armature.into_iter();
+    let with_armature = robot.with_joints(|joint| {
+        joint.armature = if joint.kind.is_movable() { values.next() } else { None };
+    });
+    let [without, with] = [&robot, &with_armature].map(|robot| {
+        let mut world = World::new(robot, &WorldSettings::default()).unwrap();
+        world.set_state(&support::arm_q0(), &[0.0; 6]).unwrap();
+        world.mass_matrix()
+    });
+    let added = with - &without;
+    let expected = nalgebra::DMatrix::from_diagonal(&nalgebra::DVector::from_row_slice(&armature));
+    assert!((added - expected).norm() < ROUNDING * without.norm());
+}
+
+#[test]
 fn a_joint_of_very_large_damping_is_at_rest() {
     let mut world = World::new(&support::arm(), &WorldSettings::default()).unwrap();
     world.set_state(&support::arm_q0(), &[0.5; 6]).unwrap();

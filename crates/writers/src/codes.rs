@@ -24,6 +24,10 @@ congruent_input::codes! {
             "The robot file declares more than a URDF or an MJCF can hold: a table, a tool centre point, accelerations. This stays in the robot file.";
         ROS_LIMIT = "CGR-WRITE-011", "write::ros_limit",
             "A limit of a joint has no largest speed or effort, because the source has none. Congruent reads such a URDF; urdfdom, the reader of ROS, refuses it. Write the values of the data sheet.\n    <limit lower=\"-1\" upper=\"1\" effort=\"40\" velocity=\"2\"/>";
+        ARMATURE = "CGR-WRITE-014", "write::armature",
+            "A URDF cannot state the armature of a joint, the inertia of its motor behind the gear, so forces of the new file are those without it. Keep it in the [[inertial]] entry of robot.toml, or in the scenario of a run.\n    [joints]\n    armature = { elbow = 0.1 }";
+        RATES = "CGR-WRITE-015", "write::rates",
+            "MJCF has no limits of acceleration, deceleration and jerk, so those of the joints are not written. Keep them in robot.toml.\n    [limits]\n    acceleration_rad_s2 = { elbow = 10 }";
         READ_BACK = "CGR-WRITE-012", "write::read_back",
             "The written text was read again, and the robot in it is not the same, so nothing is written. A mesh that is found from the old folder and not from the new one is a usual reason. Otherwise this is a fault of Congruent: please report it with the file.";
         MASS = "CGR-WRITE-013", "write::mass",

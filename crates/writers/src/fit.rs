@@ -1,10 +1,12 @@
 //! The robot that a format can hold. What it cannot hold is changed or left out here, each with a warning, so that what is written
 //! of it is exact.
 
-use congruent_description::{Geometry, JointKind, JointParts, Link, Robot, RobotDescription, Shape};
+use congruent_description::{
+    Geometry, JointKind, JointLimit, JointParts, Link, Robot, RobotDescription, Shape,
+};
 use congruent_input::{
     Diagnostic, Diagnostics,
-    display::{counted, position},
+    display::{counted, position, quantity},
 };
 
 use crate::{codes, fit_inertia, format::RobotFormat, links::Parts, mjcf};
@@ -123,12 +125,21 @@ fn unwritable(shape: &Shape, format: RobotFormat) -> Option<String> {
     }
 }
 
-/// Ranges and limits as a URDF has them.
+/// Terms, ranges and limits as a URDF has them.
 fn joint_of_urdf(parts: &mut JointParts, diagnostics: &mut Diagnostics) {
     let joint = &mut parts.joint;
+    if let Some(armature) = joint.armature.take().filter(|armature| *armature != 0.0) {
+        let unit = if joint.kind.is_angular() { "kg m^2" } else { "kg" };
+        let armature = quantity(armature, unit);
+        let message =
+            format!("joint \"{}\": its armature, {armature}, is not written: a URDF has none", joint.name);
+        let kind = "joints have an armature, which a URDF cannot hold";
+        let found = Diagnostic::warning(codes::write::ARMATURE, message).one_of(kind, &joint.name);
+        diagnostics.push(found.with_help("keep it in a scenario: [joints] armature = { JOINT = VALUE }"));
+    }
     if joint.kind == JointKind::Prismatic && joint.limit.is_none() {
         let (lower, upper) = (-FARTHEST_SLIDE_M, FARTHEST_SLIDE_M);
-        joint.limit = Some(congruent_description::JointLimit { lower, upper, velocity: None, effort: None });
+        joint.limit = Some(JointLimit { lower, upper, ..JointLimit::default() });
         let message = format!(
             "joint \"{}\" slides without a range, which a URDF must state: {lower} to {upper} m is written",
             joint.name
@@ -171,11 +182,8 @@ fn joint_of_mjcf(parts: &mut JointParts, diagnostics: &mut Diagnostics) {
             format!("MJCF cannot hold its range {range}, so it is written without one"),
             kind,
         );
-        joint.limit = joint.limit.map(|limit| congruent_description::JointLimit {
-            lower: f64::NEG_INFINITY,
-            upper: f64::INFINITY,
-            ..limit
-        });
+        joint.limit =
+            joint.limit.map(|limit| JointLimit { lower: f64::NEG_INFINITY, upper: f64::INFINITY, ..limit });
         if joint.kind == JointKind::Revolute {
             joint.kind = JointKind::Continuous;
         }
@@ -184,6 +192,20 @@ fn joint_of_mjcf(parts: &mut JointParts, diagnostics: &mut Diagnostics) {
     if let Some(velocity) = limit.velocity.take() {
         let what = format!("its largest speed, {velocity} {}/s, is not written", joint.kind.unit());
         warn(codes::write::VELOCITY, what, "joints have a largest speed, which MJCF cannot hold");
+    }
+    let unit = joint.kind.unit();
+    let rates = [
+        ("acceleration", "^2", limit.acceleration.take()),
+        ("deceleration", "^2", limit.deceleration.take()),
+        ("jerk", "^3", limit.jerk.take()),
+    ];
+    let rates = rates.into_iter().filter_map(|(what, power, value)| {
+        Some(format!("{what}, {}", quantity(value?, &format!("{unit}/s{power}"))))
+    });
+    let rates: Vec<String> = rates.collect();
+    if !rates.is_empty() {
+        let what = format!("not written are its largest {}", rates.join(", largest "));
+        warn(codes::write::RATES, what, "joints have a largest acceleration or jerk, which MJCF cannot hold");
     }
     if limit.effort.is_some_and(|effort| effort <= 0.0) {
         limit.effort = None;

@@ -25,7 +25,10 @@ use crate::{
 /// ```
 pub fn urdf_text(robot: &Robot, folder: &Path) -> String {
     let mut text = XmlText::new();
-    text.begin("robot", Attributes::default().text("name", robot.name()));
+    let name = Attributes::default().text("name", robot.name());
+    // The limits of acceleration and jerk mean nothing before this version.
+    let has_rates = robot.joints().iter().any(|joint| joint.kind.is_movable() && has_rates(joint));
+    text.begin("robot", if has_rates { name.text("version", "1.2") } else { name });
     for link in robot.links() {
         write_link(&mut text, link, folder);
     }
@@ -113,16 +116,26 @@ fn write_joint(text: &mut XmlText, joint: &Joint, robot: &Robot) {
     text.end();
 }
 
+/// Whether a joint has a limit that only version 1.2 of URDF can state.
+fn has_rates(joint: &Joint) -> bool {
+    let rates = joint.limit.map(|limit| [limit.acceleration, limit.deceleration, limit.jerk]);
+    rates.is_some_and(|rates| rates.iter().any(Option::is_some))
+}
+
 /// What only a joint has that moves.
 fn write_motion(text: &mut XmlText, joint: &Joint, robot: &Robot) {
     text.element("axis", Attributes::default().numbers("xyz", joint.axis_in_joint.iter().copied()));
     let is_stated = |limit: &congruent_description::JointLimit| {
-        joint.kind != JointKind::Continuous || limit.effort.is_some() || limit.velocity.is_some()
+        let is_any = limit.effort.is_some() || limit.velocity.is_some() || has_rates(joint);
+        joint.kind != JointKind::Continuous || is_any
     };
     if let Some(limit) = joint.limit.filter(is_stated) {
         let [lower, upper] = joint.position_range().map_or([None; 2], |(low, high)| [Some(low), Some(high)]);
         let range = Attributes::default().optional("lower", lower).optional("upper", upper);
-        text.element("limit", range.optional("effort", limit.effort).optional("velocity", limit.velocity));
+        let limits = range.optional("effort", limit.effort).optional("velocity", limit.velocity);
+        let limits = limits.optional("acceleration", limit.acceleration);
+        let limits = limits.optional("deceleration", limit.deceleration);
+        text.element("limit", limits.optional("jerk", limit.jerk));
     }
     if joint.damping != 0.0 || joint.friction != 0.0 {
         let losses = Attributes::default().number("damping", joint.damping);

@@ -79,6 +79,37 @@ fn all_that_a_urdf_has_is_written_and_read_again() {
 }
 
 #[test]
+fn limits_of_version_1_2_are_written_with_the_version() {
+    let limit =
+        "<limit lower='-1' upper='2' effort='30' velocity='4' acceleration='7' deceleration='8' jerk='90'/>";
+    let text = urdf(&[("a", ""), ("b", INERTIAL)], &joint("j", "revolute", ["a", "b"], limit))
+        .replace("<robot ", "<robot version='1.2' ");
+    let (as_urdf, _) = written(&text, RobotFormat::Urdf);
+    for part in ["version=\"1.2\"", "acceleration=\"7\"", "deceleration=\"8\"", "jerk=\"90\""] {
+        assert!(as_urdf.text.contains(part), "{part}: {}", as_urdf.text);
+    }
+    assert_eq!(codes(&as_urdf), [""; 0]);
+    let (mjcf, _) = written(&text, RobotFormat::Mjcf);
+    assert_eq!(codes(&mjcf), ["write::velocity", "write::rates"]);
+    let (plain, _) =
+        written(&text.replace(" acceleration='7' deceleration='8' jerk='90'", ""), RobotFormat::Urdf);
+    assert!(!plain.text.contains("version="), "{}", plain.text);
+}
+
+#[test]
+fn an_armature_is_written_as_mjcf_and_reported_as_urdf() {
+    let text = "<mujoco><worldbody><body name='arm'><joint name='turn' axis='0 1 0' armature='0.25'/>\
+        <inertial pos='0 0 0.1' mass='1' diaginertia='0.1 0.1 0.1'/></body></worldbody>\
+        <actuator><motor joint='turn' gear='10' armature='0.0025'/></actuator></mujoco>";
+    let (mjcf, _) = written(text, RobotFormat::Mjcf);
+    assert!(mjcf.text.contains("armature=\"0.5\""), "{}", mjcf.text);
+    assert_eq!(codes(&mjcf), [""; 0]);
+    let (urdf, _) = written(text, RobotFormat::Urdf);
+    assert_eq!(codes(&urdf), ["write::armature"]);
+    assert!(urdf.warnings[0].message.contains("0.5 kg m^2"), "{}", urdf.warnings[0].message);
+}
+
+#[test]
 fn a_massless_link_between_two_joints_is_a_body_with_two_joints() {
     let between =
         joint("j", "continuous", ["a", "between"], "") + &joint("k", "continuous", ["between", "b"], "");

@@ -83,11 +83,15 @@ pub struct ReportedCertificate {
     /// Premise of a pair with the physics: each joint is a pure screw motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub premise: Option<Premise>,
+    /// The joint that slides without a range, if there is one: the two may then be any distance apart, and there is no
+    /// bound.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unranged: Option<String>,
 }
 
 impl ReportedCertificate {
     fn new(pair: SourcePair, brackets: Option<Brackets>, premise: Option<Premise>) -> Self {
-        Self { name: pair, title: pair.title(), brackets, premise }
+        Self { name: pair, title: pair.title(), brackets, premise, unranged: None }
     }
 }
 
@@ -125,10 +129,13 @@ pub(crate) fn certificates(
         Some(table) => certified(robot, [table, &urdf])?,
         None => None,
     };
+    let unranged = urdf.driven.drivers.iter().find_map(|&driver| unranged_slide(robot, driver));
+    let unranged = unranged.map(str::to_owned);
     let mut certificates = Vec::new();
     if let Some(table) = &table {
         let brackets = report(robot, [table, &urdf], table_urdf.clone())?;
-        certificates.push(ReportedCertificate::new(SourcePair::ModelUrdf, brackets, None));
+        let certificate = ReportedCertificate::new(SourcePair::ModelUrdf, brackets, None);
+        certificates.push(ReportedCertificate { unranged: unranged.clone(), ..certificate });
     }
     let Some((identified, physics)) = physics else { return Ok(certificates) };
     let simulated = ComparedChain::physics(description, identified, physics);
@@ -148,8 +155,15 @@ pub(crate) fn certificates(
         (Some(table), _, None) => (SourcePair::ModelSimulation, table, None),
     };
     let brackets = report(robot, [model, &simulated], certificate)?;
-    certificates.push(ReportedCertificate::new(pair, brackets, Some(identified.premise)));
+    let certificate = ReportedCertificate::new(pair, brackets, Some(identified.premise));
+    certificates.push(ReportedCertificate { unranged, ..certificate });
     Ok(certificates)
+}
+
+/// The name of the joint of a coordinate if it slides without a range. One that turns without a range is covered by one turn.
+fn unranged_slide(robot: &Robot, coordinate: usize) -> Option<&str> {
+    let joint = robot.joint(robot.movable_joints()[coordinate]);
+    joint.largest_shift_m().is_infinite().then_some(&joint.name)
 }
 
 /// A model of the chain from base to tip.
@@ -213,7 +227,10 @@ fn certified(robot: &Robot, chains: [&ComparedChain<'_>; 2]) -> Result<Option<Ce
     let ranges: Vec<(f64, f64)> = joints
         .map(|(index, &joint)| if drives(chains, index) { range(robot.joint(joint)) } else { (0.0, 0.0) })
         .collect();
-    if !ranges.iter().all(|range| range.0.is_finite() && range.1.is_finite()) {
+    let drivers = || (0..ranges.len()).filter(|&index| drives(chains, index));
+    if !ranges.iter().all(|range| range.0.is_finite() && range.1.is_finite())
+        || drivers().any(|index| unranged_slide(robot, index).is_some())
+    {
         return Ok(None);
     }
     let mut found = certify_driven(a, b, &ranges, Budget::default())?;

@@ -63,10 +63,18 @@ pub struct JointSummary {
     pub velocity: Option<f64>,
     /// Largest force or torque, N or N m; `None` if none is stated.
     pub effort: Option<f64>,
+    /// Largest acceleration, per second squared; `null` if none is stated.
+    pub acceleration: Option<f64>,
+    /// Largest deceleration, per second squared; `null` if none is stated.
+    pub deceleration: Option<f64>,
+    /// Largest jerk, per second cubed; `null` if none is stated.
+    pub jerk: Option<f64>,
     /// Viscous damping, N m s/rad or N s/m.
     pub damping: f64,
     /// Dry friction, N m or N.
     pub friction: f64,
+    /// Inertia of motor and gear as the joint feels it, kg m^2 or kg; `null` if the description does not state it.
+    pub armature: Option<f64>,
     /// The joint that it follows.
     pub mimic: Option<MimicSummary>,
 }
@@ -133,6 +141,7 @@ pub(super) fn joints(robot: &Robot) -> Vec<JointSummary> {
 fn joint(robot: &Robot, joint: &Joint) -> JointSummary {
     let name = |link| robot.link(link).name.clone();
     let range = joint.position_range();
+    let limit = joint.limit.unwrap_or_default();
     JointSummary {
         name: joint.name.clone(),
         kind: joint.kind,
@@ -143,10 +152,14 @@ fn joint(robot: &Robot, joint: &Joint) -> JointSummary {
         parent_from_joint: (&Pose::from(joint.parent_from_joint)).into(),
         lower: range.map(|(lower, _)| lower),
         upper: range.map(|(_, upper)| upper),
-        velocity: stated(joint.limit.and_then(|limit| limit.velocity)),
-        effort: stated(joint.limit.and_then(|limit| limit.effort)),
+        velocity: stated(limit.velocity),
+        effort: stated(limit.effort),
+        acceleration: stated(limit.acceleration),
+        deceleration: stated(limit.deceleration),
+        jerk: stated(limit.jerk),
         damping: joint.damping,
         friction: joint.friction,
+        armature: joint.armature.filter(|_| joint.kind.is_movable()),
         mimic: joint.mimic.map(|mimic| MimicSummary {
             master: robot.joint(mimic.master).name.clone(),
             multiplier: mimic.multiplier,

@@ -5,7 +5,9 @@ use congruent_agreement::{
     compare::{CheckError, CheckOptions, CheckReport, ComparedSource, NotCompared},
 };
 use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription, RobotQ, Tolerance};
-use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedModel};
+use congruent_dynamics_agreement::{
+    CompareError, DynamicsModel, DynamicsReport, NamedModel, without_one_sided_armature,
+};
 use congruent_input::{
     Capability, Diagnostic, Finding,
     display::{length_and_angle, position},
@@ -134,8 +136,7 @@ pub(super) fn compared(
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
-    let found = urdf_model(description);
-    let mut expected = urdf_model(other).with_tolerated_places_of(&found, &description.tolerance);
+    let ([found, mut expected], armature_of) = compared_models([description, other]);
     if !in_other_frames.is_empty() {
         // The written numbers are equal and only the frames differ: the fault is in the geometry, which is reported
         // already.
@@ -149,22 +150,43 @@ pub(super) fn compared(
         expected = in_frames;
     }
     against.links_in_other_frames = in_other_frames;
-    let [name, other_name] = [description, other].map(|of| of.urdf_path.display().to_string());
-    let candidate = NamedModel { name: &name, model: &found, places: urdf_places(description) };
-    let reference = NamedModel { name: &other_name, model: &expected, places: urdf_places(other) };
-    match two_descriptions(&candidate, &reference, options.seed) {
-        Ok(report) => Ok((against, Some(report))),
+    let report = match compared_dynamics([description, other], [found, expected], options.seed) {
+        Ok(report) => Some(DynamicsReport { armature_stated_by: armature_of, ..report }),
         // No difference of the two: the poses agree.
         Err(error @ CompareError::NoJoint) => {
             let finding = Diagnostic::error(codes::check::OTHER_DYNAMICS, error.to_string());
             geometry.not_asked.push(NotCompared::because(ComparedSource::OtherDynamics, &finding));
-            Ok((against, None))
+            None
         }
         Err(error) => {
             against.dynamics_not_compared = Some(error.to_string());
-            Ok((against, None))
+            None
         }
-    }
+    };
+    Ok((against, report))
+}
+
+/// The dynamics of two descriptions, without armatures that only one of the two states, and the file that states them.
+fn compared_models(descriptions: [&RobotDescription; 2]) -> ([DynamicsModel; 2], Option<String>) {
+    let [description, other] = descriptions;
+    let mut found = urdf_model(description);
+    let mut expected = urdf_model(other).with_tolerated_places_of(&found, &description.tolerance);
+    let armature_of =
+        without_one_sided_armature(descriptions.map(|of| &of.robot), [&mut found, &mut expected]);
+    ([found, expected], armature_of.map(|at| descriptions[at].urdf_path.display().to_string()))
+}
+
+/// The comparison of the dynamics of two descriptions of one chain.
+fn compared_dynamics(
+    descriptions: [&RobotDescription; 2],
+    [found, expected]: [DynamicsModel; 2],
+    seed: u64,
+) -> Result<DynamicsReport, CompareError> {
+    let names = descriptions.map(|of| of.urdf_path.display().to_string());
+    let [places, other_places] = descriptions.map(urdf_places);
+    let candidate = NamedModel { name: &names[0], model: &found, places };
+    let reference = NamedModel { name: &names[1], model: &expected, places: other_places };
+    two_descriptions(&candidate, &reference, seed)
 }
 
 /// Why torques of a table or screws are not compared: they have no masses, which is no difference of the two.

@@ -20,7 +20,7 @@ const RANDOM: usize = 200;
 /// Smaller changes of a mass or torque are rounding, relative to the value.
 const ROUNDED: f64 = 1e-9;
 /// What the reader of an MJCF omits from forces.
-const LEFT_OUT: [&Code; 4] = [mjcf::ARMATURE, mjcf::SPRING, mjcf::DAMPING, mjcf::GRAVITY];
+const LEFT_OUT: [&Code; 3] = [mjcf::SPRING, mjcf::DAMPING, mjcf::GRAVITY];
 /// Links whose masses a headline names.
 const MOST_NAMED: usize = 3;
 
@@ -57,7 +57,7 @@ pub struct RevisionChange {
     /// The joint whose largest gravity torque at these configurations changes most; missing if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity: Option<ChangedTorque>,
-    /// What is read and not compared, as an armature, if it differs.
+    /// What is read and not compared, as a spring, if it differs.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_compared: Vec<String>,
 }
@@ -334,7 +334,7 @@ fn changed_masses(robot: &Robot, before: &Robot) -> Vec<ChangedMass> {
     own.chain(links_alone(before, robot)).map(of).filter(differs).collect()
 }
 
-/// What the reader of an MJCF has left out of one of the two and not, or otherwise, of the other: armature, springs, gravity.
+/// What the reader of an MJCF has left out of one of the two and not, or otherwise, of the other: springs, gravity.
 fn not_compared(description: &RobotDescription, before: &RobotDescription) -> Vec<String> {
     let of_mjcf = |of: &RobotDescription| -> BTreeSet<String> {
         let warnings = of.warnings.iter().filter(|of| LEFT_OUT.contains(&of.code));

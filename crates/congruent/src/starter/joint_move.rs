@@ -130,11 +130,11 @@ fn joint_of(robot: &Robot, coordinate: usize) -> &Joint {
     robot.joint(robot.movable_joints()[coordinate])
 }
 
-/// The limits of a joint, or half a turn to both sides; of a range without end the part around 0.
+/// The limits of a joint, or half a turn or 1 m to both sides; of a range without end the part around 0.
 fn range(joint: &Joint) -> (f64, f64) {
     /// No motion needs more, in rad or m.
     const WIDEST: f64 = 20.0;
-    let (lower, upper) = joint.position_range().unwrap_or((-std::f64::consts::PI, std::f64::consts::PI));
+    let (lower, upper) = congruent_kinematics::range(joint);
     let near = 0.0_f64.clamp(lower, upper);
     (lower.max(near - WIDEST), upper.min(near + WIDEST))
 }

@@ -136,8 +136,7 @@ mod tests {
 
     fn joint(range: Option<(f64, f64)>) -> Joint {
         let mut parts = JointParts::new("j", JointKind::Revolute, "a", "b", nalgebra::Isometry3::identity());
-        parts.joint.limit =
-            range.map(|(lower, upper)| JointLimit { lower, upper, velocity: None, effort: None });
+        parts.joint.limit = range.map(|(lower, upper)| JointLimit { lower, upper, ..JointLimit::default() });
         parts.joint
     }
 

@@ -160,8 +160,23 @@ fn joint_line(joint: &JointSummary) -> String {
     if !most.is_empty() {
         let _ = write!(line, ", at most {}", most.join(" and "));
     }
+    let slower = joint.deceleration.filter(|_| joint.deceleration != joint.acceleration);
+    let rates =
+        [("acceleration", joint.acceleration, 2), ("deceleration", slower, 2), ("jerk", joint.jerk, 3)];
+    for (what, value, power) in rates {
+        if let Some(value) = value {
+            let _ =
+                write!(line, ", {what} at most {}", quantity(value, &format!("{}/s^{power}", joint.unit)));
+        }
+    }
     let per_speed = if joint.kind == JointKind::Prismatic { "N s/m" } else { "N m s/rad" };
-    for (what, value, unit) in [("damping", joint.damping, per_speed), ("friction", joint.friction, force)] {
+    let inertia = if joint.kind == JointKind::Prismatic { "kg" } else { "kg m^2" };
+    let terms = [
+        ("damping", joint.damping, per_speed),
+        ("friction", joint.friction, force),
+        ("armature", joint.armature.unwrap_or(0.0), inertia),
+    ];
+    for (what, value, unit) in terms {
         if value != 0.0 {
             let _ = write!(line, ", {what} {}", quantity(value, unit));
         }

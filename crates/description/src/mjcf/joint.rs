@@ -1,6 +1,6 @@
 //! The values of a joint: kind, axis, limits, losses.
 
-use congruent_mjcf::{MjEffort, MjJoint, MjJointKind, MjModel, MjTarget};
+use congruent_mjcf::{MjActuator, MjEffort, MjJoint, MjJointKind, MjModel, MjTarget};
 
 use crate::model::{Joint, JointKind, JointLimit, JointParts};
 
@@ -19,13 +19,15 @@ pub(super) fn with_values(frame: JointParts, model: &MjModel, number: usize) -> 
     // A slide without a range has no limit at all: the two ends that a limit needs would not be true.
     let [lower, upper] = range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let has_limit = range.is_some() || kind == JointKind::Continuous;
-    let limit = JointLimit { lower, upper, velocity: None, effort: effort(joint) };
+    let limit = JointLimit { lower, upper, effort: effort(joint), ..JointLimit::default() };
     let joint = Joint {
         kind,
         axis_in_joint: joint.axis_in_body.value,
         limit: has_limit.then_some(limit),
-        damping: joint.damping.value[0] + damping_of_actuators(model, number),
+        damping: joint.damping.value[0] + sum_of_actuators(model, number, |of| of.damping),
         friction: joint.friction_loss.value,
+        // A joint without the attribute has an armature of 0 in MuJoCo: every MJCF states it.
+        armature: Some(joint.armature.value + sum_of_actuators(model, number, |of| of.armature)),
         ..frame.joint
     };
     JointParts { joint, ..frame }
@@ -43,9 +45,9 @@ fn effort(joint: &MjJoint) -> Option<f64> {
     }
 }
 
-/// The passive damping that actuators of MuJoCo 4.0 add to their joint.
-fn damping_of_actuators(model: &MjModel, joint: usize) -> f64 {
+/// The damping or armature that actuators of MuJoCo 4.0 add to their joint, gears included.
+fn sum_of_actuators(model: &MjModel, joint: usize, term: impl Fn(&MjActuator) -> f64) -> f64 {
     let own = model.actuators.iter().filter(|actuator| actuator.target == MjTarget::Joint(joint));
     // Adding zero makes the sum of nothing, which is -0.0, plain zero.
-    own.map(|actuator| actuator.damping).sum::<f64>() + 0.0
+    own.map(term).sum::<f64>() + 0.0
 }

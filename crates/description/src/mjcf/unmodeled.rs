@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use congruent_input::{Diagnostic, Diagnostics, display::quantity};
-use congruent_mjcf::{MjJoint, MjJointKind, MjModel, MjTarget};
+use congruent_mjcf::{MjJoint, MjJointKind, MjModel};
 
 use super::{placed::placed, tree::RobotParts};
 use crate::codes;
@@ -11,7 +11,7 @@ use crate::codes;
 /// The gravity with which all forces are computed, m/s^2.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// Reports armature, springs, damping that is not linear, gravity and its compensation.
+/// Reports springs, damping that is not linear, gravity and its compensation.
 pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diagnostics) {
     let gravity = &model.gravity_in_world;
     if gravity.value.iter().zip(GRAVITY).any(|(found, usual)| (found - usual).abs() > 0.0) {
@@ -34,29 +34,19 @@ pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diag
         let found = Diagnostic::warning(codes::mjcf::GRAVITY, message).one_of(kind, &body.name.text);
         diagnostics.push(placed(found, &body.place));
     }
-    for (number, joint) in
-        model.joints.iter().enumerate().filter(|(at, _)| parts.joint_positions[*at].is_some())
-    {
-        of_joint(model, number, joint, diagnostics);
+    for (joint, _) in model.joints.iter().zip(&parts.joint_positions).filter(|(_, at)| at.is_some()) {
+        of_joint(joint, diagnostics);
     }
 }
 
-fn of_joint(model: &MjModel, number: usize, joint: &MjJoint, diagnostics: &mut Diagnostics) {
-    let of_actuators = model.actuators.iter().filter(|of| of.target == MjTarget::Joint(number));
-    let armature = joint.armature.value + of_actuators.map(|of| of.armature).sum::<f64>();
-    let [inertia, stiffness] = match joint.kind {
-        MjJointKind::Slide => ["kg", "N/m"],
-        _ => ["kg m2", "N m/rad"],
-    };
+fn of_joint(joint: &MjJoint, diagnostics: &mut Diagnostics) {
+    let stiffness = if joint.kind == MjJointKind::Slide { "N/m" } else { "N m/rad" };
     let mut left_out = |code, what: &str, value: &dyn Display| {
         let message = format!("joint \"{}\": {what} {value} is left out of forces", joint.name);
         let kind = format!("joints have {what} {value}, which is left out of forces");
         let found = Diagnostic::warning(code, message).one_of(kind, &joint.name.text);
         diagnostics.push(placed(found, &joint.place));
     };
-    if armature != 0.0 {
-        left_out(codes::mjcf::ARMATURE, "an armature of", &quantity(armature, inertia));
-    }
     let [linear, square, cube] = joint.stiffness.value;
     if joint.stiffness.value.iter().any(|&value| value != 0.0) {
         let is_linear = square == 0.0 && cube == 0.0;

@@ -67,8 +67,8 @@ impl JointKind {
 }
 
 /// The range and the capability of a joint; units are those of the coordinate, per second for
-/// `velocity`, newton or newton metre for `effort`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// `velocity`, newton or newton metre for `effort`. The default states a range of the position 0 alone.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointLimit {
     /// Smallest allowed position; minus infinity for a continuous joint.
     pub lower: f64,
@@ -78,6 +78,12 @@ pub struct JointLimit {
     pub velocity: Option<f64>,
     /// Largest force or torque of the actuator; `None` if the description gives none.
     pub effort: Option<f64>,
+    /// Largest acceleration, per second squared; `None` if the description gives none, as before version 1.2 of URDF.
+    pub acceleration: Option<f64>,
+    /// Largest deceleration, per second squared; that of URDF is the acceleration if the file gives none.
+    pub deceleration: Option<f64>,
+    /// Largest jerk, per second cubed; `None` if the description gives none.
+    pub jerk: Option<f64>,
 }
 
 /// A joint whose position follows another: `q = multiplier * q_master + offset`.
@@ -114,6 +120,9 @@ pub struct Joint {
     pub damping: f64,
     /// Dry friction, N m or N.
     pub friction: f64,
+    /// Inertia of motor and gear as the joint feels it, kg m^2 or kg; `None` if the format cannot state it, as URDF, which is
+    /// not zero.
+    pub armature: Option<f64>,
     /// Set if the joint follows another.
     pub mimic: Option<Mimic>,
 }
@@ -179,6 +188,7 @@ impl JointParts {
             limit: None,
             damping: 0.0,
             friction: 0.0,
+            armature: None,
             mimic: None,
         };
         Self { joint, parent: parent.to_owned(), child: child.to_owned(), mimic: None }

@@ -122,8 +122,7 @@ fn tree(chain: &OwnChain, name: String, written: &WrittenRobot) -> Result<Robot,
             &child,
             placed.shift_from(&here_in_base),
         );
-        let limit =
-            joint.range.map(|[lower, upper]| JointLimit { lower, upper, velocity: None, effort: None });
+        let limit = joint.range.map(|[lower, upper]| JointLimit { lower, upper, ..JointLimit::default() });
         parts.push(JointParts {
             joint: Joint { axis_in_joint: placed.axis_in_base, limit, ..new.joint },
             ..new

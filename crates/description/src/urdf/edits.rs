@@ -84,7 +84,7 @@ impl UrdfPlaces {
         edits
     }
 
-    /// The edits after which a joint has this `lower`, `upper`, `effort` or `velocity`; none if there is no such joint, or
+    /// The edits after which a joint has this `lower`, `upper`, `effort`, `velocity`, `acceleration`, `deceleration` or `jerk`; none if there is no such joint, or
     /// no such limit, and none for the range of a continuous joint, which has another type.
     pub fn set_joint_limit(&self, joint: &str, limit: &str, value: f64) -> Vec<TextEdit> {
         let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
@@ -102,7 +102,7 @@ impl UrdfPlaces {
 
 /// The ends of a joint's range.
 const RANGE: [&str; 2] = ["lower", "upper"];
-const LIMITS: [&str; 4] = [RANGE[0], RANGE[1], "effort", "velocity"];
+const LIMITS: [&str; 7] = [RANGE[0], RANGE[1], "effort", "velocity", "acceleration", "deceleration", "jerk"];
 
 type Attribute = (&'static str, String);
 

@@ -53,6 +53,7 @@ pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut
         limit: reader.limit(kind),
         damping: reader.loss("damping", joint.dynamics.as_ref().map(|dynamics| dynamics.damping)),
         friction: reader.loss("friction", joint.dynamics.as_ref().map(|dynamics| dynamics.friction)),
+        armature: None,
         mimic: None,
     };
     let mimic = joint
@@ -154,6 +155,11 @@ impl JointReader<'_, '_> {
         let written = written.filter(|_| kind.is_movable())?;
         let effort = self.capability("effort", limit.effort, written);
         let velocity = self.capability("velocity", limit.velocity, written);
+        // Infinite if the file gives none, or has a version below 1.2; a deceleration that is not given is the acceleration.
+        let [acceleration, deceleration, jerk] = [limit.acceleration, limit.deceleration, limit.jerk]
+            .map(|most| Some(most).filter(|of| of.is_finite()));
+        let (lower, upper) = (limit.lower, limit.upper);
+        let stated = JointLimit { lower, upper, velocity, effort, acceleration, deceleration, jerk };
         if kind == JointKind::Continuous {
             // Exporters write zeros for "none".
             if (limit.lower.is_finite() && limit.lower != 0.0)
@@ -165,10 +171,10 @@ impl JointReader<'_, '_> {
                     "limit",
                 );
             }
-            return Some(JointLimit { lower: f64::NEG_INFINITY, upper: f64::INFINITY, velocity, effort });
+            return Some(JointLimit { lower: f64::NEG_INFINITY, upper: f64::INFINITY, ..stated });
         }
         self.range(kind, written);
-        Some(JointLimit { lower: limit.lower, upper: limit.upper, velocity, effort })
+        Some(stated)
     }
 
     /// The largest effort or velocity; `None` if the file gives none.
@@ -222,5 +228,31 @@ impl JointReader<'_, '_> {
             self.physics(codes::urdf::DYNAMICS, format!("{key} {value} is negative"), "dynamics");
         }
         value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::urdf::tests::{INERTIAL, arm, good, joint_stops, read};
+
+    #[test]
+    fn limits_of_version_1_2_are_read_in_it_alone() {
+        let limit = "<limit lower='-1' upper='2' effort='3' velocity='4' acceleration='5'/>";
+        let old = joint_stops(limit, None, "urdf::version", "<limit> acceleration is not read");
+        assert_eq!(old.joints()[0].limit.unwrap().acceleration, None);
+        let text = arm(limit, INERTIAL).replace("<robot ", "<robot version='1.2' ");
+        let read_limit = |text: &str| good(text).joints()[0].limit.unwrap();
+        let found = read_limit(&text);
+        // A deceleration that is not given is the acceleration.
+        assert_eq!((found.acceleration, found.deceleration, found.jerk), (Some(5.0), Some(5.0), None));
+        let all =
+            read_limit(&text.replace("acceleration='5'", "acceleration='5' deceleration='6' jerk='70'"));
+        assert_eq!((all.deceleration, all.jerk), (Some(6.0), Some(70.0)));
+        assert_eq!(read_limit(&text.replace("'5'", "'inf'")).acceleration, None);
+        let (_, refused) = read(&text.replace("'5'", "'-5'"));
+        assert!(
+            refused.iter().any(|of| of.message.contains("acceleration value (-5) is negative")),
+            "{refused:#?}"
+        );
     }
 }

@@ -89,7 +89,7 @@ fn link_stops(link: &str, stopped: Option<Capability>, code: &str, message: &str
 }
 
 #[track_caller]
-fn joint_stops(joint: &str, stopped: Option<Capability>, code: &str, message: &str) -> Robot {
+pub(super) fn joint_stops(joint: &str, stopped: Option<Capability>, code: &str, message: &str) -> Robot {
     stops(&arm(joint, INERTIAL), 5, stopped, code, message)
 }
 

@@ -2,6 +2,7 @@
 
 use congruent_description::{JointLimit, RobotQ};
 use congruent_input::SiUnit;
+use congruent_kinematics::UNRANGED_SLIDE_M;
 
 use crate::{
     model::DynamicsModel,
@@ -102,10 +103,13 @@ impl TorqueCertificate {
 pub struct CoveredMotion {
     /// Name of the joint.
     pub joint: String,
-    /// Smallest position, rad or m; for a joint without limits one turn is covered.
+    /// Smallest position, rad or m; of a joint without limits one turn is covered, or 1 m in both directions.
     pub lower: f64,
     /// Largest position, rad or m.
     pub upper: f64,
+    /// How far from zero a joint is covered that slides without a range, m; missing if it has one, or turns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub assumed_slide_m: Option<f64>,
     /// Largest speed in either direction, rad/s or m/s.
     pub speed: f64,
     /// Whether a description states the speed; otherwise 2 rad/s or m/s is assumed.
@@ -122,6 +126,10 @@ pub(super) fn covered_motions(candidate: &DynamicsModel, reference: &DynamicsMod
     let stated = |limit: &Option<JointLimit>| {
         limit.and_then(|limit| limit.velocity).filter(|speed| speed.is_finite() && *speed > 0.0)
     };
+    let is_unranged = |joint: usize| {
+        let has_range = |of: JointLimit| of.lower.is_finite() && of.upper.is_finite();
+        !candidate.frames.joints[joint].is_angular && !candidate.limits[joint].is_some_and(has_range)
+    };
     let covered = |joint: usize| {
         let place = &candidate.frames.joints[joint];
         let speeds = [candidate, reference].map(|model| stated(&model.limits[joint]));
@@ -134,6 +142,7 @@ pub(super) fn covered_motions(candidate: &DynamicsModel, reference: &DynamicsMod
             joint: place.name.clone(),
             lower: place.range.0,
             upper: place.range.1,
+            assumed_slide_m: is_unranged(joint).then_some(UNRANGED_SLIDE_M),
             speed: speed.unwrap_or(LARGEST_SPEED),
             speed_is_stated: speed.is_some(),
             acceleration: acceleration.unwrap_or(LARGEST_ACCELERATION),

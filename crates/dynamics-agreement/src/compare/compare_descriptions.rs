@@ -170,6 +170,7 @@ pub fn compare(
         explanations: diagnosis.explanations,
         indistinguishable: diagnosis.indistinguishable,
         not_stated: stated.not_stated,
+        armature_stated_by: None,
         limits,
         certificates: None,
     })

@@ -62,6 +62,7 @@ pub(super) fn compare_long(
         explanations: Vec::new(),
         indistinguishable: Vec::new(),
         not_stated: Vec::new(),
+        armature_stated_by: None,
         limits,
         certificates: None,
     })

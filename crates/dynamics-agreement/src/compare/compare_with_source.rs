@@ -67,6 +67,7 @@ pub fn compare_with_source(
         explanations: diagnosis.explanations,
         indistinguishable: diagnosis.indistinguishable,
         not_stated: Vec::new(),
+        armature_stated_by: None,
         limits: Vec::new(),
         certificates: None,
     })

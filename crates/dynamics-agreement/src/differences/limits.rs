@@ -19,7 +19,7 @@ pub struct LimitDifference {
     /// turns; the larger value is probably in it. `exchanged` if the candidate has the value at another place of the same
     /// `<limit>`: speed and effort, or both ends of the range with their signs. Otherwise empty.
     pub detail: String,
-    /// `velocity`, `effort`, `lower`, `upper`.
+    /// `velocity`, `effort`, `lower`, `upper`, `acceleration`, `deceleration`, `jerk`.
     #[serde(rename = "figure")]
     pub parameter: String,
     /// The candidate's value in `unit`; `null` if it does not state the limit.
@@ -31,7 +31,7 @@ pub struct LimitDifference {
     /// Whether this difference makes the verdict `disagree`; a limit of speed or effort that only one of the two states does
     /// not.
     pub decides: bool,
-    /// SI unit of `found` and `expected`: `rad`, `m`, `rad/s`, `m/s`, `N m` or `N`.
+    /// SI unit of `found` and `expected`: `rad`, `m`, `rad/s`, `m/s`, `N m`, `N`, or `rad/s^2`, `rad/s^3`, `m/s^2`, `m/s^3`.
     #[schemars(with = "String")]
     pub unit: SiUnit,
     /// Line of the limit in the candidate's file; `null` if it is not known.
@@ -55,6 +55,10 @@ pub enum LimitCause {
     EffortLimit,
     /// The smallest or largest position, rad or m.
     PositionLimit,
+    /// The largest acceleration or deceleration, rad/s^2 or m/s^2.
+    AccelerationLimit,
+    /// The largest jerk, rad/s^3 or m/s^3.
+    JerkLimit,
 }
 
 /// `detail` of limits whose values have changed places.
@@ -151,16 +155,23 @@ fn unit(cause: LimitCause, joint: &JointPlace) -> SiUnit {
         (LimitCause::EffortLimit, _) => joint.effort_unit(),
         (LimitCause::PositionLimit, true) => SiUnit::Radian,
         (LimitCause::PositionLimit, false) => SiUnit::Metre,
+        (LimitCause::AccelerationLimit, true) => SiUnit::RadianPerSecondSquared,
+        (LimitCause::AccelerationLimit, false) => SiUnit::MetrePerSecondSquared,
+        (LimitCause::JerkLimit, true) => SiUnit::RadianPerSecondCubed,
+        (LimitCause::JerkLimit, false) => SiUnit::MetrePerSecondCubed,
     }
 }
 
 type LimitEntry = (LimitCause, &'static str, fn(&JointLimit) -> Option<f64>);
 
-const LIMITS: [LimitEntry; 4] = [
+const LIMITS: [LimitEntry; 7] = [
     (LimitCause::VelocityLimit, "velocity", |limit| limit.velocity),
     (LimitCause::EffortLimit, "effort", |limit| limit.effort),
     (LimitCause::PositionLimit, "lower", |limit| Some(limit.lower)),
     (LimitCause::PositionLimit, "upper", |limit| Some(limit.upper)),
+    (LimitCause::AccelerationLimit, "acceleration", |limit| limit.acceleration),
+    (LimitCause::AccelerationLimit, "deceleration", |limit| limit.deceleration),
+    (LimitCause::JerkLimit, "jerk", |limit| limit.jerk),
 ];
 
 fn detail(cause: LimitCause, both: Option<(f64, f64)>, joint: &JointPlace) -> &'static str {

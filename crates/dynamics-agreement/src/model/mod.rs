@@ -4,6 +4,7 @@ pub(crate) mod frames;
 mod in_other_frames;
 pub(crate) mod inertial;
 mod joint_terms;
+pub(crate) mod one_sided_armature;
 
 use std::sync::Arc;
 
@@ -57,15 +58,10 @@ impl DynamicsModel {
     /// The dynamics of a robot with frames that were computed before, of the same robot.
     pub fn with_frames(robot: &Robot, frames: Arc<Frames>) -> Self {
         let moving = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-        let resistance = |joint: &congruent_description::Joint| JointResistance {
-            damping: joint.damping,
-            friction: joint.friction,
-            armature: 0.0,
-        };
         Self {
             frames,
             inertials: robot.links().iter().map(|link| link.inertia.as_ref().map(Inertial::from)).collect(),
-            resistances: moving().map(resistance).collect(),
+            resistances: moving().map(JointResistance::from).collect(),
             gravity_m_s2: GRAVITY_M_S2.into(),
             limits: moving().map(|joint| joint.limit).collect(),
             accelerations: moving().map(|_| None).collect(),

@@ -41,6 +41,9 @@ pub struct DynamicsReport {
     /// What the reference does not state, in words: it is not compared.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub not_stated: Vec<String>,
+    /// The file that alone states armatures, the inertias of motors: they are not compared.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub armature_stated_by: Option<String>,
     /// Joint limits that differ.
     pub limits: Vec<LimitDifference>,
     /// Certified bounds of the torque differences; `null` if they were not requested.

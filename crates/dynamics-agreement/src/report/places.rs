@@ -113,7 +113,9 @@ impl ParameterPlaces for UrdfPlaces {
             "com_x" | "com_y" | "com_z" => self.inertial_part(of, "origin"),
             "ixx" | "ixy" | "ixz" | "iyy" | "iyz" | "izz" => self.inertial_part(of, "inertia"),
             "damping" | "friction" | "armature" => self.joint_dynamics(of),
-            "velocity" | "effort" | "lower" | "upper" => self.joint_limit(of),
+            "velocity" | "effort" | "lower" | "upper" | "acceleration" | "deceleration" | "jerk" => {
+                self.joint_limit(of)
+            }
             _ => None,
         }
     }

@@ -1,6 +1,7 @@
 //! The sentences of the report, for people.
 
 use congruent_input::display::{length, limit_number, number, quantity, quantity_with_digits};
+use congruent_kinematics::UNRANGED_SLIDE_M;
 
 use super::content::{
     ComparedModels, DynamicsExplanation, DynamicsReport, DynamicsVerdict, TorqueCertificates,
@@ -218,6 +219,7 @@ impl DynamicsReport {
         sentences.extend(self.limits.iter().map(LimitDifference::sentence));
         sentences.extend(self.hidden_sentences());
         sentences.extend(self.not_stated_sentence());
+        sentences.extend(self.armature_sentence());
         if !self.has_same_torques() {
             sentences.extend(self.invariants.iter().flat_map(Invariants::sentences));
         }
@@ -300,6 +302,12 @@ impl DynamicsReport {
         says_more.then(|| what() + &self.not_stated.join("; "))
     }
 
+    /// That armatures are not compared, if only one of the two files states them.
+    pub fn armature_sentence(&self) -> Option<String> {
+        let file = self.armature_stated_by.as_ref()?;
+        Some(format!("not compared: armature, stated by {file} alone"))
+    }
+
     /// On how many combinations of inertial parameters joint torques depend; `None` if it is not computed.
     pub fn identifiability_sentence(&self) -> Option<String> {
         let seen = self.seen?;
@@ -364,7 +372,14 @@ impl TorqueCertificates {
         } else {
             " ([limits] acceleration_rad_s2 of robot.toml declares them)"
         };
-        format!("{speeds}; {accelerations}{how}")
+        let unranged = named(|covered| covered.assumed_slide_m.is_some());
+        let positions = match &unranged[..] {
+            [] => String::new(),
+            names => {
+                format!("; positions of {} assumed within {UNRANGED_SLIDE_M} m of zero", names.join(", "))
+            }
+        };
+        format!("{speeds}; {accelerations}{how}{positions}")
     }
 }
 

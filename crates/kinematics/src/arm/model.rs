@@ -8,6 +8,7 @@ use congruent_description::{ArmQ, ChainQ, JointIndex, LinkIndex, Mimic, Robot, R
 use super::spread::spread;
 use crate::{
     chain::{jacobian::kind::JacobianKind, serial::chain::SerialChain},
+    configurations::UNRANGED_SLIDE_M,
     error::KinematicsError,
     spatial::{pose::Pose, twist::Twist},
     uniform::Uniform,
@@ -38,7 +39,7 @@ impl ArmJoint {
     /// The range from which positions are drawn: the limits, or one turn if there are none.
     pub fn sampled_range(&self) -> (f64, f64) {
         // One turn, or 2 m about zero, where nothing is declared.
-        let (low, high) = if self.turns { (-PI, PI) } else { (-1.0, 1.0) };
+        let (low, high) = if self.turns { (-PI, PI) } else { (-UNRANGED_SLIDE_M, UNRANGED_SLIDE_M) };
         match (self.lower.is_finite(), self.upper.is_finite()) {
             (true, true) => (self.lower, self.upper),
             (true, false) => (self.lower, self.lower + (high - low)),

@@ -52,6 +52,9 @@ fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
                                 (cells(&brackets.position_m, &columns[0], &at.key("position_m")))
                                 (cells(&brackets.orientation_rad, &columns[1], &at.key("orientation_rad")))
                             }
+                            None if let Some(joint) = &certificate.unranged => {
+                                td colspan="4" { "no bound: joint " (joint) " slides without a range" }
+                            }
                             None => { td colspan="4" { "no bound: a joint has no limits, or its motion is not a pure screw motion" } }
                         }
                     }

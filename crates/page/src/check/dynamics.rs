@@ -131,6 +131,7 @@ fn others(report: &DynamicsReport) -> Vec<String> {
         report.worst_gravity().map(|worst| format!("largest gravity torque difference {}", worst.sentence()));
     limits
         .chain(report.not_stated_sentence())
+        .chain(report.armature_sentence())
         .chain(torques)
         .chain(report.hidden_sentences().into_iter().take(SHOWN))
         .chain(worst)

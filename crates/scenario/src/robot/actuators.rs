@@ -16,7 +16,7 @@ pub struct JointSettings {
     /// Dry friction: N m, N.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<JointNumbers>,
-    /// Inertia of motor and gear, reflected to the joint: kg m^2, kg. A URDF has no such value.
+    /// Inertia of motor and gear, reflected to the joint: kg m^2, kg. A URDF has no such value, an MJCF has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub armature: Option<JointNumbers>,
     /// Whether actuators keep the limits of effort and velocity that the description gives.

@@ -41,8 +41,13 @@ pub fn about(mut parts: JointParts, axis: [f64; 3]) -> JointParts {
 }
 
 pub fn limited(mut parts: JointParts, range: (f64, f64), effort: f64) -> JointParts {
-    parts.joint.limit =
-        Some(JointLimit { lower: range.0, upper: range.1, velocity: Some(10.0), effort: Some(effort) });
+    parts.joint.limit = Some(JointLimit {
+        lower: range.0,
+        upper: range.1,
+        velocity: Some(10.0),
+        effort: Some(effort),
+        ..JointLimit::default()
+    });
     parts
 }
 

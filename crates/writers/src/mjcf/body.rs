@@ -65,7 +65,8 @@ pub(super) fn write_joint(text: &mut XmlText, planned: &PlannedJoint, robot: &Ro
     }
     let loss = |value: f64| (value != 0.0).then_some(value);
     attributes = attributes.optional("damping", loss(joint.damping));
-    text.element("joint", attributes.optional("frictionloss", loss(joint.friction)));
+    attributes = attributes.optional("frictionloss", loss(joint.friction));
+    text.element("joint", attributes.optional("armature", joint.armature.and_then(loss)));
 }
 
 pub(super) fn write_geom(text: &mut XmlText, class: &str, shape: &Shape, assets: &Assets) {

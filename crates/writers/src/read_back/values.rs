@@ -104,27 +104,34 @@ fn relative_of_options(a: Option<f64>, b: Option<f64>) -> f64 {
     }
 }
 
-/// The largest relative difference of kind, range, speed, effort, losses and ratio. A joint without a range is continuous in an
+/// The largest relative difference of kind, range, speed, effort, acceleration, jerk, losses and ratio. A joint without a range is continuous in an
 /// MJCF, whatever its source calls it.
 fn terms_apart(a: &Joint, b: &Joint) -> f64 {
-    let limit = |joint: &Joint| joint.limit.map_or([None; 2], |limit| [limit.velocity, limit.effort]);
-    let [[speed_a, effort_a], [speed_b, effort_b]] = [limit(a), limit(b)];
+    let limit = |joint: &Joint| {
+        joint
+            .limit
+            .map_or([None; 5], |of| [of.velocity, of.effort, of.acceleration, of.deceleration, of.jerk])
+    };
     let finite =
         |joint: &Joint| joint.position_range().filter(|(low, high)| low.is_finite() && high.is_finite());
     let (range_a, range_b) = (finite(a).unzip(), finite(b).unzip());
     let (mimic_a, mimic_b) = (a.mimic, b.mimic);
     let pairs = [
-        (speed_a, speed_b),
-        (effort_a, effort_b),
         (range_a.0, range_b.0),
         (range_a.1, range_b.1),
         (Some(a.damping), Some(b.damping)),
         (Some(a.friction), Some(b.friction)),
+        // An MJCF states 0 where a URDF states nothing.
+        (Some(a.armature.unwrap_or(0.0)), Some(b.armature.unwrap_or(0.0))),
         (mimic_a.map(|of| of.multiplier), mimic_b.map(|of| of.multiplier)),
         (mimic_a.map(|of| of.offset), mimic_b.map(|of| of.offset)),
     ];
     let is_same_motion = a.kind.is_angular() == b.kind.is_angular();
-    let off = pairs.into_iter().map(|(a, b)| relative_of_options(a, b)).fold(0.0, larger);
+    let off = pairs
+        .into_iter()
+        .chain(limit(a).into_iter().zip(limit(b)))
+        .map(|(a, b)| relative_of_options(a, b))
+        .fold(0.0, larger);
     if is_same_motion { off } else { f64::INFINITY }
 }
 

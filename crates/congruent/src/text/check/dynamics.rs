@@ -87,6 +87,7 @@ fn compared(text: &mut String, report: &DynamicsReport, files: Option<[&str; 2]>
     }
     let mut lines = Vec::new();
     lines.extend(report.not_stated_sentence());
+    lines.extend(report.armature_sentence());
     if !report.has_other_limits() {
         lines.extend(limits(&report.limits));
     }

@@ -270,8 +270,10 @@ fn to_mm(metres: f64) -> f64 {
 /// The certificate: a bound over the whole joint range, not a sample. If all agree, the first line has it.
 fn certified(text: &mut String, report: &CheckReport, robot: &Robot, options: &TextOptions) {
     if !report.poses_disagree() {
-        let unproved =
-            |of: &&ReportedCertificate| options.is_in_full || of.premise.as_ref().is_some_and(|it| !it.holds);
+        let unproved = |of: &&ReportedCertificate| {
+            let fails = of.premise.as_ref().is_some_and(|it| !it.holds);
+            options.is_in_full || fails || of.unranged.is_some()
+        };
         report.certificates.iter().filter(unproved).for_each(|certificate| narrow(text, certificate));
         return;
     }
@@ -298,7 +300,10 @@ fn certified(text: &mut String, report: &CheckReport, robot: &Robot, options: &T
 
 /// The certificate of models that agree, with its premise.
 fn narrow(text: &mut String, certificate: &ReportedCertificate) {
-    let ReportedCertificate { name, title, brackets, premise } = certificate;
+    let ReportedCertificate { name, title, brackets, premise, unranged } = certificate;
+    if let Some(joint) = unranged {
+        let _ = writeln!(text, "  not certified  {title}: joint {joint} slides without a range");
+    }
     if let Some(brackets) = brackets {
         let PoseError { position_m, orientation_rad } = brackets.bounds();
         let bound = length_and_angle(position_m, orientation_rad);

@@ -20,6 +20,8 @@ use crate::{
 
 /// The longest name without a warning: what a file system allows.
 const LONGEST_NAME: usize = 255;
+/// Limits that version 1.2 has added.
+const RATES: [&str; 3] = ["acceleration", "deceleration", "jerk"];
 
 /// Checks a whole document. Returns the byte ranges of faulty parts that kinematics does not need, which must not be read.
 pub(crate) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) -> Vec<Range<usize>> {
@@ -195,6 +197,9 @@ impl GrammarCheck<'_> {
         } else if known.name == "quat_xyzw" && self.version < (1, 1) {
             let what = "unknown attribute \"quat_xyzw\": it needs <robot version=\"1.1\">";
             self.report(codes::urdf::QUATERNION, what, attribute.range());
+        } else if RATES.contains(&known.name) && self.version < (1, 2) {
+            let what = format!("<limit> {} is not read: it needs <robot version=\"1.2\">", known.name);
+            self.report_in(&part, Diagnostic::error(codes::urdf::VERSION, what), attribute.range());
         }
     }
 

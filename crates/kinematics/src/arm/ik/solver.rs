@@ -151,7 +151,7 @@ impl IkSolver {
     /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
     /// # let mut parts = JointParts::new("slide", JointKind::Prismatic, "base", "tip", Isometry3::identity());
     /// # parts.joint.axis_in_joint = Vector3::x_axis();
-    /// # parts.joint.limit = Some(JointLimit { lower: 0., upper: 0.5, velocity: None, effort: None });
+    /// # parts.joint.limit = Some(JointLimit { lower: 0., upper: 0.5, ..JointLimit::default() });
     /// # let robot = Robot::new("1p", vec![link("base"), link("tip")], vec![parts]).unwrap();
     /// let tip = robot.find_link("tip").unwrap();
     /// let mut solver = IkSolver::new(Arm::new(&robot, robot.root(), tip, Pose::identity())?); // goes from 0 to 0.5 m

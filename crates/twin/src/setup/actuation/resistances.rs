@@ -27,7 +27,11 @@ pub(in crate::setup) fn resistances(
     };
     let damping = numbers(&settings.damping, "damping", joints().map(|joint| joint.damping).collect());
     let friction = numbers(&settings.friction, "friction", joints().map(|joint| joint.friction).collect());
-    let armature = numbers(&settings.armature, "armature", vec![0.0; robot.dof()]);
+    let armature = numbers(
+        &settings.armature,
+        "armature",
+        joints().map(|joint| joint.armature.unwrap_or(0.0)).collect(),
+    );
     if !errors.is_empty() {
         return Err(errors.into());
     }
