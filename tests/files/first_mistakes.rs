@@ -195,7 +195,6 @@ fn names_that_are_nearly_right() {
     assert!(said.contains("known joints"), "{said}");
     refused(&["fk", "robots/ur5e", "--joints", "0,0"], &["write --at JOINT=POSITION"]);
     // Where the codes are explained, once.
-    let said =
-        refused(&["fk", "robots/ur5e", "--at", "elbw=90deg"], &["more: congruent lint --explain CGR-"]);
+    let said = refused(&["fk", "robots/ur5e", "--at", "elbw=90deg"], &["more: congruent explain CGR-"]);
     assert_eq!(said.matches("more: ").count(), 1, "{said}");
 }

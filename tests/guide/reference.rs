@@ -293,7 +293,7 @@ fn reference_of_the_codes() {
         }
     }
     let mut text = format!(
-        "{MADE}\n# Codes of messages\n\nEach message has a code. `congruent lint --explain CODE` prints what is here.\n"
+        "{MADE}\n# Codes of messages\n\nEach message has a code. `congruent explain CODE` prints what is here.\n"
     );
     for (area, codes) in areas {
         let _ = write!(text, "\n## {area}\n{codes}");

@@ -107,7 +107,7 @@ fn help() {
 const CALLS: [(&str, &str, &[Filter]); 26] = [
     ("describe", "describe robots/rrr_arm", &[]),
     ("lint_passes", "lint docs/examples/arm robots/ur5e", &[]),
-    ("lint_explain", "lint --explain CGR-URDF-018", &[]),
+    ("lint_explain", "explain CGR-URDF-018", &[]),
     ("fk_urdf", "fk robots/ur5e --at elbow_joint=1.2rad", &[]),
     ("fk_between", "fk robots/ur5e --from tool0 --to forearm_link --at elbow_joint=1.2rad", &[]),
     ("fk_dh", "fk robots/ur5e --source dh --at elbow_joint=1.2rad", &[]),

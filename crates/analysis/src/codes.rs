@@ -1,4 +1,4 @@
-//! The codes of the messages of this crate, with what `lint --explain` says about them.
+//! The codes of the messages of this crate, with what `congruent explain` says about them.
 
 congruent_input::codes! {
     targets {
@@ -19,9 +19,9 @@ congruent_input::codes! {
         NO_DH = "CGR-COMMAND-031", "convert::no_dh",
             "The robot has no Denavit-Hartenberg table, or its table describes another chain. Leave --base and --tip out, so that the chain is that of the table, or convert the chain of the URDF with --from urdf.";
         NO_TABLE = "CGR-COMMAND-032", "convert::no_table",
-            "No Denavit-Hartenberg table can describe this chain; the message has the reason. Choose another chain with --base and --tip.";
+            "No Denavit-Hartenberg table can describe this chain, such as one without a moving joint. The message names what the chain has. Choose another chain with --base and --tip, or write screws: --to poe.";
         TREE = "CGR-COMMAND-033", "convert::tree",
-            "The converted model is not a valid robot; the message has the reason.";
+            "The converted model is not a valid robot. The message names the link or joint and the value that is impossible. Correct that value in the source, and convert again.";
         UNPROVED = "CGR-COMMAND-034", "convert::unproved",
             "The converted model differs from its source by more than the limit, so it is not written. A coarser --accuracy, such as 1e-9, treats nearly parallel axes as parallel, and reports the error.";
         FAR_NORMAL = "CGR-COMMAND-035", "convert::far_normal",
@@ -37,13 +37,13 @@ congruent_input::codes! {
         PAYLOAD = "CGR-COMMAND-041", "dynamics::payload",
             "The mass of a payload is 0 or negative. Leave the payload out to compute without one.";
         SOURCE = "CGR-COMMAND-042", "dynamics::source",
-            "This source cannot give the dynamics of the robot; the message has the reason.";
+            "The chosen --source cannot give the torques of the robot: a table without [[inertial]] has no masses, and the physics needs a mass for each moving link. Choose another --source, or add what the message names.";
     }
     fk {
         FRAME = "CGR-COMMAND-044", "fk::frame",
             "No frame has this name. The help has the most similar name and the known ones.";
         SOURCE = "CGR-COMMAND-045", "fk::source",
-            "This source cannot give the poses of the robot; the message has the reason.";
+            "The chosen --source cannot give the poses of the robot: a robot without [dh] has no table, and the physics needs masses. Choose another --source, or add what the message names.";
     }
     jacobian {
         CONFIGURATION = "CGR-COMMAND-050", "jacobian::configuration",
@@ -55,6 +55,6 @@ congruent_input::codes! {
     }
     manipulability {
         ROBOT = "CGR-COMMAND-054", "manipulability::robot",
-            "The manipulability of the chain cannot be computed; the message has the reason.";
+            "The manipulability of the chain cannot be computed, as of a chain without a moving joint. Choose a chain with a joint that moves: --base and --tip.";
     }
 }

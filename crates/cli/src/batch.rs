@@ -19,7 +19,7 @@ use serde::Serialize;
 use crate::{
     ci::{CiArguments, in_repository},
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
-    terminal::print::{Printer, Refusal},
+    terminal::print::{Format, Printer, Refusal},
     unfinished_junit::UnfinishedJunit,
 };
 
@@ -146,7 +146,9 @@ impl<'a> Batch<'a> {
             let message = format!("{} ended in an internal error; please report it", visible_path(input));
             Err(Failure::Machine(message))
         });
-        if let (Err(failure), Some(label)) = (&result, self.label(input)) {
+        // Of a quiet call for people the line of the input has it.
+        let is_in_line = self.printer.is_quiet() && self.printer.format() == Format::Human;
+        if let (Err(failure), Some(label), false) = (&result, self.label(input), is_in_line) {
             Printer::explain(Some(label), failure);
         }
         let wall_s = start.elapsed().as_secs_f64();
@@ -294,7 +296,7 @@ impl<R: BatchReport> Answer<R> {
 
     fn suite(&self) -> TestSuite {
         let suite = match &self.result {
-            Ok(report) => report.test_suite(&visible_path(&self.input)),
+            Ok(report) => report.test_suite(&name_of(&self.input)),
             Err(failure) => refused_suite(&self.input, failure),
         };
         in_repository(suite.measured(self.wall_s))
@@ -316,6 +318,16 @@ impl<R: BatchReport> Answer<R> {
                 format!("  {first}{more}\n")
             }
         }
+    }
+}
+
+/// The name of an input in files for CI: `.` says there nothing, and the folder has the name of the robot.
+fn name_of(input: &Path) -> String {
+    match input.canonicalize() {
+        Ok(folder) if input.file_name().is_none() => {
+            visible_path(Path::new(folder.file_name().unwrap_or(input.as_os_str())))
+        }
+        _ => visible_path(input),
     }
 }
 

@@ -21,8 +21,8 @@ pub(crate) struct Arguments {
     a: PathBuf,
     /// The same of the other run.
     b: PathBuf,
-    /// Largest difference of two numbers that counts as none, in the unit of each series. Above 0, the links and
-    /// pairs of worst values are not compared.
+    /// Largest difference of two numbers that counts as none, in the unit of each series (m, rad, s). Above 0, the places, times
+    /// and joint positions of worst values are not compared.
     #[arg(long, default_value_t = 0.0, value_name = "NUMBER")]
     tolerance: f64,
 }

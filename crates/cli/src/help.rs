@@ -10,7 +10,7 @@ use congruent::{input::nearest, text::layout::paragraph};
 
 /// The groups of commands, in the order of the help.
 const GROUPS: [(&str, &[&str]); 6] = [
-    ("Check", &["check", "lint", "describe"]),
+    ("Check", &["check", "lint", "describe", "explain"]),
     ("Run", &["run", "new"]),
     ("Look", &["view", "inspect", "compare"]),
     (
@@ -22,7 +22,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
 ];
 
 /// Two examples or more of each command, by its name, in the root of the project.
-const EXAMPLES: [(&str, &[&str]); 21] = [
+const EXAMPLES: [(&str, &[&str]); 22] = [
     (
         "check",
         &[
@@ -31,7 +31,8 @@ const EXAMPLES: [(&str, &[&str]); 21] = [
             "congruent check robots/ur5e/ur5e.urdf --against robots/ur5e",
         ],
     ),
-    ("lint", &["congruent lint robots/ur5e", "congruent lint --explain CGR-URDF-018"]),
+    ("lint", &["congruent lint robots/ur5e", "congruent lint scenarios/ur5e_pick.toml --strict"]),
+    ("explain", &["congruent explain CGR-URDF-018", "congruent explain axis_flipped"]),
     (
         "describe",
         &["congruent describe robots/ur5e", "congruent describe robots/ur5e/ur5e.urdf --tip flange"],
@@ -158,6 +159,10 @@ pub(crate) fn with_groups_and_examples(command: Command) -> Command {
         "\nExamples of a command: congruent check --help\n"
     );
     let command = with_common_options_last(command.help_template(template));
+    // Of a folder with robot.toml nothing would be new.
+    let command = command.mut_subcommand("new", |new| {
+        new.mut_subcommand("robot", |robot| robot.mut_arg("robot", |robot| robot.help("A URDF or an MJCF")))
+    });
     EXAMPLES.iter().fold(command, |command, (name, lines)| {
         if command.find_subcommand(name).is_none() {
             // Built without recordings.

@@ -38,7 +38,7 @@ pub(crate) fn seed(text: &str) -> Result<u64, String> {
 /// A robot on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RobotArgument {
-    /// A folder with robot.toml, a robot file, a bare .urdf, or - for a URDF on standard input.
+    /// A folder with robot.toml, a robot file, a URDF or an MJCF, or - for a URDF or MJCF on standard input.
     pub(crate) robot: PathBuf,
     #[command(flatten)]
     access: AccessArguments,

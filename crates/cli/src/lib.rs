@@ -70,6 +70,7 @@ struct Arguments {
 enum Command {
     Check(model::check::Arguments),
     Lint(model::lint::Arguments),
+    Explain(model::lint::explain::Arguments),
     Describe(model::describe::Arguments),
     Run(run::Arguments),
     New(new::Arguments),
@@ -103,7 +104,7 @@ impl Arguments {
     }
 }
 
-/// The codes of all messages of the command, with what `lint --explain` says of them.
+/// The codes of all messages of the command, with what `explain` says of them.
 pub fn codes() -> Vec<&'static congruent::input::Code> {
     codes::all_codes()
 }
@@ -192,6 +193,7 @@ fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
         Command::Run(arguments) => run::run(&arguments, printer),
         Command::Check(arguments) => model::check::run(&arguments, printer),
         Command::Lint(arguments) => model::lint::run(&arguments, printer),
+        Command::Explain(arguments) => model::lint::explain::run(&arguments.code, printer),
         Command::Describe(arguments) => model::describe::run(&arguments, printer),
         Command::Fk(arguments) => arm::fk::run(&arguments, printer),
         Command::Jacobian(arguments) => arm::jacobian::run(&arguments, printer),

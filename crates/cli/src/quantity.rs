@@ -99,7 +99,9 @@ impl QuantityArgument {
                 Err(format!("\"{text}\" is {}, expected {}", found.name(), dimension.name()))
             }
             None if dimension == Dimension::Angle && value != 0.0 => {
-                Err(format!("\"{text}\" needs a unit: {text}deg or {text}rad"))
+                // In radians a number of degrees is many turns: the same angle in both units.
+                let radians = (Unit::Angle.convert(value) * 1e4).round() / 1e4;
+                Err(format!("\"{text}\" needs a unit: {text}deg, or {radians}rad"))
             }
             _ => Ok(value),
         }
@@ -117,6 +119,15 @@ impl QuantityArgument {
 /// A length above 0: `20mm`, or in m without a unit.
 pub(crate) fn positive_length(text: &str) -> Result<f64, String> {
     QuantityArgument::positive(text, Dimension::Length)
+}
+
+/// A length above 0 that must have its unit: 20 is in mm for most, and 20 m would pass silently.
+pub(crate) fn length_with_unit(text: &str) -> Result<f64, String> {
+    let length = positive_length(text)?;
+    match QuantityArgument::parse(text)?.dimension {
+        Some(_) => Ok(length),
+        None => Err(format!("\"{text}\" needs a unit: {text}mm or {text}m")),
+    }
 }
 
 /// Three lengths, `0.4,0.1,0.3` in m or `400mm,0.1m,300mm`.
@@ -200,7 +211,9 @@ mod tests {
             assert!(error.contains(message), "{text}: {error}");
         }
         let error = three_angles("180,0,0").unwrap_err();
-        assert_eq!(error, "\"180\" needs a unit: 180deg or 180rad");
+        assert_eq!(error, "\"180\" needs a unit: 180deg, or 3.1416rad");
+        assert_eq!(length_with_unit("20").unwrap_err(), "\"20\" needs a unit: 20mm or 20m");
+        assert_eq!(length_with_unit("20mm"), Ok(0.02));
         assert!(three_lengths("1,2").unwrap_err().contains("2 values, expected three"));
         let error = three_lengths("350mm 100mm 450mm").unwrap_err();
         assert_eq!(error, "separate the values with commas: 350mm,100mm,450mm");

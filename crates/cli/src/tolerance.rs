@@ -74,7 +74,10 @@ fn quantity(text: &str) -> Result<(Unit, f64), String> {
     let unit = match found.dimension {
         Some(Dimension::Length) => Unit::Length,
         Some(Dimension::Angle) => Unit::Angle,
-        Some(Dimension::Mass) | None => {
+        None => {
+            return Err(format!("\"{text}\" has no unit: {text}mm or {text}deg?"));
+        }
+        Some(Dimension::Mass) => {
             return Err(format!("\"{text}\" is not a number with a unit: {UNITS}"));
         }
     };
@@ -114,7 +117,8 @@ mod tests {
             ("1e-400mm", "must be greater than 0"),
             ("nanmm", "is not a number"),
             ("infm", "is not a number"),
-            ("1", "is not a number with a unit"),
+            ("1", "\"1\" has no unit: 1mm or 1deg?"),
+            ("1mm,0.1", "\"0.1\" has no unit"),
             ("", "is not a number with a unit"),
             ("1mm,", "is not a number with a unit"),
             ("1mm,2mm", "is a length, and a length is already given"),

@@ -21,13 +21,19 @@ const GUESSED: [(&[&str], &str, &str); 3] = [
     (&["--orientation", "--euler"], "rpy", "--rpy 180deg,0,90deg"),
 ];
 
+/// What explains a code, which people look for at the command that has printed it.
+const EXPLAIN: &str = "a code is explained by `congruent explain CODE`";
+
 /// The error about an unexpected argument with what to write instead, if that is known.
 pub(crate) fn with_hint(mut error: Error, words: &[OsString], command: &Command) -> Error {
     // The first value of a list is refused before the rest is unexpected, if a robot is missing until then.
     let refused = error.get(ContextKind::InvalidValue).or(error.get(ContextKind::InvalidArg));
     let Some(ContextValue::String(unexpected)) = refused else { return error };
     let words: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
-    let hint = list_without_commas(&words, unexpected).or_else(|| guessed(&words, unexpected, command));
+    let explained = (unexpected == "--explain").then(|| EXPLAIN.to_owned());
+    let hint = explained
+        .or_else(|| list_without_commas(&words, unexpected))
+        .or_else(|| guessed(&words, unexpected, command));
     if let Some(hint) = hint {
         // What clap finds similar by its letters, as --quiet for --q, is not what was meant.
         if error.remove(ContextKind::SuggestedArg).is_some() {
@@ -100,6 +106,10 @@ mod tests {
         check("congruent jacobian arm --q 1,2", Some("write --at JOINT=POSITION"));
         check("congruent ik arm --pose 1,2", Some("write --xyz 0.4,0.1,0.3"));
         check("congruent lint arm --joints 1,2", None);
+        check(
+            "congruent check --explain CGR-URDF-001",
+            Some("tip: a code is explained by `congruent explain CODE`"),
+        );
         check("congruent fk arm --q joint_1=10", Some("tip: write --at JOINT=POSITION"));
         check("congruent fk arm --q joint_1=10", Some("Usage: congruent fk [OPTIONS] <ROBOT>"));
     }

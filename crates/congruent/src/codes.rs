@@ -1,19 +1,19 @@
-//! The codes of the messages of this crate, with what `lint --explain` says about them, and the list of all codes of the library.
+//! The codes of the messages of this crate, with what `congruent explain` says about them, and the list of all codes of the library.
 
 use congruent_input::Code;
 
 congruent_input::codes! {
     simulation {
         ROBOT = "CGR-ROBOT-024", "simulation::robot",
-            "The physics of this robot cannot be built; the message has the reason.";
+            "The physics of this robot cannot be built. The message names the link, joint or shape that stops it. Correct that value in the URDF; kinematics do not need it, and `check` compares poses without the physics.";
     }
     check {
         DECLARED_DYNAMICS = "CGR-COMMAND-027", "check::declared_dynamics",
-            "The declared dynamics cannot be compared; the message has the reason.";
+            "The masses and inertias that the robot file declares cannot be compared with those of the URDF. The message names the entry that stops it. Correct the [[inertial]] entry of that joint, or remove all of them to compare poses alone.";
         SIMULATED_DYNAMICS = "CGR-COMMAND-028", "check::simulated_dynamics",
-            "The dynamics of the physics cannot be identified; the message has the reason.";
+            "The inertial parameters of the physics cannot be identified from its torques. The message names what stops it, such as a joint that does not move or a torque that is not finite. Correct the mass or the limit that it names.";
         OTHER_DYNAMICS = "CGR-COMMAND-069", "check::other_dynamics",
-            "The dynamics of the two descriptions cannot be compared; the message has the reason.";
+            "The dynamics of the two descriptions cannot be compared. The message names the description and what it lacks, such as the mass of a link. Add that to the file; poses are compared without it.";
         MAPPING = "CGR-COMMAND-074", "check::mapping",
             "Joints have another name, direction or zero in the other description, or move in one of the two alone, and the robot file does not declare it. What is compared is compared in the variables of the first. The help has the lines to declare it.\n    [mapping.joints]\n    elbow = { joint = \"A3\", sign = -1, offset_deg = 90 }";
         NO_SECOND_SOURCE = "CGR-COMMAND-071", "check::no_second_source",
@@ -29,7 +29,7 @@ congruent_input::codes! {
         NO_JOINT = "CGR-COMMAND-056", "new::no_joint",
             "No joint moves, so there is nothing to run. Choose base and tip in the robot file so that a joint between them moves.";
         RUN = "CGR-COMMAND-059", "new::run",
-            "The new scenario does not run; the message has the reason.";
+            "The scenario that `new scenario` has made ends with an error when it is run, and is not written. The message has that error. `congruent check` of the robot shows whether its masses and limits are sound; give the robot those that it lacks.";
         SCENARIO = "CGR-COMMAND-060", "new::scenario",
             "`new scenario` cannot write the file: every motion that it tried fails a check, the robot came from standard input, or the name under --out does not end in .toml.";
         SHAPE = "CGR-COMMAND-061", "new::shape",

@@ -68,7 +68,11 @@ pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison,
     }
     for path in [a, b] {
         if let Err(error) = fs::metadata(path) {
-            return refused(format!("cannot read {}: {error}", path.display()));
+            let name = path.display();
+            return refused(match error.kind() {
+                std::io::ErrorKind::NotFound => format!("{name} does not exist"),
+                _ => format!("cannot read {name}: {error}"),
+            });
         }
     }
     let (mut files, mut not_compared) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! The codes of the messages of this crate, with what `lint --explain` says about them.
+//! The codes of the messages of this crate, with what `congruent explain` says about them.
 
 congruent_input::codes! {
     load {
@@ -37,7 +37,7 @@ congruent_input::codes! {
         XACRO = "CGR-URDF-002", "urdf::xacro",
             "The file is a xacro file that has not been expanded. It is never expanded here, because xacro executes code.\n    xacro robot.urdf.xacro > robot.urdf";
         STRUCTURE = "CGR-URDF-003", "urdf::structure",
-            "The file is not a valid URDF; the message has the reason.";
+            "The file is XML, but no valid URDF: a link or joint lacks what it needs, or has a value that is impossible. The message names the element and what is wrong with it. Correct that element; `check_urdf` of ROS refuses the same file.";
         TOO_MANY_LINKS = "CGR-URDF-004", "urdf::too_many_links",
             "The robot has more links than the limit, up to which it can be processed in a reasonable time.";
         TREE = "CGR-URDF-005", "urdf::tree",

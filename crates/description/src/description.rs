@@ -14,7 +14,9 @@ use crate::{
     codes,
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance, ToleranceScale},
     own_model::{OwnModelForm, OwnModelPlaces, without_bodies},
-    robot_file::{DeclaredMapping, DeclaredReference, DynamicsTable, InertialPlaces, RobotFilePlaces},
+    robot_file::{
+        DeclaredMapping, DeclaredReference, DynamicsTable, InertialPlaces, RobotFilePlaces, joint_for_link,
+    },
     urdf::UrdfPlaces,
 };
 
@@ -236,7 +238,7 @@ impl RobotDescription {
                 codes::chain::UNKNOWN_LINK,
                 format!("{role} \"{name}\": the robot has no such link"),
             )
-            .with_help(known_names(name, "links", links))
+            .with_help(joint_for_link(&self.robot, name) + &known_names(name, "links", links))
         })
     }
 }

@@ -7,7 +7,9 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Diagnostic, FileAccess, SourceFile, TextKind, TomlKind, direct_path, not_found};
+use congruent_input::{
+    Diagnostic, FileAccess, SourceFile, TextKind, TomlKind, direct_path, nearest, not_found,
+};
 
 use crate::{codes, robot_file::ROBOT_FILE};
 
@@ -76,6 +78,19 @@ fn find_below(folder: &Path, depth: usize, is_wanted: &dyn Fn(&Path) -> bool) ->
     })
 }
 
+/// The file of the same name in the folder whose name is most like that of the missing one: `xarm7_gripper` for `xarm7`.
+fn in_similar_folder(path: &Path) -> Option<PathBuf> {
+    let (name, folder) = (path.file_name()?, path.parent()?);
+    let (above, missing) = (folder.parent()?, folder.file_name()?.to_str()?);
+    let entries = fs::read_dir(above).ok()?.take(MOST_ENTRIES).flatten();
+    let has_file = |entry: &fs::DirEntry| entry.path().join(name).is_file();
+    let mut names: Vec<String> =
+        entries.filter(has_file).filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    names.sort();
+    let near = nearest(missing, names.iter().map(String::as_str))?;
+    Some(above.join(near).join(name))
+}
+
 /// A URDF or MJCF that is not where the robot file says: the help has a similar name, or the same name in another folder nearby.
 pub(crate) fn urdf_not_found(key: &str, written: &Path, folder: &Path, access: &FileAccess) -> Diagnostic {
     if written.to_string_lossy().contains("://") {
@@ -90,7 +105,8 @@ pub(crate) fn urdf_not_found(key: &str, written: &Path, folder: &Path, access: &
     if fault.help.is_some() {
         return fault;
     }
-    let found = written.file_name().and_then(|name| file_nearby(folder, name));
+    let found = in_similar_folder(&path);
+    let found = found.or_else(|| written.file_name().and_then(|name| file_nearby(folder, name)));
     // What may not be opened is not named either.
     match found.filter(|found| access.check(found).is_ok()) {
         Some(found) => {

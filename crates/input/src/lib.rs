@@ -42,5 +42,5 @@ pub use written::{
     rpy_fixed_xyz_rad, serde_in_words, toml_text,
     transform::{WrittenTransform, fitted_transform},
     typing_error::TypingError,
-    wrong_unit::WrongUnit,
+    wrong_unit::{WrongUnit, unit_hint},
 };

@@ -3,7 +3,7 @@
 use super::names::Names;
 use crate::{
     sample::Sample,
-    verdict::{Contact, InstantValue, Measure},
+    verdict::{Contact, InstantValue, Measure, Moment},
 };
 
 /// A check that gets every sample of a run.
@@ -31,6 +31,8 @@ pub struct Observed {
     pub not_evaluated: u64,
     /// The quantities with their limits and worst values.
     pub measures: Vec<Measure>,
+    /// The nearest pair whose distance changes, if that of the first measure does not.
+    pub nearest_that_changes: Option<Moment>,
     /// The pairs that touched, with begin and end of each contact.
     pub contacts: Vec<Contact>,
     /// Remarks on the values.

@@ -136,7 +136,8 @@ impl<'a> RunningCheck<'a> {
 
     /// The result of the check.
     pub fn result(&self, names: &Names) -> CheckResult {
-        let Observed { samples, not_evaluated, measures, contacts, mut notes } = self.monitor.finish(names);
+        let Observed { samples, not_evaluated, measures, nearest_that_changes, contacts, mut notes } =
+            self.monitor.finish(names);
         let status = match samples {
             _ if self.monitor.has_failed() => Status::Fail,
             0 => Status::Skipped,
@@ -152,7 +153,17 @@ impl<'a> RunningCheck<'a> {
             );
         }
         let Self { kind: check, line, is_default, .. } = *self;
-        CheckResult { check, line, is_default, status, samples, measures, contacts, notes }
+        CheckResult {
+            check,
+            line,
+            is_default,
+            status,
+            samples,
+            measures,
+            nearest_that_changes,
+            contacts,
+            notes,
+        }
     }
 }
 

@@ -161,6 +161,10 @@ pub struct CheckResult {
     pub samples: u64,
     /// The quantities with their limits and worst values.
     pub measures: Vec<Measure>,
+    /// Of a check `clearance` that passed: the nearest pair whose distance changes in the run, in the unit of the first
+    /// measure, if the pair of that measure keeps its distance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nearest_that_changes: Option<Moment>,
     /// The pairs that touched, with begin and end of each contact; of a check `contact` alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Contact>,
@@ -324,6 +328,7 @@ mod tests {
             status,
             samples: 1,
             measures: Vec::new(),
+            nearest_that_changes: None,
             contacts: Vec::new(),
             notes: Vec::new(),
         }

@@ -34,9 +34,9 @@ struct Extreme {
 }
 
 impl Extreme {
-    fn set(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
-        (self.value, self.subject, self.time_s, self.is_set) = (value, subject, sample.time_s, true);
-        self.q.copy_from_slice(sample.joints.truth.q);
+    fn set(&mut self, value: f64, subject: usize, (time_s, q): (f64, &[f64])) {
+        (self.value, self.subject, self.time_s, self.is_set) = (value, subject, time_s, true);
+        self.q.copy_from_slice(q);
     }
 }
 
@@ -58,19 +58,25 @@ impl Watch {
 
     /// Evaluates one value of `subject`, an index that `measure` turns into a name.
     pub(crate) fn observe(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
+        self.observe_at(value, subject, (sample.time_s, sample.joints.truth.q));
+    }
+
+    /// The same of an instant by its time and configuration.
+    pub(crate) fn observe_at(&mut self, value: f64, subject: usize, instant: (f64, &[f64])) {
+        let (time_s, _) = instant;
         let (latest, at_s) = &mut self.latest;
         #[expect(clippy::float_cmp, reason = "the time of one sample")]
         // One instant has a value for each subject. The first replaces that of the instant before, later ones only if
         // worse.
-        if *at_s != sample.time_s || self.bound.is_worse(value, *latest) {
-            (*latest, *at_s) = (value, sample.time_s);
+        if *at_s != time_s || self.bound.is_worse(value, *latest) {
+            (*latest, *at_s) = (value, time_s);
             self.latest_subject = subject;
         }
         if !self.worst.is_set || self.bound.is_worse(value, self.worst.value) {
-            self.worst.set(value, subject, sample);
+            self.worst.set(value, subject, instant);
         }
         if !self.first_violation.is_set && !self.bound.holds(value, self.limit) {
-            self.first_violation.set(value, subject, sample);
+            self.first_violation.set(value, subject, instant);
         }
     }
 

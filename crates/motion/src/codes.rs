@@ -1,4 +1,4 @@
-//! The codes of the messages of this crate, with what `lint --explain` says about them.
+//! The codes of the messages of this crate, with what `congruent explain` says about them.
 
 congruent_input::codes! {
     scenario {
@@ -19,7 +19,7 @@ congruent_input::codes! {
         OUT_OF_REACH = "CGR-SCENARIO-033", "scenario::out_of_reach",
             "No joint positions bring the tool to the target. The target is that of the tool centre point in the world. The message has the smallest error that was reached.";
         MOVE_TCP = "CGR-SCENARIO-034", "scenario::move_tcp",
-            "The tool of the chain cannot be moved to a target; the message has the reason.";
+            "The chain cannot move its tool to a target, as a chain with fewer than six joints cannot to most poses, or one whose joints follow others. Give the target as joint positions (kind = \"joint\"), or its position alone.";
         OVER_LIMIT = "CGR-SCENARIO-035", "scenario::over_limit",
             "A motion exceeds the velocity or acceleration limit of a joint. The help names the shortest duration within the limits; or the motion is slowed down by this.\n    [limits]\n    over_limit = \"slow\"";
         NO_VELOCITY_LIMIT = "CGR-SCENARIO-036", "scenario::no_velocity_limit",
@@ -27,7 +27,7 @@ congruent_input::codes! {
         SLOWED = "CGR-SCENARIO-037", "scenario::slowed",
             "A motion takes longer than requested, because a joint would otherwise exceed its limit. Give the longer duration to be rid of the warning.";
         PATH = "CGR-SCENARIO-039", "scenario::path",
-            "A path of the tool cannot be followed; the message has the reason.";
+            "The tool cannot follow a path. The message names the point and what stops the arm there: out of reach, at a joint limit or at a singularity. Move that point, or begin the path in another configuration.";
         PATH_POINTS = "CGR-SCENARIO-040", "scenario::path_points",
             "A path has no points, or two successive points are equal. Remove the repeated point, or give `at_s` to wait there.";
         PATH_TIMES = "CGR-SCENARIO-041", "scenario::path_times",
@@ -45,7 +45,7 @@ congruent_input::codes! {
         ARC_SPEED = "CGR-SCENARIO-047", "scenario::arc_speed",
             "An arc is followed more slowly than requested, because of the limit of the centripetal acceleration.";
         ORIENTATION = "CGR-SCENARIO-048", "scenario::orientation",
-            "The orientation along a path is incomplete or has an unsupported form; the message has the reason.";
+            "The orientations along a path are incomplete: either every point has one, or none. Give each point `rpy_deg` or `quaternion_wxyz`, or leave it out at all points, and the orientation of the start is kept.";
         AFTER_SERVO = "CGR-SCENARIO-049", "scenario::after_servo",
             "A motion after a servo is planned when the servo ends; this kind of motion cannot be planned then.";
         PLAYBACK = "CGR-SCENARIO-050", "scenario::playback",

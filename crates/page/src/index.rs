@@ -9,7 +9,7 @@ use maud::{Markup, html};
 
 use crate::{
     parts::{BadgeKind, Provenance, badge, capitalised, document, provenance},
-    run::{outcome, tightest},
+    run::{Tightest, outcome, tightest},
 };
 
 /// One scenario of a call.
@@ -38,7 +38,7 @@ impl IndexEntry<'_> {
             Verdict::AsExpected => 4,
         };
         // Negated: sorted upwards, the largest share comes first.
-        (verdict, -tightest(report).map_or(0.0, |(_, _, share)| share))
+        (verdict, -tightest(report).map_or(0.0, |tightest| tightest.share))
     }
 }
 
@@ -114,9 +114,9 @@ fn happened(report: &RunReport) -> Markup {
 fn nearest(report: &RunReport) -> Markup {
     let has_failed = report.checks.iter().any(|check| check.status == Status::Fail);
     html! {
-        @if let Some((check, measure, share)) = tightest(report).filter(|_| !has_failed) {
+        @if let Some(Tightest { check, measure, worst, share }) = tightest(report).filter(|_| !has_failed) {
             (check) ": " (quantity_words(measure.quantity)) (format!(", {:.0} % of the limit", 100.0 * share))
-            @if let Some(worst) = &measure.worst { p.small { (worst.subject) } }
+            p.small { (worst.subject) }
         }
     }
 }

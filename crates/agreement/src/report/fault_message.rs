@@ -10,7 +10,7 @@ use congruent_description::{ConstantKey, ConstantPart, DhConvention, DhRowKind, 
 use congruent_input::{
     ChangedLines, PastedLines, Slack, SourceFile, TypingError, WrongUnit,
     display::{angle, length, length_and_angle, number},
-    fitted_number, fitted_transform, line_column,
+    fitted_number, fitted_transform, line_column, unit_hint,
     units::{Unit, UnitSystem},
 };
 use congruent_kinematics::{Pose, rotation_log};
@@ -376,8 +376,11 @@ pub(super) fn row_key(entry: DhEntry) -> RowKey {
 
 /// What a typed value has otherwise than the expected one, both as `key = value`; `None` if they differ in more, or if the
 /// keys have other units.
-fn typing_error(found: &str, expected: &str) -> Option<&'static str> {
+fn typing_error(found: &str, expected: &str) -> Option<String> {
+    if let Some(hint) = unit_hint(found, expected) {
+        return Some(hint);
+    }
     let ((key, found), (other_key, expected)) = (found.split_once(" = ")?, expected.split_once(" = ")?);
     let error = TypingError::between(found, expected).filter(|_| key == other_key)?;
-    error.in_words()
+    error.in_words().map(str::to_owned)
 }

@@ -12,7 +12,7 @@ use crate::{
     configurations::ConfigurationArguments,
     failure::{FAILED, Failure, NOTHING},
     input::RobotArgument,
-    quantity::positive_length,
+    quantity::length_with_unit,
     terminal::print::{Printer, text_options},
 };
 
@@ -38,8 +38,8 @@ pub(crate) struct Arguments {
     /// Leave out this pair of links; may be given several times. `*` stands for any characters.
     #[arg(long, value_name = "A,B", value_parser = pair)]
     ignore: Vec<[String; 2]>,
-    /// Smallest distance that is allowed; exit code 1 if a pair is nearer.
-    #[arg(long, value_name = "LENGTH", value_parser = positive_length, allow_hyphen_values = true)]
+    /// Smallest distance that is allowed, with its unit: 20mm; exit code 1 if a pair is nearer.
+    #[arg(long, value_name = "LENGTH", value_parser = length_with_unit, allow_hyphen_values = true)]
     limit: Option<f64>,
     #[command(flatten)]
     disabled_pairs: DisabledPairsArguments,

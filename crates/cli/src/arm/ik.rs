@@ -2,7 +2,10 @@
 
 #![expect(clippy::doc_markdown, reason = "the comments are printed as help, where backticks are noise")]
 
-use std::path::PathBuf;
+use std::{
+    ffi::OsStr,
+    path::{Path, PathBuf},
+};
 
 use congruent::{
     analysis::inverse::{
@@ -76,6 +79,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         let target = arguments.xyz.map(|xyz_m| InverseTarget::new(xyz_m, arguments.rpy));
         return answer(InverseTargets { targets: target.into_iter().collect(), warnings: Vec::new() }, 1);
     };
+    refuse_robot(file)?;
     if !is_standard_input(file) {
         return answer(read_targets(file, &description.robot)?, 1);
     }
@@ -92,6 +96,17 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         code = if code == NOTHING { answered } else { code.max(answered) };
     }
     Ok(code)
+}
+
+/// Refuses a robot in the place of a table: as JSON it would be malformed, which it is not meant to be.
+fn refuse_robot(file: &Path) -> Result<(), Diagnostic> {
+    let is_robot = |ending: &OsStr| ["urdf", "xml", "xacro", "toml"].iter().any(|robot| ending == *robot);
+    if !file.extension().is_some_and(is_robot) {
+        return Ok(());
+    }
+    let message = format!("--targets {} is a robot, not a table of targets", file.display());
+    Err(Diagnostic::error(codes::ik::ROBOT, message)
+        .with_help("give a table (.csv) or a JSON file, or one target with --xyz and --rpy"))
 }
 
 impl Arguments {

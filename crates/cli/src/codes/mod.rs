@@ -1,4 +1,4 @@
-//! The codes of the messages of this crate, with what `lint --explain` says about them.
+//! The codes of the messages of this crate, with what `congruent explain` says about them.
 
 use congruent::input::Code;
 
@@ -26,11 +26,11 @@ congruent::input::codes! {
     }
     lint {
         CODE = "CGR-COMMAND-008", "lint::code",
-            "The word after --explain is no code of a finding. The help names the most similar code.";
+            "The word after `explain` is no code of a finding and no cause of `check`. The help names the most similar one.";
     }
     run {
         CANNOT_RUN = "CGR-COMMAND-010", "run::cannot_run",
-            "The scenario cannot be run; the message has the reason.";
+            "The scenario cannot be run: its robot cannot be simulated, or a motion cannot be planned. The message names the value; correct it there. `congruent check ROBOT` shows what the robot lacks.";
         OUTPUT = "CGR-COMMAND-011", "run::output",
             "A result cannot be written to its file. For example its folder is in use by another run, or may not be written. Give another folder or file.";
         SAME_OUTPUT = "CGR-COMMAND-012", "run::same_output",
@@ -50,13 +50,13 @@ congruent::input::codes! {
     }
     clearance {
         SHAPE = "CGR-COMMAND-019", "clearance::shape",
-            "Distances cannot be computed for a shape of the robot; the message has the reason.";
+            "Distances cannot be computed for a shape of the robot, such as a mesh without a volume. The message names the link and the shape. Correct the shape, or leave the link out: --ignore LINK,*.";
     }
     check {
         PLOT = "CGR-COMMAND-025", "check::plot",
             "--plot shows errors at configurations, but no configurations are given. Give --configurations FILE.";
         ROBOT = "CGR-COMMAND-026", "check::robot",
-            "The robot cannot be checked; the message has the reason.";
+            "The robot cannot be checked. The message names the joint or value that stops it, such as a chain without a moving joint. Correct it, or choose another chain with --base and --tip.";
         DECLARED_MAPPING = "CGR-COMMAND-079", "check::declared_mapping",
             "[mapping] of the robot file does not fit the other description: it names a joint there that does not move or does not exist, pairs a joint that turns with one that slides, means one joint twice, or has a joint in left_out that neither file has.\n    [mapping]\n    left_out = [\"finger_joint\"]\n    [mapping.joints]\n    elbow = \"A3\"";
         TABLE = "CGR-COMMAND-070", "check::table",
@@ -68,11 +68,11 @@ congruent::input::codes! {
     }
     convert {
         TO = "CGR-COMMAND-072", "convert::to",
-            "--to names neither a model nor a .urdf file, or names two models or two files. A table is written in one convention, which must be chosen, since the same values are another robot in the other.\n    congruent convert arm.urdf --to dh --to arm.toml";
+            "No model to write is named, or --to names two models or two files. --out FILE.urdf and --out FILE.xml name the model by the ending of the file. A table is written in one convention, which must be chosen, since the same values are another robot in the other.\n    congruent convert arm.urdf --to dh --to arm.toml";
     }
     derive {
         BASE_PARAMETERS = "CGR-COMMAND-037", "derive::base_parameters",
-            "The base inertial parameters cannot be computed; the message has the reason.";
+            "The base inertial parameters cannot be computed. The message names the joint or value that stops it. Correct it in the URDF, or choose another chain with --base and --tip.";
         NO_JOINT = "CGR-COMMAND-038", "derive::no_joint",
             "No joint moves, so joint torques identify no inertial parameter. Give a URDF in which a joint moves.";
     }
@@ -82,11 +82,11 @@ congruent::input::codes! {
     }
     ik {
         ROBOT = "CGR-COMMAND-046", "ik::robot",
-            "Inverse kinematics cannot be computed for the chain; the message has the reason.";
+            "Inverse kinematics cannot be computed: the chain has no moving joint, or the file of targets is none. Choose a chain with --base and --tip; give a table of targets, or one target with --xyz and --rpy.";
     }
     inspect {
         CHECK = "CGR-COMMAND-047", "inspect::check",
-            "The recording cannot be checked against the scenario; the message has the reason.";
+            "The recording cannot be checked against the scenario: it has another robot or other checks, or lacks the joint positions. Give the scenario of the run, or one that differs from it in limits alone.";
         CSV = "CGR-COMMAND-048", "inspect::csv",
             "--csv writes one recording, but several are given. Give one recording.";
         RECORDING = "CGR-COMMAND-049", "inspect::recording",
@@ -110,7 +110,7 @@ congruent::input::codes! {
     }
     sensitivity {
         ROBOT = "CGR-COMMAND-064", "sensitivity::robot",
-            "The sensitivities of the chain cannot be computed; the message has the reason.";
+            "The sensitivities of the chain cannot be computed, as of a chain without a moving joint. Choose another chain with --base and --tip.";
     }
     view {
         INPUT = "CGR-COMMAND-065", "view::input",
@@ -118,11 +118,11 @@ congruent::input::codes! {
         RECORDING = "CGR-COMMAND-066", "view::recording",
             "The file is not a recording, or it is damaged. The viewer would open an empty window. `congruent inspect` says what is damaged.";
         ROBOT = "CGR-COMMAND-067", "view::robot",
-            "The robot cannot be shown; the message has the reason.";
+            "The robot cannot be drawn. The message names the link or shape that stops it. Correct that shape in the URDF.";
     }
     workspace {
         ROBOT = "CGR-COMMAND-068", "workspace::robot",
-            "The workspace of the chain cannot be computed; the message has the reason.";
+            "The workspace of the chain cannot be computed, as of a chain without a moving joint. Choose another chain with --base and --tip.";
     }
 }
 

@@ -49,10 +49,10 @@ use crate::{
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Arguments {
-    /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
+    /// Folders with robot.toml, robot files, URDFs, MJCFs, or - for a URDF or MJCF on standard input.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
-    /// Also compare with another description of the robot (a folder with robot.toml, a robot file, or a bare .urdf), in
+    /// Also compare with another description of the robot (a folder with robot.toml, a robot file, a URDF or an MJCF), in
     /// geometry and, if both are the same chain within the tolerance, in dynamics. Joints with other names, directions or
     /// zeros are found, or declared by [mapping] in robot.toml. git:REV is the robot as the branch, tag or commit REV has
     /// it, git:REV:PATH another file of it. Given several times, each is compared. By default the files of [[reference]]
@@ -267,7 +267,7 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
         description.tolerance = tolerance.replace(description.tolerance);
         description.tolerance_is_declared = true;
     }
-    batch.warn(path, &[&of_options[..], &description.warnings].concat());
+    batch.warn(path, &of_options);
     let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };
     let other = others(&description, arguments).into_iter().nth(at);
     let other = other.map(|other| other_description(&mut description, &other, arguments)).transpose()?;
@@ -280,10 +280,15 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
         Some(other) => congruent::check_against(&description, other, &options),
         None => congruent::check(&description, &options),
     };
-    if let Some(other) = &other {
-        batch.warn(&other.path, &other.warnings);
-    }
     let compared = waiting(batch.printer(), &format!("checking {}", visible_path(path)), compare);
+    // What lint lists below the answer is printed there alone.
+    let listed = compared.as_ref().map_or(&[][..], |report| &report.lint.worst[..]);
+    let is_listed = |warning: &Diagnostic| listed.iter().any(|finding| finding.message == warning.message);
+    for of in std::iter::once(&description).chain(&other) {
+        let others: Vec<Diagnostic> =
+            of.warnings.iter().filter(|warning| !is_listed(warning)).cloned().collect();
+        batch.warn(if std::ptr::eq(of, &raw const description) { path } else { &of.path }, &others);
+    }
     let mut report = compared.map_err(|error| refused(path, &error))?;
     let unusable = unusable_inertials(&description);
     if report.geometry.verdict == Agreement::Agree && !unusable.is_empty() {

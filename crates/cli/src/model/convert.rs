@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     /// The model, the file, or both in two options: `dh` (the same as `standard`) for rows Rz(theta) Tz(d) Tx(a) Rx(alpha),
     /// `modified` for rows Rx(alpha) Tx(a) Rz(theta) Tz(d) (Craig), `poe` for screws, `urdf`, `mjcf`; a name with a point is a file, of
     /// which .urdf and .xml (MJCF) say the model. A table in a file is a whole robot file (.toml). Without a file, the model is printed.
-    #[arg(long, value_name = "MODEL|FILE", required_unless_present = "out")]
+    #[arg(long, value_name = "MODEL|FILE")]
     to: Vec<ConversionOutput>,
     /// The file, as --to may name it.
     #[arg(long, value_name = "FILE")]
@@ -65,6 +65,11 @@ impl FromStr for ConversionOutput {
             "urdf" => ConversionTarget::Urdf,
             "mjcf" => ConversionTarget::Mjcf,
             file if file.contains(['.', '/']) => return Ok(Self::File(file.into())),
+            "sdf" => {
+                return Err(
+                    "SDF is not written: write URDF, and convert it with `gz sdf -p FILE.urdf`".to_owned()
+                );
+            }
             _ => {
                 return Err(
                     "expected dh, standard, modified, poe, urdf, mjcf, or the name of a file".to_owned()
@@ -98,8 +103,17 @@ impl Arguments {
             (Some(model), file) => Ok((model, file)),
             (None, Some(path)) if ends(path, "urdf") => Ok((ConversionTarget::Urdf, file)),
             (None, Some(path)) if ends(path, "xml") => Ok((ConversionTarget::Mjcf, file)),
-            (None, path) => {
-                let path = path.unwrap_or(Path::new("")).display();
+            (None, None) => refused(
+                "no model to write is named".to_owned(),
+                "give --to dh, modified, poe, urdf or mjcf, or --out FILE.urdf or FILE.xml",
+            ),
+            (None, Some(path)) if !ends(path, "toml") && path.extension().is_some() => {
+                let ending = path.extension().unwrap_or_default().display();
+                let message = format!("{}: .{ending} is no robot file", path.display());
+                refused(message, "give a name that ends in .urdf or .xml (MJCF), or in .toml with --to dh")
+            }
+            (None, Some(path)) => {
+                let path = path.display();
                 let message = format!(
                     "{path} does not say which model is written: a table in which convention, or screws"
                 );

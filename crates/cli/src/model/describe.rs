@@ -23,7 +23,7 @@ use crate::{
 /// end; what blocks kinematics, clearance or physics, and which missing data they do without.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
+    /// Folders with robot.toml, robot files, URDFs, MJCFs, or - for a URDF or MJCF on standard input.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
     /// Print the moving joints in the orders in which programs list them instead: the order of the file, depth first (MuJoCo) and

@@ -67,8 +67,12 @@ pub(super) fn answer(
         folder_of(path)?;
         file.write(&conversion_text(&report), &inputs, |_| Ok(()))?;
     }
-    printer
-        .result(&report, |report| format!("{}written to {}\n", conversion_remarks(report), path.display()))?;
+    printer.result(&report, |report| {
+        // The warnings of the remarks, which the file has as well, were printed above.
+        let remarks = conversion_remarks(report);
+        let remarks = remarks.split_inclusive('\n').filter(|line| !line.starts_with("warning: "));
+        format!("{}written to {}\n", remarks.collect::<String>(), path.display())
+    })?;
     Ok(0)
 }
 

@@ -28,7 +28,7 @@ use crate::{
 ///
 /// Writes robot.toml into a folder, which is made if it does not exist. Base and tip are chosen, unless --base and --tip name
 /// them, and the file says why. It refers to the URDF by a relative path: nothing is copied, so the meshes are found
-/// where they are. A chain without a table gets a file without one, which says why. The written file is checked as `check`
+/// where they are. If no table exists for the chain, the file has none and says why. The written file is checked as `check`
 /// does: exit code 1 if that disagrees, 4 if there is nothing to compare.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
@@ -139,7 +139,7 @@ fn is_urdf(path: &Path) -> Result<(), Diagnostic> {
         );
     }
     if path.is_dir() {
-        return refused("is a folder", "give a .urdf file");
+        return refused("is a folder", "give the URDF or MJCF in it");
     }
     let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     if is_toml {

@@ -22,7 +22,7 @@ use crate::{
 /// A commented scenario for a robot, which passes.
 ///
 /// The joints of the chain move a little and come back, within their limits and without contact between links; the
-/// controller is computed torque, or playback without forces for a robot whose joints forces cannot move. Model and
+/// controller is computed torque, or playback without forces if links that move have no mass. Model and
 /// twin, limits, tracking and distances are checked. The scenario is run before it is written. For a robot that
 /// cannot be simulated, or for which no scenario passes, nothing is written, and the reason is printed.
 #[derive(Debug, clap::Args)]

@@ -25,7 +25,7 @@ use crate::{
     terminal::print::{Printer, text_options},
 };
 
-/// Summarises recordings: verdict, worst values, duration, entities, statistics of scalars, and problems of the file.
+/// Summarises recordings: verdict, worst values, duration, and problems of the file; with -v also entities, scalars and properties.
 ///
 /// The exit code is that of the recorded run: 1 if its verdict was not as expected, 3 if it broke, 4 if it checked
 /// nothing. It is 2 if a file is not a recording, is cut off or damaged, holds a second recording, has no footer, NaN
@@ -103,6 +103,7 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
     if let Some(missing) = without_recording(path) {
         return Err(missing.into());
     }
+    refuse_other(path, &in_folder)?;
     let path = if path.is_dir() { in_folder.as_path() } else { path };
     let access = arguments.access.access()?;
     if arguments.check.is_none() && arguments.csv.is_none() {
@@ -135,6 +136,26 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
         .map_err(|error| Diagnostic::error(codes::inspect::CHECK, error.to_string()))?;
     take(&mut summary, result);
     Ok(summary)
+}
+
+/// Refuses what is no recording: nothing, a robot or a scenario.
+fn refuse_other(path: &Path, in_folder: &Path) -> Result<(), Diagnostic> {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    let why = if !path.exists() {
+        "does not exist"
+    } else if path.is_dir() && path.join("robot.toml").is_file() || ["urdf", "xml"].contains(&ending) {
+        "is a robot"
+    } else if ending == "toml" {
+        "is a scenario or a robot"
+    } else if path.is_dir() && !in_folder.exists() {
+        "has no recording"
+    } else {
+        return Ok(());
+    };
+    let message = format!("{} {why}", path.display());
+    Err(Diagnostic::error(codes::inspect::RECORDING, message).with_help(
+        "give a recording (.rrd) or the folder of results that `congruent run SCENARIO` has written: out/NAME",
+    ))
 }
 
 /// The files of the run that were read to be compared.

@@ -37,7 +37,7 @@ use crate::{
 /// given.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// A recording (.rrd), a robot (folder, robot file or .urdf), or a scenario file.
+    /// A recording (.rrd), a robot (folder, robot file, URDF or MJCF), or a scenario file.
     input: PathBuf,
     /// Folder for the recording of a robot or the results of a scenario; each has a folder of its own in it.
     #[arg(long, default_value = "out", value_name = "DIR")]

@@ -6,7 +6,7 @@ use std::{
 };
 
 use congruent::{
-    input::Diagnostic,
+    input::{Diagnostic, is_standard_input, not_found},
     results::{
         Options,
         files::{OutputFolder, result_files},
@@ -48,6 +48,19 @@ impl LoadedScenario {
 ///
 /// Results of earlier runs of the scenarios that will run are removed here, unless they are kept: of these, no results of
 /// an earlier call remain after a call that is killed.
+fn exists(path: &Path) -> Result<(), Diagnostic> {
+    if path.exists() || is_standard_input(path) {
+        return Ok(());
+    }
+    let missing = not_found(path, format!("{} does not exist", path.display()));
+    let is_helpless = missing.help.is_none();
+    Err(if is_helpless {
+        missing.with_help("give a scenario (.toml); `congruent new scenario ROBOT --to FILE.toml` makes one")
+    } else {
+        missing
+    })
+}
+
 pub(super) fn load(
     arguments: &Arguments,
     options: &Options<'_>,
@@ -57,6 +70,7 @@ pub(super) fn load(
     let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
     let access = arguments.access.access()?;
     let mut load = |path: &PathBuf| {
+        exists(path)?;
         let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation);
         let setup =
             setup.inspect_err(|_| note_older_results(path, &overrides, &arguments.out, batch.printer()))?;

@@ -292,7 +292,7 @@ fn explained_where(finding: Option<&Diagnostic>) -> String {
     static SAID: OnceLock<()> = OnceLock::new();
     match finding {
         Some(finding) if SAID.set(()).is_ok() => {
-            format!("more: congruent lint --explain {}\n", finding.code.id_or_name())
+            format!("more: congruent explain {}\n", finding.code.id_or_name())
         }
         _ => String::new(),
     }

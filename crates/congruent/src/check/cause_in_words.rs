@@ -16,12 +16,19 @@ pub(super) fn cause(diagnosis: &ReportedDiagnosis) -> String {
     let faults = cause.faults();
     let Some(first) = faults.first() else { return unknown() };
     let place = place(first.file.as_deref(), first.line);
-    let rest = and_more(faults.len() - 1);
     let label = match faults.len() {
         1 => "Cause".to_owned(),
         _ => format!("{} causes", faults.len()),
     };
-    format!("{label}: {}{place}{rest}{}", first.message, unexplained(cause))
+    // Two are named, so that one line has the places of both.
+    let (second, others) = match faults.get(1) {
+        Some(second) if faults.len() == 2 => {
+            let place = self::place(second.file.as_deref(), second.line);
+            (format!("; {}{place}", second.message), 0)
+        }
+        _ => (String::new(), faults.len() - 1),
+    };
+    format!("{label}: {}{place}{second}{}{}", first.message, and_more(others), unexplained(cause))
 }
 
 /// The residual of the cause, if that is too much.

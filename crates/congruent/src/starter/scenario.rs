@@ -81,6 +81,14 @@ pub struct NewScenario {
 pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioDraft, Findings> {
     description.check_capability(Capability::Physics)?;
     let (mut content, largest) = content(description, file)?;
+    if let Some((tolerance, remark)) = within_digits(description) {
+        let judged = RobotDescription { tolerance, ..description.clone() };
+        for agreement in checks(&judged).into_iter().filter(|check| check.kind() == CheckKind::Agreement) {
+            content.scenario.check.retain(|check| check.kind() != CheckKind::Agreement);
+            content.scenario.check.insert(0, agreement);
+        }
+        content.remarks.push(remark);
+    }
     let mut last = String::new();
     // With forces first, and the largest motion first: the more of the robot a scenario exercises, the more it
     // checks. Playback always remains.
@@ -198,38 +206,37 @@ fn leave_out(content: &mut ScenarioContent, results: &[CheckResult]) {
 }
 
 fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
-    if let Some(found) = same_within_digits(description) {
-        return found;
-    }
     let message = format!("the model and the twin of \"{}\" are not the same robot: {why}", description.name);
     Diagnostic::error(codes::new::AGREEMENT, message)
         .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
 }
 
-/// What to declare for a table that is the same as the URDF by its digits alone: a run is judged by a tolerance.
-fn same_within_digits(description: &RobotDescription) -> Option<Diagnostic> {
+/// The limits of the check of agreement for a table that is the same as the URDF by its digits alone, and the remark on them: a
+/// run is judged by a tolerance, and the robot file declares none.
+fn within_digits(description: &RobotDescription) -> Option<(Tolerance, String)> {
+    if description.tolerance_is_declared {
+        return None;
+    }
     let report = check(description, &CheckOptions::default()).ok()?.geometry;
     let allowed = report.allowed_by_digits.filter(|_| report.is_judged_by_digits())?;
     let found = report.certificate.unwrap_or_default().larger(report.worst.error);
-    let message = format!(
-        "table and URDF of \"{}\" are the same robot within the digits that are written, up to {}; a run is judged by a \
-         tolerance, and none is declared",
-        description.name,
-        length_and_angle(found.position_m, found.orientation_rad)
-    );
     // Twice the difference, or less where the digits do not allow as much.
     let [position_m, orientation_rad] = [
         (2.0 * found.position_m).min(allowed.position_m.max(found.position_m)),
         (2.0 * found.orientation_rad).min(allowed.orientation_rad.max(found.orientation_rad)),
     ];
     let least = Tolerance::default();
-    let help = format!(
-        "add to {}:\n[tolerance]\nposition_mm = {}\norientation_deg = {}",
-        description.path.display(),
+    let [position_mm, orientation_deg] = [
         rounded_up(position_m.max(least.position_m) * 1e3),
-        rounded_up(orientation_rad.max(least.orientation_rad).to_degrees())
+        rounded_up(orientation_rad.max(least.orientation_rad).to_degrees()),
+    ];
+    let remark = format!(
+        "agreement is checked within {position_mm} mm and {orientation_deg} deg: table and URDF are the same within the digits that \
+         are written, up to {}, and {} declares no [tolerance]",
+        length_and_angle(found.position_m, found.orientation_rad),
+        description.path.file_name().unwrap_or_default().display()
     );
-    Some(Diagnostic::error(codes::new::AGREEMENT, message).with_help(help))
+    Some((Tolerance { position_m: position_mm / 1e3, orientation_rad: orientation_deg.to_radians() }, remark))
 }
 
 /// A number with two digits that is not smaller.

@@ -10,7 +10,10 @@ use super::{
 };
 use crate::{
     RunComparison,
-    input::{display::quantity, visible},
+    input::{
+        display::{counted, quantity, quantity_in_full},
+        visible,
+    },
     results::comparison::{ComparedFile, FileComparison, SeriesDifference, ValueDifference},
 };
 
@@ -52,7 +55,9 @@ fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
     if let Some(first) = first {
         let _ = writeln!(text, "  first{}", in_words(first, series));
     }
-    let worst = rows(series);
+    let (of_moments, others): (Vec<_>, Vec<_>) =
+        series.iter().partition(|series| *kind == ComparedFile::Report && series.series.contains(".q."));
+    let worst = rows(&others);
     if !worst.is_empty() {
         let mut table = Table::headed(["differs", "first at", "values", "worst at", "difference"]);
         for row in worst {
@@ -60,8 +65,12 @@ fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
         }
         table.write(text, options.columns);
     }
-    if series.len() > MOST_SHOWN {
-        let _ = writeln!(text, "  and {} more", series.len() - MOST_SHOWN);
+    if others.len() > MOST_SHOWN {
+        let _ = writeln!(text, "  and {} more", others.len() - MOST_SHOWN);
+    }
+    if !of_moments.is_empty() {
+        let joints = counted(of_moments.len(), "joint position");
+        let _ = writeln!(text, "  and {joints} at these values, which --format json lists");
     }
     for (side, only) in [("A", only_in_a), ("B", only_in_b)] {
         if !only.is_empty() {
@@ -90,21 +99,23 @@ fn first_in_time(files: &[FileComparison]) -> String {
 
 /// A difference with its time: ` at 0.01 s: elbow_joint.q_rad is 1 in A and 2 in B, 1 rad apart`.
 fn in_words(difference: &ValueDifference, series: &[SeriesDifference]) -> String {
-    let ValueDifference { series: name, time_s, a, b, difference, .. } = difference;
+    let ValueDifference { series: name, label, time_s, a, b, difference, .. } = difference;
     let time = time_s.map_or_else(String::new, |time_s| format!(" at {}", moment(time_s)));
     let unit = series.iter().find(|series| series.series == *name).map_or("", |series| series.unit);
     let apart =
         difference.map_or_else(String::new, |apart| format!(", {} apart", quantity(apart.abs(), unit)));
-    format!("{time}: {} is {} in A and {} in B{apart}", visible(name), shown(a), shown(b))
+    let [a, b] = pair([a, b], unit);
+    let name = label.as_ref().unwrap_or(name);
+    format!("{time}: {} is {a} in A and {b} in B{apart}", visible(name))
 }
 
 /// The worst difference of each series, joints first.
-fn rows(series: &[SeriesDifference]) -> Vec<[String; 5]> {
+fn rows(series: &[&SeriesDifference]) -> Vec<[String; 5]> {
     let time = |difference: &Option<ValueDifference>| {
         let time_s = difference.as_ref().and_then(|difference| difference.time_s);
         time_s.map_or_else(|| "-".to_owned(), moment)
     };
-    let row = |series: &SeriesDifference| {
+    let row = |series: &&SeriesDifference| {
         let SeriesDifference { series: name, unit, compared, differing, only_in_a, only_in_b, first, worst } =
             series;
         let apart = worst.as_ref().map_or_else(
@@ -114,11 +125,18 @@ fn rows(series: &[SeriesDifference]) -> Vec<[String; 5]> {
                 None => format!("{} and {}", shown(&worst.a), shown(&worst.b)),
             },
         );
-        [visible(name).into_owned(), time(first), format!("{differing} of {compared}"), time(worst), apart]
+        let label = worst.as_ref().and_then(|worst| worst.label.as_ref());
+        [
+            visible(label.unwrap_or(name)).into_owned(),
+            time(first),
+            format!("{differing} of {compared}"),
+            time(worst),
+            apart,
+        ]
     };
     // Poses and errors follow from the joints.
     let has_joint =
-        |series: &&SeriesDifference| series.first.as_ref().is_some_and(|first| first.joint.is_some());
+        |series: &&&SeriesDifference| series.first.as_ref().is_some_and(|first| first.joint.is_some());
     let joints = series.iter().filter(has_joint);
     joints.chain(series.iter().filter(|series| !has_joint(series))).take(MOST_SHOWN).map(row).collect()
 }
@@ -127,6 +145,16 @@ fn rows(series: &[SeriesDifference]) -> Vec<[String; 5]> {
 fn moment(time_s: f64) -> String {
     const PARTS: f64 = 1e9;
     format!("{:?} s", (time_s * PARTS).round() / PARTS)
+}
+
+/// Two values in engineering units, with all their digits if fewer do not show the difference.
+fn pair(values: [&Value; 2], unit: &str) -> [String; 2] {
+    let [Some(a), Some(b)] = values.map(Value::as_f64) else { return values.map(shown) };
+    if unit.is_empty() {
+        return values.map(shown);
+    }
+    let short = [a, b].map(|value| quantity(value, unit));
+    if short[0] == short[1] { [a, b].map(|value| quantity_in_full(value, unit)) } else { short }
 }
 
 /// A value with all its digits.

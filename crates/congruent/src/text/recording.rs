@@ -4,13 +4,19 @@ use std::fmt::Write;
 
 use super::{layout::paragraph, options::TextOptions};
 use crate::{
-    input::{Quantity, SiUnit, display::quantity, serde_name},
-    monitors::verdict::Status,
+    input::{
+        Quantity, SiUnit,
+        display::{counted, quantity},
+        serde_name,
+    },
+    monitors::verdict::{Bound, Status, Verdict},
     recording::{
         Basis, CheckSummary, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity, RecordingSummary,
         TimelineSummary,
     },
-    results::report::{is_not_reached, not_finite_words, quantity_words, share_in_full},
+    results::report::{
+        is_not_reached, not_finite_words, quantity_words, share_in_full, value_and_margin, verdict_line,
+    },
 };
 
 /// The property that is printed as the verdict.
@@ -18,10 +24,10 @@ const VERDICT: &str = "congruent/verdict";
 /// The widest first column; a longer path has a line of its own.
 const PATH_WIDTH: usize = 35;
 
-/// What `congruent inspect` prints of a recording: properties and timelines, its content (in full if the options say so),
-/// then checks and the verdict.
+/// What `congruent inspect` prints of a recording: the verdict, the file and its timelines, its content and properties (in full
+/// if the options say so), then the checks.
 pub fn recording_text(summary: &RecordingSummary, options: &TextOptions) -> String {
-    let mut text = String::new();
+    let mut text = headline(summary);
     let state = if summary.complete { "complete" } else { "incomplete" };
     let duration = summary.duration_s.map_or_else(|| "none".to_owned(), |seconds| quantity(seconds, "s"));
     let file = format!("{} bytes, {state}", summary.bytes);
@@ -36,8 +42,10 @@ pub fn recording_text(summary: &RecordingSummary, options: &TextOptions) -> Stri
     for (name, value) in heading {
         let _ = writeln!(text, "{name}: {value}");
     }
-    for (name, value) in summary.properties.iter().filter(|(name, _)| *name != VERDICT) {
-        let _ = writeln!(text, "property {name}: {value}");
+    if options.is_in_full {
+        for (name, value) in summary.properties.iter().filter(|(name, _)| *name != VERDICT) {
+            let _ = writeln!(text, "property {name}: {value}");
+        }
     }
     for timeline in &summary.timelines {
         push_timeline(&mut text, timeline);
@@ -70,9 +78,35 @@ fn push_verdict(text: &mut String, summary: &RecordingSummary) {
         let _ =
             writeln!(text, "missing beside the recording: {missing}; its results are not compared in full");
     }
-    let of_run = summary.verdict.as_deref().unwrap_or("none");
-    let verdict = summary.recheck.as_ref().map_or(of_run, |recheck| serde_name(&recheck.verdict));
-    let _ = writeln!(text, "verdict: {verdict}\nreason: {}", summary.reason);
+}
+
+/// Name and verdict, with the reason, the number of checks, the duration and what made the recording.
+fn headline(summary: &RecordingSummary) -> String {
+    let name = summary.run.as_ref().map_or(summary.application_id.as_str(), |run| run.scenario.as_str());
+    let mut text = format!("{name}: {}", verdict_of(summary));
+    if !summary.checks.is_empty() {
+        let _ = write!(text, "; {}", counted(summary.checks.len(), "check"));
+    }
+    if let Some(seconds) = summary.duration_s {
+        let _ = write!(text, ", {}", quantity(seconds, "s"));
+    }
+    if let Some(run) = &summary.run {
+        let _ = write!(text, ", recorded with congruent {}", run.versions.congruent);
+    }
+    text.push('\n');
+    text
+}
+
+/// The verdict by the exit code, which also knows what is wrong with the file or has changed since the run.
+fn verdict_of(summary: &RecordingSummary) -> String {
+    let verdict = match summary.exit_code {
+        0 => Verdict::AsExpected,
+        1 => Verdict::NotAsExpected,
+        3 => Verdict::Broken,
+        2 => return format!("BAD RECORDING: {}", summary.reason),
+        _ => return format!("NOT CHECKED: {}", summary.reason),
+    };
+    verdict_line(verdict, &summary.reason)
 }
 
 /// Whether the files of the run are as they were.
@@ -89,15 +123,30 @@ fn push_check(text: &mut String, check: &CheckSummary) {
     let _ = writeln!(text, "  {:10} {}", check.check, check.status);
     for of in &check.quantities {
         let subject = of.subject.as_ref().map(|subject| format!(" at {subject}")).unwrap_or_default();
-        let limit = format!("{} {}", of.bound.words(), share_in_full(of.limit, of.unit));
         let place = format!("{subject} ({})", quantity(of.worst_s, "s"));
-        let _ = writeln!(text, "    {}", value_and_limit(of.quantity, of.unit, of.worst, &place, &limit));
+        let limited = Limited { quantity: of.quantity, unit: of.unit, bound: of.bound, limit: of.limit };
+        let limit = share_in_full(of.limit, of.unit);
+        let _ = writeln!(text, "    {}", value_and_limit(limited, of.worst, &place, &limit));
     }
 }
 
-/// A worst value with its place and its limit.
-fn value_and_limit(name: Quantity, unit: SiUnit, value: f64, place: &str, limit: &str) -> String {
+/// What a worst value is compared with.
+#[derive(Clone, Copy)]
+struct Limited {
+    quantity: Quantity,
+    unit: SiUnit,
+    bound: Bound,
+    limit: f64,
+}
+
+/// A worst value with its place and its limit, in the words of `run`.
+fn value_and_limit(of: Limited, value: f64, place: &str, words_of_limit: &str) -> String {
+    let Limited { quantity: name, unit, bound, limit } = of;
     let words = quantity_words(name);
+    if let Some(margin) = value_and_margin(name, unit, bound, [value, limit]) {
+        return margin + place;
+    }
+    let limit = format!("{} {words_of_limit}", bound.words());
     match name {
         Quantity::NotFiniteValues if value > 0.0 => not_finite_words(value) + place,
         Quantity::NotFiniteValues => not_finite_words(value),
@@ -156,7 +205,8 @@ pub fn rechecked_text(check: &RecheckedCheck) -> String {
     for of in &check.quantities {
         let report = if of.basis == Basis::Report { ", from the report only" } else { "" };
         let place = format!(" ({})", quantity(of.worst_s, "s"));
-        let line = value_and_limit(of.quantity, of.unit, of.worst, &place, &limit(of));
+        let limited = Limited { quantity: of.quantity, unit: of.unit, bound: of.bound, limit: of.limit };
+        let line = value_and_limit(limited, of.worst, &place, &limit(of));
         let _ = writeln!(text, "    {line}{report}");
     }
     text
@@ -167,7 +217,7 @@ fn limit(of: &RecheckedQuantity) -> String {
     let shown = |limit: f64| share_in_full(limit, of.unit);
     let is_same = of.limit.to_bits() == of.recorded_limit.to_bits();
     let before = if is_same { String::new() } else { format!(" (in the run {})", shown(of.recorded_limit)) };
-    format!("{} {}{before}", of.bound.words(), shown(of.limit))
+    format!("{}{before}", shown(of.limit))
 }
 
 /// A disagreement as a sentence.

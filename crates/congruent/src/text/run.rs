@@ -6,7 +6,7 @@ use crate::{
     fault_diagnosis::RunDiagnosis,
     input::display::quantity,
     monitors::verdict::CheckResult,
-    results::report::{RunReport, lines, verdict_word},
+    results::report::{RunReport, lines, verdict_line},
     twin::source::ActuatorUse,
 };
 
@@ -16,10 +16,9 @@ pub fn run_text(report: &RunReport) -> String {
     let mut text = String::new();
     let _ = writeln!(
         text,
-        "{}: {}: {} ({}, {} in {} steps)",
+        "{}: {} ({}, {} in {} steps)",
         report.scenario,
-        verdict_word(report.verdict),
-        report.sentence(),
+        verdict_line(report.verdict, &report.sentence()),
         report.robot,
         quantity(report.simulation.duration_s, "s"),
         report.simulation.steps

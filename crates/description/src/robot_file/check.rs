@@ -99,6 +99,12 @@ fn tcp_is_a_link(at: Range<usize>, robot: &Robot, tip: LinkIndex) -> Option<Diag
     Some(Diagnostic::warning(codes::robot_file::TCP_NAME, message).at(at).with_help(help))
 }
 
+/// What to write if a joint is named where a link is expected; empty if the robot has no joint of this name.
+pub(crate) fn joint_for_link(robot: &Robot, name: &str) -> String {
+    let Some(joint) = robot.find_joint(name) else { return String::new() };
+    format!("{name} is a joint; its child link is {}; ", robot.link(robot.joint(joint).child).name)
+}
+
 fn chain(
     written: &WrittenRobot,
     robot: &Robot,
@@ -108,9 +114,9 @@ fn chain(
         diagnostics.keep(robot.find_link(name.get_ref()).ok_or_else(|| {
             let message = format!("{key} = \"{}\": the robot has no such link", name.get_ref());
             let links = robot.links().iter().map(|link| link.name.as_str());
-            Diagnostic::error(codes::robot_file::UNKNOWN_LINK, message)
-                .at(name.span())
-                .with_help(known_names(name.get_ref(), "links", links))
+            Diagnostic::error(codes::robot_file::UNKNOWN_LINK, message).at(name.span()).with_help(
+                joint_for_link(robot, name.get_ref()) + &known_names(name.get_ref(), "links", links),
+            )
         }))
     };
     // Both are looked up before either's absence ends the check.

@@ -16,7 +16,7 @@ mod unit_mistakes;
 mod written;
 mod written_lint;
 
-pub(crate) use check::check;
+pub(crate) use check::{check, joint_for_link};
 pub use dh_text::dh_text;
 pub use digits::TableDigits;
 pub use inertials::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint};

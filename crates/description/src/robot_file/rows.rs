@@ -81,7 +81,9 @@ fn row(
             let [si, engineering] = unit.keys(quantity);
             let message =
                 format!("row of joint \"{}\" has neither {si} nor {engineering}", row.joint.get_ref());
-            Diagnostic::error(codes::robot_file::MISSING_FIGURE, message).at(at())
+            Diagnostic::error(codes::robot_file::MISSING_FIGURE, message)
+                .at(at())
+                .with_help(format!("write {engineering} = 0 if the data sheet has 0"))
         }))
     };
     let a_m = needed("a", Unit::Length, a_m);

@@ -15,9 +15,14 @@ pub(super) fn in_known_unit<'k>(
     root: &DeTable<'_>,
     at: &Range<usize>,
 ) -> Option<String> {
-    let (key, convert) = known.into_iter().find_map(|key| Some((key, conversion(unknown, key)?)))?;
+    let is_in_centimetres = unknown.split('_').any(|part| part == "cm");
+    let mut matching = known.into_iter().filter_map(|key| Some((key, conversion(unknown, key)?)));
+    let (first, next) = (matching.next()?, matching.next());
+    // Of two keys for a value in centimetres that in millimetres: the number stays as short.
+    let (key, convert) = next.filter(|(key, _)| is_in_centimetres && key.contains("mm")).unwrap_or(first);
     let value = converted(value_of_key(root, at)?, convert)?;
-    Some(format!("write {key} = {value}"))
+    let why = if is_in_centimetres { "centimetres are not read: " } else { "" };
+    Some(format!("{why}write {key} = {value}"))
 }
 
 /// How a value under one key is converted to the other, if the two differ in one unit alone.
@@ -32,6 +37,8 @@ fn conversion(from: &str, to: &str) -> Option<fn(f64) -> f64> {
         // By 1000, and not by 0.001: the quotient has the digits that a person would write.
         (&"mm", &"m") => Some(|value| value / 1000.0),
         (&"m", &"mm") => Some(|value| value * 1000.0),
+        (&"cm", &"mm") => Some(|value| value * 10.0),
+        (&"cm", &"m") => Some(|value| value / 100.0),
         (&"deg", &"rad") => Some(f64::to_radians),
         (&"rad", &"deg") => Some(f64::to_degrees),
         _ => None,
@@ -148,7 +155,8 @@ mod tests {
         check("speed_mm_s = 250", "speed_m_s", Some("write speed_m_s = 0.25"));
         check("turn_deg = 180", "turn_rad", Some("write turn_rad = 3.141592653589793"));
         check("box_mm = \"wide\"", "box_m", None);
-        check("box_cm = 10", "box_m", None);
+        check("box_cm = 10", "box_m", Some("centimetres are not read: write box_m = 0.1"));
+        check("d_cm = 26.7", "d_mm", Some("centimetres are not read: write d_mm = 267.0"));
     }
 
     #[test]

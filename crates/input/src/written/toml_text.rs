@@ -13,7 +13,7 @@ use toml::{
 
 use crate::{
     codes,
-    diagnostic::{Diagnostic, Diagnostics},
+    diagnostic::{Diagnostic, Diagnostics, line_column},
     nearest::known_names,
     units::WrittenUnit,
     visible::hidden_character,
@@ -62,10 +62,28 @@ fn syntax_in_words(found: Diagnostic, text: &str, at: usize) -> Diagnostic {
         let fault = Diagnostic::error(codes::toml::INVALID, mistake.message).with_help(mistake.help);
         return fault.at(start..start + mistake.written.len());
     }
+    if let Some(fault) = missing_comma(text, line_start, line) {
+        return fault;
+    }
     match unclosed(text, at) {
         Some(Unclosed { span, message }) => Diagnostic::error(codes::toml::INVALID, message).at(span),
         None => found,
     }
+}
+
+/// A comma that is missing at the end of an inline table, such as a row, where the next one begins in the line of the error.
+fn missing_comma(text: &str, line_start: usize, line: &str) -> Option<Diagnostic> {
+    if !line.trim_start().starts_with('{') {
+        return None;
+    }
+    let before = text[..line_start].trim_end();
+    if !before.ends_with('}') {
+        return None;
+    }
+    let (number, _) = line_column(text, before.len() - 1);
+    let message = format!("line {number} has no comma at its end");
+    let fault = Diagnostic::error(codes::toml::INVALID, message).at(before.len() - 1..before.len());
+    Some(fault.with_help("entries of a list are separated by commas: write }, at the end of this line"))
 }
 
 /// Whether a text is TOML by itself.
@@ -335,6 +353,14 @@ mod tests {
         let value = value.unwrap();
         assert_eq!(diagnostics, Vec::<String>::new());
         assert_eq!((value.duration, &value.row[0].kind), (Some(2.0), &Kind::Prismatic));
+    }
+
+    #[test]
+    fn a_comma_that_is_missing_is_found_in_its_line() {
+        let (_, found) = read(
+            "row = [\n  { kind = \"revolute\" },\n  { kind = \"revolute\" }\n  { kind = \"prismatic\" },\n]\n",
+        );
+        assert!(found[0].starts_with("3:24: line 3 has no comma at its end"), "{found:?}");
     }
 
     #[test]

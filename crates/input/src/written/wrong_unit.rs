@@ -48,3 +48,37 @@ impl WrongUnit {
         }
     }
 }
+
+/// What a number of a file has instead of the right one, both as `key = value`, if it is the right number in the other unit of its
+/// kind; `None` if it is not.
+///
+/// # Examples
+/// ```
+/// use congruent_input::unit_hint;
+/// let hint = "millimetres under a key in metres: write d_mm = 267";
+/// assert_eq!(unit_hint("d_m = 267", "d_m = 0.267").as_deref(), Some(hint));
+/// assert_eq!(unit_hint("alpha_deg = -1.5708", "alpha_deg = -90").as_deref(), Some("-1.5708 rad is -90 deg"));
+/// assert_eq!(unit_hint("d_m = 26.7", "d_m = 0.267"), None);
+/// ```
+pub fn unit_hint(given: &str, right: &str) -> Option<String> {
+    /// Of the right number. Kind: digits of files; 1.57 for a quarter turn has three.
+    const NEAR: f64 = 1e-3;
+    let ((key, given), (other_key, right)) = (given.split_once(" = ")?, right.split_once(" = ")?);
+    let (stem, unit) = key.rsplit_once('_').filter(|_| key == other_key)?;
+    let (typed, expected): (f64, f64) = (given.parse().ok()?, right.parse().ok()?);
+    let is_factor = |factor: f64| (typed - factor * expected).abs() <= NEAR * (factor * expected).abs();
+    match unit {
+        _ if expected == 0.0 => None,
+        "m" if is_factor(1e3) => {
+            Some(format!("millimetres under a key in metres: write {stem}_mm = {given}"))
+        }
+        "mm" if is_factor(1e-3) => {
+            Some(format!("metres under a key in millimetres: write {stem}_m = {given}"))
+        }
+        "deg" if is_factor(1.0_f64.to_radians()) => Some(format!("{given} rad is {right} deg")),
+        "rad" if is_factor(1.0_f64.to_degrees()) => {
+            Some(format!("degrees under a key in radians: write {stem}_deg = {given}"))
+        }
+        _ => None,
+    }
+}

@@ -14,6 +14,8 @@ use crate::{
     watch::Watch,
 };
 
+use super::nearest_that_changes::NearestThatChanges;
+
 const BOUND: Bound = Bound::AtLeast;
 
 pub(crate) struct ClearanceMonitor {
@@ -29,6 +31,8 @@ pub(crate) struct ClearanceMonitor {
     places: Vec<Option<usize>>,
     /// Pairs below the threshold at the present sample.
     found: Vec<Nearest>,
+    /// The nearest of the pairs that change.
+    changing: NearestThatChanges,
     samples: u64,
 }
 
@@ -83,6 +87,7 @@ impl ClearanceMonitor {
             pairs: Vec::new(),
             places: Vec::new(),
             found: Vec::new(),
+            changing: NearestThatChanges::new(watch(minimum_m, description.robot.dof())),
             samples: 0,
         }
     }
@@ -109,6 +114,7 @@ impl ClearanceMonitor {
         if let Some(Nearest { distance_m, pair }) = nearest {
             self.distance.observe(distance_m, pair, sample);
         }
+        self.changing.begin(self.pairs.iter().map(|evaluated| evaluated.pair), sample);
     }
 
     /// Only a smaller distance than this changes the report: touching is reported although no distance is below
@@ -179,6 +185,7 @@ impl Monitor for ClearanceMonitor {
         if let Some(nearest) = self.found.iter().min_by(by_distance) {
             self.distance.observe(nearest.distance_m, nearest.pair, sample);
         }
+        self.changing.observe(self.distance.worst_subject(), sample);
     }
 
     /// The smallest distance, and then that of each further pair below the minimum.
@@ -191,9 +198,12 @@ impl Monitor for ClearanceMonitor {
         let watches = std::iter::once(&self.distance).chain(below.into_iter().map(|(_, watch)| watch));
         let measures =
             watches.map(|watch| watch.measure(&names.joints, |pair| names.pairs[pair].clone())).collect();
+        let name = |pair: usize| names.pairs[pair].clone();
+        let changing = self.changing.moment(nearest, &names.joints, name);
         Observed {
             samples: self.samples,
             measures,
+            nearest_that_changes: changing.filter(|_| !self.has_failed()),
             notes: notes_on(&self.names, &self.measured),
             ..Observed::default()
         }

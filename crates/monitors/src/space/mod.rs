@@ -3,6 +3,7 @@
 mod clearance;
 mod contact;
 mod judged_pairs;
+mod nearest_that_changes;
 mod unforced;
 mod zone;
 

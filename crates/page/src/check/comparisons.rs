@@ -1,6 +1,6 @@
 //! The comparisons of poses: two sources each, with the largest difference beside the tolerance, then link by link.
 
-use congruent_agreement::compare::{Agreement, CheckReport, Comparison, PoseSource};
+use congruent_agreement::compare::{Agreement, CheckReport, Comparison, LinkDifference, PoseSource};
 use congruent_description::Tolerance;
 use congruent_kinematics::PoseError;
 use maud::{Markup, html};
@@ -91,22 +91,37 @@ fn row(comparison: &Comparison, columns: &Columns<'_>, at: &Pointer) -> Markup {
     }
 }
 
+/// The links whose frames both sources define, then, folded, those behind the tip or between joints whose frames a table does
+/// not define: their differences decide nothing and may be larger.
 fn links(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup {
-    let errors: Vec<PoseError> = comparison.links.iter().map(|of| of.error).collect();
+    let all = comparison.links.iter().enumerate();
+    let (fitted, defined): (Vec<_>, Vec<_>) = all.partition(|(_, of)| of.source == PoseSource::DhFitted);
+    html! {
+        (link_table(&defined, tolerance, at))
+        @if !fitted.is_empty() {
+            details {
+                summary { "for information only: frames that the table does not define (" (fitted.len()) ")" }
+                (link_table(&fitted, tolerance, at))
+            }
+        }
+    }
+}
+
+/// A table of links, each with its place in the report.
+fn link_table(links: &[(usize, &LinkDifference)], tolerance: &Tolerance, at: &Pointer) -> Markup {
+    let errors: Vec<PoseError> = links.iter().map(|(_, of)| of.error).collect();
     let columns = Columns::new(&errors, tolerance);
-    let is_fitted = comparison.links.iter().any(|of| of.source == PoseSource::DhFitted);
     html! {
         table {
             thead { tr { th { "link" } (columns.headings()) th { "pose of the first" } } }
             tbody {
-                @for (index, link) in comparison.links.iter().enumerate() {
+                @for (index, link) in links {
                     tr {
                         th scope="row" { (link.link) }
-                        (columns.cells(&link.error, &at.key(index)))
+                        (columns.cells(&link.error, &at.key(*index)))
                         td data-label="pose of the first" {
                             @match link.source {
-                                PoseSource::Dh => "table",
-                                PoseSource::DhFitted => "table *",
+                                PoseSource::Dh | PoseSource::DhFitted => "table",
                                 PoseSource::Urdf => "URDF",
                             }
                         }
@@ -114,6 +129,5 @@ fn links(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup
                 }
             }
         }
-        @if is_fitted { p.small { "* The table does not define this frame: for information only." } }
     }
 }

@@ -26,6 +26,12 @@ pub(crate) fn diagnosis(diagnosis: &ReportedDiagnosis, at: &Pointer) -> Markup {
     let at_first = at.keys(&["causes", "0"]);
     let faults: Vec<&Fault> =
         if first.parts.is_empty() { vec![&first.fault] } else { first.parts.iter().collect() };
+    // The same corrections found by another model are no other cause.
+    let is_other = |other: &&ReportedAlternative| {
+        let of_other = other.cause.faults();
+        of_other.len() != faults.len() || !of_other.iter().all(|one| faults.iter().any(|of| is_same(one, of)))
+    };
+    let others: Vec<&ReportedAlternative> = diagnosis.indistinguishable.iter().filter(is_other).collect();
     html! {
         p { (summary(first, diagnosis.findings.len(), &at_first)) " (" (diagnosis.title) ")" }
         @for (index, (finding, fault)) in diagnosis.findings.iter().zip(&faults).enumerate() {
@@ -37,13 +43,18 @@ pub(crate) fn diagnosis(diagnosis: &ReportedDiagnosis, at: &Pointer) -> Markup {
         @if let Some(corrected) = &diagnosis.corrected {
             details { summary { "the table of " (portable_path(Path::new(&corrected.file)).display()) ", corrected, to paste" } pre.paste { (corrected.table()) } }
         }
-        @if !diagnosis.indistinguishable.is_empty() {
+        @if !others.is_empty() {
             details {
-                summary { "causes that cannot be distinguished from this one (" (diagnosis.indistinguishable.len()) ")" }
-                ul { @for other in diagnosis.indistinguishable.iter().take(SHOWN) { (alternative(other)) } }
+                summary { "causes that cannot be distinguished from this one (" (others.len()) ")" }
+                ul { @for other in others.iter().take(SHOWN) { (alternative(other)) } }
             }
         }
     }
+}
+
+/// Whether two faults are one: the same value of the same joint.
+fn is_same(a: &Fault, b: &Fault) -> bool {
+    a.joint == b.joint && a.parameter == b.parameter && a.cause == b.cause && a.suggestion == b.suggestion
 }
 
 /// How much of the difference is explained.

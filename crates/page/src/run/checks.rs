@@ -6,7 +6,7 @@ use congruent_input::{
 };
 use congruent_monitors::verdict::{Bound, CheckResult, Measure, Moment, Status};
 use congruent_results::report::{
-    RunReport, is_not_reached, limit_words, margin_words, not_finite_words, quantity_words,
+    RunReport, is_not_reached, joint_limit_words, limit_words, margin_words, not_finite_words, quantity_words,
 };
 use maud::{Markup, html};
 
@@ -74,13 +74,22 @@ fn table(checks: &[&CheckResult], of: &CheckRows<'_>) -> Markup {
 fn rows(check: &CheckResult, of: &CheckRows<'_>, at: &Pointer) -> Markup {
     let shown = check.measures.iter().take(MOST_MEASURES).enumerate();
     let further = check.measures.len().saturating_sub(MOST_MEASURES);
+    // Before the nearer pair that no motion of the run brings nearer.
+    let first = check.nearest_that_changes.as_ref().zip(check.measures.first());
+    let measures = at.key("measures");
     html! {
         tbody {
             @if check.measures.is_empty() { tr { (name(check)) td colspan="6" { "no value" } } }
+            @if let Some((moment, measure)) = first {
+                tr {
+                    (name(check))
+                    (cells(&Row { measure, worst: Some(moment), at: measures.key(0), at_worst: at.key("nearest_that_changes") }, of))
+                }
+            }
             @for (index, measure) in shown {
                 tr {
-                    @if index == 0 { (name(check)) } @else { td.again {} td.again {} }
-                    (cells(measure, of, &at.key("measures").key(index)))
+                    @if index == 0 && first.is_none() { (name(check)) } @else { td.again {} td.again {} }
+                    (cells(&Row { measure, worst: measure.worst.as_ref(), at: measures.key(index), at_worst: measures.key(index).key("worst") }, of))
                 }
             }
             @if further > 0 { tr { td.again {} td.again {} td colspan="6" { "and " (further) " more in the report" } } }
@@ -104,17 +113,23 @@ fn name(check: &CheckResult) -> Markup {
     }
 }
 
-fn cells(measure: &Measure, of: &CheckRows<'_>, at: &Pointer) -> Markup {
+/// A row: one value of a measure, and where report.json has both.
+struct Row<'a> {
+    measure: &'a Measure,
+    worst: Option<&'a Moment>,
+    at: Pointer,
+    at_worst: Pointer,
+}
+
+fn cells(row: &Row<'_>, of: &CheckRows<'_>) -> Markup {
+    let Row { measure, worst, at, at_worst } = row;
     let mut what = quantity_words(measure.quantity);
-    let Some(worst) = &measure.worst else {
+    let Some(worst) = worst else {
         return html! { td data-label="worst value" { (what) ": no value" } td {} td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };
     };
-    let at_worst = at.key("worst");
     let mut shown = shown(measure, worst);
-    if matches!(measure.quantity, Quantity::AngleBeyondLimit | Quantity::ShiftBeyondLimit)
-        && worst.value < 0.0
-    {
-        what = what.replace("beyond", "inside");
+    if is_of_joint_limit(measure) && worst.value < 0.0 {
+        what = "distance to the joint limit".to_owned();
         shown = quantity(-worst.value, measure.unit.symbol());
     }
     if measure.quantity == Quantity::NotFiniteValues && worst.value <= 0.0 {
@@ -123,7 +138,7 @@ fn cells(measure: &Measure, of: &CheckRows<'_>, at: &Pointer) -> Markup {
     }
     html! {
         td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown)) }
-        td data-label="of its limit" { @if let Some(share) = share(measure) { (of.scale.bar(UsedShare { share, holds: measure.bound.holds(worst.value, measure.limit) })) } }
+        td data-label="of its limit" { @if let Some(share) = share_of(measure, worst) { (of.scale.bar(UsedShare { share, holds: measure.bound.holds(worst.value, measure.limit) })) } }
         td data-label="limit" { (limit(measure, at)) }
         td data-label="margin" { (margin_words(measure, worst.value)) }
         td data-label="where" { (worst.subject) @if let Some(why) = why_constant(&worst.subject, of.run) { " " span.small { (why) } } }
@@ -146,9 +161,20 @@ fn shown(measure: &Measure, moment: &Moment) -> String {
 }
 
 fn limit(measure: &Measure, at: &Pointer) -> Markup {
-    // The title of the column is the first word.
-    let words = limit_words(measure);
+    // The title of the column is the first word. A joint inside its range is reported by its distance to the limit, and so is
+    // what is allowed.
+    let is_inside = measure.worst.as_ref().is_some_and(|worst| worst.value < 0.0);
+    let words = if is_of_joint_limit(measure) && is_inside {
+        joint_limit_words(measure)
+    } else {
+        limit_words(measure)
+    };
     value(&at.key("limit"), measure.limit, words.strip_prefix("limit ").unwrap_or(&words))
+}
+
+/// Whether a measure is about the range of a joint.
+fn is_of_joint_limit(measure: &Measure) -> bool {
+    matches!(measure.quantity, Quantity::AngleBeyondLimit | Quantity::ShiftBeyondLimit)
 }
 
 /// Why the distance that a value is about never changes; `None` if it does, or is none.
@@ -158,7 +184,11 @@ fn why_constant(subject: &str, run: &RunContent) -> Option<&'static str> {
 
 /// How much of its limit the worst value uses; `None` if that says nothing.
 fn share(measure: &Measure) -> Option<f64> {
-    let worst = measure.worst.as_ref()?.value;
+    share_of(measure, measure.worst.as_ref()?)
+}
+
+fn share_of(measure: &Measure, worst: &Moment) -> Option<f64> {
+    let worst = worst.value;
     match measure.bound {
         _ if measure.limit <= 0.0 || !worst.is_finite() => None,
         // A joint inside its range is not near a limit of zero, which has no shares.

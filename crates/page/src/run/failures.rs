@@ -5,7 +5,7 @@ use congruent_input::{
     Quantity, SiUnit,
     display::{number, quantity},
 };
-use congruent_monitors::verdict::{CheckResult, Measure, Status};
+use congruent_monitors::verdict::{CheckResult, Measure, Status, Verdict};
 use congruent_results::report::{RunReport, lines, quantity_words};
 use congruent_scenario::CheckKind;
 use maud::{Markup, html};
@@ -113,7 +113,7 @@ pub(super) fn what_failed(report: &RunReport, run: &RunContent, plots: &[FailedP
     let mut figures = plots.iter();
     html! {
         section {
-            h2 { "What failed" }
+            h2 { @if report.verdict == Verdict::AsExpected { "What failed, as expected" } @else { "What failed" } }
             (sentences(first))
             div.first {
                 @if let Some(figure) = figures.next() { (plot(&figure.id, &figure.caption)) }

@@ -7,7 +7,7 @@ use congruent_monitors::verdict::{Status, Verdict};
 use congruent_results::report::{RunReport, quantity_words, verdict_word};
 use maud::{Markup, html};
 
-use super::tightest::tightest;
+use super::tightest::{Tightest, tightest};
 use crate::parts::{BadgeKind, Pointer, Provenance, badge, capitalised, count, provenance, value};
 
 /// Files of the results that may be there, with what they are. The first two are written before the page.
@@ -85,8 +85,8 @@ fn proved(report: &RunReport) -> Option<String> {
         "{measures} {quantities} within the limits, in {} at {samples} samples.",
         counted(conclusive().count(), "check")
     );
-    if let Some((check, measure, share)) = tightest(report) {
-        let subject = measure.worst.as_ref().map_or("", |worst| worst.subject.as_str());
+    if let Some(Tightest { check, measure, worst, share }) = tightest(report) {
+        let subject = &worst.subject;
         let what = quantity_words(measure.quantity);
         let _ = write!(
             text,

@@ -9,6 +9,9 @@ use serde_json::Value;
 pub struct ValueDifference {
     /// Name of the series, or keys of the value in the report.
     pub series: String,
+    /// What a value of a report is, in words: `check agreement, position, worst value`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
     /// The joint that it belongs to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,

@@ -3,6 +3,7 @@
 
 mod difference;
 mod file_comparison;
+mod report_label;
 mod reports;
 mod scalars;
 mod series;

@@ -6,6 +6,7 @@ use serde_json::{Map, Value as Json};
 
 use super::{
     file_comparison::{ComparedFile, FileComparison},
+    report_label::ReportLabel,
     series::{SAME_TIME_S, SeriesComparison, is_compared},
 };
 use crate::trajectory_file::Value;
@@ -54,7 +55,8 @@ pub fn compare_reports(a: &Path, b: &Path, tolerance: f64) -> Result<FileCompari
         let is_compared = leaf.keys != HASH && is_compared(&leaf.keys, tolerance);
         let Some(other) = find(&leaves_b, &leaf.keys).filter(|_| is_compared) else { continue };
         compared += 1;
-        let mut series = SeriesComparison::new(&leaf.keys, joint(&leaf.keys), tolerance);
+        let mut series = SeriesComparison::new(&leaf.keys, joint(&leaf.keys), tolerance)
+            .labelled(ReportLabel::new(&a, &leaf.keys));
         let other = &leaves_b[other];
         // Moments of other times are two moments: the difference has none.
         let is_same = |(a, b): (f64, f64)| (a - b).abs() <= SAME_TIME_S;
@@ -120,6 +122,11 @@ fn statements(a: &Map<String, Json>, b: &Map<String, Json>, tolerance: f64) -> V
             |value| value.as_str().map_or_else(|| value.to_string(), str::to_owned),
         )
     };
+    for (key, what) in [("scenario", "two scenarios"), ("verdict", "two verdicts")] {
+        if a.get(key) != b.get(key) {
+            statements.push(format!("{what}: {} in A, {} in B", text(a, key), text(b, key)));
+        }
+    }
     if a.get("robot") != b.get("robot") {
         statements.push(format!("the robots differ: {} in A, {} in B", text(a, "robot"), text(b, "robot")));
     }

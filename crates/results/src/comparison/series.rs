@@ -2,13 +2,17 @@
 
 use serde_json::Value as Json;
 
-use super::difference::{SeriesDifference, ValueDifference};
+use super::{
+    difference::{SeriesDifference, ValueDifference},
+    report_label::ReportLabel,
+};
 use crate::trajectory_file::Value;
 
 /// Differences of one series so far.
 pub(super) struct SeriesComparison {
     name: String,
     joint: Option<String>,
+    label: Option<String>,
     unit: &'static str,
     tolerance: f64,
     counts: Counts,
@@ -33,6 +37,7 @@ impl SeriesComparison {
         Self {
             name: name.to_owned(),
             joint,
+            label: None,
             unit: unit(name),
             tolerance,
             counts: Counts::default(),
@@ -40,6 +45,12 @@ impl SeriesComparison {
             worst: None,
             worst_apart: 0.0,
         }
+    }
+
+    /// The same with what it is in words, and its unit if that is known.
+    pub(super) fn labelled(self, label: Option<ReportLabel>) -> Self {
+        let Some(ReportLabel { words, unit }) = label else { return self };
+        Self { label: Some(words), unit: unit.unwrap_or(self.unit), ..self }
     }
 
     /// Takes the values of both at one time.
@@ -53,6 +64,7 @@ impl SeriesComparison {
         }
         let difference = ValueDifference {
             series: self.name.clone(),
+            label: self.label.clone(),
             joint: self.joint.clone(),
             time_s,
             a: json(a),
@@ -92,9 +104,15 @@ impl SeriesComparison {
     }
 }
 
-/// Whether a series is compared: with a tolerance, which of two links has the largest error is left to rounding.
+/// Whether a series is compared: with a tolerance, which of two links has the largest error is left to rounding, and so is the
+/// instant of that error with its configuration.
 pub(super) fn is_compared(name: &str, tolerance: f64) -> bool {
-    tolerance <= 0.0 || !["_link", "_pair", ".subject"].iter().any(|end| name.ends_with(end))
+    let is_of_moment = || {
+        let moment = [".worst.", ".first_violation.", ".nearest_that_changes."];
+        moment.iter().any(|moment| name.contains(moment)) && !name.ends_with(".value")
+    };
+    tolerance <= 0.0
+        || !["_link", "_pair", ".subject"].iter().any(|end| name.ends_with(end)) && !is_of_moment()
 }
 
 /// How far two values are apart if that is beyond the tolerance. NaN is equal to NaN alone.
@@ -175,7 +193,9 @@ mod tests {
     #[test]
     fn subjects_of_worst_values_are_left_out_with_a_tolerance() {
         assert!(is_compared("clearance_pair", 0.0) && !is_compared("clearance_pair", 1e-9));
-        assert!(is_compared("checks.1.status", 1e-9));
+        assert!(is_compared("checks.1.status", 1e-9) && is_compared("checks.1.measures.1.worst.value", 1e-9));
+        let moments = ["checks.1.measures.1.worst.q.elbow", "checks.1.measures.1.first_violation.time_s"];
+        assert!(moments.iter().all(|name| is_compared(name, 0.0) && !is_compared(name, 1e-9)));
         let mut series = SeriesComparison::new("checks.1.status", None, 1.0);
         series.observe(None, &Value::Name("pass".into()), &Value::Name("fail".into()));
         assert!(series.finish().is_some());

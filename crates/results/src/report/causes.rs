@@ -168,14 +168,5 @@ fn notes(diagnoses: &[ReportedDiagnosis], description: &RobotDescription) -> Vec
     }
     let first = format!("cause ({}): ", diagnosis.title);
     let starts = std::iter::once(first.as_str()).chain(std::iter::repeat("and: "));
-    let mut notes: Vec<String> =
-        starts.zip(statements).map(|(start, line)| format!("{start}{line}")).collect();
-    match diagnosis.indistinguishable.len() {
-        0 => {}
-        1 => notes.push(format!("another cause explains the difference equally well: `{command}` lists it")),
-        count => notes.push(format!(
-            "{count} other causes explain the difference equally well: `{command}` lists them"
-        )),
-    }
-    notes
+    starts.zip(statements).map(|(start, line)| format!("{start}{line}")).collect()
 }

@@ -21,10 +21,10 @@ pub use fault_table::{DetectedBy, FaultRow, FaultTable};
 pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{
-    is_not_reached, limit_words, lines, margin_words, not_finite_words, quantity_words, sentence_at,
-    share_in_full,
+    is_not_reached, joint_limit_words, limit_words, lines, margin_words, not_finite_words, quantity_words,
+    sentence_at, share_in_full, value_and_margin,
 };
 pub use step_summary::step_summary;
 pub use suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 pub use test_suite::{judged, planned_suite};
-pub use verdict_sentence::{verdict_sentence, verdict_word};
+pub use verdict_sentence::{verdict_line, verdict_sentence, verdict_word};

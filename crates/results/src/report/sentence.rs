@@ -26,15 +26,30 @@ fn all_lines(check: &CheckResult) -> Vec<String> {
     let is_violated = |measure: &&Measure| measure.first_violation.is_some();
     let (violated, others): (Vec<_>, Vec<_>) = check.measures.iter().partition(is_violated);
     let notes: Vec<String> = contacts(&check.contacts).chain(check.notes.iter().cloned()).collect();
-    let others = others.into_iter().map(sentence);
+    let others = others.into_iter().enumerate().map(|(at, measure)| match &check.nearest_that_changes {
+        Some(_) if at == 0 => constant(measure),
+        _ => sentence(measure),
+    });
     if check.status == Status::Inconclusive {
         // The remarks say why the values are not a result.
         return notes.into_iter().chain(others).collect();
     }
     if violated.is_empty() {
-        return others.chain(notes).collect();
+        return nearest_that_changes(check).into_iter().chain(others).chain(notes).collect();
     }
     violated.into_iter().map(sentence).chain(notes).chain(others).collect()
+}
+
+/// The nearest pair whose distance changes, with limit and margin, before the nearer one that nothing brings nearer.
+fn nearest_that_changes(check: &CheckResult) -> Option<String> {
+    Some(sentence_at(check.measures.first()?, check.nearest_that_changes.as_ref()?))
+}
+
+/// The distance of a pair that keeps it: `nearer, but constant in this run: 33.8 mm at wrist_1_link--wrist_3_link`.
+fn constant(measure: &Measure) -> String {
+    let Some(worst) = &measure.worst else { return sentence(measure) };
+    let distance = quantity(worst.value, measure.unit.symbol());
+    format!("nearer, but constant in this run: {distance} at {}", worst.subject)
 }
 
 /// Number of contacts that are printed; the report has all.
@@ -136,6 +151,13 @@ pub fn limit_words(measure: &Measure) -> String {
     format!("{} {}", measure.bound.words(), share_in_full(measure.limit, measure.unit))
 }
 
+/// The smallest distance of a joint to the end of its range: `>= 0 deg`, or the margin that the check requires.
+pub fn joint_limit_words(measure: &Measure) -> String {
+    // The usual tolerance is an allowance for rounding, which is none that a reader looks for.
+    let least = if measure.limit.abs() <= NEGLIGIBLE { 0.0 } else { -measure.limit };
+    format!(">= {}", quantity(least, measure.unit.symbol()))
+}
+
 /// A value; a ratio that is near its limit has five decimals, so that the two print differently.
 fn beside_limit(value: f64, Measure { limit, unit, .. }: &Measure) -> String {
     let is_near = (value - limit).abs() < 1e-2 * limit.abs();
@@ -179,6 +201,18 @@ fn margin(value: f64, measure: &Measure) -> String {
 
 /// A joint nearer to its limit than this is at the limit, m or rad. Kind: digits of files; the default tolerance of the check.
 const NEGLIGIBLE: f64 = 1e-6;
+
+/// The words of a run for a quantity that is reported by its margin alone: the position of a joint in its range. `None` for others.
+pub fn value_and_margin(
+    of: Quantity,
+    unit: SiUnit,
+    bound: Bound,
+    [value, limit]: [f64; 2],
+) -> Option<String> {
+    let measure = Measure { quantity: of, unit, limit, bound, worst: None, first_violation: None };
+    matches!(of, Quantity::AngleBeyondLimit | Quantity::ShiftBeyondLimit)
+        .then(|| beyond_joint_limit(value, &measure))
+}
 
 /// Margin of a joint to the end of its range; negative values are inside the range.
 fn beyond_joint_limit(value: f64, measure: &Measure) -> String {

@@ -14,6 +14,19 @@ pub fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
+/// Verdict and reason in one line: `pass: every check passes, as expected`, `pass (expected failure: agreement)`, `FAIL: clearance`.
+pub fn verdict_line(verdict: Verdict, sentence: &str) -> String {
+    let word = verdict_word(verdict);
+    if sentence.starts_with(EXPECTED_FAILURE) {
+        format!("{word} ({sentence})")
+    } else {
+        format!("{word}: {sentence}")
+    }
+}
+
+/// How the sentence of a run begins that failed as its scenario expects.
+const EXPECTED_FAILURE: &str = "expected failure: ";
+
 /// Why a run with these results has its verdict, without a full stop.
 pub fn verdict_sentence(
     verdict: Verdict,
@@ -36,10 +49,12 @@ pub fn verdict_sentence(
         Verdict::NothingChecked => "no check of the scenario was evaluated: add a [[check]]".to_owned(),
         Verdict::Broken => "the run ended with an error".to_owned(),
         Verdict::AsExpected if failed.is_empty() => count.passing("every check passes, as expected"),
-        Verdict::AsExpected => format!("{}, as expected", failing(&failed)),
+        Verdict::AsExpected => format!("{EXPECTED_FAILURE}{}", words(&failed)),
         Verdict::NotAsExpected if failed.is_empty() => {
             format!("unexpected pass: {}", count.passing("every check passed"))
         }
+        // A scenario that expects nothing else expects that every check passes.
+        Verdict::NotAsExpected if *expected == Expectation::Pass => words(&failed),
         Verdict::NotAsExpected => against_expectation(expected, failed),
     }
 }
@@ -127,7 +142,10 @@ mod tests {
         check(&[Clearance, Limits], &[Clearance], missing);
         let both = [Clearance, Limits].map(|kind| (kind, Status::Fail));
         let sentence = |verdict| verdict_sentence(verdict, &Expectation::Pass, both);
-        assert_eq!(sentence(Verdict::NotAsExpected), "clearance and limits fail, against expectation");
-        assert_eq!(sentence(Verdict::AsExpected), "clearance and limits fail, as expected");
+        assert_eq!(sentence(Verdict::NotAsExpected), "clearance and limits");
+        assert_eq!(sentence(Verdict::AsExpected), "expected failure: clearance and limits");
+        let line = |verdict| verdict_line(verdict, &sentence(verdict));
+        assert_eq!(line(Verdict::NotAsExpected), "FAIL: clearance and limits");
+        assert_eq!(line(Verdict::AsExpected), "pass (expected failure: clearance and limits)");
     }
 }

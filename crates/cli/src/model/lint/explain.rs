@@ -1,4 +1,4 @@
-//! `lint --explain CODE`.
+//! `congruent explain CODE`.
 
 use std::fmt::Write;
 
@@ -23,7 +23,14 @@ struct CodeExplanation {
     about: String,
 }
 
-pub(super) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
+/// Explains the code of a message, or a cause that `check` names, and says what to do.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// A code by its number (CGR-URDF-005) or its name (urdf::tree), or a cause (`axis_flipped`).
+    pub(crate) code: String,
+}
+
+pub(crate) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
     let known = codes::all_codes();
     let explanation = explained(word, &known).ok_or_else(|| {
         let message = format!("unknown code or cause \"{word}\"");

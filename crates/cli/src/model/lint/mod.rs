@@ -1,7 +1,7 @@
 //! `congruent lint`: what is wrong or suspicious in files.
 
 mod diff;
-mod explain;
+pub(crate) mod explain;
 mod fix;
 mod lines;
 mod sarif;
@@ -33,12 +33,13 @@ use crate::{
 /// error, 1 errors (with --strict also warnings), 2 a file cannot be read. `--format sarif` prints one SARIF document for
 /// code hosts.
 #[derive(Debug, clap::Args)]
+#[command(override_usage = "congruent lint [OPTIONS] <FILES>...")]
 #[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Arguments {
     /// URDF, SRDF, robot file, folder with robot.toml, scenario, table (.json, .csv), or - for a URDF on standard input.
     #[arg(required_unless_present = "explain")]
     files: Vec<PathBuf>,
-    /// Explain a finding, by its number (CGR-URDF-005) or its name (`urdf::tree`).
+    /// The same as `congruent explain CODE`.
     #[arg(long, value_name = "CODE", conflicts_with = "files")]
     explain: Option<String>,
     /// Write the safe corrections and show the difference. A correction is safe if the file keeps its meaning, or if

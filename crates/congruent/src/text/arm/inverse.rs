@@ -32,7 +32,10 @@ pub fn inverse_text(
             reached(result),
             result.iterations,
             length_and_angle(result.residual_position_m, result.residual_orientation_rad),
-            length_and_angle(searched.tolerance_m, searched.tolerance_rad)
+            match result.target.part {
+                TargetPart::Position => format!("{} (any orientation)", length(searched.tolerance_m)),
+                TargetPart::Pose => length_and_angle(searched.tolerance_m, searched.tolerance_rad),
+            }
         );
         joints(&mut text, result, robot, options);
     }

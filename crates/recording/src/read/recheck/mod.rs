@@ -365,6 +365,7 @@ impl Context<'_> {
             status: check.status,
             samples: 0,
             measures: Vec::new(),
+            nearest_that_changes: None,
             contacts: Vec::new(),
             notes: Vec::new(),
         });
