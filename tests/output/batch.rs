@@ -354,7 +354,7 @@ fn inspect_ends_with_the_code_of_the_run_or_of_the_file() {
         let document = answer.json();
         assert_eq!((answer.code, &document["exit_code"]), (code, &code.into()), "{file}");
         assert!(document["reason"].as_str().unwrap().contains(reason), "{}", document["reason"]);
-        let word = ["pass", "FAIL", "BAD RECORDING"][usize::from(code)];
+        let word = ["pass", "FAIL", "BAD RECORDING"][usize::try_from(code).unwrap()];
         let text = congruent(&["inspect", file]).stdout;
         assert!(
             text.lines().next().is_some_and(|line| line.contains(&format!(": {word}: {reason}"))),
