@@ -345,16 +345,15 @@ fn inspect_ends_with_the_code_of_the_run_or_of_the_file() {
     let cut: PathBuf = scratch.path().join("cut.rrd");
     fs::write(&cut, &whole[..whole.len() / 2]).unwrap();
     let (cut, none) = (text(&cut), scratch.write("text.rrd", "no recording"));
-    for (file, code, reason) in [
-        (&passed, 0, "every check passes, as expected"),
-        (&failed, 1, "goal"),
-        (&cut, 2, "the file is cut off"),
+    for (file, code, word, reason) in [
+        (&passed, 0, "pass", "every check passes, as expected"),
+        (&failed, 1, "FAIL", "goal"),
+        (&cut, 2, "BAD RECORDING", "the file is cut off"),
     ] {
         let answer = congruent_json(&["inspect", file]);
         let document = answer.json();
         assert_eq!((answer.code, &document["exit_code"]), (code, &code.into()), "{file}");
         assert!(document["reason"].as_str().unwrap().contains(reason), "{}", document["reason"]);
-        let word = ["pass", "FAIL", "BAD RECORDING"][usize::try_from(code).unwrap()];
         let text = congruent(&["inspect", file]).stdout;
         assert!(
             text.lines().next().is_some_and(|line| line.contains(&format!(": {word}: {reason}"))),

@@ -29,7 +29,7 @@ impl Answer {
 }
 
 /// Commands that open no file that another file names.
-const WITHOUT_ACCESS: [&str; 6] = ["compare", "completions", "inspect", "man", "schema", "--help"];
+const WITHOUT_ACCESS: [&str; 7] = ["compare", "completions", "explain", "inspect", "man", "schema", "--help"];
 
 /// Runs `congruent` with these arguments, from the root of the workspace. Files of tests are in temporary folders and name
 /// robots of the workspace and of the corpus, which is allowed here.

@@ -5,7 +5,10 @@ use std::fmt;
 use congruent_description::{
     ArmQ, DhRow, DhRowKind, DhTable, JointValues, ReportedChain, RobotDescription, RobotQ,
 };
-use congruent_input::{Finding, display::counted};
+use congruent_input::{
+    Finding,
+    display::{counted, length, number},
+};
 use congruent_kinematics::{
     Arm, ArmJoint, DhChain, Displacement, KinematicsError, Pose, Sampling, displacement,
 };
@@ -38,6 +41,22 @@ pub struct SensitivityReport {
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
+}
+
+impl SensitivityReport {
+    /// The largest displacement alone, in a line for each factor of the lengths.
+    pub fn largest_in_words(&self) -> String {
+        let line = |arm: &ArmSensitivity| {
+            let worst = arm.parameters.iter().max_by(|a, b| a.worst_mm.total_cmp(&b.worst_mm))?;
+            let ParameterEffect { joint, parameter, error, .. } = worst;
+            let (factor, displacement) = (number(arm.length_factor), length(worst.worst_mm / 1e3));
+            let robot = &self.robot;
+            Some(format!(
+                "{robot}, lengths x {factor}: at most {displacement} for an error of {error} in {parameter} of {joint}\n"
+            ))
+        };
+        self.arms.iter().filter_map(line).collect()
+    }
 }
 
 /// The robot, or one like it with all lengths and strokes multiplied.

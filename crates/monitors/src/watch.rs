@@ -33,8 +33,15 @@ struct Extreme {
     is_set: bool,
 }
 
+/// Time and configuration of a value.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WatchedInstant<'a> {
+    pub(crate) time_s: f64,
+    pub(crate) q: &'a [f64],
+}
+
 impl Extreme {
-    fn set(&mut self, value: f64, subject: usize, (time_s, q): (f64, &[f64])) {
+    fn set(&mut self, value: f64, subject: usize, WatchedInstant { time_s, q }: WatchedInstant<'_>) {
         (self.value, self.subject, self.time_s, self.is_set) = (value, subject, time_s, true);
         self.q.copy_from_slice(q);
     }
@@ -58,12 +65,12 @@ impl Watch {
 
     /// Evaluates one value of `subject`, an index that `measure` turns into a name.
     pub(crate) fn observe(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
-        self.observe_at(value, subject, (sample.time_s, sample.joints.truth.q));
+        self.observe_at(value, subject, WatchedInstant { time_s: sample.time_s, q: sample.joints.truth.q });
     }
 
     /// The same of an instant by its time and configuration.
-    pub(crate) fn observe_at(&mut self, value: f64, subject: usize, instant: (f64, &[f64])) {
-        let (time_s, _) = instant;
+    pub(crate) fn observe_at(&mut self, value: f64, subject: usize, instant: WatchedInstant<'_>) {
+        let time_s = instant.time_s;
         let (latest, at_s) = &mut self.latest;
         #[expect(clippy::float_cmp, reason = "the time of one sample")]
         // One instant has a value for each subject. The first replaces that of the instant before, later ones only if

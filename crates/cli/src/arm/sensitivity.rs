@@ -4,7 +4,7 @@ use congruent::{
     analysis::sensitivity::{plot, sensitivity},
     input::{Diagnostic, units::LARGEST},
     kinematics::Sampling,
-    text::{sensitivity_line, sensitivity_text},
+    text::sensitivity_text,
 };
 
 use crate::{
@@ -55,9 +55,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let compute = || sensitivity(&description, &arguments.length_factors, sampling);
     let report = waiting(printer, "computing sensitivities", compute)
         .map_err(|error| Diagnostic::error(codes::sensitivity::ROBOT, error.to_string()))?;
-    printer.result(&report, |report| match printer.is_quiet() {
-        true => sensitivity_line(report),
-        false => sensitivity_text(report, &description.robot, &text_options()),
+    printer.result(&report, |report| {
+        if printer.is_quiet() {
+            report.largest_in_words()
+        } else {
+            sensitivity_text(report, &description.robot, &text_options())
+        }
     })?;
     arguments.plot.write(|| plot(&report), &inputs)?;
     Ok(0)

@@ -29,7 +29,7 @@ use crate::{
     invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{
-        print::{Printer, text_options},
+        print::{Format, Printer, text_options},
         progress::waiting,
     },
     tolerance::ToleranceArgument,
@@ -281,9 +281,11 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
         None => congruent::check(&description, &options),
     };
     let compared = waiting(batch.printer(), &format!("checking {}", visible_path(path)), compare);
-    // What lint lists below the answer is printed there alone.
+    // What lint lists below the answer for people is printed there alone.
+    let is_text = batch.printer().format() == Format::Human;
     let listed = compared.as_ref().map_or(&[][..], |report| &report.lint.worst[..]);
-    let is_listed = |warning: &Diagnostic| listed.iter().any(|finding| finding.message == warning.message);
+    let is_listed =
+        |warning: &Diagnostic| is_text && listed.iter().any(|finding| finding.message == warning.message);
     for of in std::iter::once(&description).chain(&other) {
         let others: Vec<Diagnostic> =
             of.warnings.iter().filter(|warning| !is_listed(warning)).cloned().collect();

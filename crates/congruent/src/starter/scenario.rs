@@ -14,7 +14,8 @@ use congruent_monitors::{
 };
 use congruent_results::report::lines;
 use congruent_scenario::{
-    Check, CheckKind, ClearanceCheck, ContactCheck, ControllerKind, ControllerSettings, OnViolation, Scenario,
+    AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, ControllerKind, ControllerSettings,
+    OnViolation, Scenario,
 };
 use congruent_twin::{Outcome, Run, RunError, RunSetup};
 use congruent_writers::relative_path;
@@ -81,12 +82,9 @@ pub struct NewScenario {
 pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioDraft, Findings> {
     description.check_capability(Capability::Physics)?;
     let (mut content, largest) = content(description, file)?;
-    if let Some((tolerance, remark)) = within_digits(description) {
-        let judged = RobotDescription { tolerance, ..description.clone() };
-        for agreement in checks(&judged).into_iter().filter(|check| check.kind() == CheckKind::Agreement) {
-            content.scenario.check.retain(|check| check.kind() != CheckKind::Agreement);
-            content.scenario.check.insert(0, agreement);
-        }
+    if let Some((agreement, remark)) = within_digits(description) {
+        content.scenario.check.retain(|check| check.kind() != CheckKind::Agreement);
+        content.scenario.check.insert(0, Check::Agreement(agreement));
         content.remarks.push(remark);
     }
     let mut last = String::new();
@@ -213,7 +211,7 @@ fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
 
 /// The limits of the check of agreement for a table that is the same as the URDF by its digits alone, and the remark on them: a
 /// run is judged by a tolerance, and the robot file declares none.
-fn within_digits(description: &RobotDescription) -> Option<(Tolerance, String)> {
+fn within_digits(description: &RobotDescription) -> Option<(AgreementCheck, String)> {
     if description.tolerance_is_declared {
         return None;
     }
@@ -236,7 +234,8 @@ fn within_digits(description: &RobotDescription) -> Option<(Tolerance, String)> 
         length_and_angle(found.position_m, found.orientation_rad),
         description.path.file_name().unwrap_or_default().display()
     );
-    Some((Tolerance { position_m: position_mm / 1e3, orientation_rad: orientation_deg.to_radians() }, remark))
+    let [position_mm, orientation_deg] = [position_mm, orientation_deg].map(Some);
+    Some((AgreementCheck { position_mm, orientation_deg, ..AgreementCheck::default() }, remark))
 }
 
 /// A number with two digits that is not smaller.

@@ -52,7 +52,9 @@ fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
     for statement in statements.iter().take(MOST_SHOWN) {
         let _ = writeln!(text, "  {}", visible(statement));
     }
-    if let Some(first) = first {
+    // Joint positions of a report are those of worst values, which come first in time by chance.
+    if let Some(first) = first.as_ref().filter(|first| *kind != ComparedFile::Report || first.joint.is_none())
+    {
         let _ = writeln!(text, "  first{}", in_words(first, series));
     }
     let (of_moments, others): (Vec<_>, Vec<_>) =

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::{
     analysis::conversion::{ConversionReport, ConversionSource, PoeReport, ScrewReport},
     input::{
-        display::{angle, counted, length, length_and_angle, listed},
+        display::{angle, counted, length, length_and_angle},
         serde_name,
     },
     text::layout::column_width,
@@ -99,7 +99,7 @@ fn whole_robot(text: &mut String, report: &ConversionReport, found: &ReadBackRep
         "read back: poses of all links at {} configurations agree within {}, {}; limit {:e}",
         report.proof.configurations,
         length_and_angle(found.position_m, found.orientation_rad),
-        read_back_values(found),
+        found.values_in_words(),
         found.limit
     );
     for warning in &report.findings {
@@ -108,24 +108,6 @@ fn whole_robot(text: &mut String, report: &ConversionReport, found: &ReadBackRep
     for note in &report.notes {
         let _ = writeln!(text, "note: {note}");
     }
-}
-
-/// The values that are equal, then those that differ by rounding: `masses and friction equal, inertias within 1e-15`.
-fn read_back_values(found: &ReadBackReport) -> String {
-    let relative = |difference: f64| format!("{difference:.0e} (relative)");
-    let values = [
-        ("masses", found.mass, relative(found.mass)),
-        ("centres of mass", found.center_of_mass, length(found.center_of_mass)),
-        ("inertias", found.inertia, relative(found.inertia)),
-        ("limits and losses", found.terms, relative(found.terms)),
-        ("shapes", found.shape_m, length(found.shape_m)),
-    ];
-    let (equal, others): (Vec<_>, Vec<_>) =
-        values.into_iter().partition(|(_, difference, _)| *difference == 0.0);
-    let equal: Vec<&str> = equal.into_iter().map(|(name, ..)| name).collect();
-    let equal = (!equal.is_empty()).then(|| format!("{} are equal", listed(&equal)));
-    let others = others.into_iter().map(|(name, _, within)| format!("{name} agree within {within}"));
-    equal.into_iter().chain(others).collect::<Vec<_>>().join(", ")
 }
 
 /// Screws as comments, so that the whole text is a robot file.

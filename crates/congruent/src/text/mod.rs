@@ -25,7 +25,7 @@ mod run;
 
 pub use arm::{
     clearance_text_parts, disabled_pairs_text, forward_text_parts, inverse_text, jacobian_text_parts,
-    joint_dynamics_text_parts, manipulability_text_parts, sensitivity_line, sensitivity_text, workspace_text,
+    joint_dynamics_text_parts, manipulability_text_parts, sensitivity_text, workspace_text,
 };
 pub use base_parameters::base_parameters_text;
 pub use calibration::calibration_text;

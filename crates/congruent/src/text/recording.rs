@@ -4,19 +4,13 @@ use std::fmt::Write;
 
 use super::{layout::paragraph, options::TextOptions};
 use crate::{
-    input::{
-        Quantity, SiUnit,
-        display::{counted, quantity},
-        serde_name,
-    },
-    monitors::verdict::{Bound, Status, Verdict},
+    input::{Quantity, SiUnit, display::quantity, serde_name},
+    monitors::verdict::{Bound, Moment, Status},
     recording::{
         Basis, CheckSummary, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity, RecordingSummary,
         TimelineSummary,
     },
-    results::report::{
-        is_not_reached, not_finite_words, quantity_words, share_in_full, value_and_margin, verdict_line,
-    },
+    results::report::{is_not_reached, not_finite_words, quantity_words, share_in_full, value_and_margin},
 };
 
 /// The property that is printed as the verdict.
@@ -27,7 +21,7 @@ const PATH_WIDTH: usize = 35;
 /// What `congruent inspect` prints of a recording: the verdict, the file and its timelines, its content and properties (in full
 /// if the options say so), then the checks.
 pub fn recording_text(summary: &RecordingSummary, options: &TextOptions) -> String {
-    let mut text = headline(summary);
+    let mut text = summary.headline() + "\n";
     let state = if summary.complete { "complete" } else { "incomplete" };
     let duration = summary.duration_s.map_or_else(|| "none".to_owned(), |seconds| quantity(seconds, "s"));
     let file = format!("{} bytes, {state}", summary.bytes);
@@ -64,8 +58,9 @@ pub fn recording_text(summary: &RecordingSummary, options: &TextOptions) -> Stri
 /// The checks, what is wrong with the file, and the verdict with its reason.
 fn push_verdict(text: &mut String, summary: &RecordingSummary) {
     text.push('\n');
-    for check in &summary.checks {
-        push_check(text, check);
+    let of_run = summary.run.iter().flat_map(|run| &run.checks).map(Some).chain(std::iter::repeat(None));
+    for (check, of_run) in summary.checks.iter().zip(of_run) {
+        push_check(text, check, of_run.and_then(|check| check.nearest_that_changes.as_ref()));
     }
     if let Some(recheck) = &summary.recheck {
         push_recheck(text, recheck);
@@ -80,35 +75,6 @@ fn push_verdict(text: &mut String, summary: &RecordingSummary) {
     }
 }
 
-/// Name and verdict, with the reason, the number of checks, the duration and what made the recording.
-fn headline(summary: &RecordingSummary) -> String {
-    let name = summary.run.as_ref().map_or(summary.application_id.as_str(), |run| run.scenario.as_str());
-    let mut text = format!("{name}: {}", verdict_of(summary));
-    if !summary.checks.is_empty() {
-        let _ = write!(text, "; {}", counted(summary.checks.len(), "check"));
-    }
-    if let Some(seconds) = summary.duration_s {
-        let _ = write!(text, ", {}", quantity(seconds, "s"));
-    }
-    if let Some(run) = &summary.run {
-        let _ = write!(text, ", recorded with congruent {}", run.versions.congruent);
-    }
-    text.push('\n');
-    text
-}
-
-/// The verdict by the exit code, which also knows what is wrong with the file or has changed since the run.
-fn verdict_of(summary: &RecordingSummary) -> String {
-    let verdict = match summary.exit_code {
-        0 => Verdict::AsExpected,
-        1 => Verdict::NotAsExpected,
-        3 => Verdict::Broken,
-        2 => return format!("BAD RECORDING: {}", summary.reason),
-        _ => return format!("NOT CHECKED: {}", summary.reason),
-    };
-    verdict_line(verdict, &summary.reason)
-}
-
 /// Whether the files of the run are as they were.
 fn inputs(summary: &RecordingSummary) -> String {
     match (&summary.changed_inputs, &summary.report) {
@@ -119,9 +85,22 @@ fn inputs(summary: &RecordingSummary) -> String {
     }
 }
 
-fn push_check(text: &mut String, check: &CheckSummary) {
+/// A check; before the nearest distance, if that is constant, the nearest one that changes.
+fn push_check(text: &mut String, check: &CheckSummary, changing: Option<&Moment>) {
     let _ = writeln!(text, "  {:10} {}", check.check, check.status);
-    for of in &check.quantities {
+    let mut quantities = check.quantities.iter();
+    if let Some(moment) = changing
+        && let Some(of) = quantities.next()
+    {
+        let limit = format!("{} {}", of.bound.words(), share_in_full(of.limit, of.unit));
+        let [distance, constant] = [moment.value, of.worst].map(|value| quantity(value, of.unit.symbol()));
+        let (words, pair) = (quantity_words(of.quantity), &moment.subject);
+        let _ =
+            writeln!(text, "    {words} {distance} at {pair} ({}), {limit}", quantity(moment.time_s, "s"));
+        let pair = of.subject.as_deref().unwrap_or_default();
+        let _ = writeln!(text, "    nearer, but constant in this run: {constant} at {pair}");
+    }
+    for of in quantities {
         let subject = of.subject.as_ref().map(|subject| format!(" at {subject}")).unwrap_or_default();
         let place = format!("{subject} ({})", quantity(of.worst_s, "s"));
         let limited = Limited { quantity: of.quantity, unit: of.unit, bound: of.bound, limit: of.limit };

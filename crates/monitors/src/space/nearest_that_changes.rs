@@ -3,7 +3,11 @@
 
 use congruent_proximity::Nearest;
 
-use crate::{sample::Sample, verdict::Moment, watch::Watch};
+use crate::{
+    sample::Sample,
+    verdict::Moment,
+    watch::{Watch, WatchedInstant},
+};
 
 /// A distance that varies by no more is constant. Kind: rounding and tolerance of the distance query, which was seen to vary by
 /// 1e-9 m; joints move links by millimetres. Unit: m.
@@ -14,7 +18,7 @@ const EXAMINED_EVERY: u64 = 10;
 
 pub(super) struct NearestThatChanges {
     nearest: Watch,
-    pairs: Vec<Observed>,
+    pairs: Vec<PairAtFirst>,
     /// For each measured pair whether its distance has changed.
     has_changed: Vec<bool>,
     /// The nearest changed pair at the present sample.
@@ -24,7 +28,7 @@ pub(super) struct NearestThatChanges {
 }
 
 /// A pair with its distance at the first sample.
-struct Observed {
+struct PairAtFirst {
     pair: usize,
     first_m: f64,
 }
@@ -38,7 +42,8 @@ impl NearestThatChanges {
     /// Remembers the distances of the first sample, so that no later one allocates.
     pub(super) fn begin(&mut self, pairs: impl Iterator<Item = usize>, sample: &mut Sample<'_>) {
         self.has_changed = vec![false; sample.clearance.pairs().len()];
-        self.pairs = pairs.map(|pair| Observed { pair, first_m: sample.clearance.measure(pair) }).collect();
+        self.pairs =
+            pairs.map(|pair| PairAtFirst { pair, first_m: sample.clearance.measure(pair) }).collect();
         (self.first_s, self.first_q) = (sample.time_s, sample.joints.truth.q.to_vec());
     }
 
@@ -67,7 +72,7 @@ impl NearestThatChanges {
 
     /// Finds pairs that have changed since the first sample, of those that were nearer than the nearest so far.
     fn examine(&mut self, sample: &mut Sample<'_>) {
-        for &Observed { pair, first_m } in &self.pairs {
+        for &PairAtFirst { pair, first_m } in &self.pairs {
             let is_nearer = self.nearest.worst().is_none_or(|worst_m| first_m < worst_m);
             if self.has_changed[pair] || !is_nearer {
                 continue;
@@ -75,7 +80,8 @@ impl NearestThatChanges {
             let distance_m = sample.clearance.measure(pair);
             if (distance_m - first_m).abs() > CONSTANT_M {
                 self.has_changed[pair] = true;
-                self.nearest.observe_at(first_m, pair, (self.first_s, &self.first_q));
+                let first = WatchedInstant { time_s: self.first_s, q: &self.first_q };
+                self.nearest.observe_at(first_m, pair, first);
                 self.nearest.observe(distance_m, pair, sample);
             }
         }

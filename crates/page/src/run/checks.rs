@@ -83,13 +83,13 @@ fn rows(check: &CheckResult, of: &CheckRows<'_>, at: &Pointer) -> Markup {
             @if let Some((moment, measure)) = first {
                 tr {
                     (name(check))
-                    (cells(&Row { measure, worst: Some(moment), at: measures.key(0), at_worst: at.key("nearest_that_changes") }, of))
+                    (cells(&ValueRow { measure, worst: Some(moment), at: measures.key(0), at_worst: at.key("nearest_that_changes") }, of))
                 }
             }
             @for (index, measure) in shown {
                 tr {
                     @if index == 0 && first.is_none() { (name(check)) } @else { td.again {} td.again {} }
-                    (cells(&Row { measure, worst: measure.worst.as_ref(), at: measures.key(index), at_worst: measures.key(index).key("worst") }, of))
+                    (cells(&ValueRow { measure, worst: measure.worst.as_ref(), at: measures.key(index), at_worst: measures.key(index).key("worst") }, of))
                 }
             }
             @if further > 0 { tr { td.again {} td.again {} td colspan="6" { "and " (further) " more in the report" } } }
@@ -114,15 +114,15 @@ fn name(check: &CheckResult) -> Markup {
 }
 
 /// A row: one value of a measure, and where report.json has both.
-struct Row<'a> {
+struct ValueRow<'a> {
     measure: &'a Measure,
     worst: Option<&'a Moment>,
     at: Pointer,
     at_worst: Pointer,
 }
 
-fn cells(row: &Row<'_>, of: &CheckRows<'_>) -> Markup {
-    let Row { measure, worst, at, at_worst } = row;
+fn cells(row: &ValueRow<'_>, of: &CheckRows<'_>) -> Markup {
+    let ValueRow { measure, worst, at, at_worst } = row;
     let mut what = quantity_words(measure.quantity);
     let Some(worst) = worst else {
         return html! { td data-label="worst value" { (what) ": no value" } td {} td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };

@@ -1,10 +1,13 @@
 //! The result of [`inspect`](super::inspect): ordered lists.
 
-use congruent_input::{Quantity, SiUnit};
 use std::collections::BTreeMap;
 
-use congruent_monitors::verdict::{Bound, CheckResult, Measure};
-use congruent_results::report::RunReport;
+use congruent_input::{
+    Quantity, SiUnit,
+    display::{counted, quantity},
+};
+use congruent_monitors::verdict::{Bound, CheckResult, Measure, Verdict};
+use congruent_results::report::{RunReport, verdict_line};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -62,6 +65,35 @@ pub struct RecordingSummary {
     /// That report, read back.
     #[serde(skip)]
     pub run: Option<RunReport>,
+}
+
+impl RecordingSummary {
+    /// Name and verdict, with the reason, the number of checks, the duration and what made the recording, in one line.
+    pub fn headline(&self) -> String {
+        let run = self.run.as_ref();
+        let name = run.map_or(self.application_id.as_str(), |run| run.scenario.as_str());
+        let mut parts = vec![format!("{name}: {}", self.verdict_in_words())];
+        let checks = (!self.checks.is_empty()).then(|| counted(self.checks.len(), "check"));
+        let duration = self.duration_s.map(|seconds| quantity(seconds, "s"));
+        let made = run.map(|run| format!("recorded with congruent {}", run.versions.congruent));
+        let further: Vec<String> = [checks, duration, made].into_iter().flatten().collect();
+        if !further.is_empty() {
+            parts.push(further.join(", "));
+        }
+        parts.join("; ")
+    }
+
+    /// The verdict by the exit code, which also knows what is wrong with the file or has changed since the run.
+    fn verdict_in_words(&self) -> String {
+        let verdict = match self.exit_code {
+            0 => Verdict::AsExpected,
+            1 => Verdict::NotAsExpected,
+            3 => Verdict::Broken,
+            2 => return format!("BAD RECORDING: {}", self.reason),
+            _ => return format!("NOT CHECKED: {}", self.reason),
+        };
+        verdict_line(verdict, &self.reason)
+    }
 }
 
 /// A check of the recorded run.

@@ -67,9 +67,9 @@ fn status(result: &TestResult) -> TestCaseStatus {
         TestResult::Error(reason) => (NonSuccessKind::Error, reason),
     };
     let mut status = TestCaseStatus::non_success(kind);
-    // Some viewers show the attribute, which has one line, others the text of the element: the first line is in both.
-    let line = reason.message.lines().next().unwrap_or_default();
-    status.set_type(printable(&reason.kind)).set_message(printable(line));
+    // Some viewers show the attribute, which has one line, others the text of the element.
+    let line = reason.message.lines().collect::<Vec<_>>().join("; ");
+    status.set_type(printable(&reason.kind)).set_message(printable(&line));
     status.set_description(printable(&reason.message));
     status
 }

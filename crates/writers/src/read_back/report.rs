@@ -1,6 +1,7 @@
 //! What reading back has found.
 
 use congruent_description::Robot;
+use congruent_input::display::{length, listed};
 use congruent_kinematics::Proof;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -35,6 +36,23 @@ pub struct ReadBackReport {
 }
 
 impl ReadBackReport {
+    /// The values that are equal, then those that differ by rounding: `masses are equal, inertias agree within 1e-15 (relative)`.
+    pub fn values_in_words(&self) -> String {
+        let relative = |difference: f64| format!("{difference:.0e} (relative)");
+        let values = [
+            ("masses", self.mass, relative(self.mass)),
+            ("centres of mass", self.center_of_mass, length(self.center_of_mass)),
+            ("inertias", self.inertia, relative(self.inertia)),
+            ("limits and losses", self.terms, relative(self.terms)),
+            ("shapes", self.shape_m, length(self.shape_m)),
+        ];
+        let (equal, others): (Vec<_>, Vec<_>) = values.into_iter().partition(|(_, found, _)| *found <= 0.0);
+        let equal: Vec<&str> = equal.into_iter().map(|(name, ..)| name).collect();
+        let equal = (!equal.is_empty()).then(|| format!("{} are equal", listed(&equal)));
+        let others = others.into_iter().map(|(name, _, within)| format!("{name} agree within {within}"));
+        equal.into_iter().chain(others).collect::<Vec<_>>().join(", ")
+    }
+
     pub(super) fn new(robot: &Robot, differences: &Differences, proof: &Proof, limit: f64) -> Self {
         Self {
             links: robot.links().len(),

@@ -26,7 +26,7 @@ struct CodeExplanation {
 /// Explains the code of a message, or a cause that `check` names, and says what to do.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// A code by its number (CGR-URDF-005) or its name (urdf::tree), or a cause (`axis_flipped`).
+    /// A code by its number (CGR-URDF-005) or its name (`urdf::tree`), or a cause (`axis_flipped`).
     pub(crate) code: String,
 }
 

@@ -17,5 +17,5 @@ pub use forward::forward_text_parts;
 pub use inverse::inverse_text;
 pub use jacobian::jacobian_text_parts;
 pub use manipulability::manipulability_text_parts;
-pub use sensitivity::{sensitivity_line, sensitivity_text};
+pub use sensitivity::sensitivity_text;
 pub use workspace::workspace_text;

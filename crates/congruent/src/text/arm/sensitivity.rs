@@ -12,27 +12,6 @@ use crate::{
     },
 };
 
-/// The largest displacement alone, in a line for each factor of the lengths.
-pub fn sensitivity_line(report: &SensitivityReport) -> String {
-    let mut text = String::new();
-    for arm in &report.arms {
-        let Some(worst) = arm.parameters.iter().max_by(|a, b| a.worst_mm.total_cmp(&b.worst_mm)) else {
-            continue;
-        };
-        let _ = writeln!(
-            text,
-            "{}, lengths x {}: at most {} for an error of {} in {} of {}",
-            report.robot,
-            number(arm.length_factor),
-            length(worst.worst_mm / 1e3),
-            worst.error,
-            worst.parameter,
-            worst.joint
-        );
-    }
-    text
-}
-
 /// What `congruent sensitivity` prints: the displacement of the tool by an error of each parameter, and the worst of all.
 pub fn sensitivity_text(report: &SensitivityReport, robot: &Robot, options: &TextOptions) -> String {
     let mut text = format!("{}\n", report.chain);
