@@ -361,7 +361,7 @@ fn fingers_that_another_finger_drives_have_the_same_coupling() {
     let report = answer.json();
     assert_eq!(report["comparisons"][1]["verdict"], "agree", "{report:#}");
     let messages = report["warnings"].as_array().unwrap().iter().map(|of| of["message"].as_str().unwrap());
-    assert!(messages.into_iter().any(|of| of.contains("left_joint drives")), "{report:#}");
+    assert!(messages.into_iter().any(|of| of.contains("right_joint drives")), "{report:#}");
     let wrong =
         scratch.write("wrong.urdf", &gripper("<mimic joint=\"right_joint\" multiplier=\"0.5\"/>", ""));
     assert_eq!(congruent(&["check", "-q", &own, "--against", &wrong]).code, 1);

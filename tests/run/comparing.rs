@@ -192,7 +192,7 @@ fn what_cannot_be_compared_is_bad_input() {
         (&rrd, &rrd, "not a rerun recording"),
         (&table, &folder, "one is a folder"),
         (&empty, &empty, "in common"),
-        (&table, &format!("{folder}/none.csv"), "cannot read"),
+        (&table, &format!("{folder}/none.csv"), "does not exist"),
     ] {
         let answer = congruent(&["compare", a, b]);
         assert_eq!(answer.code, 2, "{a} {b}: {}", answer.stdout);

@@ -296,7 +296,7 @@ fn lanes_of_failed_checks_come_first() {
         "the viewer orders lanes by path"
     );
     let summary = &run.texts("/summary", "TextDocument:text")[0];
-    assert!(summary.starts_with("### ur5e_soft_servos on ur5e: tracking fails"), "{summary}");
+    assert!(summary.starts_with("### ur5e_soft_servos on ur5e: expected failure: tracking"), "{summary}");
     let [tracking, agreement] = ["**tracking fail**", "**agreement pass**"].map(|line| summary.find(line));
     assert!(tracking.unwrap() < agreement.unwrap(), "{summary}");
 }

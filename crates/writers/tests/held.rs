@@ -85,7 +85,7 @@ fn limits_of_version_1_2_are_written_with_the_version() {
     let text = urdf(&[("a", ""), ("b", INERTIAL)], &joint("j", "revolute", ["a", "b"], limit))
         .replace("<robot ", "<robot version='1.2' ");
     let (as_urdf, _) = written(&text, RobotFormat::Urdf);
-    for part in ["version=\"1.2\"", "acceleration=\"7\"", "deceleration=\"8\"", "jerk=\"90\""] {
+    for part in ["version=\"1.2\"", "acceleration=\"7.0\"", "deceleration=\"8.0\"", "jerk=\"90.0\""] {
         assert!(as_urdf.text.contains(part), "{part}: {}", as_urdf.text);
     }
     assert_eq!(codes(&as_urdf), [""; 0]);

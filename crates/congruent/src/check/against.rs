@@ -123,13 +123,9 @@ pub(super) fn compared(
         against.dynamics_not_compared = misplaced;
         return Ok((against, None));
     }
-    if let Some(of) = no_masses([description, other]) {
+    if let Some(of) = no_masses([description, other]).or_else(|| one_urdf([description, other])) {
         geometry.not_asked.push(of);
         against.ranges_differ = ranges_differ(&description.robot, other);
-        return Ok((against, None));
-    }
-    if let Some(of) = one_urdf([description, other]) {
-        geometry.not_asked.push(of);
         return Ok((against, None));
     }
     against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_value);

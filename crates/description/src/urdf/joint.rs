@@ -248,7 +248,9 @@ mod tests {
         let all =
             read_limit(&text.replace("acceleration='5'", "acceleration='5' deceleration='6' jerk='70'"));
         assert_eq!((all.deceleration, all.jerk), (Some(6.0), Some(70.0)));
-        assert_eq!(read_limit(&text.replace("'5'", "'inf'")).acceleration, None);
+        let (infinite, found) = read(&text.replace("'5'", "'inf'"));
+        assert_eq!(infinite.unwrap().joints()[0].limit.unwrap().acceleration, None);
+        assert!(found.iter().any(|of| of.message.contains("is not a finite number")), "{found:#?}");
         let (_, refused) = read(&text.replace("'5'", "'-5'"));
         assert!(
             refused.iter().any(|of| of.message.contains("acceleration value (-5) is negative")),

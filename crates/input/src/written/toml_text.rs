@@ -360,7 +360,7 @@ mod tests {
         let (_, found) = read(
             "row = [\n  { kind = \"revolute\" },\n  { kind = \"revolute\" }\n  { kind = \"prismatic\" },\n]\n",
         );
-        assert!(found[0].starts_with("3:24: line 3 has no comma at its end"), "{found:?}");
+        assert!(found[0].starts_with("3:23: line 3 has no comma at its end"), "{found:?}");
     }
 
     #[test]

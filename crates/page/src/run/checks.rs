@@ -129,7 +129,7 @@ fn cells(row: &ValueRow<'_>, of: &CheckRows<'_>) -> Markup {
     };
     let mut shown = shown(measure, worst);
     if is_of_joint_limit(measure) && worst.value < 0.0 {
-        what = "distance to the joint limit".to_owned();
+        "distance to the joint limit".clone_into(&mut what);
         shown = quantity(-worst.value, measure.unit.symbol());
     }
     if measure.quantity == Quantity::NotFiniteValues && worst.value <= 0.0 {

@@ -109,7 +109,7 @@ impl SeriesComparison {
 pub(super) fn is_compared(name: &str, tolerance: f64) -> bool {
     let is_of_moment = || {
         let moment = [".worst.", ".first_violation.", ".nearest_that_changes."];
-        moment.iter().any(|moment| name.contains(moment)) && !name.ends_with(".value")
+        moment.iter().any(|moment| name.contains(moment)) && name.rsplit('.').next() != Some("value")
     };
     tolerance <= 0.0
         || !["_link", "_pair", ".subject"].iter().any(|end| name.ends_with(end)) && !is_of_moment()
