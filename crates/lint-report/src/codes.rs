@@ -1,4 +1,4 @@
-//! The codes of the messages of this crate, with what `lint --explain` says about them.
+//! The codes of the messages of this crate, with what `congruent explain` says about them.
 
 use congruent_input::Code;
 

@@ -57,15 +57,10 @@ pub type JointRange = Option<(f64, f64)>;
 pub fn changed_values(joint: &Joint, before: &Joint, ranges: [JointRange; 2]) -> Vec<ChangedValue> {
     let [(lower, upper), (lower_before, upper_before)] = ranges.map(Option::unzip);
     let [limit, limit_before] = [joint.limit.unwrap_or_default(), before.limit.unwrap_or_default()];
-    let [per_s2, per_s3] = if joint.kind.is_angular() {
-        [SiUnit::RadianPerSecondSquared, SiUnit::RadianPerSecondCubed]
-    } else {
-        [SiUnit::MetrePerSecondSquared, SiUnit::MetrePerSecondCubed]
-    };
     let loss = |value: f64| (value != 0.0).then_some(value);
     // Nothing is said of a value that only one of two formats can state.
     let (armature, armature_before) = joint.armature.zip(before.armature).unzip();
-    let [position, speed, force, damping, inertia] = units(joint.kind);
+    let [position, speed, per_s2, per_s3, force, damping, inertia] = units(joint.kind);
     let values = [
         ("lower", lower, lower_before, position),
         ("upper", upper, upper_before, position),
@@ -99,12 +94,14 @@ pub fn is_same_value(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUNDED * a.abs().max(b.abs())
 }
 
-/// The units of position, speed, force, damping and armature.
-fn units(kind: JointKind) -> [SiUnit; 5] {
+/// The units of position, speed, acceleration, jerk, force, damping and armature.
+fn units(kind: JointKind) -> [SiUnit; 7] {
     if kind.is_angular() {
         [
             SiUnit::Radian,
             SiUnit::RadianPerSecond,
+            SiUnit::RadianPerSecondSquared,
+            SiUnit::RadianPerSecondCubed,
             SiUnit::NewtonMetre,
             SiUnit::NewtonMetreSecondPerRadian,
             SiUnit::KilogramSquareMetre,
@@ -113,6 +110,8 @@ fn units(kind: JointKind) -> [SiUnit; 5] {
         [
             SiUnit::Metre,
             SiUnit::MetrePerSecond,
+            SiUnit::MetrePerSecondSquared,
+            SiUnit::MetrePerSecondCubed,
             SiUnit::Newton,
             SiUnit::NewtonSecondPerMetre,
             SiUnit::Kilogram,

@@ -90,8 +90,13 @@ pub struct ReportedCertificate {
 }
 
 impl ReportedCertificate {
-    fn new(pair: SourcePair, brackets: Option<Brackets>, premise: Option<Premise>) -> Self {
-        Self { name: pair, title: pair.title(), brackets, premise, unranged: None }
+    fn new(
+        pair: SourcePair,
+        brackets: Option<Brackets>,
+        premise: Option<Premise>,
+        unranged: Option<&str>,
+    ) -> Self {
+        Self { name: pair, title: pair.title(), brackets, premise, unranged: unranged.map(str::to_owned) }
     }
 }
 
@@ -130,12 +135,10 @@ pub(crate) fn certificates(
         None => None,
     };
     let unranged = urdf.driven.drivers.iter().find_map(|&driver| unranged_slide(robot, driver));
-    let unranged = unranged.map(str::to_owned);
     let mut certificates = Vec::new();
     if let Some(table) = &table {
         let brackets = report(robot, [table, &urdf], table_urdf.clone())?;
-        let certificate = ReportedCertificate::new(SourcePair::ModelUrdf, brackets, None);
-        certificates.push(ReportedCertificate { unranged: unranged.clone(), ..certificate });
+        certificates.push(ReportedCertificate::new(SourcePair::ModelUrdf, brackets, None, unranged));
     }
     let Some((identified, physics)) = physics else { return Ok(certificates) };
     let simulated = ComparedChain::physics(description, identified, physics);
@@ -155,8 +158,7 @@ pub(crate) fn certificates(
         (Some(table), _, None) => (SourcePair::ModelSimulation, table, None),
     };
     let brackets = report(robot, [model, &simulated], certificate)?;
-    let certificate = ReportedCertificate::new(pair, brackets, Some(identified.premise));
-    certificates.push(ReportedCertificate { unranged, ..certificate });
+    certificates.push(ReportedCertificate::new(pair, brackets, Some(identified.premise), unranged));
     Ok(certificates)
 }
 

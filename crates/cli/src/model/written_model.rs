@@ -68,10 +68,9 @@ pub(super) fn answer(
         file.write(&conversion_text(&report), &inputs, |_| Ok(()))?;
     }
     printer.result(&report, |report| {
-        // The warnings of the remarks, which the file has as well, were printed above.
-        let remarks = conversion_remarks(report);
-        let remarks = remarks.split_inclusive('\n').filter(|line| !line.starts_with("warning: "));
-        format!("{}written to {}\n", remarks.collect::<String>(), path.display())
+        // The warnings, which the file has as well, were printed above.
+        let remarks = conversion_remarks(&ConversionReport { findings: Vec::new(), ..report.clone() });
+        format!("{remarks}written to {}\n", path.display())
     })?;
     Ok(0)
 }

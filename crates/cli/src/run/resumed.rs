@@ -44,23 +44,22 @@ impl LoadedScenario {
     }
 }
 
-/// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
-///
-/// Results of earlier runs of the scenarios that will run are removed here, unless they are kept: of these, no results of
-/// an earlier call remain after a call that is killed.
+/// Refuses a scenario that does not exist, with the name that is meant or the command that makes one.
 fn exists(path: &Path) -> Result<(), Diagnostic> {
     if path.exists() || is_standard_input(path) {
         return Ok(());
     }
     let missing = not_found(path, format!("{} does not exist", path.display()));
-    let is_helpless = missing.help.is_none();
-    Err(if is_helpless {
-        missing.with_help("give a scenario (.toml); `congruent new scenario ROBOT --to FILE.toml` makes one")
-    } else {
-        missing
-    })
+    if missing.help.is_some() {
+        return Err(missing);
+    }
+    Err(missing.with_help("give a scenario (.toml); `congruent new scenario ROBOT --to FILE.toml` makes one"))
 }
 
+/// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
+///
+/// Results of earlier runs of the scenarios that will run are removed here, unless they are kept: of these, no results of
+/// an earlier call remain after a call that is killed.
 pub(super) fn load(
     arguments: &Arguments,
     options: &Options<'_>,

@@ -134,6 +134,17 @@ fn named(name: &str) -> Link {
     Link { name: name.to_owned(), ..Link::default() }
 }
 
+/// The check of a table against the links and joints beside it, at no requested configuration, without the physics: built from these
+/// links, it says nothing about the table.
+pub(super) fn table_against_links(
+    description: &RobotDescription,
+    options: &CheckOptions,
+) -> Result<CheckReport, CheckError> {
+    let no_physics = Findings::from(Diagnostic::warning(crate::codes::check::NO_SECOND_SOURCE, ONE_MODEL));
+    let options = CheckOptions { configurations: Arc::default(), ..options.clone() };
+    congruent_agreement::compare::check(description, Err(no_physics), &options)
+}
+
 /// Replaces the diagnosis of a difference by one in the lines of a table that is the robot of one of the two, if the table has
 /// a cause: that of the first before that of the second. `compared` are the two in the same variables. Whether it has one.
 pub(super) fn diagnose_by_table(
@@ -147,11 +158,7 @@ pub(super) fn diagnose_by_table(
     }
     for of in [0, 1] {
         let Some(with_table) = with_table_of(written[of], compared[of], compared[1 - of]) else { continue };
-        // The physics says nothing about a table; whoever reads the report has the comparison of the two as written.
-        let no_physics =
-            Findings::from(Diagnostic::warning(crate::codes::check::NO_SECOND_SOURCE, ONE_MODEL));
-        let options = CheckOptions { configurations: Arc::default(), ..options.clone() };
-        let found = congruent_agreement::compare::check(&with_table, Err(no_physics), &options)?;
+        let found = table_against_links(&with_table, options)?;
         let pair = SourcePair::UrdfOther;
         let mut of_table = found.diagnoses.into_iter();
         let named = of_table.find(|of| of.name == SourcePair::ModelUrdf && !of.causes.is_empty());

@@ -1,18 +1,15 @@
 //! The table of the other description against its own URDF: two descriptions that have the same URDF are not the same robot if
 //! one of them has a wrong table.
 
-use std::sync::Arc;
-
 use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckError, CheckOptions, CheckReport, Comparison, Grade, ReportedCertificate},
     report::ReportedDiagnosis,
 };
 use congruent_description::RobotDescription;
-use congruent_input::{Diagnostic, Findings, RevisionName};
+use congruent_input::RevisionName;
 
-use super::own_model::ONE_MODEL;
-use crate::codes;
+use super::own_model::table_against_links;
 
 /// Adds the comparison of the other description's table with its URDF, if it has both. A revision is what the robot was, not what
 /// it should be: its table is no part of the answer.
@@ -30,10 +27,7 @@ pub(super) fn add_table_of_other(
     if description.tolerance_is_declared {
         (other.tolerance, other.tolerance_is_declared) = (description.tolerance, true);
     }
-    // Physics would compare the other's URDF with what is built from it.
-    let no_physics = Findings::from(Diagnostic::warning(codes::check::NO_SECOND_SOURCE, ONE_MODEL));
-    let options = CheckOptions { configurations: Arc::default(), ..options.clone() };
-    let found = congruent_agreement::compare::check(&other, Err(no_physics), &options)?;
+    let found = table_against_links(&other, options)?;
     let (of_table, pair) = (SourcePair::ModelUrdf, SourcePair::OtherModelUrdf);
     let comparisons = found.comparisons.into_iter().filter(|of| of.name == of_table);
     let comparisons: Vec<Comparison> =
