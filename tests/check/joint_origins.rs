@@ -146,9 +146,9 @@ fn arm(change: (&str, &str, &str)) -> Pair {
 fn fixed_joints_at_both_ends_are_named_by_their_own_name() {
     let base = ("name=\"base_plate\"", "0.02 0 0.1", "0.021 0.003 0.1");
     only_origin(&arm(base), "base_plate", "xyz");
-    let mount = ("name=\"mount\"", "rpy=\"0.3490658503988659", "rpy=\"0.35");
+    let mount = ("name=\"mount\"", "rpy=\"0.3490658503988659", "rpy=\"0.3590658503988659");
     let fault = only_origin(&arm(mount), "mount", "rpy");
-    assert_eq!(fault["found"], "rpy=\"0.35 -0.6108652381980153 0.8726646259971648\"");
+    assert_eq!(fault["found"], "rpy=\"0.3590658503988659 -0.6108652381980153 0.8726646259971648\"");
 }
 
 /// A fixed joint between two moving ones has a link that the other file calls otherwise: the joint goes by its name.
@@ -318,9 +318,10 @@ fn an_origin_of_a_bare_file_is_named_beside_rounded_quarter_turns() {
     let right = robot(&arm("0.429 0 0", "1.5707963267948966"));
     for quarter in ["1.5707963267948966", "1.570796", "1.5708"] {
         let pair = Pair::new(&robot(&arm("0.429 0.01 0", quarter)), &right);
+        // Quarter turns with fewer digits are rounding, and no causes.
         let faults = pair.faults();
         assert_eq!((&faults[0]["cause"], &faults[0]["joint"]), (&json!("joint_origin"), &json!("joint_3")));
-        assert_eq!(faults.len() == 1, quarter.len() > 9, "{faults:?}");
+        assert_eq!(faults.len(), 1, "{faults:?}");
         let tolerance = ["check", &pair.wrong, "--against", &pair.right, "--tolerance", "0.1mm,0.01deg"];
         let report = congruent_json(&tolerance).json();
         assert_eq!(report["diagnosis"][0]["joint"], "joint_3", "{quarter}");

@@ -2,9 +2,11 @@
 
 mod configurations;
 mod corrected_file;
+mod declared_mapping;
 mod diagnosis;
 mod diagnosis_chains;
 mod digits;
+mod digits_of_two;
 mod dynamics;
 mod dynamics_causes;
 mod joint_losses;

@@ -23,6 +23,11 @@ pub enum SourcePair {
 }
 
 impl SourcePair {
+    /// Whether both sources are files of this comparison, whose digits count: physics and screws are computed.
+    pub fn is_written(self) -> bool {
+        matches!(self, Self::ModelUrdf | Self::UrdfOther)
+    }
+
     /// The pair in words.
     pub fn title(self) -> &'static str {
         match self {

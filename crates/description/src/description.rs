@@ -7,16 +7,17 @@ use std::{
 };
 
 use congruent_input::{Capability, Diagnostic, Findings, InputFile, known_names};
+use congruent_robot::{DhTable, JointIndex, LinkIndex, Robot, Tolerance};
 use nalgebra::Isometry3;
 
 use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
     codes,
-    model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance, ToleranceScale},
     own_model::{OwnModelForm, OwnModelPlaces, without_bodies},
     robot_file::{
         DeclaredMapping, DeclaredReference, DynamicsTable, InertialPlaces, RobotFilePlaces, joint_for_link,
     },
+    tolerance_scale::ToleranceScale,
     urdf::UrdfPlaces,
 };
 

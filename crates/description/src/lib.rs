@@ -9,28 +9,28 @@ pub mod codes;
 mod description;
 mod load;
 mod mjcf;
-mod model;
 mod model_file;
 mod named_robot;
 mod own_model;
 mod revision;
 mod robot_file;
 mod srdf;
+mod tolerance_scale;
 mod toml_literal;
 mod urdf;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use changed::{ChangedRobots, robots_of_changed};
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
+pub use congruent_robot::{
+    ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
+    Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointRounding, JointValues,
+    Link, LinkIndex, MappedJoint, Mimic, Obstacle, PlacedAxis, RequestedTolerance, Robot, RobotError, RobotQ,
+    RobotQList, SPEED_MARGIN, Shape, SmallMotion, Tolerance, principal_moments,
+};
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
 pub use mjcf::is_mjcf;
-pub use model::{
-    ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
-    Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointValues, Link, LinkIndex,
-    MappedJoint, Mimic, Obstacle, PlacedAxis, RequestedTolerance, Robot, RobotError, RobotQ, RobotQList,
-    SPEED_MARGIN, Shape, Tolerance, ToleranceScale, principal_moments,
-};
 pub use named_robot::{file_of_robot, open};
 pub use own_model::{OwnModelForm, OwnModelPlaces};
 pub use robot_file::{
@@ -38,6 +38,7 @@ pub use robot_file::{
     DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey, TableDigits,
     ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
 };
+pub use tolerance_scale::ToleranceScale;
 pub use toml_literal::{toml_key, toml_string};
 pub use urdf::{
     JointDigits, LARGEST_GYRATION_M, LargeLinks, Misspelling, Misspelt, URDF_BYTES, UrdfPlaces, misspellings,

@@ -11,13 +11,13 @@ use congruent_input::{
     Capability, Diagnostic, Diagnostics, FileAccess, Findings, RevisionFiles, RevisionName, SourceFile,
     TextKind, direct_path, folder_of,
 };
+use congruent_robot::{LinkIndex, Robot, Tolerance};
 use toml::Spanned;
 
 use crate::{
     chain::{ChainEnd, ChainEnds, choose_tip},
     codes,
     description::{NamedFiles, Places, RobotDescription},
-    model::{LinkIndex, Robot, Tolerance, ToleranceScale},
     model_file::ModelFile,
     named_robot::{file_of_robot, is_toml, open, refuse_other_text, refuse_scenario, urdf_not_found},
     own_model::{OwnModel, TIP, is_own, own_model, refuse_beside_model},
@@ -26,6 +26,7 @@ use crate::{
         self, DeclaredReference, InertialPlaces, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot,
     },
     srdf::{self, SRDF_BYTES},
+    tolerance_scale::ToleranceScale,
     urdf::{Repairs, URDF_BYTES},
 };
 

@@ -10,10 +10,10 @@ use congruent_input::{
     Diagnostic, Diagnostics, FileAccess, Findings, Packages, SourceFile, TextKind, folder_of,
 };
 use congruent_meshes::MeshStore;
+use congruent_robot::{LinkIndex, Robot};
 
 use crate::{
     mjcf::{self, MjcfInputs},
-    model::{LinkIndex, Robot},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
 };
 

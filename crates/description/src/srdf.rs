@@ -6,11 +6,9 @@ use std::{
 };
 
 use congruent_input::{Capability, Diagnostic, SourceFile, known_names, xml};
+use congruent_robot::{LinkIndex, Robot};
 
-use crate::{
-    codes,
-    model::{LinkIndex, Robot},
-};
+use crate::codes;
 
 /// Size limit of an SRDF, bytes.
 pub(crate) const SRDF_BYTES: u64 = 16 << 20;

@@ -38,7 +38,7 @@ pub use written::{
     name::serde_name,
     number::{self, Slack, fitted_number},
     rotation_from_rpy_fixed_xyz,
-    rpy::fitted_rpy_fixed_xyz_rad,
+    rpy::{axes_of_rpy_fixed_xyz, fitted_rpy_fixed_xyz_rad},
     rpy_fixed_xyz_rad, serde_in_words, toml_text,
     transform::{WrittenTransform, fitted_transform},
     typing_error::TypingError,

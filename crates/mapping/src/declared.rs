@@ -69,7 +69,11 @@ impl Both<'_> {
             let known = chain.iter().map(variable).collect();
             ChainPair { known, ..self.chain_pair(&chain, None, None) }.solutions().into_iter().next()
         };
-        let solution = if mapping.has_fitted_base { fitted() } else { None };
+        let as_declared = || {
+            let known: Vec<JointVariable> = chain.iter().filter_map(variable).collect();
+            self.chain_pair(&chain, Some(base), None).judged(&base, &known)
+        };
+        let solution = if mapping.has_fitted_base { fitted() } else { as_declared() };
         let mapped = pairs.iter().zip(known).map(|(pair, variable)| self.in_variable(*pair, *variable));
         let mapped = mapped.collect::<Vec<_>>();
         (!pairs.is_empty()).then(|| FoundMapping {

@@ -1,12 +1,15 @@
 //! The frames of the links of another description, moved to where a robot has them as far as the axes of both allow.
 
-use congruent_description::{JointKind, LinkIndex, Robot};
+use congruent_description::{Joint, JointKind, LinkIndex, Robot};
 use congruent_kinematics::ScrewTree;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 /// Frames of links of one name that are turned by less are the same frame where axes differ: what differs is a difference. Kind: choice;
 /// other frames of a link are quarter turns away.
 const SAME_FRAME_RAD: f64 = 0.2;
+
+/// Frames that are nearer are at one place in their link. Unit: rad and m; kind: choice, beyond what files of one robot differ in.
+const SAME_PLACE: f64 = 3e-3;
 
 /// Whether the axes of two descriptions are the same in the same variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,8 +25,8 @@ pub enum CommonAxes {
 /// an axis that lies elsewhere stays there, and then the frames of links that have one name, too.
 #[must_use]
 pub fn in_frames_of(
-    robot: &Robot,
-    other: &Robot,
+    [robot, other]: [&Robot; 2],
+    named_tip: Option<LinkIndex>,
     root_from_other_root: &Isometry3<f64>,
     axes: CommonAxes,
 ) -> Robot {
@@ -35,12 +38,36 @@ pub fn in_frames_of(
         let Some(here) = robot.find_joint(&joint.name).map(|index| robot.joint(index)) else { continue };
         let link_from_frame = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here.child);
         let is_same_link = robot.link(here.child).name == other.link(joint.child).name;
+        // The frame of a tip that is named, or at the end of a branch, shows the zero of its joint if both files call the link the
+        // same and place its frame alike.
+        let is_evidence = named_tip == Some(here.child) || is_end(robot, here.child);
+        if is_same_link && is_evidence && is_motion_of(joint, &link_from_frame, here) {
+            continue;
+        }
         if axes == CommonAxes::Differ && is_same_link && link_from_frame.rotation.angle() < SAME_FRAME_RAD {
             continue;
         }
         frames[joint.child.get()] = on_axis(&link_from_frame, &joint.axis_in_joint, &here.axis_in_joint);
     }
     other.with_link_frames(&frames)
+}
+
+/// Whether the frames of a link differ by a motion of its joint alone.
+fn is_motion_of(joint: &Joint, link_from_frame: &Isometry3<f64>, here: &Joint) -> bool {
+    let turned = (link_from_frame.rotation * here.axis_in_joint.into_inner()
+        - joint.axis_in_joint.into_inner())
+    .norm();
+    match joint.kind {
+        JointKind::Prismatic => link_from_frame.rotation.angle() < SAME_PLACE,
+        _ => turned < SAME_PLACE && link_from_frame.translation.vector.norm() < SAME_PLACE,
+    }
+}
+
+/// Whether no joint moves anything behind a link.
+fn is_end(robot: &Robot, link: LinkIndex) -> bool {
+    let is_moved =
+        |joint: &Joint| joint.kind != JointKind::Fixed && robot.body(joint.parent) == robot.body(link);
+    !robot.joints().iter().any(is_moved)
 }
 
 /// The frame, turned so that the axis has the same coordinates as in the robot, with its origin on the axis.

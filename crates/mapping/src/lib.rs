@@ -9,6 +9,7 @@ mod axis;
 mod bodies;
 mod changed_values;
 mod declared;
+mod digits;
 mod drivers;
 mod find;
 mod frames;
@@ -19,6 +20,7 @@ mod variables;
 
 pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values, is_same_value};
 pub use declared::declared;
+pub use digits::with_fitted;
 pub use drivers::driven_as_in;
 pub use find::{FoundMapping, MatchedBy, find, find_exchanged};
 pub use frames::{CommonAxes, in_frames_of};

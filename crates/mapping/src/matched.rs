@@ -63,6 +63,11 @@ impl<'a> MatchedRobots<'a> {
         changed
     }
 
+    /// The link of the other description that is the same as this one.
+    pub(crate) fn link_there(&self, link: LinkIndex) -> Option<LinkIndex> {
+        self.links[link.get()]
+    }
+
     /// Whether the other description has this link; the poses of one that it lacks follow those before it.
     pub fn is_matched(&self, link: LinkIndex) -> bool {
         self.links[link.get()].is_some()

@@ -1,15 +1,13 @@
 //! The settings of `<compiler>`: of several sections, the last that gives an attribute holds, wherever it is in the file.
 
-use congruent_input::{
-    Diagnostics,
-    units::{Unit, UnitSystem, WrittenUnit},
-};
+use congruent_input::{Diagnostics, units::UnitSystem};
+use nalgebra::Isometry3;
 
 use crate::{
     codes,
     document::{MjAttribute, MjElement},
     grammar::numbers,
-    model::{MjInertiaRules, MjInference, MjWritten},
+    model::{MjInertiaRules, MjInference, MjNotation, MjWritten},
 };
 
 /// Settings of one model; an attached model has its own.
@@ -73,9 +71,18 @@ impl MjSettings {
         self.angle_unit == UnitSystem::Engineering
     }
 
+    /// How values of an element in this frame are written.
+    pub(crate) fn notation(&self, body_from_frame: Isometry3<f64>) -> MjNotation {
+        MjNotation {
+            is_in_degrees: self.is_in_degrees(),
+            euler_sequence: self.euler_sequence,
+            body_from_frame,
+        }
+    }
+
     /// An angle of the file, rad.
     pub(crate) fn angle(&self, written: f64) -> f64 {
-        WrittenUnit { unit: Unit::Angle, system: self.angle_unit }.to_si(written)
+        self.notation(Isometry3::identity()).angle_rad(written)
     }
 }
 

@@ -2,7 +2,8 @@
 //! to its report under the name of that pair, with a cause of their difference that two URDFs can have.
 
 use congruent_description::RobotDescription;
-use congruent_kinematics::LinkPoses;
+use congruent_input::RevisionName;
+use congruent_kinematics::{LinkPoses, PoseError};
 use congruent_mapping::MatchedRobots;
 
 use super::{
@@ -37,24 +38,36 @@ impl CheckReport {
         options: &CheckOptions,
     ) -> Result<(), CheckError> {
         let urdf = without_table(description);
-        let compared = compared(&urdf, Ok(&mut *poses), options)?;
-        let mut diagnoses = std::mem::take(&mut self.diagnoses);
-        diagnoses.extend(diagnosed([&urdf, other], &compared, poses)?);
-        self.set_diagnoses(diagnoses);
-        let found = compared.report;
+        let mut compared = compared(&urdf, Ok(&mut *poses), options)?;
+        let robots = MatchedRobots::new([&description.robot, &other.robot], poses)?;
+        let by_digits = explained_by_digits(&compared.report, other, &robots);
+        if by_digits.is_none() {
+            let mut diagnoses = std::mem::take(&mut self.diagnoses);
+            diagnoses.extend(diagnosed([&urdf, other], &compared, &robots, poses)?);
+            self.set_diagnoses(diagnoses);
+        }
+        let found = &mut compared.report;
         let pair = SourcePair::UrdfOther;
         let is_other = |name: SourcePair| name == SourcePair::UrdfSimulation;
-        for mut comparison in found.comparisons.into_iter().filter(|of| is_other(of.name)) {
+        for mut comparison in found.comparisons.drain(..).filter(|of| is_other(of.name)) {
             (comparison.name, comparison.title) = (pair, pair.title());
+            let grade = match by_digits {
+                Some(_) => Grade::SameWithinDigits,
+                None => Grade::from_difference(&comparison.worst.error),
+            };
+            if grade == Grade::SameWithinDigits && !description.tolerance_is_declared {
+                comparison.verdict = Agreement::Agree;
+            }
+            self.grade = self.grade.max(Some(grade));
             self.comparisons.push(comparison);
         }
-        for mut certificate in found.certificates.into_iter().filter(|of| is_other(of.name)) {
+        for mut certificate in found.certificates.drain(..).filter(|of| is_other(of.name)) {
             (certificate.name, certificate.title) = (pair, pair.title());
             self.certificates.push(certificate);
         }
         self.verdict = verdict(&self.comparisons);
-        let compared = self.comparisons.iter().filter(|of| of.name == pair);
-        self.grade = self.grade.max(compared.map(|of| Grade::from_difference(&of.worst.error)).max());
+        let allowed = [self.allowed_by_digits, by_digits];
+        self.allowed_by_digits = allowed.into_iter().flatten().reduce(PoseError::larger);
         self.worst = worst_difference(&self.comparisons, &self.tolerance);
         let brackets = worst(&self.certificates);
         self.certificate = brackets.as_ref().map(Brackets::bounds);
@@ -63,11 +76,28 @@ impl CheckReport {
     }
 }
 
+/// Whether the digits of two files count: not those of a revision, since what changes is asked for.
+fn digits_count(other: &RobotDescription) -> bool {
+    RevisionName::of(&other.path).is_none()
+}
+
+/// What the digits of the two files allow, if they explain a difference.
+fn explained_by_digits(
+    report: &CheckReport,
+    other: &RobotDescription,
+    robots: &MatchedRobots<'_>,
+) -> Option<PoseError> {
+    let mut pairs = report.comparisons.iter().filter(|of| of.name == SourcePair::UrdfSimulation);
+    let differ = pairs.any(|of| Grade::from_difference(&of.worst.error) == Grade::Different);
+    (differ && digits_count(other)).then(|| robots.explained_by_digits()).flatten()
+}
+
 /// Why two descriptions differ: joints with another origin or axis, or else the diagnosis of the chain from base to
 /// tip.
 fn diagnosed(
     descriptions: [&RobotDescription; 2],
     ComparedSources { report, identified, diagnosed: configurations }: &ComparedSources,
+    robots: &MatchedRobots<'_>,
     poses: &mut dyn LinkPoses,
 ) -> Result<Option<ReportedDiagnosis>, CheckError> {
     let description = descriptions[0];
@@ -81,15 +111,20 @@ fn diagnosed(
     if report.verdict == Agreement::Agree {
         return Ok(by_chain());
     }
-    let robots = MatchedRobots::new(descriptions.map(|of| &of.robot), poses)?;
     let (base, tip) = (description.base, description.tip);
-    let at = ComparedAt { configurations, tolerance: &description.tolerance, base, tip };
-    let Some(explained) = explained_by_joints(&robots, poses, &at)? else {
+    let at = ComparedAt {
+        configurations,
+        tolerance: &description.tolerance,
+        digits_count: digits_count(descriptions[1]),
+        base,
+        tip,
+    };
+    let Some(explained) = explained_by_joints(robots, poses, &at)? else {
         return Ok(by_chain());
     };
     // Several origins that are all off by a factor of 1000 are one fault, a wrong unit, which the diagnosis of the
     // chain names as one.
-    if explained.may_be_unit(&robots) {
+    if explained.may_be_unit(robots) {
         let by_unit = by_chain();
         let is_unit = |of: &ReportedDiagnosis| {
             of.causes.first().is_some_and(|first| first.fault.cause == Cause::MillimetresAsMetres)
@@ -99,5 +134,5 @@ fn diagnosed(
         }
     }
     let differences = identified.as_ref().map(|chain| screw_differences(description, chain));
-    Ok(Some(diagnosed_by_joints(descriptions, &robots, &explained, differences.unwrap_or_default())))
+    Ok(Some(diagnosed_by_joints(descriptions, robots, &explained, differences.unwrap_or_default())))
 }

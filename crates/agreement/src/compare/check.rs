@@ -133,10 +133,10 @@ impl CheckReport {
         self.diagnoses = diagnoses;
     }
 
-    /// Whether table and URDF agree because of the digits that they are typed with, beyond the default tolerance.
+    /// Whether two files agree because of the digits that they are typed with, beyond the default tolerance.
     pub fn is_judged_by_digits(&self) -> bool {
-        let mut tables = self.comparisons.iter().filter(|of| of.name == SourcePair::ModelUrdf);
-        tables.any(|of| of.verdict == Agreement::Agree && !of.worst.error.is_within(&self.tolerance))
+        let mut written = self.comparisons.iter().filter(|of| of.name.is_written());
+        written.any(|of| of.verdict == Agreement::Agree && !of.worst.error.is_within(&self.tolerance))
     }
 
     /// Whether poses differ, and not dynamics alone.

@@ -149,8 +149,8 @@ pub struct CheckReport {
     /// How much alike the sources are, whatever the tolerance is; missing if nothing was compared.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grade: Option<Grade>,
-    /// The largest difference of table and URDF that the digits of the two allow, to first order: the sum of what half
-    /// of the last place of each typed value moves the tip. Missing if the two are identical.
+    /// The largest difference that the digits of two files allow, to first order: the sum of what half of the last place of each
+    /// typed value moves the tip, of two descriptions without a table each link. Missing if the two are identical.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub allowed_by_digits: Option<PoseError>,
     /// The largest differences of all comparisons.

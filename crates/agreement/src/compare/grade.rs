@@ -11,7 +11,7 @@ use serde::Serialize;
 pub enum Grade {
     /// To the rounding of an `f64`: within 1e-9 m and 1e-9 rad.
     Identical,
-    /// There are values within half of the last place of the typed ones with which table and URDF are identical.
+    /// There are values within half of the last place of the typed ones with which the two files are identical.
     SameWithinDigits,
     /// Identical once joints have the names, directions and zeros of the other description, which nothing declares.
     EqualAfterMapping,
@@ -20,7 +20,7 @@ pub enum Grade {
 }
 
 impl Grade {
-    /// The grade of table and URDF in words.
+    /// The grade of two files in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::Identical => "identical",

@@ -95,17 +95,6 @@ pub(super) const OUT_OF_REACH: f64 = 1e-8;
 /// Times the error of the linear problem, as measured along the last step, that must remain, too. Kind: judgement.
 pub(super) const FIRST_ORDER_ERRORS: f64 = 10.0;
 
-/// Steps of the interior-point method of a pass. Kind: loop bound; some twenty are needed.
-pub(super) const BARRIER_STEPS: usize = 60;
-
-/// The barrier of a step, as part of the one that the multipliers have, and at its end, as part of the largest effect.
-/// No unit; kind: solver. An angle of eight digits has 1e-10 of the effect of a length of three.
-pub(super) const BARRIER_FACTOR: f64 = 0.1;
-pub(super) const BARRIER_END: f64 = 1e-15;
-
-/// The part of the distance to the nearest bound that a step goes. No unit; kind: solver, as in the literature.
-pub(super) const BARRIER_STEP: f64 = 0.995;
-
 // Choice between explanations.
 
 /// An explanation whose residual is more than this many times the best one is refuted. No unit; kind: judgement.

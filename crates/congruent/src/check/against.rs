@@ -2,7 +2,7 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{CheckError, CheckOptions, CheckReport, ComparedSource, NotCompared},
+    compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, NotCompared},
 };
 use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription, RobotQ, Tolerance};
 use congruent_dynamics_agreement::{
@@ -61,9 +61,9 @@ pub struct OtherDescription {
 impl OtherDescription {
     /// Whether the poses agree once the joints have the names, directions and zeros of this description, and nothing declares
     /// these.
-    pub(super) fn is_equal_after_mapping(&self, tolerance: &Tolerance) -> bool {
+    pub(super) fn is_equal_after_mapping(&self) -> bool {
         let mapping = self.mapping.as_ref().filter(|mapping| !mapping.is_declared);
-        mapping.and_then(|of| of.worst).is_some_and(|worst| worst.is_within(tolerance))
+        mapping.and_then(|of| of.verdict) == Some(Agreement::Agree)
     }
 
     /// What names alone show: what the other description lacks.
@@ -111,11 +111,12 @@ pub(super) fn compared(
         ));
         return Ok((against, None));
     }
+    let tolerance = tolerated(description, geometry);
     // Torques in the same joints need the same axes. Frames that only lie elsewhere in links that move alike are no
     // obstacle.
-    let misplaced = misplaced_joint(description, geometry);
+    let misplaced = misplaced_joint(&description.robot, geometry, &tolerance);
     let in_other_frames = if misplaced.is_some() || poses.has_free_frames() {
-        moved_alike(description, other, options.seed)?
+        moved_alike([&description.robot, &other.robot], &tolerance, options.seed)?
     } else {
         Vec::new()
     };
@@ -132,7 +133,7 @@ pub(super) fn compared(
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
-    let ([found, mut expected], armature_of) = compared_models([description, other]);
+    let ([found, mut expected], armature_of) = compared_models([description, other], &tolerance);
     if !in_other_frames.is_empty() {
         // The written numbers are equal and only the frames differ: the fault is in the geometry, which is reported
         // already.
@@ -163,10 +164,13 @@ pub(super) fn compared(
 }
 
 /// The dynamics of two descriptions, without armatures that only one of the two states, and the file that states them.
-fn compared_models(descriptions: [&RobotDescription; 2]) -> ([DynamicsModel; 2], Option<String>) {
+fn compared_models(
+    descriptions: [&RobotDescription; 2],
+    tolerance: &Tolerance,
+) -> ([DynamicsModel; 2], Option<String>) {
     let [description, other] = descriptions;
     let mut found = urdf_model(description);
-    let mut expected = urdf_model(other).with_tolerated_places_of(&found, &description.tolerance);
+    let mut expected = urdf_model(other).with_tolerated_places_of(&found, tolerance);
     let armature_of =
         without_one_sided_armature(descriptions.map(|of| &of.robot), [&mut found, &mut expected]);
     ([found, expected], armature_of.map(|at| descriptions[at].urdf_path.display().to_string()))
@@ -227,12 +231,11 @@ fn ranges_differ(robot: &Robot, other: &RobotDescription) -> Option<String> {
 /// Links whose frames lie elsewhere in the other description, if all links move alike otherwise: then each differs from
 /// the one of its name by the same transform at all positions. Empty if one does not.
 fn moved_alike(
-    description: &RobotDescription,
-    other: &RobotDescription,
+    [robot, other]: [&Robot; 2],
+    tolerance: &Tolerance,
     seed: u64,
 ) -> Result<Vec<String>, CheckError> {
-    let (robot, tolerance) = (&description.robot, &description.tolerance);
-    let (own, mut of_other) = (UrdfTree::new(robot), PosesOfOther::new(robot, &other.robot));
+    let (own, mut of_other) = (UrdfTree::new(robot), PosesOfOther::new(robot, other));
     let mut poses = [robot, robot].map(|robot| vec![Pose::identity(); robot.links().len()]);
     let mut at = |q: &RobotQ| -> Result<Vec<Pose>, LinkPosesError> {
         let [here, there] = &mut poses;
@@ -327,13 +330,23 @@ fn moving(robot: &Robot, name: &str) -> Option<JointIndex> {
     robot.find_joint(name).filter(|&joint| robot.joint(joint).kind.is_movable())
 }
 
+/// The difference of poses that is none of the two: within the tolerance, or within the digits if these have decided.
+fn tolerated(description: &RobotDescription, geometry: &CheckReport) -> Tolerance {
+    let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
+    let agreeing = compared.filter(|of| of.verdict == Agreement::Agree);
+    let errors = agreeing.into_iter().flat_map(|of| &of.links).map(|link| link.error);
+    let Tolerance { position_m, orientation_rad } = description.tolerance;
+    let PoseError { position_m, orientation_rad } =
+        errors.fold(PoseError { position_m, orientation_rad }, PoseError::larger);
+    Tolerance { position_m, orientation_rad }
+}
+
 /// The first joint, from the base on, whose link is elsewhere.
-fn misplaced_joint(description: &RobotDescription, geometry: &CheckReport) -> Option<String> {
+fn misplaced_joint(robot: &Robot, geometry: &CheckReport, tolerance: &Tolerance) -> Option<String> {
     let comparison = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther)?;
-    let robot = &description.robot;
     let first = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).find_map(|joint| {
         let worst = &comparison.links[joint.child.get()];
-        (!worst.error.is_within(&description.tolerance)).then_some((joint, worst))
+        (!worst.error.is_within(tolerance)).then_some((joint, worst))
     });
     first.map(|(joint, worst)| {
         format!(

@@ -104,8 +104,9 @@ impl RobotCheck {
             return Headline::new(answer, format!("{extent}. {}", agreeing(report)));
         }
         let (same, rest) = answer.split_at(answer.find(',').unwrap_or(answer.len()));
-        let found =
-            format!("DH table against URDF: up to {}{}", largest(report.worst.error), allowed(report));
+        let by_digits = report.comparisons.iter().find(|of| of.name.is_written());
+        let pair = by_digits.map_or([""; 2], sources).join(" against ");
+        let found = format!("{pair}: up to {}{}", largest(report.worst.error), allowed(report));
         let at = counted(report.configurations, "configuration");
         let details =
             format!("{extent} within the digits written{rest}. {found} (no tolerance declared, {at})");
@@ -205,7 +206,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
     let differ = report.comparisons.iter().filter(|comparison| comparison.verdict == Agreement::Disagree);
     let of_pair = |comparison: &Comparison| {
         let [a, b] = sources(comparison);
-        let allowed = if comparison.name == SourcePair::ModelUrdf { allowed(report) } else { String::new() };
+        let allowed = if comparison.name.is_written() { allowed(report) } else { String::new() };
         let worst = &comparison.worst;
         format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
     };
@@ -238,6 +239,7 @@ fn after_mapping(check: &RobotCheck) -> Option<Headline> {
     let against = check.against.as_ref()?;
     let mapping = against.mapping.as_ref().filter(|mapping| !mapping.is_declared)?;
     let joints = mapped_joints(mapping);
+    let agrees = mapping.verdict == Some(Agreement::Agree);
     let worst = mapping.worst.map_or_else(
         || "poses were not compared".to_owned(),
         |worst| match worst {
@@ -245,10 +247,11 @@ fn after_mapping(check: &RobotCheck) -> Option<Headline> {
             worst if worst.is_within(&check.geometry.tolerance) => {
                 format!("poses agree ({})", at_most(worst))
             }
+            worst if agrees => format!("poses agree within the digits written ({})", largest(worst)),
             worst => format!("poses still differ ({})", largest(worst)),
         },
     );
-    if !against.is_equal_after_mapping(&check.geometry.tolerance) {
+    if !against.is_equal_after_mapping() {
         let cause = check.diagnosis().map_or_else(String::new, |diagnosis| format!(". {}", cause(diagnosis)));
         return Some(Headline::new("DIFFERENT", format!(": {joints}; in the same variables {worst}{cause}")));
     }

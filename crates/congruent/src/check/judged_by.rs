@@ -1,10 +1,7 @@
 //! What decides whether two sources agree, in words: a tolerance that somebody has declared, or the digits that are
 //! written.
 
-use congruent_agreement::{
-    SourcePair,
-    compare::{CheckReport, Comparison},
-};
+use congruent_agreement::compare::{CheckReport, Comparison};
 use congruent_description::Tolerance;
 use congruent_input::display::{angle, length, length_and_angle};
 use congruent_kinematics::PoseError;
@@ -26,7 +23,7 @@ pub(super) fn judged_by(report: &CheckReport) -> String {
 
 /// The same of one comparison: two sources that nobody has typed are compared within a tolerance, declared or not.
 pub(super) fn comparison_judged_by(report: &CheckReport, comparison: &Comparison) -> String {
-    if comparison.name == SourcePair::ModelUrdf { judged_by(report) } else { tolerance_in_words(report) }
+    if comparison.name.is_written() { judged_by(report) } else { tolerance_in_words(report) }
 }
 
 /// The tolerance, who gave it, and that of the robot file in whose place it is.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use congruent_agreement::{
     SourcePair,
-    compare::{CheckOptions, CheckReport},
+    compare::{Agreement, CheckOptions, CheckReport},
 };
 use congruent_description::{
     ChainEnd, ChainEnds, JointIndex, LinkIndex, MappedJoint, Places, Robot, RobotDescription, toml_key,
@@ -13,11 +13,17 @@ use congruent_description::{
 };
 use congruent_input::number::significant;
 use congruent_kinematics::{Pose, PoseError, ReportedPose, ScrewTree};
-use congruent_mapping::{CommonAxes, FoundMapping, MatchedBy, declared, find, find_exchanged, in_frames_of};
+use congruent_mapping::{
+    CommonAxes, FoundMapping, MatchedBy, MatchedRobots, declared, find, find_exchanged, in_frames_of,
+    with_fitted,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::part::{kept_joints, part};
+use super::{
+    part::{kept_joints, part},
+    poses_of_other::PosesOfOther,
+};
 
 /// Axes that are farther apart than this, as a share of the reach, are no proof that joints in the same order are the same.
 /// Kind: choice; revisions of one robot differ by some centimetres, sizes of a family by more.
@@ -47,6 +53,9 @@ pub struct ReportedMapping {
     pub root_from_other_root: Option<ReportedPose>,
     /// The number of other choices of directions and zeros with which the axes agree as well, as a wrist has.
     pub equivalent: usize,
+    /// Whether poses agree in the same variables; missing if they were not compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Agreement>,
     /// The largest difference of poses in the same variables; missing if they were not compared.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub worst: Option<PoseError>,
@@ -143,7 +152,26 @@ impl MappedPair {
         explains.then(|| Self::new(description, other, options, &found))
     }
 
+    /// The pair with the zeros that the mapping has, or with the round ones near them if digits explain the rest.
     fn new(
+        description: &RobotDescription,
+        other: &RobotDescription,
+        options: &CheckOptions,
+        found: &FoundMapping,
+    ) -> Self {
+        let pair = |found: &FoundMapping| Self::in_variables(description, other, options, found);
+        let rounded = found.with_round_zeros([&description.robot, &other.robot]);
+        let rounded = rounded.map(|found| pair(&found)).filter(Self::is_explained_by_digits);
+        rounded.unwrap_or_else(|| pair(found))
+    }
+
+    fn is_explained_by_digits(&self) -> bool {
+        let robots = [&self.description.robot, &self.other.robot];
+        let mut poses = PosesOfOther::new(robots[0], robots[1]);
+        MatchedRobots::new(robots, &mut poses).is_ok_and(|robots| robots.explained_by_digits().is_some())
+    }
+
+    fn in_variables(
         description: &RobotDescription,
         other: &RobotDescription,
         options: &CheckOptions,
@@ -157,10 +185,16 @@ impl MappedPair {
         let options =
             CheckOptions { configurations: kept_joints(description, &own, options), ..options.clone() };
         let in_variables = other.robot.locked(&other_locked).in_variables(&found.joints).moved_by(&kept);
-        let axes = if off(found, description) < EXPLAINED { CommonAxes::Agree } else { CommonAxes::Differ };
-        let in_frames = in_frames_of(&own.robot, &in_variables, &found.root_from_other_root, axes);
+        let axes = common_axes(found, description);
+        let named_tip = (own.chain_ends.tip != ChainEnd::Chosen).then_some(own.tip);
+        let in_frames =
+            in_frames_of([&own.robot, &in_variables], named_tip, &found.root_from_other_root, axes);
+        let is_fitted = |of: &&MappedJoint| of.offset != 0.0 && found.matched_by != MatchedBy::Declared;
+        let fitted = found.joints.iter().filter(is_fitted).map(|of| of.name.as_str()).collect();
+        let in_frames = with_fitted(&in_frames, &fitted, axes);
         let tip = other.robot.link(other.tip).name.clone();
         let robot = in_frames.with_link_names(&link_names(&own, &in_frames, &tip));
+        let robot = if has_fitted_base(description, found) { with_other_still_links(&robot) } else { robot };
         let names = found.joints.iter().map(|of| (of.name.clone(), other.robot.joint(of.joint).name.clone()));
         let names = names.collect();
         // Which tip is meant is known by the joints; a frame that the other lacks is no obstacle then.
@@ -181,7 +215,7 @@ impl ReportedMapping {
     /// The mapping with the largest difference of poses that the comparison of the two has found.
     pub(super) fn with_worst(self, geometry: &CheckReport) -> Self {
         let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
-        Self { worst: compared.map(|of| of.worst.error), ..self }
+        Self { worst: compared.map(|of| of.worst.error), verdict: compared.map(|of| of.verdict), ..self }
     }
 }
 
@@ -211,6 +245,29 @@ fn link_names(own: &RobotDescription, other: &Robot, tip: &str) -> BTreeMap<Link
 fn off(found: &FoundMapping, description: &RobotDescription) -> f64 {
     let reach_m = description.tolerance_scale().reach_m().unwrap_or(1.0);
     found.distance_m / reach_m + found.angle_rad
+}
+
+/// Whether the file says that the base is fitted to the axes: then the frames that are fixed to it are no evidence.
+fn has_fitted_base(description: &RobotDescription, found: &FoundMapping) -> bool {
+    found.matched_by == MatchedBy::Declared
+        && description.mapping.as_ref().is_some_and(|mapping| mapping.has_fitted_base)
+}
+
+/// The robot with other names of the links that are fixed to its root, so that no link of another description is one of them.
+fn with_other_still_links(robot: &Robot) -> Robot {
+    let is_still = |link: &LinkIndex| robot.body(*link) == robot.root() && *link != robot.root();
+    let name = |link: LinkIndex| format!("{} (fixed to the fitted base)", robot.link(link).name);
+    robot.with_link_names(&robot.link_indices().filter(is_still).map(|link| (link, name(link))).collect())
+}
+
+/// Whether the axes agree: a convention explains all, or what it does not explain is within the tolerance.
+fn common_axes(found: &FoundMapping, description: &RobotDescription) -> CommonAxes {
+    let apart = PoseError { position_m: found.distance_m, orientation_rad: found.angle_rad };
+    if off(found, description) < EXPLAINED || apart.is_within(&description.tolerance) {
+        CommonAxes::Agree
+    } else {
+        CommonAxes::Differ
+    }
 }
 
 /// Of the joints without a partner those that are fixed in the other description: they are fixed at 0, to be compared with it.
@@ -268,6 +325,7 @@ fn reported(
         other_left_out,
         root_from_other_root,
         equivalent: found.equivalent.len(),
+        verdict: None,
         worst: None,
         is_declared,
     }

@@ -1,6 +1,9 @@
 //! A robot with another description: which parts of the two are compared, in which variables, and the comparison.
 
-use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport, Grade};
+use congruent_agreement::{
+    SourcePair,
+    compare::{CheckError, CheckOptions, CheckReport, Grade},
+};
 use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{Diagnostic, Finding, display::listed};
@@ -72,7 +75,7 @@ pub(super) fn with_other(
         let mut mapped = before;
         dynamics = in_same_variables(&mut against, &mut mapped, &pair)?;
         // Directions and zeros explain all, and the diagnosis names them; or what they do not explain is compared in these variables.
-        if !against.is_equal_after_mapping(&description.tolerance) {
+        if !against.is_equal_after_mapping() || has_more_causes(geometry, &pair.report) {
             *geometry = mapped;
             (own, there, own_options) = (pair.description, pair.other, pair.options);
         }
@@ -80,7 +83,7 @@ pub(super) fn with_other(
     geometry.warnings.extend(other.warnings.iter().map(Finding::from));
     geometry.warnings.extend(driven_by_another(&against.file, &driven_otherwise).iter().map(Finding::from));
     geometry.warnings.extend(undeclared(&against).iter().map(Finding::from));
-    if against.is_equal_after_mapping(&description.tolerance) {
+    if against.is_equal_after_mapping() {
         geometry.grade = Some(Grade::EqualAfterMapping);
     }
     Ok(WithOther { against, dynamics, description: own, other: there, options: own_options })
@@ -116,6 +119,14 @@ fn in_same_variables(
     against.dynamics_not_compared = mapped.dynamics_not_compared;
     against.links_in_other_frames = mapped.links_in_other_frames;
     Ok(dynamics)
+}
+
+/// Whether the diagnosis in the variables of the files has more causes than joints have another variable: then it names something
+/// else.
+fn has_more_causes(geometry: &CheckReport, mapping: &ReportedMapping) -> bool {
+    let mut others = geometry.diagnoses.iter().filter(|of| of.name == SourcePair::UrdfOther);
+    let differing = mapping.joints.iter().filter(|of| !of.has_same_variable()).count();
+    others.any(|of| of.named_cause().is_some_and(|cause| cause.faults().len() > differing))
 }
 
 /// That coupled joints are driven at another one of them, which changes no motion but what is commanded.

@@ -4,8 +4,9 @@
 //! fingers of a gripper if the chain has as many joints behind it already, and the chain ends before them;
 //! otherwise they are limbs, of which the first is taken and the others are candidates.
 
+use congruent_robot::{JointIndex, JointKind, LinkIndex, Robot};
+
 use super::frame_name::{is_jaw, preference};
-use crate::model::{JointIndex, JointKind, LinkIndex, Robot};
 
 /// Travel up to which a slide at the tip is a jaw, m. Kind: judgement; jaws of grippers travel 10 to 50 mm, the quill of the smallest SCARA
 /// 100 mm.
@@ -149,10 +150,10 @@ impl<'a> LinkBodies<'a> {
         }
         // Parents come before children, so a link is marked before the joints below it are reached.
         let mut all = true;
-        for (index, joint) in self.robot.joints().iter().enumerate() {
+        for joint in self.robot.joints() {
             if is_below[joint.parent.get()] {
                 is_below[joint.child.get()] = true;
-                all &= !joint.kind.is_movable() || follows(JointIndex(index));
+                all &= !joint.kind.is_movable() || self.robot.parent_joint(joint.child).is_some_and(follows);
             }
         }
         all
@@ -169,7 +170,8 @@ impl<'a> LinkBodies<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{model::JointParts, urdf::parse_urdf};
+    use crate::urdf::parse_urdf;
+    use congruent_robot::JointParts;
 
     /// A robot from lines `parent kind child [mimic joint]`; a joint has its child's name.
     fn robot(lines: &[&str]) -> Robot {

@@ -1,9 +1,8 @@
 //! Derives from the names of links and joints which frame is for tools: the only place that interprets names, used only if no
 //! chain is declared.
 
+use congruent_robot::{Joint, Link};
 use std::cmp::Reverse;
-
-use crate::model::{Joint, Link};
 
 /// Words for the frames in which tools are programmed, the most specific last.
 const TOOL_FRAMES: [&[&str]; 4] =

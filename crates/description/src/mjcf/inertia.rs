@@ -4,10 +4,10 @@ use congruent_input::{Capability, Diagnostic, Diagnostics};
 use congruent_mjcf::{
     MeshMass, MjBody, MjGeom, MjGeomMass, MjInference, MjMassProperties, MjModel, MjShape, MjWritten,
 };
+use congruent_robot::Inertia;
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
 use super::{mesh::ModelMeshes, placed::placed, tree::RobotParts};
-use crate::model::Inertia;
 
 /// Gives the links their inertia. A body whose inertia follows from a mesh that cannot be read has none, which stops forces
 /// but no poses.

@@ -1,8 +1,7 @@
 //! The values of a joint: kind, axis, limits, losses.
 
 use congruent_mjcf::{MjActuator, MjEffort, MjJoint, MjJointKind, MjModel, MjTarget};
-
-use crate::model::{Joint, JointKind, JointLimit, JointParts};
+use congruent_robot::{Joint, JointKind, JointLimit, JointParts};
 
 /// Ranges from here on stand for "no limit"; squares of such positions overflow. Unit: rad or m; kind: range of numbers.
 const UNLIMITED: f64 = 1e30;

@@ -13,6 +13,7 @@ mod joint;
 mod mesh;
 mod names;
 mod placed;
+mod rounding;
 mod shape;
 mod site;
 mod tree;
@@ -23,12 +24,10 @@ use std::{collections::BTreeSet, sync::Arc};
 use congruent_input::{Capability, Diagnostic, Diagnostics, SourceFile};
 use congruent_meshes::FindMesh;
 use congruent_mjcf::{MjModel, ReadFile, codes::mjcf::LOOP};
+use congruent_robot::{LinkIndex, Robot};
 
 use self::{mesh::ModelMeshes, tree::RobotParts};
-use crate::{
-    codes,
-    model::{LinkIndex, Robot},
-};
+use crate::codes;
 
 /// Most links and moving joints; as for a URDF.
 const MOST_LINKS: usize = 10_000;

@@ -3,6 +3,7 @@
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, units::LARGEST};
 use congruent_mjcf::{MjGeom, MjModel, MjShape};
+use congruent_robot::{Geometry, Shape};
 use nalgebra::{Isometry3, Vector3};
 
 use super::{
@@ -10,10 +11,7 @@ use super::{
     placed::placed,
     tree::RobotParts,
 };
-use crate::{
-    codes,
-    model::{Geometry, Shape},
-};
+use crate::codes;
 
 /// The first group that MuJoCo does not draw unless a person asks for it.
 const FIRST_HIDDEN_GROUP: i32 = 3;

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use congruent_input::{Capability, Diagnostics, Severity, SourceFile};
+use congruent_robot::JointKind;
 
 use super::*;
-use crate::model::JointKind;
 
 /// A robot from the content of its `<worldbody>` and what follows it, with its findings.
 fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {

@@ -6,13 +6,11 @@
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, units::LARGEST};
 use congruent_mjcf::{MjBody, MjJoint, MjJointKind, MjModel, codes::mjcf::NUMBER};
+use congruent_robot::{JointKind, JointParts, JointRounding, Link};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::{joint, names::TakenNames, placed::placed};
-use crate::{
-    codes,
-    model::{JointKind, JointParts, Link},
-};
+use super::{joint, names::TakenNames, placed::placed, rounding::ModelRounding};
+use crate::codes;
 
 /// Links and joints so far, in the order of bodies.
 pub(super) struct RobotParts {
@@ -42,16 +40,17 @@ impl RobotParts {
             joint_names: TakenNames::of_file(model.joints.iter().map(|joint| &joint.name)),
         };
         let moving_below = moving_below(model);
+        let roundings = ModelRounding::new(model);
         for (index, body) in model.bodies.iter().enumerate() {
             refuse_far(body, model.joints_of(index), diagnostics);
             cut_joints(model, index, &moving_below, diagnostics);
-            parts.add_body(model, index);
+            parts.add_body(model, index, &roundings);
         }
         parts
     }
 
     /// The links and joints of one body.
-    fn add_body(&mut self, model: &MjModel, index: usize) {
+    fn add_body(&mut self, model: &MjModel, index: usize, roundings: &ModelRounding) {
         let body = &model.bodies[index];
         let link = self.body_links[index].clone();
         let Some(parent) = body.parent else { return self.push_body(link) };
@@ -70,7 +69,12 @@ impl RobotParts {
             };
             let parent_from_joint = before_from_body * axis_from_body.inverse() * from_zero(of);
             let name = self.joint_names.take(&of.name);
-            let frame = JointParts::new(&name, JointKind::Fixed, &before, &child, parent_from_joint);
+            let mut frame = JointParts::new(&name, JointKind::Fixed, &before, &child, parent_from_joint);
+            frame.joint.rounding = JointRounding {
+                origin: if at == 0 { roundings.of_body(body, index) } else { Vec::new() },
+                axis: roundings.of_joint(of, number, &before_from_body),
+                frame: Vec::new(),
+            };
             self.joint_positions[number] = Some(self.joints.len());
             self.joints.push(joint::with_values(frame, model, number));
             if child != link {
@@ -80,7 +84,9 @@ impl RobotParts {
             before_from_body = axis_from_body.into();
         }
         if before != link {
-            self.push_fixed(&before, &link, before_from_body);
+            let origin = if moving.is_empty() { roundings.of_body(body, index) } else { Vec::new() };
+            let fixed = self.push_fixed(&before, &link, before_from_body);
+            fixed.joint.rounding.origin = origin;
         }
         self.push_body(link);
     }
@@ -98,9 +104,15 @@ impl RobotParts {
         self.links.push(Link { name, ..Link::default() });
     }
 
-    fn push_fixed(&mut self, parent: &str, child: &str, parent_from_child: Isometry3<f64>) {
+    fn push_fixed(
+        &mut self,
+        parent: &str,
+        child: &str,
+        parent_from_child: Isometry3<f64>,
+    ) -> &mut JointParts {
         let name = self.joint_names.make(format!("{child} (fixed)"));
         self.joints.push(JointParts::new(&name, JointKind::Fixed, parent, child, parent_from_child));
+        self.joints.last_mut().expect("it was pushed")
     }
 
     /// The link of a body.

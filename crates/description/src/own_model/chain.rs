@@ -4,12 +4,12 @@ use congruent_input::{
     Diagnostic, Diagnostics, WrittenTransform, codes::toml::UNKNOWN_KEY, rotation_from_rpy_fixed_xyz,
     units::Unit,
 };
+use congruent_robot::{DhConvention, DhRowKind};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use toml::Spanned;
 
 use crate::{
     codes,
-    model::{DhConvention, DhRowKind},
     robot_file::{WrittenDh, WrittenPoe, WrittenRow, screw_twist, space_twist},
 };
 

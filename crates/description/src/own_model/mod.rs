@@ -7,18 +7,14 @@ mod refused;
 use std::{path::Path, sync::Arc};
 
 use congruent_input::{Diagnostic, Diagnostics, SourceFile, hidden_character, line_column};
+use congruent_robot::{DhRowKind, Joint, JointKind, JointLimit, JointParts, Link, PlacedAxis, Robot};
 use nalgebra::Vector3;
 use toml::Spanned;
 
 use self::chain::{OwnChain, OwnJoint};
 pub use self::places::{OwnModelForm, OwnModelPlaces};
 pub(crate) use self::refused::{refuse_beside_model, without_bodies};
-use crate::{
-    codes,
-    model::{DhRowKind, Joint, JointKind, JointLimit, JointParts, Link, PlacedAxis, Robot},
-    robot_file::WrittenRobot,
-    urdf::MOST_MOVING,
-};
+use crate::{codes, robot_file::WrittenRobot, urdf::MOST_MOVING};
 
 /// The names of base and tip if the file gives none.
 const BASE: &str = "base";

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use congruent_input::{Diagnostic, Diagnostics, WrittenTransform, known_names, units::Unit};
+use congruent_robot::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance};
 use nalgebra::Isometry3;
 use toml::Spanned;
 
@@ -17,7 +18,6 @@ use super::{
 use crate::{
     chain::{ChainEnd, ChainEnds, choose_tip},
     codes,
-    model::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance},
 };
 
 /// The checked declarations of a robot file, with names resolved to indices.

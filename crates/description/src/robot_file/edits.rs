@@ -4,11 +4,11 @@
 use std::ops::Range;
 
 use congruent_input::{ChangedLines, Slack, TextEdit, WrittenTransform, changed_lines, line_end};
+use congruent_robot::DhConvention;
 use nalgebra::Isometry3;
 use toml::Spanned;
 
 use super::places::{ConstantKey, RobotFilePlaces, RowKey};
-use crate::model::DhConvention;
 
 impl RobotFilePlaces {
     /// The edit after which the table has another convention; `None` if the file has no convention.

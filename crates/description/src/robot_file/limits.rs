@@ -8,14 +8,12 @@ use congruent_input::{
     known_names,
     units::{Unit, UnitSystem, WrittenUnit, check_finite},
 };
+use congruent_robot::{Joint, Robot};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::{
-    codes,
-    model::{Joint, Robot},
-};
+use crate::codes;
 
 /// Values by joint name; `*` means every joint of this kind (revolute or prismatic) that is not named.
 type SpannedByJoint = BTreeMap<Spanned<String>, Spanned<f64>>;

@@ -10,14 +10,12 @@ use congruent_input::{
     Diagnostic, Diagnostics, known_names,
     units::{Unit, WrittenUnit},
 };
+use congruent_robot::{Joint, Robot};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::{
-    codes,
-    model::{Joint, Robot},
-};
+use crate::codes;
 
 /// How joints are called and counted in another description. Joints that are not named here have the same name and the same
 /// variable there.

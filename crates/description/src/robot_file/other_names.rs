@@ -1,13 +1,11 @@
 //! A table whose joints all have other names than those of the URDF, by one prefix or suffix, as of an arm in a cell.
 
 use congruent_input::Diagnostic;
+use congruent_robot::{JointIndex, Robot};
 use toml::Spanned;
 
 use super::written::WrittenRow;
-use crate::{
-    codes,
-    model::{JointIndex, Robot},
-};
+use crate::codes;
 
 /// The one finding about such a table: an error for each row would hide what is wrong.
 pub(super) fn other_names(

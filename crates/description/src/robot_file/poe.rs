@@ -5,13 +5,14 @@ use congruent_input::{
     number::significant_components,
     units::{Unit, check_finite},
 };
+use congruent_robot::DhRowKind;
 use nalgebra::{Isometry3, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::range::WrittenRange;
-use crate::{codes, model::DhRowKind};
+use crate::codes;
 
 /// How far the length of a written direction may be from 1, and a written pitch from 0 m/rad. Kind: six digits in the file; a
 /// larger deviation is an error that normalising would hide.

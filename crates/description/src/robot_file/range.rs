@@ -4,9 +4,10 @@ use congruent_input::{
     Diagnostic,
     units::{Unit, both_given},
 };
+use congruent_robot::DhRowKind;
 use toml::Spanned;
 
-use crate::{codes, model::DhRowKind};
+use crate::codes;
 
 /// The range of a joint under its four keys.
 #[derive(Debug, Clone, Copy)]

@@ -3,16 +3,14 @@
 use std::{f64::consts::TAU, ops::Range};
 
 use congruent_input::{Diagnostic, Diagnostics, display::counted, known_names, line_column, units::Unit};
+use congruent_robot::{DhRow, DhRowKind, Joint, JointIndex, Robot};
 use toml::Spanned;
 
 use super::{
     other_names::other_names,
     written::{WrittenDh, WrittenRow},
 };
-use crate::{
-    codes,
-    model::{DhRow, DhRowKind, Joint, JointIndex, Robot},
-};
+use crate::codes;
 
 /// The chain and the text against which the rows of a table are checked.
 pub(super) struct ChainContext<'a> {

@@ -10,13 +10,11 @@ use congruent_input::{
     display::{length, number},
     units::Unit,
 };
+use congruent_robot::{JointKind, Robot};
 use toml::Spanned;
 
 use super::written::{WrittenDh, WrittenRow};
-use crate::{
-    codes,
-    model::{JointKind, Robot},
-};
+use crate::codes;
 
 /// Lengths up to this multiple of the robot's size are plausible; a tool that is as long as its arm is rare.
 const MOST_SIZES: f64 = 1.5;
@@ -27,7 +25,7 @@ const QUARTER_DEG: f64 = 1e-3;
 
 /// The size of the robot, m: the sum of the lengths of all joint origins and of the travels of all prismatic joints.
 pub(super) fn size_m(robot: &Robot) -> f64 {
-    let travel = |joint: &crate::model::Joint| {
+    let travel = |joint: &congruent_robot::Joint| {
         let range = joint.position_range().filter(|_| joint.kind == JointKind::Prismatic)?;
         Some(range.0.abs().max(range.1.abs())).filter(|travel| travel.is_finite())
     };

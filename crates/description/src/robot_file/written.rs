@@ -4,6 +4,7 @@
 use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
 
 use congruent_input::{Diagnostic, SourceFile, WrittenTransform, fixed_array, units::WrittenUnit};
+use congruent_robot::{DhConvention, DhRowKind};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
@@ -15,11 +16,7 @@ use super::{
     poe::WrittenPoe,
     range::WrittenRange,
 };
-use crate::{
-    WrittenLint,
-    model::{DhConvention, DhRowKind, ToleranceScale},
-    urdf::Repairs,
-};
+use crate::{WrittenLint, tolerance_scale::ToleranceScale, urdf::Repairs};
 
 /// The JSON schema of robot files.
 pub fn robot_file_schema() -> Schema {

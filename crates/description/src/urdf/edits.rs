@@ -5,6 +5,7 @@ use congruent_input::{
     number::{significant, significant_components},
     rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad, xml,
 };
+use congruent_robot::Inertia;
 use nalgebra::Isometry3;
 use roxmltree::Node;
 
@@ -12,7 +13,6 @@ use super::{
     UrdfPlaces,
     node::{element, last, tag},
 };
-use crate::model::Inertia;
 
 /// A written rotation is kept if it differs by less than this. Unit: rad; kind: rounding of angles.
 const SAME_ROTATION_RAD: f64 = 1e-12;

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use congruent_input::{Capability, Code, Diagnostic, Diagnostics, units::LARGEST};
+use congruent_robot::{Joint, JointKind, JointLimit, JointParts};
 use nalgebra::{Unit, Vector3};
 use roxmltree::Node;
 use urdf_rs::JointType;
@@ -11,10 +12,7 @@ use super::{
     node::{element, label, place, tag},
     pose,
 };
-use crate::{
-    codes,
-    model::{Joint, JointKind, JointLimit, JointParts, LinkIndex},
-};
+use crate::codes;
 
 /// How far the length of an axis may be from 1 without a warning. Kind: six digits in the file.
 const AXIS_LENGTH: f64 = 1e-6;
@@ -42,26 +40,20 @@ pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut
     if let Some(mimic) = &joint.mimic {
         reader.mimic_numbers([mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0)]);
     }
+    let parts = JointParts::new(&joint.name, kind, &joint.parent.link, &joint.child.link, parent_from_joint);
     let read = Joint {
-        name: joint.name.clone(),
-        kind,
-        // Overwritten when the tree is built.
-        parent: LinkIndex(0),
-        child: LinkIndex(0),
-        parent_from_joint,
         axis_in_joint: reader.axis(kind),
         limit: reader.limit(kind),
         damping: reader.loss("damping", joint.dynamics.as_ref().map(|dynamics| dynamics.damping)),
         friction: reader.loss("friction", joint.dynamics.as_ref().map(|dynamics| dynamics.friction)),
-        armature: None,
-        mimic: None,
+        ..parts.joint
     };
     let mimic = joint
         .mimic
         .as_ref()
         .filter(|_| kind.is_movable())
         .map(|mimic| (mimic.joint.clone(), mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0)));
-    JointParts { joint: read, parent: joint.parent.link.clone(), child: joint.child.link.clone(), mimic }
+    JointParts { joint: read, mimic, ..parts }
 }
 
 impl JointReader<'_, '_> {

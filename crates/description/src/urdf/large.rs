@@ -1,11 +1,9 @@
 //! Links of large machines, such as cranes and masts: values that would be a unit mistake in an arm are plausible for them.
 
 use congruent_input::{Diagnostic, Severity};
+use congruent_robot::{Extent, Link, LinkIndex, Robot};
 
-use crate::{
-    codes,
-    model::{Extent, Link, LinkIndex, Robot},
-};
+use crate::codes;
 
 /// Diagonal of the shapes, m; smaller links are treated as those of arms.
 const LEAST_LARGE_M: f64 = 4.0;

@@ -1,6 +1,7 @@
 //! `<link>`: mass, inertia and shapes of one link.
 
 use congruent_input::Capability;
+use congruent_robot::{Inertia, Link};
 use nalgebra::Matrix3;
 use roxmltree::Node;
 
@@ -9,7 +10,6 @@ use super::{
     pose,
     shape::ShapeReader,
 };
-use crate::model::{Inertia, Link};
 
 pub(super) fn read(link: &urdf_rs::Link, node: Node<'_, '_>, shapes: &mut ShapeReader<'_, '_>) -> Link {
     let inertia = element(node, "inertial").map(|inertial| inertia(&link.inertial, inertial, shapes));

@@ -13,6 +13,7 @@
 //! of a quarter turn: it is taken from the XML.
 
 mod dialect;
+mod digits;
 mod edits;
 mod grammar;
 mod inertial;
@@ -24,20 +25,19 @@ mod places;
 mod pose;
 mod shape;
 
-pub use places::{JointDigits, UrdfPlaces};
+pub use digits::JointDigits;
+pub use places::UrdfPlaces;
 
 use std::{fmt::Write, ops::Range};
 
 use congruent_input::{Diagnostic, Diagnostics, Findings, known_names, xml};
 use congruent_meshes::{FindMesh, FoundMesh, codes::mesh::NO_FOLDER};
+use congruent_robot::{Link, Robot, RobotError};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
 use self::node::{elements, last, place, tag};
-use crate::{
-    codes,
-    model::{Link, Robot, RobotError},
-};
+use crate::codes;
 
 pub(crate) use inertial::{Repairs, repair_inertias};
 pub(crate) use large::without_large_links;
@@ -185,12 +185,10 @@ fn build(
         .zip(elements(root, "link"))
         .map(|(link, node)| link::read(link, node, &mut reader))
         .collect();
-    let joints: Vec<_> = urdf
-        .joints
-        .iter()
-        .zip(elements(root, "joint"))
-        .map(|(joint, node)| joint::read(joint, node, diagnostics))
-        .collect();
+    let nodes: Vec<Node<'_, '_>> = elements(root, "joint").collect();
+    let read = urdf.joints.iter().zip(&nodes).map(|(joint, node)| joint::read(joint, *node, diagnostics));
+    let mut joints: Vec<_> = read.collect();
+    digits::add_roundings(&mut joints, &nodes.into_iter().map(Some).collect::<Vec<_>>());
     let name = urdf.name.clone();
     diagnostics.keep(Robot::new(name, links, joints).map_err(|error| tree_fault(&error, root)))
 }

@@ -2,24 +2,13 @@
 
 use std::{collections::BTreeMap, ops::Range, sync::Arc};
 
-use congruent_input::{
-    SourceFile, TypedNumber, half_places, line_column,
-    units::{Unit, UnitSystem},
-    xml,
-};
-
+use congruent_input::{SourceFile, line_column, xml};
 use roxmltree::{Document, Node};
 
-use super::node::{element, elements, last, place, tag};
-
-/// Half of the last place of the typed values of a joint: how far each true value may be from the typed one.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct JointDigits {
-    /// Those of its `<origin>`: x, y, z in m, then roll, pitch, yaw in rad.
-    pub origin: [f64; 6],
-    /// Those of the components of its `<axis>`.
-    pub axis: [f64; 3],
-}
+use super::{
+    digits::JointDigits,
+    node::{element, elements, last, place, tag},
+};
 
 /// The text of a URDF, in which joints and links are found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -86,36 +75,11 @@ impl UrdfPlaces {
 
     /// The digits of these joints; whole components of an axis are exact, and so is what is not written.
     pub fn joint_digits(&self, names: &[&str]) -> Vec<JointDigits> {
-        let mut digits = vec![JointDigits::default(); names.len()];
-        let Ok(document) = xml::parse(&self.source.text) else { return digits };
-        let attribute = |name: &str, part: &str, attribute: &str| {
-            element(self.joint(&document, name)?, part)?.attribute(attribute)
+        let Ok(document) = xml::parse(&self.source.text) else {
+            return vec![JointDigits::default(); names.len()];
         };
-        for (unit, written, first) in [(Unit::Length, "xyz", 0), (Unit::Angle, "rpy", 3)] {
-            let mut typed = Vec::new();
-            for (joint, name) in names.iter().enumerate() {
-                let text = attribute(name, "origin", written).unwrap_or_default();
-                let numbers = text.split_whitespace().take(3).enumerate();
-                typed.extend(
-                    numbers.map(|(at, text)| ((joint, at), TypedNumber { text, units: UnitSystem::Si })),
-                );
-            }
-            let numbers: Vec<TypedNumber<'_>> = typed.iter().map(|(_, number)| *number).collect();
-            for (((joint, at), _), half) in typed.iter().zip(half_places(unit, &numbers)) {
-                digits[*joint].origin[first + at] = half;
-            }
-        }
-        for (joint, name) in digits.iter_mut().zip(names) {
-            let components = attribute(name, "axis", "xyz").unwrap_or_default().split_whitespace();
-            for (half, text) in joint.axis.iter_mut().zip(components) {
-                // `0 0 1` is a direction by design.
-                let is_whole = text.parse::<f64>().is_ok_and(|component| component.fract() == 0.0);
-                if !is_whole {
-                    *half = half_places(Unit::Angle, &[TypedNumber { text, units: UnitSystem::Si }])[0];
-                }
-            }
-        }
-        digits
+        let joints: Vec<_> = names.iter().map(|name| self.joint(&document, name)).collect();
+        JointDigits::read(&joints)
     }
 
     /// Place of the `<axis>` of a joint, or of the joint if it has none.

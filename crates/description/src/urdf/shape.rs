@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, units::LARGEST_PLAUSIBLE_M};
 use congruent_meshes::{FindMesh, Mesh};
+use congruent_robot::{Geometry, Shape};
 use nalgebra::{Isometry3, Vector3};
 use roxmltree::Node;
 
@@ -11,10 +12,7 @@ use super::{
     node::{element, label, tag},
     pose,
 };
-use crate::{
-    codes,
-    model::{Geometry, Shape},
-};
+use crate::codes;
 
 /// Colours of the materials that the document defines at its top, by name.
 pub(super) fn named_colors(urdf: &urdf_rs::Robot) -> BTreeMap<&str, [f32; 4]> {

@@ -5,10 +5,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use congruent_input::{Capability, Severity, line_column};
+use congruent_robot::{Geometry, JointKind};
 use nalgebra::{Point3, Vector3};
 
 use super::*;
-use crate::model::{Geometry, JointKind};
 
 /// Two links and a joint, each with a place for more.
 pub(super) fn arm(joint: &str, link: &str) -> String {

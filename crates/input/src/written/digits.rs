@@ -3,6 +3,8 @@
 //! A value of a data sheet is rounded to the digits that are printed, so the true value is within half of the last
 //! place of the typed one. Values that a program has written, with 15 digits or more, are exact here.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::units::{Unit, UnitSystem};
 
 /// Significant digits from which a program has written a number, with all that an `f64` has. Kind: format.
@@ -32,7 +34,8 @@ pub struct TypedNumber<'a> {
 /// `typed` are all lengths, or all angles, of one file. A zero, and a value that is no finer than a centimetre, has the
 /// finest last place of the others, since zeros at the end are usually left out; if there are no others, it is exact. A
 /// zero is off by 5e-5 at most.
-/// Whole degrees are exact, too: they are design angles, not measurements.
+/// Whole degrees are exact, too: they are design angles, not measurements. A quarter turn that is cut instead of rounded, as
+/// 1.57079, is off by up to a whole last place.
 ///
 /// # Examples
 /// ```
@@ -74,7 +77,17 @@ fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Optio
     }
     // A tenth power is exact as a literal alone: `powi` would be off by its rounding.
     let half: f64 = format!("5e{}", last_place - 1).parse().unwrap_or(0.0);
-    Some(half * one)
+    let is_cut = unit == Unit::Angle && units == UnitSystem::Si && is_cut_quarter_turn(text, half);
+    Some(if is_cut { 2.0 * half } else { half * one })
+}
+
+/// Whether an angle in radians is a quarter turn that is cut behind its last digit instead of rounded, as 1.57079: then it may be
+/// off by a whole last place.
+fn is_cut_quarter_turn(text: &str, half: f64) -> bool {
+    let Ok(value) = text.parse::<f64>() else { return false };
+    let exact = (value / FRAC_PI_2).round() * FRAC_PI_2;
+    let missing = exact.abs() - value.abs();
+    half < missing && missing < 2.0 * half
 }
 
 /// The digits of a typed number.
@@ -119,6 +132,9 @@ mod tests {
             (Unit::Length, Si, "0.325", 5e-4),
             (Unit::Angle, Si, "1.5708", 5e-5),
             (Unit::Angle, Si, "+1.57", 5e-3),
+            (Unit::Angle, Si, "-1.57079", 1e-5),
+            (Unit::Angle, Si, "3.1415", 1e-4),
+            (Unit::Angle, Si, "1.57069", 5e-6),
             (Unit::Angle, Si, "3", 0.0),
             (Unit::Angle, Engineering, "90.0", 0.0),
             (Unit::Angle, Engineering, "-21.5", 0.05_f64.to_radians()),

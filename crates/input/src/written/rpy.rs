@@ -2,13 +2,24 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
+use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::number::{FITTED, Slack};
 
 /// The rotation that turns about the fixed axes x, then y, then z: `Rz(yaw) Ry(pitch) Rx(roll)`.
 pub fn rotation_from_rpy_fixed_xyz([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
     UnitQuaternion::from_euler_angles(roll, pitch, yaw)
+}
+
+/// The axes about which more roll, pitch and yaw turn a rotation, in the frame in which it is written.
+///
+/// With `R = Rz(yaw) Ry(pitch) Rx(roll)`, yaw turns about the fixed z, roll about the x of the result, and pitch about the y
+/// between the two, which is at right angles to both; at a pitch of a quarter turn, where these are parallel, about the y of the
+/// result.
+pub fn axes_of_rpy_fixed_xyz(rotation: &Matrix3<f64>) -> [Vector3<f64>; 3] {
+    let (roll, yaw) = (rotation.column(0).into_owned(), Vector3::z());
+    let pitch = yaw.cross(&roll).try_normalize(f64::EPSILON);
+    [roll, pitch.unwrap_or_else(|| rotation.column(1).into_owned()), yaw]
 }
 
 /// Turns about the fixed axes x, then y, then z. At a pitch of a quarter turn, at which only
@@ -42,8 +53,6 @@ fn rpy_at_yaw(matrix: &Rotation3<f64>, yaw: f64) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
-
     use super::*;
 
     #[test]

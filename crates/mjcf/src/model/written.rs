@@ -2,7 +2,10 @@
 
 use std::{fmt, ops::Range, sync::Arc};
 
-use congruent_input::{Code, Diagnostic, SourceFile, line_column};
+use congruent_input::{
+    Code, Diagnostic, SourceFile, line_column,
+    units::{Unit, UnitSystem, WrittenUnit},
+};
 use nalgebra::Isometry3;
 
 /// Where a value is written: the file, and the text between the quotes of its attribute.
@@ -88,4 +91,16 @@ pub struct MjNotation {
     pub euler_sequence: [u8; 3],
     /// Pose of the innermost `<frame>` in the body (for a body: in its parent): values are written in that frame.
     pub body_from_frame: Isometry3<f64>,
+}
+
+impl MjNotation {
+    /// The unit of angles: degrees are engineering units.
+    pub(crate) fn angle_unit(&self) -> UnitSystem {
+        if self.is_in_degrees { UnitSystem::Engineering } else { UnitSystem::Si }
+    }
+
+    /// An angle of the file, rad.
+    pub(crate) fn angle_rad(&self, written: f64) -> f64 {
+        WrittenUnit { unit: Unit::Angle, system: self.angle_unit() }.to_si(written)
+    }
 }

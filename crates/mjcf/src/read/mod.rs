@@ -21,6 +21,7 @@ use std::sync::Arc;
 use congruent_input::{Diagnostics, SourceFile};
 
 use crate::{ReadFile, document::Assembly, inertia::moving_body_without_mass, model::MjModel};
+pub(crate) use orientation::orientation_of;
 use reader::MjReader;
 use scope::MjScope;
 

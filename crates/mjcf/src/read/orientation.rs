@@ -4,7 +4,13 @@ use congruent_input::{Diagnostic, Diagnostics};
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::attributes::{MjAttributes, MjFound};
-use crate::{codes, document::MjElement, grammar::ORIENTATIONS, model::MjWritten, settings::MjSettings};
+use crate::{
+    codes,
+    document::MjElement,
+    grammar::ORIENTATIONS,
+    model::{MjNotation, MjWritten},
+    settings::MjSettings,
+};
 
 /// Shorter vectors have no direction. Source: `mjMINVAL` of MuJoCo 4.0.
 pub(super) const SHORTEST: f64 = 1e-14;
@@ -54,21 +60,30 @@ fn resolved(
     settings: &MjSettings,
 ) -> Result<UnitQuaternion<f64>, Diagnostic> {
     let key = found.attribute.key.as_str();
-    let too_short = |what: &str| {
+    let notation = settings.notation(Isometry3::identity());
+    orientation_of(key, found.array([0.0; 6]).value, &notation).map_err(|what| {
         let message = format!("{}: {what} of {key} has the length 0", element.label());
         found.attribute.fault(codes::mjcf::ORIENTATION, message)
-    };
-    let unit =
-        |vector: Vector3<f64>, what: &str| Unit::try_new(vector, SHORTEST).ok_or_else(|| too_short(what));
-    let numbers = found.array([0.0; 6]).value;
+    })
+}
+
+/// The orientation that the numbers of an attribute mean.
+///
+/// # Errors
+/// What has the length 0.
+pub(crate) fn orientation_of(
+    key: &str,
+    numbers: [f64; 6],
+    notation: &MjNotation,
+) -> Result<UnitQuaternion<f64>, &'static str> {
+    let unit = |vector: Vector3<f64>, what| Unit::try_new(vector, SHORTEST).ok_or(what);
     let [a, b, c, d, ..] = numbers;
     Ok(match key {
-        "quat" => UnitQuaternion::try_new(Quaternion::new(a, b, c, d), SHORTEST)
-            .ok_or_else(|| too_short("the quaternion"))?,
+        "quat" => UnitQuaternion::try_new(Quaternion::new(a, b, c, d), SHORTEST).ok_or("the quaternion")?,
         "axisangle" => {
-            UnitQuaternion::from_axis_angle(&unit(Vector3::new(a, b, c), "the axis")?, settings.angle(d))
+            UnitQuaternion::from_axis_angle(&unit(Vector3::new(a, b, c), "the axis")?, notation.angle_rad(d))
         }
-        "euler" => from_euler([a, b, c].map(|angle| settings.angle(angle)), settings.euler_sequence),
+        "euler" => from_euler([a, b, c].map(|angle| notation.angle_rad(angle)), notation.euler_sequence),
         "xyaxes" => {
             let x = unit(Vector3::new(a, b, c), "the x axis")?;
             let y = Vector3::new(numbers[3], numbers[4], numbers[5]);

@@ -199,12 +199,7 @@ impl<'s, 'd> MjReader<'s, 'd> {
     }
 
     pub(super) fn notation(&self, context: &MjContext<'s>) -> MjNotation {
-        let settings = &self.scope(context.attachment).settings;
-        MjNotation {
-            is_in_degrees: settings.is_in_degrees(),
-            euler_sequence: settings.euler_sequence,
-            body_from_frame: context.body_from_frame,
-        }
+        self.scope(context.attachment).settings.notation(context.body_from_frame)
     }
 }
 

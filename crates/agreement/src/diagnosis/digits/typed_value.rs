@@ -1,7 +1,8 @@
 //! One value of a file, and what it changes in the models.
 
+use congruent_input::axes_of_rpy_fixed_xyz;
 use congruent_kinematics::{Pose, rotation_exp};
-use nalgebra::{Unit, Vector3};
+use nalgebra::Vector3;
 
 use crate::diagnosis::{
     candidate::{DhEntry, ModelParameter},
@@ -116,15 +117,7 @@ fn shifted(pose: &Pose, part: TransformPart, by: f64) -> Pose {
     match part {
         TransformPart::Translation(axis) => Pose::from_parts(rotation, translation + Vector3::ith(axis, by)),
         TransformPart::Rotation(angle) => {
-            // R = Rz(yaw) Ry(pitch) Rx(roll): yaw turns about the fixed z, roll about the x of the result, and pitch
-            // about the y between the two, which is at right angles to both.
-            let (roll, yaw) = (rotation.column(0).into_owned(), Vector3::z());
-            let axis = match angle {
-                0 => roll,
-                1 => Unit::try_new(yaw.cross(&roll), f64::EPSILON)
-                    .map_or_else(|| rotation.column(1).into_owned(), Unit::into_inner),
-                _ => yaw,
-            };
+            let axis = axes_of_rpy_fixed_xyz(&rotation)[angle];
             Pose::from_parts(rotation_exp(&(axis * by)) * rotation, translation)
         }
     }

@@ -7,6 +7,8 @@ use congruent_description::{LinkIndex, RobotQ, Tolerance};
 pub(crate) struct ComparedAt<'a> {
     pub(crate) configurations: &'a [RobotQ],
     pub(crate) tolerance: &'a Tolerance,
+    /// Whether what rounding of the written numbers explains is no difference: not of a revision, whose changes are asked for.
+    pub(crate) digits_count: bool,
     /// First and last link of the chain.
     pub(crate) base: LinkIndex,
     pub(crate) tip: LinkIndex,

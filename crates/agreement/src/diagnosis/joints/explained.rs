@@ -52,14 +52,16 @@ pub(crate) fn explained_by_joints(
     let every_link = |link| robots.is_matched(link);
     let mut difference = CorrectedDifference::new(robots, poses, &every_link);
     // All corrections together first: if these do not suffice, no part of them does.
-    if !difference.is_within(&corrected(robots.robot, &all), at)? {
+    let whole = corrected(robots.robot, &all);
+    if !difference.is_within(&whole, at)? && !is_rounding(robots, &whole, at) {
         return single_displacement(robots, poses, displaced(robots, at), at);
     }
     let mut worst = vec![difference.worst(robots.robot, at)?];
     for count in 1..=all.len() {
         // One more correction each time, until all links agree: the others only round.
-        worst.push(difference.worst(&corrected(robots.robot, &all[..count]), at)?);
-        if worst[count].is_within(at.tolerance) {
+        let part = corrected(robots.robot, &all[..count]);
+        worst.push(difference.worst(&part, at)?);
+        if worst[count].is_within(at.tolerance) || is_rounding(robots, &part, at) {
             all.truncate(count);
             break;
         }
@@ -81,6 +83,11 @@ pub(crate) fn explained_by_joints(
     }
     let alternatives = if let [only] = all[..] { elsewhere(robots, only) } else { Vec::new() };
     Ok((!all.is_empty()).then_some(ExplainedByJoints { corrections: all, worst, alternatives }))
+}
+
+/// Whether what differs after a correction is rounding of the numbers in the files.
+fn is_rounding(robots: &MatchedRobots<'_>, corrected: &Robot, at: &ComparedAt<'_>) -> bool {
+    at.digits_count && robots.with(corrected).explained_by_digits().is_some()
 }
 
 /// One displacement of the chain in one of `places`, if frames of links lie elsewhere as well: the tip decides.
@@ -207,7 +214,8 @@ mod tests {
         let robots = MatchedRobots::new([robot, &other], &mut poses).unwrap();
         let configurations = sample_configurations(robot, 1, 50);
         let [base, tip] = ["l0", "l5"].map(|name| robot.find_link(name).unwrap());
-        let at = ComparedAt { configurations: &configurations, tolerance: &Tolerance::default(), base, tip };
+        let tolerance = &Tolerance::default();
+        let at = ComparedAt { configurations: &configurations, tolerance, digits_count: false, base, tip };
         let explained = explained_by_joints(&robots, &mut poses, &at).unwrap()?;
         assert!(explained.worst.last().unwrap().is_within(at.tolerance));
         assert_eq!(explained.worst.len(), explained.corrections.len() + 1);

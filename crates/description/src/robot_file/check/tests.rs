@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use congruent_input::{Severity, line_column, toml_text::parse_toml};
+use congruent_robot::{DhRowKind, JointKind};
 
 use super::*;
-use crate::model::{DhRowKind, JointKind};
 
 /// base -(fixed)- root -a- one -b- two -(fixed)- tip, and a joint c that follows b beside it.
 fn robot() -> Robot {

@@ -4,6 +4,7 @@ use congruent_input::{
     Diagnostic, Diagnostics, known_names, line_column,
     units::{Unit, check_finite},
 };
+use congruent_robot::{DhTable, Joint, JointIndex, Robot};
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
@@ -11,11 +12,7 @@ use super::{
     declared::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPoint},
     written::{WrittenDynamics, WrittenInertial, WrittenTensor, WrittenTerm},
 };
-use crate::{
-    codes,
-    model::{DhTable, Joint, JointIndex, Robot},
-    robot_file::rows::first_line,
-};
+use crate::{codes, robot_file::rows::first_line};
 
 /// The robot, its table and the text against which entries are checked.
 pub(in crate::robot_file) struct InertialContext<'a> {

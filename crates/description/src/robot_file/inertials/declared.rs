@@ -1,10 +1,9 @@
 //! The dynamics that a robot file declares beside the URDF, such as a vendor's table of masses: values only.
 
+use congruent_robot::JointIndex;
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
-
-use crate::model::JointIndex;
 
 /// The frame of the parameters of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,6 +4,7 @@
 use std::{collections::BTreeMap, fmt::Write};
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, display::quantity, known_names};
+use congruent_robot::{Inertia, LinkIndex, Robot, principal_moments};
 use nalgebra::Isometry3;
 use roxmltree::Node;
 
@@ -13,7 +14,6 @@ use super::{
 };
 use crate::{
     codes,
-    model::{Inertia, LinkIndex, Robot, principal_moments},
     toml_literal::toml_key,
     urdf::node::{element, elements, place, tag},
 };

@@ -4,11 +4,9 @@ use congruent_input::{
     Code,
     display::{length, quantity},
 };
+use congruent_robot::{Inertia, principal_moments};
 
-use crate::{
-    codes,
-    model::{Inertia, principal_moments},
-};
+use crate::codes;
 
 /// Rounding in files: principal moments may miss a bound by so much of the largest one. Real
 /// robots miss by up to 1e-4 if inertias are written with four digits.

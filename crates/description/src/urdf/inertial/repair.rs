@@ -70,7 +70,8 @@ mod tests {
     use nalgebra::Rotation3;
 
     use super::*;
-    use crate::{model::Inertia, urdf::inertial::possible::Impossible};
+    use crate::urdf::inertial::possible::Impossible;
+    use congruent_robot::Inertia;
 
     /// Rounding of an eigenvalue problem of order 1; worst seen 1e-15.
     const ROUNDING: f64 = 1e-14;

@@ -1,7 +1,11 @@
 //! Levenberg-Marquardt steps: normal equations from the columns of a Jacobian, damped and solved. Each caller decides whether
 //! to accept a step and when the iteration ends.
 
+mod bounded;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+pub use bounded::BoundedLeastSquares;
 
 /// The damping of a step: larger values give shorter steps.
 #[derive(Debug, Clone, Copy, PartialEq)]

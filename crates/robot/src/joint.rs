@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Unit, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::link::LinkIndex;
+use super::{link::LinkIndex, rounding::JointRounding};
 
 /// How much faster than its limit an actuator may drive a joint, as a share of the limit.
 pub const SPEED_MARGIN: f64 = 1e-3;
@@ -125,6 +125,8 @@ pub struct Joint {
     pub armature: Option<f64>,
     /// Set if the joint follows another.
     pub mimic: Option<Mimic>,
+    /// How far origin and axis may be from the truth because of the digits that they are written with.
+    pub rounding: JointRounding,
 }
 
 impl Joint {
@@ -190,6 +192,7 @@ impl JointParts {
             friction: 0.0,
             armature: None,
             mimic: None,
+            rounding: JointRounding::default(),
         };
         Self { joint, parent: parent.to_owned(), child: child.to_owned(), mimic: None }
     }

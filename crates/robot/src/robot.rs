@@ -112,7 +112,7 @@ impl Robot {
     }
 
     /// Replaces the inertia of a link.
-    pub(crate) fn set_inertia(&mut self, link: LinkIndex, inertia: Inertia) {
+    pub fn set_inertia(&mut self, link: LinkIndex, inertia: Inertia) {
         self.links[link.0].inertia = Some(inertia);
     }
 

@@ -43,7 +43,7 @@ pub enum Geometry {
 impl Geometry {
     /// A capsule along z by parts, each with its pose in the capsule: a cylinder and a sphere at each end, so that distances are
     /// exact. `length_m` is that of the cylinder, as in `capsule_shape.sdf` of SDF 1.8; URDF 1.1 took the element over.
-    pub(crate) fn capsule(radius_m: f64, length_m: f64) -> Vec<(Isometry3<f64>, Self)> {
+    pub fn capsule(radius_m: f64, length_m: f64) -> Vec<(Isometry3<f64>, Self)> {
         let end = |z: f64| (Translation3::new(0.0, 0.0, z).into(), Self::Sphere { radius_m });
         let middle = Self::Cylinder { radius_m, length_m };
         vec![(Isometry3::identity(), middle), end(-length_m / 2.0), end(length_m / 2.0)]

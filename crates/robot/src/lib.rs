@@ -1,4 +1,6 @@
 //! The validated robot: links, joints and their tree, the table that models its chain, and joint values.
+//!
+//! Nothing here reads a file: the readers are in crate `description`, under whose name all types are used.
 
 mod carried_body;
 mod dh_table;
@@ -16,6 +18,7 @@ mod placed_axis;
 mod positions;
 mod robot;
 mod robot_q_list;
+mod rounding;
 mod tolerance;
 mod tree;
 
@@ -35,4 +38,5 @@ pub use placed_axis::PlacedAxis;
 pub use positions::{ArmQ, ChainQ, RobotQ};
 pub use robot::Robot;
 pub use robot_q_list::RobotQList;
-pub use tolerance::{RequestedTolerance, Tolerance, ToleranceScale};
+pub use rounding::{JointRounding, SmallMotion};
+pub use tolerance::{RequestedTolerance, Tolerance};

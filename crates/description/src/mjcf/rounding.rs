@@ -1,0 +1,51 @@
+//! What the digits of a model leave open, as small motions in the parent links of joints.
+
+use congruent_mjcf::{MjBody, MjBodyRounding, MjJoint, MjJointKind, MjJointRounding, MjModel};
+use congruent_robot::SmallMotion;
+use nalgebra::{Isometry3, Vector3};
+
+/// Half of the last place of all numbers that place the bodies and joints of a model.
+pub(super) struct ModelRounding {
+    bodies: Vec<MjBodyRounding>,
+    joints: Vec<MjJointRounding>,
+}
+
+impl ModelRounding {
+    pub(super) fn new(model: &MjModel) -> Self {
+        Self { bodies: model.body_roundings(), joints: model.joint_roundings() }
+    }
+
+    /// The motions of a body in its parent.
+    pub(super) fn of_body(&self, body: &MjBody, index: usize) -> Vec<SmallMotion> {
+        let MjBodyRounding { pos_m, turns_rad } = &self.bodies[index];
+        let turns = turns_rad.iter().map(|turn| SmallMotion::turn(*turn, &body.pos.value));
+        let in_frame = shifts(pos_m).chain(turns);
+        in_frame.map(|motion| motion.expressed_in(&body.notation.body_from_frame)).collect()
+    }
+
+    /// The motions of the axis of a joint in the link before it.
+    pub(super) fn of_joint(
+        &self,
+        joint: &MjJoint,
+        index: usize,
+        before_from_body: &Isometry3<f64>,
+    ) -> Vec<SmallMotion> {
+        let MjJointRounding { pos_m, axis } = &self.joints[index];
+        let frame = &joint.notation.body_from_frame;
+        let axis_in_frame = frame.rotation.inverse() * joint.axis_in_body.value;
+        let point = joint.pos_in_body.value.coords;
+        let open = axis.iter().enumerate().filter(|(_, half)| **half > 0.0);
+        let tilts = open.map(|(at, half)| {
+            let tilt = axis_in_frame.cross(&Vector3::ith(at, *half));
+            SmallMotion::turn(frame.rotation * tilt, &point)
+        });
+        let is_point = joint.kind == MjJointKind::Hinge;
+        let moved = shifts(pos_m).filter(|_| is_point).map(|shift| shift.expressed_in(frame));
+        moved.chain(tilts).map(|motion| motion.expressed_in(before_from_body)).collect()
+    }
+}
+
+fn shifts(pos_m: &[f64; 3]) -> impl Iterator<Item = SmallMotion> {
+    let open = pos_m.iter().enumerate().filter(|(_, half)| **half > 0.0);
+    open.map(|(at, half)| SmallMotion::shift(Vector3::ith(at, *half)))
+}

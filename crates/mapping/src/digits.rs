@@ -1,0 +1,298 @@
+//! Whether the digits that two descriptions are written with explain how they differ.
+//!
+//! Half of the last place of each written number is a small motion of what its joint carries. If parts of these motions, each at
+//! most a whole one, sum up to the difference of all axes and frames at zero, the two may be one robot that is written twice.
+//!
+//! Of a number that both files write, the coarser alone counts as rounded: two files that round a value to the same place write
+//! the same number, and a last digit that differs is a difference.
+
+use std::{collections::BTreeSet, f64::consts::FRAC_PI_2};
+
+use congruent_description::{
+    Joint, JointIndex, JointKind, JointRounding, LinkIndex, MappedJoint, Robot, SmallMotion, Tolerance,
+};
+use congruent_kinematics::{PoseError, Screw, ScrewTree, Twist, least_squares::BoundedLeastSquares};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use crate::{find::FoundMapping, frames::CommonAxes, matched::MatchedRobots};
+
+/// The most that a value may be off, in half places: the margin is that of a value that is rounded from the middle of two. Kind:
+/// rounding.
+const MOST: f64 = 1.0 + 1e-4;
+/// Directions and half places that differ by less are the same. Relative; kind: rounding of the typed numbers themselves.
+const SAME: f64 = 1e-3;
+/// How far a fitted zero or frame may move, rad or m: it takes part in the fit, since nobody has written it. Kind: choice, far more
+/// than what digits leave open.
+const FITTED: f64 = 1e-2;
+/// Damping of the solver, relative to the largest effect. Kind: solver.
+const DAMPING: f64 = 1e-14;
+/// Most values that are varied together, and most joints and links that they move; of larger robots digits explain nothing. Kind:
+/// limit of the time, a second.
+const MOST_VALUES: usize = 1000;
+const MOST_MOVED: usize = 200;
+
+impl MatchedRobots<'_> {
+    /// The largest difference of a link at zero that the digits allow, to first order, if they explain all that differs; `None`
+    /// if they do not, or if programs have written both files with all digits.
+    pub fn explained_by_digits(&self) -> Option<PoseError> {
+        let sides = self.sides();
+        let roundings = self.roundings();
+        let values: usize = roundings.iter().flatten().map(|of| of.rounding.values()).sum();
+        let moved = sides[0].joints.len() + sides[0].links.len();
+        if values == 0 || values > MOST_VALUES || moved > MOST_MOVED {
+            return None;
+        }
+        let [own, other]: [Vec<DVector<f64>>; 2] =
+            [0, 1].map(|at| roundings[at].iter().flat_map(|of| sides[at].columns(of)).collect());
+        let columns: Vec<DVector<f64>> = own.into_iter().chain(other.into_iter().map(|of| -of)).collect();
+        let (effects, difference) = (DMatrix::from_columns(&columns), self.difference(&sides));
+        let same = Tolerance::default().position_m;
+        let allowed = row_sums(&effects, &DVector::repeat(columns.len(), 1.0));
+        // Terms of second order are not known of values that are known to half a place.
+        let is_beyond = |(off, allowed): (&f64, &f64)| off.abs() > MOST * allowed + allowed * allowed + same;
+        if difference.iter().zip(allowed.iter()).any(is_beyond) {
+            return None;
+        }
+        let from = DVector::zeros(columns.len());
+        let scale = columns.iter().map(DVector::norm_squared).fold(0.0, f64::max);
+        let problem = BoundedLeastSquares { effects: &effects, rest: &difference, from: &from, most: MOST };
+        let parts = problem.nearest(DAMPING * scale);
+        let used = row_sums(&effects, &parts).amax();
+        let rest = &difference + &effects * &parts;
+        (rest.amax() <= same + used * used).then(|| sides[0].largest_at_links(&effects))
+    }
+
+    /// The two robots with the joints and links that are compared, in one order.
+    fn sides(&self) -> [ComparedRobot<'_>; 2] {
+        let of = |joint: &Joint| {
+            let there = self.other.find_joint(&self.namesake(joint)?.name)?;
+            joint.kind.is_movable().then_some([self.robot.parent_joint(joint.child)?, there])
+        };
+        let joints: Vec<[JointIndex; 2]> = self.robot.joints().iter().filter_map(of).collect();
+        let links = self.robot.link_indices().filter_map(|link| Some([link, self.link_there(link)?]));
+        let links: Vec<[LinkIndex; 2]> = links.collect();
+        [(0, self.robot), (1, self.other)].map(|(side, robot)| ComparedRobot {
+            robot,
+            screws: ScrewTree::new(robot),
+            joints: joints.iter().map(|pair| pair[side]).collect(),
+            links: links.iter().map(|pair| pair[side]).collect(),
+        })
+    }
+
+    /// The joints of both whose numbers count as rounded, with what that moves.
+    fn roundings(&self) -> [Vec<RoundedJoint<'_>>; 2] {
+        let partner_of = |joint: &Joint| self.other.parent_joint(self.same_joint(joint)?.child);
+        let partners: Vec<Option<JointIndex>> = self.robot.joints().iter().map(partner_of).collect();
+        let mut own = vec![None; self.other.links().len()];
+        for (joint, partner) in self.robot.joints().iter().zip(&partners) {
+            if let Some(partner) = partner {
+                own[self.other.joint(*partner).child.get()] = Some(&joint.rounding);
+            }
+        }
+        let here = self.robot.joints().iter().zip(&partners).map(|(joint, partner)| {
+            let there = partner.map(|partner| &self.other.joint(partner).rounding);
+            RoundedJoint { joint, rounding: coarser(&joint.rounding, there) }
+        });
+        let there = self.other.joints().iter().map(|joint| {
+            let rounding = coarser(&joint.rounding, own[joint.child.get()]);
+            RoundedJoint { joint, rounding }
+        });
+        [here.collect(), there.collect()]
+    }
+
+    /// The screws of the joints and the poses of the links at zero, those of the robot less those of the other.
+    fn difference(&self, [here, there]: &[ComparedRobot<'_>; 2]) -> DVector<f64> {
+        let joints = here.joints.iter().zip(&there.joints).map(|(own, other)| {
+            let [own, other] = [here.screw(*own), there.screw(*other)];
+            Twist { angular: own.angular - other.angular, linear: own.linear - other.linear }
+        });
+        let links =
+            here.links.iter().map(|link| Twist::log(&(self.own(*link) * self.there(*link).inverse())));
+        rows(joints.chain(links))
+    }
+}
+
+/// The robot whose zeros of these joints are fitted, and if axes agree its frames: no digits bind what nobody has written.
+#[must_use]
+pub fn with_fitted(robot: &Robot, zeros: &BTreeSet<&str>, axes: CommonAxes) -> Robot {
+    let screws = ScrewTree::new(robot);
+    robot.with_joints(|joint| {
+        let Some(index) = robot.find_joint(&joint.name) else { return };
+        let Some(screw) = screws.screw(index) else { return };
+        let parent_from_root = screws.home(joint.parent).inverse().to_isometry();
+        let Twist { angular, linear } = screw.twist() * FITTED;
+        let zero = SmallMotion { angular_rad: angular, linear_m: linear }.expressed_in(&parent_from_root);
+        if zeros.contains(joint.name.as_str()) {
+            joint.rounding.origin.push(zero);
+        }
+        if axes == CommonAxes::Agree {
+            let axis_in_parent = joint.parent_from_joint.rotation * joint.axis_in_joint.into_inner();
+            let point = &joint.parent_from_joint.translation.vector;
+            joint.rounding.frame.push(SmallMotion::shift(axis_in_parent * FITTED));
+            joint.rounding.frame.push(SmallMotion::turn(axis_in_parent * FITTED, point));
+        }
+    })
+}
+
+impl FoundMapping {
+    /// The same with each zero that is next to 0 at it, if the digits of both files reach that far, and each that is next to a
+    /// quarter turn, if those of its joint do; `None` if there is no such zero.
+    #[must_use]
+    pub fn with_round_zeros(&self, [robot, other]: [&Robot; 2]) -> Option<Self> {
+        let all = [robot, other].map(|robot| robot.joints().iter());
+        let all: Vec<&Joint> = all.into_iter().flatten().collect();
+        let rounded = |of: &MappedJoint| {
+            let there = other.joint(of.joint);
+            let slides = there.kind == JointKind::Prismatic;
+            let quarters = if slides { 0.0 } else { (of.offset / FRAC_PI_2).round() };
+            let own = robot.find_joint(&of.name).map(|index| robot.joint(index));
+            let open = |joints: &[&Joint]| {
+                let motions = joints.iter().flat_map(|joint| &joint.rounding.origin);
+                motions.filter(|motion| is_turn(motion) != slides).map(size).sum::<f64>()
+            };
+            let open = if quarters == 0.0 { open(&all) } else { open(&[own?, there]) };
+            let round = quarters * FRAC_PI_2;
+            let off = (of.offset - round).abs();
+            (off > 0.0 && off <= open).then_some(round)
+        };
+        let mut found = self.clone();
+        for joint in &mut found.joints {
+            joint.offset = rounded(joint).unwrap_or(joint.offset);
+        }
+        (found != *self).then_some(found)
+    }
+}
+
+/// A joint with what its digits leave open.
+struct RoundedJoint<'a> {
+    joint: &'a Joint,
+    rounding: JointRounding,
+}
+
+/// One of the two robots: the joints and links that are compared, in the order of both.
+struct ComparedRobot<'a> {
+    robot: &'a Robot,
+    screws: ScrewTree,
+    joints: Vec<JointIndex>,
+    links: Vec<LinkIndex>,
+}
+
+impl ComparedRobot<'_> {
+    fn screw(&self, joint: JointIndex) -> Twist {
+        self.screws.screw(joint).map_or_else(Twist::zero, Screw::twist)
+    }
+
+    /// What each motion of the rounding of a joint changes in screws and poses at zero, in the root's frame.
+    fn columns(&self, RoundedJoint { joint, rounding }: &RoundedJoint<'_>) -> Vec<DVector<f64>> {
+        if rounding.values() == 0 {
+            return Vec::new();
+        }
+        let root_from_parent = self.screws.home(joint.parent).to_isometry();
+        let in_root = |motion: &SmallMotion| {
+            let moved = motion.expressed_in(&root_from_parent);
+            Twist { angular: moved.angular_rad, linear: moved.linear_m }
+        };
+        let carried = self.carried(joint);
+        let of_origin = rounding.origin.iter().map(in_root).map(|motion| {
+            let of_joint = |index: &JointIndex| {
+                let is_moved = carried[self.robot.joint(*index).child.get()];
+                if is_moved { rate_of(&self.screw(*index), &motion) } else { Twist::zero() }
+            };
+            let of_link = |link: &LinkIndex| if carried[link.get()] { motion } else { Twist::zero() };
+            rows(self.joints.iter().map(of_joint).chain(self.links.iter().map(of_link)))
+        });
+        let of_axis = rounding.axis.iter().map(in_root).map(|motion| {
+            let of_joint = |index: &JointIndex| {
+                let is_its = self.robot.joint(*index).child == joint.child;
+                if is_its { rate_of(&self.screw(*index), &motion) } else { Twist::zero() }
+            };
+            rows(self.joints.iter().map(of_joint).chain(self.links.iter().map(|_| Twist::zero())))
+        });
+        let of_frame = rounding.frame.iter().map(in_root).map(|motion| {
+            let of_link = |link: &LinkIndex| if *link == joint.child { motion } else { Twist::zero() };
+            rows(self.joints.iter().map(|_| Twist::zero()).chain(self.links.iter().map(of_link)))
+        });
+        of_origin.chain(of_axis).chain(of_frame).collect()
+    }
+
+    /// For each link whether a joint carries it.
+    fn carried(&self, joint: &Joint) -> Vec<bool> {
+        let mut carried = vec![false; self.robot.links().len()];
+        carried[joint.child.get()] = true;
+        // Parents come before their children.
+        for below in self.robot.joints() {
+            carried[below.child.get()] |= carried[below.parent.get()];
+        }
+        carried
+    }
+
+    /// The largest sum of what all motions move a link at zero.
+    fn largest_at_links(&self, effects: &DMatrix<f64>) -> PoseError {
+        let of_link = |(at, link): (usize, &LinkIndex)| {
+            let (first, point) = (6 * (self.joints.len() + at), self.screws.home(*link).translation);
+            let vector = |column: usize, from: usize| effects.fixed_view::<3, 1>(from, column).into_owned();
+            let motions =
+                (0..effects.ncols()).map(|column| [vector(column, first), vector(column, first + 3)]);
+            motions.fold(PoseError::default(), |sum, [angular, linear]| PoseError {
+                position_m: sum.position_m + (linear + angular.cross(&point)).norm(),
+                orientation_rad: sum.orientation_rad + angular.norm(),
+            })
+        };
+        self.links.iter().enumerate().map(of_link).fold(PoseError::default(), PoseError::larger)
+    }
+}
+
+/// How a screw changes if a motion carries its axis along: the bracket of the two.
+///
+/// Source: Lynch & Park, *Modern Robotics* (2017), definition 8.5.
+fn rate_of(screw: &Twist, motion: &Twist) -> Twist {
+    let angular = motion.angular.cross(&screw.angular);
+    let linear = motion.angular.cross(&screw.linear) + motion.linear.cross(&screw.angular);
+    Twist { angular, linear }
+}
+
+fn rows(twists: impl Iterator<Item = Twist>) -> DVector<f64> {
+    let numbers = twists
+        .flat_map(|of| [of.angular.x, of.angular.y, of.angular.z, of.linear.x, of.linear.y, of.linear.z]);
+    DVector::from_vec(numbers.collect())
+}
+
+/// For each row the sum of the sizes of all its terms.
+fn row_sums(effects: &DMatrix<f64>, parts: &DVector<f64>) -> DVector<f64> {
+    effects.abs() * parts.abs()
+}
+
+/// The motions of the numbers of a joint that the other file does not write as coarse or coarser; all of them if it does not write
+/// this joint.
+fn coarser(own: &JointRounding, other: Option<&JointRounding>) -> JointRounding {
+    let Some(other) = other else { return own.clone() };
+    let keep = |own: &[SmallMotion], other: &[SmallMotion]| -> Vec<SmallMotion> {
+        let is_as_coarse = |own: &SmallMotion, there: &SmallMotion| {
+            is_along(own, there) && size(there) >= size(own) * (1.0 - SAME)
+        };
+        let kept = own.iter().filter(|own| !other.iter().any(|there| is_as_coarse(own, there)));
+        kept.copied().collect()
+    };
+    JointRounding {
+        origin: keep(&own.origin, &other.origin),
+        axis: keep(&own.axis, &other.axis),
+        frame: own.frame.clone(),
+    }
+}
+
+/// Whether both are shifts, or both turns, along one direction.
+fn is_along(one: &SmallMotion, other: &SmallMotion) -> bool {
+    let [one_along, other_along] =
+        [one, other].map(|of| if is_turn(of) { of.angular_rad } else { of.linear_m });
+    let sine = one_along.normalize().cross(&other_along.normalize()).norm();
+    is_turn(one) == is_turn(other) && sine < SAME
+}
+
+fn is_turn(motion: &SmallMotion) -> bool {
+    motion.angular_rad != Vector3::zeros()
+}
+
+/// Size in its own unit, m or rad.
+fn size(motion: &SmallMotion) -> f64 {
+    if is_turn(motion) { motion.angular_rad.norm() } else { motion.linear_m.norm() }
+}

@@ -1,0 +1,172 @@
+//! How far the poses of bodies and the axes of joints may be from the truth because of the digits that they are written with.
+
+use congruent_input::{
+    TypedNumber, half_places,
+    units::{Unit, UnitSystem},
+};
+use nalgebra::Vector3;
+
+use crate::{
+    model::{MjBody, MjJoint, MjModel, MjNotation, MjWritten},
+    read::orientation_of,
+};
+
+/// Step of the central differences of an orientation, in the unit of the file: truncation and rounding are 1e-10 of a turn.
+const STEP: f64 = 1e-5;
+
+/// What half of the last place of each written number of a body changes in its pose, in the innermost frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MjBodyRounding {
+    /// Shift of `pos` along x, y, z, m.
+    pub pos_m: [f64; 3],
+    /// Turns, rad, about the origin of the body: one for each number of its orientation.
+    pub turns_rad: Vec<Vector3<f64>>,
+}
+
+/// The same of a joint.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MjJointRounding {
+    /// Shift of `pos` along x, y, z, m.
+    pub pos_m: [f64; 3],
+    /// Change of the components of `axis`.
+    pub axis: [f64; 3],
+}
+
+impl MjModel {
+    /// The rounding of each body.
+    pub fn body_roundings(&self) -> Vec<MjBodyRounding> {
+        let positions = of_lengths(&self.bodies.iter().map(|body| text(&body.pos)).collect::<Vec<_>>());
+        let turns = self.bodies.iter().map(turns);
+        positions
+            .into_iter()
+            .zip(turns)
+            .map(|(pos_m, turns_rad)| MjBodyRounding { pos_m, turns_rad })
+            .collect()
+    }
+
+    /// The rounding of each joint.
+    pub fn joint_roundings(&self) -> Vec<MjJointRounding> {
+        let positions =
+            of_lengths(&self.joints.iter().map(|joint| text(&joint.pos_in_body)).collect::<Vec<_>>());
+        let axis = |joint: &MjJoint| {
+            let halves = of_direction(&numbers(text(&joint.axis_in_body)));
+            std::array::from_fn(|at| halves.get(at).copied().unwrap_or_default())
+        };
+        positions
+            .into_iter()
+            .zip(&self.joints)
+            .map(|(pos_m, of)| MjJointRounding { pos_m, axis: axis(of) })
+            .collect()
+    }
+}
+
+/// The text of a value; empty if no file states it.
+fn text<T>(value: &MjWritten<T>) -> &str {
+    value.place.as_ref().map_or("", |place| place.text())
+}
+
+fn numbers(text: &str) -> Vec<TypedNumber<'_>> {
+    text.split_whitespace().map(|text| TypedNumber { text, units: UnitSystem::Si }).collect()
+}
+
+/// Half places of x, y, z of all positions: zeros are as fine as the others of the file.
+fn of_lengths(texts: &[&str]) -> Vec<[f64; 3]> {
+    let numbers_of: Vec<Vec<TypedNumber<'_>>> = texts.iter().map(|text| numbers(text)).collect();
+    let mut halves = half_places(Unit::Length, &numbers_of.concat()).into_iter();
+    let of = |numbers: &Vec<TypedNumber<'_>>| {
+        let halves: Vec<f64> = halves.by_ref().take(numbers.len()).collect();
+        std::array::from_fn(|at| halves.get(at).copied().unwrap_or_default())
+    };
+    numbers_of.iter().map(of).collect()
+}
+
+/// Half places of the components of a direction or a quaternion; whole ones, as `0 0 1`, are directions by design.
+fn of_direction(numbers: &[TypedNumber<'_>]) -> Vec<f64> {
+    let is_whole =
+        |number: &TypedNumber<'_>| number.text.parse::<f64>().is_ok_and(|component| component.fract() == 0.0);
+    if numbers.iter().all(is_whole) { vec![0.0; numbers.len()] } else { half_places(Unit::Angle, numbers) }
+}
+
+/// The turns that half of the last place of each number of an orientation makes.
+fn turns(body: &MjBody) -> Vec<Vector3<f64>> {
+    let Some(place) = &body.orientation.place else { return Vec::new() };
+    let written = numbers(place.text());
+    let mut values = [0.0; 6];
+    for (value, number) in values.iter_mut().zip(&written) {
+        *value = number.text.parse().unwrap_or_default();
+    }
+    let rotation = |at: usize, by: f64| {
+        let mut values = values;
+        values[at] += by;
+        orientation_of(&place.key, values, &body.notation).ok()
+    };
+    let turn = |(at, half): (usize, f64)| {
+        let [up, down] = [STEP, -STEP].map(|by| rotation(at, by));
+        Some((up? * down?.inverse()).scaled_axis() * (half / (2.0 * STEP)))
+    };
+    let halves = halves_of_orientation(&place.key, &written, &body.notation).into_iter().enumerate();
+    halves.filter(|(_, half)| *half > 0.0).filter_map(turn).collect()
+}
+
+/// Half places of the numbers of an orientation, in the unit of the file: first components of directions, then angles.
+fn halves_of_orientation(key: &str, written: &[TypedNumber<'_>], notation: &MjNotation) -> Vec<f64> {
+    let components = match key {
+        "euler" => 0,
+        "axisangle" => 3,
+        _ => written.len(),
+    };
+    let (directions, angles) = written.split_at(components.min(written.len()));
+    let units = notation.angle_unit();
+    let angles: Vec<TypedNumber<'_>> = angles.iter().map(|of| TypedNumber { units, ..*of }).collect();
+    let of_angles = half_places(Unit::Angle, &angles).into_iter().map(|half| half / notation.angle_rad(1.0));
+    of_direction(directions).into_iter().chain(of_angles).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use congruent_input::{Diagnostics, SourceFile};
+
+    use super::*;
+
+    /// The half places of the second body of a model.
+    fn rounding(compiler: &str, body: &str) -> MjBodyRounding {
+        let text = format!(
+            "<mujoco><compiler {compiler}/><worldbody><body name='a' pos='0.1234 0 1'/><body name='b' {body}/></worldbody></mujoco>"
+        );
+        let main = SourceFile { path: "a.xml".into(), text, is_foreign: false };
+        let mut diagnostics = Diagnostics::default();
+        let model = crate::parse(&Arc::new(main), &mut |_| unreachable!(), &mut diagnostics).unwrap();
+        model.body_roundings().swap_remove(2)
+    }
+
+    #[test]
+    fn each_number_turns_by_half_of_its_last_place() {
+        // By hand: a quaternion (c, s, 0, 0) with c = s turns about x by twice the change of one of its parts times c, and about
+        // y and z likewise.
+        let quat = rounding("", "quat='0.707107 0.707107 0 0'");
+        let half = std::f64::consts::SQRT_2 * 5e-7;
+        assert_eq!(quat.pos_m, [0.0; 3]);
+        assert_eq!(quat.turns_rad.len(), 4);
+        for turn in &quat.turns_rad[..2] {
+            assert!((turn.x.abs() / half - 1.0).abs() < 1e-5 && turn.yz().norm() < 1e-12, "{turn}");
+        }
+        assert!((quat.turns_rad[2].norm() / (2.0 * 5e-7) - 1.0).abs() < 1e-5, "{}", quat.turns_rad[2]);
+        assert!(rounding("", "quat='1 0 0 0'").turns_rad.is_empty());
+        assert!(rounding("", "euler='90 0 -45'").turns_rad.is_empty(), "whole degrees are design angles");
+        let degrees = rounding("", "euler='12.5 0 0' pos='0 0 0.52'");
+        assert!(
+            (degrees.turns_rad[0].x / 0.05_f64.to_radians() - 1.0).abs() < 1e-6,
+            "{:?}",
+            degrees.turns_rad
+        );
+        assert_eq!(degrees.pos_m, [5e-5; 3], "zeros and short values are as fine as 0.1234");
+        let radians = rounding("angle='radian'", "euler='0 1.5708 0'");
+        assert!((radians.turns_rad[1].y / 5e-5 - 1.0).abs() < 1e-6, "{:?}", radians.turns_rad);
+        let axis = rounding("", "axisangle='0 0 1 33.25'");
+        assert!(
+            (axis.turns_rad[0].z / 0.005_f64.to_radians() - 1.0).abs() < 1e-6 && axis.turns_rad.len() == 1
+        );
+    }
+}

@@ -1,0 +1,48 @@
+//! What a declared `[mapping]` leaves to compare: the zero of the last joint, and one cause of one fault.
+
+use std::fs;
+
+use crate::support::{
+    command::{congruent, congruent_json},
+    corpus::workspace,
+    scratch_folder::ScratchFolder,
+};
+
+fn urdf() -> String {
+    fs::read_to_string(workspace().join("robots/ur5e/ur5e.urdf")).unwrap()
+}
+
+/// Two copies of one URDF: 45 deg in the zero of the last joint show at the frame of the link that both call the tip.
+#[test]
+fn the_frame_of_the_tip_shows_a_wrong_zero_of_the_last_joint() {
+    let scratch = ScratchFolder::new();
+    let other = scratch.write("other.urdf", &urdf());
+    scratch.write("ur5e.urdf", &urdf());
+    for (offset_deg, code) in [(0, 0), (45, 1), (90, 1)] {
+        let lines = format!("[mapping.joints]\nwrist_3_joint = {{ offset_deg = {offset_deg} }}\n");
+        let robot = scratch.write("robot.toml", &format!("description = \"ur5e.urdf\"\n{lines}"));
+        let answer = congruent(&["check", &robot, "--against", &other, "--tip", "wrist_3_link", "-q"]);
+        assert_eq!(answer.code, code, "{offset_deg}: {}", answer.stdout);
+        assert_eq!(answer.stdout.contains("wrist_3"), code == 1, "{}", answer.stdout);
+    }
+}
+
+/// With other names alone, declared or found, a wrong origin is the same one cause.
+#[test]
+fn declared_names_change_no_cause() {
+    let scratch = ScratchFolder::new();
+    let own = scratch.write("ur5e.urdf", &urdf());
+    let renamed = urdf().replace("_joint\"", "_axis\"");
+    let wrong = renamed.replacen("<origin xyz=\"0 0 0.1625\"/>", "<origin xyz=\"0 0.03 0.1725\"/>", 1);
+    assert_ne!(renamed, wrong);
+    let other = scratch.write("other.urdf", &wrong);
+    let names = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"];
+    let lines = names.map(|name| format!("{name}_joint = \"{name}_axis\"\n")).concat();
+    let declared = format!("description = \"ur5e.urdf\"\n[mapping.joints]\n{lines}");
+    let declared = scratch.write("robot.toml", &declared);
+    for file in [&own, &declared] {
+        let report = congruent_json(&["check", file, "--against", &other]).json();
+        assert_eq!(report["diagnosis"][0]["joint"], "shoulder_pan_joint", "{file}: {report:#}");
+        assert_eq!(report["diagnosis"][0]["cause"], "joint_origin", "{file}");
+    }
+}

@@ -1,0 +1,97 @@
+//! `check --against`: what the digits of two files explain is rounding, and what is beyond them is a difference.
+
+use std::{fs, path::PathBuf};
+
+use crate::support::{
+    command::{congruent, congruent_json},
+    scratch_folder::ScratchFolder,
+};
+
+/// Two URDFs of the UR5e, the second with other texts in place of some of its own in its joints, which follow its links.
+fn two_files(folder: &ScratchFolder, changes: &[(&str, &str)]) -> [PathBuf; 2] {
+    let robot = PathBuf::from(folder.robot("ur5e", &[]));
+    let exact = robot.join("ur5e.urdf");
+    let text = fs::read_to_string(&exact).unwrap();
+    let (links, joints) = text.split_at(text.find("<joint").unwrap());
+    let mut joints = joints.to_owned();
+    for (from, to) in changes {
+        assert!(joints.contains(from), "{from}");
+        joints = joints.replace(from, to);
+    }
+    let text = links.to_owned() + &joints;
+    let other = robot.join("other.urdf");
+    fs::write(&other, text).unwrap();
+    [exact, other]
+}
+
+/// The answer of a check of the two in one direction: its first line and JSON.
+#[track_caller]
+fn answer(files: [&PathBuf; 2]) -> (String, serde_json::Value) {
+    let [file, other] = files.map(|file| file.to_str().unwrap());
+    let line = congruent(&["check", file, "--against", other, "-q"]);
+    (line.stdout + &line.stderr, congruent_json(&["check", file, "--against", other]).json())
+}
+
+const ROUNDED: (&str, &str) = ("1.5707963267948966", "1.5708");
+
+#[test]
+fn rounded_quarter_turns_are_the_same_robot() {
+    let folder = ScratchFolder::new();
+    let [exact, rounded] = two_files(&folder, &[ROUNDED]);
+    for files in [[&exact, &rounded], [&rounded, &exact]] {
+        let (line, json) = answer(files);
+        assert!(line.contains("within the digits written"), "{line}");
+        assert_eq!(json["grade"], "same_within_digits", "{line}");
+        assert_eq!(json["verdict"], "agree", "{line}");
+        assert!(json["allowed_by_digits"]["position_m"].as_f64().unwrap() > 1e-6, "{json}");
+        assert_eq!(json["diagnosis"].as_array().map(Vec::len), Some(0), "{line}");
+    }
+}
+
+/// By hand: the tip is off by the turns of 3.7e-6 rad at levers of up to a metre.
+#[test]
+fn a_declared_tolerance_decides() {
+    let folder = ScratchFolder::new();
+    let [exact, rounded] = two_files(&folder, &[ROUNDED]);
+    let [file, other] = [&exact, &rounded].map(|file| file.to_str().unwrap());
+    let check =
+        |tolerance: &str| congruent(&["check", file, "--against", other, "--tolerance", tolerance, "-q"]);
+    let tight = check("1nm,1e-9rad");
+    assert_eq!(tight.code, 1, "{}", tight.stdout);
+    assert!(tight.stdout.contains("by rounding alone"), "{}", tight.stdout);
+    assert_eq!(check("0.1mm,0.01deg").code, 0);
+}
+
+#[test]
+fn one_value_beyond_the_digits_is_the_only_cause() {
+    let folder = ScratchFolder::new();
+    let [exact, other] =
+        two_files(&folder, &[ROUNDED, ("xyz=\"-0.3922 0 0.1333\"", "xyz=\"-0.3932 0 0.1333\"")]);
+    let (line, json) = answer([&exact, &other]);
+    assert!(line.contains("DIFFERENT") && line.contains("Cause: joint \"wrist_1_joint\""), "{line}");
+    assert_eq!(json["grade"], "different");
+}
+
+/// Two files that round a length to the same place write the same number.
+#[test]
+fn another_last_place_is_a_difference() {
+    let folder = ScratchFolder::new();
+    let [exact, other] = two_files(&folder, &[("xyz=\"-0.3922 0 0.1333\"", "xyz=\"-0.3923 0 0.1333\"")]);
+    let (line, json) = answer([&exact, &other]);
+    assert_eq!(json["grade"], "different", "{line}");
+    assert!(line.contains("wrist_1_joint"), "{line}");
+}
+
+/// A finer file beside a coarse one: the coarse length allows half a place, and no more.
+#[test]
+fn a_finer_length_is_within_half_a_place_of_the_coarse_one() {
+    let from = "xyz=\"-0.3922 0 0.1333\"";
+    for (finer, expected) in [("-0.39224", "same_within_digits"), ("-0.39231", "different")] {
+        let folder = ScratchFolder::new();
+        let [exact, other] = two_files(&folder, &[(from, &format!("xyz=\"{finer} 0 0.1333\""))]);
+        for files in [[&exact, &other], [&other, &exact]] {
+            let (line, json) = answer(files);
+            assert_eq!(json["grade"], expected, "{finer}: {line}");
+        }
+    }
+}
