@@ -176,3 +176,15 @@ fn everything_that_changes_is_named_beside_an_origin() {
     fs::write(&urdf, without.replacen("<link name=\"ft_frame\"/>", "", 1)).unwrap();
     answers(&urdf, "git:main", 1, "CHANGED since main: removes link ft_frame");
 }
+
+#[test]
+fn a_changed_table_is_a_change() {
+    let (_folder, robot) = repository();
+    edit(&robot.join("robot.toml"), "a_m = -0.3922", "a_m = -0.3932");
+    let report = congruent_json(&["check", robot.to_str().unwrap(), "--against", "git:before"]).json();
+    let value = &report["change"]["values"][0];
+    assert_eq!(
+        (&value["figure"], &value["found"], &value["before"]),
+        (&"table a".into(), &(-0.3932).into(), &(-0.3922).into())
+    );
+}

@@ -16,7 +16,8 @@ const ROUNDED_M: f64 = 1e-9;
 pub struct ChangedValue {
     /// The joint.
     pub joint: String,
-    /// `lower`, `upper`, `velocity`, `effort`, `acceleration`, `deceleration`, `jerk`, `damping`, `friction` or `armature`.
+    /// `lower`, `upper`, `velocity`, `effort`, `acceleration`, `deceleration`, `jerk`, `damping`, `friction` or `armature`; of a
+    /// row of a table `table a`, `table alpha`, `table d` or `table theta`.
     #[serde(rename = "figure")]
     pub parameter: &'static str,
     /// Its value; `null` if none is stated.

@@ -13,7 +13,10 @@ use congruent_mapping::{ChangedValue, changed_inertias, changed_values};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::mapped::ReportedMapping;
+use super::{
+    changed_table::{changed_table, has_other_table},
+    mapped::ReportedMapping,
+};
 
 /// Random configurations beside zero, single axes and the limits.
 const RANDOM: usize = 200;
@@ -51,9 +54,12 @@ pub struct RevisionChange {
     /// Links of both with another centre of mass or inertia.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub inertias: Vec<String>,
-    /// Limits and losses of joints that differ.
+    /// Values of the table, limits and losses of joints that differ.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<ChangedValue>,
+    /// Whether the Denavit-Hartenberg table is of another convention, has other rows or other frames at its ends, or is new.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub has_other_table: bool,
     /// The joint whose largest gravity torque at these configurations changes most; missing if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity: Option<ChangedTorque>,
@@ -119,7 +125,8 @@ impl RevisionChange {
             links_removed: links_alone(&before.robot, &description.robot),
             masses: changed_masses(&description.robot, &before.robot),
             inertias: changed_inertias(&description.robot, &before.robot),
-            values: pair.values(),
+            values: changed_table([description, before]).into_iter().chain(pair.values()).collect(),
+            has_other_table: has_other_table([description, before]),
             gravity: pair.gravity(),
             not_compared: not_compared(description, before),
         }))
@@ -133,7 +140,10 @@ impl RevisionChange {
     /// Whether a frame, a joint, a limit or a loss is another, or the tip moves: what other programs rely on.
     pub(super) fn decides(&self, tolerance: &Tolerance) -> bool {
         let lists = [&self.joints_added, &self.joints_removed, &self.links_added, &self.links_removed];
-        self.is_moved(tolerance) || !self.values.is_empty() || lists.iter().any(|list| !list.is_empty())
+        self.is_moved(tolerance)
+            || self.has_other_table
+            || !self.values.is_empty()
+            || lists.iter().any(|list| !list.is_empty())
     }
 
     /// What it does to masses and torques, in words.
@@ -181,6 +191,7 @@ impl RevisionChange {
             1..=MOST_NAMED => parts.push(format!("other centre of mass or inertia of {}", listed(&names))),
             count => parts.push(format!("other centres of mass or inertias of {}", counted(count, "link"))),
         }
+        parts.extend(self.has_other_table.then(|| "another DH table".to_owned()));
         parts.extend(self.values.iter().take(MOST_NAMED).map(ChangedValue::sentence));
         if self.values.len() > MOST_NAMED {
             parts.push(format!("{} more", counted(self.values.len() - MOST_NAMED, "value")));

@@ -2,7 +2,7 @@
 
 use congruent_agreement::{SourcePair, compare::Agreement};
 use congruent_dynamics_agreement::DynamicsVerdict;
-use congruent_results::report::{Reason, TestCase, TestResult};
+use congruent_results::report::{self, Reason, TestCase, TestResult};
 
 use super::{
     cause_in_words::{cause, largest},
@@ -45,7 +45,7 @@ pub(super) fn change_case(check: &RobotCheck) -> Option<TestCase> {
     let (answer, details) = answer_of_change(check)?;
     let output = answer.to_owned() + &details;
     let result = if answer == CHANGED {
-        TestResult::Failed(Reason { kind: "changed".to_owned(), message: output.clone() })
+        TestResult::Failed(Reason { kind: report::CHANGED.to_owned(), message: output.clone() })
     } else {
         TestResult::Passed
     };

@@ -8,7 +8,7 @@ use congruent_agreement::{
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{Diagnostic, display::length_and_angle, serde_name};
 use congruent_kinematics::PoseError;
-use congruent_results::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
+use congruent_results::report::{CHANGED, CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
 use super::{
     change_answer::change_case, judged_by::comparison_judged_by, mapped_joints::mapped_joints,
@@ -20,19 +20,24 @@ use super::{
 /// `name` distinguishes this robot from the others of the file, as its path does.
 pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
     let geometry = &report.geometry;
-    let mut cases: Vec<TestCase> =
-        geometry.comparisons.iter().map(|comparison| case(comparison, geometry)).collect();
+    let of_comparison = |comparison: &Comparison| {
+        let found = case(comparison, geometry);
+        if comparison.name == SourcePair::UrdfOther { of_other(report, found) } else { found }
+    };
+    let mut cases: Vec<TestCase> = geometry.comparisons.iter().map(of_comparison).collect();
     let not_compared = report.against.as_ref().and_then(|against| against.dynamics_not_compared.as_ref());
-    cases.extend(not_compared.map(|why| TestCase {
+    let not_compared = not_compared.map(|why| TestCase {
         name: "dynamics against the other description".to_owned(),
         result: TestResult::Failed(Reason { kind: "other_chain".to_owned(), message: why.clone() }),
         output: why.clone(),
         place: None,
         further: Vec::new(),
-    }));
+    });
+    let joints = mapping_case(report);
+    cases.extend(not_compared.into_iter().chain(joints).map(|found| of_other(report, found)));
     cases.extend(change_case(report));
-    cases.extend(mapping_case(report));
-    cases.extend(report.all_dynamics().map(dynamics_case));
+    cases.extend(report.dynamics.iter().map(dynamics_case));
+    cases.extend(report.other_dynamics.iter().map(|found| of_other(report, dynamics_case(found))));
     cases.extend(geometry.not_asked.iter().map(|source| not_compared_case(source, report)));
     let dropped = geometry
         .warnings
@@ -42,6 +47,16 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
     cases.push(lint_case(report));
     // Nothing moves, so that no time passes but the machine's.
     TestSuite { name: name.to_owned(), cases, time_s: 0.0, clock: Clock::Wall }
+}
+
+/// A case of the comparison with the other description; with a revision, what differs is a change.
+fn of_other(report: &RobotCheck, case: TestCase) -> TestCase {
+    match case.result {
+        TestResult::Failed(reason) if report.change.is_some() => {
+            TestCase { result: TestResult::Failed(Reason { kind: CHANGED.to_owned(), ..reason }), ..case }
+        }
+        _ => case,
+    }
 }
 
 fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
@@ -71,7 +86,7 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
 
 /// How much alike table and URDF are, and what their digits allow.
 fn grade(comparison: &Comparison, report: &CheckReport) -> Option<String> {
-    let grade = report.grade.filter(|_| comparison.name == SourcePair::ModelUrdf)?;
+    let grade = report.grade.filter(|_| comparison.name.is_written())?;
     let allowed =
         report.allowed_by_digits.map_or_else(String::new, |PoseError { position_m, orientation_rad }| {
             format!(

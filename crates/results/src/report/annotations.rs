@@ -5,18 +5,21 @@ use std::fmt::Write;
 
 use congruent_input::visible_lines;
 
-use super::suite::{CasePlace, TestSuite};
+use super::suite::{CasePlace, Reason, TestSuite};
 
-/// A line `::error file=...,line=...,title=...::message` for each case that failed or could not be checked.
+/// A line `::error file=...,line=...,title=...::message` for each case that failed or could not be checked, with `::notice` for
+/// what a change does.
 pub fn github_annotations(suites: &[TestSuite]) -> String {
     let mut text = String::new();
     for suite in suites {
         for case in &suite.cases {
             if let Some(reason) = case.result.reason() {
                 let title = format!("{}: {}", suite.name, case.name);
+                text.push_str(level(reason));
                 annotate(&mut text, case.place.as_ref(), &title, &reason.message);
                 // One of each line, so that a change of several lines is marked at all of them.
                 for (place, message) in &case.further {
+                    text.push_str(level(reason));
                     annotate(&mut text, Some(place), &title, message);
                 }
             }
@@ -25,8 +28,11 @@ pub fn github_annotations(suites: &[TestSuite]) -> String {
     text
 }
 
+fn level(reason: &Reason) -> &'static str {
+    if reason.is_change() { "::notice " } else { "::error " }
+}
+
 fn annotate(text: &mut String, place: Option<&CasePlace>, title: &str, message: &str) {
-    text.push_str("::error ");
     if let Some(CasePlace { file, line }) = place {
         let _ = write!(text, "file={},line={line},", property(file));
     }
@@ -46,7 +52,7 @@ fn property(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Reason, TestCase, TestResult};
+    use crate::report::{CHANGED, TestCase, TestResult};
 
     fn suite(name: &str, message: &str) -> TestSuite {
         let reason = Reason { kind: "clearance".to_owned(), message: message.to_owned() };
@@ -61,6 +67,15 @@ mod tests {
             github_annotations(&[suite("pick", "distance 3 mm\nof a--b: 100 %")]),
             "::error file=a%2Cb.toml,line=12,title=pick%3A 2_clearance::distance 3 mm%0Aof a--b: 100 %25\n"
         );
+    }
+
+    #[test]
+    fn a_change_is_a_notice() {
+        let mut changed = suite("arm", "moves tool0");
+        changed.cases[0].result =
+            TestResult::Failed(Reason { kind: CHANGED.to_owned(), message: "moves tool0".to_owned() });
+        let text = github_annotations(&[changed]);
+        assert!(text.starts_with("::notice file=") && text.lines().count() == 1, "{text}");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use congruent_input::{display::counted, visible};
 
-use super::suite::{TestCase, TestResult, TestSuite};
+use super::suite::{Reason, TestCase, TestResult, TestSuite};
 
 /// The counts, a table of what did not pass with reasons, and the names of what passed.
 pub fn step_summary(suites: &[TestSuite]) -> String {
@@ -13,18 +13,26 @@ pub fn step_summary(suites: &[TestSuite]) -> String {
         suites.iter().flat_map(|suite| &suite.cases).filter(|case| of(&case.result)).count()
     };
     let errors = count(|result| matches!(result, TestResult::Error(_)));
-    let failures = count(|result| matches!(result, TestResult::Failed(_)));
+    let is_change = |result: &TestResult| result.reason().is_some_and(Reason::is_change);
+    let failures = count(|result| matches!(result, TestResult::Failed(reason) if !reason.is_change()));
+    let changed = count(is_change);
     let passed = count(|result| matches!(result, TestResult::Passed));
     let skipped = count(|result| matches!(result, TestResult::Skipped(_)));
-    let verdict = if errors + failures > 0 { "failed" } else { "passed" };
+    let verdict = match (errors + failures, changed) {
+        (0, 0) => "passed",
+        (0, _) => "changed",
+        _ => "failed",
+    };
     let mut text = format!("### Congruent: {verdict}\n\n{passed} passed");
-    for (number, word) in [(failures, "failed"), (errors, "with an error"), (skipped, "skipped")] {
+    let others =
+        [(failures, "failed"), (errors, "with an error"), (changed, "changed"), (skipped, "skipped")];
+    for (number, word) in others {
         if number > 0 {
             let _ = write!(text, ", {number} {word}");
         }
     }
     let _ = writeln!(text, " in {}\n", counted(suites.len(), "input"));
-    if errors + failures > 0 {
+    if errors + failures + changed > 0 {
         text.push_str("| input | check | result | finding | line |\n|---|---|---|---|---|\n");
         rows(&mut text, suites, |result| matches!(result, TestResult::Error(_)));
         rows(&mut text, suites, |result| matches!(result, TestResult::Failed(_)));
@@ -56,7 +64,11 @@ fn rows(text: &mut String, suites: &[TestSuite], of: fn(&TestResult) -> bool) {
 
 fn row(text: &mut String, suite: &TestSuite, case: &TestCase) {
     let Some(reason) = case.result.reason() else { return };
-    let result = if matches!(case.result, TestResult::Error(_)) { "error" } else { "**failed**" };
+    let result = match case.result {
+        TestResult::Error(_) => "error",
+        _ if reason.is_change() => "changed",
+        _ => "**failed**",
+    };
     let message: Vec<String> = reason.message.lines().map(escaped).collect();
     let place = case.place.as_ref().map_or(String::new(), |place| format!("{}:{}", place.file, place.line));
     let _ = writeln!(
@@ -90,7 +102,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{CasePlace, Reason};
+    use crate::report::{CHANGED, CasePlace};
 
     fn reason(message: &str) -> Reason {
         Reason { kind: "clearance".to_owned(), message: message.to_owned() }
@@ -114,6 +126,15 @@ mod tests {
              | pick | 2\\_clearance | **failed** | 3 mm<br>17 mm below | pick.toml:31 |\n\n\
              Passed: weld\n"
         );
+    }
+
+    #[test]
+    fn a_change_is_no_failure() {
+        let changed = Reason { kind: CHANGED.to_owned(), message: "moves tool0".to_owned() };
+        let text =
+            step_summary(&[TestSuite::with_case("arm", "change since main", TestResult::Failed(changed))]);
+        assert!(text.starts_with("### Congruent: changed\n\n0 passed, 1 changed in 1 input\n"), "{text}");
+        assert!(text.contains("| arm | change since main | changed | moves tool0 |"), "{text}");
     }
 
     #[test]

@@ -68,6 +68,16 @@ pub struct Reason {
     pub message: String,
 }
 
+/// Kind of a reason that says what a change does to a robot: it fails the check, as the caller asks, and is no fault to annotate.
+pub const CHANGED: &str = "changed";
+
+impl Reason {
+    /// Whether it is what a change does.
+    pub fn is_change(&self) -> bool {
+        self.kind == CHANGED
+    }
+}
+
 impl CasePlace {
     /// The place, if file and line are known.
     pub fn if_known(file: Option<&str>, line: Option<usize>) -> Option<Self> {
