@@ -147,7 +147,7 @@ mod tests {
         // y and z likewise.
         let quat = rounding("", "quat='0.707107 0.707107 0 0'");
         let half = std::f64::consts::SQRT_2 * 5e-7;
-        assert_eq!(quat.pos_m, [0.0; 3]);
+        assert_eq!(Vector3::from(quat.pos_m), Vector3::zeros());
         assert_eq!(quat.turns_rad.len(), 4);
         for turn in &quat.turns_rad[..2] {
             assert!((turn.x.abs() / half - 1.0).abs() < 1e-5 && turn.yz().norm() < 1e-12, "{turn}");
@@ -161,7 +161,11 @@ mod tests {
             "{:?}",
             degrees.turns_rad
         );
-        assert_eq!(degrees.pos_m, [5e-5; 3], "zeros and short values are as fine as 0.1234");
+        assert_eq!(
+            Vector3::from(degrees.pos_m),
+            Vector3::repeat(5e-5),
+            "zeros and short values are as fine as 0.1234"
+        );
         let radians = rounding("angle='radian'", "euler='0 1.5708 0'");
         assert!((radians.turns_rad[1].y / 5e-5 - 1.0).abs() < 1e-6, "{:?}", radians.turns_rad);
         let axis = rounding("", "axisangle='0 0 1 33.25'");

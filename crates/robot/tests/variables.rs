@@ -23,7 +23,7 @@ fn base_from_hand(robot: &Robot, a: f64, c: f64) -> Isometry3<f64> {
     let mut q = RobotQ::from([a, 0.0, c]);
     robot.apply_mimic(&mut q);
     let joints = robot.joints().iter().map(|joint| {
-        let at = robot.coordinate(robot.find_joint(&joint.name).unwrap());
+        let at = robot.coordinate(robot.find_joint(&joint.name).expect("it is its own joint"));
         joint.parent_from_joint * joint.motion(at.map_or(0.0, |at| q[at]))
     });
     joints.fold(Isometry3::identity(), |before, joint| before * joint)
