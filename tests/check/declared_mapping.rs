@@ -1,4 +1,4 @@
-//! What a declared `[mapping]` leaves to compare: the zero of the last joint, and one cause of one fault.
+//! What is compared under a declared `[mapping]`: the zero of the last joint, too, and one fault has one cause.
 
 use std::fs;
 
