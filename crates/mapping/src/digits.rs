@@ -115,21 +115,18 @@ impl MatchedRobots<'_> {
 /// The robot whose zeros of these joints are fitted, and if axes agree its frames: no digits bind what nobody has written.
 #[must_use]
 pub fn with_fitted(robot: &Robot, zeros: &BTreeSet<&str>, axes: CommonAxes) -> Robot {
-    let screws = ScrewTree::new(robot);
     robot.with_joints(|joint| {
-        let Some(index) = robot.find_joint(&joint.name) else { return };
-        let Some(screw) = screws.screw(index) else { return };
-        let parent_from_root = screws.home(joint.parent).inverse().to_isometry();
-        let Twist { angular, linear } = screw.twist() * FITTED;
-        let zero = SmallMotion { angular_rad: angular, linear_m: linear }.expressed_in(&parent_from_root);
+        if joint.kind == JointKind::Fixed {
+            return;
+        }
+        let along = joint.parent_from_joint.rotation * joint.axis_in_joint.into_inner() * FITTED;
+        let shift = SmallMotion::shift(along);
+        let turn = SmallMotion::turn(along, &joint.parent_from_joint.translation.vector);
         if zeros.contains(joint.name.as_str()) {
-            joint.rounding.origin.push(zero);
+            joint.rounding.origin.push(if joint.kind.is_angular() { turn } else { shift });
         }
         if axes == CommonAxes::Agree {
-            let axis_in_parent = joint.parent_from_joint.rotation * joint.axis_in_joint.into_inner();
-            let point = &joint.parent_from_joint.translation.vector;
-            joint.rounding.frame.push(SmallMotion::shift(axis_in_parent * FITTED));
-            joint.rounding.frame.push(SmallMotion::turn(axis_in_parent * FITTED, point));
+            joint.rounding.frame.extend([shift, turn]);
         }
     })
 }
