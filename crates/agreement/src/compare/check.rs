@@ -133,6 +133,12 @@ impl CheckReport {
         self.diagnoses = diagnoses;
     }
 
+    /// A pair of sources as its comparison calls it, which says what the files are.
+    pub fn title(&self, pair: SourcePair) -> &'static str {
+        let known = self.comparisons.iter().find(|comparison| comparison.name == pair);
+        known.map_or_else(|| pair.title(), |comparison| comparison.title)
+    }
+
     /// Whether table and URDF agree because of the digits that they are typed with, beyond the default tolerance.
     pub fn is_judged_by_digits(&self) -> bool {
         let mut tables = self.comparisons.iter().filter(|of| of.name == SourcePair::ModelUrdf);

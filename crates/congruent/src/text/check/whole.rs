@@ -148,7 +148,9 @@ fn physics(text: &mut String, check: &RobotCheck, options: &TextOptions) {
         _ => "poses",
     };
     if is_built {
-        let _ = writeln!(text, "  the physics is that of the URDF in {what}");
+        let title = check.geometry.title(SourcePair::UrdfSimulation);
+        let source = title.split_once(" chain").map_or(title, |(source, _)| source);
+        let _ = writeln!(text, "  the physics is that of the {source} in {what}");
     }
     if let Some(report) = torques.filter(|_| options.is_in_full) {
         let _ = writeln!(
@@ -166,7 +168,7 @@ fn not_compared(text: &mut String, report: &CheckReport) {
         let what = match source {
             ComparedSource::Simulation => "physics",
             ComparedSource::SimulatedDynamics => "torques of the physics",
-            ComparedSource::OtherDynamics => "torques of the other URDF",
+            ComparedSource::OtherDynamics => "torques of the other description",
             ComparedSource::DeclaredDynamics => "[[inertial]]",
             ComparedSource::Geometry => "geometry",
             ComparedSource::Dynamics => "dynamics",
@@ -311,7 +313,7 @@ fn narrow(text: &mut String, certificate: &ReportedCertificate) {
     }
     if let Some(Premise { configurations, residual_m, residual_rad, holds }) = premise {
         let verified = if *holds { "verified as" } else { "are not" };
-        let whose = if *name == SourcePair::UrdfOther { "the other URDF's" } else { "simulated" };
+        let whose = if *name == SourcePair::UrdfOther { "the other description's" } else { "simulated" };
         let residual = length_and_angle(*residual_m, *residual_rad);
         let _ = writeln!(
             text,
