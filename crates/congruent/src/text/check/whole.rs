@@ -181,14 +181,24 @@ fn not_compared(text: &mut String, report: &CheckReport) {
 
 /// What lint finds in the descriptions: how much, and the worst.
 fn linted(text: &mut String, check: &RobotCheck) {
-    let LintSummary { errors, warnings, worst, .. } = &check.lint;
-    let counts = [(*errors, "error"), (*warnings, "warning")].into_iter().filter(|(count, _)| *count > 0);
+    let LintSummary { errors, warnings, worst, for_clearance, .. } = &check.lint;
+    counted_findings(text, [*errors, *warnings], worst);
+    if let [first, rest @ ..] = &for_clearance[..] {
+        let more = if rest.is_empty() { String::new() } else { format!(" (and {} more)", rest.len()) };
+        let message = clipped(&first.message);
+        let _ = writeln!(text, "  not needed for this check, for clearance alone: {message}{more}");
+    }
+}
+
+/// The counts of errors and warnings, and the worst of these findings.
+fn counted_findings(text: &mut String, [errors, warnings]: [usize; 2], worst: &[Finding]) {
+    let counts = [(errors, "error"), (warnings, "warning")].into_iter().filter(|(count, _)| *count > 0);
     let counts: Vec<String> = counts.map(|(count, what)| counted(count, what)).collect();
     if counts.is_empty() {
         let _ = writeln!(text, "  lint: no findings");
         return;
     }
-    let listed = if check.lint.findings() > worst.len() { ", the worst" } else { "" };
+    let listed = if errors + warnings > worst.len() { ", the worst" } else { "" };
     let _ = writeln!(text, "  lint: {}{listed} (in full: `congruent lint`):", counts.join(" and "));
     for Finding { file, line, message, .. } in worst {
         let place = match (file, line) {
