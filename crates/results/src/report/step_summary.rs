@@ -5,10 +5,48 @@ use std::fmt::Write;
 
 use congruent_input::{display::counted, visible};
 
-use super::suite::{TestCase, TestResult, TestSuite};
+use super::suite::{ChangeSince, TestCase, TestResult, TestSuite};
+
+/// What changes since a revision, for the inputs that were compared with one; for the others the counts, a table of what did not
+/// pass with reasons, and the names of what passed.
+pub fn step_summary(suites: &[TestSuite]) -> String {
+    let changes: Vec<(&TestSuite, &ChangeSince)> =
+        suites.iter().filter_map(|suite| Some((suite, suite.change.as_ref()?))).collect();
+    let others: Vec<&TestSuite> = suites.iter().filter(|suite| suite.change.is_none()).collect();
+    let mut text = String::new();
+    // One heading for each revision, in the order of the call.
+    for (at, (_, ChangeSince { revision, .. })) in changes.iter().enumerate() {
+        if changes[..at].iter().all(|(_, before)| before.revision != *revision) {
+            let same = changes.iter().filter(|(_, change)| change.revision == *revision);
+            since(&mut text, &same.copied().collect::<Vec<_>>());
+        }
+    }
+    if changes.is_empty() || !others.is_empty() {
+        text += &results(&others);
+    }
+    text
+}
+
+/// What changes since one revision: a line for each input.
+fn since(text: &mut String, changes: &[(&TestSuite, &ChangeSince)]) {
+    let Some((_, first)) = changes.first() else { return };
+    let _ = writeln!(text, "### Changes since {}\n", escaped(first.short_revision()));
+    for (suite, change) in changes {
+        let [name, sentence] = [&suite.name, &change.sentence].map(|of| escaped(of));
+        let _ = writeln!(text, "- **{name}**: {sentence}");
+        let of_robot = |case: &&TestCase| !matches!(case.result, TestResult::Changed(_));
+        for case in suite.cases.iter().filter(of_robot) {
+            if let Some(message) = case.result.reason().and_then(|reason| reason.message.lines().next()) {
+                let [case, message] = [&case.name, message].map(escaped);
+                let _ = writeln!(text, "  - in the robot itself, {case}: {message}");
+            }
+        }
+    }
+    text.push('\n');
+}
 
 /// The counts, a table of what did not pass with reasons, and the names of what passed.
-pub fn step_summary(suites: &[TestSuite]) -> String {
+fn results(suites: &[&TestSuite]) -> String {
     let count = |of: fn(&TestResult) -> bool| {
         suites.iter().flat_map(|suite| &suite.cases).filter(|case| of(&case.result)).count()
     };
@@ -31,7 +69,7 @@ pub fn step_summary(suites: &[TestSuite]) -> String {
         text.push('\n');
     }
     let sound = |suite: &&TestSuite| suite.cases.iter().all(|case| case.result.reason().is_none());
-    let names: Vec<String> = suites.iter().filter(sound).map(passed_in_part).collect();
+    let names: Vec<String> = suites.iter().copied().filter(sound).map(passed_in_part).collect();
     if !names.is_empty() {
         let _ = writeln!(text, "Passed: {}", names.join(", "));
     }
@@ -46,7 +84,7 @@ fn passed_in_part(suite: &TestSuite) -> String {
     if skipped.is_empty() { name } else { format!("{name} (not compared: {})", skipped.join(", ")) }
 }
 
-fn rows(text: &mut String, suites: &[TestSuite], of: fn(&TestResult) -> bool) {
+fn rows(text: &mut String, suites: &[&TestSuite], of: fn(&TestResult) -> bool) {
     for suite in suites {
         for case in suite.cases.iter().filter(|case| of(&case.result)) {
             row(text, suite, case);
@@ -113,6 +151,34 @@ mod tests {
              | cut.toml | start | error | no such robot |  |\n\
              | pick | 2\\_clearance | **failed** | 3 mm<br>17 mm below | pick.toml:31 |\n\n\
              Passed: weld\n"
+        );
+    }
+
+    #[test]
+    fn changes_are_a_line_for_each_input_and_none_failed() {
+        let changed = |name: &str, sentence: &str, result| TestSuite {
+            change: Some(ChangeSince {
+                revision: "main".to_owned(),
+                sentence: sentence.to_owned(),
+                is_changed: true,
+                places: Vec::new(),
+            }),
+            ..TestSuite::with_case(name, "table", result)
+        };
+        let mut suites = vec![
+            changed("arm", "moves tip by up to 10 mm", TestResult::Changed(reason("CHANGED"))),
+            changed("leg", "no change in poses", TestResult::Failed(reason("10 mm\nmore"))),
+        ];
+        let of_changes = "### Changes since main\n\n- **arm**: moves tip by up to 10 mm\n\
+             - **leg**: no change in poses\n  - in the robot itself, table: 10 mm\n\n";
+        assert_eq!(step_summary(&suites), of_changes);
+        suites.push(TestSuite::with_case("cut", "start", TestResult::Error(reason("no such robot"))));
+        let whole = step_summary(&suites);
+        assert!(
+            whole.starts_with(&format!(
+                "{of_changes}### Congruent: failed\n\n0 passed, 1 with an error in 1 input"
+            )),
+            "{whole}"
         );
     }
 
