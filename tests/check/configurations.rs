@@ -91,7 +91,8 @@ fn positions_by_both_models_are_a_table_and_a_chart() {
         assert_eq!(difference["tip"][1]["pair"], "urdf_simulation");
     }
     let shown = congruent(&arguments).stdout;
-    let table: Vec<&str> = shown.lines().skip_while(|line| !line.contains("by table, by URDF")).collect();
+    let table: Vec<&str> =
+        shown.lines().skip_while(|line| !line.contains("by DH table, by URDF chain")).collect();
     assert!(table.len() > 3, "{shown}");
     let second_row: Vec<&str> = table[3].split_whitespace().collect();
     let x = |length: f64| format!("{:.2}", 1e3 * (length * f64::cos(1.1) + 0.4 * f64::cos(1.8)));
@@ -146,4 +147,21 @@ fn large_angles_have_no_cause_or_are_refused() {
     assert_eq!(unresolved.code, 2, "{}", unresolved.stdout);
     let said = unresolved.stdout + &unresolved.stderr;
     assert!(said.contains("elbow_joint") && said.contains("7.16 deg apart"), "{said}");
+}
+
+/// The heading of the table says what the files are.
+#[test]
+fn an_mjcf_is_called_an_mjcf() {
+    let temporary = tempfile::tempdir().unwrap();
+    let [mjcf, asked, plot] =
+        ["arm.xml", "at.jsonl", "plot.svg"].map(|name| text(&temporary.path().join(name)));
+    assert_eq!(congruent(&["convert", "robots/planar_2r", "--out", &mjcf]).code, 0);
+    fs::write(&asked, "{\"q\": {\"joint_1\": 0.5}}\n").unwrap();
+    let urdf = "robots/planar_2r/planar_2r.urdf";
+    let at = ["--configurations", &asked, "--table", "--plot", &plot];
+    let answer = congruent(&[&["check", &mjcf, "--against", urdf], &at[..]].concat());
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    assert!(answer.stdout.contains(" in mm by MJCF chain, by URDF chain, error\n"), "{}", answer.stdout);
+    assert!(answer.stdout.contains("\n  the physics is that of the MJCF in poses"), "{}", answer.stdout);
+    assert!(fs::read_to_string(&plot).unwrap().contains("MJCF chain against URDF chain"));
 }

@@ -1,12 +1,14 @@
 //! `congruent check` names what is wrong: faults written into robot files, and published tables whose
 //! differences an independent study has found.
 
+use std::fs;
+
 use serde_json::Value;
 
 use crate::support::{
     changed_robot::{Change, FITTED, check_changed, first_cause, is_at_line, near},
-    command::{congruent, congruent_json},
-    corpus::corpus,
+    command::{congruent, congruent_json, text},
+    corpus::{corpus, workspace},
     published_table::{PANDA_JOINTS, Pairing, UR5E_JOINTS, check_table},
 };
 
@@ -205,4 +207,23 @@ fn a_ur5_differs_from_a_ur5e_in_four_figures() {
     let expected: Vec<&Value> = parts.iter().map(|part| &part["expected"]).collect();
     assert_eq!(expected, [0.1625, 0.1333, 0.0996, 0.0997]);
     assert!(cause["residual_m"].as_f64().unwrap() < 0.51e-4, "{cause}");
+}
+
+/// With the other convention, the sign of the last joint alone changes nothing: one value, and not the same one twice.
+#[test]
+fn a_correction_that_changes_nothing_by_itself_has_no_value_after_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let robot = fs::read_to_string(workspace().join("robots/ur5e/robot.toml")).unwrap();
+    let urdf = text(&workspace().join("robots/ur5e/ur5e.urdf"));
+    let (before, last) = robot.split_at(robot.rfind("sign = 1").unwrap());
+    let wrong =
+        before.replace("\"ur5e.urdf\"", &format!("\"{urdf}\"")).replace("\"standard\"", "\"modified\"")
+            + &last.replacen("sign = 1", "sign = -1", 1);
+    let path = folder.path().join("robot.toml");
+    fs::write(&path, wrong).unwrap();
+    let printed = congruent(&["check", &text(&path), "--tolerance", "1mm,0.1deg"]).stdout;
+    let stages: Vec<&str> = printed.lines().filter(|line| line.contains("difference before: ")).collect();
+    let [first, second] = stages[..] else { panic!("{printed}") };
+    assert!(first.ends_with("1912 mm and 180 deg, not changed by it"), "{first}");
+    assert!(second.ends_with(", after: <1 pm"), "{second}");
 }

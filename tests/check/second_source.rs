@@ -114,6 +114,24 @@ fn an_absurd_mass_is_listed_and_fails_a_strict_check() {
     assert_eq!(congruent(&["check", "--strict", "robots/ur5e"]).code, 0);
 }
 
+/// A check computes no distances: a mesh that is missing is a note, whatever --strict says.
+#[test]
+fn a_missing_mesh_fails_no_strict_check() {
+    let scratch = ScratchFolder::new();
+    let [robot, urdf] = ["robot.toml", "planar_2r.urdf"]
+        .map(|name| fs::read_to_string(workspace().join("robots/planar_2r").join(name)).unwrap());
+    let mesh = "<collision><geometry><mesh filename=\"gone.stl\"/></geometry></collision></link>";
+    scratch.write("planar_2r.urdf", &urdf.replacen("</link>", mesh, 1));
+    let path = scratch.write("robot.toml", &robot);
+    let strict = congruent(&["check", "--strict", &path]);
+    assert_eq!(strict.code, 0, "{}{}", strict.stdout, strict.stderr);
+    let note = "  lint: no findings\n  not needed for this check, for clearance alone: link \"base_link\": mesh file ";
+    assert!(strict.stdout.contains(note), "{}", strict.stdout);
+    assert!(!strict.stderr.contains("gone.stl"), "{}", strict.stderr);
+    let lint = &congruent_json(&["check", "--strict", &path]).json()["lint"];
+    assert_eq!((&lint["errors"], &lint["for_clearance"][0]["code"]), (&0.into(), &"mesh::not_found".into()));
+}
+
 /// With --quiet, each input has one line, in the order of the call.
 #[test]
 fn quiet_is_a_line_for_each_input() {

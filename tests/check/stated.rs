@@ -305,10 +305,8 @@ fn differences_that_cancel_are_not_said_to_be_below_the_resolution() {
     let lumped = [&lumped[..from], &inertial, &lumped[to..]].concat();
     let (answer, printed) = against(ARM, &lumped, &[]);
     assert_eq!(answer.code, 0, "{printed}");
-    assert!(
-        printed.contains("third: mass is 2 kg, expected 2.5 kg; the other differences cancel"),
-        "{printed}"
-    );
+    let mass = printed.lines().find(|line| line.contains("third: mass 2 kg in ")).unwrap();
+    assert!(mass.contains(", 2.5 kg in ") && mass.contains("; the other differences cancel"), "{mass}");
     assert!(!printed.contains("below the resolution"), "{printed}");
 }
 
@@ -374,4 +372,29 @@ fn a_tip_under_another_name_is_compared_or_refused() {
     let (answer, printed) = against(ARM, &elsewhere, &[]);
     assert_eq!(answer.json()["against"]["links_not_found"], json!(["tool"]));
     assert!(printed.contains(" without the tip \"tool\", which the other description lacks"), "{printed}");
+}
+
+/// A speed limit that one file alone states at every joint is one line; neither of two files is the expected one.
+#[test]
+fn limits_and_masses_of_two_files_have_the_values_of_both() {
+    let silent = ARM.replace(" velocity=\"1.5\"", "").replace("<mass value=\"2\"/>", "<mass value=\"2.5\"/>");
+    let (answer, printed) = against(ARM, &silent, &[]);
+    assert_eq!(answer.code, 1, "{printed}");
+    let one_sided: Vec<&str> = printed.lines().filter(|line| line.contains("velocity limit")).collect();
+    let [line] = one_sided[..] else { panic!("{printed}") };
+    assert!(
+        line.starts_with("    velocity limits of 3 joints are stated by ") && line.contains("one.urdf alone"),
+        "{line}"
+    );
+    assert!(line.ends_with(": turn, lift, bend"), "{line}");
+    let mass = printed.lines().find(|line| line.contains("total mass")).unwrap();
+    assert!(mass.starts_with("    total mass 18.5 kg, 19 kg in ") && mass.ends_with("other.urdf"), "{mass}");
+    assert!(!printed.contains("expected"), "{printed}");
+    // One that both state is named with its line in both, and no factor.
+    let limit = "<limit lower=\"-2\" upper=\"2\" velocity=\"1.5\" effort=\"50\"/>";
+    let (answer, printed) = against(ARM, &with(limit, &limit.replace("50", "40")), &[]);
+    assert_eq!(answer.code, 1, "{printed}");
+    let line = printed.lines().find(|line| line.contains("    bend: effort limit ")).unwrap();
+    assert!(line.contains(" 50 N m in ") && line.contains("one.urdf:16, 40 N m in "), "{line}");
+    assert!(line.ends_with("other.urdf:16") && !printed.contains("factor"), "{printed}");
 }

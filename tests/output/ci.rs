@@ -188,6 +188,57 @@ fn a_commit_of_a_urdf_checks_the_robot_file_that_names_it() {
     assert!(third.stdout.starts_with("lone.urdf: NO SECOND DESCRIPTION"), "{}", third.stdout);
 }
 
+/// A robot that has changed beside one that has not, as the workflow `robot_changes.yml` calls it.
+#[test]
+fn a_change_since_a_revision_is_a_notice_and_no_failure() {
+    let scratch = ScratchFolder::new();
+    let repository = scratch.path();
+    git(repository, &["init", "-q"]);
+    for robot in ["planar_2r", "rrr_arm"] {
+        fs::create_dir_all(repository.join(robot)).unwrap();
+        for file in ["robot.toml".to_owned(), format!("{robot}.urdf")] {
+            fs::copy(workspace().join("robots").join(robot).join(&file), repository.join(robot).join(&file))
+                .unwrap();
+        }
+    }
+    git(repository, &["add", "."]);
+    git(repository, &["-c", "user.name=t", "-c", "user.email=t@t", "commit", "-qm", "first"]);
+    let urdf = repository.join("planar_2r/planar_2r.urdf");
+    let before = fs::read_to_string(&urdf).unwrap();
+    fs::write(&urdf, before.replace("xyz=\"0.4 0 0\"", "xyz=\"0.41 0 0\"")).unwrap();
+    let arguments = [
+        "check",
+        "planar_2r",
+        "rrr_arm",
+        "--against",
+        "git:HEAD",
+        "--annotate",
+        "github",
+        "--summary",
+        "s.md",
+    ];
+    let answer = congruent_in(repository, &[&arguments[..], &["--junit", "j.xml"]].concat());
+    assert_eq!(answer.code, 1, "{}", answer.stderr);
+    assert!(!answer.stderr.contains("::error"), "{}", answer.stderr);
+    let notices: Vec<&str> = answer.stderr.lines().filter(|line| line.starts_with("::notice")).collect();
+    let [whole, of_line] = notices[..] else { panic!("{}", answer.stderr) };
+    let start = "::notice file=planar_2r/planar_2r.urdf,line=";
+    assert!(whole.starts_with(start) && whole.ends_with("::moves tip by up to 10 mm"), "{whole}");
+    assert!(of_line.contains("0.41 0 0") && of_line.contains("was"), "{of_line}");
+    // The table has not followed, which is a fault of today's robot.
+    let table = "::warning file=planar_2r/robot.toml,line=24,";
+    assert!(answer.stderr.lines().any(|line| line.starts_with(table)), "{}", answer.stderr);
+    let summary = fs::read_to_string(repository.join("s.md")).unwrap();
+    assert!(
+        summary.starts_with("### Changes since HEAD\n\n- **planar\\_2r**: moves tip by up to 10 mm\n"),
+        "{summary}"
+    );
+    assert!(summary.contains("\n- **rrr\\_arm**: no change in poses"), "{summary}");
+    assert!(!summary.contains("failed"), "{summary}");
+    let junit = fs::read_to_string(repository.join("j.xml")).unwrap();
+    assert!(junit.contains("type=\"changed\""), "{junit}");
+}
+
 #[test]
 fn workflows_call_commands_that_exist() {
     let mut calls = 0;

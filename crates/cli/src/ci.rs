@@ -35,7 +35,8 @@ pub(crate) struct CiArguments {
     /// Also append a summary in Markdown to this file, the worst first: on GitHub, --summary `"$GITHUB_STEP_SUMMARY"`.
     #[arg(long, value_name = "FILE")]
     summary: Option<PathBuf>,
-    /// Also print failures to standard error in the form of a CI host, which shows them at their lines.
+    /// Also print failures to standard error in the form of a CI host, which shows them at their lines; what changes since a
+    /// revision is a notice.
     #[arg(long, value_enum, value_name = "HOST")]
     annotate: Option<Host>,
 }
@@ -43,7 +44,7 @@ pub(crate) struct CiArguments {
 /// The CI host whose form of annotations is printed.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Host {
-    /// Workflow commands of GitHub Actions: `::error file=...,line=...::message`.
+    /// Workflow commands of GitHub Actions: `::error file=...,line=...::message`, or `::notice` for a change.
     Github,
 }
 
@@ -120,11 +121,12 @@ impl CiArguments {
 /// says, else the nearest with `.git` at or above the current one. Files elsewhere keep their names.
 pub(crate) fn in_repository(mut suite: TestSuite) -> TestSuite {
     let Some(top) = top_of_repository() else { return suite };
-    let places = suite
+    let of_cases = suite
         .cases
         .iter_mut()
         .flat_map(|case| case.place.iter_mut().chain(case.further.iter_mut().map(|(place, _)| place)));
-    for place in places {
+    let of_change = suite.change.iter_mut().flat_map(|change| &mut change.places).map(|(place, _)| place);
+    for place in of_cases.chain(of_change) {
         if let Some(inside) = inside(Path::new(&place.file), &top) {
             let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
             place.file = parts.join("/");

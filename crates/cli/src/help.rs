@@ -159,10 +159,6 @@ pub(crate) fn with_groups_and_examples(command: Command) -> Command {
         "\nExamples of a command: congruent check --help\n"
     );
     let command = with_common_options_last(command.help_template(template));
-    // Of a folder with robot.toml nothing would be new.
-    let command = command.mut_subcommand("new", |new| {
-        new.mut_subcommand("robot", |robot| robot.mut_arg("robot", |robot| robot.help("A URDF or an MJCF")))
-    });
     EXAMPLES.iter().fold(command, |command, (name, lines)| {
         if command.find_subcommand(name).is_none() {
             // Built without recordings.

@@ -8,6 +8,7 @@ mod codes;
 mod compare;
 mod completions;
 mod configurations;
+mod explain;
 mod failure;
 mod help;
 mod input;
@@ -70,7 +71,7 @@ struct Arguments {
 enum Command {
     Check(model::check::Arguments),
     Lint(model::lint::Arguments),
-    Explain(model::lint::explain::Arguments),
+    Explain(explain::Arguments),
     Describe(model::describe::Arguments),
     Run(run::Arguments),
     New(new::Arguments),
@@ -193,7 +194,7 @@ fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
         Command::Run(arguments) => run::run(&arguments, printer),
         Command::Check(arguments) => model::check::run(&arguments, printer),
         Command::Lint(arguments) => model::lint::run(&arguments, printer),
-        Command::Explain(arguments) => model::lint::explain::run(&arguments.code, printer),
+        Command::Explain(arguments) => explain::run(&arguments.code, printer),
         Command::Describe(arguments) => model::describe::run(&arguments, printer),
         Command::Fk(arguments) => arm::fk::run(&arguments, printer),
         Command::Jacobian(arguments) => arm::jacobian::run(&arguments, printer),

@@ -5,6 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use congruent_input::absence;
 use congruent_results::comparison::{ComparedFile, FileComparison, compare_reports, compare_tables};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -70,7 +71,7 @@ pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison,
         if let Err(error) = fs::metadata(path) {
             let name = path.display();
             return refused(match error.kind() {
-                std::io::ErrorKind::NotFound => format!("{name} does not exist"),
+                std::io::ErrorKind::NotFound => absence(path),
                 _ => format!("cannot read {name}: {error}"),
             });
         }

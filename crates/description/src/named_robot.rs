@@ -100,8 +100,7 @@ pub(crate) fn urdf_not_found(key: &str, written: &Path, folder: &Path, access: &
         );
     }
     let path = folder.join(written);
-    let message = format!("{key} = \"{}\": {} does not exist", written.display(), path.display());
-    let fault = not_found(&path, message);
+    let fault = not_found(&path, &format!("{key} = \"{}\": ", written.display()));
     if fault.help.is_some() {
         return fault;
     }

@@ -72,11 +72,7 @@ pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintRe
 /// What [`lint`] finds in a robot that has been read.
 pub fn lint_robot(description: &RobotDescription) -> LintReport {
     let is_bare = description.own_model().is_none() && description.path == description.urdf_path;
-    let kind = match &description.places.urdf {
-        _ if !is_bare => FileKind::RobotFile,
-        Some(_) => FileKind::Urdf,
-        None => FileKind::Mjcf,
-    };
+    let kind = if is_bare { FileKind::of_links(description) } else { FileKind::RobotFile };
     let ignores = if is_bare { Ignores::default() } else { ignores_of_robot(description) };
     report(Examined { kind: Some(kind), found: suspicions(description), ignores })
 }

@@ -1,13 +1,14 @@
 //! What lint finds in the descriptions that another command reads.
 
-use congruent_input::{Diagnostic, Finding, Severity};
+use congruent_input::{Capability, Diagnostic, Finding, Severity};
 use congruent_lint::codes;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::report::LintReport;
 
-/// What lint finds in the descriptions of a check.
+/// What lint finds in the descriptions of a check. What is needed by clearance alone, such as meshes, is beside the counts: a
+/// check computes no distances.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LintSummary {
     /// Number of findings that are errors.
@@ -16,6 +17,9 @@ pub struct LintSummary {
     pub warnings: usize,
     /// The worst of them, at most three.
     pub worst: Vec<Finding>,
+    /// Findings that stop clearance alone. They never fail a check.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub for_clearance: Vec<Finding>,
     /// Whether a finding fails the check (--strict).
     pub is_strict: bool,
 }
@@ -26,14 +30,14 @@ impl LintSummary {
 
     /// What the reports of several descriptions have together.
     pub fn from_reports(reports: impl IntoIterator<Item = LintReport>) -> Self {
-        let (mut errors, mut warnings, mut found) = (0, 0, Vec::new());
-        for report in reports {
-            (errors, warnings) = (errors + report.errors, warnings + report.warnings);
-            found.extend(report.diagnostics);
-        }
+        let all = reports.into_iter().flat_map(|report| report.diagnostics);
+        let (for_clearance, mut found): (Vec<_>, Vec<_>) =
+            all.partition(|found| found.stops == Some(Capability::Clearance));
         found.sort_by_key(badness);
+        let errors = found.iter().filter(|found| found.severity == Severity::Error).count();
         let worst = found.iter().take(Self::MOST_LISTED).map(Finding::from).collect();
-        Self { errors, warnings, worst, is_strict: false }
+        let for_clearance = for_clearance.iter().map(Finding::from).collect();
+        Self { errors, warnings: found.len() - errors, worst, for_clearance, is_strict: false }
     }
 
     /// Number of all findings.

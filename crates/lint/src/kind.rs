@@ -2,7 +2,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use congruent_description::{URDF_BYTES, file_of_robot, is_mjcf, open};
+use congruent_description::{RobotDescription, URDF_BYTES, file_of_robot, is_mjcf, open};
 use congruent_input::{Diagnostic, FileAccess, SourceFile, TomlKind, head_of, xml};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -135,6 +135,19 @@ fn is_configuration(line: &str) -> bool {
 }
 
 impl FileKind {
+    /// The kind of the file that has the links and joints of a robot: a URDF, an MJCF, or the robot file of a table or of screws
+    /// without one.
+    pub fn of_links(description: &RobotDescription) -> Self {
+        // In other variables or frames a robot has no places, and its file is still a URDF.
+        let is_urdf = description.places.urdf.is_some()
+            || description.urdf_path.extension().is_some_and(|extension| extension == "urdf");
+        match description.own_model() {
+            Some(_) => Self::RobotFile,
+            None if is_urdf => Self::Urdf,
+            None => Self::Mjcf,
+        }
+    }
+
     fn from_xml_text(text: &str) -> Self {
         // What is no XML gets the messages of a URDF.
         let Ok(document) = xml::parse(text) else { return Self::Urdf };

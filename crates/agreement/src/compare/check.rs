@@ -133,6 +133,12 @@ impl CheckReport {
         self.diagnoses = diagnoses;
     }
 
+    /// A pair of sources as its comparison calls it, which says what the files are.
+    pub fn title(&self, pair: SourcePair) -> &'static str {
+        let known = self.comparisons.iter().find(|comparison| comparison.name == pair);
+        known.map_or_else(|| pair.title(), |comparison| comparison.title)
+    }
+
     /// Whether two files agree because of the digits that they are typed with, beyond the default tolerance.
     pub fn is_judged_by_digits(&self) -> bool {
         let mut written = self.comparisons.iter().filter(|of| of.name.is_written());

@@ -84,8 +84,8 @@ pub(crate) struct Arguments {
     /// that is not given is the file's, or 1 nm or 1 nrad if the file declares none.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArgument>,
-    /// Findings of lint in the descriptions fail, too, and a robot without a second description: neither a table, nor
-    /// [[inertial]], nor --against.
+    /// Findings of lint in the descriptions fail, too, except what clearance alone needs, such as missing meshes. So does a
+    /// robot without a second description: neither a table, nor [[inertial]], nor --against.
     #[arg(long)]
     strict: bool,
     /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
@@ -283,9 +283,11 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
     let compared = waiting(batch.printer(), &format!("checking {}", visible_path(path)), compare);
     // What lint lists below the answer for people is printed there alone.
     let is_text = batch.printer().format() == Format::Human;
-    let listed = compared.as_ref().map_or(&[][..], |report| &report.lint.worst[..]);
-    let is_listed =
-        |warning: &Diagnostic| is_text && listed.iter().any(|finding| finding.message == warning.message);
+    let lint = compared.as_ref().ok().map(|report| &report.lint);
+    let is_listed = |warning: &Diagnostic| {
+        let mut listed = lint.into_iter().flat_map(|lint| lint.worst.iter().chain(&lint.for_clearance));
+        is_text && listed.any(|finding| finding.message == warning.message)
+    };
     for of in std::iter::once(&description).chain(&other) {
         let others: Vec<Diagnostic> =
             of.warnings.iter().filter(|warning| !is_listed(warning)).cloned().collect();

@@ -22,7 +22,7 @@ pub(super) fn chart(report: &CheckReport, differences: &DifferencesAt) -> ErrorC
     let orientation = values(|tip| tip.error.orientation_rad.to_degrees());
     ErrorChart {
         title: format!("{}: error of {} at each configuration", report.robot, report.chain.tip),
-        series: pairs.iter().map(|pair| pair.title().to_owned()).collect(),
+        series: pairs.iter().map(|&pair| report.title(pair).to_owned()).collect(),
         panels: vec![
             panel("position", "mm", report.tolerance.position_m * 1e3, position),
             panel("orientation", "deg", report.tolerance.orientation_rad.to_degrees(), orientation),

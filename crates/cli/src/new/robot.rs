@@ -31,6 +31,8 @@ use crate::{
 /// where they are. If no table exists for the chain, the file has none and says why. The written file is checked as `check`
 /// does: exit code 1 if that disagrees, 4 if there is nothing to compare.
 #[derive(Debug, clap::Args)]
+// Of a folder or a robot file nothing would be new, and standard input has no path that the new file could name.
+#[command(mut_arg("robot", |robot| robot.help("The file of the URDF or MJCF that robot.toml names")))]
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    input::{Diagnostic, FileAccess},
+    input::{Diagnostic, FileAccess, absence},
     monitors::verdict::Verdict,
     recording::{Recheck, RecordingSummary, RerunFormat, inspect, recheck, scalars, scalars_csv},
     results::{RecordingFormat, files::result_files, report::TestSuite},
@@ -141,9 +141,11 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
 /// Refuses what is no recording: nothing, a robot or a scenario.
 fn refuse_other(path: &Path, in_folder: &Path) -> Result<(), Diagnostic> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let why = if !path.exists() {
-        "does not exist"
-    } else if path.is_dir() && path.join("robot.toml").is_file() || ["urdf", "xml"].contains(&ending) {
+    let help = "give a recording (.rrd) or the folder of results that `congruent run SCENARIO` has written: out/NAME";
+    if !path.exists() {
+        return Err(Diagnostic::error(codes::inspect::RECORDING, absence(path)).with_help(help));
+    }
+    let why = if path.is_dir() && path.join("robot.toml").is_file() || ["urdf", "xml"].contains(&ending) {
         "is a robot"
     } else if ending == "toml" {
         "is a scenario or a robot"
@@ -153,9 +155,7 @@ fn refuse_other(path: &Path, in_folder: &Path) -> Result<(), Diagnostic> {
         return Ok(());
     };
     let message = format!("{} {why}", path.display());
-    Err(Diagnostic::error(codes::inspect::RECORDING, message).with_help(
-        "give a recording (.rrd) or the folder of results that `congruent run SCENARIO` has written: out/NAME",
-    ))
+    Err(Diagnostic::error(codes::inspect::RECORDING, message).with_help(help))
 }
 
 /// The files of the run that were read to be compared.

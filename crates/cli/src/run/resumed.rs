@@ -49,7 +49,7 @@ fn exists(path: &Path) -> Result<(), Diagnostic> {
     if path.exists() || is_standard_input(path) {
         return Ok(());
     }
-    let missing = not_found(path, format!("{} does not exist", path.display()));
+    let missing = not_found(path, "");
     if missing.help.is_some() {
         return Err(missing);
     }

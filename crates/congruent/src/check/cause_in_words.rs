@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use congruent_agreement::report::{ReportedCause, ReportedDiagnosis};
-use congruent_input::display::length_and_angle;
+use congruent_input::{Diagnostic, display::length_and_angle};
 use congruent_kinematics::PoseError;
+use congruent_results::report::CasePlace;
 
 pub(super) fn unknown() -> String {
     "No known cause explains it".to_owned()
@@ -54,4 +55,14 @@ pub(super) fn place(file: Option<&str>, line: Option<usize>) -> String {
 
 pub(super) fn largest(error: PoseError) -> String {
     length_and_angle(error.position_m, error.orientation_rad)
+}
+
+/// The lines that are wrong, with what is wrong there.
+pub(super) fn places(diagnosis: &ReportedDiagnosis) -> Vec<(CasePlace, String)> {
+    let place = |finding: &Diagnostic| {
+        let (line, _) = finding.line_column()?;
+        let place = CasePlace::if_known(finding.source.as_ref()?.path.to_str(), Some(line))?;
+        Some((place, finding.message.clone()))
+    };
+    diagnosis.findings.iter().filter_map(place).collect()
 }

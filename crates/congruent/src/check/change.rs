@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, Tolerance, codes::mjcf};
 use congruent_dynamics::BodyTree;
+use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{
     Code, RevisionName, SiUnit,
     display::{counted, listed, quantity},
@@ -325,6 +326,11 @@ impl<'a> CommonJoints<'a> {
         }
         largest
     }
+}
+
+/// Whether dynamics is compared with that of a revision, and not with values of the robot file.
+pub(super) fn is_of_revision(report: &DynamicsReport) -> bool {
+    RevisionName::of(report.sides.reference.as_ref()).is_some()
 }
 
 fn links_alone(robot: &Robot, other: &Robot) -> Vec<String> {

@@ -2,11 +2,11 @@
 
 use congruent_agreement::{SourcePair, compare::Agreement};
 use congruent_dynamics_agreement::DynamicsVerdict;
-use congruent_results::report::{self, Reason, TestCase, TestResult};
+use congruent_results::report::{CasePlace, ChangeSince, Reason, TestCase, TestResult};
 
 use super::{
-    cause_in_words::{cause, largest},
-    change::RevisionChange,
+    cause_in_words::{cause, largest, places},
+    change::{RevisionChange, is_of_revision},
     mapped::ReportedMapping,
     mapped_joints::mapped_joints,
     robot_check::RobotCheck,
@@ -27,11 +27,7 @@ pub(super) fn answer_of_change(check: &RobotCheck) -> Option<(&'static str, Stri
         let details = format!(" {since}: {}{cause}", parts.join("; "));
         return (!parts.is_empty()).then_some((CHANGED, details));
     }
-    let compared = if check.dynamics_of_descriptions().any(|of| of.verdict != DynamicsVerdict::NotCompared) {
-        "poses, torques and limits"
-    } else {
-        "poses"
-    };
+    let compared = compared(check);
     let details = if parts.is_empty() {
         format!(" {since}: {compared} are the same")
     } else {
@@ -40,12 +36,44 @@ pub(super) fn answer_of_change(check: &RobotCheck) -> Option<(&'static str, Stri
     Some(("UNCHANGED", details))
 }
 
-/// The answer as a test case, of which a summary and the annotations of a change show the message.
+/// What the two revisions are compared in.
+fn compared(check: &RobotCheck) -> &'static str {
+    let has_dynamics = check.dynamics_of_descriptions().any(|of| of.verdict != DynamicsVerdict::NotCompared);
+    if has_dynamics { "poses, torques and limits" } else { "poses" }
+}
+
+/// The change for CI: what changes, and at which lines of today's files.
+pub(super) fn change_since(check: &RobotCheck) -> Option<ChangeSince> {
+    let change = check.change.as_ref()?;
+    let parts = parts(check, change);
+    let is_changed = !parts.is_empty();
+    let compared = compared(check);
+    let sentence = match (is_changed, check.geometry.verdict) {
+        (false, _) => format!("no change in {compared}"),
+        (true, Agreement::Disagree) => parts.join("; "),
+        (true, _) => format!("{}; {compared} are the same", parts.join("; ")),
+    };
+    let of_poses = check.geometry.diagnoses.iter().find(|of| of.name == SourcePair::UrdfOther);
+    let mut places = of_poses.map(places).unwrap_or_default();
+    for report in check.dynamics_of_descriptions().filter(|of| is_of_revision(of)) {
+        let Some(files) = report.sides.files() else { continue };
+        let parameters = report.explanations.iter().flat_map(|of| &of.parameters);
+        let parameters = parameters.chain(&report.hidden_differences);
+        let limits = report.limits.iter().map(|of| (of.line, of.sentence_in(files)));
+        let lines = parameters.map(|of| (of.line, of.sentence_in(files))).chain(limits);
+        places.extend(
+            lines.filter_map(|(line, what)| Some((CasePlace::if_known(Some(files[0]), line)?, what))),
+        );
+    }
+    Some(ChangeSince { revision: change.revision.clone(), sentence, is_changed, places })
+}
+
+/// The answer as a test case of the JUnit file.
 pub(super) fn change_case(check: &RobotCheck) -> Option<TestCase> {
     let (answer, details) = answer_of_change(check)?;
     let output = answer.to_owned() + &details;
     let result = if answer == CHANGED {
-        TestResult::Failed(Reason { kind: report::CHANGED.to_owned(), message: output.clone() })
+        TestResult::Changed(Reason { kind: "changed".to_owned(), message: output.clone() })
     } else {
         TestResult::Passed
     };

@@ -10,7 +10,7 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport, Comparison, Grade, NotCompared},
 };
 use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
-use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict, LimitDifference};
+use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
 use congruent_input::display::{counted, listed};
 use congruent_kinematics::PoseError;
 
@@ -258,7 +258,7 @@ fn after_mapping(check: &RobotCheck) -> Option<Headline> {
     let torques = check.all_dynamics().find(|report| !report.agrees());
     let but = torques.map_or_else(String::new, |report| {
         let why = if report.has_same_torques() {
-            limits(&report.limits)
+            check.limits(report)
         } else {
             format!(": {}", check.cause_of_torques(report))
         };
@@ -290,7 +290,7 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
         );
     }
     let same = if has_geometry { "SAME GEOMETRY AND DYNAMICS, " } else { "SAME DYNAMICS, " };
-    Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), limits(&report.limits))
+    Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), check.limits(report))
 }
 
 impl RobotCheck {
@@ -308,6 +308,17 @@ impl RobotCheck {
         sentence + &remark + &place(first.file.as_deref(), line) + &and_more(report.explanations.len() - 1)
     }
 
+    /// The first limit that disagrees, and how many more do.
+    fn limits(&self, report: &DynamicsReport) -> String {
+        let mut decide = report.limits.iter().filter(|difference| difference.decides);
+        let Some(first) = decide.next() else { return String::new() };
+        let rest = and_more(decide.count());
+        match self.files_of(report) {
+            Some(files) => format!(": {}{rest}", first.sentence_in(short_names(files))),
+            None => format!(": {}{}{rest}", first.sentence(), place(first.file.as_deref(), first.line)),
+        }
+    }
+
     /// The two files of a comparison with --against: the caller has not said that one of them is right.
     pub fn files_of<'r>(&self, report: &'r DynamicsReport) -> Option<[&'r str; 2]> {
         report.sides.files().filter(|_| self.against.is_some())
@@ -318,13 +329,6 @@ impl RobotCheck {
 fn short_names(files: [&str; 2]) -> [&str; 2] {
     let names = files.map(|file| Path::new(file).file_name().and_then(|name| name.to_str()).unwrap_or(file));
     if names[0] == names[1] { files } else { names }
-}
-
-fn limits(differences: &[LimitDifference]) -> String {
-    let mut decide = differences.iter().filter(|difference| difference.decides);
-    let Some(first) = decide.next() else { return String::new() };
-    let rest = and_more(decide.count());
-    format!(": {}{}{rest}", first.sentence(), place(first.file.as_deref(), first.line))
 }
 
 /// What the digits of table and URDF allow, if the two are not identical and not written with all digits.

@@ -6,12 +6,16 @@ use congruent_agreement::{
     report::{ReportedDiagnosis, foremost},
 };
 use congruent_dynamics_agreement::DynamicsReport;
-use congruent_input::{Diagnostic, display::length_and_angle, serde_name};
+use congruent_input::{display::length_and_angle, serde_name};
 use congruent_kinematics::PoseError;
-use congruent_results::report::{CHANGED, CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
+use congruent_results::report::{CasePlace, Reason, TestCase, TestResult, TestSuite};
 
 use super::{
-    change_answer::change_case, judged_by::comparison_judged_by, mapped_joints::mapped_joints,
+    cause_in_words::places,
+    change::is_of_revision,
+    change_answer::{change_case, change_since},
+    judged_by::comparison_judged_by,
+    mapped_joints::mapped_joints,
     robot_check::RobotCheck,
 };
 
@@ -20,24 +24,19 @@ use super::{
 /// `name` distinguishes this robot from the others of the file, as its path does.
 pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
     let geometry = &report.geometry;
-    let of_comparison = |comparison: &Comparison| {
-        let found = case(comparison, geometry);
-        if comparison.name == SourcePair::UrdfOther { of_other(report, found) } else { found }
-    };
-    let mut cases: Vec<TestCase> = geometry.comparisons.iter().map(of_comparison).collect();
+    let mut cases: Vec<TestCase> =
+        geometry.comparisons.iter().map(|comparison| case(comparison, report)).collect();
     let not_compared = report.against.as_ref().and_then(|against| against.dynamics_not_compared.as_ref());
-    let not_compared = not_compared.map(|why| TestCase {
+    cases.extend(not_compared.map(|why| TestCase {
         name: "dynamics against the other description".to_owned(),
-        result: TestResult::Failed(Reason { kind: "other_chain".to_owned(), message: why.clone() }),
+        result: of_other(report, Reason { kind: "other_chain".to_owned(), message: why.clone() }),
         output: why.clone(),
         place: None,
         further: Vec::new(),
-    });
-    let joints = mapping_case(report);
-    cases.extend(not_compared.into_iter().chain(joints).map(|found| of_other(report, found)));
+    }));
     cases.extend(change_case(report));
-    cases.extend(report.dynamics.iter().map(dynamics_case));
-    cases.extend(report.other_dynamics.iter().map(|found| of_other(report, dynamics_case(found))));
+    cases.extend(mapping_case(report));
+    cases.extend(report.all_dynamics().map(|dynamics| dynamics_case(dynamics, report)));
     cases.extend(geometry.not_asked.iter().map(|source| not_compared_case(source, report)));
     let dropped = geometry
         .warnings
@@ -46,20 +45,16 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
     cases.extend(dropped.map(|found| skipped("table", found.message.clone())));
     cases.push(lint_case(report));
     // Nothing moves, so that no time passes but the machine's.
-    TestSuite { name: name.to_owned(), cases, time_s: 0.0, clock: Clock::Wall }
+    TestSuite { cases, change: change_since(report), ..TestSuite::new(name) }
 }
 
-/// A case of the comparison with the other description; with a revision, what differs is a change.
-fn of_other(report: &RobotCheck, case: TestCase) -> TestCase {
-    match case.result {
-        TestResult::Failed(reason) if report.change.is_some() => {
-            TestCase { result: TestResult::Failed(Reason { kind: CHANGED.to_owned(), ..reason }), ..case }
-        }
-        _ => case,
-    }
+/// The result of a comparison with the other description that disagrees: of a revision it is a change.
+fn of_other(report: &RobotCheck, reason: Reason) -> TestResult {
+    if report.change.is_some() { TestResult::Changed(reason) } else { TestResult::Failed(reason) }
 }
 
-fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
+fn case(comparison: &Comparison, check: &RobotCheck) -> TestCase {
+    let report = &check.geometry;
     let worst = &comparison.worst;
     let error = worst.error;
     let mut lines = vec![format!(
@@ -75,7 +70,12 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
     } else {
         lines.extend(causes(comparison, report));
         let kind = serde_name(&comparison.name).to_owned();
-        TestResult::Failed(Reason { kind, message: lines.join("\n") })
+        let reason = Reason { kind, message: lines.join("\n") };
+        if comparison.name == SourcePair::UrdfOther {
+            of_other(check, reason)
+        } else {
+            TestResult::Failed(reason)
+        }
     };
     let diagnosed = diagnosis_of(comparison, report).filter(|_| result.reason().is_some());
     let mut places = diagnosed.map(places).unwrap_or_default().into_iter();
@@ -84,7 +84,7 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
     TestCase { name, result, output, place, further: places.collect() }
 }
 
-/// How much alike table and URDF are, and what their digits allow.
+/// How much alike the two files are, and what their digits allow.
 fn grade(comparison: &Comparison, report: &CheckReport) -> Option<String> {
     let grade = report.grade.filter(|_| comparison.name.is_written())?;
     let allowed =
@@ -119,13 +119,14 @@ fn skipped(source: &str, why: String) -> TestCase {
     }
 }
 
-fn dynamics_case(report: &DynamicsReport) -> TestCase {
+fn dynamics_case(report: &DynamicsReport, check: &RobotCheck) -> TestCase {
     let output = report.sentences().join("\n");
     let result = if report.agrees() {
         TestResult::Passed
     } else {
         let kind = report.explanations.first().map_or("dynamics", |first| first.cause.name()).to_owned();
-        TestResult::Failed(Reason { kind, message: output.clone() })
+        let reason = Reason { kind, message: output.clone() };
+        if is_of_revision(report) { of_other(check, reason) } else { TestResult::Failed(reason) }
     };
     TestCase {
         name: format!("dynamics of {} against {}", report.sides.candidate, report.sides.reference),
@@ -147,7 +148,7 @@ fn mapping_case(report: &RobotCheck) -> Option<TestCase> {
     let result = if mapping.is_declared {
         TestResult::Passed
     } else {
-        TestResult::Failed(Reason { kind: "mapping".to_owned(), message: output.clone() })
+        of_other(report, Reason { kind: "mapping".to_owned(), message: output.clone() })
     };
     let name = "joints of the other description".to_owned();
     Some(TestCase { name, result, output, place: None, further: Vec::new() })
@@ -197,14 +198,4 @@ fn causes(comparison: &Comparison, report: &CheckReport) -> Vec<String> {
 fn diagnosis_of<'a>(comparison: &Comparison, report: &'a CheckReport) -> Option<&'a ReportedDiagnosis> {
     let same = report.diagnoses.iter().find(|diagnosis| diagnosis.name == comparison.name);
     same.filter(|diagnosis| diagnosis.is_explained()).or(foremost(&report.diagnoses))
-}
-
-/// The lines that are wrong, with what is wrong there.
-fn places(diagnosis: &ReportedDiagnosis) -> Vec<(CasePlace, String)> {
-    let place = |finding: &Diagnostic| {
-        let (line, _) = finding.line_column()?;
-        let place = CasePlace::if_known(finding.source.as_ref()?.path.to_str(), Some(line))?;
-        Some((place, finding.message.clone()))
-    };
-    diagnosis.findings.iter().filter_map(place).collect()
 }

@@ -1,7 +1,9 @@
-//! What the compared sources are called: a URDF, an MJCF, a table or screws.
+//! What the compared sources are called: a URDF, an MJCF, a table or screws. The one list of titles: whoever prints a pair takes
+//! it from its comparison (`CheckReport::title`).
 
 use congruent_agreement::{SourcePair, compare::CheckReport};
 use congruent_description::{OwnModelForm, RobotDescription};
+use congruent_lint::FileKind;
 
 /// What describes a robot.
 #[derive(Clone, Copy, PartialEq)]
@@ -14,13 +16,11 @@ enum Written {
 
 impl Written {
     fn of(description: &RobotDescription) -> Self {
-        let is_urdf = description.places.urdf.is_some()
-            || description.urdf_path.extension().is_some_and(|extension| extension == "urdf");
-        match description.own_model() {
-            Some(OwnModelForm::Table) => Self::Table,
-            Some(OwnModelForm::Screws) => Self::Screws,
-            None if is_urdf => Self::Urdf,
-            None => Self::Mjcf,
+        match (description.own_model(), FileKind::of_links(description)) {
+            (Some(OwnModelForm::Table), _) => Self::Table,
+            (Some(OwnModelForm::Screws), _) => Self::Screws,
+            (None, FileKind::Mjcf) => Self::Mjcf,
+            (None, _) => Self::Urdf,
         }
     }
 

@@ -41,11 +41,13 @@ pub(super) fn check(
     (!rows.is_empty()).then_some(rows)
 }
 
-/// Whether a finding is about this quantity: under a key without a unit, or under a misspelt one.
+/// Whether a finding is about this quantity: under a key without a unit, in another unit (`d_cm`), or under a misspelt one.
 fn is_under_another_key(found: &Diagnostic, quantity: &str, unit: Unit) -> bool {
     let is_without_unit = found.code == congruent_input::codes::toml::UNKNOWN_KEY
         && found.message.starts_with(&format!("\"{quantity}\" needs a unit"));
-    is_without_unit || unit.keys(quantity).iter().any(|key| found.is_misspelt(key))
+    let is_in_other_unit = found.code == congruent_input::codes::toml::UNKNOWN_KEY
+        && found.message.starts_with(&format!("unknown key \"{quantity}_"));
+    is_without_unit || is_in_other_unit || unit.keys(quantity).iter().any(|key| found.is_misspelt(key))
 }
 
 fn row(

@@ -2,6 +2,7 @@
 
 pub(crate) mod content;
 pub(crate) mod explained;
+mod limit_sentence;
 mod parameter_sentence;
 pub(crate) mod places;
 mod sentences;

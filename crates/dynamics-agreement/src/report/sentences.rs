@@ -1,6 +1,6 @@
 //! The sentences of the report, for people.
 
-use congruent_input::display::{length, limit_number, number, quantity, quantity_with_digits};
+use congruent_input::display::{length, number, quantity, quantity_with_digits};
 use congruent_kinematics::UNRANGED_SLIDE_M;
 
 use super::content::{
@@ -9,10 +9,7 @@ use super::content::{
 use crate::{
     bound::{CoveredMotion, TorqueBracket},
     diagnosis::{DynamicsCause, FaultySide},
-    differences::{
-        CandidateAndReference, Invariants, LimitCause, LimitDifference, ParameterDifference,
-        limits::EXCHANGED,
-    },
+    differences::{CandidateAndReference, Invariants, ParameterDifference},
     thresholds::{LARGEST_ACCELERATION, LARGEST_SPEED, MOST_JOINTS, Precision, SAME_VALUE},
 };
 
@@ -98,33 +95,6 @@ impl DynamicsCause {
     }
 }
 
-impl LimitDifference {
-    /// `elbow_joint: velocity limit is 10313 deg/s, expected 180 deg/s, factor 57.3: in degrees?`.
-    pub fn sentence(&self) -> String {
-        let [found, expected] =
-            with_distinct_digits(self.found, self.expected, self.unit.symbol(), "not stated");
-        let factor = self.factor.map_or_else(String::new, |factor| format!(", factor {}", number(factor)));
-        let unit = match self.found.zip(self.expected) {
-            _ if self.detail.is_empty() => String::new(),
-            _ if self.detail == EXCHANGED => match self.cause {
-                LimitCause::PositionLimit => ": lower and upper are exchanged, with their signs".to_owned(),
-                _ => ": effort and velocity are exchanged".to_owned(),
-            },
-            // The larger of the two is the one in another unit.
-            Some((found, expected)) if found.abs() < expected.abs() => {
-                format!(": is the expected {} in {}?", limit_number(expected), self.detail)
-            }
-            _ => format!(": in {}?", self.detail),
-        };
-        let remark =
-            if self.decides { "" } else { "; only one of the two states it, so this is no disagreement" };
-        format!(
-            "{}: {} limit is {found}, expected {expected}{factor}{unit}{remark}",
-            self.joint, self.parameter
-        )
-    }
-}
-
 /// Two values with three digits, or with as many as distinguish them. Values that differ in their last digits only, as by
 /// rounding, are one value and a difference.
 pub(super) fn with_distinct_digits(
@@ -153,12 +123,13 @@ pub(super) fn with_distinct_digits(
 }
 
 impl Invariants {
-    /// Sentences about masses, centre of mass, gravity torques and mass matrix, each only if it differs.
-    pub fn sentences(&self) -> Vec<String> {
+    /// Sentences about masses, centre of mass, gravity torques and mass matrix, each only if it differs; `other` is the file of
+    /// the reference.
+    pub fn sentences(&self, other: &str) -> Vec<String> {
         let mass = |what: &str, CandidateAndReference { found, expected }: CandidateAndReference| {
             let differs = (found - expected).abs() > SAME_VALUE * expected.abs();
             let values = with_distinct_digits(Some(found), Some(expected), "kg", "");
-            differs.then(|| format!("{what} {}, expected {}", values[0], values[1]))
+            differs.then(|| format!("{what} {}, {} in {other}", values[0], values[1]))
         };
         let com = self.com_distance_m.filter(|distance| *distance > SAME_VALUE);
         let gravity = self.gravity_joint.as_ref().filter(|_| self.gravity_n_m > SAME_VALUE);
@@ -216,12 +187,13 @@ impl DynamicsReport {
             sentences.push(explanation.sentence());
             sentences.extend(explanation.parameters.iter().map(ParameterDifference::sentence));
         }
-        sentences.extend(self.limits.iter().map(LimitDifference::sentence));
-        sentences.extend(self.hidden_sentences());
+        sentences.extend(self.limit_sentences(self.sides.files()));
+        sentences.extend(self.one_sided_limit_sentences());
+        sentences.extend(self.hidden_sentences(self.sides.files()));
         sentences.extend(self.not_stated_sentence());
         sentences.extend(self.armature_sentence());
         if !self.has_same_torques() {
-            sentences.extend(self.invariants.iter().flat_map(Invariants::sentences));
+            sentences.extend(self.invariant_sentences());
         }
         sentences.extend(self.worst_gravity().map(TorqueBracket::sentence));
         sentences
@@ -266,6 +238,12 @@ impl DynamicsReport {
         }
     }
 
+    /// Masses, centre of mass, gravity torques and mass matrix of the two, as far as they differ.
+    pub fn invariant_sentences(&self) -> Vec<String> {
+        let invariants = self.invariants.iter();
+        invariants.flat_map(|invariants| invariants.sentences(&self.sides.reference)).collect()
+    }
+
     /// The bracket of the largest gravity torque difference, if it was requested and there is one.
     pub fn worst_gravity(&self) -> Option<&TorqueBracket> {
         self.certificates.as_ref()?.gravity.worst.as_ref()
@@ -276,8 +254,9 @@ impl DynamicsReport {
         self.certificates.as_ref()?.together.worst.as_ref()
     }
 
-    /// Sentences about parameters that differ without an effect on torques, with both values.
-    pub fn hidden_sentences(&self) -> Vec<String> {
+    /// Sentences about parameters that differ without an effect on torques, with both values, and with the files of both if either
+    /// may be wrong.
+    pub fn hidden_sentences(&self, files: Option<[&str; 2]>) -> Vec<String> {
         let why = |parameter: &ParameterDifference| match (parameter.below_resolution, parameter.cancelled) {
             (Some(share), _) => format!(
                 "it changes joint torques by {} (relative), below the resolution of {}",
@@ -291,7 +270,11 @@ impl DynamicsReport {
             (None, None) => "it has no effect on joint torques".to_owned(),
         };
         let hidden = self.hidden_differences.iter();
-        hidden.map(|parameter| format!("{}; {}", parameter.sentence(), why(parameter))).collect()
+        let sentence = |parameter: &ParameterDifference| match files {
+            Some(files) => parameter.sentence_in(files),
+            None => parameter.sentence(),
+        };
+        hidden.map(|parameter| format!("{}; {}", sentence(parameter), why(parameter))).collect()
     }
 
     /// What is not compared, since the reference does not state it; `None` if it states everything, or if nothing else is

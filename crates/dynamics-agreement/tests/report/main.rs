@@ -127,7 +127,7 @@ fn a_parameter_without_effect_on_torques_is_reported_with_both_values() {
         parameters.com_m.z = 0.0123;
     });
     assert_eq!(report.verdict, DynamicsVerdict::SameTorques);
-    let sentences = report.hidden_sentences();
+    let sentences = report.hidden_sentences(None);
     assert_eq!(sentences.len(), 1, "{sentences:?}");
     assert!(sentences[0].starts_with("shoulder_link: com_z is 12.3 mm, expected "), "{sentences:?}");
     assert!(sentences[0].ends_with("it has no effect on joint torques"), "{sentences:?}");
@@ -228,7 +228,7 @@ fn two_faults_of_one_link_are_named_without_a_third() {
 #[test]
 fn a_difference_below_the_resolution_is_said_to_be_so() {
     let report = changed("ur5e", |model| parameters(model, "upper_arm_link").tensor_kg_m2 *= 1.0 + 2e-9);
-    let sentences = report.hidden_sentences();
+    let sentences = report.hidden_sentences(None);
     assert_eq!(report.verdict, DynamicsVerdict::SameTorques, "{}", report.difference_relative);
     assert!(
         sentences.iter().any(|sentence| sentence.contains("below the resolution of 1.0e-10")),
@@ -328,7 +328,16 @@ fn a_limit_on_one_side_is_said() {
     let limits = || report.limits.iter();
     let found: Vec<_> = limits().map(|of| (of.parameter.as_str(), of.found, of.decides)).collect();
     assert_eq!(found, [("velocity", None, false), ("effort", None, false)]);
-    assert!(report.agrees() && limits().all(|of| of.sentence().contains("is not stated, expected")));
+    assert!(report.agrees() && report.limit_sentences(None).is_empty());
+    // One sentence for each kind, whatever the number of joints.
+    for limit in candidate.limits.iter_mut().flatten() {
+        limit.velocity = None;
+    }
+    let silent = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    let [velocity, effort] = &silent.one_sided_limit_sentences()[..] else { panic!("{silent:?}") };
+    let start = "velocity limits of 6 joints are stated by ";
+    assert!(velocity.starts_with(start) && velocity.ends_with(", wrist_3_joint"), "{velocity}");
+    assert!(effort.starts_with("effort limits of 1 joint are stated by "), "{effort}");
     let endless = candidate.limits[2].as_mut().expect("a limit");
     (endless.lower, endless.upper) = (f64::NEG_INFINITY, f64::INFINITY);
     let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");

@@ -163,7 +163,7 @@ pub(super) fn too_large(path: &Path, length: u64, most_bytes: u64) -> Diagnostic
 pub(super) fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
     let name = path.display();
     match error.kind() {
-        io::ErrorKind::NotFound => not_found(path, format!("{name} does not exist")),
+        io::ErrorKind::NotFound => not_found(path, ""),
         io::ErrorKind::PermissionDenied => {
             Diagnostic::error(codes::file::PERMISSION, format!("{name}: permission denied"))
         }
@@ -171,9 +171,34 @@ pub(super) fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
     }
 }
 
-/// A missing file, with the name in its folder that is most like it as help.
-pub fn not_found(path: &Path, message: String) -> Diagnostic {
-    let fault = Diagnostic::error(codes::file::NOT_FOUND, message);
+/// That a path does not exist, or that it is or goes through a link to something that does not.
+pub fn absence(path: &Path) -> String {
+    let name = path.display();
+    match broken_link(path) {
+        Some((link, target)) if link == path => {
+            format!("{name} is a link to {}, which does not exist", target.display())
+        }
+        Some((link, target)) => {
+            let [link, target] = [link, &target].map(Path::display);
+            format!("{name} does not exist: {link} is a link to {target}, which does not exist")
+        }
+        None => format!("{name} does not exist"),
+    }
+}
+
+/// The link on a path whose target is missing, and the target as it is written in the link.
+fn broken_link(path: &Path) -> Option<(&Path, PathBuf)> {
+    let mut missing = path.ancestors().filter(|part| !part.exists());
+    missing.find_map(|part| Some((part, std::fs::read_link(part).ok()?)))
+}
+
+/// A missing file, with the name in its folder that is most like it as help; `named` is how another file names it, as
+/// `urdf = "a.urdf": `.
+pub fn not_found(path: &Path, named: &str) -> Diagnostic {
+    let fault = Diagnostic::error(codes::file::NOT_FOUND, format!("{named}{}", absence(path)));
+    if broken_link(path).is_some() {
+        return fault.with_help("let the link name a file that exists, or give that file itself");
+    }
     // A shell passes a pattern that matches nothing on as it is.
     let is_pattern = path.as_os_str().to_string_lossy().contains(['*', '?']);
     if is_pattern {
@@ -288,6 +313,27 @@ mod tests {
         check(b"a\nb\0", Err("NUL byte at line 2: the file is not text"));
         check(b"a\n\nb\xE9c", Err("byte 0xE9 at line 3 is not UTF-8"));
         check(b"a\0\nb\xE9c", Err("NUL byte at line 1: the file is not text"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_nothing_is_named_as_such() {
+        let folder = tempfile::tempdir().unwrap();
+        let link = folder.path().join("arm.urdf");
+        std::os::unix::fs::symlink("gone/arm.urdf", &link).unwrap();
+        let found = read_regular_bytes(&link, 9).unwrap_err();
+        assert_eq!(
+            found.message,
+            format!("{} is a link to gone/arm.urdf, which does not exist", link.display())
+        );
+        assert!(!found.help.unwrap().contains("did you mean"));
+        let (below, gone) = (link.join("robot.toml"), folder.path().join("none"));
+        assert!(
+            absence(&below).ends_with("is a link to gone/arm.urdf, which does not exist"),
+            "{}",
+            absence(&below)
+        );
+        assert!(absence(&gone).ends_with("none does not exist"));
     }
 
     #[test]

@@ -3,9 +3,12 @@
 
 use std::ops::Range;
 
-use toml::de::{DeTable, DeValue};
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue},
+};
 
-use super::number::number;
+use super::{number::number, serde_message::whole_numbers};
 
 /// The key that is known for an unknown one in another unit, with the value in the unit of the key: `box_m = [0.1, 0.2]` for
 /// `box_mm = [100, 200]`.
@@ -57,6 +60,48 @@ fn converted(value: &DeValue<'_>, convert: fn(f64) -> f64) -> Option<String> {
         }
         _ => None,
     }
+}
+
+/// What is wrong with a whole number that is too large for its key, with the key and the range; and what to write, if a number
+/// of any size may be there.
+pub(super) fn for_large_integer(
+    message: &str,
+    root: &DeTable<'_>,
+    at: &Range<usize>,
+) -> Option<(String, Option<String>)> {
+    let expected = message.rsplit_once(", expected ").map_or("", |(_, expected)| expected);
+    // A number that is too large for any type has a message without the expected one.
+    let is_beyond_all = message == TOO_LARGE_FOR_TOML || message.contains("` as ");
+    let (key, value) = integer_at(root, at).filter(|(_, value)| !value.starts_with('-') || is_beyond_all)?;
+    let [least, most] = match whole_numbers(expected) {
+        Some(range) if is_beyond_all || message.starts_with("invalid value: ") => range,
+        None if is_beyond_all => [i64::MIN.to_string(), u64::MAX.to_string()],
+        _ => return None,
+    };
+    let help = matches!(expected, "f64" | "f32" | "").then(|| {
+        format!("if {key} need not be a whole number, write a point: {key} = {}.0", value.replace('_', ""))
+    });
+    Some((format!("{key} = {value} is outside the range of whole numbers, {least} to {most}"), help))
+}
+
+/// What the `toml` crate says of an integer that fits in no type.
+const TOO_LARGE_FOR_TOML: &str = "integer number overflowed";
+
+/// The integer at this place as it is written, and its key, or that of the list that it is in.
+fn integer_at<'v>(root: &'v DeTable<'_>, at: &Range<usize>) -> Option<(&'v str, &'v str)> {
+    fn within<'v>(
+        key: &'v str,
+        value: &'v Spanned<DeValue<'_>>,
+        at: &Range<usize>,
+    ) -> Option<(&'v str, &'v str)> {
+        match value.get_ref() {
+            DeValue::Integer(integer) if value.span() == *at => Some((key, integer.as_str())),
+            DeValue::Array(items) => items.iter().find_map(|item| within(key, item, at)),
+            DeValue::Table(table) => integer_at(table, at),
+            _ => None,
+        }
+    }
+    root.iter().find_map(|(key, value)| within(key.get_ref(), value, at))
 }
 
 fn value_of_key<'v, 't>(table: &'v DeTable<'t>, key: &Range<usize>) -> Option<&'v DeValue<'t>> {
@@ -157,6 +202,55 @@ mod tests {
         check("box_mm = \"wide\"", "box_m", None);
         check("box_cm = 10", "box_m", Some("centimetres are not read: write box_m = 0.1"));
         check("d_cm = 26.7", "d_mm", Some("centimetres are not read: write d_mm = 267.0"));
+    }
+
+    #[test]
+    fn a_whole_number_that_is_too_large_has_key_value_and_range() {
+        #[derive(Debug, serde::Deserialize)]
+        #[expect(dead_code, reason = "what is read is not looked at")]
+        struct Written {
+            seed: Option<u64>,
+            count: Option<u32>,
+            a_m: Option<f64>,
+        }
+        let check = |text: &str, expected: &str, help: Option<&str>| {
+            let table = DeTable::parse(text).unwrap();
+            let root = table.get_ref().clone();
+            let error =
+                <Written as serde::Deserialize>::deserialize(toml::Deserializer::from(table)).unwrap_err();
+            let found = for_large_integer(error.message(), &root, &error.span().unwrap());
+            let (message, advice) = found.unwrap_or_default();
+            assert_eq!(
+                (message.as_str(), advice.as_deref()),
+                (expected, help),
+                "{text}: {}",
+                error.message()
+            );
+        };
+        let outside = "is outside the range of whole numbers, ";
+        let large = "99999999999999999999999";
+        check(
+            &format!("seed = {large}"),
+            &format!("seed = {large} {outside}0 to 18446744073709551615"),
+            None,
+        );
+        check("count = 4294967296", &format!("count = 4294967296 {outside}0 to 4294967295"), None);
+        let point = format!("if a_m need not be a whole number, write a point: a_m = {large}.0");
+        check(
+            &format!("a_m = {large}"),
+            &format!("a_m = {large} {outside}-9223372036854775808 to 18446744073709551615"),
+            Some(&point),
+        );
+        // No type has 41 digits.
+        let huge = format!("{large}999999999999999999");
+        let point = format!("if seed need not be a whole number, write a point: seed = {huge}.0");
+        check(
+            &format!("seed = {huge}"),
+            &format!("seed = {huge} {outside}-9223372036854775808 to 18446744073709551615"),
+            Some(&point),
+        );
+        check("seed = -1", "", None);
+        check("seed = 1.5", "", None);
     }
 
     #[test]

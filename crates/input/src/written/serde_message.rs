@@ -46,6 +46,21 @@ fn expected_number(expected: &str) -> Option<&'static str> {
     })
 }
 
+/// The whole numbers that are allowed where serde expects this type, the smallest and the largest.
+pub(super) fn whole_numbers(expected: &str) -> Option<[String; 2]> {
+    Some(match expected {
+        "u8" => [u8::MIN.to_string(), u8::MAX.to_string()],
+        "u16" => [u16::MIN.to_string(), u16::MAX.to_string()],
+        "u32" => [u32::MIN.to_string(), u32::MAX.to_string()],
+        "u64" | "usize" => [u64::MIN.to_string(), u64::MAX.to_string()],
+        "i8" => [i8::MIN.to_string(), i8::MAX.to_string()],
+        "i16" => [i16::MIN.to_string(), i16::MAX.to_string()],
+        "i32" => [i32::MIN.to_string(), i32::MAX.to_string()],
+        "i64" | "isize" => [i64::MIN.to_string(), i64::MAX.to_string()],
+        _ => return None,
+    })
+}
+
 fn expected_in_words(expected: &str) -> String {
     if let Some(number) = expected_number(expected) {
         return number.to_owned();
@@ -70,7 +85,7 @@ fn found_in_words(found: &str) -> String {
     }
     for kind in ["integer ", "floating point ", "boolean "] {
         if let Some(value) = found.strip_prefix(kind) {
-            return value.trim_matches('`').to_owned();
+            return value.split('`').find(|part| !part.is_empty()).unwrap_or_default().to_owned();
         }
     }
     match found {
@@ -108,6 +123,11 @@ mod tests {
         check(
             "invalid value: integer `-1`, expected usize",
             "must be a whole number that is not negative, not -1",
+            None,
+        );
+        check(
+            "invalid type: integer `99999999999999999999` as i128, expected f64",
+            "must be a number, not 99999999999999999999",
             None,
         );
         check("invalid type: integer `3`, expected a string", "must be a text in quotes, not 3", None);

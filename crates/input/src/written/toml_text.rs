@@ -18,7 +18,7 @@ use crate::{
     units::WrittenUnit,
     visible::hidden_character,
     written::{
-        advice::{for_expression, in_known_unit, transform_for_list},
+        advice::{for_expression, for_large_integer, in_known_unit, transform_for_list},
         number_mistake::mistake_in_line,
         serde_message::in_words,
         unclosed::{Unclosed, unclosed},
@@ -153,6 +153,9 @@ fn with_advice(found: Diagnostic, error: &Error, root: &DeTable<'_>) -> Diagnost
             Some(help) => found.with_help(help),
             None => found,
         };
+    }
+    if let Some((message, help)) = for_large_integer(text, root, &at) {
+        return Diagnostic { message, help, ..found };
     }
     match transform_for_list(root, &at) {
         Some(help) => {

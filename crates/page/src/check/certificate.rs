@@ -122,11 +122,15 @@ pub(super) fn picture(robot: &CheckedRobot<'_>) -> Markup {
         name: name.to_owned(),
         skeleton: Skeleton::new(&of.robot, poses, of.tip),
     };
-    let mut arms = vec![arm("twin", "URDF", description, &urdf)];
+    let title = robot.geometry.title(*pair);
+    let (first, there) = title.split_once(" against ").unwrap_or((title, ""));
+    // Of a table and a URDF the poses of the URDF are the twin's, whichever is first.
+    let own = if there.ends_with(" chain") && *pair != SourcePair::UrdfOther { there } else { first };
+    let mut arms = vec![arm("twin", own.trim_end_matches(" chain"), description, &urdf)];
     match (pair, robot.other) {
         (SourcePair::UrdfOther, Some(other)) => {
             let poses = poses_by_urdf(other, &positions_by_name(description, other, q));
-            arms.extend(poses.map(|poses| arm("model", "other URDF", other, &poses)));
+            arms.extend(poses.map(|poses| arm("model", there.trim_end_matches(" chain"), other, &poses)));
         }
         _ if description.dh.is_some() => {
             let poses = poses_by_model(description, q);
@@ -142,7 +146,7 @@ pub(super) fn picture(robot: &CheckedRobot<'_>) -> Markup {
     let two = TwoArms { figure: Figure { bodies, arms, path: Vec::new() }, tips_apart_m };
     let at = JointValues::for_movable_joints(&description.robot, q).for_people(&description.robot);
     let caption = html! {
-        (what) " (" (pair.title()) ")" @if !at.is_empty() { ": " (at) } ". The tips are " (length(tips_apart_m)) " apart."
+        (what) " (" (title) ")" @if !at.is_empty() { ": " (at) } ". The tips are " (length(tips_apart_m)) " apart."
     };
     two.markup(&caption)
 }

@@ -45,7 +45,7 @@ pub(super) fn causes(robot: &CheckedRobot<'_>) -> Option<Markup> {
                 @let files = files(robot, report);
                 @for explanation in &report.explanations { (explained(explanation, files)) }
                 @for limit in report.limits.iter().filter(|limit| limit.decides) {
-                    p.fault { (limit.sentence()) }
+                    p.fault { (files.map_or_else(|| limit.sentence(), |files| limit.sentence_in(files))) }
                     (changed(&limit.changes, None))
                 }
             }
@@ -76,7 +76,7 @@ fn compared(robot: &CheckedRobot<'_>, report: &DynamicsReport, at: &Pointer) -> 
             }
             // What answers the question of the page is above.
             @if !is_answered { @for explanation in &report.explanations { (explained(explanation, files(robot, report))) } }
-            @let others = others(report);
+            @let others = others(report, files(robot, report));
             @if !others.is_empty() { ul { @for sentence in &others { li { (sentence) } } } }
             @if !is_answered {
                 @for limit in report.limits.iter().filter(|limit| limit.decides) { (changed(&limit.changes, None)) }
@@ -123,17 +123,16 @@ fn explained(explanation: &DynamicsExplanation, files: Option<[&str; 2]>) -> Mar
 }
 
 /// Sentences beside the causes: what is indistinguishable, not identifiable, or a limit that differs.
-fn others(report: &DynamicsReport) -> Vec<String> {
-    let limits = report.limits.iter().map(congruent_dynamics_agreement::LimitDifference::sentence);
-    let torques = report.invariants.iter().filter(|_| !report.has_same_torques());
-    let torques = torques.flat_map(congruent_dynamics_agreement::Invariants::sentences);
+fn others(report: &DynamicsReport, files: Option<[&str; 2]>) -> Vec<String> {
+    let limits = report.limit_sentences(files).into_iter().chain(report.one_sided_limit_sentences());
+    let torques = if report.has_same_torques() { Vec::new() } else { report.invariant_sentences() };
     let worst =
         report.worst_gravity().map(|worst| format!("largest gravity torque difference {}", worst.sentence()));
     limits
         .chain(report.not_stated_sentence())
         .chain(report.armature_sentence())
         .chain(torques)
-        .chain(report.hidden_sentences().into_iter().take(SHOWN))
+        .chain(report.hidden_sentences(files).into_iter().take(SHOWN))
         .chain(worst)
         .collect()
 }

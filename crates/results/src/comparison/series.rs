@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use super::{
     difference::{SeriesDifference, ValueDifference},
-    report_label::ReportLabel,
+    report_label::{ReportLabel, UNITS},
 };
 use crate::trajectory_file::Value;
 
@@ -141,15 +141,6 @@ fn json(value: &Value) -> Json {
 
 /// The unit at the end of a name, as reports write it.
 fn unit(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 7] = [
-        ("_rad_s", "rad/s"),
-        ("_n_m", "N m"),
-        ("_m_s", "m/s"),
-        ("_rad", "rad"),
-        ("_m", "m"),
-        ("_n", "N"),
-        ("_s", "s"),
-    ];
     UNITS.into_iter().find(|(end, _)| name.ends_with(end)).map_or("", |(_, unit)| unit)
 }
 

@@ -63,7 +63,7 @@ fn status(result: &TestResult) -> TestCaseStatus {
             status.set_message(printable(message));
             return status;
         }
-        TestResult::Failed(reason) => (NonSuccessKind::Failure, reason),
+        TestResult::Failed(reason) | TestResult::Changed(reason) => (NonSuccessKind::Failure, reason),
         TestResult::Error(reason) => (NonSuccessKind::Error, reason),
     };
     let mut status = TestCaseStatus::non_success(kind);

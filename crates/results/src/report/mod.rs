@@ -25,6 +25,6 @@ pub use sentence::{
     sentence_at, share_in_full, value_and_margin,
 };
 pub use step_summary::step_summary;
-pub use suite::{CHANGED, CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
+pub use suite::{CasePlace, ChangeSince, Clock, Reason, TestCase, TestResult, TestSuite};
 pub use test_suite::{judged, planned_suite};
 pub use verdict_sentence::{verdict_line, verdict_sentence, verdict_word};

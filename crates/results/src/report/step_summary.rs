@@ -5,41 +5,71 @@ use std::fmt::Write;
 
 use congruent_input::{display::counted, visible};
 
-use super::suite::{Reason, TestCase, TestResult, TestSuite};
+use super::suite::{ChangeSince, TestCase, TestResult, TestSuite};
+
+/// What changes since a revision, for the inputs that were compared with one; for the others the counts, a table of what did not
+/// pass with reasons, and the names of what passed.
+pub fn step_summary(suites: &[TestSuite]) -> String {
+    let changes: Vec<(&TestSuite, &ChangeSince)> =
+        suites.iter().filter_map(|suite| Some((suite, suite.change.as_ref()?))).collect();
+    let others: Vec<&TestSuite> = suites.iter().filter(|suite| suite.change.is_none()).collect();
+    let mut text = String::new();
+    // One heading for each revision, in the order of the call.
+    for (at, (_, ChangeSince { revision, .. })) in changes.iter().enumerate() {
+        if changes[..at].iter().all(|(_, before)| before.revision != *revision) {
+            let same = changes.iter().filter(|(_, change)| change.revision == *revision);
+            since(&mut text, &same.copied().collect::<Vec<_>>());
+        }
+    }
+    if changes.is_empty() || !others.is_empty() {
+        text += &results(&others);
+    }
+    text
+}
+
+/// What changes since one revision: a line for each input.
+fn since(text: &mut String, changes: &[(&TestSuite, &ChangeSince)]) {
+    let Some((_, first)) = changes.first() else { return };
+    let _ = writeln!(text, "### Changes since {}\n", escaped(first.short_revision()));
+    for (suite, change) in changes {
+        let [name, sentence] = [&suite.name, &change.sentence].map(|of| escaped(of));
+        let _ = writeln!(text, "- **{name}**: {sentence}");
+        let of_robot = |case: &&TestCase| !matches!(case.result, TestResult::Changed(_));
+        for case in suite.cases.iter().filter(of_robot) {
+            if let Some(message) = case.result.reason().and_then(|reason| reason.message.lines().next()) {
+                let [case, message] = [&case.name, message].map(escaped);
+                let _ = writeln!(text, "  - in the robot itself, {case}: {message}");
+            }
+        }
+    }
+    text.push('\n');
+}
 
 /// The counts, a table of what did not pass with reasons, and the names of what passed.
-pub fn step_summary(suites: &[TestSuite]) -> String {
+fn results(suites: &[&TestSuite]) -> String {
     let count = |of: fn(&TestResult) -> bool| {
         suites.iter().flat_map(|suite| &suite.cases).filter(|case| of(&case.result)).count()
     };
     let errors = count(|result| matches!(result, TestResult::Error(_)));
-    let is_change = |result: &TestResult| result.reason().is_some_and(Reason::is_change);
-    let failures = count(|result| matches!(result, TestResult::Failed(reason) if !reason.is_change()));
-    let changed = count(is_change);
+    let failures = count(|result| matches!(result, TestResult::Failed(_)));
     let passed = count(|result| matches!(result, TestResult::Passed));
     let skipped = count(|result| matches!(result, TestResult::Skipped(_)));
-    let verdict = match (errors + failures, changed) {
-        (0, 0) => "passed",
-        (0, _) => "changed",
-        _ => "failed",
-    };
+    let verdict = if errors + failures > 0 { "failed" } else { "passed" };
     let mut text = format!("### Congruent: {verdict}\n\n{passed} passed");
-    let others =
-        [(failures, "failed"), (errors, "with an error"), (changed, "changed"), (skipped, "skipped")];
-    for (number, word) in others {
+    for (number, word) in [(failures, "failed"), (errors, "with an error"), (skipped, "skipped")] {
         if number > 0 {
             let _ = write!(text, ", {number} {word}");
         }
     }
     let _ = writeln!(text, " in {}\n", counted(suites.len(), "input"));
-    if errors + failures + changed > 0 {
+    if errors + failures > 0 {
         text.push_str("| input | check | result | finding | line |\n|---|---|---|---|---|\n");
         rows(&mut text, suites, |result| matches!(result, TestResult::Error(_)));
         rows(&mut text, suites, |result| matches!(result, TestResult::Failed(_)));
         text.push('\n');
     }
     let sound = |suite: &&TestSuite| suite.cases.iter().all(|case| case.result.reason().is_none());
-    let names: Vec<String> = suites.iter().filter(sound).map(passed_in_part).collect();
+    let names: Vec<String> = suites.iter().copied().filter(sound).map(passed_in_part).collect();
     if !names.is_empty() {
         let _ = writeln!(text, "Passed: {}", names.join(", "));
     }
@@ -54,7 +84,7 @@ fn passed_in_part(suite: &TestSuite) -> String {
     if skipped.is_empty() { name } else { format!("{name} (not compared: {})", skipped.join(", ")) }
 }
 
-fn rows(text: &mut String, suites: &[TestSuite], of: fn(&TestResult) -> bool) {
+fn rows(text: &mut String, suites: &[&TestSuite], of: fn(&TestResult) -> bool) {
     for suite in suites {
         for case in suite.cases.iter().filter(|case| of(&case.result)) {
             row(text, suite, case);
@@ -64,11 +94,7 @@ fn rows(text: &mut String, suites: &[TestSuite], of: fn(&TestResult) -> bool) {
 
 fn row(text: &mut String, suite: &TestSuite, case: &TestCase) {
     let Some(reason) = case.result.reason() else { return };
-    let result = match case.result {
-        TestResult::Error(_) => "error",
-        _ if reason.is_change() => "changed",
-        _ => "**failed**",
-    };
+    let result = if matches!(case.result, TestResult::Error(_)) { "error" } else { "**failed**" };
     let message: Vec<String> = reason.message.lines().map(escaped).collect();
     let place = case.place.as_ref().map_or(String::new(), |place| format!("{}:{}", place.file, place.line));
     let _ = writeln!(
@@ -102,7 +128,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{CHANGED, CasePlace};
+    use crate::report::{CasePlace, Reason};
 
     fn reason(message: &str) -> Reason {
         Reason { kind: "clearance".to_owned(), message: message.to_owned() }
@@ -129,12 +155,31 @@ mod tests {
     }
 
     #[test]
-    fn a_change_is_no_failure() {
-        let changed = Reason { kind: CHANGED.to_owned(), message: "moves tool0".to_owned() };
-        let text =
-            step_summary(&[TestSuite::with_case("arm", "change since main", TestResult::Failed(changed))]);
-        assert!(text.starts_with("### Congruent: changed\n\n0 passed, 1 changed in 1 input\n"), "{text}");
-        assert!(text.contains("| arm | change since main | changed | moves tool0 |"), "{text}");
+    fn changes_are_a_line_for_each_input_and_none_failed() {
+        let changed = |name: &str, sentence: &str, result| TestSuite {
+            change: Some(ChangeSince {
+                revision: "main".to_owned(),
+                sentence: sentence.to_owned(),
+                is_changed: true,
+                places: Vec::new(),
+            }),
+            ..TestSuite::with_case(name, "table", result)
+        };
+        let mut suites = vec![
+            changed("arm", "moves tip by up to 10 mm", TestResult::Changed(reason("CHANGED"))),
+            changed("leg", "no change in poses", TestResult::Failed(reason("10 mm\nmore"))),
+        ];
+        let of_changes = "### Changes since main\n\n- **arm**: moves tip by up to 10 mm\n\
+             - **leg**: no change in poses\n  - in the robot itself, table: 10 mm\n\n";
+        assert_eq!(step_summary(&suites), of_changes);
+        suites.push(TestSuite::with_case("cut", "start", TestResult::Error(reason("no such robot"))));
+        let whole = step_summary(&suites);
+        assert!(
+            whole.starts_with(&format!(
+                "{of_changes}### Congruent: failed\n\n0 passed, 1 with an error in 1 input"
+            )),
+            "{whole}"
+        );
     }
 
     #[test]

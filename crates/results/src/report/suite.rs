@@ -7,10 +7,25 @@ pub struct TestSuite {
     pub name: String,
     /// One case for each check of the input.
     pub cases: Vec<TestCase>,
+    /// What the input does otherwise than in an earlier revision, if it was compared with one.
+    pub change: Option<ChangeSince>,
     /// Duration of the suite. The cases are computed together: each gets an equal share, so that sums are right.
     pub time_s: f64,
     /// The clock of that duration.
     pub clock: Clock,
+}
+
+/// What changes in an input since a revision. A change is no fault: CI hosts show it as a notice.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ChangeSince {
+    /// The revision, as the caller names it.
+    pub revision: String,
+    /// What changes, in one sentence, or that nothing does.
+    pub sentence: String,
+    /// Whether anything changes.
+    pub is_changed: bool,
+    /// The lines that change, each with what changes there.
+    pub places: Vec<(CasePlace, String)>,
 }
 
 /// The clock of a suite's time; the file names it in the suite's property `clock`.
@@ -53,6 +68,8 @@ pub enum TestResult {
     Passed,
     /// The check has another result than expected.
     Failed(Reason),
+    /// The check finds what the input does otherwise than in an earlier revision, which is a failure in JUnit and no fault.
+    Changed(Reason),
     /// The check could not be evaluated.
     Error(Reason),
     /// There was nothing to check.
@@ -68,16 +85,6 @@ pub struct Reason {
     pub message: String,
 }
 
-/// Kind of a reason that says what a change does to a robot: it fails the check, as the caller asks, and is no fault to annotate.
-pub const CHANGED: &str = "changed";
-
-impl Reason {
-    /// Whether it is what a change does.
-    pub fn is_change(&self) -> bool {
-        self.kind == CHANGED
-    }
-}
-
 impl CasePlace {
     /// The place, if file and line are known.
     pub fn if_known(file: Option<&str>, line: Option<usize>) -> Option<Self> {
@@ -85,11 +92,20 @@ impl CasePlace {
     }
 }
 
+impl ChangeSince {
+    /// The revision for people: of the hash of a commit as many digits as distinguish it.
+    pub fn short_revision(&self) -> &str {
+        const DIGITS: usize = 12;
+        let is_hash = self.revision.len() == 40 && self.revision.bytes().all(|of| of.is_ascii_hexdigit());
+        if is_hash { &self.revision[..DIGITS] } else { &self.revision }
+    }
+}
+
 impl TestResult {
     /// Why the case did not pass; `None` if it passed or was skipped.
     pub fn reason(&self) -> Option<&Reason> {
         match self {
-            Self::Failed(reason) | Self::Error(reason) => Some(reason),
+            Self::Failed(reason) | Self::Changed(reason) | Self::Error(reason) => Some(reason),
             Self::Passed | Self::Skipped(_) => None,
         }
     }
@@ -105,7 +121,12 @@ impl TestSuite {
             place: None,
             further: Vec::new(),
         };
-        Self { name: name.into(), cases: vec![case], time_s: 0.0, clock: Clock::Wall }
+        Self { cases: vec![case], ..Self::new(name) }
+    }
+
+    /// The suite of an input without cases, no duration and no change.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), cases: Vec::new(), change: None, time_s: 0.0, clock: Clock::Wall }
     }
 
     /// The same suite with a duration that was measured by the wall clock.

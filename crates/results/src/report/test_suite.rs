@@ -33,7 +33,7 @@ impl RunReport {
             });
         }
         let time_s = self.simulation.duration_s;
-        TestSuite { name: self.scenario.clone(), cases, time_s, clock: Clock::Simulated }
+        TestSuite { cases, time_s, clock: Clock::Simulated, ..TestSuite::new(&self.scenario) }
     }
 
     /// When and after how many steps a failed run ended.
@@ -104,7 +104,7 @@ pub fn planned_suite(setup: &RunSetup) -> TestSuite {
         let reason = Reason { kind: "unfinished".to_owned(), message };
         cases = TestSuite::with_case("", "run", TestResult::Error(reason)).cases;
     }
-    TestSuite { name: setup.scenario.name.clone(), cases, time_s: 0.0, clock: Clock::Wall }
+    TestSuite { cases, ..TestSuite::new(&setup.scenario.name) }
 }
 
 /// Added to the name of a check that the scenario does not give.

@@ -1,7 +1,6 @@
 //! `congruent lint`: what is wrong or suspicious in files.
 
 mod diff;
-pub(crate) mod explain;
 mod fix;
 mod lines;
 mod sarif;
@@ -18,6 +17,7 @@ use serde::Serialize;
 use crate::{
     batch::{Answer, Batch, BatchReport},
     ci::CiArguments,
+    explain,
     failure::{BAD_INPUT, FAILED, Failure},
     input::AccessArguments,
     terminal::print::{Format, Printer, text_options},

@@ -134,7 +134,8 @@ fn found(text: &mut String, fault: &Fault, stage: Option<&ReportedStage>) {
     if let Some(ReportedStage { before, after }) = stage {
         let [before, after] =
             [before, after].map(|error| length_and_angle(error.position_m, error.orientation_rad));
-        let _ = writeln!(text, "  difference before: {before}, after: {after}\n");
+        let after = if after == before { "not changed by it".to_owned() } else { format!("after: {after}") };
+        let _ = writeln!(text, "  difference before: {before}, {after}\n");
     }
 }
 

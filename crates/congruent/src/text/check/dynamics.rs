@@ -89,8 +89,9 @@ fn compared(text: &mut String, report: &DynamicsReport, files: Option<[&str; 2]>
     lines.extend(report.not_stated_sentence());
     lines.extend(report.armature_sentence());
     if !report.has_other_limits() {
-        lines.extend(limits(&report.limits));
+        lines.extend(limits(report, files));
     }
+    lines.extend(report.one_sided_limit_sentences());
     if !report.has_same_torques() {
         let others: Vec<&DynamicsExplanation> = report
             .indistinguishable
@@ -103,9 +104,9 @@ fn compared(text: &mut String, report: &DynamicsReport, files: Option<[&str; 2]>
             lines.push(format!("indistinguishable: {}{reason}", other.sentence()));
         }
         lines.extend(more(others.len(), "causes that cannot be distinguished"));
-        lines.extend(report.invariants.iter().flat_map(crate::dynamics_agreement::Invariants::sentences));
+        lines.extend(report.invariant_sentences());
     }
-    lines.extend(report.hidden_sentences().into_iter().take(SHOWN));
+    lines.extend(report.hidden_sentences(files).into_iter().take(SHOWN));
     lines.extend(more(report.hidden_differences.len(), "differences that change no joint torque"));
     for line in lines {
         let _ = writeln!(text, "    {line}");
@@ -113,7 +114,7 @@ fn compared(text: &mut String, report: &DynamicsReport, files: Option<[&str; 2]>
     largest(text, report, robot);
     if report.has_other_limits() {
         let _ = writeln!(text, "  disagree  joint limits of {candidate} against {reference}:");
-        for line in limits(&report.limits) {
+        for line in limits(report, files) {
             let _ = writeln!(text, "    {line}");
         }
     }
@@ -209,20 +210,22 @@ fn placed(parameter: &ParameterDifference, file: Option<&str>, files: Option<[&s
     }
 }
 
-/// The limits that differ with the lines that say them, each joint with what to write once.
-fn limits(differences: &[LimitDifference]) -> Vec<String> {
+/// The limits that disagree with the lines that say them, each joint with what to write once.
+fn limits(report: &DynamicsReport, files: Option<[&str; 2]>) -> Vec<String> {
     let mut lines = Vec::new();
+    let differences: Vec<&LimitDifference> = report.limits.iter().filter(|limit| limit.decides).collect();
     for (at, difference) in differences.iter().enumerate() {
-        let sentence = difference.sentence();
-        lines.push(match (&difference.file, difference.line) {
-            (Some(file), Some(line)) => format!("{file}:{line}: {sentence}"),
-            _ => sentence,
+        lines.push(match (files, &difference.file, difference.line) {
+            (Some(files), ..) => difference.sentence_in(files),
+            (None, Some(file), Some(line)) => format!("{file}:{line}: {}", difference.sentence()),
+            _ => difference.sentence(),
         });
         if differences.get(at + 1).is_some_and(|next| next.changes == difference.changes) {
             continue;
         }
         for change in &difference.changes {
-            lines.push(format!("  to write in line {}:", change.from_line));
+            let file = difference.file.as_ref().map_or_else(String::new, |file| format!("{file}, "));
+            lines.push(format!("  to write in {file}line {}:", change.from_line));
             lines.extend(change.text.lines().map(|line| format!("    {}", line.trim_start())));
         }
     }

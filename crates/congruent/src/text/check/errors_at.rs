@@ -32,7 +32,7 @@ pub(super) fn table<'a>(
     options: &'a TextOptions,
 ) -> DifferenceLines<'a> {
     Box::new(shown_pairs(differences).into_iter().flat_map(move |pair| {
-        let [first, second] = names(pair);
+        let (first, second) = report.title(pair).split_once(" against ").unwrap_or_default();
         let title = format!(
             "  tip {} in {}: x, y, z in mm by {first}, by {second}, error\n",
             report.chain.tip, report.chain.base
@@ -76,15 +76,4 @@ pub fn tip_differences(
     pair: SourcePair,
 ) -> impl Iterator<Item = TipDifference> + '_ {
     differences.iter().filter_map(move |difference| difference.tip.into_iter().find(|tip| tip.pair == pair))
-}
-
-fn names(pair: SourcePair) -> [&'static str; 2] {
-    match pair {
-        SourcePair::ModelUrdf => ["table", "URDF"],
-        SourcePair::PoeUrdf => ["screws", "URDF"],
-        SourcePair::ModelSimulation => ["table", "physics"],
-        SourcePair::UrdfSimulation => ["URDF", "physics"],
-        SourcePair::UrdfOther => ["URDF", "the other URDF"],
-        SourcePair::OtherModelUrdf => ["the other table", "its URDF"],
-    }
 }

@@ -148,7 +148,9 @@ fn physics(text: &mut String, check: &RobotCheck, options: &TextOptions) {
         _ => "poses",
     };
     if is_built {
-        let _ = writeln!(text, "  the physics is that of the URDF in {what}");
+        let title = check.geometry.title(SourcePair::UrdfSimulation);
+        let source = title.split_once(" chain").map_or(title, |(source, _)| source);
+        let _ = writeln!(text, "  the physics is that of the {source} in {what}");
     }
     if let Some(report) = torques.filter(|_| options.is_in_full) {
         let _ = writeln!(
@@ -166,7 +168,7 @@ fn not_compared(text: &mut String, report: &CheckReport) {
         let what = match source {
             ComparedSource::Simulation => "physics",
             ComparedSource::SimulatedDynamics => "torques of the physics",
-            ComparedSource::OtherDynamics => "torques of the other URDF",
+            ComparedSource::OtherDynamics => "torques of the other description",
             ComparedSource::DeclaredDynamics => "[[inertial]]",
             ComparedSource::Geometry => "geometry",
             ComparedSource::Dynamics => "dynamics",
@@ -179,14 +181,24 @@ fn not_compared(text: &mut String, report: &CheckReport) {
 
 /// What lint finds in the descriptions: how much, and the worst.
 fn linted(text: &mut String, check: &RobotCheck) {
-    let LintSummary { errors, warnings, worst, .. } = &check.lint;
-    let counts = [(*errors, "error"), (*warnings, "warning")].into_iter().filter(|(count, _)| *count > 0);
+    let LintSummary { errors, warnings, worst, for_clearance, .. } = &check.lint;
+    counted_findings(text, [*errors, *warnings], worst);
+    if let [first, rest @ ..] = &for_clearance[..] {
+        let more = if rest.is_empty() { String::new() } else { format!(" (and {} more)", rest.len()) };
+        let message = clipped(&first.message);
+        let _ = writeln!(text, "  not needed for this check, for clearance alone: {message}{more}");
+    }
+}
+
+/// The counts of errors and warnings, and the worst of these findings.
+fn counted_findings(text: &mut String, [errors, warnings]: [usize; 2], worst: &[Finding]) {
+    let counts = [(errors, "error"), (warnings, "warning")].into_iter().filter(|(count, _)| *count > 0);
     let counts: Vec<String> = counts.map(|(count, what)| counted(count, what)).collect();
     if counts.is_empty() {
         let _ = writeln!(text, "  lint: no findings");
         return;
     }
-    let listed = if check.lint.findings() > worst.len() { ", the worst" } else { "" };
+    let listed = if errors + warnings > worst.len() { ", the worst" } else { "" };
     let _ = writeln!(text, "  lint: {}{listed} (in full: `congruent lint`):", counts.join(" and "));
     for Finding { file, line, message, .. } in worst {
         let place = match (file, line) {
@@ -311,7 +323,7 @@ fn narrow(text: &mut String, certificate: &ReportedCertificate) {
     }
     if let Some(Premise { configurations, residual_m, residual_rad, holds }) = premise {
         let verified = if *holds { "verified as" } else { "are not" };
-        let whose = if *name == SourcePair::UrdfOther { "the other URDF's" } else { "simulated" };
+        let whose = if *name == SourcePair::UrdfOther { "the other description's" } else { "simulated" };
         let residual = length_and_angle(*residual_m, *residual_rad);
         let _ = writeln!(
             text,

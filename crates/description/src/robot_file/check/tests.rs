@@ -161,6 +161,7 @@ fn a_misspelt_key_is_the_only_finding_about_it() {
     for (from, to, message) in [
         ("convention", "conventon", "unknown key \"conventon\""),
         ("d_m = 0.2", "dd_m = 0.2", "unknown key \"dd_m\""),
+        ("d_m = 0.2", "d_cm = 20", "unknown key \"d_cm\""),
         ("alpha_rad = 0.0", "alfa_rad = 0.0", "unknown key \"alfa_rad\""),
         ("joint = 'a'", "jiont = 'a'", "unknown key \"jiont\""),
     ] {

@@ -1,0 +1,90 @@
+//! Joint limits that differ, as sentences: both values with their units, and their files if either may be wrong.
+
+use congruent_input::display::{counted, limit_number};
+
+use super::{content::DynamicsReport, sentences::with_distinct_digits};
+use crate::differences::{LimitCause, LimitDifference, limits::EXCHANGED};
+
+impl LimitDifference {
+    /// `elbow_joint: velocity limit is 10313 deg/s, expected 180 deg/s: in degrees?`.
+    pub fn sentence(&self) -> String {
+        let [found, expected] = self.values();
+        let remark = self.remark(|is_reference| match self.expected.filter(|_| is_reference) {
+            Some(expected) => format!(": is the expected {} in {}?", limit_number(expected), self.detail),
+            None => format!(": in {}?", self.detail),
+        });
+        format!("{}: {} limit is {found}, expected {expected}{remark}", self.joint, self.parameter)
+    }
+
+    /// `elbow_joint: velocity limit 10313 deg/s in a.urdf:5, 180 deg/s in b.urdf:7: is a.urdf in degrees?`, of two files of which
+    /// either may be wrong.
+    pub fn sentence_in(&self, files: [&str; 2]) -> String {
+        let place = |file: &str, line: Option<usize>| match line {
+            Some(line) => format!("{file}:{line}"),
+            None => file.to_owned(),
+        };
+        let [found, expected] = self.values();
+        let remark = self
+            .remark(|is_reference| format!(": is {} in {}?", files[usize::from(is_reference)], self.detail));
+        format!(
+            "{}: {} limit {found} in {}, {expected} in {}{remark}",
+            self.joint,
+            self.parameter,
+            place(files[0], self.line),
+            place(files[1], self.expected_line)
+        )
+    }
+
+    fn values(&self) -> [String; 2] {
+        with_distinct_digits(self.found, self.expected, self.unit.symbol(), "not stated")
+    }
+
+    /// What the values suggest: that they have changed places, or that the larger one is in another unit, which `in_unit` says
+    /// of the reference or of the candidate.
+    fn remark(&self, in_unit: impl Fn(bool) -> String) -> String {
+        match self.found.zip(self.expected) {
+            _ if self.detail.is_empty() => String::new(),
+            _ if self.detail == EXCHANGED => match self.cause {
+                LimitCause::PositionLimit => ": lower and upper are exchanged, with their signs".to_owned(),
+                _ => ": effort and velocity are exchanged".to_owned(),
+            },
+            both => in_unit(both.is_some_and(|(found, expected)| found.abs() < expected.abs())),
+        }
+    }
+}
+
+impl DynamicsReport {
+    /// The limits that disagree, with the files of both if either may be wrong.
+    pub fn limit_sentences(&self, files: Option<[&str; 2]>) -> Vec<String> {
+        let sentence = |limit: &LimitDifference| match files {
+            Some(files) => limit.sentence_in(files),
+            None => limit.sentence(),
+        };
+        self.limits.iter().filter(|limit| limit.decides).map(sentence).collect()
+    }
+
+    /// The limits of speed and effort that only one of the two states, which is no disagreement: a sentence for each kind, with
+    /// its joints.
+    pub fn one_sided_limit_sentences(&self) -> Vec<String> {
+        let kind = |limit: &LimitDifference| (limit.parameter.clone(), limit.found.is_some());
+        let one_sided: Vec<&LimitDifference> = self.limits.iter().filter(|limit| !limit.decides).collect();
+        let mut kinds: Vec<(String, bool)> = Vec::new();
+        for limit in &one_sided {
+            if !kinds.contains(&kind(limit)) {
+                kinds.push(kind(limit));
+            }
+        }
+        let sentence = |of: (String, bool)| {
+            let joints = one_sided.iter().filter(|limit| kind(limit) == of).map(|limit| limit.joint.as_str());
+            let joints: Vec<&str> = joints.collect();
+            let (parameter, is_own) = of;
+            let file = if is_own { &self.sides.candidate } else { &self.sides.reference };
+            format!(
+                "{parameter} limits of {} are stated by {file} alone, which is no disagreement: {}",
+                counted(joints.len(), "joint"),
+                joints.join(", ")
+            )
+        };
+        kinds.into_iter().map(sentence).collect()
+    }
+}
