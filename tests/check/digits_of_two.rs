@@ -95,3 +95,52 @@ fn a_finer_length_is_within_half_a_place_of_the_coarse_one() {
         }
     }
 }
+
+/// Rounded masses, inertial frames, moments and limits are no difference; one that is off by more is the only one named.
+#[test]
+fn masses_inertias_and_limits_are_rounded_values_too() {
+    let rounded = [
+        ("<mass value=\"8.058\"/>", "<mass value=\"8.06\"/>"),
+        (
+            "xyz=\"-0.2125 0 0.11336\" rpy=\"0 1.5707963267948966 0\"",
+            "xyz=\"-0.2125 0 0.1134\" rpy=\"0 1.5708 0\"",
+        ),
+        ("ixx=\"0.13388583541666665\"", "ixx=\"0.1339\""),
+        ("upper=\"6.283185307179586\"", "upper=\"6.283\""),
+    ];
+    let folder = ScratchFolder::new();
+    let robot = PathBuf::from(folder.robot("ur5e", &[]));
+    let exact = robot.join("ur5e.urdf");
+    let text = fs::read_to_string(&exact).unwrap();
+    let with = |changes: &[(&str, &str)]| {
+        changes.iter().fold(text.clone(), |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replace(from, to)
+        })
+    };
+    let other = robot.join("other.urdf");
+    fs::write(&other, with(&rounded)).unwrap();
+    for files in [[&exact, &other], [&other, &exact]] {
+        let (line, json) = answer(files);
+        assert!(line.contains("SAME ROBOT within the digits written"), "{line}");
+        assert_eq!([&json["grade"], &json["verdict"]], ["same_within_digits", "agree"], "{line}");
+        let values: Vec<&str> = json["against"]["values_within_digits"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|value| value.as_str().unwrap())
+            .collect();
+        for value in ["mass", "centre of mass", "inertia"] {
+            assert!(values.contains(&&*format!("upper_arm_link: {value}")), "{values:?}");
+        }
+        assert!(values.iter().any(|value| value.ends_with(": upper")), "{values:?}");
+    }
+    let heavier = [("<mass value=\"2.846\"/>", "<mass value=\"2.946\"/>")];
+    fs::write(&other, with(&[&rounded[..], &heavier[..]].concat())).unwrap();
+    let (line, json) = answer([&exact, &other]);
+    assert!(
+        line.contains("DIFFERENT DYNAMICS: forearm_link: mass 2.846 kg") && !line.contains(" more"),
+        "{line}"
+    );
+    assert_eq!(json["dynamics"]["limits"].as_array().map(Vec::len), Some(0), "{line}");
+}

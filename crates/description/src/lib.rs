@@ -24,9 +24,10 @@ pub use changed::{ChangedRobots, robots_of_changed};
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use congruent_robot::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
-    Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit, JointParts, JointRounding, JointValues,
-    Link, LinkIndex, MappedJoint, Mimic, Obstacle, PlacedAxis, RequestedTolerance, Robot, RobotError, RobotQ,
-    RobotQList, SPEED_MARGIN, Shape, SmallMotion, Tolerance, principal_moments,
+    Geometry, Inertia, InertiaRounding, Joint, JointIndex, JointKind, JointLimit, JointParts, JointRounding,
+    JointValueRounding, JointValues, Link, LinkIndex, MappedJoint, Mimic, Obstacle, PlacedAxis,
+    RequestedTolerance, Robot, RobotError, RobotQ, RobotQList, SPEED_MARGIN, Shape, SmallMotion, Tolerance,
+    principal_moments,
 };
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};

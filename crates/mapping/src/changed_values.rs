@@ -2,7 +2,6 @@
 
 use congruent_description::{Inertia, Joint, JointKind, Robot};
 use congruent_input::{SiUnit, display::compared_quantities};
-use nalgebra::{Isometry3, Matrix3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -125,18 +124,12 @@ pub fn changed_inertias(robot: &Robot, before: &Robot) -> Vec<String> {
     let differs = |name: &str| {
         let of = |robot: &Robot| robot.link(robot.find_link(name)?).inertia;
         of(robot).zip(of(before)).is_some_and(|(own, before)| {
-            let [(com, tensor), (com_before, tensor_before)] = [in_link(&own), in_link(&before)];
-            (com.translation.vector - com_before.translation.vector).norm() > ROUNDED_M
+            let [com, com_before] = [&own, &before].map(|of| of.link_from_inertial.translation.vector);
+            let [tensor, tensor_before] = [&own, &before].map(Inertia::tensor_in_link);
+            (com - com_before).norm() > ROUNDED_M
                 || (tensor - tensor_before).norm() > ROUNDED * tensor.norm().max(tensor_before.norm())
         })
     };
     let names = robot.links().iter().map(|link| &link.name);
     names.filter(|name| differs(name)).cloned().collect()
-}
-
-/// The inertial frame, and the tensor in the axes of the link.
-fn in_link(inertia: &Inertia) -> (Isometry3<f64>, Matrix3<f64>) {
-    let turn = inertia.link_from_inertial.rotation.to_rotation_matrix();
-    let tensor = turn.matrix() * inertia.tensor_kg_m2 * turn.matrix().transpose();
-    (inertia.link_from_inertial, tensor)
 }

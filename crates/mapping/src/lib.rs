@@ -16,6 +16,7 @@ mod frames;
 mod matched;
 mod names;
 mod polish;
+mod rounded_values;
 mod variables;
 
 pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values, is_same_value};
@@ -25,3 +26,4 @@ pub use drivers::driven_as_in;
 pub use find::{FoundMapping, MatchedBy, find, find_exchanged};
 pub use frames::{CommonAxes, in_frames_of};
 pub use matched::MatchedRobots;
+pub use rounded_values::with_values_within_digits;

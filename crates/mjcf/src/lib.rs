@@ -27,7 +27,7 @@ pub use model::{
     MjInertiaRules, MjInertial, MjInference, MjJoint, MjJointKind, MjKeyframe, MjMesh, MjMeshInertia,
     MjModel, MjName, MjNotation, MjPlace, MjShape, MjSite, MjTarget, MjTendon, MjWritten,
 };
-pub use rounding::{MjBodyRounding, MjJointRounding};
+pub use rounding::{MjBodyRounding, MjInertialRounding, MjJointRounding, MjValueRounding};
 
 /// Opens a file that a model names, by its path relative to the folder of the main file.
 pub type ReadFile<'a> = dyn FnMut(&str) -> Result<Arc<SourceFile>, Diagnostic> + 'a;

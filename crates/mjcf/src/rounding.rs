@@ -1,13 +1,13 @@
 //! How far the poses of bodies and the axes of joints may be from the truth because of the digits that they are written with.
 
 use congruent_input::{
-    TypedNumber, half_places,
+    TypedNumber, half_places, half_places_of_values,
     units::{Unit, UnitSystem},
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::{
-    model::{MjBody, MjJoint, MjModel, MjNotation, MjWritten},
+    model::{MjInertial, MjJoint, MjJointKind, MjModel, MjNotation, MjWritten},
     read::orientation_of,
 };
 
@@ -32,11 +32,83 @@ pub struct MjJointRounding {
     pub axis: [f64; 3],
 }
 
+/// The same of an `<inertial>`.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MjInertialRounding {
+    /// Half of the last place of the mass, kg.
+    pub mass_kg: f64,
+    /// Shift of `pos` along x, y, z, m.
+    pub pos_m: Vector3<f64>,
+    /// Half of the last place of the entries of the tensor, kg m^2.
+    pub inertia_kg_m2: Matrix3<f64>,
+    /// Turns of the inertial frame, rad, one for each number of its orientation.
+    pub turns_rad: Vec<Vector3<f64>>,
+}
+
+/// Half of the last place of the values of a joint that are neither of its pose nor of its axis.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MjValueRounding {
+    /// Those of `range`, rad or m.
+    pub range: [f64; 2],
+    /// The larger of those of the efforts, N m or N.
+    pub effort: f64,
+    /// Those of `damping`, `frictionloss` and `armature`.
+    pub terms: [f64; 3],
+}
+
+impl MjInertial {
+    /// What half of the last place of each of its numbers changes.
+    pub fn rounding(&self) -> MjInertialRounding {
+        let [pos_m] = of_lengths(&[text(&self.pos)])[..] else { unreachable!("one for each") };
+        let moments: Vec<&str> = text(&self.inertia).split_whitespace().collect();
+        let halves = half_places_of_values(&moments);
+        let inertia_kg_m2 = match halves[..] {
+            [xx, yy, zz] => Matrix3::from_diagonal(&Vector3::new(xx, yy, zz)),
+            [xx, yy, zz, xy, xz, yz] => Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
+            _ => Matrix3::zeros(),
+        };
+        MjInertialRounding {
+            mass_kg: half_places_of_values(&[text(&self.mass)])[0],
+            pos_m: pos_m.into(),
+            inertia_kg_m2,
+            turns_rad: turns(&self.orientation, &self.notation),
+        }
+    }
+}
+
+impl MjJoint {
+    /// Half of the last place of its values.
+    pub fn value_rounding(&self) -> MjValueRounding {
+        let range = self.range.as_ref().map_or_else(Vec::new, |range| numbers(text(range)));
+        let range = if self.kind == MjJointKind::Slide {
+            half_places(Unit::Length, &range)
+        } else {
+            let units = self.notation.angle_unit();
+            half_places(Unit::Angle, &range.iter().map(|of| TypedNumber { units, ..*of }).collect::<Vec<_>>())
+        };
+        let first = |text: &str| half_places_of_values(&[text.split_whitespace().next().unwrap_or("")])[0];
+        // With a gear or several actuators the limit is no written number.
+        let effort = self.actuator_force_range.as_ref().map_or(0.0, |of| {
+            let typed: Vec<&str> = text(of).split_whitespace().collect();
+            half_places_of_values(&typed).into_iter().fold(0.0, f64::max)
+        });
+        MjValueRounding {
+            range: std::array::from_fn(|at| range.get(at).copied().unwrap_or_default()),
+            effort,
+            terms: [
+                first(text(&self.damping)),
+                first(text(&self.friction_loss)),
+                first(text(&self.armature)),
+            ],
+        }
+    }
+}
+
 impl MjModel {
     /// The rounding of each body.
     pub fn body_roundings(&self) -> Vec<MjBodyRounding> {
         let positions = of_lengths(&self.bodies.iter().map(|body| text(&body.pos)).collect::<Vec<_>>());
-        let turns = self.bodies.iter().map(turns);
+        let turns = self.bodies.iter().map(|body| turns(&body.orientation, &body.notation));
         positions
             .into_iter()
             .zip(turns)
@@ -88,8 +160,8 @@ fn of_direction(numbers: &[TypedNumber<'_>]) -> Vec<f64> {
 }
 
 /// The turns that half of the last place of each number of an orientation makes.
-fn turns(body: &MjBody) -> Vec<Vector3<f64>> {
-    let Some(place) = &body.orientation.place else { return Vec::new() };
+fn turns(orientation: &MjWritten<UnitQuaternion<f64>>, notation: &MjNotation) -> Vec<Vector3<f64>> {
+    let Some(place) = &orientation.place else { return Vec::new() };
     let written = numbers(place.text());
     let mut values = [0.0; 6];
     for (value, number) in values.iter_mut().zip(&written) {
@@ -98,13 +170,13 @@ fn turns(body: &MjBody) -> Vec<Vector3<f64>> {
     let rotation = |at: usize, by: f64| {
         let mut values = values;
         values[at] += by;
-        orientation_of(&place.key, values, &body.notation).ok()
+        orientation_of(&place.key, values, notation).ok()
     };
     let turn = |(at, half): (usize, f64)| {
         let [up, down] = [STEP, -STEP].map(|by| rotation(at, by));
         Some((up? * down?.inverse()).scaled_axis() * (half / (2.0 * STEP)))
     };
-    let halves = halves_of_orientation(&place.key, &written, &body.notation).into_iter().enumerate();
+    let halves = halves_of_orientation(&place.key, &written, notation).into_iter().enumerate();
     halves.filter(|(_, half)| *half > 0.0).filter_map(turn).collect()
 }
 

@@ -19,6 +19,12 @@ impl Inertia {
         self.tensor_kg_m2 == Matrix3::identity()
     }
 
+    /// The tensor about the centre of mass in the axes of the link, kg m^2.
+    pub fn tensor_in_link(&self) -> Matrix3<f64> {
+        let turn = self.link_from_inertial.rotation.to_rotation_matrix();
+        turn.matrix() * self.tensor_kg_m2 * turn.matrix().transpose()
+    }
+
     /// The inertia of links that move as one, each with its pose in the body, in the axes of the body; zero if
     /// there are none. Source: the parallel axis theorem.
     pub fn sum_of_parts(parts: impl Iterator<Item = (Isometry3<f64>, Self)> + Clone) -> Self {

@@ -5,7 +5,11 @@ use nalgebra::{Isometry3, Unit, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{link::LinkIndex, rounding::JointRounding};
+use super::{
+    joint_limit::JointLimit,
+    link::LinkIndex,
+    rounding::{JointRounding, JointValueRounding},
+};
 
 /// How much faster than its limit an actuator may drive a joint, as a share of the limit.
 pub const SPEED_MARGIN: f64 = 1e-3;
@@ -66,26 +70,6 @@ impl JointKind {
     }
 }
 
-/// The range and the capability of a joint; units are those of the coordinate, per second for
-/// `velocity`, newton or newton metre for `effort`. The default states a range of the position 0 alone.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct JointLimit {
-    /// Smallest allowed position; minus infinity for a continuous joint.
-    pub lower: f64,
-    /// Largest allowed position; infinity for a continuous joint.
-    pub upper: f64,
-    /// Largest allowed speed; `None` if the description gives none.
-    pub velocity: Option<f64>,
-    /// Largest force or torque of the actuator; `None` if the description gives none.
-    pub effort: Option<f64>,
-    /// Largest acceleration, per second squared; `None` if the description gives none, as before version 1.2 of URDF.
-    pub acceleration: Option<f64>,
-    /// Largest deceleration, per second squared; that of URDF is the acceleration if the file gives none.
-    pub deceleration: Option<f64>,
-    /// Largest jerk, per second cubed; `None` if the description gives none.
-    pub jerk: Option<f64>,
-}
-
 /// A joint whose position follows another: `q = multiplier * q_master + offset`.
 ///
 /// Chains of mimic joints are resolved when the robot is built, so `master` never mimics.
@@ -127,6 +111,8 @@ pub struct Joint {
     pub mimic: Option<Mimic>,
     /// How far origin and axis may be from the truth because of the digits that they are written with.
     pub rounding: JointRounding,
+    /// The same of its limits and losses.
+    pub value_rounding: JointValueRounding,
 }
 
 impl Joint {
@@ -193,6 +179,7 @@ impl JointParts {
             armature: None,
             mimic: None,
             rounding: JointRounding::default(),
+            value_rounding: JointValueRounding::default(),
         };
         Self { joint, parent: parent.to_owned(), child: child.to_owned(), mimic: None }
     }

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use super::{
-    joint::{Joint, JointIndex, JointKind, JointLimit, JointParts},
+    joint::{Joint, JointIndex, JointKind, JointParts},
+    joint_limit::JointLimit,
     link::{Link, LinkIndex},
     robot::Robot,
 };
@@ -49,11 +50,16 @@ impl MappedJoint {
             let ends = [limit.lower, limit.upper].map(|end| self.there(end));
             JointLimit { lower: ends[0].min(ends[1]), upper: ends[0].max(ends[1]), ..limit }
         });
+        let mut value_rounding = joint.value_rounding;
+        if self.is_flipped {
+            std::mem::swap(&mut value_rounding.limit.lower, &mut value_rounding.limit.upper);
+        }
         Joint {
             name: self.name.clone(),
             parent_from_joint: joint.parent_from_joint * joint.motion(self.offset),
             axis_in_joint: axis,
             limit,
+            value_rounding,
             ..joint.clone()
         }
     }
@@ -201,6 +207,7 @@ fn link_in_frame(link: &Link, link_from_frame: &Isometry3<f64>) -> Link {
     let mut moved = link.clone();
     if let Some(inertia) = &mut moved.inertia {
         inertia.link_from_inertial = frame_from_link * inertia.link_from_inertial;
+        moved.inertia_rounding = moved.inertia_rounding.expressed_in(&frame_from_link.rotation);
     }
     for shape in moved.visuals.iter_mut().chain(&mut moved.collisions) {
         shape.link_from_shape = frame_from_link * shape.link_from_shape;

@@ -1,6 +1,6 @@
 //! Links: the rigid parts of a robot, with their mass and shapes.
 
-use super::{geometry::Shape, inertia::Inertia};
+use super::{geometry::Shape, inertia::Inertia, rounding::InertiaRounding};
 
 /// Position of a link in [`Robot::links`](crate::Robot::links).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,6 +20,8 @@ pub struct Link {
     pub name: String,
     /// Mass and rotational inertia; `None` for a link without an `<inertial>`.
     pub inertia: Option<Inertia>,
+    /// How far the inertia may be from the truth because of the digits that it is written with.
+    pub inertia_rounding: InertiaRounding,
     /// Shapes that are drawn, in the link frame.
     pub visuals: Vec<Shape>,
     /// Shapes for distances and contacts, in the link frame.

@@ -1,6 +1,8 @@
-//! What the digits that a joint is written with leave open.
+//! What the digits that joints and inertias are written with leave open.
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+use super::{inertia::Inertia, joint_limit::JointLimit};
 
 /// A small motion, to first order: every point `p` moves by `linear_m + angular_rad x p`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +60,66 @@ impl JointRounding {
         };
         Self { origin: moved(&self.origin), axis: moved(&self.axis), frame: moved(&self.frame) }
     }
+}
+
+/// Half of the last place of the limits and losses of a joint, in their units; 0 where nothing is written or a program has
+/// written all digits.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointValueRounding {
+    /// Those of the limits; `None` as 0.
+    pub limit: JointLimit,
+    /// That of the damping.
+    pub damping: f64,
+    /// That of the dry friction.
+    pub friction: f64,
+    /// That of the armature.
+    pub armature: f64,
+}
+
+/// How far mass, centre of mass and tensor of a link may be from the truth because of the digits that they are written with.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct InertiaRounding {
+    /// Half of the last place of the mass, kg.
+    pub mass_kg: f64,
+    /// The most that each coordinate of the centre of mass is off, in the link, m.
+    pub com_m: Vector3<f64>,
+    /// The most that each entry of the tensor about the centre of mass is off, in the axes of the link, kg m^2.
+    pub tensor_kg_m2: Matrix3<f64>,
+}
+
+impl InertiaRounding {
+    /// From half places in the inertial frame, and from the turns of that frame about its origin, in the link, rad, that half of
+    /// the last place of each number of its orientation makes.
+    pub fn of_written(
+        inertia: &Inertia,
+        mass_kg: f64,
+        com_m: Vector3<f64>,
+        moments_kg_m2: &Matrix3<f64>,
+        turns_rad: &[Vector3<f64>],
+    ) -> Self {
+        let tensor = inertia.tensor_in_link();
+        let of_turn = |turn: &Vector3<f64>| {
+            let cross = turn.cross_matrix();
+            (cross * tensor - tensor * cross).abs()
+        };
+        let of_turns: Matrix3<f64> = turns_rad.iter().map(of_turn).sum();
+        let of_moments = in_axes(moments_kg_m2, &inertia.link_from_inertial.rotation.to_rotation_matrix());
+        Self { mass_kg, com_m, tensor_kg_m2: of_moments + of_turns }
+    }
+
+    /// The same in another frame of the link, to the outside.
+    #[must_use]
+    pub fn expressed_in(&self, outer_from_frame: &UnitQuaternion<f64>) -> Self {
+        let turn = outer_from_frame.to_rotation_matrix();
+        let com_m = turn.matrix().abs() * self.com_m;
+        Self { com_m, tensor_kg_m2: in_axes(&self.tensor_kg_m2, &turn), ..*self }
+    }
+}
+
+/// The most that the entries of a matrix are off in turned axes.
+fn in_axes(most: &Matrix3<f64>, turn: &Rotation3<f64>) -> Matrix3<f64> {
+    let sizes = turn.matrix().abs();
+    sizes * most * sizes.transpose()
 }
 
 #[cfg(test)]

@@ -113,7 +113,7 @@ pub(super) fn links(robot: &Robot) -> Vec<LinkSummary> {
 }
 
 fn link(robot: &Robot, index: LinkIndex) -> LinkSummary {
-    let Link { name, inertia, visuals, collisions } = robot.link(index);
+    let Link { name, inertia, inertia_rounding: _, visuals, collisions } = robot.link(index);
     let shapes = |shapes: &[Shape]| shapes.iter().map(|shape| kind_of(&shape.geometry)).collect();
     LinkSummary {
         name: name.clone(),

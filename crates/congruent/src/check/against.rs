@@ -9,12 +9,12 @@ use congruent_dynamics_agreement::{
     CompareError, DynamicsModel, DynamicsReport, NamedModel, without_one_sided_armature,
 };
 use congruent_input::{
-    Capability, Diagnostic, Finding,
+    Capability, Diagnostic, Finding, RevisionName,
     display::{length_and_angle, position},
     nearest,
 };
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
-use congruent_mapping::is_same_value;
+use congruent_mapping::{is_same_value, with_values_within_digits};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -56,6 +56,10 @@ pub struct OtherDescription {
     /// Links of this description that the other lacks: their frames are not compared.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links_not_found: Vec<String>,
+    /// Masses, inertias, limits and losses that differ by no more than the digits that they are written with, which is no
+    /// difference: `forearm_link: mass`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values_within_digits: Vec<String>,
 }
 
 impl OtherDescription {
@@ -86,15 +90,17 @@ impl OtherDescription {
             mapping: None,
             common_tip,
             links_not_found: lacking.collect(),
+            values_within_digits: Vec::new(),
         }
     }
 }
 
-/// Adds the comparison of geometry to the report, and compares dynamics if the two are the same chain.
+/// Adds the comparison of geometry to the report, and compares dynamics if the two are the same chain. The other description gets
+/// the values of this one where they differ within their digits.
 pub(super) fn compared(
     geometry: &mut CheckReport,
     description: &RobotDescription,
-    other: &RobotDescription,
+    other: &mut RobotDescription,
     options: &CheckOptions,
 ) -> Result<(OtherDescription, Option<DynamicsReport>), CheckError> {
     let poses = PosesOfOther::new(&description.robot, &other.robot);
@@ -124,6 +130,8 @@ pub(super) fn compared(
         against.dynamics_not_compared = misplaced;
         return Ok((against, None));
     }
+    against.values_within_digits = adopt_rounded_values(geometry, description, other);
+    let other = &*other;
     if let Some(of) = no_masses([description, other]).or_else(|| one_urdf([description, other])) {
         geometry.not_asked.push(of);
         against.ranges_differ = ranges_differ(&description.robot, other);
@@ -161,6 +169,25 @@ pub(super) fn compared(
         }
     };
     Ok((against, report))
+}
+
+/// Gives the other description the values of this one where they differ within the digits of both, and names them; those of a
+/// revision are compared as they are, since what changes is asked for.
+fn adopt_rounded_values(
+    geometry: &CheckReport,
+    own: &RobotDescription,
+    there: &mut RobotDescription,
+) -> Vec<String> {
+    if RevisionName::of(&there.path).is_some() {
+        return Vec::new();
+    }
+    // What digits turn and shift a frame by, they turn and shift the inertia in it by.
+    let by_digits = geometry.comparisons.iter().filter(|of| of.name == SourcePair::UrdfOther);
+    let links = by_digits.filter(|_| geometry.is_judged_by_digits()).flat_map(|of| &of.links);
+    let of_frames = links.map(|link| link.error).fold(PoseError::default(), PoseError::larger);
+    let (robot, names) = with_values_within_digits([&own.robot, &there.robot], of_frames);
+    there.robot = robot;
+    names
 }
 
 /// The dynamics of two descriptions, without armatures that only one of the two states, and the file that states them.

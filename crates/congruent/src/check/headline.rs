@@ -100,10 +100,17 @@ impl RobotCheck {
             return different_dynamics(self);
         }
         let (answer, extent) = (self.agreeing_answer(), extent(self));
+        let (same, rest) = answer.split_at(answer.find(',').unwrap_or(answer.len()));
         if report.grade != Some(Grade::SameWithinDigits) || !report.is_judged_by_digits() {
+            let rounded = self.against.as_ref().map_or(0, |against| against.values_within_digits.len());
+            if rounded > 0 {
+                let values = counted(rounded, "value");
+                let found =
+                    format!("{}; {values} of masses, inertias and limits are rounded", agreeing(report));
+                return Headline::new(same, format!("{extent} within the digits written{rest}. {found}"));
+            }
             return Headline::new(answer, format!("{extent}. {}", agreeing(report)));
         }
-        let (same, rest) = answer.split_at(answer.find(',').unwrap_or(answer.len()));
         let by_digits = report.comparisons.iter().find(|of| of.name.is_written());
         let pair = by_digits.map_or([""; 2], sources).join(" against ");
         let found = format!("{pair}: up to {}{}", largest(report.worst.error), allowed(report));

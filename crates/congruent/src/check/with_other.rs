@@ -65,15 +65,15 @@ pub(super) fn with_other(
     let (robot, driven_otherwise) = driven_as_in(&own.robot, &there.robot);
     there.robot = robot;
     let before = geometry.clone();
-    let (mut against, mut dynamics) = compared(geometry, &own, &there, &own_options)?;
+    let (mut against, mut dynamics) = compared(geometry, &own, &mut there, &own_options)?;
     against.joints_left_out = left_out;
     against.mapping = mapping.map(|mapping| mapping.with_worst(geometry));
     if against.mapping.is_none()
         && against.dynamics_not_compared.is_some()
-        && let Some(pair) = MappedPair::of_other_variables(&own, &there, &own_options)
+        && let Some(mut pair) = MappedPair::of_other_variables(&own, &there, &own_options)
     {
         let mut mapped = before;
-        dynamics = in_same_variables(&mut against, &mut mapped, &pair)?;
+        dynamics = in_same_variables(&mut against, &mut mapped, &mut pair)?;
         // Directions and zeros explain all, and the diagnosis names them; or what they do not explain is compared in these variables.
         if !against.is_equal_after_mapping() || has_more_causes(geometry, &pair.report) {
             *geometry = mapped;
@@ -85,6 +85,8 @@ pub(super) fn with_other(
     geometry.warnings.extend(undeclared(&against).iter().map(Finding::from));
     if against.is_equal_after_mapping() {
         geometry.grade = Some(Grade::EqualAfterMapping);
+    } else if !against.values_within_digits.is_empty() {
+        geometry.grade = geometry.grade.max(Some(Grade::SameWithinDigits));
     }
     Ok(WithOther { against, dynamics, description: own, other: there, options: own_options })
 }
@@ -112,12 +114,13 @@ fn in_own_variables(
 fn in_same_variables(
     against: &mut OtherDescription,
     geometry: &mut CheckReport,
-    pair: &MappedPair,
+    pair: &mut MappedPair,
 ) -> Result<Option<DynamicsReport>, CheckError> {
-    let (mapped, dynamics) = compared(geometry, &pair.description, &pair.other, &pair.options)?;
+    let (mapped, dynamics) = compared(geometry, &pair.description, &mut pair.other, &pair.options)?;
     against.mapping = Some(ReportedMapping::with_worst(pair.report.clone(), geometry));
     against.dynamics_not_compared = mapped.dynamics_not_compared;
     against.links_in_other_frames = mapped.links_in_other_frames;
+    against.values_within_digits = mapped.values_within_digits;
     Ok(dynamics)
 }
 

@@ -7,7 +7,7 @@ use congruent_mjcf::{
 use congruent_robot::Inertia;
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
-use super::{mesh::ModelMeshes, placed::placed, tree::RobotParts};
+use super::{mesh::ModelMeshes, placed::placed, rounding::of_inertial, tree::RobotParts};
 
 /// Gives the links their inertia. A body whose inertia follows from a mesh that cannot be read has none, which stops forces
 /// but no poses.
@@ -36,7 +36,11 @@ pub(super) fn add(
     let Some(found) = diagnostics.keep(found) else { return };
     for (index, (body, mass)) in model.bodies.iter().zip(&found).enumerate() {
         let is_unknown = model.geoms_of(index).iter().any(|geom| needs(body, geom, &unknown));
-        parts.link_of_body(index).inertia = inertia(mass).filter(|_| !is_unknown);
+        let link = parts.link_of_body(index);
+        link.inertia = inertia(mass).filter(|_| !is_unknown);
+        // Of one that follows from geoms, or is scaled to a total mass, no digits are written.
+        let written = body.inertial.as_ref().filter(|_| !is_inferred(body) && model.total_mass_kg.is_none());
+        link.inertia_rounding = written.map(of_inertial).unwrap_or_default();
     }
 }
 

@@ -3,6 +3,8 @@
 use congruent_mjcf::{MjActuator, MjEffort, MjJoint, MjJointKind, MjModel, MjTarget};
 use congruent_robot::{Joint, JointKind, JointLimit, JointParts};
 
+use super::rounding::of_values;
+
 /// Ranges from here on stand for "no limit"; squares of such positions overflow. Unit: rad or m; kind: range of numbers.
 const UNLIMITED: f64 = 1e30;
 
@@ -19,6 +21,7 @@ pub(super) fn with_values(frame: JointParts, model: &MjModel, number: usize) -> 
     let [lower, upper] = range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let has_limit = range.is_some() || kind == JointKind::Continuous;
     let limit = JointLimit { lower, upper, effort: effort(joint), ..JointLimit::default() };
+    let value_rounding = of_values(joint);
     let joint = Joint {
         kind,
         axis_in_joint: joint.axis_in_body.value,
@@ -27,6 +30,7 @@ pub(super) fn with_values(frame: JointParts, model: &MjModel, number: usize) -> 
         friction: joint.friction_loss.value,
         // A joint without the attribute has an armature of 0 in MuJoCo: every MJCF states it.
         armature: Some(joint.armature.value + sum_of_actuators(model, number, |of| of.armature)),
+        value_rounding,
         ..frame.joint
     };
     JointParts { joint, ..frame }

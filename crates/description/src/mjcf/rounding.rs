@@ -1,7 +1,9 @@
-//! What the digits of a model leave open, as small motions in the parent links of joints.
+//! What the digits of a model leave open: small motions in the parent links of joints, and the most that other values are off.
 
-use congruent_mjcf::{MjBody, MjBodyRounding, MjJoint, MjJointKind, MjJointRounding, MjModel};
-use congruent_robot::SmallMotion;
+use congruent_mjcf::{
+    MjBody, MjBodyRounding, MjInertial, MjJoint, MjJointKind, MjJointRounding, MjModel, MjValueRounding,
+};
+use congruent_robot::{Inertia, InertiaRounding, JointLimit, JointValueRounding, SmallMotion};
 use nalgebra::{Isometry3, Vector3};
 
 /// Half of the last place of all numbers that place the bodies and joints of a model.
@@ -43,6 +45,28 @@ impl ModelRounding {
         let moved = shifts(pos_m).filter(|_| is_point).map(|shift| shift.expressed_in(frame));
         moved.chain(tilts).map(|motion| motion.expressed_in(before_from_body)).collect()
     }
+}
+
+/// What the digits of an `<inertial>` leave open in the inertia that a link has from it.
+pub(super) fn of_inertial(inertial: &MjInertial) -> InertiaRounding {
+    let written = Inertia {
+        mass_kg: inertial.mass.value,
+        link_from_inertial: inertial.body_from_inertial,
+        tensor_kg_m2: inertial.inertia.value,
+    };
+    let of = inertial.rounding();
+    let body_from_frame = inertial.notation.body_from_frame.rotation;
+    let com_m = body_from_frame.to_rotation_matrix().matrix().abs() * of.pos_m;
+    let turns: Vec<Vector3<f64>> = of.turns_rad.iter().map(|turn| body_from_frame * turn).collect();
+    InertiaRounding::of_written(&written, of.mass_kg, com_m, &of.inertia_kg_m2, &turns)
+}
+
+/// What the digits of limits and losses leave open.
+pub(super) fn of_values(joint: &MjJoint) -> JointValueRounding {
+    let MjValueRounding { range: [lower, upper], effort, terms: [damping, friction, armature] } =
+        joint.value_rounding();
+    let limit = JointLimit { lower, upper, effort: Some(effort), ..JointLimit::default() };
+    JointValueRounding { limit, damping, friction, armature }
 }
 
 fn shifts(pos_m: &[f64; 3]) -> impl Iterator<Item = SmallMotion> {

@@ -10,7 +10,7 @@ use urdf_rs::JointType;
 
 use super::{
     node::{element, label, place, tag},
-    pose,
+    pose, value_digits,
 };
 use crate::codes;
 
@@ -46,6 +46,7 @@ pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut
         limit: reader.limit(kind),
         damping: reader.loss("damping", joint.dynamics.as_ref().map(|dynamics| dynamics.damping)),
         friction: reader.loss("friction", joint.dynamics.as_ref().map(|dynamics| dynamics.friction)),
+        value_rounding: value_digits::of_joint(node, kind),
         ..parts.joint
     };
     let mimic = joint

@@ -9,10 +9,13 @@ use super::{
     node::{element, elements},
     pose,
     shape::ShapeReader,
+    value_digits,
 };
 
 pub(super) fn read(link: &urdf_rs::Link, node: Node<'_, '_>, shapes: &mut ShapeReader<'_, '_>) -> Link {
-    let inertia = element(node, "inertial").map(|inertial| inertia(&link.inertial, inertial, shapes));
+    let written = element(node, "inertial");
+    let inertia = written.map(|inertial| inertia(&link.inertial, inertial, shapes));
+    let inertia_rounding = written.zip(inertia.as_ref()).map(|(node, of)| value_digits::of_inertia(node, of));
     let visuals = link
         .visual
         .iter()
@@ -25,7 +28,8 @@ pub(super) fn read(link: &urdf_rs::Link, node: Node<'_, '_>, shapes: &mut ShapeR
         .zip(elements(node, "collision"))
         .flat_map(|(collision, node)| shapes.collision(collision, node))
         .collect();
-    Link { name: link.name.clone(), inertia, visuals, collisions }
+    let inertia_rounding = inertia_rounding.unwrap_or_default();
+    Link { name: link.name.clone(), inertia, inertia_rounding, visuals, collisions }
 }
 
 /// The inertia as written. Whether a body can have it is checked later, when the links that are fixed to each other are known.

@@ -24,6 +24,7 @@ pub mod node;
 mod places;
 mod pose;
 mod shape;
+mod value_digits;
 
 pub use digits::JointDigits;
 pub use places::UrdfPlaces;

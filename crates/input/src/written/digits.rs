@@ -20,6 +20,10 @@ const COARSEST_RAD: i32 = -2;
 /// Unit: m and rad; kind: choice, half of the fourth decimal.
 const MOST_OF_ZERO: f64 = 5e-5;
 
+/// Significant digits that a mass, a moment or a limit has at least: `35` is 35.0, without its trailing zero. Kind: choice; a
+/// placeholder of 1 kg is no rounded 0.6 kg.
+const LEAST_DIGITS: i32 = 3;
+
 /// A number as it is typed, and the unit system of its key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TypedNumber<'a> {
@@ -58,6 +62,41 @@ pub fn half_places(unit: Unit, typed: &[TypedNumber<'_>]) -> Vec<f64> {
     halves.iter().zip(typed).map(half).collect()
 }
 
+/// Half of the last place of each number of one kind that is neither a length nor an angle, such as the entries of a tensor, in
+/// their unit. A number has three significant digits at least, with trailing zeros that may be left out; a zero is as fine as
+/// the finest of the others, and exact alone.
+///
+/// # Examples
+/// ```
+/// use congruent_input::half_places_of_values;
+/// assert_eq!(half_places_of_values(&["3.7612", "35", "0"]), [5e-5, 5e-2, 5e-5]);
+/// assert_eq!(half_places_of_values(&["0.4"]), [5e-4]);
+/// assert_eq!(half_places_of_values(&["0.123456789012345", "0"]), [0.0, 0.0]);
+/// ```
+pub fn half_places_of_values(typed: &[&str]) -> Vec<f64> {
+    let halves: Vec<Option<f64>> = typed.iter().map(|text| half_place_of_value(text)).collect();
+    let finest = halves.iter().copied().flatten().fold(f64::INFINITY, f64::min);
+    let of_zero = if finest.is_finite() { finest } else { 0.0 };
+    halves.into_iter().map(|half| half.unwrap_or(of_zero)).collect()
+}
+
+/// Half of the last place of a value; `None` for a zero.
+fn half_place_of_value(text: &str) -> Option<f64> {
+    let Some(TypedDigits { significant, last_place }) = TypedDigits::read(text) else { return Some(0.0) };
+    if significant >= PROGRAM_DIGITS {
+        return Some(0.0);
+    }
+    let first_place = last_place.saturating_add(i32::try_from(significant).unwrap_or(i32::MAX)) - 1;
+    let last_place = last_place.min(first_place.saturating_sub(LEAST_DIGITS - 1));
+    (significant > 0).then(|| half_of_place(last_place))
+}
+
+/// Half of a unit of a decimal place.
+fn half_of_place(exponent: i32) -> f64 {
+    // A tenth power is exact as a literal alone: `powi` would be off by its rounding.
+    format!("5e{}", exponent.saturating_sub(1)).parse().unwrap_or(0.0)
+}
+
 /// Half of the last place; `None` if zeros at the end may be left out.
 fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Option<f64> {
     let Some(TypedDigits { significant, last_place }) = TypedDigits::read(text) else { return Some(0.0) };
@@ -75,8 +114,7 @@ fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Optio
     if significant == 0 || last_place > coarsest {
         return None;
     }
-    // A tenth power is exact as a literal alone: `powi` would be off by its rounding.
-    let half: f64 = format!("5e{}", last_place - 1).parse().unwrap_or(0.0);
+    let half = half_of_place(last_place);
     let is_cut = unit == Unit::Angle && units == UnitSystem::Si && is_cut_quarter_turn(text, half);
     Some(if is_cut { 2.0 * half } else { half * one })
 }

@@ -82,11 +82,10 @@ impl InertiaInLink {
         let Some(inertia) = inertia.filter(is_some) else {
             return Self { mass_kg: 0.0, center: Vector3::zeros(), tensor: Matrix3::zeros() };
         };
-        let turn = inertia.link_from_inertial.rotation.to_rotation_matrix();
         Self {
             mass_kg: inertia.mass_kg,
             center: inertia.link_from_inertial.translation.vector,
-            tensor: turn.matrix() * inertia.tensor_kg_m2 * turn.matrix().transpose(),
+            tensor: inertia.tensor_in_link(),
         }
     }
 }

@@ -47,6 +47,14 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         let _ =
             writeln!(text, "  not compared: links that the other description lacks: {}", links.join(", "));
     }
+    if let Some(values) = against.map(|of| &of.values_within_digits).filter(|values| !values.is_empty()) {
+        let _ = writeln!(
+            text,
+            "  {} of masses, inertias, limits and losses differ within the digits written, which is no difference: {}",
+            counted(values.len(), "value"),
+            first_of(values)
+        );
+    }
     let disagrees = |report: &&DynamicsReport| !report.agrees();
     let files = |report| check.files_of(report);
     check.dynamics_of_descriptions().for_each(|report| compared(text, report, files(report), robot));
@@ -61,6 +69,13 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         let _ =
             writeln!(text, "  not compared, since the robot file does not state it: {}", left_out.join("; "));
     }
+}
+
+/// The first names of a list, and how many more there are.
+fn first_of(names: &[String]) -> String {
+    let shown = names.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
+    let more = names.len().saturating_sub(SHOWN);
+    if more > 0 { format!("{shown} and {more} more") } else { shown }
 }
 
 /// One comparison; `files` are its two files, if neither is known to be right.

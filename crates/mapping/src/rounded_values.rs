@@ -1,0 +1,216 @@
+//! Masses, inertias, limits and losses that two descriptions write with other digits.
+//!
+//! Each value is judged by itself: two are one value if they differ by at most half of the last place of the coarser one. Two
+//! files that round a value to the same place write the same number, so a last digit that differs is a difference.
+
+use congruent_description::{Inertia, InertiaRounding, Joint, JointKind, JointLimit, Link, Robot};
+use congruent_kinematics::PoseError;
+use nalgebra::SMatrix;
+
+/// The most that a value may be off, in half places: the margin is that of a value that is rounded from the middle of two. Kind:
+/// rounding.
+const MOST: f64 = 1.0 + 1e-4;
+/// Differences below this share of a value are none of digits. Kind: rounding.
+const SAME: f64 = 1e-9;
+
+/// The limits that may be missing, by name.
+const LIMITS: [(&str, fn(&mut JointLimit) -> &mut Option<f64>); 5] = [
+    ("velocity", |limit| &mut limit.velocity),
+    ("effort", |limit| &mut limit.effort),
+    ("acceleration", |limit| &mut limit.acceleration),
+    ("deceleration", |limit| &mut limit.deceleration),
+    ("jerk", |limit| &mut limit.jerk),
+];
+
+/// The other robot with the values of this one where the digits that the two are written with explain the difference, and the
+/// names of these values, as `elbow_joint: effort` and `forearm_link: mass`.
+///
+/// Links and joints are matched by name; those of both must have the same variables, and the same frames up to `of_frames`, the
+/// most that digits have moved one.
+pub fn with_values_within_digits([robot, other]: [&Robot; 2], of_frames: PoseError) -> (Robot, Vec<String>) {
+    let mut names = Vec::new();
+    let mut same = other.with_joints(|there| {
+        let Some(own) = robot.find_joint(&there.name).map(|index| robot.joint(index)) else { return };
+        let found = adopt_values(there, own);
+        names.extend(found.into_iter().map(|value| format!("{}: {value}", there.name)));
+    });
+    for there in other.link_indices() {
+        let link = other.link(there);
+        let Some(own) = robot.find_link(&link.name).map(|index| robot.link(index)) else { continue };
+        if let Some((inertia, found)) = adopted_inertia(link, own, of_frames) {
+            same.set_inertia(there, inertia);
+            names.extend(found.into_iter().map(|value| format!("{}: {value}", link.name)));
+        }
+    }
+    (same, names)
+}
+
+/// Gives a joint the values of another that are the same within the digits; returns their names.
+fn adopt_values(there: &mut Joint, own: &Joint) -> Vec<&'static str> {
+    if own.kind == JointKind::Fixed || own.kind.is_angular() != there.kind.is_angular() {
+        return Vec::new();
+    }
+    let mut names = Vec::new();
+    let mut adopt = |name: &'static str, [value, half]: [f64; 2], other: &mut f64, other_half: f64| {
+        if is_rounded(value, *other, half.max(other_half)) {
+            *other = value;
+            names.push(name);
+        }
+    };
+    let (mut half, mut other_half) = (own.value_rounding, there.value_rounding);
+    if let (Some(mut limit), Some(other)) = (own.limit, &mut there.limit) {
+        adopt("lower", [limit.lower, half.limit.lower], &mut other.lower, other_half.limit.lower);
+        adopt("upper", [limit.upper, half.limit.upper], &mut other.upper, other_half.limit.upper);
+        for (name, field) in LIMITS {
+            let [half, other_half] =
+                [&mut half, &mut other_half].map(|of| field(&mut of.limit).unwrap_or_default());
+            if let (Some(value), Some(other)) = (*field(&mut limit), field(other)) {
+                adopt(name, [value, half], other, other_half);
+            }
+        }
+    }
+    adopt("damping", [own.damping, half.damping], &mut there.damping, other_half.damping);
+    adopt("friction", [own.friction, half.friction], &mut there.friction, other_half.friction);
+    if let (Some(value), Some(other)) = (own.armature, &mut there.armature) {
+        adopt("armature", [value, half.armature], other, other_half.armature);
+    }
+    names
+}
+
+/// Whether two values differ, by half of a last place at most.
+fn is_rounded(value: f64, other: f64, half: f64) -> bool {
+    let off = (value - other).abs();
+    off > SAME * value.abs().max(other.abs()) && off <= MOST * half
+}
+
+/// The inertia of a link with the parts of the other link's that are the same within the digits, and their names; `None` if there
+/// are none.
+fn adopted_inertia(there: &Link, own: &Link, of_frames: PoseError) -> Option<(Inertia, Vec<&'static str>)> {
+    let ((here, mut inertia), mut names) = (own.inertia.zip(there.inertia)?, Vec::new());
+    let most = coarser(&own.inertia_rounding, &there.inertia_rounding);
+    if is_rounded(here.mass_kg, inertia.mass_kg, most.mass_kg) {
+        inertia.mass_kg = here.mass_kg;
+        names.push("mass");
+    }
+    let [from, to] = [&here, &inertia].map(|of| of.link_from_inertial.translation);
+    let shift_m = of_frames.position_m + of_frames.orientation_rad * from.vector.norm();
+    if are_rounded(&from.vector, &to.vector, &most.com_m.add_scalar(shift_m)) {
+        inertia.link_from_inertial.translation = from;
+        names.push("centre of mass");
+    }
+    let [own, other] = [&here, &inertia].map(Inertia::tensor_in_link);
+    let turned = 2.0 * of_frames.orientation_rad * own.norm();
+    if are_rounded(&own, &other, &most.tensor_kg_m2.add_scalar(turned)) {
+        inertia.link_from_inertial.rotation = here.link_from_inertial.rotation;
+        inertia.tensor_kg_m2 = here.tensor_kg_m2;
+        names.push("inertia");
+    } else if are_rounded(&here.tensor_kg_m2, &inertia.tensor_kg_m2, &most.tensor_kg_m2) {
+        // Only the axes differ then, as without the rotation of an inertial frame.
+        inertia.tensor_kg_m2 = here.tensor_kg_m2;
+        names.push("moments of inertia");
+    }
+    (!names.is_empty()).then_some((inertia, names))
+}
+
+/// Whether entries differ, each by half of a last place at most.
+fn are_rounded<const R: usize, const C: usize>(
+    own: &SMatrix<f64, R, C>,
+    other: &SMatrix<f64, R, C>,
+    most: &SMatrix<f64, R, C>,
+) -> bool {
+    let (off, same) = ((own - other).abs(), SAME * own.amax().max(other.amax()));
+    off.amax() > same && off.iter().zip(most.iter()).all(|(off, most)| *off <= MOST * most + same)
+}
+
+fn coarser(own: &InertiaRounding, other: &InertiaRounding) -> InertiaRounding {
+    InertiaRounding {
+        mass_kg: own.mass_kg.max(other.mass_kg),
+        com_m: own.com_m.sup(&other.com_m),
+        tensor_kg_m2: own.tensor_kg_m2.sup(&other.tensor_kg_m2),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use congruent_description::{MappedJoint, parse_urdf};
+
+    use super::*;
+
+    /// An arm with these texts of a mass, a coordinate of the centre of mass, an angle of the inertial frame, a moment, an effort
+    /// and an end of the range.
+    fn arm([mass, com, yaw, ixx, effort, upper]: [&str; 6]) -> Robot {
+        let text = format!(
+            "<robot name='r'><link name='base'/><link name='arm'><inertial><mass value='{mass}'/>\
+             <origin xyz='{com} 0 0' rpy='0 0 {yaw}'/>\
+             <inertia ixx='{ixx}' iyy='0.0345' izz='0.0612' ixy='0' ixz='0' iyz='0'/></inertial></link>\
+             <joint name='j' type='revolute'><parent link='base'/><child link='arm'/>\
+             <limit lower='-1.2345' upper='{upper}' effort='{effort}' velocity='2'/></joint></robot>"
+        );
+        parse_urdf(&text).unwrap()
+    }
+
+    const EXACT: [&str; 6] = ["3.76123", "0.123456", "1.57079632679", "0.0456789", "10.26", "2.96706"];
+
+    fn rounded(at: usize, text: &'static str) -> [&'static str; 6] {
+        let mut texts = EXACT;
+        texts[at] = text;
+        texts
+    }
+
+    /// Whether the other has the own values then, whichever of the two is written with fewer digits.
+    fn names(texts: [&str; 6]) -> Vec<String> {
+        let (own, other) = (arm(EXACT), arm(texts));
+        let (same, names) = with_values_within_digits([&own, &other], PoseError::default());
+        if !names.is_empty() {
+            assert_eq!(same.links()[1].inertia, own.links()[1].inertia);
+            assert_eq!(same.joints()[0].limit, own.joints()[0].limit);
+        }
+        assert_eq!(
+            with_values_within_digits([&other, &own], PoseError::default()).1,
+            names,
+            "the other way round"
+        );
+        names
+    }
+
+    #[test]
+    fn values_with_fewer_digits_are_the_same_values() {
+        for (at, text, name) in [
+            (0, "3.76", "arm: mass"),
+            (1, "0.1235", "arm: centre of mass"),
+            (2, "1.5708", "arm: inertia"),
+            (3, "0.0457", "arm: inertia"),
+            (4, "10.3", "j: effort"),
+            (5, "2.967", "j: upper"),
+        ] {
+            assert_eq!(names(rounded(at, text)), [name], "{text}");
+        }
+        assert_eq!(names(EXACT), [""; 0], "equal values are not named");
+    }
+
+    #[test]
+    fn a_last_place_that_is_off_is_a_difference() {
+        for (at, text) in [
+            (0, "3.77"),
+            (1, "0.1236"),
+            (2, "1.5711"),
+            (3, "0.0459"),
+            (4, "10.4"),
+            (5, "2.968"),
+            (0, "4"),
+            (4, "10"),
+        ] {
+            assert_eq!(names(rounded(at, text)), [""; 0], "{text}");
+        }
+    }
+
+    #[test]
+    fn an_end_of_a_range_keeps_its_digits_in_the_other_direction() {
+        let other = arm(EXACT);
+        let joint = other.movable_joints()[0];
+        let mapped = MappedJoint { joint, name: "j".to_owned(), is_flipped: true, offset: 0.0 };
+        let there = other.in_variables(&[mapped]);
+        let limit = there.joints()[0].value_rounding.limit;
+        assert_eq!([limit.lower, limit.upper], [5e-6, 5e-5], "2.96706 and -1.2345");
+    }
+}
