@@ -4,6 +4,7 @@ use std::{fs, path::PathBuf};
 
 use crate::support::{
     command::{congruent, congruent_json},
+    corpus::corpus,
     scratch_folder::ScratchFolder,
 };
 
@@ -143,4 +144,75 @@ fn masses_inertias_and_limits_are_rounded_values_too() {
         "{line}"
     );
     assert_eq!(json["dynamics"]["limits"].as_array().map(Vec::len), Some(0), "{line}");
+}
+
+/// Three decimals of angles and lengths of a public arm, of which several are in the middle between two.
+#[test]
+fn middles_between_two_last_places_are_rounded_together() {
+    let Some(corpus) = corpus() else { return };
+    let exact = corpus.join("pairs/urdf-jaco-kinova-drake/b.urdf");
+    let text = fs::read_to_string(&exact).unwrap();
+    let (links, joints) = text.split_at(text.find("<joint").unwrap());
+    let rounded = |number: &str| match number.parse::<f64>() {
+        Ok(value) => format!("{value:.3}"),
+        Err(_) => number.to_owned(),
+    };
+    let mut other = links.to_owned();
+    for (at, part) in joints.split('"').enumerate() {
+        let numbers: Vec<&str> = part.split_whitespace().collect();
+        let is_triple =
+            at % 2 == 1 && numbers.len() == 3 && numbers.iter().all(|of| of.parse::<f64>().is_ok());
+        let quote = if at == 0 { "" } else { "\"" };
+        let part = if is_triple {
+            numbers.iter().map(|of| rounded(of)).collect::<Vec<_>>().join(" ")
+        } else {
+            part.to_owned()
+        };
+        other += quote;
+        other += &part;
+    }
+    let folder = ScratchFolder::new();
+    let other = PathBuf::from(folder.write("rounded.urdf", &other));
+    for files in [[&exact, &other], [&other, &exact]] {
+        let (line, json) = answer(files);
+        assert_eq!(json["grade"], "same_within_digits", "{line}");
+    }
+}
+
+/// One wrong sign beside rounded angles is one cause, although other directions and zeros of joints put all axes alike, too.
+#[test]
+fn a_wrong_sign_is_no_other_variable() {
+    let folder = ScratchFolder::new();
+    let robot = PathBuf::from(folder.robot("panda", &[]));
+    let exact = robot.join("panda.urdf");
+    let text = fs::read_to_string(&exact).unwrap();
+    let wrong =
+        text.replace("1.5707963267948966", "1.5708").replace("xyz=\"0.088 0 0\"", "xyz=\"-0.088 0 0\"");
+    assert_ne!(wrong.matches("-0.088").count(), 0);
+    let other = robot.join("other.urdf");
+    fs::write(&other, wrong).unwrap();
+    let (line, json) = answer([&exact, &other]);
+    assert!(line.contains("Cause: joint \"panda_joint7\": origin"), "{line}");
+    assert!(json["against"]["mapping"].is_null(), "{line}");
+}
+
+/// Of the public UR5e pair one file has whole millimetres, and its base is turned by half a turn. The lines that the answer asks for
+/// make the geometry equal, and so does a fitted base.
+#[test]
+fn what_the_answer_asks_to_declare_makes_the_geometry_equal() {
+    let Some(corpus) = corpus() else { return };
+    let pair = corpus.join("pairs/ur5e");
+    let [file, other] = ["robot.xml", "partner.urdf"].map(|name| pair.join(name));
+    let (line, json) = answer([&file, &other]);
+    assert!(line.contains("EQUAL AFTER MAPPING: shoulder_pan_joint has another zero"), "{line}");
+    let lines = json["against"]["mapping"]["lines"].as_array().unwrap();
+    let lines: Vec<&str> = lines.iter().map(|line| line.as_str().unwrap()).collect();
+    for mapping in [lines.join("\n"), "tip = \"wrist_3_link\"\n[mapping]\nbase = \"fitted\"".to_owned()] {
+        let folder = ScratchFolder::new();
+        let text = format!("description = {file:?}\n{mapping}\n");
+        let robot = PathBuf::from(folder.write("robot.toml", &text));
+        let (line, json) = answer([&robot, &other]);
+        assert!(line.contains("SAME GEOMETRY, DIFFERENT DYNAMICS"), "{mapping}: {line}");
+        assert_eq!(json["diagnosis"].as_array().map(Vec::len), Some(0), "{mapping}: {line}");
+    }
 }

@@ -22,6 +22,8 @@ const ROUNDED_END_RAD: f64 = 5e-3;
 /// `pair.json` fits base and tool to 40 configurations and takes the worst of 4000 others; the program takes what is declared and
 /// searches. Seen: 0.59 to 1.4 before the mapping.
 const OTHER_FIT: f64 = 2.0;
+/// Where lengths differ by a millimetre, that turns the base that `pair.json` fits.
+const FITTED_BASE_RAD: f64 = 5e-4;
 /// What rounded angles do to the tip of an arm of at most one metre.
 const ROUNDED_M: f64 = ROUNDED_RAD;
 /// A torque of the 2000 samples may exceed one of the search by rounding of the search's box, relative.
@@ -157,7 +159,10 @@ fn check_mapping(pair: &Read) {
         let Some(here) = found.iter().find(|of| of["joint"] == joint["a"]) else { continue };
         assert_eq!([&here["other"], &here["sign"]], [&joint["b"], &joint["sign"]], "{}", pair.name);
         let off = number(&here["offset"]) - number(&joint["offset_rad"]);
-        assert!(off.abs() < ROUNDED_RAD, "{}: {here} {joint}", pair.name);
+        // Another zero of the first joint is a turned base, which `pair.json` fits.
+        let turned = pair.expected["base_a_from_b"]["rpy_rad"].as_array().map(|rpy| number(&rpy[2]).abs());
+        let is_base = compared == 0 && (off.abs() - turned.unwrap()).abs() < FITTED_BASE_RAD;
+        assert!(is_base || off.abs() < ROUNDED_RAD, "{}: {here} {joint}", pair.name);
         compared += 1;
     }
     assert!(compared + 1 >= pair.joints().len(), "{}: {compared} joints are compared", pair.name);

@@ -49,7 +49,8 @@ impl MatchedRobots<'_> {
         let same = Tolerance::default().position_m;
         let allowed = row_sums(&effects, &DVector::repeat(columns.len(), 1.0));
         // Terms of second order are not known of values that are known to half a place.
-        let is_beyond = |(off, allowed): (&f64, &f64)| off.abs() > MOST * allowed + allowed * allowed + same;
+        let second_order = allowed.amax() * allowed.amax();
+        let is_beyond = |(off, allowed): (&f64, &f64)| off.abs() > MOST * allowed + second_order + same;
         if difference.iter().zip(allowed.iter()).any(is_beyond) {
             return None;
         }
@@ -127,6 +128,21 @@ pub fn with_fitted(robot: &Robot, zeros: &BTreeSet<&str>, axes: CommonAxes) -> R
         }
         if axes == CommonAxes::Agree {
             joint.rounding.frame.extend([shift, turn]);
+        }
+    })
+}
+
+/// The robot whose base is fitted: all that it moves may lie elsewhere together, if one joint carries all of it.
+#[must_use]
+pub fn with_fitted_base(robot: &Robot) -> Robot {
+    let is_first = |joint: &Joint| joint.kind != JointKind::Fixed && robot.body(joint.parent) == robot.root();
+    let mut first = robot.joints().iter().filter(|joint| is_first(joint));
+    let (Some(only), None) = (first.next(), first.next()) else { return robot.clone() };
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| axis * FITTED);
+    robot.with_joints(|joint| {
+        if joint.name == only.name {
+            joint.rounding.origin.extend(axes.map(SmallMotion::shift));
+            joint.rounding.origin.extend(axes.map(|axis| SmallMotion::turn(axis, &Vector3::zeros())));
         }
     })
 }

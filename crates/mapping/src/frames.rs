@@ -52,6 +52,25 @@ pub fn in_frames_of(
     other.with_link_frames(&frames)
 }
 
+/// Whether a link of one name has a frame that lies elsewhere in it: farther than `least_m` from where the robot has it, which is
+/// more than the axes of both are apart.
+pub fn has_other_frames(
+    [robot, other]: [&Robot; 2],
+    root_from_other_root: &Isometry3<f64>,
+    least_m: f64,
+) -> bool {
+    let trees = [robot, other].map(ScrewTree::new);
+    let home = |of: usize, link: LinkIndex| trees[of].home(link).to_isometry();
+    other.joints().iter().filter(|joint| joint.kind != JointKind::Fixed).any(|joint| {
+        let Some(here) = robot.find_joint(&joint.name).map(|index| robot.joint(index).child) else {
+            return false;
+        };
+        let is_same_link = robot.link(here).name == other.link(joint.child).name;
+        let apart = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here);
+        is_same_link && apart.translation.vector.norm() > least_m
+    })
+}
+
 /// Whether the frames of a link differ by a motion of its joint alone.
 fn is_motion_of(joint: &Joint, link_from_frame: &Isometry3<f64>, here: &Joint) -> bool {
     let turned = (link_from_frame.rotation * here.axis_in_joint.into_inner()

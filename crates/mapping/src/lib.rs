@@ -21,9 +21,9 @@ mod variables;
 
 pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values, is_same_value};
 pub use declared::declared;
-pub use digits::with_fitted;
+pub use digits::{with_fitted, with_fitted_base};
 pub use drivers::driven_as_in;
 pub use find::{FoundMapping, MatchedBy, find, find_exchanged};
-pub use frames::{CommonAxes, in_frames_of};
+pub use frames::{CommonAxes, has_other_frames, in_frames_of};
 pub use matched::MatchedRobots;
 pub use rounded_values::with_values_within_digits;

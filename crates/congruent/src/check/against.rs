@@ -20,9 +20,9 @@ use serde::Serialize;
 
 use super::{
     cause_in_words::and_more,
-    mapped::ReportedMapping,
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::{POSITIONS, PosesOfOther},
+    reported_mapping::ReportedMapping,
 };
 use crate::codes;
 

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use super::{
     changed_table::{changed_table, has_other_table},
-    mapped::ReportedMapping,
+    reported_mapping::ReportedMapping,
 };
 
 /// Random configurations beside zero, single axes and the limits.

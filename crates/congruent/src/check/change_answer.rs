@@ -7,8 +7,8 @@ use congruent_results::report::{CasePlace, ChangeSince, Reason, TestCase, TestRe
 use super::{
     cause_in_words::{cause, largest, places},
     change::{RevisionChange, is_of_revision},
-    mapped::ReportedMapping,
     mapped_joints::mapped_joints,
+    reported_mapping::ReportedMapping,
     robot_check::RobotCheck,
 };
 

@@ -2,7 +2,7 @@
 
 use congruent_input::display::{counted, listed};
 
-use super::mapped::{ReportedJoint, ReportedMapping};
+use super::reported_mapping::{ReportedJoint, ReportedMapping};
 
 /// What differs in joints, in words: `2 of 6 joints have other zeros (joint_2, joint_3)`.
 pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {

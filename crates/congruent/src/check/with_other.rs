@@ -1,5 +1,7 @@
 //! A robot with another description: which parts of the two are compared, in which variables, and the comparison.
 
+use std::cmp::Ordering;
+
 use congruent_agreement::{
     SourcePair,
     compare::{CheckError, CheckOptions, CheckReport, Grade},
@@ -11,12 +13,16 @@ use congruent_mapping::driven_as_in;
 
 use super::{
     against::{OtherDescription, compared, other_joint},
-    mapped::{MappedPair, ReportedMapping},
+    mapped::MappedPair,
     mapped_joints::mapped_joints,
     narrowed::NarrowedPair,
     own_model::placed_as_in,
+    reported_mapping::ReportedMapping,
 };
 use crate::codes;
+
+/// Variables that explain this much of a difference without a cause are the better reading. Kind: choice.
+const MOST_LEFT: f64 = 0.1;
 
 /// The comparison with another description.
 pub(super) struct WithOther {
@@ -70,12 +76,15 @@ pub(super) fn with_other(
     against.mapping = mapping.map(|mapping| mapping.with_worst(geometry));
     if against.mapping.is_none()
         && against.dynamics_not_compared.is_some()
-        && let Some(mut pair) = MappedPair::of_other_variables(&own, &there, &own_options)
+        && let Some(mut pair) = MappedPair::of_other_variables(&own, &there, &own_options, geometry)
     {
-        let mut mapped = before;
-        dynamics = in_same_variables(&mut against, &mut mapped, &mut pair)?;
-        // Directions and zeros explain all, and the diagnosis names them; or what they do not explain is compared in these variables.
-        if !against.is_equal_after_mapping() || has_more_causes(geometry, &pair.report) {
+        let (mut in_variables, mut mapped) = (against.clone(), before);
+        let found = in_same_variables(&mut in_variables, &mut mapped, &mut pair)?;
+        let reading = Reading::simpler([geometry, &mapped], &in_variables, &pair.report);
+        if reading != Reading::AsWritten {
+            (against, dynamics) = (in_variables, found);
+        }
+        if reading == Reading::Mapped {
             *geometry = mapped;
             (own, there, own_options) = (pair.description, pair.other, pair.options);
         }
@@ -124,12 +133,46 @@ fn in_same_variables(
     Ok(dynamics)
 }
 
-/// Whether the diagnosis in the variables of the files has more causes than joints have another variable: then it names something
-/// else.
-fn has_more_causes(geometry: &CheckReport, mapping: &ReportedMapping) -> bool {
+/// In which variables two descriptions with the same joints by name are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Reading {
+    /// As both files write them: the causes there are fewer than joints have another variable.
+    AsWritten,
+    /// As both files write them, since causes name the directions and zeros that make the two equal.
+    Conventions,
+    /// In the variables that the joints have in common.
+    Mapped,
+}
+
+impl Reading {
+    /// The reading with fewer statements: causes, and joints with another variable.
+    fn simpler(
+        [written, mapped]: [&CheckReport; 2],
+        against: &OtherDescription,
+        mapping: &ReportedMapping,
+    ) -> Self {
+        let differing = mapping.joints.iter().filter(|of| !of.has_same_variable()).count()
+            + usize::from(mapping.root_from_other_root.is_some());
+        let Some(causes) = self::causes(written) else {
+            // Without a cause in either, what they are apart decides.
+            let is_nearer = mapped.worst.error.position_m < MOST_LEFT * written.worst.error.position_m;
+            let has_answer = against.is_equal_after_mapping() || is_nearer || self::causes(mapped).is_some();
+            return if has_answer { Self::Mapped } else { Self::AsWritten };
+        };
+        let is_equal = against.is_equal_after_mapping();
+        let rest = if is_equal { Some(0) } else { self::causes(mapped) };
+        match rest.map_or(Ordering::Less, |rest| causes.cmp(&(differing + rest))) {
+            Ordering::Greater => Self::Mapped,
+            Ordering::Equal if is_equal => Self::Conventions,
+            Ordering::Less | Ordering::Equal => Self::AsWritten,
+        }
+    }
+}
+
+/// How many faults explain the difference of two descriptions; `None` if nothing does.
+fn causes(geometry: &CheckReport) -> Option<usize> {
     let mut others = geometry.diagnoses.iter().filter(|of| of.name == SourcePair::UrdfOther);
-    let differing = mapping.joints.iter().filter(|of| !of.has_same_variable()).count();
-    others.any(|of| of.named_cause().is_some_and(|cause| cause.faults().len() > differing))
+    others.find(|of| of.is_explained())?.named_cause().map(|cause| cause.faults().len())
 }
 
 /// That coupled joints are driven at another one of them, which changes no motion but what is commanded.

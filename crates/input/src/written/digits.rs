@@ -35,9 +35,9 @@ pub struct TypedNumber<'a> {
 
 /// Half of the last place of each number, in m or rad: how far the true value may be from the typed one.
 ///
-/// `typed` are all lengths, or all angles, of one file. A zero, and a value that is no finer than a centimetre, has the
-/// finest last place of the others, since zeros at the end are usually left out; if there are no others, it is exact. A
-/// zero is off by 5e-5 at most.
+/// `typed` are all lengths, or all angles, of one file. A value that is no finer than a centimetre has lost the zeros at its end:
+/// it has the finest last place of the others, or as many digits as the longest of them, whichever is coarser, and is exact if
+/// there are no others. A zero has the finest last place, and is off by 5e-5 at most.
 /// Whole degrees are exact, too: they are design angles, not measurements. A quarter turn that is cut instead of rounded, as
 /// 1.57079, is off by up to a whole last place.
 ///
@@ -51,15 +51,26 @@ pub struct TypedNumber<'a> {
 /// ```
 pub fn half_places(unit: Unit, typed: &[TypedNumber<'_>]) -> Vec<f64> {
     let halves: Vec<Option<f64>> = typed.iter().map(|number| half_place(unit, *number)).collect();
-    let typed_halves = || halves.iter().copied().flatten();
-    let finest = typed_halves().fold(f64::INFINITY, f64::min);
+    let written = || halves.iter().zip(typed).filter_map(|(half, number)| Some(((*half)?, number.text)));
+    let finest = written().map(|(half, _)| half).fold(f64::INFINITY, f64::min);
     let finest = if finest.is_finite() { finest } else { 0.0 };
+    let most_digits = written().filter_map(|(_, text)| Some(TypedDigits::read(text)?.significant)).max();
     let half = |(half, number): (&Option<f64>, &TypedNumber<'_>)| match half {
         Some(half) => *half,
         None if number.text.parse() == Ok(0.0) => finest.min(MOST_OF_ZERO),
-        None => finest,
+        None => finest.max(most_digits.map_or(0.0, |most| with_digits(unit, *number, most))),
     };
     halves.iter().zip(typed).map(half).collect()
+}
+
+/// Half of the last place of a number that has lost its trailing zeros, if it had this many digits.
+fn with_digits(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>, digits: usize) -> f64 {
+    let (Some(typed), (one, coarsest)) = (TypedDigits::read(text), places(unit, units)) else { return 0.0 };
+    if digits >= PROGRAM_DIGITS {
+        return 0.0;
+    }
+    let last_place = typed.first_place().saturating_sub(i32::try_from(digits).unwrap_or(i32::MAX)) + 1;
+    half_of_place(last_place.min(coarsest)) * one
 }
 
 /// Half of the last place of each number of one kind that is neither a length nor an angle, such as the entries of a tensor, in
@@ -86,7 +97,7 @@ fn half_place_of_value(text: &str) -> Option<f64> {
     if significant >= PROGRAM_DIGITS {
         return Some(0.0);
     }
-    let first_place = last_place.saturating_add(i32::try_from(significant).unwrap_or(i32::MAX)) - 1;
+    let first_place = TypedDigits { significant, last_place }.first_place();
     let last_place = last_place.min(first_place.saturating_sub(LEAST_DIGITS - 1));
     (significant > 0).then(|| half_of_place(last_place))
 }
@@ -101,13 +112,10 @@ fn half_of_place(exponent: i32) -> f64 {
 fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Option<f64> {
     let Some(TypedDigits { significant, last_place }) = TypedDigits::read(text) else { return Some(0.0) };
     let is_whole = text.parse::<f64>().is_ok_and(|value| value.fract() == 0.0);
-    let (one, coarsest) = match (unit, units) {
-        (Unit::Length, UnitSystem::Si) => (1.0, COARSEST_M),
-        (Unit::Length, UnitSystem::Engineering) => (1e-3, COARSEST_MM),
-        (Unit::Angle, UnitSystem::Si) => (1.0, COARSEST_RAD),
-        (Unit::Angle, UnitSystem::Engineering) if is_whole => return Some(0.0),
-        (Unit::Angle, UnitSystem::Engineering) => (1_f64.to_radians(), i32::MAX),
-    };
+    if (unit, units, is_whole) == (Unit::Angle, UnitSystem::Engineering, true) {
+        return Some(0.0);
+    }
+    let (one, coarsest) = places(unit, units);
     if significant >= PROGRAM_DIGITS {
         return Some(0.0);
     }
@@ -117,6 +125,16 @@ fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Optio
     let half = half_of_place(last_place);
     let is_cut = unit == Unit::Angle && units == UnitSystem::Si && is_cut_quarter_turn(text, half);
     Some(if is_cut { 2.0 * half } else { half * one })
+}
+
+/// The unit of a typed number in m or rad, and the coarsest last place of one that is rounded.
+fn places(unit: Unit, units: UnitSystem) -> (f64, i32) {
+    match (unit, units) {
+        (Unit::Length, UnitSystem::Si) => (1.0, COARSEST_M),
+        (Unit::Length, UnitSystem::Engineering) => (1e-3, COARSEST_MM),
+        (Unit::Angle, UnitSystem::Si) => (1.0, COARSEST_RAD),
+        (Unit::Angle, UnitSystem::Engineering) => (1_f64.to_radians(), i32::MAX),
+    }
 }
 
 /// Whether an angle in radians is a quarter turn that is cut behind its last digit instead of rounded, as 1.57079: then it may be
@@ -147,6 +165,11 @@ impl TypedDigits {
         }
         let last_place = exponent.parse::<i32>().ok()?.checked_sub(i32::try_from(decimals.len()).ok()?)?;
         Some(Self { significant: all.trim_start_matches('0').len(), last_place })
+    }
+
+    /// Exponent of ten of the first digit that is not zero.
+    fn first_place(&self) -> i32 {
+        self.last_place.saturating_add(i32::try_from(self.significant).unwrap_or(i32::MAX)) - 1
     }
 }
 
@@ -190,5 +213,10 @@ mod tests {
     fn a_value_without_its_trailing_zeros_is_as_fine_as_the_others() {
         let typed = ["0.4", "0.3125", "0"].map(|text| TypedNumber { text, units: UnitSystem::Si });
         assert_eq!(half_places(Unit::Length, &typed), [5e-5; 3]);
+        // Three digits each, as a program rounds them: no tiny one makes 0.22 an exact value.
+        let typed = ["0.22", "0.00123", "1.46e-12"].map(|text| TypedNumber { text, units: UnitSystem::Si });
+        assert_eq!(half_places(Unit::Length, &typed), [5e-4, 5e-6, 5e-15]);
+        let angles = ["-1.7", "3.1415926535897931"].map(|text| TypedNumber { text, units: UnitSystem::Si });
+        assert_eq!(half_places(Unit::Angle, &angles), [0.0, 0.0], "the file has all digits");
     }
 }

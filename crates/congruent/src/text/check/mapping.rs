@@ -46,6 +46,17 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
         let _ =
             writeln!(text, "    the same motion as with {others} of directions and zeros, as wrists have it");
     }
+    let mut differing = mapping.joints.iter().filter(|of| !of.has_same_variable());
+    if let (Some(only), None) = (differing.next(), differing.next())
+        && mapping.joints.first() == Some(only)
+        && only.offset != 0.0
+        && !mapping.is_declared
+    {
+        let _ = writeln!(
+            text,
+            "    the same motion as with a base that is turned about the first axis: base = \"fitted\" under [mapping] declares that"
+        );
+    }
     if !mapping.is_declared {
         let _ = writeln!(text, "    if this is meant, declare it in robot.toml:\n");
         for line in &mapping.lines {

@@ -1,0 +1,167 @@
+//! The joints of another description in the terms of a robot, as reports have them and as a robot file declares them.
+
+use std::collections::BTreeSet;
+
+use congruent_agreement::{
+    SourcePair,
+    compare::{Agreement, CheckReport},
+};
+use congruent_description::{MappedJoint, RobotDescription, toml_key, toml_string};
+use congruent_input::number::significant;
+use congruent_kinematics::{Pose, PoseError, ReportedPose};
+use congruent_mapping::{FoundMapping, MatchedBy};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// The joints of the other description in terms of this robot: `q_other = sign * q + offset`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ReportedMapping {
+    /// How the joints were found to be the same.
+    pub matched_by: MatchedBy,
+    /// The joints that both have, in the order of this robot.
+    pub joints: Vec<ReportedJoint>,
+    /// Moving joints of this robot that do not move in the other: they are not compared, and neither is what they carry; those
+    /// that are fixed there are fixed at 0.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<String>,
+    /// The same of the other description.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub other_left_out: Vec<String>,
+    /// Pose of the other root in this one, if the two are not the same frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub root_from_other_root: Option<ReportedPose>,
+    /// The number of other choices of directions and zeros with which the axes agree as well, as a wrist has.
+    pub equivalent: usize,
+    /// Whether poses agree in the same variables; missing if they were not compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Agreement>,
+    /// The largest difference of poses in the same variables; missing if they were not compared.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub worst: Option<PoseError>,
+    /// Whether the robot file declares all of it.
+    pub is_declared: bool,
+    /// Lines of a robot file that declare it.
+    pub lines: Vec<String>,
+}
+
+/// A joint of two descriptions.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ReportedJoint {
+    /// Its name in this description.
+    pub joint: String,
+    /// Its name in the other one.
+    pub other: String,
+    /// 1, or -1 if it moves in the opposite direction there.
+    pub sign: i8,
+    /// Its position there if it is at 0 here, rad or m.
+    pub offset: f64,
+    /// `rad` or `m`.
+    pub unit: &'static str,
+}
+
+impl ReportedJoint {
+    /// Whether direction and zero are the same.
+    pub fn has_same_variable(&self) -> bool {
+        self.sign == 1 && self.offset == 0.0
+    }
+}
+
+impl ReportedMapping {
+    /// A mapping that was found or declared.
+    pub(super) fn new(
+        description: &RobotDescription,
+        other: &RobotDescription,
+        found: &FoundMapping,
+    ) -> Self {
+        let joint = |of: &MappedJoint| {
+            let joint = other.robot.joint(of.joint);
+            ReportedJoint {
+                joint: of.name.clone(),
+                other: joint.name.clone(),
+                sign: if of.is_flipped { -1 } else { 1 },
+                offset: of.offset,
+                unit: joint.kind.unit(),
+            }
+        };
+        let names = |of: usize| -> Vec<String> {
+            let robot = [&description.robot, &other.robot][of];
+            found.unmatched[of].iter().map(|&joint| robot.joint(joint).name.clone()).collect()
+        };
+        let root = Pose::from(found.root_from_other_root);
+        let is_same = PoseError::between(&Pose::identity(), &root).is_within(&description.tolerance);
+        let joints: Vec<ReportedJoint> = found.joints.iter().map(joint).collect();
+        let (left_out, other_left_out) = (names(0), names(1));
+        let is_known =
+            |name: &String| description.mapping.as_ref().is_some_and(|of| of.left_out.contains(name));
+        let is_declared =
+            found.matched_by == MatchedBy::Declared && left_out.iter().chain(&other_left_out).all(is_known);
+        let root_from_other_root = (!is_same).then(|| ReportedPose::from(&root));
+        Self {
+            matched_by: found.matched_by,
+            lines: lines(&joints, [&left_out, &other_left_out], root_from_other_root.as_ref()),
+            joints,
+            left_out,
+            other_left_out,
+            root_from_other_root,
+            equivalent: found.equivalent.len(),
+            verdict: None,
+            worst: None,
+            is_declared,
+        }
+    }
+
+    /// The mapping with the largest difference of poses that the comparison of the two has found.
+    pub(super) fn with_worst(self, geometry: &CheckReport) -> Self {
+        let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
+        Self { worst: compared.map(|of| of.worst.error), verdict: compared.map(|of| of.verdict), ..self }
+    }
+}
+
+/// The section of a robot file that declares a mapping.
+fn lines(
+    joints: &[ReportedJoint],
+    left_out: [&[String]; 2],
+    root_from_other_root: Option<&ReportedPose>,
+) -> Vec<String> {
+    let mut lines = vec!["[mapping]".to_owned()];
+    let left_out: BTreeSet<&String> = left_out.into_iter().flatten().collect();
+    let names: Vec<String> = left_out.into_iter().map(|name| toml_string(name)).collect();
+    if !names.is_empty() {
+        lines.push(format!("left_out = [{}]", names.join(", ")));
+    }
+    if root_from_other_root.is_some() {
+        lines.push("base = \"fitted\"".to_owned());
+    }
+    let is_other = |of: &&ReportedJoint| !of.has_same_variable() || of.joint != of.other;
+    let mut joints = joints.iter().filter(is_other).peekable();
+    if joints.peek().is_some() {
+        lines.push("[mapping.joints]".to_owned());
+    }
+    lines.extend(joints.map(|of| format!("{} = {}", toml_key(&of.joint), value(of))));
+    lines
+}
+
+/// The value of a joint in `[mapping.joints]`: its name in the other description, with what differs in its variable.
+fn value(of: &ReportedJoint) -> String {
+    let name = toml_string(&of.other);
+    if of.has_same_variable() {
+        return name;
+    }
+    let sign = if of.sign < 0 { ", sign = -1" } else { "" };
+    let offset = if of.offset == 0.0 { String::new() } else { format!(", {}", offset(of)) };
+    format!("{{ joint = {name}{sign}{offset} }}")
+}
+
+/// The offset in the unit in which it has fewer digits.
+fn offset(of: &ReportedJoint) -> String {
+    let si = significant(of.offset);
+    let (unit, other) = match of.unit {
+        "rad" => ("deg", significant(of.offset.to_degrees())),
+        _ => ("mm", significant(of.offset * 1e3)),
+    };
+    if other.len() < si.len() {
+        format!("offset_{unit} = {other}")
+    } else {
+        format!("offset_{} = {si}", of.unit)
+    }
+}
