@@ -8,7 +8,7 @@ use congruent::{
     analysis::plot::errors,
     check_suite, checked_robot,
     configurations::read_configurations,
-    description::{RobotDescription, RobotQList, load_robot_with, robots_of_changed},
+    description::{RobotDescription, RobotQList, Tolerance, load_robot_with, robots_of_changed},
     input::{Diagnostic, Finding, Findings, RevisionName, Severity},
     page::{CheckEntry, check_page},
     results::report::TestSuite,
@@ -81,7 +81,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     fix: FixArgument,
     /// Tolerance of positions and orientations in place of the robot file's, each with its unit: 1mm,0.1deg; a part
-    /// that is not given is the file's, or 1 nm or 1 nrad if the file declares none.
+    /// that is not given is the file's, or is judged by the digits written if the file declares none.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArgument>,
     /// Findings of lint in the descriptions fail, too, except what clearance alone needs, such as missing meshes. So does a
@@ -257,15 +257,16 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
         description.inputs.extend(read.input);
         configurations = read.entries;
     }
-    let declared = description.tolerance_is_declared.then_some(description.tolerance);
+    let declared = description.declared_tolerance;
+    let declared = declared.is_declared().then_some(description.tolerance);
     if let Some(tolerance) = arguments.tolerance {
         let (wrong, wide) = tolerance.examine(description.tolerance_scale());
         if !wrong.is_empty() {
             return Err(Findings::from(wrong).into());
         }
         of_options.extend(wide);
-        description.tolerance = tolerance.replace(description.tolerance);
-        description.tolerance_is_declared = true;
+        description.declared_tolerance = tolerance.requested_or(description.declared_tolerance);
+        description.tolerance = description.declared_tolerance.or(Tolerance::default());
     }
     batch.warn(path, &of_options);
     let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };

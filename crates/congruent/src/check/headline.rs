@@ -11,7 +11,7 @@ use congruent_agreement::{
 };
 use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
 use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
-use congruent_input::display::{counted, listed};
+use congruent_input::display::{angle, counted, length, listed};
 use congruent_kinematics::PoseError;
 
 use super::{
@@ -106,10 +106,16 @@ impl RobotCheck {
         let (same, rest) = answer.split_at(answer.find(',').unwrap_or(answer.len()));
         let by_digits = report.comparisons.iter().find(|of| of.name.is_written());
         let pair = by_digits.map_or([""; 2], sources).join(" against ");
-        let found = format!("{pair}: up to {}{}", largest(report.worst.error), allowed(report));
+        let found = beyond_rounding(report.worst.error);
+        let allowed = report.allowed_by_digits.map_or_else(String::new, |allowed| {
+            format!("; the digits could explain {}", beyond_rounding(allowed))
+        });
         let at = counted(report.configurations, "configuration");
-        let details =
-            format!("{extent} within the digits written{rest}. {found} (no tolerance declared, {at})");
+        let by =
+            if report.tolerance_is_declared { judged_by(report) } else { "no tolerance declared".to_owned() };
+        let details = format!(
+            "{extent} within the digits written (up to {found} apart{allowed}){rest}. {pair} at {at}; {by}"
+        );
         Headline::new(same, details)
     }
 
@@ -337,16 +343,26 @@ fn allowed(report: &CheckReport) -> String {
         return String::new();
     };
     let PoseError { position_m, orientation_rad } = report.worst.error;
-    // All values together may allow more than what was found, and still not this difference.
+    // All values together may allow more than what was found, and still not this difference. Then their sum is no part of the
+    // answer: beside the difference it would look like its explanation.
     let rounding = Tolerance::default();
     let is_less = position_m <= allowed.position_m.max(rounding.position_m)
         && orientation_rad <= allowed.orientation_rad.max(rounding.orientation_rad);
-    let but = if is_less && report.grade == Some(Grade::Different) {
-        ", but does not explain this difference"
-    } else {
-        ""
-    };
-    format!("; rounding of the written digits could explain {}{but}", largest(allowed))
+    if is_less && report.grade == Some(Grade::Different) {
+        return "; no rounding of the written digits explains it".to_owned();
+    }
+    format!("; rounding of the written digits could explain {}", largest(allowed))
+}
+
+/// A difference without the part that is only the rounding of an `f64`, if the other is more.
+fn beyond_rounding(error: PoseError) -> String {
+    let PoseError { position_m, orientation_rad } = error;
+    let same = Tolerance::default();
+    match (position_m <= same.position_m, orientation_rad <= same.orientation_rad) {
+        (false, true) => length(position_m),
+        (true, false) => angle(orientation_rad),
+        _ => largest(error),
+    }
 }
 
 /// The two sources of a comparison, as its title names them.

@@ -2,7 +2,7 @@
 //! written.
 
 use congruent_agreement::compare::{CheckReport, Comparison};
-use congruent_description::Tolerance;
+use congruent_description::{RequestedTolerance, Tolerance};
 use congruent_input::display::{angle, length, length_and_angle};
 use congruent_kinematics::PoseError;
 
@@ -12,6 +12,9 @@ const BY_DIGITS: &str = "judged by the digits written (no tolerance declared)";
 /// What decides whether table and URDF agree: the tolerance if one is declared, otherwise the digits of the two, or
 /// the rounding of computers if nothing was typed.
 pub(super) fn judged_by(report: &CheckReport) -> String {
+    if let Some(part) = part_by_digits(report) {
+        return part;
+    }
     if report.tolerance_is_declared {
         return tolerance_in_words(report);
     }
@@ -33,10 +36,8 @@ pub(super) fn tolerance_in_words(report: &CheckReport) -> String {
         return format!("tolerance {}", length_and_angle(position_m, orientation_rad));
     };
     // A part that was not requested is not silently 1e-9.
-    let other_part = match report.replaced_tolerance {
-        Some(_) => "by the robot file",
-        None => "since none is declared",
-    };
+    let other_part =
+        if report.declared_tolerance.is_partial() { "since none is declared" } else { "by the robot file" };
     match (requested.position_m, requested.orientation_rad) {
         (Some(_), None) => {
             let (length, angle) = (length(position_m), angle(orientation_rad));
@@ -58,15 +59,32 @@ pub(super) fn tolerance_in_words(report: &CheckReport) -> String {
 
 /// Whether the digits of table and URDF decide: nobody has declared a tolerance, and some were typed.
 fn is_by_digits(report: &CheckReport) -> bool {
-    let is_typed = report.allowed_by_digits.is_some_and(|allowed| allowed != PoseError::default());
-    is_typed && !report.tolerance_is_declared
+    is_typed(report) && !report.tolerance_is_declared
+}
+
+fn is_typed(report: &CheckReport) -> bool {
+    report.allowed_by_digits.is_some_and(|allowed| allowed != PoseError::default())
+}
+
+/// The tolerance of which one part is declared, if digits decide the other.
+fn part_by_digits(report: &CheckReport) -> Option<String> {
+    let RequestedTolerance { position_m, orientation_rad } = report.declared_tolerance;
+    let (declared, other) = match (position_m, orientation_rad) {
+        (Some(position_m), None) => (length(position_m), "angles"),
+        (None, Some(orientation_rad)) => (angle(orientation_rad), "lengths"),
+        _ => return None,
+    };
+    let by = if report.requested_tolerance.is_some() { " by --tolerance" } else { "" };
+    is_typed(report).then(|| {
+        format!(
+            "tolerance {declared}{by}, and {other} by the digits written, since none is declared for them"
+        )
+    })
 }
 
 /// What decides, for a page that has the values of the tolerance: the digits, or a tolerance of which one part was requested.
 pub(super) fn judged_by_more(report: &CheckReport) -> Option<String> {
-    let is_in_part = report
-        .requested_tolerance
-        .is_some_and(|requested| requested.position_m.is_none() || requested.orientation_rad.is_none());
+    let is_in_part = report.declared_tolerance.is_partial();
     let words = judged_by(report);
     (is_by_digits(report) || is_in_part).then(|| words.trim_start_matches("tolerance ").to_owned())
 }
