@@ -142,10 +142,8 @@ fn compare(kind: ComparedFile, a: &Path, b: &Path, tolerance: f64) -> Result<Fil
 fn recordings(a: &Path, b: &Path, tolerance: f64) -> Result<FileComparison, NotComparable> {
     let read = |path| congruent_recording::scalars(path).map_err(|error| NotComparable(error.to_string()));
     let [(of_a, scalars_a), (of_b, scalars_b)] = [read(a)?, read(b)?];
-    let joint = |path: &str| -> Option<String> {
-        Some(path.strip_prefix("/joint/")?.split_once('/')?.1.replace('\\', ""))
-    };
-    let mut compared = compare_scalars(&scalars_a, &scalars_b, joint, tolerance);
+    let label = |path: &str| congruent_recording::label(path, &of_a);
+    let mut compared = compare_scalars(&scalars_a, &scalars_b, label, tolerance);
     let robot = |summary: &congruent_recording::RecordingSummary| {
         summary.report.as_ref()?.get("robot")?.as_str().map(str::to_owned)
     };
