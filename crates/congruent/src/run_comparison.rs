@@ -77,6 +77,14 @@ pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison,
         }
     }
     let (mut files, mut not_compared) = (Vec::new(), Vec::new());
+    if let Some(robot) = [a, b].into_iter().find(|path| is_robot(path)) {
+        return refused(format!(
+            "{} is a robot and no result of a run: congruent check {} --against {} compares two robots",
+            robot.display(),
+            a.display(),
+            b.display()
+        ));
+    }
     match (a.is_dir(), b.is_dir()) {
         (true, true) => {
             for (kind, names) in FILES {
@@ -109,6 +117,13 @@ pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison,
     let [a, b] = [a, b].map(|path| path.display().to_string());
     let format = "congruent-comparison/1";
     Ok(RunComparison { format, a, b, tolerance, same, exit_code, files, not_compared })
+}
+
+/// Whether a path is that of a robot: its folder, its robot file, or a URDF or an MJCF.
+fn is_robot(path: &Path) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    path.join("robot.toml").is_file()
+        || path.is_file() && ending.is_some_and(|ending| ["toml", "urdf", "xml"].contains(&ending))
 }
 
 fn find(folder: &Path, names: &[&str]) -> Option<PathBuf> {
