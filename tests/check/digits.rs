@@ -178,3 +178,56 @@ fn transposed_digits_are_corrected_to_the_known_value() {
         assert!(new_text.contains("d_mm = 342.5"), "{cause:#}");
     }
 }
+
+/// A wrong pitch in the URDF of an arm whose table has whole millimetres: two values of the table explain it within their digits, one
+/// `<origin>` explains it exactly, and is named.
+#[test]
+fn an_exact_origin_is_named_before_values_that_digits_excuse() {
+    let joint = |(number, axis, xyz, rpy): (usize, &str, &str, &str)| {
+        format!(
+            "<joint name=\"joint_{number}\" type=\"revolute\"><parent link=\"link_{}\"/><child link=\"link_{number}\"/>\
+             <origin xyz=\"{xyz}\" rpy=\"{rpy}\"/><axis xyz=\"{axis}\"/>\
+             <limit lower=\"-1.9\" upper=\"1.9\" effort=\"50\" velocity=\"5\"/></joint>\n",
+            number - 1
+        )
+    };
+    let joints = [
+        (1, "0 0 1", "0 0 0", "0 0 0"),
+        (2, "0 1 0", "0 0 0.29", "0 0 0"),
+        (3, "0 1 0", "0 0 0.27", "0 0 0"),
+        (4, "1 0 0", "0 0 0.07", "0 0.05 0"),
+        (5, "0 1 0", "0.302 0 0", "0 0 0"),
+        (6, "1 0 0", "0.072 0 0", "0 0 0"),
+    ];
+    let links = [0, 1, 2, 3, 4, 5, 6].map(|number| format!("<link name=\"link_{number}\"/>\n")).concat();
+    let tool = "<link name=\"tool0\"/><joint name=\"tool\" type=\"fixed\"><parent link=\"link_6\"/><child link=\"tool0\"/>\
+                <origin xyz=\"0 0 0\" rpy=\"0 1.5707963267948966 0\"/></joint>";
+    let urdf = format!("<robot name=\"arm\">\n{links}{}{tool}</robot>\n", joints.map(joint).concat());
+    let row = |(at, [a_mm, alpha_deg, d_mm, theta_deg]): (usize, &[i32; 4])| {
+        format!(
+            "  {{ joint = \"joint_{}\", kind = \"revolute\", a_mm = {a_mm}, alpha_deg = {alpha_deg}, d_mm = {d_mm}, theta_deg = {theta_deg} }},\n",
+            at + 1
+        )
+    };
+    let rows = [
+        [0, -90, 290, 0],
+        [270, 0, 0, -90],
+        [70, -90, 0, 0],
+        [0, 90, 302, 0],
+        [0, -90, 0, 0],
+        [0, 0, 72, 180],
+    ];
+    let rows: String = rows.iter().enumerate().map(row).collect();
+    let table = format!(
+        "urdf = \"arm.urdf\"\nbase = \"link_0\"\ntip = \"tool0\"\n[dh]\nconvention = \"standard\"\nrow = [\n{rows}]\n"
+    );
+    let (_, report) = checked(&urdf, &table);
+    let first = &report["diagnosis"][0];
+    assert_eq!((&first["cause"], &first["joint"]), (&"joint_origin".into(), &"joint_4".into()), "{first:#}");
+    // The two values are the other reading; no corrected table is offered for it.
+    let diagnosis = &report["diagnoses"][0];
+    assert!(!diagnosis["indistinguishable"].as_array().unwrap().is_empty(), "{diagnosis:#}");
+    assert!(diagnosis["corrected"].is_null(), "{:#}", diagnosis["corrected"]);
+    let right = checked(&urdf.replace("0 0.05 0", "0 0 0"), &table).1;
+    assert_eq!(right["verdict"], "agree", "{right:#}");
+}

@@ -48,6 +48,20 @@ fn answers(robot: &Path, other: &str, code: i32, expected: &str) {
 }
 
 #[test]
+fn a_revision_without_git_is_refused_with_what_to_write() {
+    let (_folder, robot) = repository();
+    let answer = congruent(&["check", robot.to_str().unwrap(), "--against", "main"]);
+    assert_eq!(answer.code, 2, "{}", answer.stdout);
+    let said = answer.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("it is a revision of the repository: --against git:main"), "{said}");
+    assert_eq!(said.matches("does not exist").count(), 1, "{said}");
+    let split = congruent(&["check", robot.to_str().unwrap(), "--against", "git", "HEAD~1"]);
+    assert!(split.code == 2 && split.stderr.contains("--against git:HEAD~1"), "{}", split.stderr);
+    let neither = congruent(&["check", robot.to_str().unwrap(), "--against", "nowhere"]);
+    assert!(neither.code == 2 && !neither.stderr.contains("revision"), "{}", neither.stderr);
+}
+
+#[test]
 fn the_answer_says_what_a_change_does() {
     let (_folder, robot) = repository();
     answers(&robot, "git:before", 0, "UNCHANGED since before: poses, torques and limits are the same");

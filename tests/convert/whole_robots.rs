@@ -11,6 +11,7 @@ use std::{
 use crate::support::{
     command::{congruent, congruent_json, text},
     corpus::{corpus, workspace},
+    scratch_folder::ScratchFolder,
 };
 
 /// Kind: rounding, of poses within a few metres. Worst seen: 2e-15 m, and as much of the entries of rotations.
@@ -131,6 +132,22 @@ fn what_cannot_be_written_is_refused_and_nothing_is_written() {
         assert!(answer.stderr.contains(message), "{arguments:?}: {}", answer.stderr);
         assert!(fs::read_dir(folder.path()).unwrap().next().is_none(), "{arguments:?}");
     }
+}
+
+#[test]
+fn a_chosen_chain_is_written_with_what_it_cannot_hold() {
+    let scratch = ScratchFolder::new();
+    let arm = "<mujoco model=\"arm\"><worldbody><body name=\"base\"><inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>\
+               <body name=\"upper\" pos=\"0 0 0.3\"><joint name=\"lift\" axis=\"0 1 0\" armature=\"0.1\"/>\
+               <inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/><body name=\"tool\" pos=\"0.4 0 0\">\
+               <joint name=\"bend\" axis=\"0 1 0\"/><inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/></body></body></body>\
+               </worldbody></mujoco>";
+    let robot = scratch.write("arm.xml", arm);
+    let answer = congruent(&["convert", &robot, "--to", "urdf", "--base", "base", "--tip", "tool"]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    let said = answer.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("joint \"lift\": its armature, 0.1 kg m^2, is not written"), "{said}");
+    assert!(!said.contains("\"bend\""), "{said}");
 }
 
 /// A base or a tip still means the chain between them, as a table does.

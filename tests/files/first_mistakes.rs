@@ -189,6 +189,33 @@ fn a_joint_that_keeps_the_tool_from_its_orientation_is_named() {
 }
 
 #[test]
+fn lists_units_and_revisions_that_are_nearly_right() {
+    let both = "shoulder_pan_joint=1rad,elbow_joint=2rad";
+    refused(
+        &["fk", "robots/ur5e", "--at", both],
+        &["once for each joint: --at shoulder_pan_joint=1rad --at elbow_joint=2rad"],
+    );
+    let said = refused(
+        &["check", "robots/ur5e", "--tolerance", "1mm", "0.1deg"],
+        &["a comma joins both parts of a tolerance, without a space: --tolerance 1mm,0.1deg"],
+    );
+    assert_eq!(said.matches("0.1deg does not exist").count(), 1, "{said}");
+    refused(
+        &["compare", "robots/ur5e", "robots/ur5e/wrong_convention.toml"],
+        &["congruent check robots/ur5e --against robots/ur5e/wrong_convention.toml compares two robots"],
+    );
+    let desk = Desk::new();
+    let table = fs::read_to_string(workspace().join("robots/rrr_arm/robot.toml")).unwrap();
+    let urdf = text(&workspace().join("robots/rrr_arm/rrr_arm.urdf"));
+    let inches =
+        table.replace("\"rrr_arm.urdf\"", &format!("\"{urdf}\"")).replacen("d_m = 0.", "d_inch = 4", 1);
+    assert!(inches.contains("d_inch"), "{inches}");
+    fs::write(desk.path("inches.toml"), inches).unwrap();
+    let said = refused(&["check", &text(&desk.path("inches.toml"))], &["inches are not read: write d_mm = "]);
+    assert!(!said.contains("neither"), "{said}");
+}
+
+#[test]
 fn names_that_are_nearly_right() {
     refused(&["chek", "robots/ur5e"], &["'check'"]);
     let said = refused(&["fk", "robots/ur5e", "--at", "elbw=90deg"], &["did you mean \"elbow_joint\"?"]);

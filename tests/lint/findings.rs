@@ -37,6 +37,26 @@ impl Folder {
     }
 }
 
+/// Masses are judged although a limit is wrong; what needs a robot is said not to be.
+#[test]
+fn an_error_hides_no_other_error() {
+    let body = "<inertial><mass value='-3.9'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial>";
+    let wrong = URDF
+        .replace("lower='-1' upper='1'", "lower='1' upper='-1'")
+        .replace("<link name='arm'/>", &format!("<link name='arm'>{body}</link>"));
+    let folder = Folder::new(&[("r.urdf", &wrong)]);
+    let answer = congruent(&["lint", &folder.text("r.urdf")]);
+    assert_eq!(answer.code, 1, "{}", answer.stderr);
+    for said in ["lower limit 1 is above upper limit -1", "-3.9", "not examined: units, "] {
+        assert!(answer.stdout.contains(said), "no {said:?} in {}", answer.stdout);
+    }
+    let report = congruent_json(&["lint", &folder.text("r.urdf")]).json();
+    assert_eq!((&report["errors"], &report["is_incomplete"]), (&2.into(), &true.into()), "{report}");
+    let right = Folder::new(&[("r.urdf", URDF)]);
+    let answer = congruent(&["lint", &right.text("r.urdf")]);
+    assert!(!answer.stdout.contains("not examined"), "{}", answer.stdout);
+}
+
 #[test]
 fn findings_have_a_place_a_number_and_what_they_stop() {
     let folder = Folder::new(&[("r.urdf", URDF)]);

@@ -26,11 +26,9 @@ fn a_tolerance_that_nobody_has_declared_is_not_the_robot_files() {
     let both = check("0.1mm,0.1deg");
     says(&both, &["tolerance 0.1 mm and 0.1 deg by --tolerance. Cause"]);
     assert!(!both.stdout.contains("the robot file's"), "{}", both.stdout);
-    says(&check("0.1mm"), &["tolerance 0.1 mm by --tolerance, and for angles 1 nrad since none is declared"]);
-    says(
-        &check("0.1deg"),
-        &["tolerance 0.1 deg by --tolerance, and for lengths 1 nm since none is declared"],
-    );
+    let by_digits = |part: &str| format!("and {part} by the digits written, since none is declared for them");
+    says(&check("0.1mm"), &[&format!("tolerance 0.1 mm by --tolerance, {}", by_digits("angles"))]);
+    says(&check("0.1deg"), &[&format!("tolerance 0.1 deg by --tolerance, {}", by_digits("lengths"))]);
     let declared = congruent(&["check", "robots/planar_2r", "-q", "--tolerance", "1mm"]);
     says(&declared, &["tolerance 1 mm by --tolerance, and for angles 1 prad by the robot file"]);
     let declared = congruent(&["check", "robots/planar_2r", "-q", "--tolerance", "1mm,1deg"]);
@@ -92,16 +90,54 @@ fn values_of_two_files_name_both_files_with_all_digits() {
     assert!(!page.contains("<svg"), "two equal arms answer nothing");
 }
 
+/// A table of the UR5e with one quarter turn of five digits: rounding explains all that differs, up to some micrometres.
+fn rounded_table(scratch: &ScratchFolder, tolerance: &str) -> String {
+    let urdf = text(&workspace().join("robots/ur5e/ur5e.urdf"));
+    let table = fs::read_to_string(workspace().join("robots/ur5e/robot.toml")).unwrap();
+    let rows = table[..table.find("[dynamics]").unwrap()].replace("\"ur5e.urdf\"", &format!("\"{urdf}\""));
+    let rounded = rows.replace("alpha_deg = 90.0", "alpha_rad = 1.5708");
+    assert_ne!(rounded, rows);
+    scratch.write("rounded.toml", &format!("{tolerance}{rounded}"))
+}
+
+#[test]
+fn a_part_of_a_tolerance_has_the_digits_decide_the_other_part() {
+    let scratch = ScratchFolder::new();
+    let robot = rounded_table(&scratch, "");
+    for tolerance in ["5mm", "0.1deg"] {
+        let answer = congruent(&["check", &robot, "-q", "--tolerance", tolerance]);
+        assert_eq!(answer.code, 0, "{tolerance}: {}", answer.stdout);
+        says(
+            &answer,
+            &["SAME GEOMETRY within the digits written (up to ", "by the digits written, since none"],
+        );
+    }
+    // What is declared still decides.
+    let tight = congruent(&["check", &robot, "-q", "--tolerance", "1nm"]);
+    assert_eq!(tight.code, 1, "{}", tight.stdout);
+    says(&tight, &["DIFFERENT by rounding alone"]);
+    let declared = rounded_table(&scratch, "tolerance = { position_mm = 5 }\n");
+    let answer = congruent(&["check", &declared, "-q"]);
+    assert_eq!(answer.code, 0, "{}", answer.stdout);
+    says(&answer, &["tolerance 5 mm, and angles by the digits written"]);
+}
+
+#[test]
+fn the_first_line_says_how_far_apart_rounded_descriptions_are() {
+    let scratch = ScratchFolder::new();
+    let answer = congruent(&["check", &rounded_table(&scratch, ""), "-q"]);
+    says(&answer, &["within the digits written (up to ", " apart; the digits could explain "]);
+    says(&answer, &["DH table against URDF at ", "no tolerance declared"]);
+    let different = congruent(&["check", UNDECLARED, "-q"]);
+    says(&different, &["(DH table against URDF; no rounding of the written digits explains it)"]);
+    assert!(!different.stdout.contains("could explain"), "{}", different.stdout);
+}
+
 #[test]
 fn a_scenario_of_a_rounded_table_has_the_limits_of_its_digits() {
     let scratch = ScratchFolder::new();
     let to = text(&scratch.path().join("run.toml"));
-    let urdf = text(&workspace().join("robots/ur5e/ur5e.urdf"));
-    let table = fs::read_to_string(workspace().join("robots/ur5e/robot.toml")).unwrap();
-    let rows = table[..table.find("[tolerance]").unwrap()].replace("\"ur5e.urdf\"", &format!("\"{urdf}\""));
-    let rounded = rows.replace("alpha_deg = 90.0", "alpha_rad = 1.5708");
-    assert_ne!(rounded, rows);
-    let robot = scratch.write("rounded.toml", &rounded);
+    let robot = rounded_table(&scratch, "");
     let answer = congruent(&["new", "scenario", &robot, "--to", &to]);
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     // The limits that the digits allow are in the scenario, which passes with them.

@@ -164,6 +164,10 @@ fn what_failed_comes_first_with_its_limit_and_its_first_violation() {
         let figure = at(&format!("data-chart=\"{chart}\""));
         assert!(at("What failed") < figure && figure < at("<svg") && at("<svg") < at("<table"), "{name}");
         assert!(at("<details><summary>what passed") > at("<table"), "{name}");
+        // The verdict says what was violated, with its limit.
+        let verdict = &html[at("class=\"sentence\"")..];
+        let verdict = &verdict[..verdict.find("</span>").unwrap()];
+        assert!(verdict.contains("limit"), "{name}: {verdict}");
     }
 }
 

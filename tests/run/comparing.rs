@@ -113,6 +113,10 @@ fn the_first_difference_has_a_time_a_joint_and_values() {
     // For people the same, and each kind of file by itself.
     let shown = congruent(&["compare", &a, &b]).stdout;
     assert!(shown.contains(&format!("at {time_s:?} s: {}", first["series"].as_str().unwrap())), "{shown}");
+    let recordings = [&a, &b].map(|out| format!("{out}/recording.rrd"));
+    let shown = congruent(&["compare", &recordings[0], &recordings[1]]).stdout;
+    assert!(shown.contains("position of elbow_joint"), "{shown}");
+    assert!(shown.contains("deg apart") || shown.contains("rad apart"), "{shown}");
     for name in ["report.json", "trajectory.csv", "recording.rrd"] {
         assert_eq!(compare(&format!("{a}/{name}"), &format!("{b}/{name}"), &[]).code, 1, "{name}");
     }

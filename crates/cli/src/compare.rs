@@ -29,8 +29,9 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let comparison = compare_runs(&arguments.a, &arguments.b, arguments.tolerance).map_err(|error| {
-        Diagnostic::error(codes::compare::NOT_COMPARABLE, error.to_string())
-            .with_help("compare two reports, two trajectories, two recordings, or two folders of results")
+        Diagnostic::error(codes::compare::NOT_COMPARABLE, error.to_string()).with_help(
+            "compare takes two reports, two trajectories, two recordings, or two folders of results",
+        )
     })?;
     printer.result(&comparison, |comparison| comparison_text(comparison, &text_options()))?;
     Ok(comparison.exit_code)

@@ -202,6 +202,13 @@ fn position(assignment: &str, robot: &Robot) -> Result<(String, f64), Diagnostic
         Diagnostic::error(codes::cli::AT, format!("--at \"{assignment}\": {why}"))
             .with_help("for example --at elbow_joint=90deg or --at elbow_joint=1.57rad, --at lift=100mm")
     };
+    // Several in one list, as other options take them.
+    let listed: Vec<&str> = assignment.split(',').map(str::trim).collect();
+    if listed.len() > 1 && listed.iter().all(|of| of.contains('=')) {
+        let each: Vec<String> = listed.iter().map(|of| format!("--at {of}")).collect();
+        return Err(refused("it has several joints, and --at takes one")
+            .with_help(format!("once for each joint: {}", each.join(" "))));
+    }
     let (joint, written) = assignment.split_once('=').ok_or_else(|| refused("it is not JOINT=VALUE"))?;
     let (joint, written) = (joint.trim(), written.trim());
     // An unknown joint is reported with the known ones, by whoever uses the name.

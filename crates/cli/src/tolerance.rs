@@ -32,6 +32,14 @@ impl ToleranceArgument {
         (self.position_m, self.orientation_rad)
     }
 
+    /// What is declared together with a robot file that declares this.
+    pub(crate) fn requested_or(self, declared: RequestedTolerance) -> RequestedTolerance {
+        RequestedTolerance {
+            position_m: self.position_m.or(declared.position_m),
+            orientation_rad: self.orientation_rad.or(declared.orientation_rad),
+        }
+    }
+
     /// As a report has it.
     pub(crate) fn requested(self) -> RequestedTolerance {
         RequestedTolerance { position_m: self.position_m, orientation_rad: self.orientation_rad }

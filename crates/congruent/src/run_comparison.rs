@@ -77,6 +77,14 @@ pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison,
         }
     }
     let (mut files, mut not_compared) = (Vec::new(), Vec::new());
+    if let Some(robot) = [a, b].into_iter().find(|path| is_robot(path)) {
+        return refused(format!(
+            "{} is a robot and no result of a run: congruent check {} --against {} compares two robots",
+            robot.display(),
+            a.display(),
+            b.display()
+        ));
+    }
     match (a.is_dir(), b.is_dir()) {
         (true, true) => {
             for (kind, names) in FILES {
@@ -111,6 +119,13 @@ pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison,
     Ok(RunComparison { format, a, b, tolerance, same, exit_code, files, not_compared })
 }
 
+/// Whether a path is that of a robot: its folder, its robot file, or a URDF or an MJCF.
+fn is_robot(path: &Path) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    path.join("robot.toml").is_file()
+        || path.is_file() && ending.is_some_and(|ending| ["toml", "urdf", "xml"].contains(&ending))
+}
+
 fn find(folder: &Path, names: &[&str]) -> Option<PathBuf> {
     names.iter().map(|name| folder.join(name)).find(|path| path.is_file())
 }
@@ -142,10 +157,8 @@ fn compare(kind: ComparedFile, a: &Path, b: &Path, tolerance: f64) -> Result<Fil
 fn recordings(a: &Path, b: &Path, tolerance: f64) -> Result<FileComparison, NotComparable> {
     let read = |path| congruent_recording::scalars(path).map_err(|error| NotComparable(error.to_string()));
     let [(of_a, scalars_a), (of_b, scalars_b)] = [read(a)?, read(b)?];
-    let joint = |path: &str| -> Option<String> {
-        Some(path.strip_prefix("/joint/")?.split_once('/')?.1.replace('\\', ""))
-    };
-    let mut compared = compare_scalars(&scalars_a, &scalars_b, joint, tolerance);
+    let label = |path: &str| congruent_recording::label(path, &of_a);
+    let mut compared = compare_scalars(&scalars_a, &scalars_b, label, tolerance);
     let robot = |summary: &congruent_recording::RecordingSummary| {
         summary.report.as_ref()?.get("robot")?.as_str().map(str::to_owned)
     };

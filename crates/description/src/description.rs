@@ -7,7 +7,7 @@ use std::{
 };
 
 use congruent_input::{Capability, Diagnostic, Findings, InputFile, known_names};
-use congruent_robot::{DhTable, JointIndex, LinkIndex, Robot, Tolerance};
+use congruent_robot::{DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance};
 use nalgebra::Isometry3;
 
 use crate::{
@@ -70,9 +70,9 @@ pub struct RobotDescription {
     pub tip_from_tcp: Option<Isometry3<f64>>,
     /// Largest difference of poses at which model and twin still agree.
     pub tolerance: Tolerance,
-    /// Whether the robot file or the caller has set the tolerance. If nobody has, a table is judged by the digits that it
-    /// is typed with.
-    pub tolerance_is_declared: bool,
+    /// The parts of the tolerance that the robot file or the caller has set. What nobody has set is judged by the digits that the
+    /// files are typed with.
+    pub declared_tolerance: RequestedTolerance,
     /// How joints are called and counted in another description, if the robot file declares it.
     pub mapping: Option<DeclaredMapping>,
     /// The other descriptions of this robot that the robot file names.

@@ -11,7 +11,7 @@ use congruent_input::{
     Capability, Diagnostic, Diagnostics, FileAccess, Findings, RevisionFiles, RevisionName, SourceFile,
     TextKind, direct_path, folder_of,
 };
-use congruent_robot::{LinkIndex, Robot, Tolerance};
+use congruent_robot::{LinkIndex, RequestedTolerance, Robot, Tolerance};
 use toml::Spanned;
 
 use crate::{
@@ -155,7 +155,7 @@ fn bare(source: &Arc<SourceFile>, model: ModelFile) -> RobotDescription {
         dynamics: None,
         tip_from_tcp: None,
         tolerance: Tolerance::default(),
-        tolerance_is_declared: false,
+        declared_tolerance: RequestedTolerance::default(),
         mapping: None,
         references: Vec::new(),
         named_files: NamedFiles::default(),
@@ -272,7 +272,6 @@ fn declared(
         .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));
     let table =
         written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh, tolerance_span)));
-    let tolerance_is_declared = written.tolerance.is_some();
     let folder = folder_of(&robot_file.path);
     let in_folder = |of: DeclaredReference| DeclaredReference { path: folder.join(&of.path), ..of };
     Some(RobotDescription {
@@ -288,7 +287,7 @@ fn declared(
         accelerations: declared.accelerations,
         tip_from_tcp: declared.tip_from_tcp,
         tolerance: declared.tolerance,
-        tolerance_is_declared,
+        declared_tolerance: declared.tolerance_parts,
         mapping: declared.mapping,
         references: declared.references.into_iter().map(in_folder).collect(),
         named_files: NamedFiles::default(),

@@ -34,6 +34,8 @@ pub use self::{
 struct Examined {
     kind: Option<FileKind>,
     found: Vec<Diagnostic>,
+    /// Whether rules that need a robot could not be applied.
+    is_incomplete: bool,
     ignores: Ignores,
 }
 
@@ -74,11 +76,11 @@ pub fn lint_robot(description: &RobotDescription) -> LintReport {
     let is_bare = description.own_model().is_none() && description.path == description.urdf_path;
     let kind = if is_bare { FileKind::of_links(description) } else { FileKind::RobotFile };
     let ignores = if is_bare { Ignores::default() } else { ignores_of_robot(description) };
-    report(Examined { kind: Some(kind), found: suspicions(description), ignores })
+    report(Examined { kind: Some(kind), found: suspicions(description), is_incomplete: false, ignores })
 }
 
 fn report(examined: Examined) -> LintReport {
-    let Examined { kind, found, ignores } = examined;
+    let Examined { kind, found, is_incomplete, ignores } = examined;
     let is_unreadable = found.iter().any(|found| found.source.is_none() && found.code.is_unreadable);
     let (kept, ignored) = ignores.apply(found, &codes::known_codes());
     let diagnostics: Vec<Diagnostic> = kept.into_iter().map(judged).collect();
@@ -97,7 +99,18 @@ fn report(examined: Examined) -> LintReport {
     };
     let stops = ALL_USES.into_iter().filter(is_stopped).collect();
     let fixes = fixes(&diagnostics, kind);
-    LintReport { kind, verdict, errors, warnings, stops, findings, ignored, fixes, diagnostics }
+    LintReport {
+        kind,
+        verdict,
+        errors,
+        warnings,
+        stops,
+        findings,
+        is_incomplete: is_incomplete && !is_unreadable,
+        ignored,
+        fixes,
+        diagnostics,
+    }
 }
 
 /// The safe corrections of each file that has findings.
@@ -148,8 +161,16 @@ fn stopped_uses(found: &Diagnostic, kind: Option<FileKind>) -> Vec<Capability> {
 fn examined(path: &Path, others: &[PathBuf], access: &FileAccess) -> Examined {
     let (kind, source) = match FileToLint::open(path, access) {
         Ok(FileToLint { kind, source }) => (kind, source),
-        Err(fault) => return Examined { kind: None, found: vec![fault], ignores: Ignores::default() },
+        Err(fault) => {
+            return Examined {
+                kind: None,
+                found: vec![fault],
+                is_incomplete: false,
+                ignores: Ignores::default(),
+            };
+        }
     };
+    let mut is_incomplete = false;
     let (found, ignores) = match &source {
         None => (table(path, kind, others, access), Ignores::default()),
         Some(source) => {
@@ -157,17 +178,20 @@ fn examined(path: &Path, others: &[PathBuf], access: &FileAccess) -> Examined {
             match kind {
                 FileKind::Scenario => scenario(&subject),
                 FileKind::Srdf => (srdf(&subject), Ignores::default()),
-                _ => robot(&subject),
+                _ => {
+                    let robot = robot(&subject);
+                    is_incomplete = robot.is_err();
+                    (robot.unwrap_or_else(Findings::into_vec), ignores_of(source))
+                }
             }
         }
     };
-    Examined { kind: Some(kind), found, ignores }
+    Examined { kind: Some(kind), found, is_incomplete, ignores }
 }
 
-fn robot(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
-    let loaded = load_opened_robot(subject.source, subject.access);
-    let found = loaded.map_or_else(Findings::into_vec, |robot| suspicions(&robot));
-    (found, ignores_of(subject.source))
+/// What is suspicious in a robot, or why it cannot be read.
+fn robot(subject: &Subject<'_>) -> Result<Vec<Diagnostic>, Findings> {
+    load_opened_robot(subject.source, subject.access).map(|robot| suspicions(&robot))
 }
 
 /// What is suspicious in a robot that could be read.

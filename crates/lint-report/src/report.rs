@@ -22,6 +22,10 @@ pub struct LintReport {
     pub stops: Vec<Capability>,
     /// The findings, in the order of the file.
     pub findings: Vec<LintFinding>,
+    /// Whether only a part of the rules could be applied: those that compare values with each other need a robot that can be
+    /// read, and an error prevents that.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    pub is_incomplete: bool,
     /// Findings that the robot file ignores.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub ignored: Vec<IgnoredFinding>,

@@ -69,7 +69,7 @@ congruent_input::codes! {
         FRICTION = "CGR-UNIT-017", "units::friction",
             "The dry friction of a joint is larger than its effort limit, so its motor could never move it. It is in N m (N for a prismatic joint), not in N mm.\n    friction=\"2400\" instead of friction=\"2.4\"";
         MASS = "CGR-UNIT-008", "units::mass",
-            "The mass of a link, divided by the volume of its shapes, gives a density higher than that of any material or lower than that of any foam. Masses are in kg, not in grams; or the shapes are in a wrong unit.";
+            "The mass of a link, divided by the volume of its shapes, gives a density higher than that of any material or lower than that of any foam; or a link that another one carries is more than ten times as heavy as all others together. Masses are in kg, not in grams; or the shapes are in a wrong unit.";
         INERTIA = "CGR-UNIT-009", "units::inertia",
             "The radius of gyration that follows from mass and inertia does not fit the shapes of the link, or any material. Inertias are in kg m^2, masses in kg.";
         SMALL_MESH = "CGR-UNIT-010", "units::small_mesh",

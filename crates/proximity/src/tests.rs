@@ -49,7 +49,7 @@ fn description() -> RobotDescription {
         dynamics: None,
         accelerations: Vec::new(),
         tip_from_tcp: None,
-        tolerance_is_declared: false,
+        declared_tolerance: congruent_description::RequestedTolerance::default(),
         mapping: None,
         references: Vec::new(),
         tolerance: congruent_description::Tolerance::default(),

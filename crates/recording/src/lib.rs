@@ -14,8 +14,8 @@ mod series;
 
 pub use read::{
     Basis, CheckSummary, Disagreement, EntitySummary, InspectError, QuantitySummary, Recheck, RecheckError,
-    RecheckedCheck, RecheckedQuantity, RecordingSummary, ScalarSummary, TimelineSummary, inspect, recheck,
-    scalars, scalars_csv,
+    RecheckedCheck, RecheckedQuantity, RecordingSummary, ScalarSummary, TimelineSummary, inspect, label,
+    recheck, scalars, scalars_csv,
 };
 pub use recorder::{RerunFormat, RerunRecorder};
 

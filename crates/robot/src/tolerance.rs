@@ -19,9 +19,9 @@ impl Default for Tolerance {
     }
 }
 
-/// A tolerance that a caller gives in place of a declared one; a part that is missing is the declared one, or 1e-9 if there is
-/// none.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+/// A tolerance of which one part may be missing: then the digits that are written decide this part, or 1e-9 m and 1e-9 rad if
+/// nothing is typed.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, JsonSchema)]
 pub struct RequestedTolerance {
     /// Largest distance of the origins, m.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -29,4 +29,43 @@ pub struct RequestedTolerance {
     /// Largest angle between the orientations, rad.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orientation_rad: Option<f64>,
+}
+
+impl RequestedTolerance {
+    /// Both parts of a tolerance.
+    pub fn both(tolerance: Tolerance) -> Self {
+        Self { position_m: Some(tolerance.position_m), orientation_rad: Some(tolerance.orientation_rad) }
+    }
+
+    /// The tolerance with the parts of another one in place of those that are missing.
+    #[must_use]
+    pub fn or(self, other: Tolerance) -> Tolerance {
+        Tolerance {
+            position_m: self.position_m.unwrap_or(other.position_m),
+            orientation_rad: self.orientation_rad.unwrap_or(other.orientation_rad),
+        }
+    }
+
+    /// Whether there is any part.
+    pub fn is_declared(&self) -> bool {
+        self.position_m.is_some() || self.orientation_rad.is_some()
+    }
+
+    /// Whether there is one part and not the other.
+    pub fn is_partial(&self) -> bool {
+        self.position_m.is_some() != self.orientation_rad.is_some()
+    }
+
+    /// Whether a difference is within the parts that there are.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_robot::RequestedTolerance;
+    /// let lengths = RequestedTolerance { position_m: Some(5e-3), orientation_rad: None };
+    /// assert!(lengths.allows(1e-3, 0.1) && !lengths.allows(6e-3, 0.0));
+    /// ```
+    pub fn allows(&self, position_m: f64, orientation_rad: f64) -> bool {
+        self.position_m.is_none_or(|most| position_m <= most)
+            && self.orientation_rad.is_none_or(|most| orientation_rad <= most)
+    }
 }

@@ -2,7 +2,7 @@
 //! of it is exact.
 
 use congruent_description::{
-    Geometry, JointKind, JointLimit, JointParts, Link, Robot, RobotDescription, Shape,
+    Geometry, Joint, JointKind, JointLimit, JointParts, Link, Robot, RobotDescription, Shape,
 };
 use congruent_input::{
     Diagnostic, Diagnostics,
@@ -125,18 +125,23 @@ fn unwritable(shape: &Shape, format: RobotFormat) -> Option<String> {
     }
 }
 
+/// The warning that a URDF cannot hold the armature of a joint; `None` if the joint has none.
+pub fn lost_armature(joint: &Joint) -> Option<Diagnostic> {
+    let armature = joint.armature.filter(|armature| *armature != 0.0)?;
+    let unit = if joint.kind.is_angular() { "kg m^2" } else { "kg" };
+    let armature = quantity(armature, unit);
+    let message =
+        format!("joint \"{}\": its armature, {armature}, is not written: a URDF has none", joint.name);
+    let kind = "joints have an armature, which a URDF cannot hold";
+    let found = Diagnostic::warning(codes::write::ARMATURE, message).one_of(kind, &joint.name);
+    Some(found.with_help("keep it in a scenario: [joints] armature = { JOINT = VALUE }"))
+}
+
 /// Terms, ranges and limits as a URDF has them.
 fn joint_of_urdf(parts: &mut JointParts, diagnostics: &mut Diagnostics) {
     let joint = &mut parts.joint;
-    if let Some(armature) = joint.armature.take().filter(|armature| *armature != 0.0) {
-        let unit = if joint.kind.is_angular() { "kg m^2" } else { "kg" };
-        let armature = quantity(armature, unit);
-        let message =
-            format!("joint \"{}\": its armature, {armature}, is not written: a URDF has none", joint.name);
-        let kind = "joints have an armature, which a URDF cannot hold";
-        let found = Diagnostic::warning(codes::write::ARMATURE, message).one_of(kind, &joint.name);
-        diagnostics.push(found.with_help("keep it in a scenario: [joints] armature = { JOINT = VALUE }"));
-    }
+    diagnostics.extend(lost_armature(joint));
+    joint.armature = None;
     if joint.kind == JointKind::Prismatic && joint.limit.is_none() {
         let (lower, upper) = (-FARTHEST_SLIDE_M, FARTHEST_SLIDE_M);
         joint.limit = Some(JointLimit { lower, upper, ..JointLimit::default() });

@@ -20,6 +20,7 @@ mod shape;
 mod urdf;
 mod xml_text;
 
+pub use fit::lost_armature;
 pub use format::RobotFormat;
 pub use read_back::{ReadBack, ReadBackReport, read_back};
 pub use robot_file_text::{

@@ -55,7 +55,9 @@ impl CheckReport {
                 Some(_) => Grade::SameWithinDigits,
                 None => Grade::from_difference(&comparison.worst.error),
             };
-            if grade == Grade::SameWithinDigits && !description.tolerance_is_declared {
+            let PoseError { position_m, orientation_rad } = comparison.worst.error;
+            let is_allowed = description.declared_tolerance.allows(position_m, orientation_rad);
+            if grade == Grade::SameWithinDigits && is_allowed {
                 comparison.verdict = Agreement::Agree;
             }
             self.grade = self.grade.max(Some(grade));

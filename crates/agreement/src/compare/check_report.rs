@@ -159,6 +159,8 @@ pub struct CheckReport {
     pub tolerance: Tolerance,
     /// Whether the robot file or the caller has declared a tolerance; if not, the digits of table and URDF decide.
     pub tolerance_is_declared: bool,
+    /// The parts of the tolerance that are declared; the digits of table and URDF decide the others.
+    pub declared_tolerance: RequestedTolerance,
     /// The tolerance that the caller gave in place of the robot file's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub requested_tolerance: Option<RequestedTolerance>,

@@ -18,7 +18,7 @@ pub(super) struct Graded {
 impl Graded {
     /// Grades the comparisons of a robot; `configurations` are those at which causes are judged.
     ///
-    /// If nobody has declared a tolerance, a table that is the same within its digits agrees.
+    /// A table that is the same within its digits agrees, if it is within what is declared of a tolerance.
     pub(super) fn new(
         description: &RobotDescription,
         comparisons: &mut [Comparison],
@@ -37,7 +37,8 @@ impl Graded {
             return Self { grade: Grade::Different, allowed_by_digits: None };
         };
         let grade = if digits.explain_all { Grade::SameWithinDigits } else { Grade::Different };
-        if digits.explain_all && !description.tolerance_is_declared {
+        let PoseError { position_m, orientation_rad } = table.worst.error;
+        if digits.explain_all && description.declared_tolerance.allows(position_m, orientation_rad) {
             table.verdict = Agreement::Agree;
         }
         Self { grade: grade.max(computed), allowed_by_digits: Some(digits.allowed) }

@@ -103,7 +103,7 @@ impl ModelPair {
 
 impl Criterion {
     /// Whether a residual is within the tolerance, and far below what the digits of the files allow, if there are any.
-    pub(super) fn is_beyond_digits(&self, residual: &PoseError) -> bool {
+    pub(crate) fn is_beyond_digits(&self, residual: &PoseError) -> bool {
         let PoseError { position_m, orientation_rad } = self.digits.allowed;
         let has_digits = !self.digits.values.is_empty();
         let allowed = Tolerance {

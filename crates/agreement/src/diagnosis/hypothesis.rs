@@ -75,10 +75,10 @@ causes! {
         "The zero of a joint is at another position in the table than in the URDF. Add the difference to theta (to d of a prismatic joint), or correct <origin> of the joint in the URDF.";
     /// The declared transform behind the table is off.
     Tool = "tool",
-        "The transform from the last frame of the table to the tip is wrong. Correct dhn_from_tip, or declare the tip that the table ends at.";
+        "The transform behind the last joint is wrong. Of a table correct dhn_from_tip, or declare the tip that the table ends at; of two URDFs or MJCFs correct the frame of the tip in the file that is wrong, or name the link that is the same in both: --tip.";
     /// The declared transform before the table is off.
     Base = "base",
-        "The transform from the base to frame 0 of the table is wrong. Correct base_from_dh0, or declare the base that the table begins at.";
+        "The transform before the first joint is wrong. Of a table correct base_from_dh0, or declare the base that the table begins at; of two URDFs or MJCFs correct the frame of the first joint in the file that is wrong, or, if only the base is placed otherwise, write in the robot file:\n    [mapping]\n    base = \"fitted\"";
     /// One entry of one row is off, or the reference model's file has angles with too few digits.
     Parameter = "parameter",
         "One value differs, for example by a typing error, a missing minus or another edition of the data sheet. Correct it in the file that is wrong; quarter turns need all digits, 1.5707963267948966.";

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use congruent_description::{RobotDescription, parse_robot};
 use congruent_input::SourceFile;
+use congruent_kinematics::PoseError;
 
 use super::{content::CorrectedFile, names::ModelNames};
 use crate::diagnosis::{Criterion, ModelPair};
@@ -34,6 +35,7 @@ pub(super) fn is_same_as_written(
         return Some(true);
     }
     let digits = names.digits(&written, criterion);
-    let is_allowed = !description.tolerance_is_declared;
+    let PoseError { position_m, orientation_rad } = written.residual(criterion);
+    let is_allowed = description.declared_tolerance.allows(position_m, orientation_rad);
     Some(is_allowed && digits.explain(&written, &criterion.configurations))
 }

@@ -42,9 +42,13 @@ pub(super) fn reported_diagnosis(
     }
     let findings = causes.first().map(|first| first.findings.clone()).unwrap_or_default();
     // The file without the named cause, or if the file cannot say its correction without one that cannot be distinguished
-    // from it, rather one that the next check will agree with.
+    // from it, rather one that the next check will agree with; none for a cause that is exact in place of one that digits excuse.
+    let is_exact = |of: &Explanation| criterion.is_beyond_digits(&of.residual);
+    let needs_exact = diagnosis.explanations.first().is_some_and(is_exact);
+    let alternatives = others.iter().zip(&diagnosis.indistinguishable);
+    let alternatives = alternatives.filter(|(_, (other, _))| !needs_exact || is_exact(other));
     let corrected = causes.first().and_then(|first| first.corrected.clone()).or_else(|| {
-        let mut files = others.iter().filter_map(|other| other.corrected.as_ref());
+        let mut files = alternatives.filter_map(|(other, _)| other.corrected.as_ref());
         files.clone().find(|file| agrees(file) == Some(true)).or_else(|| files.next()).cloned()
     });
     // Beside a cause with a residual above the tolerance, or if the digits explain a difference that is not tolerated.

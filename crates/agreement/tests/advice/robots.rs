@@ -7,7 +7,7 @@ use congruent_agreement::{
     diagnosis::Cause,
     report::{Fault, ReportedCause, ReportedDiagnosis},
 };
-use congruent_description::{RobotDescription, Tolerance, parse_robot};
+use congruent_description::{RequestedTolerance, RobotDescription, Tolerance, parse_robot};
 use congruent_input::SourceFile;
 use congruent_kinematics::UrdfTree;
 
@@ -63,7 +63,9 @@ impl Texts {
     /// The report under a tolerance that the robot file declares.
     #[track_caller]
     pub(crate) fn check_declared(&self, tolerance: f64) -> CheckReport {
-        let description = RobotDescription { tolerance_is_declared: true, ..self.described(tolerance) };
+        let described = self.described(tolerance);
+        let declared_tolerance = RequestedTolerance::both(described.tolerance);
+        let description = RobotDescription { declared_tolerance, ..described };
         let mut physics = UrdfTree::new(&description.robot);
         check(&description, Ok(&mut physics), &CheckOptions::default()).unwrap()
     }

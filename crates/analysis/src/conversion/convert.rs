@@ -4,14 +4,14 @@ use std::path::Path;
 
 use congruent_description::{ChainQ, DhConvention, JointIndex, RobotDescription, RobotQ, parse_urdf};
 use congruent_input::{
-    Diagnostic, Findings,
+    Diagnostic, Diagnostics, Findings,
     display::{angle, length},
 };
 use congruent_kinematics::{
     DeriveError, Pose, Proof, ScrewChain, SerialDh, Twist, UrdfTree, derive_dh, sample_configurations,
     without_rounding,
 };
-use congruent_writers::{dh_section, own_dh_section, poe_section, urdf_text};
+use congruent_writers::{dh_section, lost_armature, own_dh_section, poe_section, urdf_text};
 
 use super::{
     converted_model::ConvertedModel,
@@ -183,6 +183,11 @@ fn to_urdf(
     report: &mut ConversionReport,
 ) -> Result<Proof, Diagnostic> {
     let text = urdf_text(&tree::tree(model)?, Path::new(""));
+    let written = model.joints.iter().map(|&joint| model.description.robot.joint(joint));
+    // Several of one kind are one warning.
+    let mut lost = Diagnostics::default();
+    lost.extend(written.filter_map(lost_armature));
+    lost.into_vec().into_iter().for_each(|warning| report.warn(warning));
     report.notes.push(
         "links have names only, without masses and shapes; at zero every joint frame is parallel to the base"
             .to_owned(),

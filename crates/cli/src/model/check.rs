@@ -8,8 +8,10 @@ use congruent::{
     analysis::plot::errors,
     check_suite, checked_robot,
     configurations::read_configurations,
-    description::{RobotDescription, RobotQList, load_robot_with, robots_of_changed},
-    input::{Diagnostic, Finding, Findings, RevisionName, Severity},
+    description::{RobotDescription, RobotQList, Tolerance, load_robot_with, robots_of_changed},
+    input::{
+        Diagnostic, FileAccess, Finding, Findings, RevisionName, Severity, absence, codes::file::NOT_FOUND,
+    },
     page::{CheckEntry, check_page},
     results::report::TestSuite,
     text::{CheckTextParts, TextOptions, check_text_parts, layout::visible_path},
@@ -28,6 +30,7 @@ use crate::{
     input::{AccessArguments, ChainArguments, files_of, seed},
     invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
+    quantity::QuantityArgument,
     terminal::{
         print::{Format, Printer, text_options},
         progress::waiting,
@@ -81,7 +84,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     fix: FixArgument,
     /// Tolerance of positions and orientations in place of the robot file's, each with its unit: 1mm,0.1deg; a part
-    /// that is not given is the file's, or 1 nm or 1 nrad if the file declares none.
+    /// that is not given is the file's, or is judged by the digits written if the file declares none.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArgument>,
     /// Findings of lint in the descriptions fail, too, except what clearance alone needs, such as missing meshes. So does a
@@ -156,6 +159,7 @@ impl Checked {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     one_plot(arguments)?;
+    split_values(arguments)?;
     refuse_same(arguments.ci.outputs().chain(arguments.page.output()).chain(arguments.plot.output()))?;
     if arguments.table && arguments.configurations.is_none() {
         let error =
@@ -203,6 +207,28 @@ fn entry(answer: &Answer<Checked>) -> CheckEntry<'_> {
     let result = answer.report();
     let result = result.map(|of| checked_robot(&of.report, &of.description, of.other.as_ref()));
     CheckEntry { input: answer.input(), result }
+}
+
+/// Refuses the second half of a value that is written with a space, in place of a robot: of a tolerance, or of `git:REV`.
+fn split_values(arguments: &Arguments) -> Result<(), Diagnostic> {
+    let is_git = |path: &&PathBuf| path.as_os_str() == "git" && !path.exists();
+    if let Some(git) = arguments.against.iter().find(is_git) {
+        let revision = arguments.robots.iter().find(|path| !path.exists());
+        let revision = revision.map_or_else(|| "REV".into(), |path| path.display().to_string());
+        return Err(Diagnostic::error(NOT_FOUND, absence(git))
+            .with_help(format!("a colon and no space before the revision: --against git:{revision}")));
+    }
+    let has_unit = |path: &&PathBuf| {
+        let found = path.to_str().and_then(|text| QuantityArgument::parse(text).ok());
+        found.is_some_and(|of| of.dimension.is_some()) && !path.exists()
+    };
+    let misplaced = arguments.tolerance.and(arguments.robots.iter().find(has_unit));
+    misplaced.map_or(Ok(()), |part| {
+        Err(Diagnostic::error(NOT_FOUND, absence(part)).with_help(format!(
+            "a comma joins both parts of a tolerance, without a space: --tolerance 1mm,{}",
+            part.display()
+        )))
+    })
 }
 
 /// A plot is of one robot, at configurations.
@@ -257,15 +283,16 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
         description.inputs.extend(read.input);
         configurations = read.entries;
     }
-    let declared = description.tolerance_is_declared.then_some(description.tolerance);
+    let declared = description.declared_tolerance;
+    let declared = declared.is_declared().then_some(description.tolerance);
     if let Some(tolerance) = arguments.tolerance {
         let (wrong, wide) = tolerance.examine(description.tolerance_scale());
         if !wrong.is_empty() {
             return Err(Findings::from(wrong).into());
         }
         of_options.extend(wide);
-        description.tolerance = tolerance.replace(description.tolerance);
-        description.tolerance_is_declared = true;
+        description.declared_tolerance = tolerance.requested_or(description.declared_tolerance);
+        description.tolerance = description.declared_tolerance.or(Tolerance::default());
     }
     batch.warn(path, &of_options);
     let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };
@@ -335,9 +362,24 @@ fn other_description(
         }
         description.mapping = reference.mapping;
     }
+    refuse_bare_revision(other, &description.path, &access)?;
     // Without a path it is the same robot in another revision.
     let revision = RevisionName::of(other).map(|name| name.beside(&description.path).to_path());
     Ok(load_robot_with(revision.as_deref().unwrap_or(other), &access)?)
+}
+
+/// Refuses the name of a revision that is written without `git:`, as `HEAD~1`, if there is no such file.
+fn refuse_bare_revision(other: &Path, robot: &Path, access: &FileAccess) -> Result<(), Diagnostic> {
+    if other.exists() || RevisionName::of(other).is_some() {
+        return Ok(());
+    }
+    let written = format!("git:{}", other.display());
+    let revision = RevisionName::of(Path::new(&written)).map(|name| name.beside(robot).to_path());
+    if revision.is_none_or(|revision| load_robot_with(&revision, access).is_err()) {
+        return Ok(());
+    }
+    Err(Diagnostic::error(NOT_FOUND, absence(other))
+        .with_help(format!("it is a revision of the repository: --against {written}")))
 }
 
 /// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the

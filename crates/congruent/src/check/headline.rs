@@ -9,7 +9,7 @@ use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckReport, Comparison, Grade, NotCompared},
 };
-use congruent_description::{Tolerance, codes::chain::TABLE_DROPPED};
+use congruent_description::codes::chain::TABLE_DROPPED;
 use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
 use congruent_input::display::{counted, listed};
 use congruent_kinematics::PoseError;
@@ -19,7 +19,7 @@ use super::{
     cause_in_words::{and_more, cause, largest, place, unknown},
     change_answer::answer_of_change,
     declared::DeclaredSource,
-    judged_by::{judged_by, tolerance_in_words},
+    judged_by::{BY_DIGITS, allowed, beyond_rounding, judged_by, tolerance_in_words},
     mapped_joints::mapped_joints,
     own_model::ONE_MODEL,
     robot_check::RobotCheck,
@@ -113,10 +113,16 @@ impl RobotCheck {
         }
         let by_digits = report.comparisons.iter().find(|of| of.name.is_written());
         let pair = by_digits.map_or([""; 2], sources).join(" against ");
-        let found = format!("{pair}: up to {}{}", largest(report.worst.error), allowed(report));
+        let found = beyond_rounding(report.worst.error);
+        let allowed = report.allowed_by_digits.map_or_else(String::new, |allowed| {
+            format!("; the digits could explain {}", beyond_rounding(allowed))
+        });
         let at = counted(report.configurations, "configuration");
-        let details =
-            format!("{extent} within the digits written{rest}. {found} (no tolerance declared, {at})");
+        let by =
+            if report.tolerance_is_declared { judged_by(report) } else { "no tolerance declared".to_owned() };
+        let details = format!(
+            "{extent} within the digits written (up to {found} apart{allowed}){rest}. {pair} at {at}; {by}"
+        );
         Headline::new(same, details)
     }
 
@@ -218,13 +224,22 @@ fn different_poses(check: &RobotCheck) -> Headline {
         format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
     };
     let pairs: Vec<String> = differ.map(of_pair).collect();
-    let found = format!("by up to {}; {}", pairs.join(", "), judged_by(report));
+    let judged = if is_by_digits_of_two(check) { BY_DIGITS.to_owned() } else { judged_by(report) };
+    let found = format!("by up to {}; {judged}", pairs.join(", "));
     if report.grade == Some(Grade::SameWithinDigits) {
         let advice = by_rounding_alone(check);
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));
     }
     let cause = check.diagnosis().map_or_else(unknown, cause);
     Headline::new("DIFFERENT", format!(", {found}. {cause}"))
+}
+
+/// Whether the digits of two descriptions decide: no tolerance is declared, and the other is no revision.
+fn is_by_digits_of_two(check: &RobotCheck) -> bool {
+    let report = &check.geometry;
+    let mut pairs = report.comparisons.iter();
+    let differ = pairs.any(|of| of.name == SourcePair::UrdfOther && of.verdict == Agreement::Disagree);
+    differ && !report.tolerance_is_declared && check.change.is_none()
 }
 
 /// What to do about a tolerance that is finer than the digits of the table.
@@ -336,24 +351,6 @@ impl RobotCheck {
 fn short_names(files: [&str; 2]) -> [&str; 2] {
     let names = files.map(|file| Path::new(file).file_name().and_then(|name| name.to_str()).unwrap_or(file));
     if names[0] == names[1] { files } else { names }
-}
-
-/// What the digits of table and URDF allow, if the two are not identical and not written with all digits.
-fn allowed(report: &CheckReport) -> String {
-    let Some(allowed) = report.allowed_by_digits.filter(|allowed| *allowed != PoseError::default()) else {
-        return String::new();
-    };
-    let PoseError { position_m, orientation_rad } = report.worst.error;
-    // All values together may allow more than what was found, and still not this difference.
-    let rounding = Tolerance::default();
-    let is_less = position_m <= allowed.position_m.max(rounding.position_m)
-        && orientation_rad <= allowed.orientation_rad.max(rounding.orientation_rad);
-    let but = if is_less && report.grade == Some(Grade::Different) {
-        ", but does not explain this difference"
-    } else {
-        ""
-    };
-    format!("; rounding of the written digits could explain {}{but}", largest(allowed))
 }
 
 /// The two sources of a comparison, as its title names them.

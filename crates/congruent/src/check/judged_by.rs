@@ -1,17 +1,22 @@
 //! What decides whether two sources agree, in words: a tolerance that somebody has declared, or the digits that are
 //! written.
 
-use congruent_agreement::compare::{CheckReport, Comparison};
-use congruent_description::Tolerance;
+use congruent_agreement::compare::{CheckReport, Comparison, Grade};
+use congruent_description::{RequestedTolerance, Tolerance};
 use congruent_input::display::{angle, length, length_and_angle};
 use congruent_kinematics::PoseError;
 
+use super::cause_in_words::largest;
+
 /// If nobody has declared a tolerance, and table and URDF are typed.
-const BY_DIGITS: &str = "judged by the digits written (no tolerance declared)";
+pub(super) const BY_DIGITS: &str = "judged by the digits written (no tolerance declared)";
 
 /// What decides whether table and URDF agree: the tolerance if one is declared, otherwise the digits of the two, or
 /// the rounding of computers if nothing was typed.
 pub(super) fn judged_by(report: &CheckReport) -> String {
+    if let Some(part) = part_by_digits(report) {
+        return part;
+    }
     if report.tolerance_is_declared {
         return tolerance_in_words(report);
     }
@@ -33,10 +38,8 @@ pub(super) fn tolerance_in_words(report: &CheckReport) -> String {
         return format!("tolerance {}", length_and_angle(position_m, orientation_rad));
     };
     // A part that was not requested is not silently 1e-9.
-    let other_part = match report.replaced_tolerance {
-        Some(_) => "by the robot file",
-        None => "since none is declared",
-    };
+    let other_part =
+        if report.declared_tolerance.is_partial() { "since none is declared" } else { "by the robot file" };
     match (requested.position_m, requested.orientation_rad) {
         (Some(_), None) => {
             let (length, angle) = (length(position_m), angle(orientation_rad));
@@ -58,15 +61,60 @@ pub(super) fn tolerance_in_words(report: &CheckReport) -> String {
 
 /// Whether the digits of table and URDF decide: nobody has declared a tolerance, and some were typed.
 fn is_by_digits(report: &CheckReport) -> bool {
-    let is_typed = report.allowed_by_digits.is_some_and(|allowed| allowed != PoseError::default());
-    is_typed && !report.tolerance_is_declared
+    is_typed(report) && !report.tolerance_is_declared
+}
+
+fn is_typed(report: &CheckReport) -> bool {
+    report.allowed_by_digits.is_some_and(|allowed| allowed != PoseError::default())
+}
+
+/// The tolerance of which one part is declared, if digits decide the other.
+fn part_by_digits(report: &CheckReport) -> Option<String> {
+    let RequestedTolerance { position_m, orientation_rad } = report.declared_tolerance;
+    let (declared, other) = match (position_m, orientation_rad) {
+        (Some(position_m), None) => (length(position_m), "angles"),
+        (None, Some(orientation_rad)) => (angle(orientation_rad), "lengths"),
+        _ => return None,
+    };
+    let by = if report.requested_tolerance.is_some() { " by --tolerance" } else { "" };
+    is_typed(report).then(|| {
+        format!(
+            "tolerance {declared}{by}, and {other} by the digits written, since none is declared for them"
+        )
+    })
 }
 
 /// What decides, for a page that has the values of the tolerance: the digits, or a tolerance of which one part was requested.
 pub(super) fn judged_by_more(report: &CheckReport) -> Option<String> {
-    let is_in_part = report
-        .requested_tolerance
-        .is_some_and(|requested| requested.position_m.is_none() || requested.orientation_rad.is_none());
+    let is_in_part = report.declared_tolerance.is_partial();
     let words = judged_by(report);
     (is_by_digits(report) || is_in_part).then(|| words.trim_start_matches("tolerance ").to_owned())
+}
+
+/// What the digits of table and URDF allow, if the two are not identical and not written with all digits.
+pub(super) fn allowed(report: &CheckReport) -> String {
+    let Some(allowed) = report.allowed_by_digits.filter(|allowed| *allowed != PoseError::default()) else {
+        return String::new();
+    };
+    let PoseError { position_m, orientation_rad } = report.worst.error;
+    // All values together may allow more than what was found, and still not this difference. Then their sum is no part of the
+    // answer: beside the difference it would look like its explanation.
+    let rounding = Tolerance::default();
+    let is_less = position_m <= allowed.position_m.max(rounding.position_m)
+        && orientation_rad <= allowed.orientation_rad.max(rounding.orientation_rad);
+    if is_less && report.grade == Some(Grade::Different) {
+        return "; no rounding of the written digits explains it".to_owned();
+    }
+    format!("; rounding of the written digits could explain {}", largest(allowed))
+}
+
+/// A difference without the part that is only the rounding of an `f64`, if the other is more.
+pub(super) fn beyond_rounding(error: PoseError) -> String {
+    let PoseError { position_m, orientation_rad } = error;
+    let same = Tolerance::default();
+    match (position_m <= same.position_m, orientation_rad <= same.orientation_rad) {
+        (false, true) => length(position_m),
+        (true, false) => angle(orientation_rad),
+        _ => largest(error),
+    }
 }

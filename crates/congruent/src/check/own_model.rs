@@ -200,7 +200,7 @@ fn with_table_of(
         dynamics: None,
         tip_from_tcp: written.tip_from_tcp,
         tolerance: placed.tolerance,
-        tolerance_is_declared: placed.tolerance_is_declared,
+        declared_tolerance: placed.declared_tolerance,
         warnings: Vec::new(),
         places: Places { robot_file: written.places.robot_file.clone(), ..other.places.clone() },
         ..other.clone()

@@ -24,8 +24,8 @@ pub(super) fn add_table_of_other(
         return Ok(());
     }
     let mut other = other.clone();
-    if description.tolerance_is_declared {
-        (other.tolerance, other.tolerance_is_declared) = (description.tolerance, true);
+    if description.declared_tolerance.is_declared() {
+        (other.tolerance, other.declared_tolerance) = (description.tolerance, description.declared_tolerance);
     }
     let found = table_against_links(&other, options)?;
     let (of_table, pair) = (SourcePair::ModelUrdf, SourcePair::OtherModelUrdf);

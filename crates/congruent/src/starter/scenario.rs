@@ -212,7 +212,7 @@ fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
 /// The limits of the check of agreement for a table that is the same as the URDF by its digits alone, and the remark on them: a
 /// run is judged by a tolerance, and the robot file declares none.
 fn within_digits(description: &RobotDescription) -> Option<(AgreementCheck, String)> {
-    if description.tolerance_is_declared {
+    if description.declared_tolerance.is_declared() {
         return None;
     }
     let report = check(description, &CheckOptions::default()).ok()?.geometry;

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     RunComparison,
     input::{
-        display::{counted, quantity, quantity_in_full},
+        display::{counted, quantity},
         visible,
     },
     results::comparison::{ComparedFile, FileComparison, SeriesDifference, ValueDifference},
@@ -76,16 +76,29 @@ fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
     }
     for (side, only) in [("A", only_in_a), ("B", only_in_b)] {
         if !only.is_empty() {
-            let names: Vec<&str> = only.iter().take(MOST_SHOWN).map(String::as_str).collect();
-            let more = only.len() - names.len();
-            let more = if more > 0 { format!(", and {more} more") } else { String::new() };
-            let _ = write!(
-                text,
-                "  only in {side}:\n{}",
-                wrapped(&format!("{}{more}", visible(&names.join(", "))))
-            );
+            let names = if only.len() > MOST_SHOWN { groups(only) } else { only.clone() };
+            let of = counted(only.len(), &what[..what.len() - 1]);
+            let _ = write!(text, "  only in {side}: {of}\n{}", wrapped(&visible(&names.join(", "))));
         }
     }
+}
+
+/// Names by the two parts that they begin with, each with how many there are: `checks.10 (16)`.
+fn groups(names: &[String]) -> Vec<String> {
+    let group = |name: &str| -> String {
+        let name = name.trim_start_matches('/');
+        let parts: Vec<&str> = name.split(['.', '/']).take(2).collect();
+        parts.join(if name.contains('/') { "/" } else { "." })
+    };
+    let mut counts: Vec<(String, usize)> = Vec::new();
+    for name in names {
+        let group = group(name);
+        match counts.iter_mut().find(|(known, _)| *known == group) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((group, 1)),
+        }
+    }
+    counts.into_iter().map(|(group, count)| format!("{group} ({count})")).collect()
 }
 
 /// The first difference in time of all files; values of a report have only the times of its worst values.
@@ -149,14 +162,28 @@ fn moment(time_s: f64) -> String {
     format!("{:?} s", (time_s * PARTS).round() / PARTS)
 }
 
-/// Two values in engineering units, with all their digits if fewer do not show the difference.
+/// Two values in engineering units, or with as many digits as show the difference.
 fn pair(values: [&Value; 2], unit: &str) -> [String; 2] {
     let [Some(a), Some(b)] = values.map(Value::as_f64) else { return values.map(shown) };
     if unit.is_empty() {
         return values.map(shown);
     }
     let short = [a, b].map(|value| quantity(value, unit));
-    if short[0] == short[1] { [a, b].map(|value| quantity_in_full(value, unit)) } else { short }
+    if short[0] == short[1] { distinct([a, b]).map(|value| format!("{value} {unit}")) } else { short }
+}
+
+/// Two values with as few digits as show that they differ.
+fn distinct(values: [f64; 2]) -> [String; 2] {
+    /// Significant digits that show any difference of two values of an `f64`.
+    const ALL: usize = 17;
+    let rounded = |digits: usize| {
+        values.map(|value| {
+            let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+            format!("{rounded:?}")
+        })
+    };
+    let mut shown = (4..=ALL).map(rounded);
+    shown.find(|[a, b]| a != b).unwrap_or_else(|| rounded(ALL))
 }
 
 /// A value with all its digits.
@@ -171,6 +198,21 @@ fn shown(value: &Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn many_names_are_counted_by_their_beginnings() {
+        let names =
+            ["checks.1.status", "checks.1.samples", "checks.2.status", "exit_code"].map(str::to_owned);
+        assert_eq!(groups(&names), ["checks.1 (2)", "checks.2 (1)", "exit_code (1)"]);
+        assert_eq!(groups(&["/joint/effort/elbow".to_owned()]), ["joint/effort (1)"]);
+    }
+
+    #[test]
+    fn values_have_the_digits_that_show_their_difference() {
+        let near = [-1.547_394_486e-6, -1.547_522_216e-6];
+        assert_eq!(distinct(near), ["-1.547e-6", "-1.548e-6"]);
+        assert_eq!(distinct([0.25, 0.250_000_1]), ["0.25", "0.2500001"]);
+    }
 
     #[test]
     fn times_are_printed_without_the_rounding_of_a_sum() {

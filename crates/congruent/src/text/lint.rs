@@ -46,5 +46,12 @@ pub fn lint_text(report: &LintReport, difference: &str, options: &TextOptions) -
         let _ = write!(text, "; --fix corrects {}", counted(report.fixes.len(), "place"));
     }
     text.push('\n');
+    if report.is_incomplete {
+        let first = if report.errors == 1 { "the error" } else { "the errors" };
+        let _ = writeln!(
+            text,
+            "not examined: units, and values that are compared with each other; correct {first} and run lint again"
+        );
+    }
     text
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use congruent_input::{Diagnostic, Diagnostics, WrittenTransform, known_names, units::Unit};
-use congruent_robot::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance};
+use congruent_robot::{DhConvention, DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance};
 use nalgebra::Isometry3;
 use toml::Spanned;
 
@@ -31,6 +31,8 @@ pub(crate) struct Declared {
     pub(crate) accelerations: Vec<Option<f64>>,
     pub(crate) tip_from_tcp: Option<Isometry3<f64>>,
     pub(crate) tolerance: Tolerance,
+    /// The parts of the tolerance that the file has.
+    pub(crate) tolerance_parts: RequestedTolerance,
     pub(crate) mapping: Option<DeclaredMapping>,
     pub(crate) references: Vec<DeclaredReference>,
 }
@@ -42,7 +44,8 @@ pub(crate) fn check(
     robot: &Robot,
     diagnostics: &mut Diagnostics,
 ) -> Option<Declared> {
-    let tolerance = tolerance(written.tolerance.as_ref(), diagnostics);
+    let tolerance_parts = tolerance(written.tolerance.as_ref(), diagnostics);
+    let tolerance = tolerance_parts.or(Tolerance::default());
     let accelerations = limits::accelerations(written.limits.as_ref(), robot, diagnostics);
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
     let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
@@ -81,6 +84,7 @@ pub(crate) fn check(
         accelerations,
         tip_from_tcp,
         tolerance,
+        tolerance_parts,
         mapping: declared,
         references,
     })
@@ -175,9 +179,8 @@ fn table(
     })
 }
 
-fn tolerance(written: Option<&WrittenTolerance>, diagnostics: &mut Diagnostics) -> Tolerance {
-    let default = Tolerance::default();
-    let Some(written) = written else { return default };
+fn tolerance(written: Option<&WrittenTolerance>, diagnostics: &mut Diagnostics) -> RequestedTolerance {
+    let Some(written) = written else { return RequestedTolerance::default() };
     let mut positive =
         |quantity, unit: Unit, si: &Option<Spanned<f64>>, engineering: &Option<Spanned<f64>>| {
             let value =
@@ -195,10 +198,7 @@ fn tolerance(written: Option<&WrittenTolerance>, diagnostics: &mut Diagnostics) 
     let position_m = positive("position", Unit::Length, &written.position_m, &written.position_mm);
     let orientation_rad =
         positive("orientation", Unit::Angle, &written.orientation_rad, &written.orientation_deg);
-    Tolerance {
-        position_m: position_m.unwrap_or(default.position_m),
-        orientation_rad: orientation_rad.unwrap_or(default.orientation_rad),
-    }
+    RequestedTolerance { position_m, orientation_rad }
 }
 
 #[cfg(test)]

@@ -242,7 +242,8 @@ impl WrittenRow {
     }
 }
 
-/// How far two poses may be apart and still agree.
+/// How far two poses may be apart and still agree. If only a length or only an angle is given, `check` judges the other by the digits
+/// that are written.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "FileTolerance")]

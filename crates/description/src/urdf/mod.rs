@@ -113,9 +113,7 @@ fn read(root: Node<'_, '_>, inputs: &mut UrdfInputs<'_, '_>, diagnostics: &mut D
         Diagnostic::error(codes::urdf::STRUCTURE, format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
     let mut robot = build(&urdf, root, inputs.find_mesh, diagnostics)?;
-    if diagnostics.has_error() {
-        return None;
-    }
+    // Masses are judged even if a joint is wrong: whoever corrects the joint would get their errors only then.
     inertial::judge(&mut robot, root, inputs.repairs, diagnostics);
     (!diagnostics.has_error()).then_some(robot)
 }

@@ -63,8 +63,8 @@ impl DynamicsReport {
         self.limits.iter().filter(|limit| limit.decides).map(sentence).collect()
     }
 
-    /// The limits of speed and effort that only one of the two states, which is no disagreement: a sentence for each kind, with
-    /// its joints.
+    /// The limits of speed and effort that only one of the two states, so that they are not compared: a sentence for each kind,
+    /// with its joints.
     pub fn one_sided_limit_sentences(&self) -> Vec<String> {
         let kind = |limit: &LimitDifference| (limit.parameter.clone(), limit.found.is_some());
         let one_sided: Vec<&LimitDifference> = self.limits.iter().filter(|limit| !limit.decides).collect();
@@ -80,7 +80,7 @@ impl DynamicsReport {
             let (parameter, is_own) = of;
             let file = if is_own { &self.sides.candidate } else { &self.sides.reference };
             format!(
-                "{parameter} limits of {} are stated by {file} alone, which is no disagreement: {}",
+                "not compared: {parameter} limits of {}, stated by {file} alone: {}",
                 counted(joints.len(), "joint"),
                 joints.join(", ")
             )

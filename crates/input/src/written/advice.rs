@@ -18,14 +18,23 @@ pub(super) fn in_known_unit<'k>(
     root: &DeTable<'_>,
     at: &Range<usize>,
 ) -> Option<String> {
-    let is_in_centimetres = unknown.split('_').any(|part| part == "cm");
+    let unread = unknown.split('_').find_map(name_of_unread_unit);
     let mut matching = known.into_iter().filter_map(|key| Some((key, conversion(unknown, key)?)));
     let (first, next) = (matching.next()?, matching.next());
-    // Of two keys for a value in centimetres that in millimetres: the number stays as short.
-    let (key, convert) = next.filter(|(key, _)| is_in_centimetres && key.contains("mm")).unwrap_or(first);
+    // Of two keys for a value in centimetres or inches that in millimetres: the number stays as short.
+    let (key, convert) = next.filter(|(key, _)| unread.is_some() && key.contains("mm")).unwrap_or(first);
     let value = converted(value_of_key(root, at)?, convert)?;
-    let why = if is_in_centimetres { "centimetres are not read: " } else { "" };
+    let why = unread.map_or_else(String::new, |unit| format!("{unit} are not read: "));
     Some(format!("{why}write {key} = {value}"))
+}
+
+/// The name of a unit that no key has, by the part of a key.
+fn name_of_unread_unit(part: &str) -> Option<&'static str> {
+    match part {
+        "cm" => Some("centimetres"),
+        "in" | "inch" | "inches" => Some("inches"),
+        _ => None,
+    }
 }
 
 /// How a value under one key is converted to the other, if the two differ in one unit alone.
@@ -42,6 +51,8 @@ fn conversion(from: &str, to: &str) -> Option<fn(f64) -> f64> {
         (&"m", &"mm") => Some(|value| value * 1000.0),
         (&"cm", &"mm") => Some(|value| value * 10.0),
         (&"cm", &"m") => Some(|value| value / 100.0),
+        (&("in" | "inch" | "inches"), &"mm") => Some(|value| value * 254.0 / 10.0),
+        (&("in" | "inch" | "inches"), &"m") => Some(|value| value * 254.0 / 10_000.0),
         (&"deg", &"rad") => Some(f64::to_radians),
         (&"rad", &"deg") => Some(f64::to_degrees),
         _ => None,
@@ -202,6 +213,8 @@ mod tests {
         check("box_mm = \"wide\"", "box_m", None);
         check("box_cm = 10", "box_m", Some("centimetres are not read: write box_m = 0.1"));
         check("d_cm = 26.7", "d_mm", Some("centimetres are not read: write d_mm = 267.0"));
+        check("d_inch = 11.5", "d_mm", Some("inches are not read: write d_mm = 292.1"));
+        check("a_in = 2", "a_m", Some("inches are not read: write a_m = 0.0508"));
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Compares masses, inertia tensors and centres of mass with each other and with the shapes of their links.
 
+use std::iter;
+
 use congruent_description::{Inertia, LARGEST_GYRATION_M, Link, LinkIndex};
 use congruent_input::{
     display::{length, quantity},
@@ -11,7 +13,7 @@ use super::{
     features::{LinkInertiaFeatures, median},
     thresholds::{
         FARTHEST_COM, FARTHEST_COM_IN_ORIGINS, GYRATION_OUTSIDE, GYRATION_TO_DIAGONAL, LEAST_COM_M,
-        LEAST_FOAM_DENSITY, LEAST_MASS_KG, MEDIAN_BOX_DENSITY, MOST_BOX_DENSITY,
+        LEAST_FOAM_DENSITY, LEAST_MASS_KG, MEDIAN_BOX_DENSITY, MOST_BOX_DENSITY, MOST_MASS_TO_OTHERS,
         PLACEHOLDER_GYRATION_TO_DIAGONAL, PLACEHOLDER_SPHERE_DENSITY, SPHERE_DENSITY,
     },
 };
@@ -82,8 +84,20 @@ impl UnitCheck<'_> {
             })
             .collect();
         let whole = UnusualMedians::over(&bodies);
-        let too_light: Vec<LinkIndex> = robot.link_indices().filter(|&link| self.too_light(link)).collect();
-        for body in bodies.iter().filter(|body| !too_light.contains(&body.link)) {
+        // A density that no material has says more than the masses of other links.
+        let is_dense = |link: LinkIndex| {
+            let density =
+                bodies.iter().find(|body| body.link == link).and_then(LinkInertiaFeatures::box_density);
+            density.is_some_and(|density| density > MOST_BOX_DENSITY)
+        };
+        let mut reported: Vec<LinkIndex> =
+            robot.link_indices().filter(|&link| self.too_light(link)).collect();
+        // Beside links that are too light, those that are right are the heavy ones.
+        if reported.is_empty() {
+            let is_reported = |link: &LinkIndex| !is_dense(*link) && self.too_heavy(*link);
+            reported = robot.link_indices().filter(is_reported).collect();
+        }
+        for body in bodies.iter().filter(|body| !reported.contains(&body.link)) {
             self.body(body, &whole);
         }
         for link in robot.link_indices() {
@@ -159,6 +173,32 @@ impl UnitCheck<'_> {
         );
         let help = "the mass is read in kg: is the value in tonnes, 1000 times too small?".to_owned();
         self.warn_link(&MASS, name, &what, help);
+        true
+    }
+
+    /// Reports a link that is far heavier than all other links together; whether it did. The first body with a mass is a base,
+    /// which may be a vehicle or a foundation.
+    fn too_heavy(&mut self, link: LinkIndex) -> bool {
+        let robot = self.robot;
+        let mass_kg = |link: LinkIndex| robot.link(link).inertia.as_ref().map_or(0.0, |of| of.mass_kg);
+        let all_kg: f64 = robot.link_indices().map(mass_kg).sum();
+        let (own_kg, others_kg) = (mass_kg(link), all_kg - mass_kg(link));
+        let above = iter::successors(robot.parent_joint(link), |&joint| {
+            robot.parent_joint(robot.joint(joint).parent)
+        });
+        let has_body_above = above.map(|joint| mass_kg(robot.joint(joint).parent)).any(|of| of > 0.0);
+        if !has_body_above || own_kg <= MOST_MASS_TO_OTHERS * others_kg {
+            return false;
+        }
+        let what = format!(
+            "its mass is {}, but all other links together have {}; a link that another one carries is reported above {} times \
+             that",
+            quantity(own_kg, "kg"),
+            quantity(others_kg, "kg"),
+            MOST_MASS_TO_OTHERS
+        );
+        let help = "the mass is read in kg: is the value in grams?".to_owned();
+        self.warn_link(&MASS, &robot.link(link).name, &what, help);
         true
     }
 

@@ -214,3 +214,22 @@ fn a_track_may_be_long_but_not_in_millimetres() {
 }
 
 const CENTER: &str = congruent_description::codes::urdf::CENTER_OF_MASS.name;
+
+/// A wrist without shapes, whose mass is in grams, and the same mass at the base, which may be a foundation.
+#[test]
+fn a_carried_link_that_outweighs_the_robot_is_reported() {
+    let wrist = ARM.replace("<visual><geometry><box size='0.04 0.03 0.03'/></geometry></visual>", "");
+    let with =
+        |mass: &str| findings(&wrist.replacen("mass value='0.06'", &format!("mass value='{mass}'"), 1));
+    assert_eq!(with("0.06"), []);
+    let found = with("60");
+    assert!(
+        found.len() == 1
+            && found[0].0 == "units::mass"
+            && found[0].1.contains("all other links together have 3.2 kg"),
+        "{found:?}"
+    );
+    let heavy_base = "<link name='base'><inertial><mass value='600'/>\
+                      <inertia ixx='60' ixy='0' ixz='0' iyy='61' iyz='0' izz='62'/></inertial></link>";
+    assert_eq!(findings(&ARM.replacen("<link name='base'/>", heavy_base, 1)), []);
+}

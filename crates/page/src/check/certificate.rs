@@ -6,7 +6,7 @@ use congruent_agreement::{
     compare::{CheckReport, Model, ReportedBracket, ReportedCertificate},
 };
 use congruent_description::{JointValues, RobotDescription, RobotQ};
-use congruent_input::display::length;
+use congruent_input::display::{length, length_and_angle};
 use congruent_kinematics::{Pose, UrdfTree, move_inside_limits};
 use maud::{Markup, html};
 use nalgebra::Isometry3;
@@ -82,7 +82,7 @@ fn cells(of: &ReportedBracket, column: &UnitColumn, at: &Pointer) -> Markup {
 struct DrawnAt {
     q: RobotQ,
     pair: SourcePair,
-    what: &'static str,
+    what: String,
 }
 
 /// The configuration that attains the bound of the position, or the worst that was found.
@@ -98,7 +98,7 @@ fn drawn_at(robot: &CheckedRobot<'_>) -> Option<DrawnAt> {
         return Some(DrawnAt {
             q,
             pair,
-            what: "Where the difference of the tips comes nearest to its bound",
+            what: "Where the difference of the tips comes nearest to its bound".to_owned(),
         });
     }
     let mut q = RobotQ::zeros(structure.dof());
@@ -108,7 +108,12 @@ fn drawn_at(robot: &CheckedRobot<'_>) -> Option<DrawnAt> {
     // Zero may be outside the limits of a joint that the worst does not name.
     move_inside_limits(&mut q, structure);
     let pair = comparisons.iter().find(|of| of.worst == *worst).map_or(SourcePair::ModelUrdf, |of| of.name);
-    Some(DrawnAt { q, pair, what: "Where the largest difference was found" })
+    let what = format!(
+        "Where the largest difference was found, {} at {}",
+        length_and_angle(worst.error.position_m, worst.error.orientation_rad),
+        worst.link
+    );
+    Some(DrawnAt { q, pair, what })
 }
 
 /// The arm where the difference is largest; nothing if it has no such configuration.
@@ -145,8 +150,9 @@ pub(super) fn picture(robot: &CheckedRobot<'_>) -> Markup {
     let bodies = bodies.map(|(_, points)| PictureBody::shape(points)).collect();
     let two = TwoArms { figure: Figure { bodies, arms, path: Vec::new() }, tips_apart_m };
     let at = JointValues::for_movable_joints(&description.robot, q).for_people(&description.robot);
+    let tip = &description.robot.link(description.tip).name;
     let caption = html! {
-        (what) " (" (title) ")" @if !at.is_empty() { ": " (at) } ". The tips are " (length(tips_apart_m)) " apart."
+        (what) " (" (title) ")" @if !at.is_empty() { ": " (at) } ". The tips" @if *tip != robot.geometry.worst.link { " (" (tip) ")" } " are " (length(tips_apart_m)) " apart here."
     };
     two.markup(&caption)
 }

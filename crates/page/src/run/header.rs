@@ -2,9 +2,9 @@
 
 use std::{fmt::Write, path::Path};
 
-use congruent_input::display::{counted, quantity};
+use congruent_input::display::{counted, listed, quantity};
 use congruent_monitors::verdict::{Status, Verdict};
-use congruent_results::report::{RunReport, quantity_words, verdict_word};
+use congruent_results::report::{RunReport, lines, quantity_words, verdict_word};
 use maud::{Markup, html};
 
 use super::tightest::{Tightest, tightest};
@@ -42,7 +42,7 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
         header {
             p.kind { "Run of a scenario" }
             h1 { (report.scenario) }
-            p.verdict { (badge(outcome, word)) " " span.sentence { (capitalised(&report.sentence())) "." } }
+            p.verdict { (badge(outcome, word)) " " span.sentence { (sentence(report)) "." } }
             @if let Some(error) = &report.error { p.error { (error) } }
             @if let Some(proved) = proved(report) { p { (proved) } }
             dl.facts {
@@ -68,6 +68,25 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
                     a href=(name) title=(what) { (name) }
                 }
             }
+        }
+    }
+}
+
+/// The verdict in a sentence: of checks that failed which they are, and what the first one has found.
+pub(crate) fn sentence(report: &RunReport) -> String {
+    let failed = report.checks_failed_first().into_iter().filter(|check| check.status == Status::Fail);
+    let failed: Vec<_> = failed.collect();
+    let found = failed.first().and_then(|first| Some((first.check, lines(first).into_iter().next()?)));
+    let Some((first, found)) = found else { return capitalised(&report.sentence()) };
+    match &failed[..] {
+        _ if report.verdict != Verdict::NotAsExpected => {
+            format!("{}: {found}", capitalised(&report.sentence()))
+        }
+        [_] => format!("Check {first} fails: {found}"),
+        several => {
+            let names: Vec<String> = several.iter().map(|check| check.check.to_string()).collect();
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            format!("Checks {} fail; {first}: {found}", listed(&names))
         }
     }
 }

@@ -5,6 +5,7 @@ mod content;
 mod evidence;
 mod exit_code;
 mod frames;
+mod label;
 mod lengths;
 mod recheck;
 mod rechecked;
@@ -30,6 +31,7 @@ use self::{
 };
 use crate::rrd::times::seconds;
 
+pub use label::label;
 pub use recheck::{RecheckError, recheck};
 pub use rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity};
 pub use summary::{

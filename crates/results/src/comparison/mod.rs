@@ -12,5 +12,5 @@ mod tables;
 pub use difference::{SeriesDifference, ValueDifference};
 pub use file_comparison::{ComparedFile, FileComparison};
 pub use reports::compare_reports;
-pub use scalars::{Scalars, compare_scalars};
+pub use scalars::{ScalarLabel, Scalars, compare_scalars};
 pub use tables::compare_tables;

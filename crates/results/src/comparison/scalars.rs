@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{
     file_comparison::{ComparedFile, FileComparison},
+    report_label::ReportLabel,
     series::{SAME_TIME_S, SeriesComparison},
 };
 use crate::trajectory_file::Value;
@@ -11,11 +12,22 @@ use crate::trajectory_file::Value;
 /// Numbers over time by the name of their series; times rise.
 pub type Scalars = BTreeMap<String, Vec<(f64, f64)>>;
 
-/// Compares the series of two recordings at the times that both have; `joint` gives the joint of a series.
+/// What a series is.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ScalarLabel {
+    /// The joint that it is of.
+    pub joint: Option<String>,
+    /// Its name in words: `orientation error of tool0`.
+    pub words: Option<String>,
+    /// The unit of its values, if that is known beyond the end of its name.
+    pub unit: Option<&'static str>,
+}
+
+/// Compares the series of two recordings at the times that both have; `label` says what a series is.
 pub fn compare_scalars(
     a: &Scalars,
     b: &Scalars,
-    joint: impl Fn(&str) -> Option<String>,
+    label: impl Fn(&str) -> ScalarLabel,
     tolerance: f64,
 ) -> FileComparison {
     let missing = |from: &Scalars, to: &Scalars| -> Vec<String> {
@@ -25,7 +37,9 @@ pub fn compare_scalars(
     let common: Vec<_> = a.iter().filter_map(|(name, of_a)| Some((name, of_a, b.get(name)?))).collect();
     let compared = common.len();
     let compare = |(name, a, b): (&String, &Vec<_>, &Vec<_>)| {
-        let mut series = SeriesComparison::new(name, joint(name), tolerance);
+        let ScalarLabel { joint, words, unit } = label(name);
+        let label = words.map(|words| ReportLabel { words, unit });
+        let mut series = SeriesComparison::new(name, joint, tolerance).labelled(label);
         merge(&mut series, a, b);
         series.finish()
     };
@@ -61,11 +75,11 @@ mod tests {
     fn series_are_compared_at_the_times_that_both_have() {
         let a = Scalars::from([("x".to_owned(), vec![(0.0, 1.0), (0.1, 2.0), (0.2, 3.0)])]);
         let b = Scalars::from([("x".to_owned(), vec![(0.0, 1.0), (0.2, 4.0), (0.3, 5.0), (0.4, 5.0)])]);
-        let found = compare_scalars(&a, &b, |_| None, 0.0);
+        let found = compare_scalars(&a, &b, |_| ScalarLabel::default(), 0.0);
         let series = &found.series[0];
         let counts = (series.compared, series.differing, series.only_in_a, series.only_in_b);
         assert_eq!(counts, (2, 1, 1, 2));
         assert_eq!(found.first.unwrap().time_s, Some(0.2));
-        assert!(compare_scalars(&a, &a, |_| None, 0.0).same);
+        assert!(compare_scalars(&a, &a, |_| ScalarLabel::default(), 0.0).same);
     }
 }

@@ -114,7 +114,8 @@ fn is_within_digits(rounding: &PoseHypothesis, models: &ModelPair, criterion: &C
 }
 
 /// Adds the joints of the reference model whose origin alone explains what takes several corrections of the candidate: as
-/// the other reading, or first if no correction of the candidate is known.
+/// the other reading, or first if no correction of the candidate is known, or if these give only what digits excuse and the origin
+/// is exact.
 fn with_origins(
     models: &ModelPair,
     criterion: &Criterion,
@@ -125,7 +126,13 @@ fn with_origins(
     if is_explained && found[0].faults.len() < 2 {
         return;
     }
-    let mut origins = origin_readings(models, criterion).into_iter();
+    let mut origins = origin_readings(models, criterion);
+    let is_exact = |of: &Explanation| criterion.is_beyond_digits(&of.residual);
+    if is_explained && !is_exact(&found[0]) && origins.first().is_some_and(is_exact) {
+        // In its place, so that the corrections of the candidate become the other reading.
+        std::mem::swap(&mut found[0], &mut origins[0]);
+    }
+    let mut origins = origins.into_iter();
     if !is_explained && let Some(origin) = origins.next() {
         // Nothing was found, which is no explanation of its own.
         found.retain(|explanation| !explanation.faults.is_empty());

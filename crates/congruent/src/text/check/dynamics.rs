@@ -102,11 +102,9 @@ fn compared(text: &mut String, report: &DynamicsReport, files: Option<[&str; 2]>
     }
     let mut lines = Vec::new();
     lines.extend(report.not_stated_sentence());
-    lines.extend(report.armature_sentence());
     if !report.has_other_limits() {
         lines.extend(limits(report, files));
     }
-    lines.extend(report.one_sided_limit_sentences());
     if !report.has_same_torques() {
         let others: Vec<&DynamicsExplanation> = report
             .indistinguishable
@@ -132,6 +130,10 @@ fn compared(text: &mut String, report: &DynamicsReport, files: Option<[&str; 2]>
         for line in limits(report, files) {
             let _ = writeln!(text, "    {line}");
         }
+    }
+    // Below what disagrees, and no part of it.
+    for line in report.armature_sentence().into_iter().chain(report.one_sided_limit_sentences()) {
+        let _ = writeln!(text, "  {line}");
     }
 }
 
