@@ -2,16 +2,15 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, NotCompared},
+    compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, Comparison, NotCompared},
 };
-use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription, RobotQ, Tolerance};
+use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, Tolerance};
 use congruent_dynamics_agreement::{
     CompareError, DynamicsModel, DynamicsReport, NamedModel, without_one_sided_armature,
 };
 use congruent_input::{
     Capability, Diagnostic, Finding, RevisionName,
     display::{length_and_angle, position},
-    nearest,
 };
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
 use congruent_mapping::{is_same_value, with_values_within_digits};
@@ -20,11 +19,16 @@ use serde::Serialize;
 
 use super::{
     cause_in_words::and_more,
+    joints_of_both::{common_tip, missing_tip, other_joint},
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::{POSITIONS, PosesOfOther},
     reported_mapping::ReportedMapping,
 };
 use crate::codes;
+
+/// Poses that differ by a smaller share of the reach, or by a smaller angle, are those of one chain: its masses and limits are worth
+/// comparing. Kind: choice; six digits in a file give a hundredth of it.
+const NEARLY: f64 = 1e-4;
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -111,12 +115,6 @@ pub(super) fn compared(
     let mut poses = poses.with_free_frames(description, &other.robot)?;
     // Joints as if all were driven; how mimic joints follow is compared after it, with them following.
     geometry.add_other(description, other, &mut poses, options)?;
-    if let Some(followed) = geometry.add_mimics(description, other, &mut poses, options)? {
-        against.dynamics_not_compared = Some(format!(
-            "the driven joints differ, so the joint torques cannot be compared: {followed} in the other file"
-        ));
-        return Ok((against, None));
-    }
     let tolerance = tolerated(description, geometry);
     // Torques in the same joints need the same axes. Frames that only lie elsewhere in links that move alike are no
     // obstacle.
@@ -126,20 +124,42 @@ pub(super) fn compared(
     } else {
         Vec::new()
     };
+    against.values_within_digits = adopt_rounded_values(geometry, description, other);
+    geometry.add_mimics(description, other, &mut poses, options)?;
     if misplaced.is_some() && in_other_frames.is_empty() {
         against.dynamics_not_compared = misplaced;
         return Ok((against, None));
     }
-    against.values_within_digits = adopt_rounded_values(geometry, description, other);
-    let other = &*other;
+    let frames = PlacedFrames { tolerance, misplaced, in_other_frames };
+    let dynamics = dynamics_of(geometry, &mut against, [description, other], frames, options.seed);
+    Ok((against, dynamics))
+}
+
+/// Where the links of two descriptions lie that are the same chain.
+struct PlacedFrames {
+    tolerance: Tolerance,
+    /// The first joint whose link lies elsewhere, in words.
+    misplaced: Option<String>,
+    /// Links that move alike, with frames elsewhere in them.
+    in_other_frames: Vec<String>,
+}
+
+/// The comparison of the dynamics of two descriptions of one chain; without one, `against` or `geometry` says why.
+fn dynamics_of(
+    geometry: &mut CheckReport,
+    against: &mut OtherDescription,
+    [description, other]: [&RobotDescription; 2],
+    PlacedFrames { tolerance, misplaced, in_other_frames }: PlacedFrames,
+    seed: u64,
+) -> Option<DynamicsReport> {
     if let Some(of) = no_masses([description, other]).or_else(|| one_urdf([description, other])) {
         geometry.not_asked.push(of);
         against.ranges_differ = ranges_differ(&description.robot, other);
-        return Ok((against, None));
+        return None;
     }
     against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_value);
     if against.dynamics_not_compared.is_some() {
-        return Ok((against, None));
+        return None;
     }
     let ([found, mut expected], armature_of) = compared_models([description, other], &tolerance);
     if !in_other_frames.is_empty() {
@@ -150,12 +170,12 @@ pub(super) fn compared(
         let is_fault_of_frames = misplaced.is_some() && is_written_alike;
         let Some(in_frames) = expected.in_frames_of(&found).filter(|_| !is_fault_of_frames) else {
             against.dynamics_not_compared = misplaced;
-            return Ok((against, None));
+            return None;
         };
         expected = in_frames;
     }
     against.links_in_other_frames = in_other_frames;
-    let report = match compared_dynamics([description, other], [found, expected], options.seed) {
+    match compared_dynamics([description, other], [found, expected], seed) {
         Ok(report) => Some(DynamicsReport { armature_stated_by: armature_of, ..report }),
         // No difference of the two: the poses agree.
         Err(error @ CompareError::NoJoint) => {
@@ -167,8 +187,7 @@ pub(super) fn compared(
             against.dynamics_not_compared = Some(error.to_string());
             None
         }
-    };
-    Ok((against, report))
+    }
 }
 
 /// Gives the other description the values of this one where they differ within the digits of both, and names them; those of a
@@ -181,10 +200,14 @@ fn adopt_rounded_values(
     if RevisionName::of(&there.path).is_some() {
         return Vec::new();
     }
-    // What digits turn and shift a frame by, they turn and shift the inertia in it by.
-    let by_digits = geometry.comparisons.iter().filter(|of| of.name == SourcePair::UrdfOther);
-    let links = by_digits.filter(|_| geometry.is_judged_by_digits()).flat_map(|of| &of.links);
-    let of_frames = links.map(|link| link.error).fold(PoseError::default(), PoseError::larger);
+    // What digits, or a small difference of poses, turn and shift a frame by, they turn and shift the inertia in it by.
+    let is_other = |of: &&Comparison| of.name == SourcePair::UrdfOther;
+    let compared = geometry.comparisons.iter().filter(is_other);
+    let moved = compared.filter(|of| geometry.is_judged_by_digits() || of.verdict == Agreement::Disagree);
+    let nearly = nearly_same(own);
+    let links =
+        moved.flat_map(|of| &of.links).map(|link| link.error).filter(|error| error.is_within(&nearly));
+    let of_frames = links.fold(PoseError::default(), PoseError::larger);
     let (robot, names) = with_values_within_digits([&own.robot, &there.robot], of_frames);
     there.robot = robot;
     names
@@ -293,79 +316,22 @@ fn moved_alike(
     Ok(moving.iter().filter(elsewhere).map(|&link| robot.links()[link].name.clone()).collect())
 }
 
-/// The first moving joint that one of the two descriptions lacks, or that turns in one and slides in the other.
-pub(super) fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
-    let missing = |joint: &str, (of, lacks): (&str, &Robot)| match lacks.find_joint(joint) {
-        Some(_) => format!("joint \"{joint}\" does not move in {of}"),
-        None => format!("{of} has no joint \"{joint}\""),
-    };
-    for &index in robot.movable_joints() {
-        let joint = robot.joint(index);
-        let Some(there) = moving(other, &joint.name) else {
-            return Some(missing(&joint.name, ("the other description", other)));
-        };
-        if other.joint(there).kind.is_angular() != joint.kind.is_angular() {
-            return Some(format!(
-                "joint \"{}\" turns in one description and slides in the other",
-                joint.name
-            ));
-        }
-    }
-    // Joints of the other that are lacking here, after those of this robot, so that the first of the chain is
-    // named.
-    let mut others = other.movable_joint_names();
-    others
-        .find(|name| moving(robot, name).is_none())
-        .map(|name| missing(name, ("this description, unlike the other,", robot)))
-}
-
-/// The last link of the chain that both descriptions have and up to which they have the same moving joints; `None` if no joint
-/// moves it, or if the caller has named it already.
-fn common_tip(description: &RobotDescription, other: &Robot) -> Option<String> {
-    let robot = &description.robot;
-    let mut chain = robot.chain(description.base, description.tip)?;
-    let is_common = |&index: &JointIndex| {
-        let joint = robot.joint(index);
-        let there = || moving(other, &joint.name).map(|there| other.joint(there).kind.is_angular());
-        !joint.kind.is_movable() || there() == Some(joint.kind.is_angular())
-    };
-    chain.truncate(chain.iter().take_while(|joint| is_common(joint)).count());
-    let first_moving = chain.iter().position(|&joint| robot.joint(joint).kind.is_movable())?;
-    let links = chain[first_moving..].iter().rev().map(|&joint| robot.joint(joint).child);
-    let is_named =
-        |link: &LinkIndex| *link == description.tip && description.chain_ends.tip != ChainEnd::Chosen;
-    links
-        .filter(|link| !is_named(link))
-        .map(|link| robot.link(link).name.clone())
-        .find(|name| other.find_link(name).is_some())
-}
-
-/// The tip, if the other description lacks it and nobody but the caller can say which link is meant: what the check is
-/// asked about would not be compared.
-fn missing_tip(description: &RobotDescription, other: &Robot, poses: &PosesOfOther) -> Option<String> {
-    let robot = &description.robot;
-    let is_missing = poses.lacking(robot).any(|link| link == description.tip);
-    let is_asked = description.chain_ends.tip != ChainEnd::Chosen || robot.dof() == 0;
-    let tip = &robot.link(description.tip).name;
-    let nearest = nearest(tip, other.links().iter().map(|link| link.name.as_str()));
-    let meant = nearest.map_or_else(String::new, |name| format!("; did you mean \"{name}\"?"));
-    (is_missing && is_asked)
-        .then(|| format!("the other description has no link \"{tip}\", which is the tip{meant}"))
-}
-
-fn moving(robot: &Robot, name: &str) -> Option<JointIndex> {
-    robot.find_joint(name).filter(|&joint| robot.joint(joint).kind.is_movable())
-}
-
 /// The difference of poses that is none of the two: within the tolerance, or within the digits if these have decided.
 fn tolerated(description: &RobotDescription, geometry: &CheckReport) -> Tolerance {
     let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
     let agreeing = compared.filter(|of| of.verdict == Agreement::Agree);
     let errors = agreeing.into_iter().flat_map(|of| &of.links).map(|link| link.error);
-    let Tolerance { position_m, orientation_rad } = description.tolerance;
-    let PoseError { position_m, orientation_rad } =
-        errors.fold(PoseError { position_m, orientation_rad }, PoseError::larger);
+    let Tolerance { position_m, orientation_rad } = nearly_same(description);
+    let least = PoseError { position_m, orientation_rad };
+    let PoseError { position_m, orientation_rad } = errors.fold(least, PoseError::larger);
     Tolerance { position_m, orientation_rad }
+}
+
+/// What poses of one chain may differ by for masses and limits to be compared: the tolerance, or a ten thousandth of the reach.
+fn nearly_same(description: &RobotDescription) -> Tolerance {
+    let Tolerance { position_m, orientation_rad } = description.tolerance;
+    let reach_m = description.tolerance_scale().reach_m().unwrap_or_default();
+    Tolerance { position_m: position_m.max(NEARLY * reach_m), orientation_rad: orientation_rad.max(NEARLY) }
 }
 
 /// The first joint, from the base on, whose link is elsewhere.

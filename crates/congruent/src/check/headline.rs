@@ -231,7 +231,16 @@ fn different_poses(check: &RobotCheck) -> Headline {
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));
     }
     let cause = check.diagnosis().map_or_else(unknown, cause);
-    Headline::new("DIFFERENT", format!(", {found}. {cause}"))
+    Headline::new("DIFFERENT", format!(", {found}. {cause}{}", other_torques(check)))
+}
+
+/// What differs in the dynamics of two descriptions beside their poses.
+fn other_torques(check: &RobotCheck) -> String {
+    let mut compared = check.dynamics_of_descriptions().filter(|_| check.against.is_some());
+    let differing = compared.find(|report| !report.has_same_torques());
+    differing.map_or_else(String::new, |report| {
+        format!("; torques differ, too: {}", check.cause_of_torques(report))
+    })
 }
 
 /// Whether the digits of two descriptions decide: no tolerance is declared, and the other is no revision.
@@ -275,7 +284,9 @@ fn after_mapping(check: &RobotCheck) -> Option<Headline> {
     );
     if !against.is_equal_after_mapping() {
         let cause = check.diagnosis().map_or_else(String::new, |diagnosis| format!(". {}", cause(diagnosis)));
-        return Some(Headline::new("DIFFERENT", format!(": {joints}; in the same variables {worst}{cause}")));
+        let torques = other_torques(check);
+        let details = format!(": {joints}; in the same variables {worst}{cause}{torques}");
+        return Some(Headline::new("DIFFERENT", details));
     }
     let torques = check.all_dynamics().find(|report| !report.agrees());
     let but = torques.map_or_else(String::new, |report| {

@@ -12,7 +12,8 @@ use congruent_input::{Diagnostic, Finding, display::listed};
 use congruent_mapping::driven_as_in;
 
 use super::{
-    against::{OtherDescription, compared, other_joint},
+    against::{OtherDescription, compared},
+    joints_of_both::other_joint,
     mapped::MappedPair,
     mapped_joints::mapped_joints,
     narrowed::NarrowedPair,
@@ -80,11 +81,11 @@ pub(super) fn with_other(
     {
         let (mut in_variables, mut mapped) = (against.clone(), before);
         let found = in_same_variables(&mut in_variables, &mut mapped, &mut pair)?;
-        let reading = Reading::simpler([geometry, &mapped], &in_variables, &pair.report);
-        if reading != Reading::AsWritten {
+        let reading = PairReading::simpler([geometry, &mapped], &in_variables, &pair.report);
+        if reading != PairReading::AsWritten {
             (against, dynamics) = (in_variables, found);
         }
-        if reading == Reading::Mapped {
+        if reading == PairReading::Mapped {
             *geometry = mapped;
             (own, there, own_options) = (pair.description, pair.other, pair.options);
         }
@@ -135,7 +136,7 @@ fn in_same_variables(
 
 /// In which variables two descriptions with the same joints by name are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Reading {
+enum PairReading {
     /// As both files write them: the causes there are fewer than joints have another variable.
     AsWritten,
     /// As both files write them, since causes name the directions and zeros that make the two equal.
@@ -144,7 +145,7 @@ enum Reading {
     Mapped,
 }
 
-impl Reading {
+impl PairReading {
     /// The reading with fewer statements: causes, and joints with another variable.
     fn simpler(
         [written, mapped]: [&CheckReport; 2],
