@@ -32,6 +32,9 @@ const EXPLAINED: f64 = 1e-4;
 const MOSTLY_EXPLAINED: f64 = 1e-2;
 /// A frame that is farther off, as a multiple of what the axes are apart, lies elsewhere in its link. Kind: choice.
 const OTHER_FRAME: f64 = 10.0;
+/// Most joints of the same names whose directions and zeros are searched. Kind: time, which grows with the third power: minutes for
+/// 200.
+const MOST_JOINTS: usize = 60;
 /// A smaller zero is a calibration or a mistake of a digit. Kind: choice, 5 deg.
 const LEAST_ZERO_RAD: f64 = 0.087;
 
@@ -96,6 +99,9 @@ impl MappedPair {
         options: &CheckOptions,
         raw: &CheckReport,
     ) -> Option<Self> {
+        if description.robot.movable_joints().len() > MOST_JOINTS {
+            return None;
+        }
         let found = find(description, other)?;
         let is_convention = |of: &MappedJoint| of.is_flipped || of.offset.abs() > LEAST_ZERO_RAD;
         let mut of_poses = raw.diagnoses.iter().filter(|of| of.name == SourcePair::UrdfOther);

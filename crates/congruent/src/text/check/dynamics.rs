@@ -5,7 +5,11 @@ use std::fmt::Write;
 
 use crate::{
     RobotCheck,
-    agreement::SourcePair,
+    agreement::{
+        SourcePair,
+        diagnosis::Cause,
+        report::{ReportedCause, ReportedDiagnosis},
+    },
     description::{JointValues, Robot, RobotQ},
     dynamics_agreement::{
         DynamicsExplanation, DynamicsReport, DynamicsVerdict, LimitDifference, ParameterDifference,
@@ -54,6 +58,11 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
             counted(values.len(), "value"),
             first_of(values)
         );
+    }
+    let causes = check.geometry.diagnoses.iter().filter_map(ReportedDiagnosis::named_cause);
+    let mut faults = causes.flat_map(ReportedCause::faults);
+    if against.is_some() && faults.any(|fault| fault.cause == Cause::Mimic) {
+        text.push_str("  dynamics is compared as if the joints that follow others were driven\n");
     }
     let disagrees = |report: &&DynamicsReport| !report.agrees();
     let files = |report| check.files_of(report);
