@@ -216,3 +216,23 @@ fn what_the_answer_asks_to_declare_makes_the_geometry_equal() {
         assert_eq!(json["diagnosis"].as_array().map(Vec::len), Some(0), "{mapping}: {line}");
     }
 }
+
+/// Another direction of a joint beside lengths in whole millimetres, which some of the robot's own are not.
+#[test]
+fn another_direction_beside_rounded_lengths_is_a_mapping() {
+    let folder = ScratchFolder::new();
+    let robot = PathBuf::from(folder.robot("ur5e", &[]));
+    let exact = robot.join("ur5e.urdf");
+    let text = fs::read_to_string(&exact).unwrap();
+    let at = text.find("<joint name=\"elbow_joint\"").unwrap();
+    let (before, joint) = text.split_at(at);
+    let flipped = joint.replacen("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0 -1\"/>", 1);
+    assert_ne!(flipped, joint);
+    let rounded =
+        (before.to_owned() + &flipped).replace("xyz=\"-0.3922 0 0.1333\"", "xyz=\"-0.392 0 0.133\"");
+    let other = robot.join("other.urdf");
+    fs::write(&other, rounded).unwrap();
+    let (line, json) = answer([&exact, &other]);
+    assert!(line.contains("EQUAL AFTER MAPPING: elbow_joint has the opposite direction"), "{line}");
+    assert_eq!(json["against"]["mapping"]["verdict"], "agree", "{line}");
+}

@@ -79,13 +79,18 @@ impl MjInertial {
 impl MjJoint {
     /// Half of the last place of its values.
     pub fn value_rounding(&self) -> MjValueRounding {
+        let is_slide = self.kind == MjJointKind::Slide;
+        let (unit, units) =
+            if is_slide { (Unit::Length, UnitSystem::Si) } else { (Unit::Angle, self.notation.angle_unit()) };
         let range = self.range.as_ref().map_or_else(Vec::new, |range| numbers(text(range)));
-        let range = if self.kind == MjJointKind::Slide {
-            half_places(Unit::Length, &range)
-        } else {
-            let units = self.notation.angle_unit();
-            half_places(Unit::Angle, &range.iter().map(|of| TypedNumber { units, ..*of }).collect::<Vec<_>>())
+        let range: Vec<TypedNumber<'_>> = range.iter().map(|of| TypedNumber { units, ..*of }).collect();
+        // As 2.9 for 2.90, whatever the other end has; of degrees whole ones are exact.
+        let least = |of: &TypedNumber<'_>| match of.units {
+            UnitSystem::Si => half_places_of_values(&[of.text])[0],
+            UnitSystem::Engineering => 0.0,
         };
+        let halves = half_places(unit, &range).into_iter().zip(&range);
+        let range: Vec<f64> = halves.map(|(half, of)| half.max(least(of))).collect();
         let first = |text: &str| half_places_of_values(&[text.split_whitespace().next().unwrap_or("")])[0];
         // With a gear or several actuators the limit is no written number.
         let effort = self.actuator_force_range.as_ref().map_or(0.0, |of| {

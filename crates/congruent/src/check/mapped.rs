@@ -3,16 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{
-    part::{kept_joints, part},
-    poses_of_other::PosesOfOther,
-    reported_mapping::ReportedMapping,
-};
-use congruent_agreement::{
-    SourcePair,
-    compare::{CheckOptions, CheckReport},
-    report::ReportedDiagnosis,
-};
+use congruent_agreement::compare::CheckOptions;
 use congruent_description::{
     ChainEnd, ChainEnds, JointIndex, LinkIndex, MappedJoint, Places, Robot, RobotDescription,
 };
@@ -22,13 +13,19 @@ use congruent_mapping::{
     in_frames_of, with_fitted, with_fitted_base,
 };
 
+use super::{
+    part::{kept_joints, part},
+    poses_of_other::PosesOfOther,
+    reported_mapping::ReportedMapping,
+};
+
 /// Axes that are farther apart than this, as a share of the reach, are no proof that joints in the same order are the same.
 /// Kind: choice; revisions of one robot differ by some centimetres, sizes of a family by more.
 const SAME_CHAIN: f64 = 0.06;
 /// Below it a direction and a zero that explain all are a convention, as a share of the reach. Kind: choice; six digits of
 /// pi give a hundredth of it.
 const EXPLAINED: f64 = 1e-4;
-/// Below it they explain most: without them, nothing is comparable. Kind: choice; revisions of one robot differ by some millimetres.
+/// Below it they explain most of it: rounding to a millimetre, and what revisions of one robot differ by, is smaller. Kind: choice.
 const MOSTLY_EXPLAINED: f64 = 1e-2;
 /// A frame that is farther off, as a multiple of what the axes are apart, lies elsewhere in its link. Kind: choice.
 const OTHER_FRAME: f64 = 10.0;
@@ -36,7 +33,7 @@ const OTHER_FRAME: f64 = 10.0;
 /// 200.
 const MOST_JOINTS: usize = 60;
 /// A smaller zero is a calibration or a mistake of a digit. Kind: choice, 5 deg.
-const LEAST_ZERO_RAD: f64 = 0.087;
+pub(super) const LEAST_ZERO_RAD: f64 = 0.087;
 
 /// Two descriptions in the same variables.
 pub(super) struct MappedPair {
@@ -91,24 +88,21 @@ impl MappedPair {
         (off(&found, description) < SAME_CHAIN).then(|| Self::new(description, other, options, &found))
     }
 
-    /// Two descriptions with the same joints by name whose directions and zeros explain why the poses differ, all of it or, if
-    /// nothing else does, most.
+    /// Two descriptions with the same joints by name whose directions and zeros, or a turned base, explain most of why the poses
+    /// differ.
     pub(super) fn of_other_variables(
         description: &RobotDescription,
         other: &RobotDescription,
         options: &CheckOptions,
-        raw: &CheckReport,
     ) -> Option<Self> {
         if description.robot.movable_joints().len() > MOST_JOINTS {
             return None;
         }
         let found = find(description, other)?;
         let is_convention = |of: &MappedJoint| of.is_flipped || of.offset.abs() > LEAST_ZERO_RAD;
-        let mut of_poses = raw.diagnoses.iter().filter(|of| of.name == SourcePair::UrdfOther);
-        let most = if of_poses.any(ReportedDiagnosis::is_explained) { EXPLAINED } else { MOSTLY_EXPLAINED };
         let is_turned = found.root_from_other_root.rotation.angle() > LEAST_ZERO_RAD;
         let has_convention = is_turned || found.joints.iter().any(is_convention);
-        let explains = has_convention && off(&found, description) < most;
+        let explains = has_convention && off(&found, description) < MOSTLY_EXPLAINED;
         explains.then(|| Self::new(description, other, options, &found))
     }
 

@@ -9,12 +9,13 @@ use congruent_agreement::{
 use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{Diagnostic, Finding, display::listed};
+use congruent_kinematics::ReportedPose;
 use congruent_mapping::driven_as_in;
 
 use super::{
     against::{OtherDescription, compared},
     joints_of_both::other_joint,
-    mapped::MappedPair,
+    mapped::{LEAST_ZERO_RAD, MappedPair},
     mapped_joints::mapped_joints,
     narrowed::NarrowedPair,
     own_model::placed_as_in,
@@ -77,7 +78,7 @@ pub(super) fn with_other(
     against.mapping = mapping.map(|mapping| mapping.with_worst(geometry));
     if against.mapping.is_none()
         && against.dynamics_not_compared.is_some()
-        && let Some(mut pair) = MappedPair::of_other_variables(&own, &there, &own_options, geometry)
+        && let Some(mut pair) = MappedPair::of_other_variables(&own, &there, &own_options)
     {
         let (mut in_variables, mut mapped) = (against.clone(), before);
         let found = in_same_variables(&mut in_variables, &mut mapped, &mut pair)?;
@@ -152,8 +153,10 @@ impl PairReading {
         against: &OtherDescription,
         mapping: &ReportedMapping,
     ) -> Self {
+        // Rounding of lengths moves a fitted base a little, which is no statement.
+        let is_turned = |root: &ReportedPose| root.rpy_rad().iter().any(|turn| turn.abs() > LEAST_ZERO_RAD);
         let differing = mapping.joints.iter().filter(|of| !of.has_same_variable()).count()
-            + usize::from(mapping.root_from_other_root.is_some());
+            + usize::from(mapping.root_from_other_root.as_ref().is_some_and(is_turned));
         let Some(causes) = self::causes(written) else {
             // Without a cause in either, what they are apart decides.
             let is_nearer = mapped.worst.error.position_m < MOST_LEFT * written.worst.error.position_m;

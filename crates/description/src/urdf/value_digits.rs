@@ -32,12 +32,15 @@ pub(super) fn of_joint(joint: Node<'_, '_>, kind: JointKind) -> JointValueRoundi
     let half = |part: &str, key: &str| half_places_of_values(&[value(joint, part, key)])[0];
     let limit = |key: &str| Some(half("limit", key));
     let unit = if kind.is_angular() { Unit::Angle } else { Unit::Length };
-    let ends = half_places(unit, &["lower", "upper"].map(|key| typed(value(joint, "limit", key))));
+    let ends = ["lower", "upper"].map(|key| value(joint, "limit", key));
+    let halves = half_places(unit, &ends.map(typed));
+    // As 2.9 for 2.90, whatever the other end has.
+    let [lower, upper] = [0, 1].map(|at| halves[at].max(half_places_of_values(&[ends[at]])[0]));
     let has_deceleration = !value(joint, "limit", "deceleration").is_empty();
     JointValueRounding {
         limit: JointLimit {
-            lower: ends[0],
-            upper: ends[1],
+            lower,
+            upper,
             velocity: limit("velocity"),
             effort: limit("effort"),
             acceleration: limit("acceleration"),
@@ -79,7 +82,7 @@ mod tests {
              <origin xyz='0.1 0.0625 0' rpy='0 0 1.571'/>
              <inertia ixx='0.0345' iyy='0.0145' izz='0.03' ixy='0' ixz='0' iyz='0'/></inertial></link>
              <joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>
-             <limit lower='-1.5708' upper='2' effort='35' velocity='3.14159'/><dynamics damping='0.05'/></joint></robot>",
+             <limit lower='-1.5708' upper='2.9' effort='35' velocity='3.14159'/><dynamics damping='0.05'/></joint></robot>",
         )
         .unwrap();
         let link = &robot.link(robot.find_link("b").unwrap()).inertia_rounding;
@@ -88,7 +91,7 @@ mod tests {
         assert!((tensor[(0, 1)] - (5e-5 + 5e-4 * 0.02)).abs() < 1e-7, "{tensor}");
         assert!((tensor[(2, 2)] - 5e-5).abs() < 1e-12, "{tensor}");
         let of_joint = &robot.joints()[0].value_rounding;
-        assert!((of_joint.limit.lower - 5e-5).abs() + (of_joint.limit.upper - 5e-5).abs() < 1e-12);
+        assert!((of_joint.limit.lower - 5e-5).abs() + (of_joint.limit.upper - 5e-3).abs() < 1e-12);
         assert_eq!((of_joint.limit.effort, of_joint.limit.velocity), (Some(5e-2), Some(5e-6)));
         assert_eq!((of_joint.damping, of_joint.friction), (5e-5, 0.0));
     }
