@@ -86,7 +86,7 @@ mod tests {
         )
         .unwrap();
         let link = &robot.link(robot.find_link("b").unwrap()).inertia_rounding;
-        assert_eq!((link.mass_kg, link.com_m), (5e-3, [5e-5; 3].into()));
+        assert_eq!((link.mass_kg, link.com_m), (5e-3, [5e-4, 5e-5, 5e-5].into()));
         let tensor = &link.tensor_kg_m2;
         assert!((tensor[(0, 1)] - (5e-5 + 5e-4 * 0.02)).abs() < 1e-7, "{tensor}");
         assert!((tensor[(2, 2)] - 5e-5).abs() < 1e-12, "{tensor}");
