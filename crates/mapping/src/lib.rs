@@ -8,11 +8,13 @@
 mod axis;
 mod bodies;
 mod changed_values;
+mod common_joints;
 mod declared;
 mod digits;
 mod drivers;
 mod find;
 mod frames;
+mod link_names;
 mod matched;
 mod names;
 mod polish;
@@ -20,10 +22,12 @@ mod rounded_values;
 mod variables;
 
 pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values, is_same_value};
+pub use common_joints::{common_tip, other_joint};
 pub use declared::declared;
 pub use digits::{with_fitted, with_fitted_base};
 pub use drivers::driven_as_in;
 pub use find::{FoundMapping, MatchedBy, find, find_exchanged};
 pub use frames::{CommonAxes, has_other_frames, in_frames_of};
+pub use link_names::{link_names, with_other_still_links};
 pub use matched::MatchedRobots;
 pub use rounded_values::with_values_within_digits;

@@ -4,22 +4,22 @@ use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, Comparison, NotCompared},
 };
-use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, Tolerance};
+use congruent_description::{ChainEnd, JointIndex, Robot, RobotDescription, RobotQ, Tolerance};
 use congruent_dynamics_agreement::{
     CompareError, DynamicsModel, DynamicsReport, NamedModel, without_one_sided_armature,
 };
 use congruent_input::{
     Capability, Diagnostic, Finding, RevisionName,
     display::{length_and_angle, position},
+    nearest,
 };
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
-use congruent_mapping::{is_same_value, with_values_within_digits};
+use congruent_mapping::{common_tip, is_same_value, other_joint, with_values_within_digits};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
     cause_in_words::and_more,
-    joints_of_both::{common_tip, missing_tip, other_joint},
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::{POSITIONS, PosesOfOther},
     reported_mapping::ReportedMapping,
@@ -314,6 +314,19 @@ fn moved_alike(
     let elsewhere =
         |link: &&usize| !PoseError::between(&Pose::identity(), &at_zero[**link]).is_within(tolerance);
     Ok(moving.iter().filter(elsewhere).map(|&link| robot.links()[link].name.clone()).collect())
+}
+
+/// The tip, if the other description lacks it and nobody but the caller can say which link is meant: what the check is
+/// asked about would not be compared.
+fn missing_tip(description: &RobotDescription, other: &Robot, poses: &PosesOfOther) -> Option<String> {
+    let robot = &description.robot;
+    let is_missing = poses.lacking(robot).any(|link| link == description.tip);
+    let is_asked = description.chain_ends.tip != ChainEnd::Chosen || robot.dof() == 0;
+    let tip = &robot.link(description.tip).name;
+    let nearest = nearest(tip, other.links().iter().map(|link| link.name.as_str()));
+    let meant = nearest.map_or_else(String::new, |name| format!("; did you mean \"{name}\"?"));
+    (is_missing && is_asked)
+        .then(|| format!("the other description has no link \"{tip}\", which is the tip{meant}"))
 }
 
 /// The difference of poses that is none of the two: within the tolerance, or within the digits if these have decided.

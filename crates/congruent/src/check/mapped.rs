@@ -1,16 +1,14 @@
 //! Two descriptions whose joints have other names, directions or zeros: the other one in the variables of the robot, so that
 //! everything that compares two descriptions works on it.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use congruent_agreement::compare::CheckOptions;
-use congruent_description::{
-    ChainEnd, ChainEnds, JointIndex, LinkIndex, MappedJoint, Places, Robot, RobotDescription,
-};
-use congruent_kinematics::{PoseError, ScrewTree};
+use congruent_description::{ChainEnd, ChainEnds, JointIndex, MappedJoint, Places, Robot, RobotDescription};
+use congruent_kinematics::PoseError;
 use congruent_mapping::{
     CommonAxes, FoundMapping, MatchedBy, MatchedRobots, declared, find, find_exchanged, has_other_frames,
-    in_frames_of, with_fitted, with_fitted_base,
+    in_frames_of, link_names, with_fitted, with_fitted_base, with_other_still_links,
 };
 
 use super::{
@@ -169,28 +167,6 @@ impl MappedPair {
     }
 }
 
-/// The names that links of the other description have in this one: of the root, of those that the joints carry, and of the tip if
-/// both are the same frame.
-fn link_names(own: &RobotDescription, other: &Robot, tip: &str) -> BTreeMap<LinkIndex, String> {
-    let robot = &own.robot;
-    let mut names = BTreeMap::from([(other.root(), robot.link(robot.root()).name.clone())]);
-    for joint in other.joints().iter().filter(|joint| joint.kind.is_movable()) {
-        let Some(here) = robot.find_joint(&joint.name) else { continue };
-        names.insert(joint.child, robot.link(robot.joint(here).child).name.clone());
-    }
-    let own_tip = &robot.link(own.tip).name;
-    let trees = [robot, other].map(ScrewTree::new);
-    let there = other.find_link(tip).filter(|there| !names.contains_key(there));
-    if let Some(there) = there.filter(|_| other.find_link(own_tip).is_none()) {
-        let off = PoseError::between(trees[0].home(own.tip), trees[1].home(there));
-        let is_same_body = !names.values().any(|name| name == own_tip);
-        if is_same_body && off.is_within(&own.tolerance) {
-            names.insert(there, own_tip.clone());
-        }
-    }
-    names
-}
-
 /// How far the axes are apart, as a share of the reach.
 fn off(found: &FoundMapping, description: &RobotDescription) -> f64 {
     let reach_m = description.tolerance_scale().reach_m().unwrap_or(1.0);
@@ -201,13 +177,6 @@ fn off(found: &FoundMapping, description: &RobotDescription) -> f64 {
 fn has_fitted_base(description: &RobotDescription, found: &FoundMapping) -> bool {
     found.matched_by == MatchedBy::Declared
         && description.mapping.as_ref().is_some_and(|mapping| mapping.has_fitted_base)
-}
-
-/// The robot with other names of the links that are fixed to its root, so that no link of another description is one of them.
-fn with_other_still_links(robot: &Robot) -> Robot {
-    let is_still = |link: &LinkIndex| robot.body(*link) == robot.root() && *link != robot.root();
-    let name = |link: LinkIndex| format!("{} (fixed to the fitted base)", robot.link(link).name);
-    robot.with_link_names(&robot.link_indices().filter(is_still).map(|link| (link, name(link))).collect())
 }
 
 /// Whether the axes agree: a convention explains all, or what it does not explain is within the tolerance, or far less than what

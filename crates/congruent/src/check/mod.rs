@@ -8,7 +8,6 @@ mod changed_table;
 mod checked;
 mod declared;
 mod headline;
-mod joints_of_both;
 mod judged_by;
 mod mapped;
 mod mapped_joints;

@@ -10,11 +10,10 @@ use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{Diagnostic, Finding, display::listed};
 use congruent_kinematics::ReportedPose;
-use congruent_mapping::driven_as_in;
+use congruent_mapping::{driven_as_in, other_joint};
 
 use super::{
     against::{OtherDescription, compared},
-    joints_of_both::other_joint,
     mapped::{LEAST_ZERO_RAD, MappedPair},
     mapped_joints::mapped_joints,
     narrowed::NarrowedPair,

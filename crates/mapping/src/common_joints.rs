@@ -1,12 +1,9 @@
 //! Whether two descriptions have the same moving joints by name, and the link up to which they have.
 
 use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescription};
-use congruent_input::nearest;
-
-use super::poses_of_other::PosesOfOther;
 
 /// The first moving joint that one of the two descriptions lacks, or that turns in one and slides in the other.
-pub(super) fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
+pub fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
     let missing = |joint: &str, (of, lacks): (&str, &Robot)| match lacks.find_joint(joint) {
         Some(_) => format!("joint \"{joint}\" does not move in {of}"),
         None => format!("{of} has no joint \"{joint}\""),
@@ -33,7 +30,7 @@ pub(super) fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
 
 /// The last link of the chain that both descriptions have and up to which they have the same moving joints; `None` if no joint
 /// moves it, or if the caller has named it already.
-pub(super) fn common_tip(description: &RobotDescription, other: &Robot) -> Option<String> {
+pub fn common_tip(description: &RobotDescription, other: &Robot) -> Option<String> {
     let robot = &description.robot;
     let mut chain = robot.chain(description.base, description.tip)?;
     let is_common = |&index: &JointIndex| {
@@ -50,23 +47,6 @@ pub(super) fn common_tip(description: &RobotDescription, other: &Robot) -> Optio
         .filter(|link| !is_named(link))
         .map(|link| robot.link(link).name.clone())
         .find(|name| other.find_link(name).is_some())
-}
-
-/// The tip, if the other description lacks it and nobody but the caller can say which link is meant: what the check is
-/// asked about would not be compared.
-pub(super) fn missing_tip(
-    description: &RobotDescription,
-    other: &Robot,
-    poses: &PosesOfOther,
-) -> Option<String> {
-    let robot = &description.robot;
-    let is_missing = poses.lacking(robot).any(|link| link == description.tip);
-    let is_asked = description.chain_ends.tip != ChainEnd::Chosen || robot.dof() == 0;
-    let tip = &robot.link(description.tip).name;
-    let nearest = nearest(tip, other.links().iter().map(|link| link.name.as_str()));
-    let meant = nearest.map_or_else(String::new, |name| format!("; did you mean \"{name}\"?"));
-    (is_missing && is_asked)
-        .then(|| format!("the other description has no link \"{tip}\", which is the tip{meant}"))
 }
 
 fn moving(robot: &Robot, name: &str) -> Option<JointIndex> {
