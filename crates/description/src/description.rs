@@ -6,7 +6,7 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Capability, Diagnostic, Findings, InputFile, known_names};
+use congruent_input::{Capability, Diagnostic, Findings, InputFile, display::first_of, known_names};
 use congruent_robot::{DhTable, JointIndex, LinkIndex, RequestedTolerance, Robot, Tolerance};
 use nalgebra::Isometry3;
 
@@ -181,14 +181,11 @@ impl RobotDescription {
         }
         let others = choose_tip(&self.robot, self.base).others;
         if !others.is_empty() {
-            let more = others.len().saturating_sub(MOST_NAMED);
-            let others: Vec<&str> =
-                others.into_iter().take(MOST_NAMED).map(|link| self.name_of(link)).collect();
+            let others: Vec<&str> = others.into_iter().map(|link| self.name_of(link)).collect();
             let message = format!(
-                "the robot has several chains of about the same length: the one to \"{}\" was taken, others end at {}{}",
+                "the robot has several chains of about the same length: the one to \"{}\" was taken, others end at {}",
                 self.name_of(self.tip),
-                others.join(", "),
-                if more == 0 { String::new() } else { format!(" and {more} more") }
+                first_of(&others, MOST_NAMED)
             );
             self.warnings.push(
                 Diagnostic::warning(codes::chain::SEVERAL_TIPS, message)

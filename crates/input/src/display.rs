@@ -275,6 +275,23 @@ pub fn listed(words: &[&str]) -> String {
     }
 }
 
+/// The first of many words, and how many more there are.
+///
+/// # Examples
+/// ```
+/// use congruent_input::display::first_of;
+/// assert_eq!(first_of(&["a", "b", "c"], 3), "a, b, c");
+/// assert_eq!(first_of(&["a", "b", "c"], 1), "a and 2 more");
+/// ```
+pub fn first_of(words: &[impl AsRef<str>], most: usize) -> String {
+    let shown: Vec<&str> = words.iter().take(most).map(AsRef::as_ref).collect();
+    let shown = shown.join(", ");
+    match words.len().saturating_sub(most) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

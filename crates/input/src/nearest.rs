@@ -1,5 +1,7 @@
 //! The known name that an unknown one was probably meant to be.
 
+use crate::display::first_of;
+
 /// The known name that `name` was probably meant to be: at most two letters are other, missing, too much or exchanged, and
 /// fewer than half of them; or it is the only name of which this one is some of the words, as `elbow` of `elbow_joint`, or
 /// nearly one of them, or one without its unit; or it is how the only name begins, as `track` of `tracking`.
@@ -84,8 +86,5 @@ pub fn known_names<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &
     let guess =
         nearest(name, known.clone()).map_or(String::new(), |near| format!("{DID_YOU_MEAN}\"{near}\"? "));
     let all: Vec<&str> = known.into_iter().collect();
-    let listed = all[..all.len().min(MOST_LISTED)].join(", ");
-    let rest = all.len().saturating_sub(MOST_LISTED);
-    let more = if rest == 0 { String::new() } else { format!(" and {rest} more") };
-    format!("{guess}known {what}: {listed}{more}")
+    format!("{guess}known {what}: {}", first_of(&all, MOST_LISTED))
 }

@@ -18,7 +18,7 @@ use crate::{find::FoundMapping, frames::CommonAxes, matched::MatchedRobots};
 
 /// The most that a value may be off, in half places: the margin is that of a value that is rounded from the middle of two. Kind:
 /// rounding.
-const MOST: f64 = 1.0 + 1e-4;
+pub(crate) const MOST: f64 = 1.0 + 1e-4;
 /// Directions and half places that differ by less are the same. Relative; kind: rounding of the typed numbers themselves.
 const SAME: f64 = 1e-3;
 /// How far a fitted zero or frame may move, rad or m: it takes part in the fit, since nobody has written it. Kind: choice, far more

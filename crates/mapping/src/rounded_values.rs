@@ -7,9 +7,8 @@ use congruent_description::{Inertia, InertiaRounding, Joint, JointKind, JointLim
 use congruent_kinematics::PoseError;
 use nalgebra::SMatrix;
 
-/// The most that a value may be off, in half places: the margin is that of a value that is rounded from the middle of two. Kind:
-/// rounding.
-const MOST: f64 = 1.0 + 1e-4;
+use crate::digits::MOST;
+
 /// Differences below this share of a value are none of digits. Kind: rounding.
 const SAME: f64 = 1e-9;
 

@@ -59,7 +59,7 @@ pub struct MjValueRounding {
 impl MjInertial {
     /// What half of the last place of each of its numbers changes.
     pub fn rounding(&self) -> MjInertialRounding {
-        let [pos_m] = of_lengths(&[text(&self.pos)])[..] else { unreachable!("one for each") };
+        let pos_m = three(&half_places(Unit::Length, &numbers(text(&self.pos))));
         let moments: Vec<&str> = text(&self.inertia).split_whitespace().collect();
         let halves = half_places_of_values(&moments);
         let inertia_kg_m2 = match halves[..] {
@@ -125,10 +125,7 @@ impl MjModel {
     pub fn joint_roundings(&self) -> Vec<MjJointRounding> {
         let positions =
             of_lengths(&self.joints.iter().map(|joint| text(&joint.pos_in_body)).collect::<Vec<_>>());
-        let axis = |joint: &MjJoint| {
-            let halves = of_direction(&numbers(text(&joint.axis_in_body)));
-            std::array::from_fn(|at| halves.get(at).copied().unwrap_or_default())
-        };
+        let axis = |joint: &MjJoint| three(&of_direction(&numbers(text(&joint.axis_in_body))));
         positions
             .into_iter()
             .zip(&self.joints)
@@ -146,13 +143,18 @@ fn numbers(text: &str) -> Vec<TypedNumber<'_>> {
     text.split_whitespace().map(|text| TypedNumber { text, units: UnitSystem::Si }).collect()
 }
 
+/// The half places of three numbers; 0 for those that are missing.
+fn three(halves: &[f64]) -> [f64; 3] {
+    std::array::from_fn(|at| halves.get(at).copied().unwrap_or_default())
+}
+
 /// Half places of x, y, z of all positions: zeros are as fine as the others of the file.
 fn of_lengths(texts: &[&str]) -> Vec<[f64; 3]> {
     let numbers_of: Vec<Vec<TypedNumber<'_>>> = texts.iter().map(|text| numbers(text)).collect();
     let mut halves = half_places(Unit::Length, &numbers_of.concat()).into_iter();
     let of = |numbers: &Vec<TypedNumber<'_>>| {
         let halves: Vec<f64> = halves.by_ref().take(numbers.len()).collect();
-        std::array::from_fn(|at| halves.get(at).copied().unwrap_or_default())
+        three(&halves)
     };
     numbers_of.iter().map(of).collect()
 }

@@ -17,7 +17,7 @@ use crate::{
 
 impl CheckReport {
     /// Adds joints that follow another one in `description` and in `other` in different ways: to the verdict, the
-    /// differences, and the diagnosis. Returns the first of them in words.
+    /// differences, and the diagnosis.
     ///
     /// `poses` are those of the other description, at the configurations of this one.
     ///
@@ -32,7 +32,7 @@ impl CheckReport {
         other: &RobotDescription,
         poses: &mut dyn LinkPoses,
         options: &CheckOptions,
-    ) -> Result<Option<String>, CheckError> {
+    ) -> Result<(), CheckError> {
         let mut joints = Vec::new();
         for joint in differing(&description.robot, &other.robot) {
             // Numbers of two files differ in their last digits; only what moves a link beyond the tolerance is a
@@ -41,7 +41,9 @@ impl CheckReport {
                 joints.push(joint);
             }
         }
-        let Some(first) = joints.first().map(|joint| joint.words.message()) else { return Ok(None) };
+        if joints.is_empty() {
+            return Ok(());
+        }
         let mut worst_remaining = Vec::with_capacity(joints.len() + 1);
         // With none of them corrected, then with the first, the first two, and so on: the residuals of the stages.
         for corrected in 0..=joints.len() {
@@ -68,7 +70,7 @@ impl CheckReport {
         let mut diagnoses = std::mem::take(&mut self.diagnoses);
         diagnoses.push(with_mimics(known, &words, [description, other], &worst_remaining));
         self.set_diagnoses(diagnoses);
-        Ok(Some(first))
+        Ok(())
     }
 
     /// The comparison of the two, its certificate and the verdict with these differences.

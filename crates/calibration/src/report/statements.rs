@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use congruent_input::display::{length, length_and_angle, number};
+use congruent_input::display::{first_of, length, length_and_angle, number};
 
 use super::calibration_report::{
     CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, RowResidual,
@@ -34,12 +34,8 @@ pub(super) fn why_fixed(unit: ParameterUnit, terms: &[(&str, f64, ParameterUnit)
     largest.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
     let term =
         |(name, factor, of): &(&str, f64, ParameterUnit)| format!("{} {of} of {name}", number(*factor));
-    let listed_terms: Vec<String> = largest.iter().take(MOST_TERMS).map(term).collect();
-    let more = match terms.len().saturating_sub(MOST_TERMS) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    format!("is correlated: 1 {unit} of it has nearly the effect of {}{more}", listed_terms.join(", "))
+    let terms: Vec<String> = largest.iter().map(term).collect();
+    format!("is correlated: 1 {unit} of it has nearly the effect of {}", first_of(&terms, MOST_TERMS))
 }
 
 /// The sentences for a person who wants to use the corrections, the most important first; `largest` is a length with a
@@ -191,9 +187,7 @@ fn listed(rows: &[String]) -> String {
     match rows {
         [] => String::new(),
         [one] => one.clone(),
-        rows if rows.len() > MOST_ROWS => {
-            format!("{} and {} more", rows[..MOST_ROWS].join(", "), rows.len() - MOST_ROWS)
-        }
+        rows if rows.len() > MOST_ROWS => first_of(rows, MOST_ROWS),
         [before @ .., last] => format!("{} and {last}", before.join(", ")),
     }
 }

@@ -78,6 +78,7 @@ pub(super) fn with_other(
     if against.mapping.is_none()
         && against.dynamics_not_compared.is_some()
         && let Some(mut pair) = MappedPair::of_other_variables(&own, &there, &own_options)
+        && PairReading::may_be_other(geometry, &pair.report)
     {
         let (mut in_variables, mut mapped) = (against.clone(), before);
         let found = in_same_variables(&mut in_variables, &mut mapped, &mut pair)?;
@@ -146,16 +147,26 @@ enum PairReading {
 }
 
 impl PairReading {
+    /// Whether another reading may have fewer statements: not if fewer causes explain the difference than variables differ.
+    fn may_be_other(written: &CheckReport, mapping: &ReportedMapping) -> bool {
+        causes(written).is_none_or(|causes| causes >= Self::differing(mapping))
+    }
+
+    /// How many joints have another variable, with a turned base as one more.
+    fn differing(mapping: &ReportedMapping) -> usize {
+        // Rounding of lengths moves a fitted base a little, which is no statement.
+        let is_turned = |root: &ReportedPose| root.rpy_rad().iter().any(|turn| turn.abs() > LEAST_ZERO_RAD);
+        mapping.joints.iter().filter(|of| !of.has_same_variable()).count()
+            + usize::from(mapping.root_from_other_root.as_ref().is_some_and(is_turned))
+    }
+
     /// The reading with fewer statements: causes, and joints with another variable.
     fn simpler(
         [written, mapped]: [&CheckReport; 2],
         against: &OtherDescription,
         mapping: &ReportedMapping,
     ) -> Self {
-        // Rounding of lengths moves a fitted base a little, which is no statement.
-        let is_turned = |root: &ReportedPose| root.rpy_rad().iter().any(|turn| turn.abs() > LEAST_ZERO_RAD);
-        let differing = mapping.joints.iter().filter(|of| !of.has_same_variable()).count()
-            + usize::from(mapping.root_from_other_root.as_ref().is_some_and(is_turned));
+        let differing = Self::differing(mapping);
         let Some(causes) = self::causes(written) else {
             // Without a cause in either, what they are apart decides.
             let is_nearer = mapped.worst.error.position_m < MOST_LEFT * written.worst.error.position_m;

@@ -12,6 +12,7 @@ use super::{
     findings::Findings,
     line_counter::LineCounter,
 };
+use crate::display::first_of;
 
 /// The diagnostics of one input so far.
 #[derive(Debug, Default)]
@@ -181,11 +182,7 @@ fn occurrences(found: Diagnostic) -> Vec<Occurrence> {
 fn headline(found: &Diagnostic) -> String {
     const MOST_LISTED: usize = 6;
     let Grouping { plural_and_name, occurrences, .. } = &*found.kind;
-    let listed = |words: Vec<String>| {
-        let rest = words.len().saturating_sub(MOST_LISTED);
-        let more = if rest == 0 { String::new() } else { format!(" and {rest} more") };
-        words[..words.len().min(MOST_LISTED)].join(", ") + &more
-    };
+    let listed = |words: Vec<String>| first_of(&words, MOST_LISTED);
     if let Some((words, _)) = plural_and_name {
         let names = occurrences.iter().filter_map(|found| found.name.clone()).collect();
         return format!("{} {words}: {}", occurrences.len(), listed(names));

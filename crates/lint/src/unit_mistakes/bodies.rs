@@ -94,7 +94,8 @@ impl UnitCheck<'_> {
             robot.link_indices().filter(|&link| self.too_light(link)).collect();
         // Beside links that are too light, those that are right are the heavy ones.
         if reported.is_empty() {
-            let is_reported = |link: &LinkIndex| !is_dense(*link) && self.too_heavy(*link);
+            let all_kg = robot.link_indices().map(|link| self.mass_kg(link)).sum();
+            let is_reported = |link: &LinkIndex| !is_dense(*link) && self.too_heavy(*link, all_kg);
             reported = robot.link_indices().filter(is_reported).collect();
         }
         for body in bodies.iter().filter(|body| !reported.contains(&body.link)) {
@@ -176,18 +177,23 @@ impl UnitCheck<'_> {
         true
     }
 
+    fn mass_kg(&self, link: LinkIndex) -> f64 {
+        self.robot.link(link).inertia.as_ref().map_or(0.0, |of| of.mass_kg)
+    }
+
     /// Reports a link that is far heavier than all other links together; whether it did. The first body with a mass is a base,
     /// which may be a vehicle or a foundation.
-    fn too_heavy(&mut self, link: LinkIndex) -> bool {
+    fn too_heavy(&mut self, link: LinkIndex, all_kg: f64) -> bool {
         let robot = self.robot;
-        let mass_kg = |link: LinkIndex| robot.link(link).inertia.as_ref().map_or(0.0, |of| of.mass_kg);
-        let all_kg: f64 = robot.link_indices().map(mass_kg).sum();
-        let (own_kg, others_kg) = (mass_kg(link), all_kg - mass_kg(link));
-        let above = iter::successors(robot.parent_joint(link), |&joint| {
+        let own_kg = self.mass_kg(link);
+        let others_kg = all_kg - own_kg;
+        let mut above = iter::successors(robot.parent_joint(link), |&joint| {
             robot.parent_joint(robot.joint(joint).parent)
         });
-        let has_body_above = above.map(|joint| mass_kg(robot.joint(joint).parent)).any(|of| of > 0.0);
-        if !has_body_above || own_kg <= MOST_MASS_TO_OTHERS * others_kg {
+        // First the mass, since few links are so heavy.
+        if own_kg <= MOST_MASS_TO_OTHERS * others_kg
+            || !above.any(|joint| self.mass_kg(robot.joint(joint).parent) > 0.0)
+        {
             return false;
         }
         let what = format!(

@@ -15,7 +15,7 @@ use crate::{
         DynamicsExplanation, DynamicsReport, DynamicsVerdict, LimitDifference, ParameterDifference,
         TorqueBracket,
     },
-    input::display::counted,
+    input::display::{counted, first_of},
 };
 
 use crate::text::layout::wrapped;
@@ -56,7 +56,7 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
             text,
             "  {} of masses, inertias, limits and losses differ within the digits written, which is no difference: {}",
             counted(values.len(), "value"),
-            first_of(values)
+            first_of(values, SHOWN)
         );
     }
     let causes = check.geometry.diagnoses.iter().filter_map(ReportedDiagnosis::named_cause);
@@ -78,13 +78,6 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         let _ =
             writeln!(text, "  not compared, since the robot file does not state it: {}", left_out.join("; "));
     }
-}
-
-/// The first names of a list, and how many more there are.
-fn first_of(names: &[String]) -> String {
-    let shown = names.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
-    let more = names.len().saturating_sub(SHOWN);
-    if more > 0 { format!("{shown} and {more} more") } else { shown }
 }
 
 /// One comparison; `files` are its two files, if neither is known to be right.
