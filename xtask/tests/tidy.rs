@@ -118,6 +118,23 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "starter",
+        &[
+            "input",
+            "description",
+            "kinematics",
+            "dynamics",
+            "writers",
+            "agreement",
+            "analysis",
+            "scenario",
+            "proximity",
+            "monitors",
+            "twin",
+            "results",
+        ],
+    ),
+    (
         "congruent",
         &[
             "input",
@@ -146,6 +163,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "results",
             "recording",
             "page",
+            "starter",
         ],
     ),
     ("cli", &["congruent"]),

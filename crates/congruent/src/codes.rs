@@ -23,23 +23,12 @@ congruent_input::codes! {
         OVERFLOW = "CGR-COMMAND-040", "dynamics::overflow",
             "A mass, inertia, speed or torque is so large that the computed torques exceed the range of 64-bit numbers. The message names the largest value; often its exponent is wrong.";
     }
-    new {
-        AGREEMENT = "CGR-COMMAND-055", "new::agreement",
-            "The analytical model and the physics disagree at the same configuration, so no scenario could pass. Run `congruent check`, which says why, and correct the robot first.";
-        NO_JOINT = "CGR-COMMAND-056", "new::no_joint",
-            "No joint moves, so there is nothing to run. Choose base and tip in the robot file so that a joint between them moves.";
-        RUN = "CGR-COMMAND-059", "new::run",
-            "The scenario that `new scenario` has made ends with an error when it is run, and is not written. The message has that error. `congruent check` of the robot shows whether its masses and limits are sound; give the robot those that it lacks.";
-        SCENARIO = "CGR-COMMAND-060", "new::scenario",
-            "`new scenario` cannot write the file: every motion that it tried fails a check, the robot came from standard input, or the name under --out does not end in .toml.";
-        SHAPE = "CGR-COMMAND-061", "new::shape",
-            "No check of distances can be written, or the check ignores some pairs.";
-    }
 }
 
 /// The codes of all messages of the library, those of the crates of the workspace among them.
 pub fn all_codes() -> Vec<&'static Code> {
     let mut codes = congruent_lint_report::codes::known_codes();
+    codes.extend(congruent_starter::codes::ALL);
     codes.extend(ALL);
     codes
 }

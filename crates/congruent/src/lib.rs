@@ -26,6 +26,7 @@ pub use congruent_recording as recording;
 pub use congruent_results as results;
 pub use congruent_scenario as scenario;
 pub use congruent_simulation as simulation;
+pub use congruent_starter as starter;
 pub use congruent_tables as tables;
 pub use congruent_twin as twin;
 pub use congruent_writers as writers;
@@ -37,7 +38,6 @@ pub mod codes;
 mod joint_sweep;
 mod run_comparison;
 pub mod schema;
-pub mod starter;
 pub mod text;
 mod with_physics;
 

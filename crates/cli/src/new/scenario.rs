@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 
 use congruent::{
+    agreement::compare::CheckOptions,
+    check,
     description::RobotDescription,
     input::{Capability, Diagnostic, Finding, is_standard_input},
     monitors::verdict::{CheckResult, Status},
     results::report::lines,
-    starter::{NewScenario, ScenarioDraft, scenario, try_scenario},
+    starter::{NewScenario, ScenarioDraft, codes, scenario, try_scenario},
     text::new_scenario_text,
     twin::{Outcome, RunSetup},
 };
@@ -39,9 +41,8 @@ pub(crate) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let to = &arguments.to;
-    let refused = |message: String, help: &str| {
-        Diagnostic::error(congruent::codes::new::SCENARIO, message).with_help(help)
-    };
+    let refused =
+        |message: String, help: &str| Diagnostic::error(codes::new::SCENARIO, message).with_help(help);
     if is_standard_input(&arguments.robot.robot) {
         let message =
             "the robot came from standard input, but a scenario must name its robot by a path".to_owned();
@@ -57,7 +58,8 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let folder = folder_of(to)?;
     file.may_be_written(&inputs)?;
     let name = to.file_name().unwrap_or_default();
-    let find = || scenario(&description, &folder.join(name));
+    let checked = || Some(check(&description, &CheckOptions::default()).ok()?.geometry);
+    let find = || scenario(&description, &folder.join(name), checked);
     let draft = waiting(printer, "trying motions", find)?;
     let (setup, outcome) = file.write(&draft.text, &inputs, |written| {
         let setup =

@@ -145,7 +145,7 @@ mod tests {
     fn finding(text: &str, span: std::ops::Range<usize>) -> Diagnostic {
         let source =
             Arc::new(SourceFile { path: "some.toml".into(), text: text.to_owned(), is_foreign: false });
-        Diagnostic::error(crate::codes::new::SHAPE, "this is wrong").at(span).in_file(&source)
+        Diagnostic::error(congruent_starter::codes::new::SHAPE, "this is wrong").at(span).in_file(&source)
     }
 
     #[test]

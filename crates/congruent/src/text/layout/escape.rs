@@ -187,8 +187,9 @@ mod tests {
         let text = "a = 1\nb\u{202e} = \u{1b}[2J\t'bad'\r\nc = 3\n";
         let start = text.find("'bad'").unwrap();
         let source = Arc::new(SourceFile { path: "x.toml".into(), text: text.to_owned(), is_foreign: false });
-        let found =
-            Diagnostic::error(crate::codes::new::SHAPE, "wrong").at(start..start + 5).in_file(&source);
+        let found = Diagnostic::error(congruent_starter::codes::new::SHAPE, "wrong")
+            .at(start..start + 5)
+            .in_file(&source);
         let escaped_finding = with_visible_lines(found);
         let (source, span) = (escaped_finding.source.clone().unwrap(), escaped_finding.span.clone().unwrap());
         assert_eq!(source.text, "a = 1\nb\\u{202e} = \\u{1b}[2J\t'bad'\nc = 3\n");
@@ -203,8 +204,9 @@ mod tests {
                 for end in 0..=text.len() + 2 {
                     let source =
                         Arc::new(SourceFile { path: "x".into(), text: text.to_owned(), is_foreign: false });
-                    let found =
-                        Diagnostic::error(crate::codes::new::SHAPE, "wrong").at(start..end).in_file(&source);
+                    let found = Diagnostic::error(congruent_starter::codes::new::SHAPE, "wrong")
+                        .at(start..end)
+                        .in_file(&source);
                     let escaped_finding = with_visible_lines(found);
                     assert!(
                         !escaped_finding.source.unwrap().text.contains('\u{7}') || text.lines().count() > 1

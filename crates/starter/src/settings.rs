@@ -6,7 +6,7 @@ use congruent_scenario::{
     JointMotion, LimitsCheck, MotionSettings, PowerCheck, Profile, StartSettings, TrackingCheck, TwistCheck,
 };
 
-use super::joint_move::JointMove;
+use crate::joint_move::JointMove;
 
 /// Agreement of table and twin, if the robot's tolerance is not wider. Kind: rounding over a run of some thousand steps.
 const AGREEMENT: f64 = 1e-9;

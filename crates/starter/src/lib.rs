@@ -1,5 +1,6 @@
 //! Files to start from: a robot file for a URDF, a scenario for a robot. Each is tried before anyone relies on it.
 
+pub mod codes;
 mod joint_move;
 mod robot_file;
 mod scenario;

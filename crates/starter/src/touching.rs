@@ -5,7 +5,7 @@ use congruent_kinematics::{Pose, UrdfTree, move_inside_limits};
 use congruent_proximity::{Clearance, PairChoice, ProximityError};
 use nalgebra::Isometry3;
 
-use super::joint_move::JointMove;
+use crate::joint_move::JointMove;
 
 /// Configurations along a motion at which distances are measured.
 const SAMPLES_OF_PATH: u32 = 6;

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, fmt::Write};
 use congruent_description::{RobotDescription, toml_key, toml_string};
 use congruent_scenario::{Check, ControllerKind, JointMotion, MotionSettings, Scenario, TrackingCheck};
 
-use super::written::comment;
+use crate::written::comment;
 
 /// Content of a scenario before it is written as text.
 pub(super) struct ScenarioContent {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_agreement::compare::CheckOptions;
+use congruent_agreement::compare::CheckReport;
 use congruent_description::{ReportedChain, RobotDescription, Tolerance};
 use congruent_input::{
     Capability, Diagnostic, Finding, Findings,
@@ -22,14 +22,14 @@ use congruent_writers::relative_path;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{
+use crate::codes;
+use crate::{
     joint_move::{JointMove, moves},
     scenario_text::{ScenarioContent, text},
     settings::{checks, computed_torque, gravity_compensation, motion_settings, start_settings},
     touching::{FarthestMove, PairDistances},
     written::absolute,
 };
-use crate::{check::check, codes};
 
 /// Distance that links must keep at least, or half of the smallest distance of the motion if that is less. Unit: m.
 const MOST_MINIMUM_M: f64 = 0.02;
@@ -75,14 +75,19 @@ pub struct NewScenario {
 }
 
 /// A scenario for the chain of `description`, to be written to `file`, an absolute path: some joints move and come back,
-/// links stay apart, and all checks pass.
+/// links stay apart, and all checks pass. `checked` is the check of the robot: it is asked if the robot declares no tolerance.
 ///
 /// # Errors
 /// What keeps the robot from being simulated, or from passing.
-pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioDraft, Findings> {
+pub fn scenario(
+    description: &RobotDescription,
+    file: &Path,
+    checked: impl FnOnce() -> Option<CheckReport>,
+) -> Result<ScenarioDraft, Findings> {
     description.check_capability(Capability::Physics)?;
     let (mut content, largest) = content(description, file)?;
-    if let Some((agreement, remark)) = within_digits(description) {
+    let checked = if description.declared_tolerance.is_declared() { None } else { checked() };
+    if let Some((agreement, remark)) = checked.and_then(|report| within_digits(description, &report)) {
         content.scenario.check.retain(|check| check.kind() != CheckKind::Agreement);
         content.scenario.check.insert(0, Check::Agreement(agreement));
         content.remarks.push(remark);
@@ -211,11 +216,7 @@ fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
 
 /// The limits of the check of agreement for a table that is the same as the URDF by its digits alone, and the remark on them: a
 /// run is judged by a tolerance, and the robot file declares none.
-fn within_digits(description: &RobotDescription) -> Option<(AgreementCheck, String)> {
-    if description.declared_tolerance.is_declared() {
-        return None;
-    }
-    let report = check(description, &CheckOptions::default()).ok()?.geometry;
+fn within_digits(description: &RobotDescription, report: &CheckReport) -> Option<(AgreementCheck, String)> {
     let allowed = report.allowed_by_digits.filter(|_| report.is_judged_by_digits())?;
     let found = report.certificate.unwrap_or_default().larger(report.worst.error);
     // Twice the difference, or less where the digits do not allow as much.

@@ -12,7 +12,7 @@ use congruent_writers::robot_file_values;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::written::{absolute, comment};
+use crate::written::{absolute, comment};
 
 /// A table that is off by rounded axes is given this multiple of what was found at random configurations as tolerance:
 /// others may be somewhat worse.
