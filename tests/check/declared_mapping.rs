@@ -46,3 +46,33 @@ fn declared_names_change_no_cause() {
         assert_eq!(report["diagnosis"][0]["cause"], "joint_origin", "{file}");
     }
 }
+
+/// A tip that the other file calls otherwise and places 100 mm away is compared, whatever the digits of the joints allow; and so is
+/// the last link, placed 100 mm away along the axis of its joint, which moves no axis.
+#[test]
+fn a_tip_in_another_place_is_a_difference_behind_a_mapping() {
+    let urdf = fs::read_to_string(workspace().join("robots/planar_2r/planar_2r.urdf")).unwrap();
+    let tip = urdf.find("<joint name=\"tip_joint\"").unwrap();
+    let tip = &urdf[tip..tip + urdf[tip..].find("</joint>").unwrap() + "</joint>".len()];
+    let without_tip = urdf.replace(tip, "").replace("<link name=\"tip\"/>", "");
+    let elsewhere = "<origin xyz=\"0.4 0 0.1\"/>";
+    let other_tip = urdf
+        .replace(tip, &tip.replace("\"tip\"", "\"tool\"").replace("<origin xyz=\"0.4 0 0\"/>", elsewhere))
+        .replace("<link name=\"tip\"/>", "<link name=\"tool\"/>");
+    let other_link = without_tip
+        .replace("<origin xyz=\"0.6 0 0\"/>\n    <parent", "<origin xyz=\"0.6 0 0.1\"/>\n    <parent");
+    for (own, other) in [(&urdf, other_tip), (&without_tip, other_link)] {
+        assert_ne!(*own, other);
+        let scratch = ScratchFolder::new();
+        scratch.write("own.urdf", own);
+        let robot = scratch.write(
+            "robot.toml",
+            "description = \"own.urdf\"\n[mapping.joints]\njoint_1 = { joint = \"A1\" }\n",
+        );
+        let other = scratch.write("other.urdf", &other.replace("\"joint_1\"", "\"A1\""));
+        let answer = congruent(&["check", &robot, "--against", &other, "-q"]);
+        assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+        assert!(answer.stdout.contains("DIFFERENT, by up to 100 mm"), "{}", answer.stdout);
+        assert!(answer.stdout.contains("off by 100 mm"), "{}", answer.stdout);
+    }
+}

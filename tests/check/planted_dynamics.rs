@@ -93,11 +93,18 @@ fn mutated(original: &str, fault: &Value) -> String {
 /// All names of an explanation with their places.
 fn all_names(explanation: &Value) -> Vec<(String, Vec<String>)> {
     let one = |of: &Value| {
-        let place = names(&of["place"]).into_iter().map(str::to_owned).collect();
+        let place = sorted(&of["place"]);
         (of["cause"].as_str().unwrap().to_owned(), place)
     };
     let also = explanation["also_named"].as_array().unwrap();
     std::iter::once(explanation).chain(also).map(one).collect()
+}
+
+/// The links or joints of a fault, by name: of several those with the largest effect come first in a report.
+fn sorted(place: &Value) -> Vec<String> {
+    let mut names: Vec<String> = names(place).into_iter().map(str::to_owned).collect();
+    names.sort();
+    names
 }
 
 /// A fault in a file of its own against the original.
@@ -109,7 +116,7 @@ fn check(path: &Path, original: &Path) -> (i32, Value) {
 fn assert_named(fault: &Value, code: i32, report: &Value, path: &Path, original: &Path) {
     let id = fault["id"].as_str().unwrap();
     assert_eq!(code, 1, "{id}");
-    let planted: Vec<String> = names(&fault["place"]).into_iter().map(str::to_owned).collect();
+    let planted = sorted(&fault["place"]);
     let planted = (fault["cause"].as_str().unwrap().to_owned(), planted);
     let explanations = &report["dynamics"]["explanations"];
     let first = &explanations[0];

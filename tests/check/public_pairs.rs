@@ -375,3 +375,22 @@ fn a_description_in_sdf_is_refused_in_words() {
         answer.stderr
     );
 }
+
+/// The MJCF of wx250s has five links of the URDF as one, and leaves out the rotation of inertial frames: the sum of the five agrees,
+/// and the rotations are all that is named.
+#[test]
+fn links_that_an_mjcf_fuses_are_compared_as_one() {
+    let Some(corpus) = corpus() else { return };
+    let pair = corpus.join("pairs/wx250s");
+    let [mjcf, urdf] = ["robot.xml", "partner.urdf"].map(|name| pair.join(name).display().to_string());
+    for files in [[&mjcf, &urdf], [&urdf, &mjcf]] {
+        let report = congruent_json(&["check", files[0], "--against", files[1]]).json();
+        let fused = report["against"]["fused_links"].as_array().unwrap();
+        assert!(fused.iter().any(|of| of.as_str().unwrap().contains("wx250s/gripper_bar_link")), "{fused:?}");
+        let differences = report["dynamics"]["differences"].as_array().unwrap();
+        let differing: Vec<&str> = differences.iter().filter_map(|of| of["figure"].as_str()).collect();
+        assert!(differing.iter().all(|parameter| parameter.starts_with('i')), "only tensors: {differing:?}");
+        let links = differences.iter().filter_map(|of| of["of"].as_str());
+        assert!(!links.clone().any(|link| link.ends_with("gripper_link")), "{:?}", links.collect::<Vec<_>>());
+    }
+}

@@ -24,6 +24,9 @@ const SAME: f64 = 1e-3;
 /// How far a fitted zero or frame may move, rad or m: it takes part in the fit, since nobody has written it. Kind: choice, far more
 /// than what digits leave open.
 const FITTED: f64 = 1e-2;
+/// A smaller share of what the written digits allow is no difference: frames of one link that lie elsewhere in two files turn and
+/// shift roundings a little. Kind: choice.
+const NO_PART: f64 = 1e-2;
 /// Damping of the solver, relative to the largest effect. Kind: solver.
 const DAMPING: f64 = 1e-14;
 /// Most values that are varied together, and most joints and links that they move; of larger robots digits explain nothing. Kind:
@@ -60,7 +63,14 @@ impl MatchedRobots<'_> {
         let parts = problem.nearest(DAMPING * scale);
         let used = row_sums(&effects, &parts).amax();
         let rest = &difference + &effects * &parts;
-        (rest.amax() <= same + used * used).then(|| sides[0].largest_at_links(&effects))
+        let is_written = roundings.iter().flatten().flat_map(|of| of.rounding.motions().map(is_written));
+        let is_written = DVector::from_iterator(columns.len(), is_written);
+        let written = row_sums(&effects, &is_written);
+        let is_explained =
+            |(rest, written): (&f64, &f64)| rest.abs() <= same + used * used + NO_PART * written;
+        // Of what is fitted the part that the fit takes, and not all that it might have.
+        let most = parts.zip_map(&is_written, |part: f64, is_written| is_written.max(part.abs()));
+        rest.iter().zip(written.iter()).all(is_explained).then(|| sides[0].largest_at_links(&effects, &most))
     }
 
     /// The two robots with the joints and links that are compared, in one order.
@@ -239,11 +249,12 @@ impl ComparedRobot<'_> {
         carried
     }
 
-    /// The largest sum of what all motions move a link at zero.
-    fn largest_at_links(&self, effects: &DMatrix<f64>) -> PoseError {
+    /// The largest sum of what these parts of all motions move a link at zero.
+    fn largest_at_links(&self, effects: &DMatrix<f64>, parts: &DVector<f64>) -> PoseError {
         let of_link = |(at, link): (usize, &LinkIndex)| {
             let (first, point) = (6 * (self.joints.len() + at), self.screws.home(*link).translation);
-            let vector = |column: usize, from: usize| effects.fixed_view::<3, 1>(from, column).into_owned();
+            let vector =
+                |column: usize, from: usize| effects.fixed_view::<3, 1>(from, column) * parts[column];
             let motions =
                 (0..effects.ncols()).map(|column| [vector(column, first), vector(column, first + 3)]);
             motions.fold(PoseError::default(), |sum, [angular, linear]| PoseError {
@@ -299,6 +310,11 @@ fn is_along(one: &SmallMotion, other: &SmallMotion) -> bool {
         [one, other].map(|of| if is_turn(of) { of.angular_rad } else { of.linear_m });
     let sine = one_along.normalize().cross(&other_along.normalize()).norm();
     is_turn(one) == is_turn(other) && sine < SAME
+}
+
+/// 1 for what digits leave open, 0 for what is fitted.
+fn is_written(motion: &SmallMotion) -> f64 {
+    f64::from(u8::from(size(motion) < 0.5 * FITTED))
 }
 
 fn is_turn(motion: &SmallMotion) -> bool {

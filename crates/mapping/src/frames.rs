@@ -41,7 +41,7 @@ pub fn in_frames_of(
         // The frame of a tip that is named, or at the end of a branch, shows the zero of its joint if both files call the link the
         // same and place its frame alike.
         let is_evidence = named_tip == Some(here.child) || is_end(robot, here.child);
-        if is_same_link && is_evidence && is_motion_of(joint, &link_from_frame, here) {
+        if is_same_link && is_evidence && is_along_axis(joint, &link_from_frame, here) {
             continue;
         }
         if axes == CommonAxes::Differ && is_same_link && link_from_frame.rotation.angle() < SAME_FRAME_RAD {
@@ -71,15 +71,16 @@ pub fn has_other_frames(
     })
 }
 
-/// Whether the frames of a link differ by a motion of its joint alone.
-fn is_motion_of(joint: &Joint, link_from_frame: &Isometry3<f64>, here: &Joint) -> bool {
-    let turned = (link_from_frame.rotation * here.axis_in_joint.into_inner()
-        - joint.axis_in_joint.into_inner())
-    .norm();
-    match joint.kind {
-        JointKind::Prismatic => link_from_frame.rotation.angle() < SAME_PLACE,
-        _ => turned < SAME_PLACE && link_from_frame.translation.vector.norm() < SAME_PLACE,
+/// Whether the frames of a link differ by a shift alone if it slides, or else by a turn about the axis of its joint and a shift along
+/// it: then both have the axis in the same coordinates.
+fn is_along_axis(joint: &Joint, link_from_frame: &Isometry3<f64>, here: &Joint) -> bool {
+    if joint.kind == JointKind::Prismatic {
+        return link_from_frame.rotation.angle() < SAME_PLACE;
     }
+    let axis = joint.axis_in_joint.into_inner();
+    let [own, moved] = [axis, link_from_frame.rotation * axis].map(|of| of - here.axis_in_joint.into_inner());
+    let is_same_axis = own.norm() < SAME_PLACE && moved.norm() < SAME_PLACE;
+    is_same_axis && link_from_frame.translation.vector.cross(&axis).norm() < SAME_PLACE
 }
 
 /// Whether no joint moves anything behind a link.

@@ -9,13 +9,13 @@ use congruent_kinematics::{PoseError, ScrewTree};
 /// both are the same frame.
 pub fn link_names(own: &RobotDescription, other: &Robot, tip: &str) -> BTreeMap<LinkIndex, String> {
     let robot = &own.robot;
-    let mut names = BTreeMap::from([(other.root(), robot.link(robot.root()).name.clone())]);
+    let trees = [robot, other].map(ScrewTree::new);
+    let mut names = BTreeMap::from([(other.root(), root_name(robot, other, &trees[0]))]);
     for joint in other.joints().iter().filter(|joint| joint.kind.is_movable()) {
         let Some(here) = robot.find_joint(&joint.name) else { continue };
         names.insert(joint.child, robot.link(robot.joint(here).child).name.clone());
     }
     let own_tip = &robot.link(own.tip).name;
-    let trees = [robot, other].map(ScrewTree::new);
     let there = other.find_link(tip).filter(|there| !names.contains_key(there));
     if let Some(there) = there.filter(|_| other.find_link(own_tip).is_none()) {
         let off = PoseError::between(trees[0].home(own.tip), trees[1].home(there));
@@ -27,10 +27,40 @@ pub fn link_names(own: &RobotDescription, other: &Robot, tip: &str) -> BTreeMap<
     names
 }
 
-/// The robot with other names of the links that are fixed to its root, so that no link of another description is one of them.
+/// The name of the other root here: its own if a link at the root is called so, as behind the world of an MJCF.
+fn root_name(robot: &Robot, other: &Robot, screws: &ScrewTree) -> String {
+    let (root, name) = (robot.root(), &other.link(other.root()).name);
+    let is_root = |link: &LinkIndex| {
+        let off = PoseError::between(screws.home(root), screws.home(*link));
+        robot.body(*link) == root && off == PoseError::default()
+    };
+    robot.find_link(name).filter(is_root).map_or_else(|| robot.link(root).name.clone(), |_| name.clone())
+}
+
+/// The robot with other names of the links that are fixed to its root, and of the joints that fix them, so that no link of another
+/// description is one of them.
 #[must_use]
 pub fn with_other_still_links(robot: &Robot) -> Robot {
     let is_still = |link: &LinkIndex| robot.body(*link) == robot.root() && *link != robot.root();
-    let name = |link: LinkIndex| format!("{} (fixed to the fitted base)", robot.link(link).name);
-    robot.with_link_names(&robot.link_indices().filter(is_still).map(|link| (link, name(link))).collect())
+    let name = |name: &str| format!("{name} (fixed to the fitted base)");
+    let links = robot.link_indices().filter(is_still);
+    let names = links.map(|link| (link, name(&robot.link(link).name))).collect();
+    let renamed = robot.with_link_names(&names);
+    renamed.with_joints(|joint| {
+        if names.contains_key(&joint.child) {
+            joint.name = name(&joint.name);
+        }
+    })
+}
+
+/// The link of the other description that is a link of the robot behind a fixed joint: the one of its name, or at the end of a
+/// branch the one that the joint of the same name carries, if the robot has no link of that name.
+pub fn same_fixed_link(link: LinkIndex, robot: &Robot, other: &Robot) -> Option<LinkIndex> {
+    other.find_link(&robot.link(link).name).or_else(|| {
+        let carrying = robot.joint(robot.parent_joint(link)?);
+        let there = other.joint(other.find_joint(&carrying.name)?);
+        let is_end = robot.joints().iter().all(|joint| joint.parent != link);
+        let is_known = robot.find_link(&other.link(there.child).name).is_some();
+        (is_end && !there.kind.is_movable() && !is_known).then_some(there.child)
+    })
 }

@@ -4,6 +4,8 @@
 use congruent_description::{Joint, JointIndex, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
 
+use crate::link_names::same_fixed_link;
+
 /// A robot and another description of it, with the poses of the links of the first at zero by both. Both have the same
 /// moving joints by name.
 #[derive(Debug, Clone)]
@@ -34,7 +36,7 @@ impl<'a> MatchedRobots<'a> {
             // joints.
             match carrying.filter(|joint| joint.kind.is_movable()) {
                 Some(_) => Some(other.joint(namesakes[link.get()]?).child),
-                None => other.find_link(&robot.link(link).name),
+                None => same_fixed_link(link, robot, other),
             }
         };
         let links = robot.link_indices().map(link).collect();

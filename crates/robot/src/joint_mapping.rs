@@ -126,9 +126,7 @@ impl Robot {
         let parts = self.joints().iter().enumerate().map(|(at, joint)| {
             let follows = joint.mimic.filter(|mimic| is_locked(mimic.master));
             if !is_locked(JointIndex(at)) && follows.is_none() {
-                let mimic =
-                    joint.mimic.map(|of| (self.joint(of.master).name.clone(), of.multiplier, of.offset));
-                return self.parts(joint.clone(), mimic);
+                return self.parts(joint.clone(), self.written_mimic(joint));
             }
             let position = joint.mimic.map_or(0.0, |mimic| mimic.offset);
             let locked = Joint {
@@ -152,14 +150,13 @@ impl Robot {
         assert_eq!(link_from_frame.len(), self.links().len(), "one frame for each link");
         let parts = self.joints().iter().map(|joint| {
             let [parent, child] = [joint.parent, joint.child].map(|link| link_from_frame[link.0]);
-            let mimic = joint.mimic.map(|of| (self.joint(of.master).name.clone(), of.multiplier, of.offset));
             let moved = Joint {
                 parent_from_joint: parent.inverse() * joint.parent_from_joint * child,
                 axis_in_joint: child.rotation.inverse() * joint.axis_in_joint,
                 rounding: joint.rounding.expressed_in(&parent.inverse()),
                 ..joint.clone()
             };
-            self.parts(moved, mimic)
+            self.parts(moved, self.written_mimic(joint))
         });
         let links = self.links().iter().zip(link_from_frame).map(|(link, frame)| link_in_frame(link, frame));
         self.rebuilt(links.collect(), parts.collect())
@@ -174,11 +171,28 @@ impl Robot {
         };
         let links = self.link_indices().map(|index| Link { name: name(index), ..self.link(index).clone() });
         let parts = self.joints().iter().map(|joint| {
-            let mimic = joint.mimic.map(|of| (self.joint(of.master).name.clone(), of.multiplier, of.offset));
             let [parent, child] = [joint.parent, joint.child].map(name);
-            JointParts { joint: joint.clone(), parent, child, mimic }
+            JointParts { joint: joint.clone(), parent, child, mimic: self.written_mimic(joint) }
         });
         self.rebuilt(links.collect(), parts.collect())
+    }
+
+    /// The same robot with one more link, fixed to one that it has.
+    ///
+    /// # Panics
+    /// If there is no link called `parent`, or one of the new name already.
+    #[must_use]
+    pub fn with_fixed_link(&self, parent: &str, parent_from_link: Isometry3<f64>, link: Link) -> Self {
+        let taken = self.joints().iter().map(|joint| joint.name.as_str()).collect();
+        let name = free_name(&link.name, &taken);
+        let fixed = JointParts::new(&name, JointKind::Fixed, parent, &link.name, parent_from_link);
+        let parts = self.joints().iter().map(|joint| self.parts(joint.clone(), self.written_mimic(joint)));
+        self.rebuilt(self.links().iter().cloned().chain([link]).collect(), parts.chain([fixed]).collect())
+    }
+
+    /// What a joint follows, with its name.
+    fn written_mimic(&self, joint: &Joint) -> Option<(String, f64, f64)> {
+        joint.mimic.map(|of| (self.joint(of.master).name.clone(), of.multiplier, of.offset))
     }
 
     /// The parts of a joint between the links that it has here.

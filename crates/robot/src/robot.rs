@@ -76,6 +76,17 @@ impl Robot {
         changed
     }
 
+    /// The same tree with its links changed in what is not the tree: names stay.
+    #[must_use]
+    pub fn with_links(&self, mut change: impl FnMut(&mut Link)) -> Self {
+        let mut changed = self.clone();
+        for (link, before) in changed.links.iter_mut().zip(&self.links) {
+            change(link);
+            link.name.clone_from(&before.name);
+        }
+        changed
+    }
+
     /// The same robot with another inertia of one link.
     ///
     /// # Panics

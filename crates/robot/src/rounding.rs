@@ -49,7 +49,12 @@ pub struct JointRounding {
 impl JointRounding {
     /// How many numbers leave something open.
     pub fn values(&self) -> usize {
-        self.origin.len() + self.axis.len() + self.frame.len()
+        self.motions().count()
+    }
+
+    /// All of these motions.
+    pub fn motions(&self) -> impl Iterator<Item = &SmallMotion> {
+        self.origin.iter().chain(&self.axis).chain(&self.frame)
     }
 
     /// The same in another frame of the parent link.

@@ -9,7 +9,7 @@ use congruent_mapping::MatchedRobots;
 use super::{
     certificate::{Brackets, worst},
     check::{CheckOptions, ComparedSources, compared, verdict, worst_difference},
-    check_report::{Agreement, CheckReport},
+    check_report::{Agreement, CheckReport, Comparison},
     differences_at::without_table,
     error::CheckError,
     grade::Grade,
@@ -78,20 +78,37 @@ impl CheckReport {
     }
 }
 
+/// What second-order terms add to differences that digits allow. No unit, relative; kind: choice.
+const MARGIN: f64 = 1.01;
+/// Rounding of computed angles, rad.
+const ANGLE_RAD: f64 = 1e-9;
+
 /// Whether the digits of two files count: not those of a revision, since what changes is asked for.
 fn digits_count(other: &RobotDescription) -> bool {
     RevisionName::of(&other.path).is_none()
 }
 
-/// What the digits of the two files allow, if they explain a difference.
+/// What the digits of the two files allow, if they explain a difference: also that of links which are compared and have no digits
+/// that place them.
 fn explained_by_digits(
     report: &CheckReport,
     other: &RobotDescription,
     robots: &MatchedRobots<'_>,
 ) -> Option<PoseError> {
-    let mut pairs = report.comparisons.iter().filter(|of| of.name == SourcePair::UrdfSimulation);
-    let differ = pairs.any(|of| Grade::from_difference(&of.worst.error) == Grade::Different);
-    (differ && digits_count(other)).then(|| robots.explained_by_digits()).flatten()
+    let is_pair = |of: &&Comparison| of.name == SourcePair::UrdfSimulation;
+    let differ = report
+        .comparisons
+        .iter()
+        .filter(is_pair)
+        .any(|of| Grade::from_difference(&of.worst.error) == Grade::Different);
+    let allowed = (differ && digits_count(other)).then(|| robots.explained_by_digits()).flatten()?;
+    // To first order turns add up to the same in all configurations, and shifts to what turns add across the reach.
+    let most_m = allowed.position_m + 2.0 * robots.reach_m() * allowed.orientation_rad;
+    let is_allowed = |of: &Comparison| {
+        let PoseError { position_m, orientation_rad } = of.worst.error;
+        position_m <= MARGIN * most_m && orientation_rad <= MARGIN * allowed.orientation_rad + ANGLE_RAD
+    };
+    report.comparisons.iter().filter(is_pair).all(is_allowed).then_some(allowed)
 }
 
 /// Why two descriptions differ: joints with another origin or axis, or else the diagnosis of the chain from base to

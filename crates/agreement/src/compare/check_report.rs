@@ -146,7 +146,8 @@ pub struct CheckReport {
     pub table_compared: bool,
     /// Whether all sources that were compared agree.
     pub verdict: Agreement,
-    /// How much alike the sources are, whatever the tolerance is; missing if nothing was compared.
+    /// How much alike the poses of the sources are, whatever the tolerance is; missing if none were compared. Masses and limits
+    /// have no part in it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grade: Option<Grade>,
     /// The largest difference that the digits of two files allow, to first order: the sum of what half of the last place of each

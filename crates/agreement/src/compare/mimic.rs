@@ -9,6 +9,7 @@ use super::{
     check::{CheckOptions, RANDOM_CONFIGURATIONS, verdict, worst_difference},
     check_report::{Agreement, CheckReport},
     error::CheckError,
+    grade::Grade,
 };
 use crate::{
     report::{FollowedJoint, Relation, with_mimics},
@@ -44,6 +45,8 @@ impl CheckReport {
         if joints.is_empty() {
             return Ok(());
         }
+        let compared = self.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
+        let of_chain = compared.map_or(Agreement::NothingCompared, |of| of.verdict);
         let mut worst_remaining = Vec::with_capacity(joints.len() + 1);
         // With none of them corrected, then with the first, the first two, and so on: the residuals of the stages.
         for corrected in 0..=joints.len() {
@@ -68,7 +71,7 @@ impl CheckReport {
         let known = at.map(|at| self.diagnoses.remove(at));
         let words: Vec<FollowedJoint> = joints.into_iter().map(|joint| joint.words).collect();
         let mut diagnoses = std::mem::take(&mut self.diagnoses);
-        diagnoses.push(with_mimics(known, &words, [description, other], &worst_remaining));
+        diagnoses.push(with_mimics(known, &words, [description, other], &worst_remaining, of_chain));
         self.set_diagnoses(diagnoses);
         Ok(())
     }
@@ -89,6 +92,8 @@ impl CheckReport {
                 comparison.worst.error = comparison.worst.error.larger(*error);
             }
         }
+        // No digits explain it, whatever they explain of the chain.
+        self.grade = self.grade.max(Some(Grade::Different));
         // The bounds hold for chains with the same mimic relations; with different ones there is no bound.
         for certificate in self.certificates.iter_mut().filter(|of| of.name == SourcePair::UrdfOther) {
             certificate.brackets = None;

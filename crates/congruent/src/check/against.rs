@@ -14,7 +14,9 @@ use congruent_input::{
     nearest,
 };
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
-use congruent_mapping::{common_tip, is_same_value, other_joint, with_values_within_digits};
+use congruent_mapping::{
+    common_tip, is_same_value, other_joint, with_masses_at_links_of, with_values_within_digits,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -60,6 +62,10 @@ pub struct OtherDescription {
     /// Links of this description that the other lacks: their frames are not compared.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links_not_found: Vec<String>,
+    /// Links that one of the two has as one, each with those that are fixed to it in the other: their masses are compared as the
+    /// sum.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fused_links: Vec<String>,
     /// Masses, inertias, limits and losses that differ by no more than the digits that they are written with, which is no
     /// difference: `forearm_link: mass`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -94,6 +100,7 @@ impl OtherDescription {
             mapping: None,
             common_tip,
             links_not_found: lacking.collect(),
+            fused_links: Vec::new(),
             values_within_digits: Vec::new(),
         }
     }
@@ -124,7 +131,10 @@ pub(super) fn compared(
     } else {
         Vec::new()
     };
-    against.values_within_digits = adopt_rounded_values(geometry, description, other);
+    if RevisionName::of(&other.path).is_none() {
+        against.fused_links = adopt_places_of_masses(description, other);
+        against.values_within_digits = adopt_rounded_values(geometry, description, other);
+    }
     geometry.add_mimics(description, other, &mut poses, options)?;
     if misplaced.is_some() && in_other_frames.is_empty() {
         against.dynamics_not_compared = misplaced;
@@ -190,16 +200,25 @@ fn dynamics_of(
     }
 }
 
-/// Gives the other description the values of this one where they differ within the digits of both, and names them; those of a
-/// revision are compared as they are, since what changes is asked for.
+/// Gives the other description the masses of each body at the links where this one has them, and names the bodies where that
+/// makes a difference.
+fn adopt_places_of_masses(own: &RobotDescription, there: &mut RobotDescription) -> Vec<String> {
+    let (robot, fused) = with_masses_at_links_of([&own.robot, &there.robot]);
+    let names = [there.base, there.tip].map(|link| there.robot.link(link).name.clone());
+    let [base, tip] = names.map(|name| robot.find_link(&name).unwrap_or(robot.root()));
+    let urdf = there.places.urdf.take();
+    let links = || fused.iter().flat_map(|of| of.with.iter().chain([&of.link]));
+    there.places.urdf = urdf.map(|urdf| urdf.without_links(links()));
+    (there.robot, there.base, there.tip) = (robot, base, tip);
+    fused.iter().map(|of| format!("{} with {}", of.link, of.with.join(", "))).collect()
+}
+
+/// Gives the other description the values of this one where they differ within the digits of both, and names them.
 fn adopt_rounded_values(
     geometry: &CheckReport,
     own: &RobotDescription,
     there: &mut RobotDescription,
 ) -> Vec<String> {
-    if RevisionName::of(&there.path).is_some() {
-        return Vec::new();
-    }
     // What digits, or a small difference of poses, turn and shift a frame by, they turn and shift the inertia in it by.
     let is_other = |of: &&Comparison| of.name == SourcePair::UrdfOther;
     let compared = geometry.comparisons.iter().filter(is_other);

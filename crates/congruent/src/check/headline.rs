@@ -288,18 +288,24 @@ fn after_mapping(check: &RobotCheck) -> Option<Headline> {
         let details = format!(": {joints}; in the same variables {worst}{cause}{torques}");
         return Some(Headline::new("DIFFERENT", details));
     }
-    let torques = check.all_dynamics().find(|report| !report.agrees());
-    let but = torques.map_or_else(String::new, |report| {
-        let why = if report.has_same_torques() {
-            check.limits(report)
-        } else {
-            format!(": {}", check.cause_of_torques(report))
-        };
-        format!(", but dynamics or limits differ{why}")
-    });
-    let details =
-        format!(": {joints}; in the same variables {worst}{but}. Declare [mapping] if this is meant");
-    Some(Headline::new("EQUAL AFTER MAPPING", details))
+    let (where_compared, declare) = match mapping.all_of_alike() {
+        Some(all) => (format!("IN {} OF {all} JOINTS", mapping.joints.len()), "left_out in [mapping]"),
+        None => ("AFTER MAPPING".to_owned(), "[mapping]"),
+    };
+    let declare = format!("Declare {declare} if this is meant");
+    let (answer, differ) = match check.all_dynamics().find(|report| !report.agrees()) {
+        None => (format!("EQUAL {where_compared}"), String::new()),
+        Some(report) if report.has_same_torques() => {
+            let limits = check.limits(report);
+            (format!("EQUAL {where_compared}, DIFFERENT JOINT LIMITS"), format!("; limits differ{limits}"))
+        }
+        Some(report) => (
+            format!("SAME GEOMETRY {where_compared}, DIFFERENT DYNAMICS"),
+            format!("; torques differ: {}", check.cause_of_torques(report)),
+        ),
+    };
+    let details = format!(": {joints}; in the same variables {worst}{differ}. {declare}");
+    Some(Headline::new(answer, details))
 }
 
 /// Poses agree, but masses, friction, gravity or limits do not.

@@ -145,14 +145,16 @@ impl MappedPair {
         let fitted = found.joints.iter().filter(is_fitted).map(|of| of.name.as_str()).collect();
         let in_frames = with_fitted(&in_frames, &fitted, axes);
         let tip = other.robot.link(other.tip).name.clone();
-        let robot = in_frames.with_link_names(&link_names(&own, &in_frames, &tip));
+        let link_names = link_names(&own, &in_frames, &tip);
+        let robot = in_frames.with_link_names(&link_names);
         let robot = if has_fitted_base(description, found) {
             with_fitted_base(&with_other_still_links(&robot))
         } else {
             robot
         };
         let names = found.joints.iter().map(|of| (of.name.clone(), other.robot.joint(of.joint).name.clone()));
-        let names = names.collect();
+        let link_names =
+            link_names.iter().map(|(&link, name)| (name.clone(), in_frames.link(link).name.clone()));
         // Which tip is meant is known by the joints; a frame that the other lacks is no obstacle then.
         let own = match own.chain_ends.tip {
             ChainEnd::Given => own,
@@ -161,7 +163,8 @@ impl MappedPair {
             }
         };
         let there = part(other, robot);
-        let urdf = there.places.urdf.clone().map(|urdf| urdf.of_rewritten(names));
+        let urdf =
+            there.places.urdf.clone().map(|urdf| urdf.of_rewritten(names.collect(), link_names.collect()));
         let places = Places { urdf, ..there.places };
         Self { description: own, other: RobotDescription { places, ..there }, options, report }
     }

@@ -32,9 +32,16 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
             count => words.push(format!("{count} of {all} joints have {what}")),
         }
     }
-    let alone = mapping.left_out.len() + mapping.other_left_out.len();
-    if alone > 0 {
-        words.push(format!("{} in one file alone", counted(alone, "joint")));
+    let [own, there] = mapping.alone();
+    for (what, names) in
+        [("elsewhere on the robot", mapping.elsewhere()), ("in one file alone", [own, there].concat())]
+    {
+        match names[..] {
+            [] => {}
+            [only] => words.push(format!("{only} moves {what}")),
+            [_, _] => words.push(format!("{} move {what}", listed(&names))),
+            _ => words.push(format!("{} move {what}", counted(names.len(), "joint"))),
+        }
     }
     if words.is_empty() {
         words.push("the root frames differ".to_owned());

@@ -2,6 +2,7 @@
 
 use congruent_description::{Link, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree, sample_configurations};
+use congruent_mapping::same_fixed_link;
 
 /// Random positions at which links are found to move alike. Kind: choice.
 pub(super) const POSITIONS: usize = 50;
@@ -49,11 +50,7 @@ impl PosesOfOther {
             let there = match joint {
                 Some(joint) if joint.kind.is_movable() => exchanged(link, robot, other)
                     .or_else(|| other.find_joint(&joint.name).map(|there| other.joint(there).child)),
-                _ => {
-                    let is_end = robot.joints().iter().all(|joint| joint.parent != link);
-                    let joint = joint.filter(|_| is_end).map(|joint| joint.name.as_str());
-                    other.find_link(&robot.link(link).name).or_else(|| renamed(joint, robot, other))
-                }
+                _ => same_fixed_link(link, robot, other),
             };
             match (there, joint) {
                 (Some(there), _) => LinkCorrespondence::Other(there.get()),
@@ -142,13 +139,6 @@ impl PosesOfOther {
     pub(super) fn with_mimics(robot: &Robot, other: &Robot) -> Self {
         Self { followed: Some(other.clone()), ..Self::new(robot, other) }
     }
-}
-
-/// The link at the end of a branch that a fixed joint of this name carries in the other description, if this robot has no link of its name.
-fn renamed(joint: Option<&str>, robot: &Robot, other: &Robot) -> Option<LinkIndex> {
-    let there = other.joint(other.find_joint(joint?)?);
-    let is_known = robot.find_link(&other.link(there.child).name).is_some();
-    (!there.kind.is_movable() && !is_known).then_some(there.child)
 }
 
 impl LinkPoses for PosesOfOther {

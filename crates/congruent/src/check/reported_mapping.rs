@@ -110,6 +110,28 @@ impl ReportedMapping {
         }
     }
 
+    /// Joints of one name that have no common axis: the files place them elsewhere.
+    pub fn elsewhere(&self) -> Vec<&str> {
+        let of_both = self.left_out.iter().filter(|name| self.other_left_out.contains(name));
+        of_both.map(String::as_str).collect()
+    }
+
+    /// Joints that move in this file alone, and in the other alone.
+    pub fn alone(&self) -> [Vec<&str>; 2] {
+        let elsewhere = self.elsewhere();
+        [&self.left_out, &self.other_left_out]
+            .map(|names| names.iter().map(String::as_str).filter(|name| !elsewhere.contains(name)).collect())
+    }
+
+    /// The joints of both files together, if no joint of both has another name, direction or zero there, and the roots are the same:
+    /// some move in one file alone then.
+    pub(super) fn all_of_alike(&self) -> Option<usize> {
+        let is_same = |of: &ReportedJoint| of.has_same_variable() && of.joint == of.other;
+        let is_alike = self.joints.iter().all(is_same) && self.root_from_other_root.is_none();
+        let alone = self.left_out.len() + self.other_left_out.len() - self.elsewhere().len();
+        (is_alike && alone > 0).then_some(self.joints.len() + alone)
+    }
+
     /// The mapping with the largest difference of poses that the comparison of the two has found.
     pub(super) fn with_worst(self, geometry: &CheckReport) -> Self {
         let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);

@@ -7,7 +7,7 @@ use congruent_agreement::{
     compare::{CheckError, CheckOptions, CheckReport, Grade},
 };
 use congruent_description::RobotDescription;
-use congruent_dynamics_agreement::DynamicsReport;
+use congruent_dynamics_agreement::{DynamicsReport, LimitCause};
 use congruent_input::{Diagnostic, Finding, display::listed};
 use congruent_kinematics::ReportedPose;
 use congruent_mapping::{driven_as_in, other_joint};
@@ -71,13 +71,13 @@ pub(super) fn with_other(
     there = placed_as_in(&there, &own).unwrap_or(there);
     let (robot, driven_otherwise) = driven_as_in(&own.robot, &there.robot);
     there.robot = robot;
-    let before = geometry.clone();
+    let (before, as_written) = (geometry.clone(), there.clone());
     let (mut against, mut dynamics) = compared(geometry, &own, &mut there, &own_options)?;
     against.joints_left_out = left_out;
     against.mapping = mapping.map(|mapping| mapping.with_worst(geometry));
     if against.mapping.is_none()
         && against.dynamics_not_compared.is_some()
-        && let Some(mut pair) = MappedPair::of_other_variables(&own, &there, &own_options)
+        && let Some(mut pair) = MappedPair::of_other_variables(&own, &as_written, &own_options)
         && PairReading::may_be_other(geometry, &pair.report)
     {
         let (mut in_variables, mut mapped) = (against.clone(), before);
@@ -90,6 +90,9 @@ pub(super) fn with_other(
             *geometry = mapped;
             (own, there, own_options) = (pair.description, pair.other, pair.options);
         }
+    }
+    if let (Some(mapping), Some(report)) = (&against.mapping, &mut dynamics) {
+        add_written_ends(report, mapping);
     }
     geometry.warnings.extend(other.warnings.iter().map(Finding::from));
     geometry.warnings.extend(driven_by_another(&against.file, &driven_otherwise).iter().map(Finding::from));
@@ -131,6 +134,7 @@ fn in_same_variables(
     against.mapping = Some(ReportedMapping::with_worst(pair.report.clone(), geometry));
     against.dynamics_not_compared = mapped.dynamics_not_compared;
     against.links_in_other_frames = mapped.links_in_other_frames;
+    against.fused_links = mapped.fused_links;
     against.values_within_digits = mapped.values_within_digits;
     Ok(dynamics)
 }
@@ -180,6 +184,15 @@ impl PairReading {
             Ordering::Equal if is_equal => Self::Conventions,
             Ordering::Less | Ordering::Equal => Self::AsWritten,
         }
+    }
+}
+
+/// The ends of ranges as the other file writes them, where a joint has another direction or zero there.
+fn add_written_ends(report: &mut DynamicsReport, mapping: &ReportedMapping) {
+    for limit in report.limits.iter_mut().filter(|of| of.cause == LimitCause::PositionLimit) {
+        let joint = mapping.joints.iter().find(|of| of.joint == limit.joint && !of.has_same_variable());
+        limit.expected_as_written =
+            joint.zip(limit.expected).map(|(of, expected)| f64::from(of.sign) * expected + of.offset);
     }
 }
 

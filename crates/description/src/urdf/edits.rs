@@ -11,7 +11,7 @@ use roxmltree::Node;
 
 use super::{
     UrdfPlaces,
-    node::{element, last, tag},
+    node::{element, tag},
 };
 
 /// A written rotation is kept if it differs by less than this. Unit: rad; kind: rounding of angles.
@@ -25,7 +25,7 @@ impl UrdfPlaces {
     /// The edits after which a link has this inertia; none if there is no such link.
     pub fn set_inertia(&self, link: &str, inertia: &Inertia) -> Vec<TextEdit> {
         let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
-        let Some(link) = last(document.root_element(), "link", link) else { return Vec::new() };
+        let Some(link) = self.link(&document, link) else { return Vec::new() };
         let Some(inertial) = element(link, "inertial") else {
             let origin = new_element("origin", &[("xyz", xyz(inertia)), ("rpy", rpy(inertia))]);
             let mass = new_element("mass", &[("value", significant(inertia.mass_kg))]);

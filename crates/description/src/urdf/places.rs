@@ -15,27 +15,50 @@ use super::{
 pub struct UrdfPlaces {
     source: Arc<SourceFile>,
     /// Names of joints in the file by those under which they are asked for, where these differ.
-    names: Arc<BTreeMap<String, String>>,
+    joint_names: Arc<BTreeMap<String, String>>,
+    /// The same of links; `None` for a link whose values are those of no element of the file.
+    link_names: Arc<BTreeMap<String, Option<String>>>,
     is_rewritten: bool,
 }
 
 impl UrdfPlaces {
     /// `source` must have been read before. It is parsed again for each place, since places are needed only for messages.
     pub(crate) fn new(source: Arc<SourceFile>) -> Self {
-        Self { source, names: Arc::default(), is_rewritten: false }
+        Self { source, joint_names: Arc::default(), link_names: Arc::default(), is_rewritten: false }
     }
 
-    /// The places of a robot that has been rewritten in other variables: the names of its joints in the file by those that it
-    /// has. What the file writes of a joint is then no value of the robot.
+    /// The places of a robot that has been rewritten in other variables: the names of its joints and links in the file by those
+    /// that they have. What the file writes of a joint is then no value of the robot.
     #[must_use]
-    pub fn of_rewritten(self, names: BTreeMap<String, String>) -> Self {
-        Self { names: names.into(), is_rewritten: true, ..self }
+    pub fn of_rewritten(self, joints: BTreeMap<String, String>, links: BTreeMap<String, String>) -> Self {
+        let link_names = links.into_iter().map(|(name, written)| {
+            let known = self.link_names.get(&written).cloned();
+            (name, known.unwrap_or(Some(written)))
+        });
+        let link_names = link_names.collect();
+        Self { joint_names: joints.into(), link_names: Arc::new(link_names), is_rewritten: true, ..self }
+    }
+
+    /// The same without places of these links, whose values no element of the file has.
+    #[must_use]
+    pub fn without_links<'a>(mut self, links: impl Iterator<Item = &'a String>) -> Self {
+        Arc::make_mut(&mut self.link_names).extend(links.map(|link| (link.clone(), None)));
+        self
     }
 
     /// The element of a joint.
     pub(super) fn joint<'a, 'i>(&self, document: &'a Document<'i>, name: &str) -> Option<Node<'a, 'i>> {
-        let name = self.names.get(name).map_or(name, String::as_str);
+        let name = self.joint_names.get(name).map_or(name, String::as_str);
         last(document.root_element(), "joint", name)
+    }
+
+    /// The element of a link.
+    pub(super) fn link<'a, 'i>(&self, document: &'a Document<'i>, name: &str) -> Option<Node<'a, 'i>> {
+        let name = match self.link_names.get(name) {
+            Some(written) => written.as_deref()?,
+            None => name,
+        };
+        last(document.root_element(), "link", name)
     }
 
     /// The URDF that the places are in.
@@ -122,7 +145,7 @@ impl UrdfPlaces {
     /// missing, or of the link if it has none.
     pub fn inertial_part(&self, link: &str, part: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
-        let link = last(document.root_element(), "link", link)?;
+        let link = self.link(&document, link)?;
         Some(element(link, "inertial").map_or_else(|| tag(link), |inertial| place(inertial, part)))
     }
 
@@ -130,7 +153,7 @@ impl UrdfPlaces {
     pub fn has_inertial(&self, link: &str) -> bool {
         let document = xml::parse(&self.source.text).ok();
         document.is_some_and(|document| {
-            last(document.root_element(), "link", link).and_then(|link| element(link, "inertial")).is_some()
+            self.link(&document, link).and_then(|link| element(link, "inertial")).is_some()
         })
     }
 
@@ -139,11 +162,12 @@ impl UrdfPlaces {
         let text = &self.source.text;
         let document = xml::parse(text).ok()?;
         let root = document.root_element();
+        let node = self.link(&document, link)?;
         let carries = |joint: &roxmltree::Node<'_, '_>| {
-            element(*joint, "child").and_then(|child| child.attribute("link")) == Some(link)
+            element(*joint, "child").and_then(|child| child.attribute("link")) == node.attribute("name")
         };
         let joint = elements(root, "joint").find(carries);
-        let nodes = std::iter::once(last(root, "link", link)?).chain(joint);
+        let nodes = std::iter::once(node).chain(joint);
         Some(nodes.map(|node| text[node.range()].to_owned()).collect::<Vec<_>>().join("\n  "))
     }
 
@@ -156,7 +180,7 @@ impl UrdfPlaces {
     /// Place of the `<inertial>` of a link, or of the link if it has none.
     pub fn link_inertial(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
-        Some(place(last(document.root_element(), "link", name)?, "inertial"))
+        Some(place(self.link(&document, name)?, "inertial"))
     }
 }
 

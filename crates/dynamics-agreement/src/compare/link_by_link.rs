@@ -12,12 +12,43 @@ use crate::{
     report::{content::DynamicsExplanation, explained::ExplanationContext, places::ModelFiles},
     thresholds::COMPLEXITY_PER_PART,
     torque::{
-        reduced_difference::{ReducedTorqueDifference, torques},
+        reduced_difference::{ReducedTorqueDifference, torques, weights},
         states::SampledState,
     },
 };
 
-/// The best explanation of each link, of the joint terms and of gravity, each by itself; two of them are merged into one.
+/// What is wrong with one link, with the joint terms or with gravity.
+struct CauseOfLink {
+    /// How much its correction alone changes all torques.
+    effect: f64,
+    explanation: DynamicsExplanation,
+    /// `None` of a link that only one of the two has.
+    named: Option<ExactExplanation>,
+}
+
+/// How much a correction changes all torques: each joint counts by its torque in the reference, whatever is corrected.
+struct TorqueEffect {
+    weights: Vec<f64>,
+    found: Vec<Vec<f64>>,
+}
+
+impl TorqueEffect {
+    fn new([model, reference]: [&DynamicsModel; 2], states: &[SampledState]) -> Result<Self, DynamicsError> {
+        let weights = weights(&torques(reference, states)?, model.frames.dof());
+        Ok(Self { weights, found: torques(model, states)? })
+    }
+
+    fn of(&self, corrected: &[Vec<f64>]) -> f64 {
+        let of_state = |(found, corrected): (&Vec<f64>, &Vec<f64>)| -> f64 {
+            let joints = self.weights.iter().zip(found.iter().zip(corrected));
+            joints.map(|(weight, (found, corrected))| (weight * (corrected - found)).powi(2)).sum()
+        };
+        self.found.iter().zip(corrected).map(of_state).sum::<f64>().sqrt()
+    }
+}
+
+/// The best explanation of each link, of the joint terms and of gravity, each by itself, in the order of their effect; two of them are merged
+/// into one.
 /// Empty if links with the same name do not account for the whole difference.
 pub(super) fn link_by_link(
     setting: &DiagnosisInput<'_>,
@@ -37,11 +68,15 @@ pub(super) fn link_by_link(
         return Ok(Vec::new());
     }
     let corrected = with_exchanges(model, corrected);
-    let mut explanations = unmatched.explanations(files);
-    let mut causes = Vec::new();
+    let effects = TorqueEffect::new([model, reference_in_candidate], states)?;
+    let mut by_effect: Vec<CauseOfLink> = Vec::new();
+    for (one, explanation) in unmatched.corrected_one_by_one().zip(unmatched.explanations(files)) {
+        let effect = effects.of(&torques(&one, states)?);
+        by_effect.push(CauseOfLink { effect, explanation, named: None });
+    }
     for (one, link) in &corrected {
-        let torques = torques(one, states)?;
-        let torque = setting.torque_difference(model, ReferenceTorques { states, torques: &torques })?;
+        let expected = torques(one, states)?;
+        let torque = setting.torque_difference(model, ReferenceTorques { states, torques: &expected })?;
         // The corrected copy is the reference of this link: every cause that changes anything else is
         // contradicted.
         let setting = DiagnosisInput { reference: Some(one), pairs: false, ..*setting };
@@ -51,18 +86,22 @@ pub(super) fn link_by_link(
             // preferred.
             Alone::Unexplained => return Ok(Vec::new()),
             Alone::Explained(cause) => {
-                explanations.push(ExplanationContext::new(&setting, files, &torque).explanation(&cause));
-                causes.push(cause.named);
+                let explanation = ExplanationContext::new(&setting, files, &torque).explanation(&cause);
+                let effect = effects.of(&expected);
+                by_effect.push(CauseOfLink { effect, explanation, named: Some(cause.named) });
             }
         }
     }
+    // What changes torques most is read first.
+    by_effect.sort_by(|a, b| b.effect.total_cmp(&a.effect));
     // Two faults read better as one explanation with two parts, and have one list of edits.
-    if let (2, [first, second]) = (explanations.len(), &causes[..]) {
+    if let [CauseOfLink { named: Some(first), .. }, CauseOfLink { named: Some(second), .. }] = &by_effect[..]
+    {
         let parts = first.parts.iter().chain(&second.parts).cloned().collect();
         let both = ExactExplanation::new(parts, model, setting.reference);
-        explanations = vec![ExplanationContext::new(setting, files, whole_torque).explanation(&both.alone())];
+        return Ok(vec![ExplanationContext::new(setting, files, whole_torque).explanation(&both.alone())]);
     }
-    Ok(explanations)
+    Ok(by_effect.into_iter().map(|of| of.explanation).collect())
 }
 
 /// The explanation of the joint terms alone, if `right` is the candidate with the right ones; `None` if they differ without an

@@ -34,26 +34,37 @@ impl<'a> Unmatched<'a> {
 
     /// Adds the mass of missing links to their bodies, and removes that of links which the reference does not have.
     pub(super) fn correct(&self, model: &mut DynamicsModel) {
-        for &link in &self.added {
+        self.added.iter().for_each(|&link| model.inertials[link] = None);
+        self.missing.iter().for_each(|&link| self.add(link, model));
+    }
+
+    /// The candidate with one of these links corrected, in the order of the explanations.
+    pub(super) fn corrected_one_by_one(&self) -> impl Iterator<Item = DynamicsModel> + '_ {
+        let without = self.added.iter().map(|&link| {
+            let mut model = self.candidate.clone();
             model.inertials[link] = None;
-        }
-        for &link in &self.missing {
-            let place = &self.reference.frames.links[link];
-            let (Some(body), Some(inertial)) = (place.body, &self.reference.inertials[link]) else {
-                continue;
-            };
-            let Some(joint) = model.frames.find_joint(self.reference.frames.joint_name(body)) else {
-                continue;
-            };
-            // The frame of a body is that of the link which its joint carries, and both descriptions have this joint: the
-            // inertia can be added although the candidate does not have the link.
-            let in_body = inertial.about_origin().transformed_by(&place.body_from_link);
-            let carried = model.frames.joints[joint].link;
-            let before = model.inertials[carried].unwrap_or_else(Inertial::nothing);
-            // About one origin, where inertias add.
-            let sum = Inertial::from_origin(&(before.about_origin() + in_body), before.link_from_axes);
-            model.inertials[carried] = Some(sum);
-        }
+            model
+        });
+        without.chain(self.missing.iter().map(|&link| {
+            let mut model = self.candidate.clone();
+            self.add(link, &mut model);
+            model
+        }))
+    }
+
+    /// Adds the mass of a missing link to its body.
+    fn add(&self, link: usize, model: &mut DynamicsModel) {
+        let place = &self.reference.frames.links[link];
+        let (Some(body), Some(inertial)) = (place.body, &self.reference.inertials[link]) else { return };
+        let Some(joint) = model.frames.find_joint(self.reference.frames.joint_name(body)) else { return };
+        // The frame of a body is that of the link which its joint carries, and both descriptions have this joint: the
+        // inertia can be added although the candidate does not have the link.
+        let in_body = inertial.about_origin().transformed_by(&place.body_from_link);
+        let carried = model.frames.joints[joint].link;
+        let before = model.inertials[carried].unwrap_or_else(Inertial::nothing);
+        // About one origin, where inertias add.
+        let sum = Inertial::from_origin(&(before.about_origin() + in_body), before.link_from_axes);
+        model.inertials[carried] = Some(sum);
     }
 
     /// One explanation for each of these links, with the lines to write.

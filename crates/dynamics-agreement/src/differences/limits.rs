@@ -26,6 +26,9 @@ pub struct LimitDifference {
     pub found: Option<f64>,
     /// The reference's value in `unit`; `null` if it does not state the limit.
     pub expected: Option<f64>,
+    /// The reference's value as its file writes it, if the joint has another direction or zero there.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub expected_as_written: Option<f64>,
     /// `found / expected`; `null` if one of them is not stated, or if `expected` is 0.
     pub factor: Option<f64>,
     /// Whether this difference makes the verdict `disagree`; a limit of speed or effort that only one of the two states does
@@ -108,6 +111,7 @@ pub(crate) fn differences(
                 parameter: parameter.to_owned(),
                 found,
                 expected,
+                expected_as_written: None,
                 factor,
                 // A missing range changes where the robot may go; a missing speed or effort is usually just not
                 // given.

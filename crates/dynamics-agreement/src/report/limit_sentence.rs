@@ -1,6 +1,6 @@
 //! Joint limits that differ, as sentences: both values with their units, and their files if either may be wrong.
 
-use congruent_input::display::{counted, limit_number};
+use congruent_input::display::{counted, limit_number, position};
 
 use super::{content::DynamicsReport, sentences::with_distinct_digits};
 use crate::differences::{LimitCause, LimitDifference, limits::EXCHANGED};
@@ -24,10 +24,13 @@ impl LimitDifference {
             None => file.to_owned(),
         };
         let [found, expected] = self.values();
+        let written = self.expected_as_written.map_or_else(String::new, |written| {
+            format!(" (written as {} in the variable there)", position(written, self.unit.symbol()))
+        });
         let remark = self
             .remark(|is_reference| format!(": is {} in {}?", files[usize::from(is_reference)], self.detail));
         format!(
-            "{}: {} limit {found} in {}, {expected} in {}{remark}",
+            "{}: {} limit {found} in {}, {expected} in {}{written}{remark}",
             self.joint,
             self.parameter,
             place(files[0], self.line),

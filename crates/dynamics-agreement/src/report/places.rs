@@ -177,7 +177,9 @@ pub(super) fn without_rounding(written: Option<&Inertial>, corrected: &Inertial)
         ..*corrected
     };
     let size = corrected.tensor_kg_m2.amax();
-    parameters.tensor_kg_m2 = if written.link_from_axes == corrected.link_from_axes {
+    // Of axes that turn by rounding alone the written angles are kept.
+    parameters.tensor_kg_m2 = if (written.link_from_axes - corrected.link_from_axes).amax() <= SAME_VALUE {
+        parameters.link_from_axes = written.link_from_axes;
         written.tensor_kg_m2.zip_map(&corrected.tensor_kg_m2, |old, new| kept(old, new, size))
     } else {
         corrected.tensor_kg_m2.map(|new| kept(0.0, new, size))

@@ -61,8 +61,17 @@ pub(crate) fn explained_by_joints(
         // One more correction each time, until all links agree: the others only round.
         let part = corrected(robots.robot, &all[..count]);
         worst.push(difference.worst(&part, at)?);
-        if worst[count].is_within(at.tolerance) || is_rounding(robots, &part, at) {
+        if worst[count].is_within(at.tolerance) {
             all.truncate(count);
+            break;
+        }
+        if is_rounding(robots, &part, at) {
+            all.truncate(count);
+            all = beyond_digits(robots, all, at);
+            worst.truncate(1);
+            for count in 1..=all.len() {
+                worst.push(difference.worst(&corrected(robots.robot, &all[..count]), at)?);
+            }
             break;
         }
     }
@@ -88,6 +97,25 @@ pub(crate) fn explained_by_joints(
 /// Whether what differs after a correction is rounding of the numbers in the files.
 fn is_rounding(robots: &MatchedRobots<'_>, corrected: &Robot, at: &ComparedAt<'_>) -> bool {
     at.digits_count && robots.with(corrected).explained_by_digits().is_some()
+}
+
+/// Those of the corrections without which the rest is more than rounding: a large one may be within coarse digits, and a small one
+/// beyond fine ones.
+fn beyond_digits(
+    robots: &MatchedRobots<'_>,
+    mut all: Vec<JointCorrection>,
+    at: &ComparedAt<'_>,
+) -> Vec<JointCorrection> {
+    let mut index = all.len();
+    while index > 0 && all.len() > 1 {
+        index -= 1;
+        let mut without = all.clone();
+        without.remove(index);
+        if is_rounding(robots, &corrected(robots.robot, &without), at) {
+            all = without;
+        }
+    }
+    all
 }
 
 /// One displacement of the chain in one of `places`, if frames of links lie elsewhere as well: the tip decides.

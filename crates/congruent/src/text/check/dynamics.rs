@@ -51,6 +51,13 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         let _ =
             writeln!(text, "  not compared: links that the other description lacks: {}", links.join(", "));
     }
+    if let Some(links) = against.map(|of| &of.fused_links).filter(|links| !links.is_empty()) {
+        let _ = writeln!(
+            text,
+            "  links that one file has as one are compared with the sum of those that are fixed to each other in the other file: {}",
+            first_of(links, SHOWN)
+        );
+    }
     if let Some(values) = against.map(|of| &of.values_within_digits).filter(|values| !values.is_empty()) {
         let _ = writeln!(
             text,

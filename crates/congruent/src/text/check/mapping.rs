@@ -29,22 +29,28 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
     if same > 0 {
         let _ = writeln!(text, "    {} with the same name, direction and zero", counted(same, "joint"));
     }
-    for (joints, whose) in [(&mapping.left_out, "this file"), (&mapping.other_left_out, other)] {
+    let [here, there] = mapping.alone();
+    let only = |whose: &str| format!("moving only in {whose}");
+    for (joints, what) in [
+        (here, only("this file")),
+        (there, only(other)),
+        (mapping.elsewhere(), "placed elsewhere in one of the files".to_owned()),
+    ] {
         if !joints.is_empty() {
-            let _ = writeln!(
-                text,
-                "    moving only in {whose}, not compared with what they carry: {}",
-                joints.join(", ")
-            );
+            let _ = writeln!(text, "    {what}, not compared with what they carry: {}", joints.join(", "));
         }
     }
     if let Some(root) = &mapping.root_from_other_root {
         let _ = writeln!(text, "    its root frame is at {} in that of this file (fitted)", pose(root));
     }
-    if mapping.equivalent > 0 {
-        let others = counted(mapping.equivalent, "other choice");
-        let _ =
-            writeln!(text, "    the same motion as with {others} of directions and zeros, as wrists have it");
+    // With equal variables there was nothing to choose.
+    if mapping.equivalent > 0 && mapping.joints.iter().any(|of| !of.has_same_variable()) {
+        let sets = counted(mapping.equivalent, "other set");
+        let _ = writeln!(
+            text,
+            "    {sets} of directions and zeros, as of a wrist, give the same motion of the tip; with these the bodies of both \
+             files are in the same places"
+        );
     }
     let mut differing = mapping.joints.iter().filter(|of| !of.has_same_variable());
     if let (Some(only), None) = (differing.next(), differing.next())
