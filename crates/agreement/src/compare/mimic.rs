@@ -71,7 +71,10 @@ impl CheckReport {
         let known = at.map(|at| self.diagnoses.remove(at));
         let words: Vec<FollowedJoint> = joints.into_iter().map(|joint| joint.words).collect();
         let mut diagnoses = std::mem::take(&mut self.diagnoses);
-        diagnoses.push(with_mimics(known, &words, [description, other], &worst_remaining, of_chain));
+        let mut diagnosis = with_mimics(known, &words, [description, other], &worst_remaining);
+        // With all joints driven the poses agree, by the tolerance or by the digits: nothing else is wrong.
+        diagnosis.causes[0].within_tolerance |= of_chain == Agreement::Agree;
+        diagnoses.push(diagnosis);
         self.set_diagnoses(diagnoses);
         Ok(())
     }

@@ -14,7 +14,7 @@ use super::{
     describe::several,
     values::ReportedValue,
 };
-use crate::{compare::Agreement, diagnosis::Cause, source_pair::SourcePair};
+use crate::{diagnosis::Cause, source_pair::SourcePair};
 
 /// How a joint follows another one: `multiplier * q_master + offset`.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,13 +37,12 @@ pub(crate) struct FollowedJoint {
 }
 
 /// Puts such faults before those of the diagnosis; `worst` are the largest differences of all links, with none of
-/// them corrected, with the first, and so on; `of_chain` says whether poses agree with all joints driven.
+/// them corrected, with the first, and so on.
 pub(crate) fn with_mimics(
     diagnosis: Option<ReportedDiagnosis>,
     joints: &[FollowedJoint],
     descriptions: [&RobotDescription; 2],
     worst: &[PoseError],
-    of_chain: Agreement,
 ) -> ReportedDiagnosis {
     let pair = SourcePair::UrdfOther;
     let mut diagnosis = diagnosis.unwrap_or_else(|| ReportedDiagnosis {
@@ -61,7 +60,7 @@ pub(crate) fn with_mimics(
     let mut stages: Vec<ReportedStage> =
         worst.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] }).collect();
     let remaining = worst.last().copied().unwrap_or_default();
-    let (mut residual, mut within_tolerance) = (remaining, of_chain == Agreement::Agree);
+    let (mut residual, mut within_tolerance) = (remaining, remaining.is_within(&descriptions[0].tolerance));
     if !diagnosis.causes.is_empty() {
         let of_poses = diagnosis.causes.remove(0);
         residual = PoseError { position_m: of_poses.residual_m, orientation_rad: of_poses.residual_rad };
