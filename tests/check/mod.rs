@@ -9,6 +9,7 @@ mod digits;
 mod digits_of_two;
 mod dynamics;
 mod dynamics_causes;
+mod fused_links;
 mod joint_losses;
 mod joint_origins;
 mod mapping;

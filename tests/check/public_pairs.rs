@@ -376,7 +376,7 @@ fn a_description_in_sdf_is_refused_in_words() {
     );
 }
 
-/// The MJCF of wx250s has five links of the URDF as one, and leaves out the rotation of inertial frames: the sum of the five agrees,
+/// The MJCF of wx250s has five links of the URDF as one, and omits the rotation of inertial frames: the sum of the five agrees,
 /// and the rotations are all that is named.
 #[test]
 fn links_that_an_mjcf_fuses_are_compared_as_one() {

@@ -9,6 +9,7 @@ mod axis;
 mod bodies;
 mod changed_values;
 mod common_joints;
+mod corrections;
 mod declared;
 mod digits;
 mod drivers;
@@ -24,6 +25,7 @@ mod variables;
 
 pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values, is_same_value};
 pub use common_joints::{common_tip, other_joint};
+pub use corrections::{ComparedAt, ExplainedByJoints, JointCorrection, JointPart, explained_by_joints};
 pub use declared::declared;
 pub use digits::{with_fitted, with_fitted_base};
 pub use drivers::driven_as_in;

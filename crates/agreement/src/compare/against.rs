@@ -4,7 +4,7 @@
 use congruent_description::RobotDescription;
 use congruent_input::RevisionName;
 use congruent_kinematics::{LinkPoses, PoseError};
-use congruent_mapping::MatchedRobots;
+use congruent_mapping::{ComparedAt, MatchedRobots, explained_by_joints};
 
 use super::{
     certificate::{Brackets, worst},
@@ -15,11 +15,8 @@ use super::{
     grade::Grade,
 };
 use crate::{
-    diagnosis::{
-        Cause,
-        joints::{ComparedAt, explained_by_joints},
-    },
-    report::{ReportedDiagnosis, diagnose_models, diagnosed_by_joints, screw_differences},
+    diagnosis::Cause,
+    report::{ReportedDiagnosis, diagnose_models, diagnosed_by_joints, may_be_unit, screw_differences},
     source_pair::SourcePair,
 };
 
@@ -143,7 +140,7 @@ fn diagnosed(
     };
     // Several origins that are all off by a factor of 1000 are one fault, a wrong unit, which the diagnosis of the
     // chain names as one.
-    if explained.may_be_unit(robots) {
+    if may_be_unit(&explained, robots) {
         let by_unit = by_chain();
         let is_unit = |of: &ReportedDiagnosis| {
             of.causes.first().is_some_and(|first| first.fault.cause == Cause::MillimetresAsMetres)

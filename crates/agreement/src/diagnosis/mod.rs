@@ -5,7 +5,7 @@
 //! configuration (`fit/evaluation_point.rs`), which is exact, by their invariants (`invariants.rs`), and by
 //! fitting each hypothesis of a catalogue (`cause/`, `fit/`) to the difference. The
 //! explanations are ranked (`score.rs`), and those that no measurement can distinguish are listed with the
-//! reason (`equivalence.rs`). Two URDFs are compared joint by joint before that (`joints/`). Every threshold is in
+//! reason (`equivalence.rs`). Two URDFs are compared joint by joint before that (`explained_by_joints` of `mapping`). Every threshold is in
 //! `thresholds.rs`. The bound of the difference is in [`crate::bound`].
 
 mod candidate;
@@ -20,7 +20,6 @@ mod fitted_length;
 mod from_description;
 mod hypothesis;
 mod invariants;
-pub(crate) mod joints;
 mod nearest_table;
 mod origin_reading;
 mod reference_model;

@@ -11,7 +11,7 @@ use congruent_input::{
     units::{Unit, UnitSystem},
 };
 use congruent_kinematics::{Pose, PoseError, rotation_log};
-use congruent_mapping::MatchedRobots;
+use congruent_mapping::{ExplainedByJoints, JointCorrection, JointPart, MatchedRobots};
 use nalgebra::{Isometry3, Unit as UnitVector, Vector3};
 
 use super::{
@@ -23,11 +23,7 @@ use super::{
     values::ReportedValue,
 };
 use crate::{
-    diagnosis::{
-        Cause, Equivalence,
-        joints::{ExplainedByJoints, JointCorrection, JointPart},
-        thresholds::SAME_UNIT_RATIO,
-    },
+    diagnosis::{Cause, Equivalence, thresholds::SAME_UNIT_RATIO},
     source_pair::SourcePair,
 };
 
@@ -61,6 +57,17 @@ const ROUNDING: f64 = 1e-12;
 
 /// Two axes are opposite if their sum is smaller. No unit; kind: rounding.
 const OPPOSITE: f64 = 1e-9;
+
+/// Whether several origins differ by the factor between millimetres and metres.
+pub(crate) fn may_be_unit(explained: &ExplainedByJoints, robots: &MatchedRobots<'_>) -> bool {
+    let is_scaled = |of: &JointCorrection| {
+        let JointPart::Origin(expected) = of.expected else { return false };
+        let found = robots.robot.joint(of.joint).parent_from_joint.translation.vector.norm();
+        let ratio = found / expected.translation.vector.norm();
+        [1e3, 1e-3].iter().any(|factor| (ratio / factor - 1.0).abs() < SAME_UNIT_RATIO)
+    };
+    explained.corrections.len() > 1 && explained.corrections.iter().all(is_scaled)
+}
 
 /// The diagnosis that names these joints; `differences` are those of the chain.
 pub(crate) fn diagnosed_by_joints(

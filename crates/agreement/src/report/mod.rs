@@ -25,7 +25,7 @@ pub use content::{
 };
 pub use diagnose_models::diagnose_models;
 pub(crate) use diagnose_models::{digits_of_table, screw_differences};
-pub(crate) use joint_parts::diagnosed_by_joints;
+pub(crate) use joint_parts::{diagnosed_by_joints, may_be_unit};
 pub(crate) use mimic::{FollowedJoint, Relation, with_mimics};
 pub use statement::foremost;
 pub use values::ReportedValue;

@@ -9,8 +9,9 @@
 
 use congruent_description::{Joint, JointIndex, JointKind, LinkIndex, Robot, Tolerance};
 use congruent_kinematics::{Pose, PoseError, Twist};
-use congruent_mapping::MatchedRobots;
 use nalgebra::Vector3;
+
+use crate::MatchedRobots;
 
 use super::{
     compared_at::ComparedAt,

@@ -2,14 +2,16 @@
 
 use congruent_description::{Joint, JointIndex, LinkIndex, Robot};
 use congruent_kinematics::Pose;
-use congruent_mapping::MatchedRobots;
 use nalgebra::{Isometry3, Unit, Vector3};
 
-use crate::diagnosis::thresholds::NO_TURN;
+use crate::MatchedRobots;
+
+/// An axis of a smaller turn has no direction. Unit: rad; kind: rounding.
+const NO_TURN: f64 = 1e-12;
 
 /// A part of a joint that places it: origin or axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum JointPart {
+pub enum JointPart {
     /// Its `<origin>`: pose in the parent link.
     Origin(Isometry3<f64>),
     /// Its `<axis>`, in the joint's frame.
@@ -18,11 +20,13 @@ pub(crate) enum JointPart {
 
 /// The part of a joint that is another one, as it is expected.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct JointCorrection {
-    pub(crate) joint: JointIndex,
-    pub(crate) expected: JointPart,
+pub struct JointCorrection {
+    /// The joint of the robot.
+    pub joint: JointIndex,
+    /// What the other description has in place of it.
+    pub expected: JointPart,
     /// How far it moves a link about, m.
-    pub(crate) size_m: f64,
+    pub size_m: f64,
 }
 
 /// All parts of joints that differ by more than rounding, from the root on.

@@ -2,45 +2,34 @@
 
 use congruent_description::{LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree};
-use congruent_mapping::MatchedRobots;
 
 use super::{
     compared_at::ComparedAt,
     correction::{JointCorrection, JointPart, between, corrected, corrections, moved_to},
     displacement::{displaced, moves_alike},
 };
-use crate::diagnosis::thresholds::{MAX_PARAMETERS, SAME_UNIT_RATIO};
+use crate::MatchedRobots;
 
 /// Corrections of joints that explain the difference of two descriptions.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ExplainedByJoints {
+pub struct ExplainedByJoints {
     /// The one with the largest effect first.
-    pub(crate) corrections: Vec<JointCorrection>,
+    pub corrections: Vec<JointCorrection>,
     /// The largest difference before any correction, and after each.
-    pub(crate) worst: Vec<PoseError>,
+    pub worst: Vec<PoseError>,
     /// Corrections of other joints with the same effect as the only one.
-    pub(crate) alternatives: Vec<JointCorrection>,
+    pub alternatives: Vec<JointCorrection>,
 }
 
-impl ExplainedByJoints {
-    /// Whether several origins differ by the factor between millimetres and metres.
-    pub(crate) fn may_be_unit(&self, robots: &MatchedRobots<'_>) -> bool {
-        let is_scaled = |of: &JointCorrection| {
-            let JointPart::Origin(expected) = of.expected else { return false };
-            let found = robots.robot.joint(of.joint).parent_from_joint.translation.vector.norm();
-            let ratio = found / expected.translation.vector.norm();
-            [1e3, 1e-3].iter().any(|factor| (ratio / factor - 1.0).abs() < SAME_UNIT_RATIO)
-        };
-        self.corrections.len() > 1 && self.corrections.iter().all(is_scaled)
-    }
-}
+/// Most corrections that are searched together. Kind: choice; more wrong joints are a matter of calibration.
+const MOST_CORRECTIONS: usize = 8;
 
 /// The corrections of joints that explain the difference; `None` if there are none, too many, or if the two differ only
 /// in where frames lie in links that move alike.
 ///
 /// # Errors
 /// [`LinkPosesError`] if a source rejects a configuration.
-pub(crate) fn explained_by_joints(
+pub fn explained_by_joints(
     robots: &MatchedRobots<'_>,
     poses: &mut dyn LinkPoses,
     at: &ComparedAt<'_>,
@@ -48,7 +37,7 @@ pub(crate) fn explained_by_joints(
     let mut all = corrections(robots);
     // Largest first, so that the fewest are needed: after them the rest is rounding.
     all.sort_by(|one, other| other.size_m.total_cmp(&one.size_m));
-    all.truncate(MAX_PARAMETERS);
+    all.truncate(MOST_CORRECTIONS);
     let every_link = |link| robots.is_matched(link);
     let mut difference = CorrectedDifference::new(robots, poses, &every_link);
     // All corrections together first: if these do not suffice, no part of them does.
