@@ -243,7 +243,12 @@ impl Both<'_> {
             screws.map(Axis::from_screw).collect()
         };
         let (a, b) = (axes(0), axes(1));
-        ChainPair { known: vec![None; a.len()], a, b, tips, a_from_b, reach_m: self.reach_m }
+        let range = |[of_a, of_b]: &[JointIndex; 2]| {
+            let [a, b] = [self.a.robot.joint(*of_a), self.b.robot.joint(*of_b)];
+            Some([a.position_range()?, b.position_range()?])
+        };
+        let ranges = pairs.iter().map(range).collect();
+        ChainPair { known: vec![None; a.len()], a, b, tips, a_from_b, ranges, reach_m: self.reach_m }
     }
 
     /// Where the other root may be in this one: by links near the root that have one name in both, and the same frame.

@@ -35,6 +35,8 @@ pub(crate) struct ChainPair {
     pub(crate) a_from_b: Option<Isometry3<f64>>,
     /// Variables that are known already, from a chain with the same joints.
     pub(crate) known: Vec<Option<JointVariable>>,
+    /// The ranges of the joints of A and B, where both state one.
+    pub(crate) ranges: Vec<Option<[(f64, f64); 2]>>,
     /// Reach of A, m: the lever with which angles count.
     pub(crate) reach_m: f64,
 }
@@ -86,6 +88,9 @@ impl ChainPair {
         let polished = solutions.into_iter().map(|solution| self.polished(solution));
         let rounded: Vec<ChainSolution> =
             polished.map(|solution| self.with_one_fault(self.with_round_offsets(solution))).collect();
+        // Again, since one fault alone may have kept some of them from a round value.
+        let rounded: Vec<ChainSolution> =
+            rounded.into_iter().map(|solution| self.with_round_offsets(solution)).collect();
         let best_m =
             rounded.iter().map(|solution| solution.off_m(self.reach_m)).fold(f64::INFINITY, f64::min);
         let limit_m = 2.0 * best_m + 1e-9 * self.reach_m;
@@ -251,28 +256,47 @@ impl ChainPair {
         solution.off_m(self.reach_m).is_finite().then_some(solution)
     }
 
-    /// Offsets near 0 and near quarter turns as these, where nothing speaks against it.
+    /// Offsets that make both ranges of a joint the same, and others near 0 and near quarter turns as these, where nothing speaks
+    /// against it.
     fn with_round_offsets(&self, mut solution: ChainSolution) -> ChainSolution {
         /// A calibrated zero is up to a few degrees off.
         const NEAR_RAD: f64 = 0.05;
         for at in 0..solution.variables.len() {
-            let offset = solution.variables[at].offset;
-            let step = if self.b[at].slides { f64::INFINITY } else { std::f64::consts::FRAC_PI_2 };
-            let round = if step.is_finite() { (offset / step).round() * step } else { 0.0 };
-            if self.known[at].is_some() || (offset - round).abs() > NEAR_RAD {
-                continue;
-            }
-            let mut variables = solution.variables.clone();
-            variables[at].offset = round + 0.0;
-            let Some(rounded) = self.judged(&solution.a_from_b, &variables) else { continue };
+            let JointVariable { is_flipped, offset } = solution.variables[at];
+            let slides = self.b[at].slides;
+            let step = if slides { f64::INFINITY } else { std::f64::consts::FRAC_PI_2 };
+            let round = if slides { 0.0 } else { (offset / step).round() * step };
+            let of_ranges = self.offset_of_ranges(at, is_flipped, offset).filter(|_| !slides);
             // Between files that do not agree exactly, an offset of a degree may only make up for a fault.
             let is_exact = solution.off_m(self.reach_m) <= EXACT * self.reach_m;
             let slack = if is_exact { 1e-10 } else { FAULT };
-            if rounded.off_m(self.reach_m) <= 1.2 * solution.off_m(self.reach_m) + slack * self.reach_m {
+            let most_m = 1.2 * solution.off_m(self.reach_m) + slack * self.reach_m;
+            let candidates = of_ranges.into_iter().chain([round + 0.0]);
+            let near = candidates
+                .filter(|candidate| self.known[at].is_none() && (offset - candidate).abs() <= NEAR_RAD);
+            let judged = near.filter_map(|candidate| {
+                let mut variables = solution.variables.clone();
+                variables[at].offset = candidate;
+                self.judged(&solution.a_from_b, &variables)
+            });
+            let mut accepted = judged.filter(|rounded| rounded.off_m(self.reach_m) <= most_m);
+            if let Some(rounded) = accepted.next() {
                 solution = rounded;
             }
         }
         solution
+    }
+
+    /// The offset at which both ends of the ranges of a joint are the same, with the whole turns of one that was found.
+    fn offset_of_ranges(&self, at: usize, is_flipped: bool, found: f64) -> Option<f64> {
+        /// Ranges are given to a tenth of a degree.
+        const SAME_END: f64 = 2e-3;
+        let [a, b] = self.ranges[at]?;
+        let [lower, upper] = if is_flipped { [b.1 + a.0, b.0 + a.1] } else { [b.0 - a.0, b.1 - a.1] };
+        let turns = std::f64::consts::TAU * ((found - lower) / std::f64::consts::TAU).round();
+        // Equal ranges are those of equal zeros: rounding of their ends is none of the zero.
+        let offset = if lower.abs().max(upper.abs()) < SAME_END { 0.0 } else { lower };
+        ((lower - upper).abs() < SAME_END).then_some(offset + turns)
     }
 }
 

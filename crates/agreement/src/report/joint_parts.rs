@@ -52,8 +52,9 @@ impl JointAttribute {
     }
 }
 
-/// A part of a turn or of a shift that is smaller is rounding. Unit: m or rad; kind: rounding of products of poses.
-const ROUNDING: f64 = 1e-12;
+/// A part of a turn or of a shift that is smaller is rounding. Unit: m or rad; kind: rounding of products of poses, and of zeros
+/// that are found by a fit.
+const ROUNDING: f64 = 1e-10;
 
 /// Two axes are opposite if their sum is smaller. No unit; kind: rounding.
 const OPPOSITE: f64 = 1e-9;
