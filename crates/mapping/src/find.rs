@@ -77,7 +77,10 @@ pub fn find(a: &RobotDescription, b: &RobotDescription) -> Option<FoundMapping> 
     let mut found =
         named.into_iter().filter(|(_, pairs)| covers(pairs)).filter_map(|(by, pairs)| both.solved(by, pairs));
     found.next().or_else(|| {
-        let ordered = both.by_order().into_iter().filter_map(|pairs| both.solved(MatchedBy::Order, pairs));
+        let ordered = both
+            .by_order()
+            .into_iter()
+            .filter_map(|chain| both.solved_with(MatchedBy::Order, &chain, both.with_others(&chain)));
         ordered.min_by(|one, other| both.cost(one).total_cmp(&both.cost(other)))
     })
 }
@@ -133,10 +136,42 @@ impl Both<'_> {
         solutions.into_iter().map(pairs).filter(is_possible).collect()
     }
 
-    /// The variables of these pairs: first on the chain to the tip and beyond, then on all other branches.
-    fn solved(&self, matched_by: MatchedBy, mut pairs: JointPairs) -> Option<FoundMapping> {
+    /// The joints of the chain with those beside it that have one name, such as fingers.
+    fn with_others(&self, chain: &JointPairs) -> JointPairs {
+        let mut pairs = chain.clone();
+        let (a, b) = (&self.a.robot, &self.b.robot);
+        for namesakes in [with_one_name(a, b), with_similar_names(a, b)] {
+            for pair in namesakes {
+                if pairs.iter().all(|known| known[0] != pair[0] && known[1] != pair[1]) {
+                    pairs.push(pair);
+                }
+            }
+        }
+        // One that is left on each side may be the same one; its axis shows.
+        let robots = [&self.a.robot, &self.b.robot];
+        if let [[of_a], [of_b]] = self.unmatched(&pairs).each_ref().map(Vec::as_slice)
+            && is_alike(robots, [*of_a, *of_b])
+        {
+            pairs.push([*of_a, *of_b]);
+        }
+        pairs.sort();
+        pairs
+    }
+
+    /// The variables of pairs that are certain.
+    fn solved(&self, matched_by: MatchedBy, pairs: JointPairs) -> Option<FoundMapping> {
+        self.solved_with(matched_by, &pairs.clone(), pairs)
+    }
+
+    /// The variables of these pairs: first of `certain` ones on the chain to the tip and beyond, then on all other branches.
+    fn solved_with(
+        &self,
+        matched_by: MatchedBy,
+        certain: &JointPairs,
+        mut pairs: JointPairs,
+    ) -> Option<FoundMapping> {
         let branches = self.branches(&pairs);
-        let main = self.main_branch(&pairs, &branches);
+        let main = self.main_branch(certain, &self.branches(certain));
         let solutions = self.solutions_of_chain(&main)?;
         let solutions = by_bodies(solutions, [self.a, self.b], &self.screws, &main, self.reach_m);
         let solution = solutions.first()?;

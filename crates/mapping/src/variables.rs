@@ -21,6 +21,9 @@ const EXACT: f64 = 1e-7;
 const FAULT: f64 = 0.02;
 /// Cosine of the tilt of an upright base. Kind: choice, a degree.
 const UPRIGHT: f64 = 0.9998;
+/// A base at the first axes is another one than the fitted, if all axes are farther off than this multiple. Kind: choice; a fault in the
+/// middle of a chain is twice as far off as if the base had half of it.
+const MOST_OF_FITTED: f64 = 5.0;
 /// Offsets of less are the rounding of calculation.
 const ROUNDING: f64 = 1e-9;
 
@@ -109,6 +112,16 @@ impl ChainPair {
         };
         solutions.sort_by(|a, b| cost(a).partial_cmp(&cost(b)).unwrap_or(std::cmp::Ordering::Equal));
         solutions
+    }
+
+    /// Known variables with the base that brings the first axes together: a fault behind them is then at one joint, where a base
+    /// that is fitted to all axes would have a part of it. `None` if the axes are those of other chains.
+    pub(crate) fn with_base_at_first_axes(&self) -> Option<ChainSolution> {
+        let fitted = self.solutions().into_iter().next()?;
+        let off = |solution: &ChainSolution| solution.off_m(self.reach_m);
+        let at_first = self.starts().into_iter().filter_map(|start| self.judged(&start, &fitted.variables));
+        let nearest = at_first.min_by(|a, b| off(a).total_cmp(&off(b)));
+        nearest.filter(|nearest| off(nearest) <= MOST_OF_FITTED * off(&fitted)).or(Some(fitted))
     }
 
     /// Where the root of B may be in A before any joint: as known, or with the first axes on each other.
