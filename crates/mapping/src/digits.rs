@@ -291,8 +291,11 @@ fn row_sums(effects: &DMatrix<f64>, parts: &DVector<f64>) -> DVector<f64> {
 fn coarser(own: &JointRounding, other: Option<&JointRounding>) -> JointRounding {
     let Some(other) = other else { return own.clone() };
     let keep = |own: &[SmallMotion], other: &[SmallMotion]| -> Vec<SmallMotion> {
+        // Angles about other axes are other numbers, of which neither is the rounded other.
+        let has_same_angles = has_turns_along(own, other) && has_turns_along(other, own);
         let is_as_coarse = |own: &SmallMotion, there: &SmallMotion| {
-            is_along(own, there) && size(there) >= size(own) * (1.0 - SAME)
+            let same = if is_turn(own) && !has_same_angles { 1.0 + SAME } else { 1.0 - SAME };
+            is_along(own, there) && size(there) >= size(own) * same
         };
         let kept = own.iter().filter(|own| !other.iter().any(|there| is_as_coarse(own, there)));
         kept.copied().collect()
@@ -302,6 +305,12 @@ fn coarser(own: &JointRounding, other: Option<&JointRounding>) -> JointRounding 
         axis: keep(&own.axis, &other.axis),
         frame: own.frame.clone(),
     }
+}
+
+/// Whether each turn of one is about an axis of the other.
+fn has_turns_along(one: &[SmallMotion], other: &[SmallMotion]) -> bool {
+    let is_there = |turn: &SmallMotion| other.iter().any(|there| is_along(turn, there));
+    one.iter().filter(|motion| is_turn(motion)).all(is_there)
 }
 
 /// Whether both are shifts, or both turns, along one direction.

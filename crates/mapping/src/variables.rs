@@ -275,11 +275,11 @@ impl ChainPair {
         /// A calibrated zero is up to a few degrees off.
         const NEAR_RAD: f64 = 0.05;
         for at in 0..solution.variables.len() {
-            let JointVariable { is_flipped, offset } = solution.variables[at];
+            let JointVariable { offset, .. } = solution.variables[at];
             let slides = self.b[at].slides;
             let step = if slides { f64::INFINITY } else { std::f64::consts::FRAC_PI_2 };
             let round = if slides { 0.0 } else { (offset / step).round() * step };
-            let of_ranges = self.offset_of_ranges(at, is_flipped, offset).filter(|_| !slides);
+            let of_ranges = self.offset_of_ranges(at, solution.variables[at]).filter(|_| !slides);
             // Between files that do not agree exactly, an offset of a degree may only make up for a fault.
             let is_exact = solution.off_m(self.reach_m) <= EXACT * self.reach_m;
             let slack = if is_exact { 1e-10 } else { FAULT };
@@ -301,12 +301,12 @@ impl ChainPair {
     }
 
     /// The offset at which both ends of the ranges of a joint are the same, with the whole turns of one that was found.
-    fn offset_of_ranges(&self, at: usize, is_flipped: bool, found: f64) -> Option<f64> {
+    fn offset_of_ranges(&self, at: usize, found: JointVariable) -> Option<f64> {
         /// Ranges are given to a tenth of a degree.
         const SAME_END: f64 = 2e-3;
         let [a, b] = self.ranges[at]?;
-        let [lower, upper] = if is_flipped { [b.1 + a.0, b.0 + a.1] } else { [b.0 - a.0, b.1 - a.1] };
-        let turns = std::f64::consts::TAU * ((found - lower) / std::f64::consts::TAU).round();
+        let [lower, upper] = if found.is_flipped { [b.1 + a.0, b.0 + a.1] } else { [b.0 - a.0, b.1 - a.1] };
+        let turns = std::f64::consts::TAU * ((found.offset - lower) / std::f64::consts::TAU).round();
         // Equal ranges are those of equal zeros: rounding of their ends is none of the zero.
         let offset = if lower.abs().max(upper.abs()) < SAME_END { 0.0 } else { lower };
         ((lower - upper).abs() < SAME_END).then_some(offset + turns)

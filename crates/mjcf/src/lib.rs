@@ -23,9 +23,9 @@ use congruent_input::{Diagnostic, Diagnostics, SourceFile};
 
 pub use inertia::{MeshMass, MjMassProperties, mesh_mass, moving_body_without_mass};
 pub use model::{
-    MjActuator, MjBody, MjContactExclusion, MjEffort, MjEquality, MjEqualityKind, MjGeom, MjGeomMass,
-    MjInertiaRules, MjInertial, MjInference, MjJoint, MjJointKind, MjKeyframe, MjMesh, MjMeshInertia,
-    MjModel, MjName, MjNotation, MjPlace, MjShape, MjSite, MjTarget, MjTendon, MjWritten,
+    MjActuator, MjBody, MjContactExclusion, MjEffort, MjEquality, MjEqualityKind, MjFrame, MjGeom,
+    MjGeomMass, MjInertiaRules, MjInertial, MjInference, MjJoint, MjJointKind, MjKeyframe, MjMesh,
+    MjMeshInertia, MjModel, MjName, MjNotation, MjPlace, MjShape, MjSite, MjTarget, MjTendon, MjWritten,
 };
 pub use rounding::{MjBodyRounding, MjInertialRounding, MjJointRounding, MjValueRounding};
 

@@ -14,7 +14,12 @@ use crate::{
 /// Step of the central differences of an orientation, in the unit of the file: truncation and rounding are 1e-10 of a turn.
 const STEP: f64 = 1e-5;
 
-/// What half of the last place of each written number of a body changes in its pose, in the innermost frame.
+/// The most that a whole component is off, as a zero of an angle. Kind: choice.
+const MOST_OF_WHOLE: f64 = 5e-5;
+/// Turns by a smaller share of the change of a component are rounding of the differences.
+const NO_TURN: f64 = 1e-3;
+
+/// What half of the last place of each written number of a body, or of a frame, changes in its pose, in the frame around it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MjBodyRounding {
     /// Shift of `pos` along x, y, z, m.
@@ -71,7 +76,7 @@ impl MjInertial {
             mass_kg: half_places_of_values(&[text(&self.mass)])[0],
             pos_m: pos_m.into(),
             inertia_kg_m2,
-            turns_rad: turns(&self.orientation, &self.notation),
+            turns_rad: turns(&self.orientation, &self.notation, 0.0),
         }
     }
 }
@@ -112,20 +117,44 @@ impl MjJoint {
 impl MjModel {
     /// The rounding of each body.
     pub fn body_roundings(&self) -> Vec<MjBodyRounding> {
-        let positions = of_lengths(&self.bodies.iter().map(|body| text(&body.pos)).collect::<Vec<_>>());
-        let turns = self.bodies.iter().map(|body| turns(&body.orientation, &body.notation));
-        positions
-            .into_iter()
-            .zip(turns)
-            .map(|(pos_m, turns_rad)| MjBodyRounding { pos_m, turns_rad })
-            .collect()
+        let mut all = self.pose_roundings();
+        all.truncate(self.bodies.len());
+        all
+    }
+
+    /// The rounding of each frame.
+    pub fn frame_roundings(&self) -> Vec<MjBodyRounding> {
+        self.pose_roundings().split_off(self.bodies.len())
+    }
+
+    /// The rounding of each body, then of each frame: their lengths are those of one file.
+    fn pose_roundings(&self) -> Vec<MjBodyRounding> {
+        let bodies = self.bodies.iter().map(|of| (&of.pos, &of.orientation, &of.notation));
+        let frames = self.frames.iter().map(|of| (&of.pos, &of.orientation, &of.notation));
+        let all: Vec<_> = bodies.chain(frames).collect();
+        let positions = of_lengths(&all.iter().map(|(pos, ..)| text(pos)).collect::<Vec<_>>());
+        let of_whole = self.half_of_whole_directions();
+        let turns = all.iter().map(|(_, orientation, notation)| turns(orientation, notation, of_whole));
+        let both = positions.into_iter().zip(turns);
+        both.map(|(pos_m, turns_rad)| MjBodyRounding { pos_m, turns_rad }).collect()
+    }
+
+    /// Half of the last place of whole components of quaternions, as `0 0 1 0`: they are as fine as those of the others, and exact if
+    /// all are whole.
+    fn half_of_whole_directions(&self) -> f64 {
+        let bodies = self.bodies.iter().map(|body| &body.orientation);
+        let orientations = bodies.chain(self.frames.iter().map(|frame| &frame.orientation));
+        let places = orientations.filter_map(|of| of.place.as_ref()).filter(|place| place.key == "quat");
+        let halves = places.flat_map(|place| of_direction(&numbers(place.text()), 0.0));
+        let finest = halves.filter(|half| *half > 0.0).fold(f64::INFINITY, f64::min);
+        if finest.is_finite() { finest.min(MOST_OF_WHOLE) } else { 0.0 }
     }
 
     /// The rounding of each joint.
     pub fn joint_roundings(&self) -> Vec<MjJointRounding> {
         let positions =
             of_lengths(&self.joints.iter().map(|joint| text(&joint.pos_in_body)).collect::<Vec<_>>());
-        let axis = |joint: &MjJoint| three(&of_direction(&numbers(text(&joint.axis_in_body))));
+        let axis = |joint: &MjJoint| three(&of_direction(&numbers(text(&joint.axis_in_body)), 0.0));
         positions
             .into_iter()
             .zip(&self.joints)
@@ -159,15 +188,23 @@ fn of_lengths(texts: &[&str]) -> Vec<[f64; 3]> {
     numbers_of.iter().map(of).collect()
 }
 
-/// Half places of the components of a direction or a quaternion; whole ones, as `0 0 1`, are directions by design.
-fn of_direction(numbers: &[TypedNumber<'_>]) -> Vec<f64> {
+/// Half places of the components of a direction or a quaternion; `of_whole` if all are whole, as `0 0 1`.
+fn of_direction(numbers: &[TypedNumber<'_>], of_whole: f64) -> Vec<f64> {
     let is_whole =
         |number: &TypedNumber<'_>| number.text.parse::<f64>().is_ok_and(|component| component.fract() == 0.0);
-    if numbers.iter().all(is_whole) { vec![0.0; numbers.len()] } else { half_places(Unit::Angle, numbers) }
+    if numbers.iter().all(is_whole) {
+        vec![of_whole; numbers.len()]
+    } else {
+        half_places(Unit::Angle, numbers)
+    }
 }
 
 /// The turns that half of the last place of each number of an orientation makes.
-fn turns(orientation: &MjWritten<UnitQuaternion<f64>>, notation: &MjNotation) -> Vec<Vector3<f64>> {
+fn turns(
+    orientation: &MjWritten<UnitQuaternion<f64>>,
+    notation: &MjNotation,
+    of_whole: f64,
+) -> Vec<Vector3<f64>> {
     let Some(place) = &orientation.place else { return Vec::new() };
     let written = numbers(place.text());
     let mut values = [0.0; 6];
@@ -181,14 +218,21 @@ fn turns(orientation: &MjWritten<UnitQuaternion<f64>>, notation: &MjNotation) ->
     };
     let turn = |(at, half): (usize, f64)| {
         let [up, down] = [STEP, -STEP].map(|by| rotation(at, by));
-        Some((up? * down?.inverse()).scaled_axis() * (half / (2.0 * STEP)))
+        let turn = (up? * down?.inverse()).scaled_axis() * (half / (2.0 * STEP));
+        // A component of a quaternion that is all of it turns nothing.
+        (turn.norm() > NO_TURN * half).then_some(turn)
     };
-    let halves = halves_of_orientation(&place.key, &written, notation).into_iter().enumerate();
+    let halves = halves_of_orientation(&place.key, &written, notation, of_whole).into_iter().enumerate();
     halves.filter(|(_, half)| *half > 0.0).filter_map(turn).collect()
 }
 
 /// Half places of the numbers of an orientation, in the unit of the file: first components of directions, then angles.
-fn halves_of_orientation(key: &str, written: &[TypedNumber<'_>], notation: &MjNotation) -> Vec<f64> {
+fn halves_of_orientation(
+    key: &str,
+    written: &[TypedNumber<'_>],
+    notation: &MjNotation,
+    of_whole: f64,
+) -> Vec<f64> {
     let components = match key {
         "euler" => 0,
         "axisangle" => 3,
@@ -198,7 +242,9 @@ fn halves_of_orientation(key: &str, written: &[TypedNumber<'_>], notation: &MjNo
     let units = notation.angle_unit();
     let angles: Vec<TypedNumber<'_>> = angles.iter().map(|of| TypedNumber { units, ..*of }).collect();
     let of_angles = half_places(Unit::Angle, &angles).into_iter().map(|half| half / notation.angle_rad(1.0));
-    of_direction(directions).into_iter().chain(of_angles).collect()
+    // Only of quaternions: another direction is one by design.
+    let of_whole = if key == "quat" { of_whole } else { 0.0 };
+    of_direction(directions, of_whole).into_iter().chain(of_angles).collect()
 }
 
 #[cfg(test)]
@@ -251,5 +297,27 @@ mod tests {
         assert!(
             (axis.turns_rad[0].z / 0.005_f64.to_radians() - 1.0).abs() < 1e-6 && axis.turns_rad.len() == 1
         );
+    }
+
+    #[test]
+    fn frames_and_whole_quaternions_are_as_fine_as_the_others() {
+        let text = "<mujoco><worldbody><body name='a' quat='0 0 1 0'/><frame quat='0.9239 0 0 0.3827' pos='0.123 0 0.34'>\
+                    <frame pos='0 0 0.5'><body name='b'/></frame></frame></worldbody></mujoco>";
+        let main = SourceFile { path: "a.xml".into(), text: text.to_owned(), is_foreign: false };
+        let mut diagnostics = Diagnostics::default();
+        let model = crate::parse(&Arc::new(main), &mut |_| unreachable!(), &mut diagnostics).unwrap();
+        // By hand: a quaternion along y is turned about x and z, and not along itself, by twice the change of another component.
+        let of_whole = &model.body_roundings()[1].turns_rad;
+        assert_eq!(of_whole.len(), 3);
+        assert!(of_whole.iter().all(|turn| (turn.norm() / 1e-4 - 1.0).abs() < 1e-5), "{of_whole:?}");
+        let [outer, inner] = [0, 1].map(|at| model.frame_roundings().swap_remove(at));
+        assert_eq!((outer.turns_rad.len(), inner.turns_rad.len()), (4, 0));
+        assert_eq!(
+            Vector3::from(outer.pos_m),
+            Vector3::new(5e-4, 5e-5, 5e-4),
+            "0.34 as fine as 0.123, and zeros less open"
+        );
+        let body = &model.bodies[2];
+        assert_eq!((body.frame, model.frames[1].outer, model.frames[0].outer), (Some(1), Some(0), None));
     }
 }

@@ -9,20 +9,29 @@ use nalgebra::{Isometry3, Vector3};
 /// Half of the last place of all numbers that place the bodies and joints of a model.
 pub(super) struct ModelRounding {
     bodies: Vec<MjBodyRounding>,
+    /// For each frame the motions of what is in it, in the body around it, with those of the frames around it.
+    frames: Vec<Vec<SmallMotion>>,
     joints: Vec<MjJointRounding>,
 }
 
 impl ModelRounding {
     pub(super) fn new(model: &MjModel) -> Self {
-        Self { bodies: model.body_roundings(), joints: model.joint_roundings() }
+        let mut frames: Vec<Vec<SmallMotion>> = Vec::new();
+        for (frame, rounding) in model.frames.iter().zip(model.frame_roundings()) {
+            let around = &frame.notation.body_from_frame;
+            let own = motions(&rounding, &frame.pos.value).map(|motion| motion.expressed_in(around));
+            let outer = frame.outer.map_or_else(Vec::new, |outer| frames[outer].clone());
+            frames.push(own.chain(outer).collect());
+        }
+        Self { bodies: model.body_roundings(), frames, joints: model.joint_roundings() }
     }
 
     /// The motions of a body in its parent.
     pub(super) fn of_body(&self, body: &MjBody, index: usize) -> Vec<SmallMotion> {
-        let MjBodyRounding { pos_m, turns_rad } = &self.bodies[index];
-        let turns = turns_rad.iter().map(|turn| SmallMotion::turn(*turn, &body.pos.value));
-        let in_frame = shifts(pos_m).chain(turns);
-        in_frame.map(|motion| motion.expressed_in(&body.notation.body_from_frame)).collect()
+        let own = motions(&self.bodies[index], &body.pos.value);
+        let own = own.map(|motion| motion.expressed_in(&body.notation.body_from_frame));
+        let of_frames = body.frame.into_iter().flat_map(|frame| &self.frames[frame]);
+        own.chain(of_frames.copied()).collect()
     }
 
     /// The motions of the axis of a joint in the link before it.
@@ -67,6 +76,12 @@ pub(super) fn of_values(joint: &MjJoint) -> JointValueRounding {
         joint.value_rounding();
     let limit = JointLimit { lower, upper, effort: Some(effort), ..JointLimit::default() };
     JointValueRounding { limit, damping, friction, armature }
+}
+
+/// The motions of a pose whose origin is at `pos`.
+fn motions(rounding: &MjBodyRounding, pos: &Vector3<f64>) -> impl Iterator<Item = SmallMotion> {
+    let turns = rounding.turns_rad.iter().map(|turn| SmallMotion::turn(*turn, pos));
+    shifts(&rounding.pos_m).chain(turns)
 }
 
 fn shifts(pos_m: &[f64; 3]) -> impl Iterator<Item = SmallMotion> {

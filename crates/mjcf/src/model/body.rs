@@ -21,6 +21,8 @@ pub struct MjBody {
     pub orientation: MjWritten<UnitQuaternion<f64>>,
     /// How its values are written; `body_from_frame` is in the parent.
     pub notation: MjNotation,
+    /// The innermost `<frame>` around it in [`MjModel::frames`](super::MjModel).
+    pub frame: Option<usize>,
     /// Its joints in [`MjModel::joints`](super::MjModel), which act in this order.
     pub joints: Range<usize>,
     /// Its geoms in [`MjModel::geoms`](super::MjModel).
@@ -37,6 +39,19 @@ pub struct MjBody {
     pub is_mocap: bool,
     /// The opening of its tag.
     pub place: MjPlace,
+}
+
+/// A `<frame>`: what is in it is placed in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MjFrame {
+    /// The next `<frame>` around it in [`MjModel::frames`](super::MjModel).
+    pub outer: Option<usize>,
+    /// `pos` as it is written, m.
+    pub pos: MjWritten<Vector3<f64>>,
+    /// Orientation as it is written.
+    pub orientation: MjWritten<UnitQuaternion<f64>>,
+    /// How its values are written; `body_from_frame` is the pose of what is around it, in which they are written.
+    pub notation: MjNotation,
 }
 
 /// Mass and inertia that a file states.

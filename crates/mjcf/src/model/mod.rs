@@ -13,7 +13,7 @@ use congruent_input::SourceFile;
 use nalgebra::Vector3;
 
 pub use actuator::{MjActuator, MjEffort, MjTarget};
-pub use body::{MjBody, MjInertiaRules, MjInertial, MjInference};
+pub use body::{MjBody, MjFrame, MjInertiaRules, MjInertial, MjInference};
 pub use constraint::{MjContactExclusion, MjEquality, MjEqualityKind, MjKeyframe, MjTendon};
 pub use geom::{MjGeom, MjGeomMass, MjMesh, MjMeshInertia, MjShape, MjSite};
 pub use joint::{MjJoint, MjJointKind};
@@ -26,6 +26,8 @@ pub struct MjModel {
     pub name: String,
     /// Bodies, each after its parent; the first is the world.
     pub bodies: Vec<MjBody>,
+    /// Frames, each after those around it.
+    pub frames: Vec<MjFrame>,
     /// Joints, in the order of positions in MuJoCo: by body, then in the order of the file.
     pub joints: Vec<MjJoint>,
     /// Geoms, by body.

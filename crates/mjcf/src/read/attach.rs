@@ -46,6 +46,7 @@ impl<'s> MjReader<'s, '_> {
             replica: String::new(),
             class: None,
             body_from_frame: context.body_from_frame,
+            frame: context.frame,
             depth: context.depth + 1,
         };
         let wanted = [("body", element.text("body")), ("frame", element.text("frame"))];

@@ -42,6 +42,8 @@ pub(super) struct MjContext<'s> {
     pub(super) class: Option<&'s str>,
     /// Pose of the innermost frame in the body whose contents are read.
     pub(super) body_from_frame: Isometry3<f64>,
+    /// That frame in the model.
+    pub(super) frame: Option<usize>,
     pub(super) depth: usize,
 }
 
@@ -216,6 +218,7 @@ fn empty(scope: &MjScope) -> MjModel {
             euler_sequence: scope.settings.euler_sequence,
             body_from_frame: Isometry3::identity(),
         },
+        frame: None,
         joints: 0..0,
         geoms: 0..0,
         sites: 0..0,
@@ -228,6 +231,7 @@ fn empty(scope: &MjScope) -> MjModel {
     MjModel {
         name: scope.root.text("model").unwrap_or_default().to_owned(),
         bodies: vec![world],
+        frames: Vec::new(),
         joints: Vec::new(),
         geoms: Vec::new(),
         sites: Vec::new(),

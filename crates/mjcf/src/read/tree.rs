@@ -13,7 +13,7 @@ use super::{
 use crate::{
     codes,
     document::MjElement,
-    model::{MjBody, MjName},
+    model::{MjBody, MjFrame, MjName},
 };
 
 /// A body that is read after the other contents of its parent, so that the parts of each body are together.
@@ -30,6 +30,7 @@ impl<'s> MjReader<'s, '_> {
             replica: String::new(),
             class: None,
             body_from_frame: Isometry3::identity(),
+            frame: None,
             depth: 0,
         };
         let mut bodies = Vec::new();
@@ -101,6 +102,7 @@ impl<'s> MjReader<'s, '_> {
             pos: pose.pos,
             orientation: pose.orientation,
             notation: self.notation(context),
+            frame: context.frame,
             joints: self.model.joints.len()..self.model.joints.len(),
             geoms: self.model.geoms.len()..self.model.geoms.len(),
             sites: self.model.sites.len()..self.model.sites.len(),
@@ -112,6 +114,7 @@ impl<'s> MjReader<'s, '_> {
         });
         let inside = MjContext {
             body_from_frame: Isometry3::identity(),
+            frame: None,
             depth: context.depth + 1,
             ..context.with_class_of(element)
         };
@@ -156,8 +159,14 @@ impl<'s> MjReader<'s, '_> {
         let pose = MjWrittenPose::read(&MjAttributes::own(element), settings, self.diagnostics);
         self.named(MjNamed::Frame, element, context, 0);
         self.check_childclass(element, context.attachment);
-        let inside =
-            MjContext { depth: context.depth + 1, ..context.with_class_of(element).moved(pose.isometry()) };
+        let inside = MjContext {
+            frame: Some(self.model.frames.len()),
+            depth: context.depth + 1,
+            ..context.with_class_of(element).moved(pose.isometry())
+        };
+        let MjWrittenPose { pos, orientation } = pose;
+        let notation = self.notation(context);
+        self.model.frames.push(MjFrame { outer: context.frame, pos, orientation, notation });
         self.contents(element, &inside, body, bodies)
     }
 
