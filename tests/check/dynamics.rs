@@ -283,10 +283,24 @@ fn a_wrong_urdf_is_corrected_by_the_table() {
     assert_eq!(robot.against_declared().code, 0);
 }
 
+/// An origin that is 10 mm off, and a mass in grams: both are named.
+#[test]
+fn masses_behind_an_origin_that_is_a_little_off_are_compared_as_written() {
+    let robot = RobotCopy::of("ur5e");
+    robot.replace("joint", "elbow_joint", "-0.425", "-0.435");
+    let report = robot.against_original().json();
+    assert_eq!(report["diagnosis"][0]["cause"], "joint_origin", "{report}");
+    assert_eq!(report["dynamics"]["verdict"], "same", "{report}");
+    robot.replace("link", "forearm_link", "<mass value=\"2.846\"", "<mass value=\"2846\"");
+    let report = robot.against_original().json();
+    assert_eq!(report["diagnosis"][0]["cause"], "joint_origin", "{report}");
+    explained(&report, "mass_unit", &["forearm_link"]);
+}
+
 #[test]
 fn another_chain_is_not_compared_and_the_first_joint_is_named() {
     let robot = RobotCopy::of("ur5e");
-    robot.replace("joint", "elbow_joint", "-0.425", "-0.435");
+    robot.replace("joint", "elbow_joint", "-0.425", "-0.475");
     let answer = robot.against_original();
     assert_eq!(answer.code, 1);
     let report = answer.json();

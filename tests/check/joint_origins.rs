@@ -276,7 +276,7 @@ fn people_see_both_lines_and_what_to_write() {
     let printed = congruent(&["check", &pair.wrong, "--against", &pair.right]).stdout;
     let printed = printed.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
     for expected in [
-        "URDF chain against other URDF: one correction leaves 0 mm",
+        "URDF chain against other URDF: after one correction poses differ by 0 mm",
         "joint \"bend\": origin xyz=\"0.352 0.001 0.06\", expected xyz=\"0.35 0 0.06\" as in",
         "to write: <origin xyz=\"0.35 0 0.06\"/> # line 59",
     ] {

@@ -339,7 +339,7 @@ fn a_tip_under_another_name_is_compared_or_refused() {
     // Nobody has named the tip: the rest is compared, and the answer says so.
     let (answer, printed) = against(ARM, &elsewhere, &[]);
     assert_eq!(answer.json()["against"]["links_not_found"], json!(["tool"]));
-    assert!(printed.contains(" without the tip \"tool\", which the other description lacks"), "{printed}");
+    assert!(printed.contains(" without the tip \"tool\" (in one file alone)"), "{printed}");
 }
 
 /// A speed limit that one file alone states at every joint is one line; neither of two files is the expected one.

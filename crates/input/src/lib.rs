@@ -34,7 +34,7 @@ pub use quantity::{Quantity, SiUnit};
 pub use visible::{hidden_character, is_hidden, visible, visible_lines};
 pub use written::{
     array::fixed_array,
-    digits::{TypedNumber, half_places, half_places_of_values},
+    digits::{TypedNumber, half_places, half_places_of_point, half_places_of_values},
     name::serde_name,
     number::{self, Slack, fitted_number},
     rotation_from_rpy_fixed_xyz,

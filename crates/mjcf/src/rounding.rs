@@ -1,7 +1,7 @@
 //! How far the poses of bodies and the axes of joints may be from the truth because of the digits that they are written with.
 
 use congruent_input::{
-    TypedNumber, half_places, half_places_of_values,
+    TypedNumber, half_places, half_places_of_point, half_places_of_values,
     units::{Unit, UnitSystem},
 };
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
@@ -64,7 +64,7 @@ pub struct MjValueRounding {
 impl MjInertial {
     /// What half of the last place of each of its numbers changes.
     pub fn rounding(&self) -> MjInertialRounding {
-        let pos_m = three(&half_places(Unit::Length, &numbers(text(&self.pos))));
+        let pos_m = three(&half_places_of_point(&numbers(text(&self.pos))));
         let moments: Vec<&str> = text(&self.inertia).split_whitespace().collect();
         let halves = half_places_of_values(&moments);
         let inertia_kg_m2 = match halves[..] {

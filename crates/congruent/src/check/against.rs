@@ -4,16 +4,12 @@ use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, Comparison, NotCompared},
 };
-use congruent_description::{ChainEnd, JointIndex, Robot, RobotDescription, RobotQ, Tolerance};
+use congruent_description::{ChainEnd, JointIndex, Robot, RobotDescription, Tolerance};
 use congruent_dynamics_agreement::{
     CompareError, DynamicsModel, DynamicsReport, NamedModel, without_one_sided_armature,
 };
-use congruent_input::{
-    Capability, Diagnostic, Finding, RevisionName,
-    display::{length_and_angle, position},
-    nearest,
-};
-use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
+use congruent_input::{Capability, Diagnostic, Finding, RevisionName, display::position, nearest};
+use congruent_kinematics::PoseError;
 use congruent_mapping::{
     common_tip, is_same_value, other_joint, with_masses_at_links_of, with_values_within_digits,
 };
@@ -23,14 +19,11 @@ use serde::Serialize;
 use super::{
     cause_in_words::and_more,
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
-    poses_of_other::{POSITIONS, PosesOfOther},
+    poses_of_other::PosesOfOther,
     reported_mapping::ReportedMapping,
+    same_chain::{misplaced_joint, moved_alike, nearly_same, tolerated, within_small_fault},
 };
 use crate::codes;
-
-/// Poses that differ by a smaller share of the reach, or by a smaller angle, are those of one chain: its masses and limits are worth
-/// comparing. Kind: choice; six digits in a file give a hundredth of it.
-const NEARLY: f64 = 1e-4;
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -122,10 +115,10 @@ pub(super) fn compared(
     let mut poses = poses.with_free_frames(description, &other.robot)?;
     // Joints as if all were driven; how mimic joints follow is compared after it, with them following.
     geometry.add_other(description, other, &mut poses, options)?;
-    let tolerance = tolerated(description, geometry);
+    let mut tolerance = tolerated(description, geometry);
     // Torques in the same joints need the same axes. Frames that only lie elsewhere in links that move alike are no
     // obstacle.
-    let misplaced = misplaced_joint(&description.robot, geometry, &tolerance);
+    let mut misplaced = misplaced_joint(&description.robot, geometry, &tolerance);
     let in_other_frames = if misplaced.is_some() || poses.has_free_frames() {
         moved_alike([&description.robot, &other.robot], &tolerance, options.seed)?
     } else {
@@ -137,8 +130,13 @@ pub(super) fn compared(
     }
     geometry.add_mimics(description, other, &mut poses, options)?;
     if misplaced.is_some() && in_other_frames.is_empty() {
-        against.dynamics_not_compared = misplaced;
-        return Ok((against, None));
+        // Behind an origin that is a little off, links have the masses that both files write in their frames.
+        tolerance = within_small_fault(description);
+        misplaced = misplaced_joint(&description.robot, geometry, &tolerance);
+        if misplaced.is_some() {
+            against.dynamics_not_compared = misplaced;
+            return Ok((against, None));
+        }
     }
     let frames = PlacedFrames { tolerance, misplaced, in_other_frames };
     let dynamics = dynamics_of(geometry, &mut against, [description, other], frames, options.seed);
@@ -297,44 +295,6 @@ fn ranges_differ(robot: &Robot, other: &RobotDescription) -> Option<String> {
     Some(first + &and_more(found.count()))
 }
 
-/// Links whose frames lie elsewhere in the other description, if all links move alike otherwise: then each differs from
-/// the one of its name by the same transform at all positions. Empty if one does not.
-fn moved_alike(
-    [robot, other]: [&Robot; 2],
-    tolerance: &Tolerance,
-    seed: u64,
-) -> Result<Vec<String>, CheckError> {
-    let (own, mut of_other) = (UrdfTree::new(robot), PosesOfOther::new(robot, other));
-    let mut poses = [robot, robot].map(|robot| vec![Pose::identity(); robot.links().len()]);
-    let mut at = |q: &RobotQ| -> Result<Vec<Pose>, LinkPosesError> {
-        let [here, there] = &mut poses;
-        own.root_from_links_into(q, here)?;
-        of_other.root_from_links_into(q, there)?;
-        Ok(here.iter().zip(there.iter()).map(|(here, there)| there.inverse() * *here).collect())
-    };
-    let moving: Vec<usize> =
-        robot.movable_joints().iter().map(|&joint| robot.joint(joint).child.get()).collect();
-    let at_zero = at(&RobotQ::zeros(robot.dof()))?;
-    // If a link moves alike, its pose in the link of the same name is constant: it must be at random positions what
-    // it is at zero.
-    let mut random = Uniform::seeded(seed);
-    for _ in 0..POSITIONS {
-        let q = robot.movable_joints().iter().map(|&joint| {
-            let (lower, upper) = range(robot.joint(joint));
-            random.between(lower, upper)
-        });
-        let there_from_here = at(&q.collect())?;
-        let is_other =
-            |link: &usize| !PoseError::between(&at_zero[*link], &there_from_here[*link]).is_within(tolerance);
-        if moving.iter().any(is_other) {
-            return Ok(Vec::new());
-        }
-    }
-    let elsewhere =
-        |link: &&usize| !PoseError::between(&Pose::identity(), &at_zero[**link]).is_within(tolerance);
-    Ok(moving.iter().filter(elsewhere).map(|&link| robot.links()[link].name.clone()).collect())
-}
-
 /// The tip, if the other description lacks it and nobody but the caller can say which link is meant: what the check is
 /// asked about would not be compared.
 fn missing_tip(description: &RobotDescription, other: &Robot, poses: &PosesOfOther) -> Option<String> {
@@ -346,40 +306,4 @@ fn missing_tip(description: &RobotDescription, other: &Robot, poses: &PosesOfOth
     let meant = nearest.map_or_else(String::new, |name| format!("; did you mean \"{name}\"?"));
     (is_missing && is_asked)
         .then(|| format!("the other description has no link \"{tip}\", which is the tip{meant}"))
-}
-
-/// The difference of poses that is none of the two: within the tolerance, or within the digits if these have decided.
-fn tolerated(description: &RobotDescription, geometry: &CheckReport) -> Tolerance {
-    let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
-    let agreeing = compared.filter(|of| of.verdict == Agreement::Agree);
-    let errors = agreeing.into_iter().flat_map(|of| &of.links).map(|link| link.error);
-    let Tolerance { position_m, orientation_rad } = nearly_same(description);
-    let least = PoseError { position_m, orientation_rad };
-    let PoseError { position_m, orientation_rad } = errors.fold(least, PoseError::larger);
-    Tolerance { position_m, orientation_rad }
-}
-
-/// What poses of one chain may differ by for masses and limits to be compared: the tolerance, or a ten thousandth of the reach.
-fn nearly_same(description: &RobotDescription) -> Tolerance {
-    let Tolerance { position_m, orientation_rad } = description.tolerance;
-    let reach_m = description.tolerance_scale().reach_m().unwrap_or_default();
-    Tolerance { position_m: position_m.max(NEARLY * reach_m), orientation_rad: orientation_rad.max(NEARLY) }
-}
-
-/// The first joint, from the base on, whose link is elsewhere.
-fn misplaced_joint(robot: &Robot, geometry: &CheckReport, tolerance: &Tolerance) -> Option<String> {
-    let comparison = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther)?;
-    let first = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).find_map(|joint| {
-        let worst = &comparison.links[joint.child.get()];
-        (!worst.error.is_within(tolerance)).then_some((joint, worst))
-    });
-    first.map(|(joint, worst)| {
-        format!(
-            "the two are not the same chain within the tolerance: link \"{}\" of joint \"{}\" is the first whose \
-             pose differs, by up to {}",
-            worst.link,
-            joint.name,
-            length_and_angle(worst.error.position_m, worst.error.orientation_rad)
-        )
-    })
 }

@@ -105,8 +105,7 @@ impl RobotCheck {
             let rounded = self.against.as_ref().map_or(0, |against| against.values_within_digits.len());
             if rounded > 0 {
                 let values = counted(rounded, "value");
-                let found =
-                    format!("{}; {values} of masses, inertias and limits are rounded", agreeing(report));
+                let found = format!("{}; rounded: {values} of masses, inertias and limits", agreeing(report));
                 return Headline::new(same, format!("{extent} within the digits written{rest}. {found}"));
             }
             return Headline::new(answer, format!("{extent}. {}", agreeing(report)));
@@ -166,7 +165,7 @@ fn extent(check: &RobotCheck) -> String {
             format!(" in {} of {all} joints (those of both files)", mapping.joints.len())
         }
         Some(against) if against.links_not_found.contains(&report.chain.tip) => {
-            format!(" without the tip \"{}\", which the other description lacks", report.chain.tip)
+            format!(" without the tip \"{}\" (in one file alone)", report.chain.tip)
         }
         None if report.table_compared && of_chain < all => {
             format!(" in {of_chain} of {all} joints (those of the table)")

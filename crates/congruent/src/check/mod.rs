@@ -21,6 +21,7 @@ mod physics;
 mod poses_of_other;
 mod reported_mapping;
 mod robot_check;
+mod same_chain;
 mod suite;
 mod table_of_other;
 mod titles;

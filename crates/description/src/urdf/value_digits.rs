@@ -1,7 +1,7 @@
 //! The digits that inertials, limits and losses are written with.
 
 use congruent_input::{
-    TypedNumber, axes_of_rpy_fixed_xyz, half_places, half_places_of_values,
+    TypedNumber, axes_of_rpy_fixed_xyz, half_places, half_places_of_point, half_places_of_values,
     units::{Unit, UnitSystem},
 };
 use congruent_robot::{Inertia, InertiaRounding, JointKind, JointLimit, JointValueRounding};
@@ -16,13 +16,13 @@ const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 /// What the digits of an `<inertial>` leave open.
 pub(super) fn of_inertia(inertial: Node<'_, '_>, inertia: &Inertia) -> InertiaRounding {
     let mass = half_places_of_values(&[value(inertial, "mass", "value")])[0];
-    let com = three(Unit::Length, value(inertial, "origin", "xyz"));
+    let com = three(value(inertial, "origin", "xyz"), half_places_of_point);
     let [xx, xy, xz, yy, yz, zz] = half_places_of_values(&MOMENTS.map(|key| value(inertial, "inertia", key)))
         .try_into()
         .expect("one half place for each moment");
     let moments = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     let axes = axes_of_rpy_fixed_xyz(inertia.link_from_inertial.rotation.to_rotation_matrix().matrix());
-    let angles = three(Unit::Angle, value(inertial, "origin", "rpy"));
+    let angles = three(value(inertial, "origin", "rpy"), |numbers| half_places(Unit::Angle, numbers));
     let turns: Vec<Vector3<f64>> = axes.iter().zip(&angles).map(|(axis, half)| axis * *half).collect();
     InertiaRounding::of_written(inertia, mass, com, &moments, &turns)
 }
@@ -59,10 +59,10 @@ fn value<'a>(owner: Node<'a, '_>, part: &str, attribute: &str) -> &'a str {
     element(owner, part).and_then(|of| of.attribute(attribute)).unwrap_or_default().trim()
 }
 
-/// The half places of three numbers; 0 for those that are missing.
-fn three(unit: Unit, text: &str) -> Vector3<f64> {
+/// The half places of three numbers by a rule; 0 for those that are missing.
+fn three(text: &str, rule: impl Fn(&[TypedNumber<'_>]) -> Vec<f64>) -> Vector3<f64> {
     let numbers: Vec<TypedNumber<'_>> = text.split_whitespace().take(3).map(typed).collect();
-    let halves = half_places(unit, &numbers);
+    let halves = rule(&numbers);
     Vector3::from_fn(|at, _| halves.get(at).copied().unwrap_or_default())
 }
 

@@ -50,6 +50,17 @@ pub struct TypedNumber<'a> {
 /// assert_eq!(half_places(Unit::Length, &typed)[1..], [0.0, 5e-4, 0.0]);
 /// ```
 pub fn half_places(unit: Unit, typed: &[TypedNumber<'_>]) -> Vec<f64> {
+    half_places_with_zero(unit, typed, MOST_OF_ZERO)
+}
+
+/// The same of the coordinates of a point that was measured or computed, as a centre of mass: its zeros are no design values, and
+/// are off by the finest last place of the others.
+pub fn half_places_of_point(typed: &[TypedNumber<'_>]) -> Vec<f64> {
+    half_places_with_zero(Unit::Length, typed, f64::INFINITY)
+}
+
+/// Half places of numbers whose zeros are off by this at most.
+fn half_places_with_zero(unit: Unit, typed: &[TypedNumber<'_>], most_of_zero: f64) -> Vec<f64> {
     let halves: Vec<Option<f64>> = typed.iter().map(|number| half_place(unit, *number)).collect();
     let written = || halves.iter().zip(typed).filter_map(|(half, number)| Some(((*half)?, number.text)));
     let finest = written().map(|(half, _)| half).fold(f64::INFINITY, f64::min);
@@ -57,7 +68,7 @@ pub fn half_places(unit: Unit, typed: &[TypedNumber<'_>]) -> Vec<f64> {
     let most_digits = written().filter_map(|(_, text)| Some(TypedDigits::read(text)?.significant)).max();
     let half = |(half, number): (&Option<f64>, &TypedNumber<'_>)| match half {
         Some(half) => *half,
-        None if number.text.parse() == Ok(0.0) => finest.min(MOST_OF_ZERO),
+        None if number.text.parse() == Ok(0.0) => finest.min(most_of_zero),
         None => finest.max(most_digits.map_or(0.0, |most| with_digits(unit, *number, most))),
     };
     halves.iter().zip(typed).map(half).collect()
@@ -74,31 +85,39 @@ fn with_digits(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>, digits:
 }
 
 /// Half of the last place of each number of one kind that is neither a length nor an angle, such as the entries of a tensor, in
-/// their unit. A number has three significant digits at least, with trailing zeros that may be left out; a zero is as fine as
-/// the finest of the others, and exact alone.
+/// their unit. A number has three significant digits at least, with trailing zeros that may be left out, unless another one has as
+/// many and the same last place, as all do that are written with six decimals; a zero is as fine as the finest of the others, and
+/// exact alone.
 ///
 /// # Examples
 /// ```
 /// use congruent_input::half_places_of_values;
 /// assert_eq!(half_places_of_values(&["3.7612", "35", "0"]), [5e-5, 5e-2, 5e-5]);
 /// assert_eq!(half_places_of_values(&["0.4"]), [5e-4]);
+/// assert_eq!(half_places_of_values(&["0.000132", "0.000099"]), [5e-7, 5e-7]);
 /// assert_eq!(half_places_of_values(&["0.123456789012345", "0"]), [0.0, 0.0]);
 /// ```
 pub fn half_places_of_values(typed: &[&str]) -> Vec<f64> {
-    let halves: Vec<Option<f64>> = typed.iter().map(|text| half_place_of_value(text)).collect();
+    let full = typed.iter().filter_map(|text| TypedDigits::read(text));
+    let places: Vec<i32> = full
+        .filter(|of| of.first_place() - of.last_place >= LEAST_DIGITS - 1)
+        .map(|of| of.last_place)
+        .collect();
+    let halves: Vec<Option<f64>> = typed.iter().map(|text| half_place_of_value(text, &places)).collect();
     let finest = halves.iter().copied().flatten().fold(f64::INFINITY, f64::min);
     let of_zero = if finest.is_finite() { finest } else { 0.0 };
     halves.into_iter().map(|half| half.unwrap_or(of_zero)).collect()
 }
 
-/// Half of the last place of a value; `None` for a zero.
-fn half_place_of_value(text: &str) -> Option<f64> {
+/// Half of the last place of a value; `None` for a zero. `places` are the last places of values with enough digits.
+fn half_place_of_value(text: &str, places: &[i32]) -> Option<f64> {
     let Some(TypedDigits { significant, last_place }) = TypedDigits::read(text) else { return Some(0.0) };
     if significant >= PROGRAM_DIGITS {
         return Some(0.0);
     }
     let first_place = TypedDigits { significant, last_place }.first_place();
-    let last_place = last_place.min(first_place.saturating_sub(LEAST_DIGITS - 1));
+    let least = first_place.saturating_sub(LEAST_DIGITS - 1);
+    let last_place = if places.contains(&last_place) { last_place } else { last_place.min(least) };
     (significant > 0).then(|| half_of_place(last_place))
 }
 

@@ -105,20 +105,18 @@ fn residual(cause: &ReportedCause) -> String {
 fn summary(cause: &ReportedCause, count: usize, tolerance: &Tolerance) -> String {
     let corrections = match count {
         0 => return "no known cause explains the difference".to_owned(),
-        1 => "one correction leaves".to_owned(),
-        _ => format!("{count} corrections, the one with the largest effect first, leave"),
+        1 => "after one correction".to_owned(),
+        _ => format!("after {count} corrections, the one with the largest effect first,"),
     };
     let residual_error = PoseError { position_m: cause.residual_m, orientation_rad: cause.residual_rad };
     let residual = residual(cause);
     if cause.within_tolerance && !residual_error.is_within(tolerance) {
         // The check of the corrected file has other configurations, the worst of its own certificates among them.
-        format!(
-            "{corrections} {residual} at the configurations of this check, which is within the digits written"
-        )
+        format!("{corrections} poses differ by {residual} in this check, which the digits allow")
     } else if cause.within_tolerance {
-        format!("{corrections} {residual}")
+        format!("{corrections} poses differ by {residual}")
     } else {
-        format!("{corrections} {residual}, which is above the tolerance")
+        format!("{corrections} poses still differ by {residual}, which is above the tolerance")
     }
 }
 

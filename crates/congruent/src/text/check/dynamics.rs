@@ -4,9 +4,10 @@
 use std::fmt::Write;
 
 use crate::{
-    RobotCheck,
+    OtherDescription, RobotCheck,
     agreement::{
         SourcePair,
+        compare::Agreement,
         diagnosis::Cause,
         report::{ReportedCause, ReportedDiagnosis},
     },
@@ -25,51 +26,9 @@ const SHOWN: usize = 8;
 
 /// All comparisons of dynamics of a check.
 pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
-    let against = check.against.as_ref();
-    if let Some(why) = against.and_then(|against| against.dynamics_not_compared.as_ref()) {
-        let has_poses = check.geometry.comparisons.iter().any(|of| of.name == SourcePair::UrdfOther);
-        let what = if has_poses { "dynamics" } else { "poses and dynamics" };
-        let _ = writeln!(text, "  not compared with the other description: {what}: {why}");
-    }
-    if let Some(links) = against.map(|of| &of.links_in_other_frames).filter(|links| !links.is_empty()) {
-        let _ = writeln!(
-            text,
-            "  the frames of {} are placed differently in their links in the other description, but the joints \
-             move the links alike: dynamics is compared in the frames of this description",
-            links.join(", ")
-        );
-    }
-    if let Some(joints) = against.map(|of| &of.joints_left_out).filter(|joints| !joints.is_empty()) {
-        let _ = writeln!(
-            text,
-            "  not compared with the other description, since they do not move the tip that --tip names: {}, and what \
-             they carry",
-            joints.join(", ")
-        );
-    }
-    if let Some(links) = against.map(|of| &of.links_not_found).filter(|links| !links.is_empty()) {
-        let _ =
-            writeln!(text, "  not compared: links that the other description lacks: {}", links.join(", "));
-    }
-    if let Some(links) = against.map(|of| &of.fused_links).filter(|links| !links.is_empty()) {
-        let _ = writeln!(
-            text,
-            "  links that one file has as one are compared with the sum of those that are fixed to each other in the other file: {}",
-            first_of(links, SHOWN)
-        );
-    }
-    if let Some(values) = against.map(|of| &of.values_within_digits).filter(|values| !values.is_empty()) {
-        let _ = writeln!(
-            text,
-            "  {} of masses, inertias, limits and losses differ within the digits written, which is no difference: {}",
-            counted(values.len(), "value"),
-            first_of(values, SHOWN)
-        );
-    }
-    let causes = check.geometry.diagnoses.iter().filter_map(ReportedDiagnosis::named_cause);
-    let mut faults = causes.flat_map(ReportedCause::faults);
-    if against.is_some() && faults.any(|fault| fault.cause == Cause::Mimic) {
-        text.push_str("  dynamics is compared as if the joints that follow others were driven\n");
+    if let Some(against) = &check.against {
+        not_compared(text, check, against);
+        as_compared(text, check, against);
     }
     let disagrees = |report: &&DynamicsReport| !report.agrees();
     let files = |report| check.files_of(report);
@@ -84,6 +43,74 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
     if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
         let _ =
             writeln!(text, "  not compared, since the robot file does not state it: {}", left_out.join("; "));
+    }
+}
+
+/// What is not compared with the other description, and why.
+fn not_compared(text: &mut String, check: &RobotCheck, against: &OtherDescription) {
+    if let Some(why) = &against.dynamics_not_compared {
+        let has_poses = check.geometry.comparisons.iter().any(|of| of.name == SourcePair::UrdfOther);
+        let what = if has_poses { "dynamics" } else { "poses and dynamics" };
+        let _ = writeln!(text, "  not compared with the other description: {what}: {why}");
+    }
+    let joints = &against.joints_left_out;
+    if !joints.is_empty() {
+        let _ = writeln!(
+            text,
+            "  not compared with the other description, since they do not move the tip that --tip names: {}, and what \
+             they carry",
+            joints.join(", ")
+        );
+    }
+    let links = &against.links_not_found;
+    if !links.is_empty() {
+        let _ =
+            writeln!(text, "  not compared: links that the other description lacks: {}", links.join(", "));
+    }
+}
+
+/// How masses, inertias and losses of the two are compared where that is not plain.
+fn as_compared(text: &mut String, check: &RobotCheck, against: &OtherDescription) {
+    let links = &against.links_in_other_frames;
+    if !links.is_empty() {
+        let _ = writeln!(
+            text,
+            "  the frames of {} are placed differently in their links in the other description, but the joints \
+             move the links alike: dynamics is compared in the frames of this description",
+            links.join(", ")
+        );
+    }
+    let links = &against.fused_links;
+    if !links.is_empty() {
+        let _ = writeln!(
+            text,
+            "  links that one file has as one are compared with the sum of those that are fixed to each other in the other file: {}",
+            first_of(links, SHOWN)
+        );
+    }
+    let values = &against.values_within_digits;
+    if !values.is_empty() {
+        let _ = writeln!(
+            text,
+            "  {} of masses, inertias, limits and losses differ within the digits written, which is no difference: {}",
+            counted(values.len(), "value"),
+            first_of(values, SHOWN)
+        );
+    }
+    let mut pairs = check.geometry.comparisons.iter().filter(|of| of.name == SourcePair::UrdfOther);
+    let is_compared =
+        check.dynamics_of_descriptions().next().is_some() && against.links_in_other_frames.is_empty();
+    if is_compared && pairs.any(|of| of.verdict == Agreement::Disagree) {
+        text.push_str(
+            "  masses and losses are compared as both files write them, with the geometry of this file\n",
+        );
+    }
+    let causes = check.geometry.diagnoses.iter().filter_map(ReportedDiagnosis::named_cause);
+    let mut faults = causes.flat_map(ReportedCause::faults);
+    if faults.any(|fault| fault.cause == Cause::Mimic) {
+        text.push_str(
+            "  torques are compared with every follower (<mimic>) as a joint of its own, since followers of the two files differ\n",
+        );
     }
 }
 
