@@ -61,6 +61,10 @@ fn fix_writes_the_corrected_file_and_answers_for_it() {
         assert_eq!(rest, right);
         assert!(file(folder.path(), "robot.toml").contains("a_m = 0.53"), "the file itself is kept");
     }
+    let quiet = congruent(&["check", &text(folder.path()), "--fix", "-q"]).stdout;
+    let lines: Vec<&str> = quiet.lines().collect();
+    assert!(lines[0].contains("robot.toml: DIFFERENT") && lines[0].contains("0.53"), "{quiet}");
+    assert!(lines.len() == 2 && lines[1].contains("robot.fixed.toml: SAME "), "{quiet}");
     let report = congruent_json(&["check", &text(folder.path()), "--fix"]);
     assert_eq!(report.code, 0);
     let report = report.json();

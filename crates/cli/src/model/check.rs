@@ -141,8 +141,10 @@ impl BatchReport for Checked {
     }
 
     fn one_line(&self) -> Option<String> {
-        let report = self.decisive();
-        Some(format!("{}: {}", report.geometry.file, report.headline()))
+        // With --fix the causes, too: the corrected file alone would hide that there were any.
+        let all = std::iter::once(&self.report).chain(&self.fixed);
+        let lines = all.map(|report| format!("{}: {}", report.geometry.file, report.headline()));
+        Some(lines.collect::<Vec<_>>().join("\n"))
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {

@@ -140,6 +140,25 @@ fn sign(row: &WrittenRow, diagnostics: &mut Diagnostics) -> Option<f64> {
     }
 }
 
+/// What to declare for a moving joint to be in the chain.
+fn chain_with(robot: &Robot, chain: &[JointIndex], joint: JointIndex) -> String {
+    let carried = &robot.link(robot.joint(joint).child).name;
+    let before = &robot.link(robot.joint(joint).parent).name;
+    let is_behind = |link, joints: &[JointIndex]| {
+        robot.chain(robot.root(), link).is_some_and(|path| joints.iter().all(|of| path.contains(of)))
+    };
+    let first = chain.first().map(|&first| robot.joint(first).parent);
+    if is_behind(robot.joint(joint).child, chain) {
+        format!("the joint is behind the tip: declare tip = \"{carried}\", or a link behind it")
+    } else if first.is_some_and(|first| is_behind(first, &[joint])) {
+        format!("the joint is before the base: declare base = \"{before}\", or a link before it")
+    } else {
+        format!(
+            "the joint is on another branch of the robot: declare tip = \"{carried}\" for a table of that branch"
+        )
+    }
+}
+
 /// The joint of a row, which must be a moving one of the chain.
 fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnostics) -> Option<JointIndex> {
     let (name, robot) = (row.joint.get_ref(), context.robot);
@@ -152,7 +171,10 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnos
             None => "is not in the robot",
         };
         let message = format!("joint \"{name}\" {what}");
-        let help = known_names(name, "moving joints of the chain", names().collect::<Vec<_>>());
+        let help = match robot.find_joint(name).filter(|&joint| robot.joint(joint).kind.is_movable()) {
+            Some(joint) => chain_with(robot, context.chain, joint),
+            None => known_names(name, "moving joints of the chain", names().collect::<Vec<_>>()),
+        };
         diagnostics.push(
             Diagnostic::error(codes::robot_file::UNKNOWN_JOINT, message).at(row.joint.span()).with_help(help),
         );
