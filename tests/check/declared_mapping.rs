@@ -76,3 +76,21 @@ fn a_tip_in_another_place_is_a_difference_behind_a_mapping() {
         assert!(answer.stdout.contains("off by 100 mm"), "{}", answer.stdout);
     }
 }
+
+/// All axes of a planar arm are parallel: how high its base is, no axis shows, and the tip does.
+#[test]
+fn a_fitted_base_of_a_planar_arm_has_the_height_of_its_tip() {
+    let urdf = fs::read_to_string(workspace().join("robots/planar_2r/planar_2r.urdf")).unwrap();
+    let first = "<joint name=\"joint_1\" type=\"revolute\">\n    <origin xyz=\"0 0 0\"/>";
+    assert!(urdf.contains(first));
+    let higher = urdf.replace(first, &first.replace("0 0 0", "0.1 0 0.2"));
+    let scratch = ScratchFolder::new();
+    scratch.write("own.urdf", &urdf);
+    let robot = scratch
+        .write("robot.toml", "description = \"own.urdf\"\ntip = \"tip\"\n[mapping]\nbase = \"fitted\"\n");
+    let other = scratch.write("other.urdf", &higher);
+    let answer = congruent(&["check", &robot, "--against", &other]);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    assert!(answer.stdout.contains("its root frame is at x -100 mm"), "{}", answer.stdout);
+    assert!(answer.stdout.contains("z -200 mm"), "{}", answer.stdout);
+}

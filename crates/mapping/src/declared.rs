@@ -67,7 +67,8 @@ impl Both<'_> {
         };
         let fitted = || {
             let known = chain.iter().map(variable).collect();
-            ChainPair { known, ..self.chain_pair(&chain, None, None) }.with_base_at_first_axes()
+            ChainPair { known, ..self.chain_pair(&chain, None, None) }
+                .with_base_at_first_axes(self.shared_tips())
         };
         let as_declared = || {
             let known: Vec<JointVariable> = chain.iter().filter_map(variable).collect();

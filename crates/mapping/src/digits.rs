@@ -14,7 +14,7 @@ use congruent_description::{
 use congruent_kinematics::{PoseError, Screw, ScrewTree, Twist, least_squares::BoundedLeastSquares};
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use crate::{find::FoundMapping, frames::CommonAxes, matched::MatchedRobots};
+use crate::{find::FoundMapping, matched::MatchedRobots};
 
 /// The most that a value may be off, in half places: the margin is that of a value that is rounded from the middle of two. Kind:
 /// rounding.
@@ -123,23 +123,21 @@ impl MatchedRobots<'_> {
     }
 }
 
-/// The robot whose zeros of these joints are fitted, and if axes agree its frames: no digits bind what nobody has written.
+/// The robot whose zeros of these joints are fitted: no digits bind what nobody has written.
 #[must_use]
-pub fn with_fitted(robot: &Robot, zeros: &BTreeSet<&str>, axes: CommonAxes) -> Robot {
+pub fn with_fitted(robot: &Robot, zeros: &BTreeSet<&str>) -> Robot {
     robot.with_joints(|joint| {
-        if joint.kind == JointKind::Fixed {
-            return;
-        }
-        let along = joint.parent_from_joint.rotation * joint.axis_in_joint.into_inner() * FITTED;
-        let shift = SmallMotion::shift(along);
-        let turn = SmallMotion::turn(along, &joint.parent_from_joint.translation.vector);
-        if zeros.contains(joint.name.as_str()) {
+        if joint.kind != JointKind::Fixed && zeros.contains(joint.name.as_str()) {
+            let [shift, turn] = along_axis(joint);
             joint.rounding.origin.push(if joint.kind.is_angular() { turn } else { shift });
         }
-        if axes == CommonAxes::Agree {
-            joint.rounding.frame.extend([shift, turn]);
-        }
     })
+}
+
+/// A shift along the axis of a joint and a turn about it, as large as what is fitted may be off.
+pub(crate) fn along_axis(joint: &Joint) -> [SmallMotion; 2] {
+    let along = joint.parent_from_joint.rotation * joint.axis_in_joint.into_inner() * FITTED;
+    [SmallMotion::shift(along), SmallMotion::turn(along, &joint.parent_from_joint.translation.vector)]
 }
 
 /// The robot whose base is fitted: all that it moves may lie elsewhere together, if one joint carries all of it.

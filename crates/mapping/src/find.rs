@@ -313,7 +313,7 @@ impl Both<'_> {
     }
 
     /// Poses of the tips in their roots, if both tips have one name.
-    fn shared_tips(&self) -> Option<[Isometry3<f64>; 2]> {
+    pub(crate) fn shared_tips(&self) -> Option<[Isometry3<f64>; 2]> {
         self.tips_of(self.a.tip, &self.a.robot.link(self.a.tip).name)
     }
 

@@ -1,8 +1,12 @@
 //! The frames of the links of another description, moved to where a robot has them as far as the axes of both allow.
 
+use std::collections::BTreeSet;
+
 use congruent_description::{Joint, JointKind, LinkIndex, Robot};
 use congruent_kinematics::ScrewTree;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use crate::digits::along_axis;
 
 /// Frames of links of one name that are turned by less are the same frame where axes differ: what differs is a difference. Kind: choice;
 /// other frames of a link are quarter turns away.
@@ -49,7 +53,21 @@ pub fn in_frames_of(
         }
         frames[joint.child.get()] = on_axis(&link_from_frame, &joint.axis_in_joint, &here.axis_in_joint);
     }
-    other.with_link_frames(&frames)
+    let moved = other.with_link_frames(&frames);
+    if axes == CommonAxes::Differ {
+        return moved;
+    }
+    // No digits bind a frame that was chosen here.
+    let is_chosen =
+        |joint: &Joint| joint.kind != JointKind::Fixed && frames[joint.child.get()] != Isometry3::identity();
+    let chosen: BTreeSet<&str> =
+        other.joints().iter().filter(|joint| is_chosen(joint)).map(|joint| joint.name.as_str()).collect();
+    moved.with_joints(|joint| {
+        if chosen.contains(joint.name.as_str()) {
+            let [shift, turn] = along_axis(joint);
+            joint.rounding.frame.extend([shift, turn]);
+        }
+    })
 }
 
 /// Whether a link of one name has a frame that lies elsewhere in it: farther than `least_m` from where the robot has it, which is

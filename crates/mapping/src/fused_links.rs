@@ -7,6 +7,8 @@ use congruent_description::{Inertia, InertiaRounding, Link, LinkIndex, Robot};
 use congruent_kinematics::ScrewTree;
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
+use crate::link_names::OF_FITTED_BASE;
+
 /// Links that one of two descriptions has as one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FusedLinks {
@@ -71,18 +73,22 @@ impl BodyPair<'_> {
     /// `same` with the masses of this body where the robot has them; `None` if they are there, or if the sums differ by what
     /// one of the two lacks.
     fn with_masses_moved(&self, same: &Robot) -> Option<(Robot, FusedLinks)> {
-        let [own, there] = [0, 1].map(|of| self.parts(of));
-        let [names, other_names] = [&own, &there]
-            .map(|parts| parts.iter().map(|part| part.link.name.as_str()).collect::<BTreeSet<&str>>());
+        let [mut own, mut there] = [0, 1].map(|of| self.parts(of));
+        let [names, other_names] = [&own, &there].map(|parts| names(parts));
+        // Links of a fitted base are not compared.
+        if other_names.iter().any(|name| name.ends_with(OF_FITTED_BASE)) {
+            return None;
+        }
         let alone: BTreeSet<&str> = names.symmetric_difference(&other_names).copied().collect();
-        let mass_kg = |parts: &[Part<'_>], is_asked: &dyn Fn(&Part<'_>) -> bool| -> f64 {
-            parts.iter().filter(|part| is_asked(part)).map(|part| part.inertia.mass_kg).sum()
-        };
         let is_alone = |part: &Part<'_>| alone.contains(part.link.name.as_str());
-        let alone_kg = mass_kg(&own, &is_alone) + mass_kg(&there, &is_alone);
-        let apart_kg = mass_kg(&own, &|_| true) - mass_kg(&there, &|_| true);
+        let missing = missing_link(&own, &there, is_alone);
+        let missing = missing.map(|part| part.link.name.clone());
+        for parts in [&mut own, &mut there] {
+            parts.retain(|part| Some(&part.link.name) != missing.as_ref());
+        }
+        let alone_kg = mass_kg(own.iter().chain(&there).filter(|part| is_alone(part)));
         // Nearer to the sum than to a link that is missing.
-        if apart_kg.abs() >= 0.5 * alone_kg || there.is_empty() {
+        if (mass_kg(&own) - mass_kg(&there)).abs() >= 0.5 * alone_kg {
             return None;
         }
         let carrier = own.iter().max_by(|a, b| a.inertia.mass_kg.total_cmp(&b.inertia.mass_kg))?;
@@ -90,13 +96,15 @@ impl BodyPair<'_> {
             own.iter().filter(|part| part.link.name != carrier.link.name).copied().collect();
         let carried = remainder(carrier, &there, &rest)?;
         let parts: Vec<Part<'_>> = std::iter::once(carried).chain(rest).collect();
-        let moved = self.moved(same, &parts)?;
-        let with = alone.into_iter().filter(|name| *name != carrier.link.name).map(str::to_owned);
+        let moved = self.moved(same, &parts, missing.as_ref())?;
+        let all = own.iter().chain(&there).map(|part| part.link.name.as_str()).collect::<BTreeSet<&str>>();
+        let with = all.into_iter().filter(|name| *name != carrier.link.name).map(str::to_owned);
         Some((moved, FusedLinks { link: carrier.link.name.clone(), with: with.collect() }))
     }
 
-    /// `same` with these masses alone on this body; `None` if one of the links is elsewhere there.
-    fn moved(&self, same: &Robot, parts: &[Part<'_>]) -> Option<Robot> {
+    /// `same` with these masses alone on this body, beside that of a link which the robot lacks; `None` if one of the links is
+    /// elsewhere there.
+    fn moved(&self, same: &Robot, parts: &[Part<'_>], missing: Option<&String>) -> Option<Robot> {
         let [body, there] = self.bodies;
         let other = self.robots[1];
         let is_of_body = |index: LinkIndex| other.body(index) == there;
@@ -107,6 +115,9 @@ impl BodyPair<'_> {
             self.trees[1].home(there).to_isometry().inverse() * self.trees[0].home(body).to_isometry();
         let mut changed = same.with_links(|link| {
             let Some(index) = other.find_link(&link.name).filter(|&index| is_of_body(index)) else { return };
+            if Some(&link.name) == missing {
+                return;
+            }
             link.inertia = None;
             let Some(part) = parts.iter().find(|part| part.link.name == link.name) else { return };
             let home = self.trees[1].home(index).to_isometry();
@@ -128,6 +139,42 @@ impl BodyPair<'_> {
         }
         Some(changed)
     }
+}
+
+fn names<'a>(parts: &[Part<'a>]) -> BTreeSet<&'a str> {
+    parts.iter().map(|part| part.link.name.as_str()).collect()
+}
+
+fn mass_kg<'a, 'b: 'a>(parts: impl IntoIterator<Item = &'a Part<'b>>) -> f64 {
+    parts.into_iter().map(|part| part.inertia.mass_kg).sum()
+}
+
+/// The link that one of the two has alone and whose mass is what the sums are apart: the other lacks it. Of several with one mass it is
+/// the one without which the centres of mass are nearest.
+fn missing_link<'a, 'b>(
+    own: &'a [Part<'b>],
+    there: &'a [Part<'b>],
+    is_alone: impl Fn(&Part<'_>) -> bool,
+) -> Option<&'a Part<'b>> {
+    /// Share of its mass by which the sums may be apart otherwise. Kind: digits of a file.
+    const SAME_MASS: f64 = 1e-2;
+    let apart_kg = mass_kg(own) - mass_kg(there);
+    let [heavier, lighter] = if apart_kg > 0.0 { [own, there] } else { [there, own] };
+    let is_missing = |part: &&Part<'_>| {
+        let kg = part.inertia.mass_kg;
+        is_alone(part) && (kg - apart_kg.abs()).abs() < SAME_MASS * kg
+    };
+    let off_m = |missing: &Part<'_>| {
+        let with = |part: &&Part<'_>| part.link.name != missing.link.name;
+        (com_m(heavier.iter().filter(with)) - com_m(lighter)).norm()
+    };
+    heavier.iter().filter(is_missing).min_by(|a, b| off_m(a).total_cmp(&off_m(b)))
+}
+
+/// The common centre of mass of parts, in the body.
+fn com_m<'a, 'b: 'a>(parts: impl IntoIterator<Item = &'a Part<'b>>) -> Vector3<f64> {
+    let parts = parts.into_iter().map(|part| (part.body_from_link, part.inertia)).collect::<Vec<_>>();
+    Inertia::sum_of_parts(parts.into_iter()).link_from_inertial.translation.vector
 }
 
 /// What the carrier has if a body with all masses of `whole` has those of `rest` at other links; `None` if nothing is left of the
@@ -152,14 +199,36 @@ fn remainder<'a>(carrier: &Part<'a>, whole: &[Part<'_>], rest: &[Part<'_>]) -> O
     };
     let com = sum.link_from_inertial.translation;
     let turn = axes.to_rotation_matrix();
-    let inertia = Inertia {
+    let mut inertia = Inertia {
         link_from_inertial: Isometry3::from_parts(com, axes),
         tensor_kg_m2: turn.matrix().transpose() * sum.tensor_kg_m2 * turn.matrix(),
         ..sum
     };
-    let parts = whole.iter().chain(rest).map(|part| in_frame(part, &carrier_from_body));
-    let rounding = rounding_of_sum(parts.collect(), &com.vector, sum.mass_kg);
+    let parts: Vec<&Part<'_>> = whole.iter().chain(rest).collect();
+    if is_noise(&carrier.inertia, &inertia, &parts) {
+        inertia = carrier.inertia;
+    }
+    let off_m = com.vector - carrier.inertia.link_from_inertial.translation.vector;
+    let parts = parts.into_iter().map(|part| in_frame(part, &carrier_from_body));
+    let rounding = rounding_of_sum(parts.collect(), &com.vector, sum.mass_kg, &off_m);
     Some(Part { inertia, rounding, ..*carrier })
+}
+
+/// Whether the two differ by the rounding of the sums alone.
+fn is_noise(own: &Inertia, there: &Inertia, parts: &[&Part<'_>]) -> bool {
+    /// Share of the largest terms of the sums. Kind: rounding of calculation.
+    const NOISE: f64 = 1e-12;
+    let reach_m = parts
+        .iter()
+        .map(|part| (part.body_from_link * part.inertia.link_from_inertial).translation.vector.norm());
+    let reach_m = reach_m.fold(0.0, f64::max);
+    let all_kg: f64 = parts.iter().map(|part| part.inertia.mass_kg).sum();
+    let tensors: f64 = parts.iter().map(|part| part.inertia.tensor_kg_m2.amax()).sum();
+    let off_m = own.link_from_inertial.translation.vector - there.link_from_inertial.translation.vector;
+    let off_kg_m2 = own.tensor_in_link() - there.tensor_in_link();
+    (own.mass_kg - there.mass_kg).abs() <= NOISE * all_kg
+        && off_m.amax() * there.mass_kg <= NOISE * all_kg * reach_m
+        && off_kg_m2.amax() <= NOISE * (tensors + all_kg * reach_m * reach_m)
 }
 
 /// Mass, centre of mass and rounding of a part, in the axes of the carrier.
@@ -171,27 +240,40 @@ fn in_frame(part: &Part<'_>, carrier_from_body: &Isometry3<f64>) -> RoundedMass 
     (part.inertia.mass_kg, com, part.rounding.expressed_in(&carrier_from_link.rotation))
 }
 
-/// The rounding of a sum of parts with this centre of mass and mass, to first order.
-fn rounding_of_sum(parts: Vec<RoundedMass>, com: &Vector3<f64>, mass_kg: f64) -> InertiaRounding {
+/// The rounding of a sum of parts with this centre of mass and mass, to first order. What shifts of the parts change in the tensor
+/// counts by the share of these shifts that the centre of mass, which is off by `off_m`, has taken.
+fn rounding_of_sum(
+    parts: Vec<RoundedMass>,
+    com: &Vector3<f64>,
+    mass_kg: f64,
+    off_m: &Vector3<f64>,
+) -> InertiaRounding {
     let mut sum = InertiaRounding::default();
+    let (mut of_shifts, mut at_tensor) = (Vector3::zeros(), Matrix3::zeros());
     for (part_kg, at, rounding) in parts {
         let arm = (at - com).abs();
         let moment = rounding.com_m * part_kg + arm * rounding.mass_kg;
         sum.mass_kg += rounding.mass_kg;
         sum.com_m += moment / mass_kg;
+        of_shifts += rounding.com_m * (part_kg / mass_kg);
         // Of m (|d|^2 1 - d d^T), with d from the common centre of mass to that of the part.
         let of_mass = (Matrix3::identity() * arm.norm_squared() + arm * arm.transpose()) * rounding.mass_kg;
         let shift = rounding.com_m;
         let of_shift =
             Matrix3::identity() * (2.0 * arm.dot(&shift)) + arm * shift.transpose() + shift * arm.transpose();
-        sum.tensor_kg_m2 += rounding.tensor_kg_m2 + of_mass + of_shift * part_kg;
+        sum.tensor_kg_m2 += rounding.tensor_kg_m2 + of_mass;
+        at_tensor += of_shift * part_kg;
     }
+    let taken =
+        off_m.zip_map(&of_shifts, |off, most| if most > 0.0 { (off.abs() / most).min(1.0) } else { 0.0 });
+    sum.tensor_kg_m2 += at_tensor * taken.amax();
     sum
 }
 
 #[cfg(test)]
 mod tests {
     use congruent_description::parse_urdf;
+    use congruent_kinematics::PoseError;
 
     use super::*;
 
@@ -202,11 +284,15 @@ mod tests {
 
     /// An arm whose camera is fixed to its hand, turned and shifted.
     fn with_camera(hand: &str, camera: &str) -> Robot {
+        with_camera_and(hand, camera, "")
+    }
+
+    fn with_camera_and(hand: &str, camera: &str, more: &str) -> Robot {
         let text = format!(
             "<robot name='r'><link name='base'/><link name='hand'>{hand}</link><link name='camera'>{camera}</link>\
              <joint name='j' type='continuous'><parent link='base'/><child link='hand'/></joint>\
              <joint name='mount' type='fixed'><parent link='hand'/><child link='camera'/>\
-             <origin xyz='0.2 -0.1 0.05' rpy='0.3 -0.4 0.5'/></joint></robot>"
+             <origin xyz='0.2 -0.1 0.05' rpy='0.3 -0.4 0.5'/></joint>{more}</robot>"
         );
         parse_urdf(&text).unwrap()
     }
@@ -242,6 +328,42 @@ mod tests {
                 assert!(off.amax() < 1e-15 && of_tensor.amax() < 1e-15, "{off} {of_tensor}");
             }
         }
+    }
+
+    /// A whole tensor that is off beside an equal centre of mass is no rounding of the coarse centre of mass of the camera.
+    #[test]
+    fn coarse_lengths_of_a_link_leave_no_tensor_open_beside_an_equal_centre_of_mass() {
+        let mut heavier = fused();
+        let index = heavier.find_link("hand").unwrap();
+        let mut inertia = heavier.link(index).inertia.unwrap();
+        inertia.tensor_kg_m2[(0, 0)] *= 1.02;
+        heavier.set_inertia(index, inertia);
+        let split = with_camera(HAND, CAMERA);
+        let (same, _) = with_masses_at_links_of([&split, &heavier]);
+        let (_, names) = crate::with_values_within_digits([&split, &same], PoseError::default());
+        assert_eq!(names, [""; 0]);
+    }
+
+    /// The camera is missing beside a hand that is fused with its cover: the camera alone is the difference.
+    #[test]
+    fn a_link_that_is_missing_beside_fused_ones_is_the_difference() {
+        let cover = "<link name='cover'><inertial><mass value='0.7'/><inertia ixx='0.001' iyy='0.001' izz='0.001' ixy='0' \
+                     ixz='0' iyz='0'/></inertial></link><joint name='clip' type='fixed'><parent link='hand'/>\
+                     <child link='cover'/><origin xyz='0.1 0 0'/></joint>";
+        let whole = with_camera_and(HAND, CAMERA, cover);
+        let [hand, cover] =
+            ["hand", "cover"].map(|name| whole.link(whole.find_link(name).unwrap()).inertia.unwrap());
+        let clip = whole.joint(whole.find_joint("clip").unwrap()).parent_from_joint;
+        let parts = [(Isometry3::identity(), hand), (clip, cover)];
+        let fused = with_camera(HAND, "").with_links(|link| {
+            if link.name == "hand" {
+                link.inertia = Some(Inertia::sum_of_parts(parts.iter().copied()));
+            }
+        });
+        let (same, links) = with_masses_at_links_of([&whole, &fused]);
+        assert_eq!(links, [FusedLinks { link: "hand".to_owned(), with: vec!["cover".to_owned()] }]);
+        let kg = |name: &str| same.link(same.find_link(name).unwrap()).inertia.map(|of| of.mass_kg);
+        assert_eq!([kg("hand"), kg("cover"), kg("camera")], [Some(2.0), Some(0.7), None]);
     }
 
     #[test]

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use congruent_description::{LinkIndex, Robot, RobotDescription};
 use congruent_kinematics::{PoseError, ScrewTree};
 
+/// What links and joints that are fixed to a fitted base have behind their names.
+pub(crate) const OF_FITTED_BASE: &str = " (fixed to the fitted base)";
+
 /// The names that links of the other description have in this one: of the root, of those that the joints carry, and of the tip if
 /// both are the same frame.
 pub fn link_names(own: &RobotDescription, other: &Robot, tip: &str) -> BTreeMap<LinkIndex, String> {
@@ -42,7 +45,7 @@ fn root_name(robot: &Robot, other: &Robot, screws: &ScrewTree) -> String {
 #[must_use]
 pub fn with_other_still_links(robot: &Robot) -> Robot {
     let is_still = |link: &LinkIndex| robot.body(*link) == robot.root() && *link != robot.root();
-    let name = |name: &str| format!("{name} (fixed to the fitted base)");
+    let name = |name: &str| format!("{name}{OF_FITTED_BASE}");
     let links = robot.link_indices().filter(is_still);
     let names = links.map(|link| (link, name(&robot.link(link).name))).collect();
     let renamed = robot.with_link_names(&names);

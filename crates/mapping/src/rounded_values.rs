@@ -102,7 +102,9 @@ fn adopted_inertia(there: &Link, own: &Link, of_frames: PoseError) -> Option<(In
     }
     let [own, other] = [&here, &inertia].map(Inertia::tensor_in_link);
     let turned = 2.0 * of_frames.orientation_rad * own.norm();
-    if are_rounded(&own, &other, &most.tensor_kg_m2.add_scalar(turned)) {
+    if (own - other).amax() <= SAME * own.amax().max(other.amax()) {
+        // Equal, in whatever axes: nothing is rounded.
+    } else if are_rounded(&own, &other, &most.tensor_kg_m2.add_scalar(turned)) {
         inertia.link_from_inertial.rotation = here.link_from_inertial.rotation;
         inertia.tensor_kg_m2 = here.tensor_kg_m2;
         names.push("inertia");
@@ -188,6 +190,22 @@ mod tests {
             assert_eq!(names(rounded(at, text)), [name], "{text}");
         }
         assert_eq!(names(EXACT), [""; 0], "equal values are not named");
+    }
+
+    /// The same tensor in turned axes: whatever the digits allow, nothing of it is adopted in other axes.
+    #[test]
+    fn an_equal_tensor_in_other_axes_stays() {
+        let own = arm(["3", "0.1", "0", "0.05", "10", "2"]);
+        let mut other = own.clone();
+        let mut inertia = own.links()[1].inertia.unwrap();
+        let turn = nalgebra::UnitQuaternion::from_euler_angles(0.3, -0.5, 0.7);
+        let turned = turn.to_rotation_matrix();
+        inertia.link_from_inertial.rotation *= turn;
+        inertia.tensor_kg_m2 = turned.matrix().transpose() * inertia.tensor_kg_m2 * turned.matrix();
+        other.set_inertia(other.find_link("arm").unwrap(), inertia);
+        let (same, names) = with_values_within_digits([&own, &other], PoseError::default());
+        assert_eq!(names, [""; 0]);
+        assert_eq!(same, other);
     }
 
     #[test]

@@ -115,11 +115,13 @@ impl ChainPair {
     }
 
     /// Known variables with the base that brings the first axes together: a fault behind them is then at one joint, where a base
-    /// that is fitted to all axes would have a part of it. `None` if the axes are those of other chains.
-    pub(crate) fn with_base_at_first_axes(&self) -> Option<ChainSolution> {
+    /// that is fitted to all axes would have a part of it. Where all axes are parallel, `tips` show the height. `None` if the axes are
+    /// those of other chains.
+    pub(crate) fn with_base_at_first_axes(&self, tips: Option<[Isometry3<f64>; 2]>) -> Option<ChainSolution> {
         let fitted = self.solutions().into_iter().next()?;
         let off = |solution: &ChainSolution| solution.off_m(self.reach_m);
-        let at_first = self.starts().into_iter().filter_map(|start| self.judged(&start, &fitted.variables));
+        let starts = Self { tips, ..self.clone() }.starts();
+        let at_first = starts.into_iter().filter_map(|start| self.judged(&start, &fitted.variables));
         let nearest = at_first.min_by(|a, b| off(a).total_cmp(&off(b)));
         nearest.filter(|nearest| off(nearest) <= MOST_OF_FITTED * off(&fitted)).or(Some(fitted))
     }
@@ -155,9 +157,22 @@ impl ChainPair {
             let lines = self.a.iter().zip(&self.b).skip(1);
             let mut shifts = lines
                 .filter_map(|(a, b)| shift_towards(&first.direction, &first.through, &b.moved(&moved), a));
-            shifts.next().map(|shift| first.direction * shift)
+            shifts.next().or_else(|| self.height_of_tips(first, &moved)).map(|shift| first.direction * shift)
         };
         Translation3::from(shift.unwrap_or_else(Vector3::zeros)) * a_from_b
+    }
+
+    /// How far B must be shifted along parallel axes for the tips to be at one height, joints where they are known to be.
+    fn height_of_tips(&self, first: &Axis, moved: &Isometry3<f64>) -> Option<f64> {
+        let [a, b] = self.tips?;
+        let bent = self
+            .b
+            .iter()
+            .zip(&self.known)
+            .skip(1)
+            .map(|(axis, known)| axis.motion(known.unwrap_or_default().offset));
+        let there = bent.fold(*moved, |moved, bent| moved * bent) * b;
+        Some(first.direction.dot(&(a.translation.vector - there.translation.vector)))
     }
 
     /// Follows all solutions from the joint behind the known variables on.

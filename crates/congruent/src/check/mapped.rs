@@ -143,7 +143,7 @@ impl MappedPair {
             in_frames_of([&own.robot, &in_variables], named_tip, &found.root_from_other_root, axes);
         let is_fitted = |of: &&MappedJoint| of.offset != 0.0 && found.matched_by != MatchedBy::Declared;
         let fitted = found.joints.iter().filter(is_fitted).map(|of| of.name.as_str()).collect();
-        let in_frames = with_fitted(&in_frames, &fitted, axes);
+        let in_frames = with_fitted(&in_frames, &fitted);
         let tip = other.robot.link(other.tip).name.clone();
         let link_names = link_names(&own, &in_frames, &tip);
         let robot = in_frames.with_link_names(&link_names);

@@ -139,8 +139,9 @@ fn one_by_one(
     ];
     for (link, place) in model.frames.links.iter().enumerate() {
         let Some(other) = reference.frames.find_link(&place.name) else { continue };
-        // Exact comparison: rounding is sorted out by the torques of each link below.
-        if reference.inertials[other] != model.inertials[link] {
+        // Exact comparison: rounding is sorted out by the torques of each link below. A mass that the reference does not give
+        // is one of the unmatched.
+        if reference.inertials[other].is_some() && reference.inertials[other] != model.inertials[link] {
             whole.inertials[link] = reference.inertials[other];
             let mut one = model.clone();
             one.inertials[link] = reference.inertials[other];

@@ -28,7 +28,16 @@ impl<'a> Unmatched<'a> {
                 .map(|(link, _)| link)
                 .collect()
         };
-        let (added, missing) = (only_in(candidate, reference), only_in(reference, candidate));
+        let [mut added, missing]: [Vec<usize>; 2] =
+            [only_in(candidate, reference), only_in(reference, candidate)];
+        // A link of both to which the reference gives no mass.
+        let is_massless = |link: &usize| {
+            let there = reference.frames.find_link(candidate.frames.link_name(*link));
+            let has_mass =
+                candidate.frames.links[*link].body.is_some() && candidate.inertials[*link].is_some();
+            has_mass && there.is_some_and(|there| reference.inertials[there].is_none())
+        };
+        added.extend((0..candidate.frames.links.len()).filter(is_massless));
         Self { candidate, reference, added, missing }
     }
 
