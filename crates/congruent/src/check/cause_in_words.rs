@@ -66,3 +66,9 @@ pub(super) fn places(diagnosis: &ReportedDiagnosis) -> Vec<(CasePlace, String)> 
     };
     diagnosis.findings.iter().filter_map(place).collect()
 }
+
+/// That no joint is off, if links move alike in both descriptions and their frames lie elsewhere in them.
+pub(super) fn frames_elsewhere(links: &[String]) -> Option<String> {
+    let (first, more) = (links.first()?, and_more(links.len() - 1));
+    Some(format!("No joint is off: the frame of {first} lies elsewhere in its link{more}"))
+}

@@ -16,7 +16,7 @@ use congruent_kinematics::PoseError;
 
 use super::{
     against::OtherDescription,
-    cause_in_words::{and_more, cause, largest, place, unknown},
+    cause_in_words::{and_more, cause, frames_elsewhere, largest, place, unknown},
     change_answer::answer_of_change,
     declared::DeclaredSource,
     judged_by::{BY_DIGITS, allowed, beyond_rounding, judged_by, tolerance_in_words},
@@ -229,7 +229,8 @@ fn different_poses(check: &RobotCheck) -> Headline {
         let advice = by_rounding_alone(check);
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));
     }
-    let cause = check.diagnosis().map_or_else(unknown, cause);
+    let elsewhere = || frames_elsewhere(&check.against.as_ref()?.links_in_other_frames);
+    let cause = check.diagnosis().map_or_else(|| elsewhere().unwrap_or_else(unknown), cause);
     Headline::new("DIFFERENT", format!(", {found}. {cause}{}", other_torques(check)))
 }
 
