@@ -4,7 +4,10 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use crate::support::command::{Answer, congruent_json, text};
+use crate::support::{
+    command::{Answer, congruent, congruent_json, text},
+    corpus::corpus,
+};
 
 /// Two links of 0.4 m; the second joint follows as its `<mimic>` says, the length is that of the first link.
 fn urdf(mimic: &str, length_m: f64) -> String {
@@ -89,4 +92,20 @@ fn equal_relations_agree_and_a_wrong_length_is_named_as_well() {
     assert_eq!((&first["cause"], &first["within_tolerance"]), (&json!("several"), &json!(true)), "{first}");
     let causes: Vec<&Value> = first["parts"].as_array().unwrap().iter().map(|part| &part["cause"]).collect();
     assert_eq!(causes, ["mimic", "joint_origin"]);
+}
+
+/// An MJCF has bodies and constraints: what to write is said in its own elements.
+#[test]
+fn an_mjcf_is_corrected_in_its_own_elements() {
+    let Some(corpus) = corpus() else { return };
+    let pair = corpus.join("pairs/piper");
+    let [mjcf, urdf] = ["robot.xml", "partner.urdf"].map(|name| pair.join(name).display().to_string());
+    let printed = congruent(&["check", &mjcf, "--against", &urdf]).stdout;
+    let printed = printed.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+    assert!(
+        printed.contains("to do: remove joint \"joint8\" from <equality>, or write <mimic "),
+        "{printed}"
+    );
+    assert!(printed.contains("in the <body> of joint \"joint4\""), "{printed}");
+    assert!(!printed.contains("in the <origin>"), "{printed}");
 }

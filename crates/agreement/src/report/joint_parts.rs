@@ -56,6 +56,9 @@ impl JointAttribute {
 /// that are found by a fit.
 const ROUNDING: f64 = 1e-10;
 
+/// Numbers that no file writes are given without the digits that are noise of that size.
+const WITHOUT_NOISE: Slack = Slack { length_m: ROUNDING, angle_rad: ROUNDING };
+
 /// Two axes are opposite if their sum is smaller. No unit; kind: rounding.
 const OPPOSITE: f64 = 1e-9;
 
@@ -163,6 +166,8 @@ impl CorrectionMessages<'_> {
             parameter: Some(attributes.iter().map(|of| of.name).collect::<Vec<_>>().join(", ")),
             suggestion: match own_model {
                 Some(_) => format!("correct the row of joint \"{}\": its axis is elsewhere", joint.name),
+                // An MJCF, whose bodies have other attributes than an origin.
+                None if own.is_none() => in_mjcf(&joint.name, &attributes, &correction.expected),
                 None => format!("write {expected} in the <{part}> of joint \"{}\"", joint.name),
             },
             found: Some(ReportedValue::Text(found)),
@@ -213,7 +218,7 @@ impl CorrectionMessages<'_> {
     fn origin(&self, joint: &Joint, expected: &Isometry3<f64>) -> Vec<JointAttribute> {
         let there = self.there(joint, &JointPart::Origin(*expected));
         let own = |name: &str| self.written(0, joint, "origin", name);
-        let mut attributes = origin_attributes([&joint.parent_from_joint, expected], Slack::default(), own);
+        let mut attributes = origin_attributes([&joint.parent_from_joint, expected], WITHOUT_NOISE, own);
         for attribute in &mut attributes {
             let written = there.and_then(|there| self.written(1, there, "origin", attribute.name));
             attribute.expected = written.unwrap_or_else(|| attribute.expected.clone());
@@ -275,6 +280,24 @@ pub(super) fn advise(
     if !changes.is_empty() {
         message.advise(changes, source);
     }
+}
+
+/// What to write of these attributes in an MJCF.
+fn in_mjcf(joint: &str, attributes: &[JointAttribute], expected: &JointPart) -> String {
+    let JointPart::Origin(pose) = expected else {
+        let axis = attributes.first().map_or("", |of| &of.expected);
+        return format!("write axis=\"{axis}\" in the <joint> \"{joint}\"");
+    };
+    let number = |value: f64| Unit::Length.fitted(value, UnitSystem::Si, WITHOUT_NOISE);
+    let written = |of: &JointAttribute| {
+        if of.name == "xyz" {
+            return format!("pos=\"{}\"", of.expected);
+        }
+        let [i, j, k, w]: [f64; 4] = pose.rotation.coords.into();
+        format!("quat=\"{}\"", [w, i, j, k].map(number).join(" "))
+    };
+    let written = attributes.iter().map(written).collect::<Vec<_>>().join(" ");
+    format!("write {written} in the <body> of joint \"{joint}\", its pose in the body before it")
 }
 
 fn listed(unit: Unit, values: [f64; 3], slack: Slack) -> String {

@@ -88,8 +88,8 @@ impl FollowedJoint {
         let message = format!("{} in the other file ({})", self.message(), place(other, &self.joint));
         let suggestion = format!(
             "{}, or {} in {}",
-            self.to_write(expected.as_ref()),
-            self.to_write(found.as_ref()),
+            self.to_write(expected.as_ref(), description),
+            self.to_write(found.as_ref(), other),
             other.urdf_path.display()
         );
         let (parameter, numbers) = self.numbers();
@@ -131,18 +131,25 @@ impl FollowedJoint {
 
     fn words(&self, relation: Option<&Relation>) -> String {
         let Some(Relation { master, multiplier, offset }) = relation else {
-            return "has no <mimic>".to_owned();
+            return "follows none".to_owned();
         };
         let follows = format!("follows {} x \"{master}\"", number(*multiplier));
         if *offset == 0.0 { follows } else { format!("{follows} + {}", quantity(*offset, self.unit)) }
     }
 
-    /// The `<mimic>` that a file with the relation has, as an instruction.
-    fn to_write(&self, relation: Option<&Relation>) -> String {
-        let Some(Relation { master, multiplier, offset }) = relation else {
-            return format!("remove the <mimic> of joint \"{}\"", self.joint);
-        };
-        format!("write <mimic joint=\"{master}\" multiplier=\"{multiplier}\" offset=\"{offset}\"/>")
+    /// The `<mimic>` that a file with the relation has, or the `<equality>` of an MJCF, as an instruction.
+    fn to_write(&self, relation: Option<&Relation>, file: &RobotDescription) -> String {
+        let (joint, is_urdf) = (&self.joint, file.places.urdf.is_some());
+        match relation {
+            None if is_urdf => format!("remove the <mimic> of joint \"{joint}\""),
+            None => format!("remove joint \"{joint}\" from <equality>"),
+            Some(Relation { master, multiplier, offset }) if is_urdf => {
+                format!("write <mimic joint=\"{master}\" multiplier=\"{multiplier}\" offset=\"{offset}\"/>")
+            }
+            Some(Relation { master, multiplier, offset }) => format!(
+                "write <joint joint1=\"{joint}\" joint2=\"{master}\" polycoef=\"{offset} {multiplier} 0 0 0\"/> in <equality>"
+            ),
+        }
     }
 
     /// The one number that differs, found and expected; none if more than that does.
