@@ -210,7 +210,14 @@ impl CorrectionMessages<'_> {
         let file = self.descriptions[1].urdf_path.display();
         let named =
             if there.name == joint.name { String::new() } else { format!(" (joint \"{}\")", there.name) };
-        let preposition = if self.is_revision() { "in" } else { "as in" };
+        let places = self.descriptions[1].places.urdf.as_ref();
+        let is_written = !places.is_some_and(UrdfPlaces::is_rewritten);
+        let preposition = match (self.is_revision(), is_written) {
+            (true, _) => "in",
+            (false, true) => "as in",
+            // In the variables and frames of this file, which the line does not have.
+            (false, false) => "from",
+        };
         format!(" {preposition} {file}:{line}{named}")
     }
 

@@ -1,22 +1,19 @@
 //! The first line of a check: the answer in the words of the question, the largest difference, and the cause.
 
-use std::{
-    fmt::{self, Write},
-    path::Path,
-};
+use std::fmt::{self, Write};
 
 use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckReport, Comparison, Grade, NotCompared},
 };
 use congruent_description::codes::chain::TABLE_DROPPED;
-use congruent_dynamics_agreement::{DynamicsReport, DynamicsVerdict};
+use congruent_dynamics_agreement::DynamicsVerdict;
 use congruent_input::display::{counted, listed};
 use congruent_kinematics::PoseError;
 
 use super::{
     against::OtherDescription,
-    cause_in_words::{and_more, cause, frames_elsewhere, largest, place, unknown},
+    cause_in_words::{cause, frames_elsewhere, largest, place, unknown},
     change_answer::answer_of_change,
     declared::DeclaredSource,
     judged_by::{BY_DIGITS, allowed, beyond_rounding, judged_by, tolerance_in_words},
@@ -237,9 +234,14 @@ fn different_poses(check: &RobotCheck) -> Headline {
 /// What differs in the dynamics of two descriptions beside their poses.
 fn other_torques(check: &RobotCheck) -> String {
     let mut compared = check.dynamics_of_descriptions().filter(|_| check.against.is_some());
-    let differing = compared.find(|report| !report.has_same_torques());
+    let differing = compared.find(|report| !report.agrees());
     differing.map_or_else(String::new, |report| {
-        format!("; torques differ, too: {}", check.cause_of_torques(report))
+        let torques = if report.has_same_torques() {
+            String::new()
+        } else {
+            format!("; torques differ, too: {}", check.cause_of_torques(report))
+        };
+        torques + &check.other_limits(report)
     })
 }
 
@@ -301,7 +303,7 @@ fn after_mapping(check: &RobotCheck) -> Option<Headline> {
         }
         Some(report) => (
             format!("SAME GEOMETRY {where_compared}, DIFFERENT DYNAMICS"),
-            format!("; torques differ: {}", check.cause_of_torques(report)),
+            format!("; torques differ: {}{}", check.cause_of_torques(report), check.other_limits(report)),
         ),
     };
     let details = format!(": {joints}; in the same variables {worst}{differ}. {declare}");
@@ -325,49 +327,11 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
     if !report.has_same_torques() {
         return Headline::new(
             format!("{same}DIFFERENT DYNAMICS"),
-            format!(": {}", check.cause_of_torques(report)),
+            format!(": {}{}", check.cause_of_torques(report), check.other_limits(report)),
         );
     }
     let same = if has_geometry { "SAME GEOMETRY AND DYNAMICS, " } else { "SAME DYNAMICS, " };
     Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), check.limits(report))
-}
-
-impl RobotCheck {
-    pub(super) fn cause_of_torques(&self, report: &DynamicsReport) -> String {
-        let Some(first) = report.explanations.first() else { return report.headline() };
-        let (sentence, line) = match (&first.parameters[..], self.files_of(report)) {
-            ([only], Some(files)) => (only.sentence_in(short_names(files)), None),
-            ([only], None) => (only.sentence(), only.line),
-            _ => (first.sentence(), first.line),
-        };
-        let remark = match &first.parameters[..] {
-            [only] => only.unit_remark().map_or_else(String::new, |remark| format!(": {remark}")),
-            _ => String::new(),
-        };
-        sentence + &remark + &place(first.file.as_deref(), line) + &and_more(report.explanations.len() - 1)
-    }
-
-    /// The first limit that disagrees, and how many more do.
-    fn limits(&self, report: &DynamicsReport) -> String {
-        let mut decide = report.limits.iter().filter(|difference| difference.decides);
-        let Some(first) = decide.next() else { return String::new() };
-        let rest = and_more(decide.count());
-        match self.files_of(report) {
-            Some(files) => format!(": {}{rest}", first.sentence_in(short_names(files))),
-            None => format!(": {}{}{rest}", first.sentence(), place(first.file.as_deref(), first.line)),
-        }
-    }
-
-    /// The two files of a comparison with --against: the caller has not said that one of them is right.
-    pub fn files_of<'r>(&self, report: &'r DynamicsReport) -> Option<[&'r str; 2]> {
-        report.sides.files().filter(|_| self.against.is_some())
-    }
-}
-
-/// The names of two files without their folders, if they differ.
-fn short_names(files: [&str; 2]) -> [&str; 2] {
-    let names = files.map(|file| Path::new(file).file_name().and_then(|name| name.to_str()).unwrap_or(file));
-    if names[0] == names[1] { files } else { names }
 }
 
 /// The two sources of a comparison, as its title names them.

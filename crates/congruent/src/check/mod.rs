@@ -7,6 +7,7 @@ mod change_answer;
 mod changed_table;
 mod checked;
 mod declared;
+mod dynamics_in_words;
 mod headline;
 mod judged_by;
 mod mapped;

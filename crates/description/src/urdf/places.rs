@@ -46,6 +46,11 @@ impl UrdfPlaces {
         self
     }
 
+    /// Whether the robot has been rewritten in other variables: values of its joints are not those that the file writes.
+    pub fn is_rewritten(&self) -> bool {
+        self.is_rewritten
+    }
+
     /// The element of a joint.
     pub(super) fn joint<'a, 'i>(&self, document: &'a Document<'i>, name: &str) -> Option<Node<'a, 'i>> {
         let name = self.joint_names.get(name).map_or(name, String::as_str);

@@ -66,10 +66,12 @@ pub enum LimitCause {
 
 /// `detail` of limits whose values have changed places.
 pub(crate) const EXCHANGED: &str = "exchanged";
+/// `detail` of limits that differ by the factor of degrees.
+pub(crate) const DEGREES_DETAIL: &str = "degrees";
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 const N_MM: f64 = 1000.0;
 /// No cable survives more; a URDF with such a range is warned of, too. Unit: rad.
-const FOUR_TURNS: f64 = 4.0 * std::f64::consts::TAU;
+pub(crate) const FOUR_TURNS: f64 = 4.0 * std::f64::consts::TAU;
 const RPM: f64 = 30.0 / std::f64::consts::PI;
 /// Relative tolerance of a factor that names a unit. No unit; kind: digits of a file, which rounds a limit to three; the
 /// factors of degrees and rpm differ by a factor of six.
@@ -192,8 +194,8 @@ fn detail(cause: LimitCause, both: Option<(f64, f64)>, joint: &JointPlace) -> &'
         // Neither degrees nor rpm are units of an effort, whatever its factor is.
         LimitCause::EffortLimit if is(N_MM) => "N mm",
         LimitCause::EffortLimit => "",
-        _ if is(DEGREES) => "degrees",
-        LimitCause::PositionLimit if found.abs().max(expected.abs()) > FOUR_TURNS => "degrees",
+        _ if is(DEGREES) => DEGREES_DETAIL,
+        LimitCause::PositionLimit if found.abs().max(expected.abs()) > FOUR_TURNS => DEGREES_DETAIL,
         LimitCause::VelocityLimit if is(RPM) => "rpm",
         _ => "",
     }

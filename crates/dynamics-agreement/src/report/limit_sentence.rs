@@ -3,7 +3,10 @@
 use congruent_input::display::{counted, limit_number, position};
 
 use super::{content::DynamicsReport, sentences::with_distinct_digits};
-use crate::differences::{LimitCause, LimitDifference, limits::EXCHANGED};
+use crate::differences::{
+    LimitCause, LimitDifference,
+    limits::{DEGREES_DETAIL, EXCHANGED, FOUR_TURNS},
+};
 
 impl LimitDifference {
     /// `elbow_joint: velocity limit is 10313 deg/s, expected 180 deg/s: in degrees?`.
@@ -27,8 +30,15 @@ impl LimitDifference {
         let written = self.expected_as_written.map_or_else(String::new, |written| {
             format!(" (written as {} in the variable there)", position(written, self.unit.symbol()))
         });
-        let remark = self
-            .remark(|is_reference| format!(": is {} in {}?", files[usize::from(is_reference)], self.detail));
+        let remark = self.remark(|is_reference| {
+            // What is read as degrees, as the angles of an MJCF, is too small.
+            let (at, unit) = if self.smaller_in_radians() {
+                (!is_reference, "radians")
+            } else {
+                (is_reference, &self.detail[..])
+            };
+            format!(": is {} in {unit}?", files[usize::from(at)])
+        });
         format!(
             "{}: {} limit {found} in {}, {expected} in {}{written}{remark}",
             self.joint,
@@ -36,6 +46,12 @@ impl LimitDifference {
             place(files[0], self.line),
             place(files[1], self.expected_line)
         )
+    }
+
+    /// Whether the smaller value is the wrong one of two that differ by the factor of degrees: the larger is possible.
+    fn smaller_in_radians(&self) -> bool {
+        let larger = self.found.zip(self.expected).map(|(found, expected)| found.abs().max(expected.abs()));
+        self.detail == DEGREES_DETAIL && larger.is_some_and(|larger| larger <= FOUR_TURNS)
     }
 
     fn values(&self) -> [String; 2] {

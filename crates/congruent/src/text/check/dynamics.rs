@@ -191,7 +191,11 @@ fn has_parts_of(one: &DynamicsExplanation, other: &DynamicsExplanation) -> bool 
 }
 
 fn more(all: usize, what: &str) -> Option<String> {
-    all.checked_sub(SHOWN + 1).map(|more| format!("and {} more {what}", more + 1))
+    match all.checked_sub(SHOWN)? {
+        0 => None,
+        1 => Some("and one more".to_owned()),
+        more => Some(format!("and {more} more {what}")),
+    }
 }
 
 /// Whether two values are one that was typed with fewer digits in one of the files.

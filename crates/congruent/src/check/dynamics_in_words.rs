@@ -1,0 +1,58 @@
+//! What differs in masses, losses and limits, in words: as the first line of a check says it.
+
+use std::path::Path;
+
+use congruent_dynamics_agreement::DynamicsReport;
+
+use super::{
+    cause_in_words::{and_more, place},
+    robot_check::RobotCheck,
+};
+
+impl RobotCheck {
+    /// The first cause of different torques, and how many more there are.
+    pub(super) fn cause_of_torques(&self, report: &DynamicsReport) -> String {
+        let Some(first) = report.explanations.first() else { return report.headline() };
+        let (sentence, line) = match (&first.parameters[..], self.files_of(report)) {
+            ([only], Some(files)) => (only.sentence_in(short_names(files)), None),
+            ([only], None) => (only.sentence(), only.line),
+            _ => (first.sentence(), first.line),
+        };
+        let remark = match &first.parameters[..] {
+            [only] => only.unit_remark().map_or_else(String::new, |remark| format!(": {remark}")),
+            _ => String::new(),
+        };
+        sentence + &remark + &place(first.file.as_deref(), line) + &and_more(report.explanations.len() - 1)
+    }
+
+    /// The first limit that disagrees, and how many more do.
+    pub(super) fn limits(&self, report: &DynamicsReport) -> String {
+        let mut decide = report.limits.iter().filter(|difference| difference.decides);
+        let Some(first) = decide.next() else { return String::new() };
+        let rest = and_more(decide.count());
+        match self.files_of(report) {
+            Some(files) => format!(": {}{rest}", first.sentence_in(short_names(files))),
+            None => format!(": {}{}{rest}", first.sentence(), place(first.file.as_deref(), first.line)),
+        }
+    }
+
+    /// That limits disagree beside torques.
+    pub(super) fn other_limits(&self, report: &DynamicsReport) -> String {
+        if report.has_other_limits() {
+            format!("; limits differ, too{}", self.limits(report))
+        } else {
+            String::new()
+        }
+    }
+
+    /// The two files of a comparison with --against: the caller has not said that one of them is right.
+    pub fn files_of<'r>(&self, report: &'r DynamicsReport) -> Option<[&'r str; 2]> {
+        report.sides.files().filter(|_| self.against.is_some())
+    }
+}
+
+/// The names of two files without their folders, if they differ.
+fn short_names(files: [&str; 2]) -> [&str; 2] {
+    let names = files.map(|file| Path::new(file).file_name().and_then(|name| name.to_str()).unwrap_or(file));
+    if names[0] == names[1] { files } else { names }
+}
