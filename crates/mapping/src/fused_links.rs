@@ -12,9 +12,9 @@ use crate::link_names::OF_FITTED_BASE;
 /// Links that one of two descriptions has as one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FusedLinks {
-    /// The link that carries what the other file has elsewhere.
+    /// The heaviest link of the body in the robot: what its links together differ by is compared there.
     pub link: String,
-    /// The links that are fixed to it and have a mass in one of the files alone.
+    /// The other links of the body that have a mass in one of the files, without one that the other file lacks.
     pub with: Vec<String>,
 }
 
