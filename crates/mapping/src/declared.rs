@@ -82,6 +82,7 @@ impl Both<'_> {
             matched_by: MatchedBy::Declared,
             unmatched: self.unmatched(pairs),
             root_from_other_root: solution.as_ref().map_or(base, |solution| solution.a_from_b),
+            has_fitted_base: mapping.has_fitted_base,
             angle_rad: solution.as_ref().map_or(0.0, |solution| solution.angle_rad),
             distance_m: solution.as_ref().map_or(0.0, |solution| solution.distance_m),
             equivalent: Vec::new(),

@@ -43,6 +43,9 @@ pub struct FoundMapping {
     pub unmatched: [Vec<JointIndex>; 2],
     /// Pose of the root of the other description in that of the robot, at which the axes agree.
     pub root_from_other_root: Isometry3<f64>,
+    /// Whether the base is fitted to the axes, as declared or because it is turned about the first of them: the frames that are fixed to
+    /// it are no evidence then.
+    pub has_fitted_base: bool,
     /// The largest angle between two axes that should be the same, rad.
     pub angle_rad: f64,
     /// The largest distance of two axes that should be the same, m.
@@ -174,7 +177,14 @@ impl Both<'_> {
         let main = self.main_branch(certain, &self.branches(certain));
         let solutions = self.solutions_of_chain(&main)?;
         let solutions = by_bodies(solutions, [self.a, self.b], &self.screws, &main, self.reach_m);
-        let solution = solutions.first()?;
+        let is_first =
+            |(_, branch): &(LinkIndex, JointPairs)| branch.is_empty() || branch.first() == main.first();
+        let first = solutions.first()?;
+        let turned = self
+            .chain_pair(&main, None, None)
+            .with_turned_base(first)
+            .filter(|_| branches.iter().all(is_first));
+        let solution = turned.as_ref().unwrap_or(first);
         let of_main = |solution: &ChainSolution| -> KnownVariables {
             main.iter().map(|pair| pair[0]).zip(solution.variables.iter().copied()).collect()
         };
@@ -219,6 +229,7 @@ impl Both<'_> {
             matched_by,
             unmatched: self.unmatched(&pairs),
             root_from_other_root: solution.a_from_b,
+            has_fitted_base: turned.is_some(),
             angle_rad,
             distance_m,
             equivalent: solutions.iter().skip(1).map(|other| mapped(&of_main(other))).collect(),

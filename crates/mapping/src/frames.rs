@@ -70,8 +70,38 @@ pub fn in_frames_of(
     })
 }
 
-/// Whether a link of one name has a frame that lies elsewhere in it: farther than `least_m` from where the robot has it, which is
-/// more than the axes of both are apart.
+/// The last link of a branch, with another frame in each of two descriptions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndInOtherFrames {
+    /// The link, which has one name in both.
+    pub link: LinkIndex,
+    /// How far the origins of both frames are apart along the axis of its joint, m.
+    pub along_axis_m: f64,
+}
+
+/// The last links of branches that both descriptions name alike and whose axes they write in other coordinates: [`in_frames_of`] takes
+/// their frames as chosen, so that a length along the axis is not compared there.
+pub fn ends_in_other_frames(
+    [robot, other]: [&Robot; 2],
+    root_from_other_root: &Isometry3<f64>,
+) -> Vec<EndInOtherFrames> {
+    let trees = [robot, other].map(ScrewTree::new);
+    let home = |of: usize, link: LinkIndex| trees[of].home(link).to_isometry();
+    let turning = other.joints().iter().filter(|joint| joint.kind.is_movable());
+    let end = |joint: &Joint| {
+        let here = robot.joint(robot.find_joint(&joint.name)?);
+        let is_same_link = robot.link(here.child).name == other.link(joint.child).name;
+        let link_from_frame = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here.child);
+        let is_evidence = is_along_axis(joint, &link_from_frame, here);
+        let along_axis_m = joint.axis_in_joint.dot(&link_from_frame.translation.vector).abs();
+        (is_same_link && is_end(robot, here.child) && !is_evidence)
+            .then_some(EndInOtherFrames { link: here.child, along_axis_m })
+    };
+    turning.filter_map(end).collect()
+}
+
+/// Whether a link of one name has a frame that lies elsewhere in it: with the same axis in other coordinates, or farther than `least_m`
+/// from where the robot has it, which is more than the axes of both are apart.
 pub fn has_other_frames(
     [robot, other]: [&Robot; 2],
     root_from_other_root: &Isometry3<f64>,
@@ -80,12 +110,13 @@ pub fn has_other_frames(
     let trees = [robot, other].map(ScrewTree::new);
     let home = |of: usize, link: LinkIndex| trees[of].home(link).to_isometry();
     other.joints().iter().filter(|joint| joint.kind != JointKind::Fixed).any(|joint| {
-        let Some(here) = robot.find_joint(&joint.name).map(|index| robot.joint(index).child) else {
+        let Some(here) = robot.find_joint(&joint.name).map(|index| robot.joint(index)) else {
             return false;
         };
-        let is_same_link = robot.link(here).name == other.link(joint.child).name;
-        let apart = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here);
-        is_same_link && apart.translation.vector.norm() > least_m
+        let is_same_link = robot.link(here.child).name == other.link(joint.child).name;
+        let apart = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here.child);
+        let has_other_axis = joint.axis_in_joint.angle(&here.axis_in_joint) > SAME_FRAME_RAD;
+        is_same_link && (has_other_axis || apart.translation.vector.norm() > least_m)
     })
 }
 

@@ -285,34 +285,65 @@ impl ChainPair {
     }
 
     /// Offsets that make both ranges of a joint the same, and others near 0 and near quarter turns as these, where nothing speaks
-    /// against it.
+    /// against it: all at once if that is possible, since those of neighbours may make up for each other.
     fn with_round_offsets(&self, mut solution: ChainSolution) -> ChainSolution {
-        /// A calibrated zero is up to a few degrees off.
-        const NEAR_RAD: f64 = 0.05;
-        for at in 0..solution.variables.len() {
-            let JointVariable { offset, .. } = solution.variables[at];
-            let slides = self.b[at].slides;
-            let step = if slides { f64::INFINITY } else { std::f64::consts::FRAC_PI_2 };
-            let round = if slides { 0.0 } else { (offset / step).round() * step };
-            let of_ranges = self.offset_of_ranges(at, solution.variables[at]).filter(|_| !slides);
-            // Between files that do not agree exactly, an offset of a degree may only make up for a fault.
-            let is_exact = solution.off_m(self.reach_m) <= EXACT * self.reach_m;
-            let slack = if is_exact { 1e-10 } else { FAULT };
-            let most_m = 1.2 * solution.off_m(self.reach_m) + slack * self.reach_m;
-            let candidates = of_ranges.into_iter().chain([round + 0.0]);
-            let near = candidates
-                .filter(|candidate| self.known[at].is_none() && (offset - candidate).abs() <= NEAR_RAD);
-            let judged = near.filter_map(|candidate| {
-                let mut variables = solution.variables.clone();
-                variables[at].offset = candidate;
-                self.judged(&solution.a_from_b, &variables)
-            });
-            let mut accepted = judged.filter(|rounded| rounded.off_m(self.reach_m) <= most_m);
+        let round: Vec<Vec<f64>> =
+            (0..solution.variables.len()).map(|at| self.round_offsets(at, solution.variables[at])).collect();
+        let with = |solution: &ChainSolution, offsets: &[(usize, f64)]| {
+            let mut variables = solution.variables.clone();
+            for &(at, offset) in offsets {
+                variables[at].offset = offset;
+            }
+            let rounded = self.judged(&solution.a_from_b, &variables)?;
+            (rounded.off_m(self.reach_m) <= self.acceptable_m(solution)).then_some(rounded)
+        };
+        let first = round.iter().enumerate().filter_map(|(at, offsets)| Some((at, *offsets.first()?)));
+        if let Some(rounded) = with(&solution, &first.collect::<Vec<_>>()) {
+            return rounded;
+        }
+        for (at, offsets) in round.iter().enumerate() {
+            let mut accepted = offsets.iter().filter_map(|&offset| with(&solution, &[(at, offset)]));
             if let Some(rounded) = accepted.next() {
                 solution = rounded;
             }
         }
         solution
+    }
+
+    /// How far off axes may be with rounder offsets than those of a solution, m.
+    fn acceptable_m(&self, solution: &ChainSolution) -> f64 {
+        // Between files that do not agree exactly, an offset of a degree may only make up for a fault.
+        let is_exact = solution.off_m(self.reach_m) <= EXACT * self.reach_m;
+        let slack = if is_exact { 1e-10 } else { FAULT };
+        1.2 * solution.off_m(self.reach_m) + slack * self.reach_m
+    }
+
+    /// The offsets near that of a joint that are rounder, the best first; none if it is known.
+    fn round_offsets(&self, at: usize, found: JointVariable) -> Vec<f64> {
+        /// A calibrated zero is up to a few degrees off, and so is one that makes up for a fault of some centimetres.
+        const NEAR_RAD: f64 = 0.087;
+        let slides = self.b[at].slides;
+        let step = if slides { f64::INFINITY } else { std::f64::consts::FRAC_PI_2 };
+        let round = if slides { 0.0 } else { (found.offset / step).round() * step };
+        let of_ranges = self.offset_of_ranges(at, found).filter(|_| !slides);
+        let candidates = of_ranges.into_iter().chain([round + 0.0]);
+        let is_near =
+            |candidate: &f64| self.known[at].is_none() && (found.offset - candidate).abs() <= NEAR_RAD;
+        candidates.filter(is_near).collect()
+    }
+
+    /// The solution with a turned base instead of another zero of the first joint, if both files state the same range of that joint: the
+    /// base explains the zero and the range, and another zero would need another range.
+    pub(crate) fn with_turned_base(&self, solution: &ChainSolution) -> Option<ChainSolution> {
+        let (first, there) = (solution.variables.first()?, self.b.first()?);
+        let as_written = JointVariable { offset: 0.0, ..*first };
+        let has_same_range = self.offset_of_ranges(0, as_written) == Some(0.0);
+        (first.offset.abs() > ROUNDING && has_same_range && !there.slides).then(|| {
+            let a_from_b = solution.a_from_b * there.motion(first.offset);
+            let mut turned = ChainSolution { a_from_b, ..solution.clone() };
+            turned.variables[0] = as_written;
+            turned
+        })
     }
 
     /// The offset at which both ends of the ranges of a joint are the same, with the whole turns of one that was found.

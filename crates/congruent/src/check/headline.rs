@@ -17,7 +17,7 @@ use super::{
     change_answer::answer_of_change,
     declared::DeclaredSource,
     judged_by::{BY_DIGITS, allowed, beyond_rounding, judged_by, tolerance_in_words},
-    mapped_joints::mapped_joints,
+    mapped_joints::{ends_not_compared, mapped_joints},
     own_model::ONE_MODEL,
     robot_check::RobotCheck,
 };
@@ -52,6 +52,10 @@ impl RobotCheck {
         let mut warnings = self.geometry.warnings.iter();
         if let Some(dropped) = warnings.find(|warning| warning.code == TABLE_DROPPED.name) {
             let _ = write!(headline.details, "; {}", dropped.message);
+        }
+        let mapping = self.against.as_ref().and_then(|against| against.mapping.as_ref());
+        if let Some(ends) = mapping.and_then(ends_not_compared) {
+            let _ = write!(headline.details, "; {ends}");
         }
         if self.fails_by_lint() {
             let findings = counted(self.lint.findings(), "finding");
@@ -271,7 +275,10 @@ fn by_rounding_alone(check: &RobotCheck) -> String {
 fn after_mapping(check: &RobotCheck) -> Option<Headline> {
     let against = check.against.as_ref()?;
     let mapping = against.mapping.as_ref().filter(|mapping| !mapping.is_declared)?;
-    let joints = mapped_joints(mapping);
+    let as_written = mapping.as_written.map_or_else(String::new, |error| {
+        format!("; at the same joint values poses differ by up to {}", largest(error))
+    });
+    let joints = mapped_joints(mapping) + &as_written;
     let agrees = mapping.verdict == Some(Agreement::Agree);
     let worst = mapping.worst.map_or_else(
         || "poses were not compared".to_owned(),

@@ -7,14 +7,15 @@ use congruent_agreement::compare::CheckOptions;
 use congruent_description::{ChainEnd, ChainEnds, JointIndex, MappedJoint, Places, Robot, RobotDescription};
 use congruent_kinematics::PoseError;
 use congruent_mapping::{
-    CommonAxes, FoundMapping, MatchedBy, MatchedRobots, declared, find, find_exchanged, has_other_frames,
-    in_frames_of, link_names, with_fitted, with_fitted_base, with_other_still_links,
+    CommonAxes, EndInOtherFrames, FoundMapping, MatchedBy, MatchedRobots, declared, ends_in_other_frames,
+    find, find_exchanged, has_other_frames, in_frames_of, link_names, with_fitted, with_fitted_base,
+    with_other_still_links,
 };
 
 use super::{
     part::{kept_joints, part},
     poses_of_other::PosesOfOther,
-    reported_mapping::ReportedMapping,
+    reported_mapping::{LEAST_ZERO_RAD, ReportedEnd, ReportedMapping},
 };
 
 /// Axes that are farther apart than this, as a share of the reach, are no proof that joints in the same order are the same.
@@ -23,15 +24,11 @@ const SAME_CHAIN: f64 = 0.06;
 /// Below it a direction and a zero that explain all are a convention, as a share of the reach. Kind: choice; six digits of
 /// pi give a hundredth of it.
 const EXPLAINED: f64 = 1e-4;
-/// Below it they explain most of it: rounding to a millimetre, and what revisions of one robot differ by, is smaller. Kind: choice.
-const MOSTLY_EXPLAINED: f64 = 1e-2;
 /// A frame that is farther off, as a multiple of what the axes are apart, lies elsewhere in its link. Kind: choice.
 const OTHER_FRAME: f64 = 10.0;
 /// Most joints of the same names whose directions and zeros are searched. Kind: time, which grows with the third power: minutes for
 /// 200.
 const MOST_JOINTS: usize = 60;
-/// A smaller zero is a calibration or a mistake of a digit. Kind: choice, 5 deg.
-pub(super) const LEAST_ZERO_RAD: f64 = 0.087;
 
 /// Two descriptions in the same variables.
 pub(super) struct MappedPair {
@@ -100,7 +97,7 @@ impl MappedPair {
         let is_convention = |of: &MappedJoint| of.is_flipped || of.offset.abs() > LEAST_ZERO_RAD;
         let is_turned = found.root_from_other_root.rotation.angle() > LEAST_ZERO_RAD;
         let has_convention = is_turned || found.joints.iter().any(is_convention);
-        let explains = has_convention && off(&found, description) < MOSTLY_EXPLAINED;
+        let explains = has_convention && off(&found, description) < SAME_CHAIN;
         explains.then(|| Self::new(description, other, options, &found))
     }
 
@@ -129,7 +126,7 @@ impl MappedPair {
         options: &CheckOptions,
         found: &FoundMapping,
     ) -> Self {
-        let report = ReportedMapping::new(description, other, found);
+        let mut report = ReportedMapping::new(description, other, found);
         let kept: BTreeSet<&str> = found.joints.iter().map(|of| of.name.as_str()).collect();
         let [locked, other_locked] = locked(description, other, &found.unmatched);
         let robot = description.robot.locked(&locked).moved_by(&kept);
@@ -138,6 +135,7 @@ impl MappedPair {
             CheckOptions { configurations: kept_joints(description, &own, options), ..options.clone() };
         let in_variables = other.robot.locked(&other_locked).in_variables(&found.joints).moved_by(&kept);
         let axes = common_axes(found, description, [&own.robot, &in_variables]);
+        report.ends_in_other_frames = ends([&own.robot, &in_variables], found);
         let named_tip = (own.chain_ends.tip != ChainEnd::Chosen).then_some(own.tip);
         let in_frames =
             in_frames_of([&own.robot, &in_variables], named_tip, &found.root_from_other_root, axes);
@@ -147,11 +145,8 @@ impl MappedPair {
         let tip = other.robot.link(other.tip).name.clone();
         let link_names = link_names(&own, &in_frames, &tip);
         let robot = in_frames.with_link_names(&link_names);
-        let robot = if has_fitted_base(description, found) {
-            with_fitted_base(&with_other_still_links(&robot))
-        } else {
-            robot
-        };
+        let robot =
+            if found.has_fitted_base { with_fitted_base(&with_other_still_links(&robot)) } else { robot };
         let names = found.joints.iter().map(|of| (of.name.clone(), other.robot.joint(of.joint).name.clone()));
         let link_names =
             link_names.iter().map(|(&link, name)| (name.clone(), in_frames.link(link).name.clone()));
@@ -170,16 +165,20 @@ impl MappedPair {
     }
 }
 
+/// The last links of branches whose frames are chosen otherwise in the two files.
+fn ends([robot, other]: [&Robot; 2], found: &FoundMapping) -> Vec<ReportedEnd> {
+    let ends = ends_in_other_frames([robot, other], &found.root_from_other_root);
+    let named = |end: EndInOtherFrames| ReportedEnd {
+        link: robot.link(end.link).name.clone(),
+        along_axis_m: end.along_axis_m,
+    };
+    ends.into_iter().map(named).collect()
+}
+
 /// How far the axes are apart, as a share of the reach.
 fn off(found: &FoundMapping, description: &RobotDescription) -> f64 {
     let reach_m = description.tolerance_scale().reach_m().unwrap_or(1.0);
     found.distance_m / reach_m + found.angle_rad
-}
-
-/// Whether the file says that the base is fitted to the axes: then the frames that are fixed to it are no evidence.
-fn has_fitted_base(description: &RobotDescription, found: &FoundMapping) -> bool {
-    found.matched_by == MatchedBy::Declared
-        && description.mapping.as_ref().is_some_and(|mapping| mapping.has_fitted_base)
 }
 
 /// Whether the axes agree: a convention explains all, or what it does not explain is within the tolerance, or far less than what
@@ -189,9 +188,7 @@ fn common_axes(found: &FoundMapping, description: &RobotDescription, robots: [&R
     let off = off(found, description);
     let has_other_frames =
         || has_other_frames(robots, &found.root_from_other_root, OTHER_FRAME * found.distance_m);
-    if off < EXPLAINED
-        || apart.is_within(&description.tolerance)
-        || (off < MOSTLY_EXPLAINED && has_other_frames())
+    if off < EXPLAINED || apart.is_within(&description.tolerance) || (off < SAME_CHAIN && has_other_frames())
     {
         CommonAxes::Agree
     } else {

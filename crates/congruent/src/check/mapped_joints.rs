@@ -1,8 +1,8 @@
 //! Joints that are called or counted otherwise in another description, in words.
 
-use congruent_input::display::{counted, listed};
+use congruent_input::display::{angle, counted, length, listed};
 
-use super::reported_mapping::{ReportedJoint, ReportedMapping};
+use super::reported_mapping::{ReportedEnd, ReportedJoint, ReportedMapping};
 
 /// What differs in joints, in words: `2 of 6 joints have other zeros (joint_2, joint_3)`.
 pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
@@ -27,7 +27,7 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
         match names.len() {
             0 => {}
             count if count == all => words.push(format!("all {all} joints have {what}")),
-            1 => words.push(format!("{} has {what}", names[0])),
+            1 => words.push(format!("{} has {what}{}", names[0], line_of(mapping, names[0]))),
             2 => words.push(format!("{} have {what}", listed(&names))),
             count => words.push(format!("{count} of {all} joints have {what}")),
         }
@@ -43,8 +43,26 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
             _ => words.push(format!("{} move {what}", counted(names.len(), "joint"))),
         }
     }
+    if let Some(turn_rad) = mapping.turn_of_base_rad() {
+        words.push(format!("the base is turned by {}", angle(turn_rad)));
+    }
     if words.is_empty() {
         words.push("the root frames differ".to_owned());
     }
     words.join(", ")
+}
+
+/// The line of the axis, or of the origin, of a joint with another variable.
+fn line_of(mapping: &ReportedMapping, joint: &str) -> String {
+    let line = mapping.joints.iter().find(|of| of.joint == joint).and_then(|of| of.line);
+    line.map_or_else(String::new, |line| format!(" (line {line})"))
+}
+
+/// Lengths along the axes of last joints that are not compared, in words.
+pub(super) fn ends_not_compared(mapping: &ReportedMapping) -> Option<String> {
+    let words = |end: &ReportedEnd| {
+        format!("{} lies {} elsewhere along the axis of its joint", end.link, length(end.along_axis_m))
+    };
+    let ends: Vec<String> = mapping.ends_in_other_frames.iter().map(words).collect();
+    (!ends.is_empty()).then(|| format!("not compared: {}", ends.join(", ")))
 }

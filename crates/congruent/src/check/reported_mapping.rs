@@ -7,11 +7,14 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport},
 };
 use congruent_description::{MappedJoint, RobotDescription, toml_key, toml_string};
-use congruent_input::number::significant;
+use congruent_input::{line_column, number::significant};
 use congruent_kinematics::{Pose, PoseError, ReportedPose};
 use congruent_mapping::{FoundMapping, MatchedBy};
 use schemars::JsonSchema;
 use serde::Serialize;
+
+/// A smaller zero is a calibration or a mistake of a digit. Kind: choice, 5 deg.
+pub(super) const LEAST_ZERO_RAD: f64 = 0.087;
 
 /// The joints of the other description in terms of this robot: `q_other = sign * q + offset`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -30,6 +33,10 @@ pub struct ReportedMapping {
     /// Pose of the other root in this one, if the two are not the same frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub root_from_other_root: Option<ReportedPose>,
+    /// Last links of branches whose axes the two files write in other coordinates: a length along these axes is not compared. Only those
+    /// that are farther apart than the poses that are.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ends_in_other_frames: Vec<ReportedEnd>,
     /// The number of other choices of directions and zeros with which the axes agree as well, as a wrist has.
     pub equivalent: usize,
     /// Whether poses agree in the same variables; missing if they were not compared.
@@ -38,10 +45,23 @@ pub struct ReportedMapping {
     /// The largest difference of poses in the same variables; missing if they were not compared.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub worst: Option<PoseError>,
+    /// The largest difference of poses at the same values of joints of one name, as both files count them; missing if joints have other
+    /// names, or if the robot file declares how they count.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub as_written: Option<PoseError>,
     /// Whether the robot file declares all of it.
     pub is_declared: bool,
     /// Lines of a robot file that declare it.
     pub lines: Vec<String>,
+}
+
+/// The last link of a branch, with another frame in each file.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ReportedEnd {
+    /// The link.
+    pub link: String,
+    /// How far the origins of both frames are apart along the axis of its joint, m.
+    pub along_axis_m: f64,
 }
 
 /// A joint of two descriptions.
@@ -57,6 +77,10 @@ pub struct ReportedJoint {
     pub offset: f64,
     /// `rad` or `m`.
     pub unit: &'static str,
+    /// The line of the URDF with the axis of a joint in the opposite direction, or with the origin of one with another zero; missing if
+    /// the variable is the same, or the file is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
 }
 
 impl ReportedJoint {
@@ -81,6 +105,7 @@ impl ReportedMapping {
                 sign: if of.is_flipped { -1 } else { 1 },
                 offset: of.offset,
                 unit: joint.kind.unit(),
+                line: line(description, of),
             }
         };
         let names = |of: usize| -> Vec<String> {
@@ -103,9 +128,11 @@ impl ReportedMapping {
             left_out,
             other_left_out,
             root_from_other_root,
+            ends_in_other_frames: Vec::new(),
             equivalent: found.equivalent.len(),
             verdict: None,
             worst: None,
+            as_written: None,
             is_declared,
         }
     }
@@ -123,6 +150,13 @@ impl ReportedMapping {
             .map(|names| names.iter().map(String::as_str).filter(|name| !elsewhere.contains(name)).collect())
     }
 
+    /// By how much the base is turned, rad, if it is turned at all: rounding of lengths moves a fitted base a little.
+    pub(super) fn turn_of_base_rad(&self) -> Option<f64> {
+        let root = Pose::from(self.root_from_other_root.as_ref()?);
+        let turn_rad = PoseError::between(&Pose::identity(), &root).orientation_rad;
+        (turn_rad > LEAST_ZERO_RAD).then_some(turn_rad)
+    }
+
     /// The joints of both files together, if no joint of both has another name, direction or zero there, and the roots are the same:
     /// some move in one file alone then.
     pub(super) fn all_of_alike(&self) -> Option<usize> {
@@ -133,10 +167,25 @@ impl ReportedMapping {
     }
 
     /// The mapping with the largest difference of poses that the comparison of the two has found.
-    pub(super) fn with_worst(self, geometry: &CheckReport) -> Self {
+    pub(super) fn with_worst(mut self, geometry: &CheckReport) -> Self {
         let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
+        let least_m = compared.map_or(0.0, |of| of.worst.error.position_m.max(geometry.tolerance.position_m));
+        self.ends_in_other_frames.retain(|end| end.along_axis_m > least_m);
         Self { worst: compared.map(|of| of.worst.error), verdict: compared.map(|of| of.verdict), ..self }
     }
+
+    /// The mapping with the largest difference that the comparison without it has found.
+    pub(super) fn with_difference_as_written(self, geometry: &CheckReport) -> Self {
+        let compared = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther);
+        Self { as_written: compared.map(|of| of.worst.error), ..self }
+    }
+}
+
+/// The line of what a joint with another variable would have otherwise: its axis, or its origin.
+fn line(description: &RobotDescription, of: &MappedJoint) -> Option<usize> {
+    let urdf = description.places.urdf.as_ref().filter(|_| !of.has_same_variable())?;
+    let place = if of.is_flipped { urdf.joint_axis(&of.name) } else { urdf.joint_origin(&of.name) };
+    Some(line_column(&urdf.source().text, place?.start).0)
 }
 
 /// The section of a robot file that declares a mapping.

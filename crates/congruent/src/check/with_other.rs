@@ -9,12 +9,11 @@ use congruent_agreement::{
 use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::{DynamicsReport, LimitCause};
 use congruent_input::{Diagnostic, Finding, display::listed};
-use congruent_kinematics::ReportedPose;
 use congruent_mapping::{driven_as_in, other_joint};
 
 use super::{
     against::{OtherDescription, compared},
-    mapped::{LEAST_ZERO_RAD, MappedPair},
+    mapped::MappedPair,
     mapped_joints::mapped_joints,
     narrowed::NarrowedPair,
     own_model::placed_as_in,
@@ -87,6 +86,7 @@ pub(super) fn with_other(
             (against, dynamics) = (in_variables, found);
         }
         if reading == PairReading::Mapped {
+            against.mapping = against.mapping.map(|mapping| mapping.with_difference_as_written(geometry));
             *geometry = mapped;
             (own, there, own_options) = (pair.description, pair.other, pair.options);
         }
@@ -158,10 +158,8 @@ impl PairReading {
 
     /// How many joints have another variable, with a turned base as one more.
     fn differing(mapping: &ReportedMapping) -> usize {
-        // Rounding of lengths moves a fitted base a little, which is no statement.
-        let is_turned = |root: &ReportedPose| root.rpy_rad().iter().any(|turn| turn.abs() > LEAST_ZERO_RAD);
         mapping.joints.iter().filter(|of| !of.has_same_variable()).count()
-            + usize::from(mapping.root_from_other_root.as_ref().is_some_and(is_turned))
+            + usize::from(mapping.turn_of_base_rad().is_some())
     }
 
     /// The reading with fewer statements: causes, and joints with another variable.

@@ -29,17 +29,7 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
     if same > 0 {
         let _ = writeln!(text, "    {} with the same name, direction and zero", counted(same, "joint"));
     }
-    let [here, there] = mapping.alone();
-    let only = |whose: &str| format!("moving only in {whose}");
-    for (joints, what) in [
-        (here, only("this file")),
-        (there, only(other)),
-        (mapping.elsewhere(), "placed elsewhere in one of the files".to_owned()),
-    ] {
-        if !joints.is_empty() {
-            let _ = writeln!(text, "    {what}, not compared with what they carry: {}", joints.join(", "));
-        }
-    }
+    not_compared(text, mapping, other);
     if let Some(root) = &mapping.root_from_other_root {
         let _ = writeln!(text, "    its root frame is at {} in that of this file (fitted)", pose(root));
     }
@@ -68,6 +58,30 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
         for line in &mapping.lines {
             let _ = writeln!(text, "      {line}");
         }
+    }
+}
+
+/// Joints of one file alone, and last links with other frames in the two files.
+fn not_compared(text: &mut String, mapping: &ReportedMapping, other: &str) {
+    let [here, there] = mapping.alone();
+    let only = |whose: &str| format!("moving only in {whose}");
+    for (joints, what) in [
+        (here, only("this file")),
+        (there, only(other)),
+        (mapping.elsewhere(), "placed elsewhere in one of the files".to_owned()),
+    ] {
+        if !joints.is_empty() {
+            let _ = writeln!(text, "    {what}, not compared with what they carry: {}", joints.join(", "));
+        }
+    }
+    for end in &mapping.ends_in_other_frames {
+        let _ = writeln!(
+            text,
+            "    {} lies {} elsewhere along the axis of its joint, not compared: the files write this axis in other coordinates, and may \
+             count from another place",
+            end.link,
+            length(end.along_axis_m)
+        );
     }
 }
 
