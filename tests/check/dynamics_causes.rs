@@ -244,3 +244,44 @@ fn a_tolerated_origin_of_a_fixed_joint_is_no_difference_of_torques() {
     let cause = &report["dynamics"]["explanations"][0];
     assert_eq!(names(&cause["place"]), ["panda_link5"], "{report:#}");
 }
+
+/// Two files of other chains: the mass in grams is named beside the flip and the length, though centres of mass are not compared.
+#[test]
+fn masses_are_compared_behind_joints_that_are_placed_elsewhere() {
+    let wrong = Wrong::new(&[
+        ("xyz=\"-0.3922 0 0.1333\"", "xyz=\"-0.4322 0 0.1333\""),
+        (FOREARM_MASS, "<mass value=\"2846\"/>"),
+    ]);
+    let line = congruent(&["check", "-q", &text(&wrong.urdf()), "--against", &text(&original())]).stdout;
+    assert!(line.contains("joint \"wrist_1_joint\": origin"), "{line}");
+    assert!(line.contains("forearm_link: mass 2846 kg in "), "{line}");
+    assert!(line.contains("a factor of 1000, grams?"), "{line}");
+}
+
+/// A limit that one file has for all joints is a placeholder, and nothing to write; a speed that a robot has at all joints is not.
+#[test]
+fn one_effort_for_all_joints_is_no_value_to_write() {
+    let mut efforts = fs::read_to_string(original()).unwrap();
+    for effort in ["150", "28"] {
+        efforts = efforts.replace(&format!("effort=\"{effort}\""), "effort=\"2000\"");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let other = folder.path().join("other.urdf");
+    fs::write(&other, efforts).unwrap();
+    let answer = congruent(&["check", &text(&original()), "--against", &text(&other)]);
+    assert_eq!(answer.code, 1);
+    let printed = answer.stdout;
+    assert!(printed.contains("other.urdf has it for all joints, a placeholder?"), "{printed}");
+    assert!(!printed.contains("N mm") && !printed.contains("to write"), "{printed}");
+}
+
+/// The file that has the rotation of an inertial frame is not asked to drop it.
+#[test]
+fn a_rotation_that_the_other_file_lacks_is_said_to_be_missing_there() {
+    let wrong = Wrong::new(&[(
+        "<origin xyz=\"-0.2422 0 0.0265\" rpy=\"0 1.5707963267948966 0\"/>",
+        "<origin xyz=\"-0.2422 0 0.0265\"/>",
+    )]);
+    let line = congruent(&["check", "-q", &text(&original()), "--against", &text(&wrong.urdf())]).stdout;
+    assert!(line.contains("the other file lacks the rotation of the inertial frame"), "{line}");
+}

@@ -142,6 +142,8 @@ fn a_joint_without_dynamics_is_no_reference_for_damping() {
             first.into_iter().chain(["damping and dry friction of all joints"]).collect();
         assert_eq!(not_stated, expected, "{printed}");
         assert!(!printed.contains("to write in"), "{printed}");
+        let losses = printed.contains("SAME ROBOT, LOSSES NOT COMPARED");
+        assert_eq!(losses, first.is_none(), "{printed}");
         // The other file still lacks what this one states.
         assert_eq!(against(&silent, ARM, &[]).0.code, 1);
         // A zero that is written is a statement.
@@ -276,6 +278,11 @@ fn a_range_that_differs_is_no_difference_of_dynamics() {
         "{printed}"
     );
     assert!(!printed.contains("disagree  dynamics"), "{printed}");
+    // Without masses in either file, nothing is said of torques.
+    let bare = without_inertials(&LINKS);
+    let (answer, printed) = against(&bare, &bare.replace("effort=\"50\"", "effort=\"51\""), &[]);
+    assert_eq!(answer.code, 1);
+    assert!(printed.contains("SAME GEOMETRY, DIFFERENT JOINT LIMITS"), "{printed}");
 }
 
 #[test]

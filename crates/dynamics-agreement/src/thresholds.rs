@@ -83,6 +83,8 @@ pub(crate) const NO_TORQUE: f64 = 1e-12;
 
 /// Parameters that differ by a smaller share of the link's own are equal. No unit; kind: digits of a file.
 pub(crate) const SAME_VALUE: f64 = 1e-9;
+/// Tensors that differ by a smaller share are one that was computed twice, as from another pi. No unit; kind: choice, six digits.
+pub(crate) const COMPUTED_OTHERWISE: f64 = 5e-6;
 /// A parameter below this share of the link's own counts as zero: the rotation of a reader rounds by as much. No unit; kind:
 /// rounding.
 pub(crate) const ZERO_VALUE: f64 = 1e-12;

@@ -62,14 +62,15 @@ pub fn angle(radians: f64) -> String {
 /// use congruent_input::display::length_and_angle;
 /// assert_eq!(length_and_angle(0.005, 0.01), "5 mm and 0.573 deg");
 /// assert_eq!(length_and_angle(0.005, 1e-16), "5 mm");
+/// assert_eq!(length_and_angle(0.0, 0.3), "17.2 deg");
 /// ```
 pub fn length_and_angle(metres: f64, radians: f64) -> String {
     /// The smallest angle that is printed with a number.
     const SMALLEST_RAD: f64 = 0.9995e-12;
-    if radians >= SMALLEST_RAD {
-        format!("{} and {}", length(metres), angle(radians))
-    } else {
-        length(metres)
+    match (metres > 0.0, radians >= SMALLEST_RAD) {
+        (false, true) => angle(radians),
+        (true, true) => format!("{} and {}", length(metres), angle(radians)),
+        (_, false) => length(metres),
     }
 }
 

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use congruent_description::{JointIndex, LinkIndex, MappedJoint, Robot, RobotDescription};
-use congruent_kinematics::ScrewTree;
+use congruent_kinematics::{PoseError, ScrewTree};
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -61,7 +61,7 @@ type KnownVariables = BTreeMap<JointIndex, JointVariable>;
 pub(crate) struct Both<'a> {
     pub(crate) a: &'a RobotDescription,
     pub(crate) b: &'a RobotDescription,
-    screws: [ScrewTree; 2],
+    pub(crate) screws: [ScrewTree; 2],
     reach_m: f64,
 }
 
@@ -189,37 +189,9 @@ impl Both<'_> {
             main.iter().map(|pair| pair[0]).zip(solution.variables.iter().copied()).collect()
         };
         let mut solved = of_main(solution);
-        let (mut angle_rad, mut distance_m) = (solution.angle_rad, solution.distance_m);
-        for (end, branch) in branches {
-            let known: Vec<_> = branch.iter().map(|pair| solved.get(&pair[0]).copied()).collect();
-            if known.iter().all(Option::is_some) {
-                continue;
-            }
-            let tips = self.tips_of(end, &self.a.robot.link(end).name);
-            let with_tips =
-                ChainPair { known: known.clone(), ..self.chain_pair(&branch, Some(solution.a_from_b), tips) };
-            let chain = ChainPair { known, ..self.chain_pair(&branch, Some(solution.a_from_b), None) };
-            let solutions = [with_tips.solutions(), chain.solutions()]
-                .into_iter()
-                .find(|solutions| !solutions.is_empty());
-            let solutions = by_bodies(
-                solutions.unwrap_or_default(),
-                [self.a, self.b],
-                &self.screws,
-                &branch,
-                self.reach_m,
-            );
-            // Joints of the same name whose axes are others are not the same joints.
-            let Some(found) = solutions.into_iter().next() else {
-                pairs.retain(|pair| solved.contains_key(&pair[0]) || !branch.contains(pair));
-                continue;
-            };
-            angle_rad = angle_rad.max(found.angle_rad);
-            distance_m = distance_m.max(found.distance_m);
-            for (pair, variable) in branch.iter().zip(found.variables) {
-                solved.entry(pair[0]).or_insert(variable);
-            }
-        }
+        let of_branches = self.solve_branches(&branches, &solution.a_from_b, &mut solved, &mut pairs);
+        let angle_rad = solution.angle_rad.max(of_branches.orientation_rad);
+        let distance_m = solution.distance_m.max(of_branches.position_m);
         let mapped = |known: &KnownVariables| -> Vec<MappedJoint> {
             let of = |pair: &[JointIndex; 2]| Some(self.mapped(*pair, *known.get(&pair[0])?));
             pairs.iter().filter_map(of).collect()
@@ -234,6 +206,62 @@ impl Both<'_> {
             distance_m,
             equivalent: solutions.iter().skip(1).map(|other| mapped(&of_main(other))).collect(),
         })
+    }
+
+    /// Adds the variables of the joints of all branches to those of the main one, and drops the pairs that are not the same joint. Returns
+    /// the largest distance and angle of axes.
+    fn solve_branches(
+        &self,
+        branches: &[(LinkIndex, JointPairs)],
+        a_from_b: &Isometry3<f64>,
+        solved: &mut KnownVariables,
+        pairs: &mut JointPairs,
+    ) -> PoseError {
+        let mut off = PoseError::default();
+        for (end, branch) in branches {
+            let known: Vec<_> = branch.iter().map(|pair| solved.get(&pair[0]).copied()).collect();
+            if known.iter().all(Option::is_some) {
+                continue;
+            }
+            let tips = self.tips_of(*end, &self.a.robot.link(*end).name);
+            let with_tips =
+                ChainPair { known: known.clone(), ..self.chain_pair(branch, Some(*a_from_b), tips) };
+            let chain = ChainPair { known, ..self.chain_pair(branch, Some(*a_from_b), None) };
+            let solutions = [with_tips.solutions(), chain.solutions()]
+                .into_iter()
+                .find(|solutions| !solutions.is_empty());
+            let solutions = by_bodies(
+                solutions.unwrap_or_default(),
+                [self.a, self.b],
+                &self.screws,
+                branch,
+                self.reach_m,
+            );
+            let Some(found) = solutions.into_iter().next() else {
+                // Joints of the same name whose axes are others are the same joints only if they carry the same link from the same
+                // link: then one of the two files is wrong.
+                for pair in branch.iter().filter(|pair| self.has_same_links(**pair)) {
+                    solved.entry(pair[0]).or_default();
+                }
+                pairs.retain(|pair| solved.contains_key(&pair[0]) || !branch.contains(pair));
+                continue;
+            };
+            off = off.larger(PoseError { position_m: found.distance_m, orientation_rad: found.angle_rad });
+            for (pair, variable) in branch.iter().zip(found.variables) {
+                solved.entry(pair[0]).or_insert(variable);
+            }
+        }
+        off
+    }
+
+    /// Whether two joints carry a link of one name from a link of one name.
+    fn has_same_links(&self, [of_a, of_b]: [JointIndex; 2]) -> bool {
+        let (a, b) = (&self.a.robot, &self.b.robot);
+        let names = |robot: &Robot, joint: JointIndex| {
+            let joint = robot.joint(joint);
+            [joint.parent, joint.child].map(|link| robot.link(link).name.clone())
+        };
+        names(a, of_a) == names(b, of_b)
     }
 
     /// The matched joints to the tip, with those of one branch beyond it: their axes show where the last joint has its zero.
@@ -295,47 +323,6 @@ impl Both<'_> {
         };
         let ranges = pairs.iter().map(range).collect();
         ChainPair { known: vec![None; a.len()], a, b, tips, a_from_b, ranges, reach_m: self.reach_m }
-    }
-
-    /// Where the other root may be in this one: by links near the root that have one name in both, and the same frame.
-    pub(crate) fn shared_roots(&self) -> Vec<Isometry3<f64>> {
-        let (a, b) = (&self.a.robot, &self.b.robot);
-        let is_still = |robot: &Robot, link: LinkIndex| robot.body(link) == robot.root();
-        let shared = a.link_indices().filter(|&link| is_still(a, link)).filter_map(|link| {
-            let there = b.find_link(&a.link(link).name).filter(|&there| is_still(b, there))?;
-            Some(self.home(0, link) * self.home(1, there).inverse())
-        });
-        let mut roots: Vec<Isometry3<f64>> = Vec::new();
-        for root in shared.chain([Isometry3::identity()]) {
-            let is_known = |known: &Isometry3<f64>| {
-                let off = known.inverse() * root;
-                off.translation.vector.norm() + off.rotation.angle() < 1e-9
-            };
-            if !roots.iter().any(is_known) {
-                roots.push(root);
-            }
-        }
-        roots
-    }
-
-    /// Poses of the tips of both chains, whatever they are called, if they are the ends of the same joints.
-    fn both_tips(&self) -> [Isometry3<f64>; 2] {
-        [self.home(0, self.a.tip), self.home(1, self.b.tip)]
-    }
-
-    /// Poses of the tips in their roots, if both tips have one name.
-    pub(crate) fn shared_tips(&self) -> Option<[Isometry3<f64>; 2]> {
-        self.tips_of(self.a.tip, &self.a.robot.link(self.a.tip).name)
-    }
-
-    /// Poses of a link and of the one of this name in the other description.
-    fn tips_of(&self, link: LinkIndex, there: &str) -> Option<[Isometry3<f64>; 2]> {
-        Some([self.home(0, link), self.home(1, self.b.robot.find_link(there)?)])
-    }
-
-    /// Pose of a link in its root at zero.
-    fn home(&self, of: usize, link: LinkIndex) -> Isometry3<f64> {
-        self.screws[of].home(link).to_isometry()
     }
 
     /// For each end of the tree, its matched joints from the root.

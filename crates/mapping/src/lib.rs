@@ -21,6 +21,7 @@ mod matched;
 mod names;
 mod polish;
 mod rounded_values;
+mod shared_ends;
 mod variables;
 
 pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_values, is_same_value};

@@ -6,7 +6,7 @@ use congruent_agreement::{
 };
 use congruent_description::{ChainEnd, JointIndex, Robot, RobotDescription, Tolerance};
 use congruent_dynamics_agreement::{
-    CompareError, DynamicsModel, DynamicsReport, NamedModel, without_one_sided_armature,
+    CompareError, DynamicsModel, DynamicsReport, NamedModel, compare, without_one_sided_armature,
 };
 use congruent_input::{Capability, Diagnostic, Finding, RevisionName, display::position, nearest};
 use congruent_kinematics::PoseError;
@@ -32,7 +32,8 @@ pub struct OtherDescription {
     pub file: String,
     /// Name of the robot there.
     pub robot: String,
-    /// Why the two dynamics are not compared, with the first joint that differs; `null` if they are.
+    /// Why the two dynamics are not compared, or no more than masses, losses and limits, with the first joint that differs; `null` if
+    /// they are.
     pub dynamics_not_compared: Option<String>,
     /// If one of the two is a table or screws, without dynamics to compare: the joints whose ranges both state and that
     /// differ.
@@ -135,7 +136,8 @@ pub(super) fn compared(
         misplaced = misplaced_joint(&description.robot, geometry, &tolerance);
         if misplaced.is_some() {
             against.dynamics_not_compared = misplaced;
-            return Ok((against, None));
+            let dynamics = masses_alone([description, other], options.seed);
+            return Ok((against, dynamics));
         }
     }
     let frames = PlacedFrames { tolerance, misplaced, in_other_frames };
@@ -183,7 +185,9 @@ fn dynamics_of(
         expected = in_frames;
     }
     against.links_in_other_frames = in_other_frames;
-    match compared_dynamics([description, other], [found, expected], seed) {
+    let (files, models) = (files([description, other]), [found, expected]);
+    let [candidate, reference] = named_models([description, other], &files, &models);
+    match two_descriptions(&candidate, &reference, seed) {
         Ok(report) => Some(DynamicsReport { armature_stated_by: armature_of, ..report }),
         // No difference of the two: the poses agree.
         Err(error @ CompareError::NoJoint) => {
@@ -196,6 +200,21 @@ fn dynamics_of(
             None
         }
     }
+}
+
+/// The masses, losses and limits of two descriptions of other chains, as if the links of one name had one centre of mass and one
+/// tensor: what both say of these is in frames that lie elsewhere. `None` if nothing of them differs.
+fn masses_alone(descriptions: [&RobotDescription; 2], seed: u64) -> Option<DynamicsReport> {
+    let is_unreadable = || descriptions.into_iter().any(|of| unreadable_value(of).is_some());
+    if no_masses(descriptions).or_else(|| one_urdf(descriptions)).is_some() || is_unreadable() {
+        return None;
+    }
+    let anywhere = Tolerance { position_m: f64::INFINITY, orientation_rad: f64::INFINITY };
+    let ([found, expected], _) = compared_models(descriptions, &anywhere);
+    let expected = expected.with_tensors_of(&found);
+    let (files, models) = (files(descriptions), [found, expected]);
+    let [candidate, reference] = named_models(descriptions, &files, &models);
+    compare(&candidate, &reference, seed).ok().filter(|report| !report.agrees())
 }
 
 /// Gives the other description the masses of each body at the links where this one has them, and names the bodies where that
@@ -243,17 +262,21 @@ fn compared_models(
     ([found, expected], armature_of.map(|at| descriptions[at].urdf_path.display().to_string()))
 }
 
-/// The comparison of the dynamics of two descriptions of one chain.
-fn compared_dynamics(
-    descriptions: [&RobotDescription; 2],
-    [found, expected]: [DynamicsModel; 2],
-    seed: u64,
-) -> Result<DynamicsReport, CompareError> {
-    let names = descriptions.map(|of| of.urdf_path.display().to_string());
-    let [places, other_places] = descriptions.map(urdf_places);
-    let candidate = NamedModel { name: &names[0], model: &found, places };
-    let reference = NamedModel { name: &names[1], model: &expected, places: other_places };
-    two_descriptions(&candidate, &reference, seed)
+/// Two models with the names and places of their files.
+fn named_models<'a>(
+    descriptions: [&'a RobotDescription; 2],
+    files: &'a [String; 2],
+    models: &'a [DynamicsModel; 2],
+) -> [NamedModel<'a>; 2] {
+    let named = |of: usize| {
+        let places = urdf_places(descriptions[of]);
+        NamedModel { name: &files[of], model: &models[of], places }
+    };
+    [0, 1].map(named)
+}
+
+fn files(descriptions: [&RobotDescription; 2]) -> [String; 2] {
+    descriptions.map(|of| of.urdf_path.display().to_string())
 }
 
 /// Why torques of a table or screws are not compared: they have no masses, which is no difference of the two.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use congruent_dynamics_agreement::DynamicsReport;
+use congruent_dynamics_agreement::{DynamicsExplanation, DynamicsReport, ParameterDifference};
 
 use super::{
     cause_in_words::{and_more, place},
@@ -18,11 +18,30 @@ impl RobotCheck {
             ([only], None) => (only.sentence(), only.line),
             _ => (first.sentence(), first.line),
         };
-        let remark = match &first.parameters[..] {
-            [only] => only.unit_remark().map_or_else(String::new, |remark| format!(": {remark}")),
-            _ => String::new(),
+        let (remark, line) = match &first.parameters[..] {
+            [only] => (only.unit_remark(), line),
+            _ => match self.first_value(report, first) {
+                // It has its line.
+                Some(value) => (Some(value), None),
+                None => (None, line),
+            },
         };
-        sentence + &remark + &place(first.file.as_deref(), line) + &and_more(report.explanations.len() - 1)
+        let remark = remark.map_or_else(String::new, |remark| format!(": {remark}"));
+        sentence + &place(first.file.as_deref(), line) + &remark + &and_more(report.explanations.len() - 1)
+    }
+
+    /// Of several parameters the one whose values say most: the mass of a link, or the first of joints.
+    fn first_value(&self, report: &DynamicsReport, explanation: &DynamicsExplanation) -> Option<String> {
+        let is_mass = |of: &&ParameterDifference| of.parameter == "mass";
+        let of_joints = || explanation.parameters.first().filter(|_| explanation.cause.is_of_joints());
+        let value = explanation.parameters.iter().find(is_mass).or_else(of_joints)?;
+        let sentence = match self.files_of(report) {
+            Some(files) => value.sentence_in(short_names(files)),
+            None => value.sentence(),
+        };
+        let of_named = format!("{}: ", value.of);
+        let is_named = explanation.place.contains(&value.of);
+        Some(sentence.strip_prefix(&of_named).filter(|_| is_named).map(str::to_owned).unwrap_or(sentence))
     }
 
     /// The first limit that disagrees, and how many more do.

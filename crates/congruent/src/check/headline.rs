@@ -137,6 +137,7 @@ impl RobotCheck {
                 "SAME ROBOT, MASSES COMPARED IN PART"
             }
             (true, true) if self.is_stated_once("inertia") => "SAME ROBOT, INERTIA NOT COMPARED",
+            (true, true) if self.is_stated_once("damping") => "SAME ROBOT, LOSSES NOT COMPARED",
             (true, true) => "SAME ROBOT",
             (true, false) => "SAME GEOMETRY, DYNAMICS NOT COMPARED",
             (false, true) => "SAME DYNAMICS, GEOMETRY NOT COMPARED",
@@ -144,10 +145,15 @@ impl RobotCheck {
         }
     }
 
-    /// Whether the robot file, the only second source of dynamics, has no entry of this kind for some of the joints.
+    /// Whether the other description, or the robot file if that is the only second source of dynamics, says nothing of this kind
+    /// about some of the joints.
     fn is_stated_once(&self, parameter: &str) -> bool {
-        let lacks = |of: &DeclaredSource| of.not_declared.iter().any(|it| it.starts_with(parameter));
-        self.against.is_none() && self.declared_dynamics.as_ref().is_some_and(lacks)
+        let lacks = |of: &[String]| of.iter().any(|it| it.starts_with(parameter));
+        if self.against.is_some() {
+            return self.dynamics_of_descriptions().any(|report| lacks(&report.not_stated));
+        }
+        let declared = self.declared_dynamics.as_ref();
+        parameter != "damping" && declared.is_some_and(|of: &DeclaredSource| lacks(&of.not_declared))
     }
 }
 
@@ -337,7 +343,11 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
             format!(": {}{}", check.cause_of_torques(report), check.other_limits(report)),
         );
     }
-    let same = if has_geometry { "SAME GEOMETRY AND DYNAMICS, " } else { "SAME DYNAMICS, " };
+    let same = match (has_geometry, report.verdict == DynamicsVerdict::NotCompared) {
+        (_, true) => same,
+        (true, false) => "SAME GEOMETRY AND DYNAMICS, ",
+        (false, false) => "SAME DYNAMICS, ",
+    };
     Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), check.limits(report))
 }
 

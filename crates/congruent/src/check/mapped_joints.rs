@@ -23,14 +23,22 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
         ("the opposite direction", those(&|of| of.sign < 0)),
         ("another zero", those(&|of| of.offset != 0.0)),
     ];
-    for (what, names) in kinds {
-        match names.len() {
-            0 => {}
-            count if count == all => words.push(format!("all {all} joints have {what}")),
-            1 => words.push(format!("{} has {what}{}", names[0], line_of(mapping, names[0]))),
-            2 => words.push(format!("{} have {what}", listed(&names))),
-            count => words.push(format!("{count} of {all} joints have {what}")),
+    // What differs in the same joints is said of them once.
+    let mut differing: Vec<(Vec<&str>, Vec<&str>)> = Vec::new();
+    for (names, joints) in kinds.into_iter().filter(|(_, joints)| !joints.is_empty()) {
+        match differing.iter_mut().find(|(_, known)| *known == joints) {
+            Some((what, _)) => what.push(names),
+            None => differing.push((vec![names], joints)),
         }
+    }
+    for (what, joints) in differing {
+        let what = listed(&what);
+        words.push(match joints[..] {
+            _ if joints.len() == all => format!("all {all} joints have {what}"),
+            [only] => format!("{only} has {what}{}", line_of(mapping, only)),
+            [_, _] => format!("{} have {what}", listed(&joints)),
+            _ => format!("{} of {all} joints have {what}", joints.len()),
+        });
     }
     let [own, there] = mapping.alone();
     for (what, names) in

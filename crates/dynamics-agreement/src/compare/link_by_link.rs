@@ -26,7 +26,8 @@ struct CauseOfLink {
     named: Option<ExactExplanation>,
 }
 
-/// How much a correction changes all torques: each joint counts by its torque in the reference, whatever is corrected.
+/// How much a correction changes all torques, as a share of what the joints can exert; those of a joint without a limit of effort count
+/// by its torque in the reference.
 struct TorqueEffect {
     weights: Vec<f64>,
     found: Vec<Vec<f64>>,
@@ -34,7 +35,14 @@ struct TorqueEffect {
 
 impl TorqueEffect {
     fn new([model, reference]: [&DynamicsModel; 2], states: &[SampledState]) -> Result<Self, DynamicsError> {
-        let weights = weights(&torques(reference, states)?, model.frames.dof());
+        // A finger that hardly needs a torque would outweigh the arm if its own torque was the measure.
+        let of_torque = weights(&torques(reference, states)?, model.frames.dof());
+        let effort = |joint: usize| {
+            let stated = [model, reference].map(|of| of.limits.get(joint).copied().flatten()?.effort);
+            stated.into_iter().flatten().filter(|effort| *effort > 0.0).reduce(f64::min)
+        };
+        let weight = |(joint, weight)| effort(joint).map_or(weight, f64::recip);
+        let weights = of_torque.into_iter().enumerate().map(weight).collect();
         Ok(Self { weights, found: torques(model, states)? })
     }
 

@@ -72,6 +72,9 @@ const SEVERAL: &str = "Correct one value after the other, and check again after 
 const UNEXPLAINED: &str = "Compare <inertial> link by link with the other file; `congruent dynamics --base-parameters` lists what joint \
     torques depend on.";
 
+/// Detail of a rotation of an inertial frame that the other file lacks.
+pub(crate) const MISSING_THERE: &str = "missing in the other file";
+
 causes! {
     MassUnit = "mass_unit", "the mass is given in another unit", UNITS;
     ComUnit = "com_unit", "the centre of mass is given in another unit", UNITS;
@@ -118,7 +121,7 @@ causes! {
     Payload = "payload", "a payload at the tip is missing or too much", PAYLOAD;
     Inertia = "inertia", "the inertia is off", VALUES;
     Inertial = "inertial", "mass, centre of mass and inertia are off", VALUES;
-    JointTermsMissing = "joint_terms_missing", "damping, dry friction and armature are left out", JOINT_TERMS_MISSING;
+    JointTermsMissing = "joint_terms_missing", "damping and dry friction are left out", JOINT_TERMS_MISSING;
     DampingMissing = "damping_missing", "damping is left out", JOINT_TERMS_MISSING;
     FrictionMissing = "friction_missing", "dry friction is left out", JOINT_TERMS_MISSING;
     DampingFrictionSwapped = "damping_friction_swapped", "damping and dry friction are exchanged", JOINT_TERMS;

@@ -18,6 +18,7 @@ mod term_by_term;
 
 pub(crate) use cause::{rounded_damping_unit, rounded_unit};
 pub use cause_names::DynamicsCause;
+pub(crate) use cause_names::MISSING_THERE;
 pub(crate) use diagnose::{DiagnosisInput, ExplanationGroup, ReferenceTorques, diagnose_in_stages};
 pub(crate) use fit::Corrected;
 pub use hypothesis::FaultySide;

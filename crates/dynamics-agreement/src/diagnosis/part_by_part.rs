@@ -14,6 +14,7 @@ use super::{
 };
 use crate::{
     model::{DynamicsModel, Inertial},
+    thresholds::COMPUTED_OTHERWISE,
     torque::{
         reduced_difference::{ReducedTorqueDifference, torques},
         states::SampledState,
@@ -36,6 +37,13 @@ pub(crate) fn part_by_part(
     states: &[SampledState],
 ) -> Result<Option<ExactExplanation>, DynamicsError> {
     let Some(written) = setting.candidate.inertials[link] else { return Ok(None) };
+    // Beside another mass, a tensor that is computed otherwise in its last digits is no fault of its own.
+    let [tensor, other] = [written, *right].map(|of| of.tensor_in_link());
+    let right = if (tensor - other).amax() <= COMPUTED_OTHERWISE * other.amax() {
+        Inertial { mass_kg: right.mass_kg, com_m: right.com_m, ..written }
+    } else {
+        *right
+    };
     let mistakes = cause::mistakes(&setting.candidate.frames, setting.faulty);
     let mut before = setting.candidate.clone();
     let mut parts = Vec::new();
@@ -43,7 +51,7 @@ pub(crate) fn part_by_part(
     // earlier ones right.
     let with_mass = Inertial { mass_kg: right.mass_kg, ..written };
     let with_com = Inertial { com_m: right.com_m, ..with_mass };
-    for (next, (cause, free)) in [with_mass, with_com, *right].into_iter().zip(FREE) {
+    for (next, (cause, free)) in [with_mass, with_com, right].into_iter().zip(FREE) {
         let mut after = before.clone();
         after.inertials[link] = Some(next);
         let torques = torques(&after, states)?;

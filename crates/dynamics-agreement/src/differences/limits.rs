@@ -17,7 +17,8 @@ pub struct LimitDifference {
     pub cause: LimitCause,
     /// `degrees`, `rpm` or `N mm` if the factor, or its inverse, is that of this unit, `degrees` also for a range of more than four
     /// turns; the larger value is probably in it. `exchanged` if the candidate has the value at another place of the same
-    /// `<limit>`: speed and effort, or both ends of the range with their signs. Otherwise empty.
+    /// `<limit>`: speed and effort, or both ends of the range with their signs. `uniform` or `uniform_there` if the candidate or the
+    /// reference has one speed or effort for all joints, and the other file has not. Otherwise empty.
     pub detail: String,
     /// `velocity`, `effort`, `lower`, `upper`, `acceleration`, `deceleration`, `jerk`.
     #[serde(rename = "figure")]
@@ -66,6 +67,12 @@ pub enum LimitCause {
 
 /// `detail` of limits whose values have changed places.
 pub(crate) const EXCHANGED: &str = "exchanged";
+/// `detail` of limits of speed or effort that the candidate has for all joints alike, as a placeholder is written.
+pub(crate) const UNIFORM: &str = "uniform";
+/// The same of the reference.
+pub(crate) const UNIFORM_THERE: &str = "uniform_there";
+/// A value that fewer joints have is none for all of them. Kind: choice.
+const FEWEST_UNIFORM: usize = 3;
 /// `detail` of limits that differ by the factor of degrees.
 pub(crate) const DEGREES_DETAIL: &str = "degrees";
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -85,9 +92,10 @@ pub(crate) fn differences(
     joints: &[usize],
 ) -> Vec<LimitDifference> {
     let mut differences: Vec<LimitDifference> = Vec::new();
+    let uniform = LIMITS.map(|limit| uniform(limit, [candidate, reference], joints));
     for (joint, &other) in joints.iter().enumerate() {
         let first = differences.len();
-        for (cause, parameter, value) in LIMITS {
+        for ((cause, parameter, value), uniform) in LIMITS.into_iter().zip(uniform) {
             let stated = |limit: Option<&JointLimit>| {
                 let value = limit.and_then(value).filter(|value| value.is_finite());
                 // A position limit of 0 is a value; a speed or effort of 0 is what exporters write for an unknown
@@ -113,7 +121,10 @@ pub(crate) fn differences(
             differences.push(LimitDifference {
                 joint: candidate.frames.joint_name(joint).to_owned(),
                 cause,
-                detail: detail(cause, both, &candidate.frames.joints[joint]).to_owned(),
+                detail: uniform
+                    .filter(|_| both.is_some())
+                    .unwrap_or_else(|| detail(cause, both, &candidate.frames.joints[joint]))
+                    .to_owned(),
                 parameter: parameter.to_owned(),
                 found,
                 expected,
@@ -132,6 +143,33 @@ pub(crate) fn differences(
         mark_exchanged(&mut differences[first..]);
     }
     differences
+}
+
+/// Which of two models has one speed or effort for all joints, and another one than the other model for most of them, as the `detail`
+/// of a difference; `None` if neither or both have.
+fn uniform(
+    (cause, _, value): LimitEntry,
+    models: [&DynamicsModel; 2],
+    joints: &[usize],
+) -> Option<&'static str> {
+    let stated = |limit: &Option<JointLimit>| limit.as_ref().and_then(value);
+    let is_uniform = |model: &DynamicsModel| {
+        let values: Vec<f64> = model.limits.iter().filter_map(stated).collect();
+        let is_first = |value: &f64| is_same(*value, values[0]);
+        values.len() >= FEWEST_UNIFORM && values[0] != 0.0 && values.iter().all(is_first)
+    };
+    let differ = |(joint, other): (usize, &usize)| {
+        let both = stated(&models[0].limits[joint]).zip(stated(&models[1].limits[*other]));
+        both.is_some_and(|(found, expected)| !is_same(found, expected))
+    };
+    let differing = joints.iter().enumerate().filter(|of| differ(*of)).count();
+    match models.map(is_uniform) {
+        _ if !matches!(cause, LimitCause::VelocityLimit | LimitCause::EffortLimit) => None,
+        _ if 2 * differing <= joints.len() => None,
+        [true, false] => Some(UNIFORM),
+        [false, true] => Some(UNIFORM_THERE),
+        _ => None,
+    }
 }
 
 /// Marks two differences of one joint whose values have changed places: speed and effort as they are, the ends of the range with

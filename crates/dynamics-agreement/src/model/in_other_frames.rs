@@ -64,6 +64,19 @@ impl DynamicsModel {
         Self { frames: Arc::new(frames), ..self.clone() }
     }
 
+    /// The same masses with the centres of mass and the tensors of another description, at links that both give a mass.
+    #[must_use]
+    pub fn with_tensors_of(&self, other: &Self) -> Self {
+        let mut changed = self.clone();
+        for (place, inertial) in self.frames.links.iter().zip(&mut changed.inertials) {
+            let there = other.frames.find_link(&place.name).and_then(|there| other.inertials[there]);
+            if let (Some(own), Some(there)) = (inertial.as_mut(), there) {
+                *own = Inertial { mass_kg: own.mass_kg, ..there };
+            }
+        }
+        changed
+    }
+
     /// Replaces the inertials of a body by those of the same body of another description. Links that only the other one
     /// has are added.
     pub(crate) fn replace_body(&mut self, body: usize, other: &Self, other_body: usize) {

@@ -5,14 +5,18 @@ use congruent_input::display::{counted, limit_number, position};
 use super::{content::DynamicsReport, sentences::with_distinct_digits};
 use crate::differences::{
     LimitCause, LimitDifference,
-    limits::{DEGREES_DETAIL, EXCHANGED, FOUR_TURNS},
+    limits::{DEGREES_DETAIL, EXCHANGED, FOUR_TURNS, UNIFORM, UNIFORM_THERE},
 };
 
 impl LimitDifference {
     /// `elbow_joint: velocity limit is 10313 deg/s, expected 180 deg/s: in degrees?`.
     pub fn sentence(&self) -> String {
         let [found, expected] = self.values();
-        let remark = self.remark(|is_reference| match self.expected.filter(|_| is_reference) {
+        let uniform = |is_reference: bool| {
+            let found = if is_reference { "expected" } else { "found" };
+            format!(": the one {found} for all joints, a placeholder?")
+        };
+        let remark = self.remark(uniform, |is_reference| match self.expected.filter(|_| is_reference) {
             Some(expected) => format!(": is the expected {} in {}?", limit_number(expected), self.detail),
             None => format!(": in {}?", self.detail),
         });
@@ -30,7 +34,10 @@ impl LimitDifference {
         let written = self.expected_as_written.map_or_else(String::new, |written| {
             format!(" (written as {} in the variable there)", position(written, self.unit.symbol()))
         });
-        let remark = self.remark(|is_reference| {
+        let uniform = |is_reference: bool| {
+            format!(": {} has it for all joints, a placeholder?", files[usize::from(is_reference)])
+        };
+        let remark = self.remark(uniform, |is_reference| {
             // What is read as degrees, as the angles of an MJCF, is too small.
             let (at, unit) = if self.smaller_in_radians() {
                 (!is_reference, "radians")
@@ -58,11 +65,14 @@ impl LimitDifference {
         with_distinct_digits(self.found, self.expected, self.unit.symbol(), "not stated")
     }
 
-    /// What the values suggest: that they have changed places, or that the larger one is in another unit, which `in_unit` says
-    /// of the reference or of the candidate.
-    fn remark(&self, in_unit: impl Fn(bool) -> String) -> String {
+    /// What the values suggest: that they have changed places, or that one is for all joints or the larger one in another unit, which
+    /// `uniform` and `in_unit` say of the reference or of the candidate.
+    fn remark(&self, uniform: impl Fn(bool) -> String, in_unit: impl Fn(bool) -> String) -> String {
         match self.found.zip(self.expected) {
             _ if self.detail.is_empty() => String::new(),
+            _ if self.detail == UNIFORM || self.detail == UNIFORM_THERE => {
+                uniform(self.detail == UNIFORM_THERE)
+            }
             _ if self.detail == EXCHANGED => match self.cause {
                 LimitCause::PositionLimit => ": lower and upper are exchanged, with their signs".to_owned(),
                 _ => ": effort and velocity are exchanged".to_owned(),

@@ -8,7 +8,7 @@ use congruent_input::{ChangedLines, SourceFile, TextEdit, changed_lines, line_co
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::{
-    differences::{LimitDifference, ParameterDifference},
+    differences::{LimitDifference, ParameterDifference, limits::UNIFORM_THERE},
     model::Inertial,
     thresholds::{SAME_VALUE, ZERO_VALUE},
 };
@@ -84,8 +84,10 @@ impl ModelFiles<'_> {
             (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
         }
         let Some(file) = self.found else { return };
+        // A placeholder is no value to write.
         let set = |of: &LimitDifference| {
-            of.expected.map_or_else(Vec::new, |value| file.set_limit(&of.joint, &of.parameter, value))
+            let expected = of.expected.filter(|_| of.detail != UNIFORM_THERE);
+            expected.map_or_else(Vec::new, |value| file.set_limit(&of.joint, &of.parameter, value))
         };
         let edits: Vec<Vec<TextEdit>> = differences.iter().map(set).collect();
         let joints: Vec<String> = differences.iter().map(|of| of.joint.clone()).collect();

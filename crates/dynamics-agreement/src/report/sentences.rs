@@ -1,5 +1,7 @@
 //! The sentences of the report, for people.
 
+use std::fmt::Write;
+
 use congruent_input::display::{length, number, quantity, quantity_with_digits};
 use congruent_kinematics::UNRANGED_SLIDE_M;
 
@@ -8,7 +10,7 @@ use super::content::{
 };
 use crate::{
     bound::{CoveredMotion, TorqueBracket},
-    diagnosis::{DynamicsCause, FaultySide},
+    diagnosis::{DynamicsCause, FaultySide, MISSING_THERE},
     differences::{CandidateAndReference, Invariants, ParameterDifference},
     thresholds::{LARGEST_ACCELERATION, LARGEST_SPEED, MOST_JOINTS, Precision, SAME_VALUE},
 };
@@ -34,10 +36,20 @@ impl DynamicsExplanation {
     /// `forearm_link: the centre of mass is given in another unit (mm)`.
     pub fn sentence(&self) -> String {
         if self.cause == DynamicsCause::Several {
-            let parts = self.parts.iter().map(|part| {
-                format!("{}: {}", part.cause.at(&part.place), part.cause.with_detail(&part.detail))
-            });
-            return parts.collect::<Vec<String>>().join("; ");
+            let mut sentence = String::new();
+            let mut before = None;
+            for part in &self.parts {
+                let cause = part.cause.with_detail(&part.detail);
+                let place = part.cause.at(&part.place);
+                // Several causes of one link follow its name.
+                let _ = match before {
+                    None => write!(sentence, "{place}: {cause}"),
+                    Some(known) if known == place => write!(sentence, ", {cause}"),
+                    Some(_) => write!(sentence, "; {place}: {cause}"),
+                };
+                before = Some(place);
+            }
+            return sentence;
         }
         format!("{}: {}", self.cause.at(&self.place), self.cause.with_detail(&self.detail))
     }
@@ -56,10 +68,14 @@ impl DynamicsCause {
     /// `the centre of mass is given in another unit (mm)`.
     fn with_detail(self, detail: &str) -> String {
         match (self, detail) {
-            (_, "") => self.text().to_owned(),
+            // How many values a fit has set is seen in the list of them.
+            (_, "" | "same" | "each") => self.text().to_owned(),
             (Self::ComUnit, "m") => {
                 "the centre of mass is 1000 times too small: metres under com_mm, or metres divided by 1000"
                     .to_owned()
+            }
+            (Self::Rpy, MISSING_THERE) => {
+                "the other file lacks the rotation of the inertial frame".to_owned()
             }
             (Self::InertiaAboutOrigin, _) => {
                 "the parallel-axis term is subtracted from an inertia that is already about the centre of mass"
@@ -90,7 +106,8 @@ impl DynamicsCause {
         )
     }
 
-    fn is_of_joints(self) -> bool {
+    /// Whether the cause is one of losses or armatures of joints.
+    pub fn is_of_joints(self) -> bool {
         (Self::JointTermsMissing..=Self::Armature).contains(&self)
     }
 }

@@ -153,13 +153,13 @@ fn two_faults_are_named_together_and_more_link_by_link() {
         model.resistances[joint].damping = 0.7;
     });
     assert_eq!(report.verdict, DynamicsVerdict::Explained);
-    // By what each changes of the torques of its joints: the inertia by a factor, the wrist's torque by all of it.
+    // By what each changes of the torques, as a share of what the joints can exert: the mass of the forearm before that of a wrist.
     assert_eq!(
         causes(&report.explanations),
         [
             (DynamicsCause::InertiaUnit, "upper_arm_link"),
-            (DynamicsCause::ComSign, "wrist_2_link"),
             (DynamicsCause::Mass, "forearm_link"),
+            (DynamicsCause::ComSign, "wrist_2_link"),
             (DynamicsCause::Damping, "elbow_joint"),
         ]
     );

@@ -39,7 +39,7 @@ pub struct TypedNumber<'a> {
 /// it has the finest last place of the others, or as many digits as the longest of them, whichever is coarser, and is exact if
 /// there are no others. A zero has the finest last place, and is off by 5e-5 at most.
 /// Whole degrees are exact, too: they are design angles, not measurements. A quarter turn that is cut instead of rounded, as
-/// 1.57079, is off by up to a whole last place.
+/// 1.57079, is off by up to a whole last place, and 3.14158 by two.
 ///
 /// # Examples
 /// ```
@@ -142,8 +142,10 @@ fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Optio
         return None;
     }
     let half = half_of_place(last_place);
-    let is_cut = unit == Unit::Angle && units == UnitSystem::Si && is_cut_quarter_turn(text, half);
-    Some(if is_cut { 2.0 * half } else { half * one })
+    if (unit, units) == (Unit::Angle, UnitSystem::Si) {
+        return Some(half * halves_of_cut_quarter_turns(text, half).unwrap_or(1.0));
+    }
+    Some(half * one)
 }
 
 /// The unit of a typed number in m or rad, and the coarsest last place of one that is rounded.
@@ -156,13 +158,14 @@ fn places(unit: Unit, units: UnitSystem) -> (f64, i32) {
     }
 }
 
-/// Whether an angle in radians is a quarter turn that is cut behind its last digit instead of rounded, as 1.57079: then it may be
-/// off by a whole last place.
-fn is_cut_quarter_turn(text: &str, half: f64) -> bool {
-    let Ok(value) = text.parse::<f64>() else { return false };
-    let exact = (value / FRAC_PI_2).round() * FRAC_PI_2;
-    let missing = exact.abs() - value.abs();
-    half < missing && missing < 2.0 * half
+/// How many half places an angle in radians may be off, if it is a multiple of a quarter turn that is cut behind its last digit instead
+/// of rounded: a whole place for each quarter at most, since 3.14158 is twice 1.57079. `None` if it is not.
+fn halves_of_cut_quarter_turns(text: &str, half: f64) -> Option<f64> {
+    let value = text.parse::<f64>().ok()?;
+    let quarters = (value / FRAC_PI_2).round().abs();
+    let missing = quarters * FRAC_PI_2 - value.abs();
+    let places = (missing / (2.0 * half)).ceil();
+    (missing > half && places <= quarters).then_some(2.0 * places)
 }
 
 /// The digits of a typed number.
@@ -214,6 +217,8 @@ mod tests {
             (Unit::Angle, Si, "+1.57", 5e-3),
             (Unit::Angle, Si, "-1.57079", 1e-5),
             (Unit::Angle, Si, "3.1415", 1e-4),
+            (Unit::Angle, Si, "-3.14158", 2e-5),
+            (Unit::Angle, Si, "3.14157", 5e-6),
             (Unit::Angle, Si, "1.57069", 5e-6),
             (Unit::Angle, Si, "3", 0.0),
             (Unit::Angle, Engineering, "90.0", 0.0),

@@ -50,7 +50,12 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
 fn not_compared(text: &mut String, check: &RobotCheck, against: &OtherDescription) {
     if let Some(why) = &against.dynamics_not_compared {
         let has_poses = check.geometry.comparisons.iter().any(|of| of.name == SourcePair::UrdfOther);
-        let what = if has_poses { "dynamics" } else { "poses and dynamics" };
+        let has_masses = check.dynamics_of_descriptions().next().is_some();
+        let what = match (has_poses, has_masses) {
+            (true, true) => "centres of mass and inertias",
+            (true, false) => "dynamics",
+            (false, _) => "poses and dynamics",
+        };
         let _ = writeln!(text, "  not compared with the other description: {what}: {why}");
     }
     let joints = &against.joints_left_out;

@@ -8,13 +8,16 @@ const RED: u8 = 31;
 const YELLOW: u8 = 33;
 
 /// Words with their colours; of two with the same beginning the longer is first.
-const WORDS: [(&str, u8); 27] = [
+const WORDS: [(&str, u8); 30] = [
     ("SAME ROBOT", GREEN),
     ("SAME GEOMETRY, DIFFERENT DYNAMICS", RED),
     ("SAME GEOMETRY AND DYNAMICS, DIFFERENT JOINT LIMITS", RED),
     ("SAME DYNAMICS, DIFFERENT JOINT LIMITS", RED),
     ("SAME GEOMETRY, DYNAMICS NOT COMPARED", GREEN),
     ("SAME DYNAMICS, GEOMETRY NOT COMPARED", GREEN),
+    ("SAME GEOMETRY AFTER MAPPING", RED),
+    ("SAME GEOMETRY IN", RED),
+    ("EQUAL", RED),
     ("DIFFERENT DYNAMICS", RED),
     ("DIFFERENT JOINT LIMITS", RED),
     ("DIFFERENT JOINTS", RED),

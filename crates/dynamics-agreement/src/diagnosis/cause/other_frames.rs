@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 use super::common_mistake::CommonMistake;
 use crate::{
     diagnosis::{
-        cause_names::DynamicsCause,
+        cause_names::{DynamicsCause, MISSING_THERE},
         hypothesis::{Change, DynamicsHypothesis, DynamicsPlace, FaultySide},
     },
     model::{DynamicsModel, Frames, Inertial},
@@ -100,11 +100,15 @@ pub(super) fn rotation_of_reference(
     if is_of_entry || (written.link_from_axes - there.link_from_axes).amax() <= ZERO_VALUE {
         return None;
     }
-    let cause = if has_rotation(written) { DynamicsCause::Rpy } else { DynamicsCause::RpyMissing };
+    let (cause, detail) = match [written, there].map(has_rotation) {
+        [false, _] => (DynamicsCause::RpyMissing, ""),
+        [true, false] => (DynamicsCause::Rpy, MISSING_THERE),
+        [true, true] => (DynamicsCause::Rpy, ""),
+    };
     let turned = Inertial { link_from_axes: there.link_from_axes, ..*written };
     Some(DynamicsHypothesis::new(
         cause,
-        "",
+        detail,
         DynamicsPlace::Links(vec![link]),
         Change::Links(vec![(link, turned)]),
     ))
