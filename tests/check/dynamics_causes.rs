@@ -146,7 +146,7 @@ fn an_inertia_that_no_body_has_has_a_cause() {
 fn a_value_that_is_not_a_number_is_one_message() {
     let wrong = Wrong::new(&[(FOREARM_MASS, "<mass value=\"nan\"/>")]);
     let answer = congruent(&["check", &text(&wrong.urdf()), "--against", &text(&original())]);
-    assert_eq!(answer.code, 1);
+    assert_eq!(answer.code, 2);
     let expected =
         "ur5e.urdf:129: link \"forearm_link\": <mass> value = \"nan\": \"nan\" is not a finite number";
     assert!(answer.stdout.contains(expected), "{}", answer.stdout);

@@ -149,3 +149,31 @@ fn quiet_is_a_line_for_each_input() {
         lines[1]
     );
 }
+
+/// Two descriptions as two inputs are each checked alone: the hint is what was meant.
+#[test]
+fn two_inputs_without_against_are_answered_with_it() {
+    let [one, other] =
+        ["ur5e", "panda"].map(|name| text(&workspace().join(format!("robots/{name}/{name}.urdf"))));
+    let answer = congruent(&["check", &one, &other]);
+    assert_eq!(answer.code, 0);
+    let hint = format!("each was checked alone; to compare the two: congruent check {one} --against {other}");
+    assert!(answer.stderr.contains(&hint), "{}", answer.stderr);
+}
+
+/// A mass that is not a number is bad input, and no difference.
+#[test]
+fn a_mass_that_cannot_be_read_is_no_difference() {
+    let original = workspace().join("robots/ur5e/ur5e.urdf");
+    let urdf = fs::read_to_string(&original).unwrap();
+    let scratch = ScratchFolder::new();
+    let comma = scratch.write("comma.urdf", &urdf.replacen("\"8.058\"", "\"8,058\"", 1));
+    for pair in [[&comma, &text(&original)], [&text(&original), &comma]] {
+        let answer = congruent(&["check", "-q", pair[0], "--against", pair[1]]);
+        assert_eq!(answer.code, 2, "{}", answer.stdout);
+        assert!(
+            answer.stdout.contains("SAME GEOMETRY, DYNAMICS NOT READ: ")
+                && answer.stdout.contains("comma.urdf:76")
+        );
+    }
+}

@@ -169,11 +169,25 @@ pub(crate) fn with_groups_and_examples(command: Command) -> Command {
     })
 }
 
-/// The error about an unknown command with the one command that is most like it: `check` and not `schema` for `chek`.
+/// Commands of other programs, and the one of this program that answers the same question.
+const GUESSED: [(&[&str], &str); 7] = [
+    (&["diff", "test", "validate", "verify", "against"], "check"),
+    (&["pose", "poses", "forward", "kinematics", "fkine"], "fk"),
+    (&["inverse", "ikine", "solve"], "ik"),
+    (&["simulate", "sim", "play"], "run"),
+    (&["show", "display", "render", "open"], "view"),
+    (&["info", "summary", "print", "tree"], "describe"),
+    (&["export", "import", "derive-dh", "to-mjcf", "to-urdf"], "convert"),
+];
+
+/// The error about an unknown command with the one command that is most like it: `check` and not `schema` for `chek`; or with the one
+/// that other programs call so.
 pub(crate) fn with_nearest_command(mut error: Error, command: &Command) -> Error {
     let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) else { return error };
     let known = command.get_subcommands().map(Command::get_name);
-    if let Some(near) = nearest(unknown, known) {
+    let guessed =
+        GUESSED.iter().find(|(words, _)| words.contains(&unknown.as_str())).map(|(_, command)| *command);
+    if let Some(near) = guessed.or_else(|| nearest(unknown, known)) {
         let near = ContextValue::Strings(vec![near.to_owned()]);
         error.insert(ContextKind::SuggestedSubcommand, near);
     }

@@ -335,7 +335,7 @@ fn model_path(
     let (key, urdf) = diagnostics.keep(written.model().ok_or_else(|| {
         Diagnostic::error(codes::robot_file::URDF, "the robot file has no key \"urdf\"")
             .at(0..0)
-            .with_help("urdf = \"robot.urdf\", relative to the robot file; without a URDF a table ([dh]) or screws ([poe]) are the robot")
+            .with_help("urdf = \"robot.urdf\", or an MJCF (urdf = \"robot.xml\"), relative to the robot file; without one a table ([dh]) or screws ([poe]) are the robot")
     }))?;
     if let (Some(_), Some(description)) = (&written.urdf, &written.description) {
         let message = "the robot file has both keys \"urdf\" and \"description\", which are two names of one";

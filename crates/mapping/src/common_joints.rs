@@ -4,9 +4,14 @@ use congruent_description::{ChainEnd, JointIndex, LinkIndex, Robot, RobotDescrip
 
 /// The first moving joint that one of the two descriptions lacks, or that turns in one and slides in the other.
 pub fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
+    let moving_joints = [robot, other].map(|robot| robot.movable_joints().len());
+    let counts = match moving_joints {
+        [own, there] if own == there => String::new(),
+        [own, there] => format!(" ({own} joints move in this one, {there} in the other)"),
+    };
     let missing = |joint: &str, (of, lacks): (&str, &Robot)| match lacks.find_joint(joint) {
-        Some(_) => format!("joint \"{joint}\" does not move in {of}"),
-        None => format!("{of} has no joint \"{joint}\""),
+        Some(_) => format!("joint \"{joint}\" does not move in {of}{counts}"),
+        None => format!("{of} has no joint \"{joint}\"{counts}"),
     };
     for &index in robot.movable_joints() {
         let joint = robot.joint(index);

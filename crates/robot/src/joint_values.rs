@@ -34,6 +34,11 @@ impl JointValues {
         robot.movable_joint_names().map(str::to_owned).zip(values.iter().copied()).collect()
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Joints and values, base to tip.
     pub fn iter(&self) -> impl Iterator<Item = (&str, f64)> {
         self.0.iter().map(|(name, value)| (name.as_str(), *value))

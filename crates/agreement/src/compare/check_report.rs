@@ -59,6 +59,10 @@ pub struct WorstDifference {
     pub link: String,
     /// The configuration of the largest distance: every movable joint, rad or m.
     pub at: JointValues,
+    /// The positions there of joints that follow another one in one of two descriptions alone, rad or m: as the other description has
+    /// them.
+    #[serde(skip_serializing_if = "JointValues::is_empty")]
+    pub at_in_other: JointValues,
 }
 
 /// The comparison of two sources.

@@ -225,6 +225,7 @@ impl RunningComparison {
                 error: worst,
                 link: robot.links()[link].name.clone(),
                 at: JointValues::for_movable_joints(robot, &at(configuration)),
+                at_in_other: JointValues::default(),
             },
             links: links
                 .map(|((link, &source), worst)| LinkDifference {

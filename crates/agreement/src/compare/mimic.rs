@@ -2,7 +2,7 @@
 //! comparison of poses takes each joint for a driven one, which finds the faults of the chain itself; what follows is
 //! compared here.
 
-use congruent_description::{JointIndex, JointValues, Mimic, Robot, RobotDescription, RobotQ};
+use congruent_description::{Joint, JointIndex, JointValues, Mimic, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, Pose, PoseError, Uniform, UrdfTree, range, sample_configurations};
 
 use super::{
@@ -84,11 +84,16 @@ impl CheckReport {
         for comparison in self.comparisons.iter_mut().filter(|of| of.name == SourcePair::UrdfOther) {
             comparison.verdict = Agreement::Disagree;
             let furthest = differences.furthest.as_ref();
-            if let Some((link, q, error)) = furthest
+            if let Some((link, [own, other], error)) = furthest
                 && error.position_m >= comparison.worst.error.position_m
             {
-                comparison.worst.link.clone_from(&description.robot.links()[*link].name);
-                comparison.worst.at = JointValues::for_movable_joints(&description.robot, q);
+                let robot = &description.robot;
+                comparison.worst.link.clone_from(&robot.links()[*link].name);
+                comparison.worst.at = JointValues::for_movable_joints(robot, own);
+                let values = robot.movable_joint_names().zip(own.iter().zip(other.iter()));
+                let elsewhere = values.filter(|(_, (own, other))| own.total_cmp(other).is_ne());
+                comparison.worst.at_in_other =
+                    elsewhere.map(|(name, (_, other))| (name.to_owned(), *other)).collect();
             }
             for (link, error) in comparison.links.iter_mut().zip(&differences.links) {
                 link.error = link.error.larger(*error);
@@ -170,8 +175,8 @@ struct MimicDifferences<'a> {
     other_links: Vec<Pose>,
     /// The worst at each link.
     links: Vec<PoseError>,
-    /// The link that is furthest, where, and by how much.
-    furthest: Option<(usize, RobotQ, PoseError)>,
+    /// The link that is furthest, where by both, and by how much.
+    furthest: Option<(usize, [RobotQ; 2], PoseError)>,
 }
 
 impl<'a> MimicDifferences<'a> {
@@ -191,7 +196,13 @@ impl<'a> MimicDifferences<'a> {
 
     /// A configuration of this description and of the other: a joint that one of them drives is anywhere in its range.
     fn both(&self, q: &RobotQ, random: &mut Uniform) -> [RobotQ; 2] {
-        let mut driven = q.clone();
+        // Zero and the steps from it may be outside of the ranges.
+        let joints = self.robot.movable_joints().iter().map(|&joint| self.robot.joint(joint));
+        let within = |(joint, q): (&Joint, &f64)| {
+            let (lower, upper) = range(joint);
+            q.max(lower).min(upper)
+        };
+        let mut driven: RobotQ = joints.zip(q.iter()).map(within).collect();
         for joint in self.joints.iter().filter(|joint| joint.relations.iter().any(Option::is_none)) {
             let index = self.robot.movable_joints()[joint.coordinate];
             let (lower, upper) = range(self.robot.joint(index));
@@ -227,7 +238,7 @@ impl<'a> MimicDifferences<'a> {
             here = here.larger(error);
             self.links[link] = self.links[link].larger(error);
             if self.furthest.as_ref().is_none_or(|(.., most)| error.position_m > most.position_m) {
-                self.furthest = Some((link, own.clone(), error));
+                self.furthest = Some((link, [own.clone(), other.clone()], error));
             }
         }
         Ok(here)

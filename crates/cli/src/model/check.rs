@@ -21,16 +21,16 @@ use serde::{Serialize, Serializer};
 use super::{
     errors_at::chart,
     fixed_table::{FixArgument, fix},
+    split_values::split_values,
 };
 use crate::{
     batch::{Answer, Batch, BatchReport, TextParts},
     ci::CiArguments,
     codes,
-    failure::{FAILED, Failure, NOTHING},
+    failure::{BAD_INPUT, FAILED, Failure, NOTHING},
     input::{AccessArguments, ChainArguments, files_of, seed},
     invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
-    quantity::QuantityArgument,
     terminal::{
         print::{Format, Printer, text_options},
         progress::waiting,
@@ -126,6 +126,7 @@ impl BatchReport for Checked {
             Agreement::Agree if self.decisive().fails_by_lint() => FAILED,
             Agreement::Agree if self.decisive().fails_without_second() => NOTHING,
             Agreement::Agree => 0,
+            Agreement::Disagree if self.decisive().is_unreadable() => BAD_INPUT,
             Agreement::Disagree => FAILED,
             Agreement::NothingCompared => NOTHING,
         }
@@ -161,7 +162,7 @@ impl Checked {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     one_plot(arguments)?;
-    split_values(arguments)?;
+    split_values(&arguments.robots, &arguments.against, arguments.tolerance)?;
     refuse_same(arguments.ci.outputs().chain(arguments.page.output()).chain(arguments.plot.output()))?;
     if arguments.table && arguments.configurations.is_none() {
         let error =
@@ -185,6 +186,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         // The file is corrected once, whatever it is compared with afterwards.
         answers.extend((1..others).map(|at| batch.answer(path, || compared(path, at, arguments, &batch))));
     }
+    if let Some(hint) = two_alone(&answers, arguments) {
+        printer.notes([&hint[..]]);
+    }
     let plotted = answers.iter().try_for_each(|answer| draw(answer, arguments, &batch));
     let written = arguments.page.write(|| page(&answers), &batch.read()).and(plotted);
     if answers.is_empty() {
@@ -192,6 +196,17 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         printer.result(&[(); 0], |_| "nothing to check: no robot has changed\n".to_owned())?;
     }
     batch.finish_with_page(answers, written)
+}
+
+/// Two descriptions without a second one of either, each checked alone: what compares them.
+fn two_alone(answers: &[Answer<Checked>], arguments: &Arguments) -> Option<String> {
+    let [first, second] = answers else { return None };
+    let is_alone = |of: &Answer<Checked>| of.report().is_ok_and(|of| of.report.lacks_second_description());
+    let [a, b] = &arguments.robots[..] else { return None };
+    (is_alone(first) && is_alone(second)).then(|| {
+        let [a, b] = [a, b].map(|path| visible_path(path));
+        format!("each was checked alone; to compare the two: congruent check {a} --against {b}")
+    })
 }
 
 /// The errors at each configuration, if they were computed and the plot is wanted.
@@ -209,28 +224,6 @@ fn entry(answer: &Answer<Checked>) -> CheckEntry<'_> {
     let result = answer.report();
     let result = result.map(|of| checked_robot(&of.report, &of.description, of.other.as_ref()));
     CheckEntry { input: answer.input(), result }
-}
-
-/// Refuses the second half of a value that is written with a space, in place of a robot: of a tolerance, or of `git:REV`.
-fn split_values(arguments: &Arguments) -> Result<(), Diagnostic> {
-    let is_git = |path: &&PathBuf| path.as_os_str() == "git" && !path.exists();
-    if let Some(git) = arguments.against.iter().find(is_git) {
-        let revision = arguments.robots.iter().find(|path| !path.exists());
-        let revision = revision.map_or_else(|| "REV".into(), |path| path.display().to_string());
-        return Err(Diagnostic::error(NOT_FOUND, absence(git))
-            .with_help(format!("a colon and no space before the revision: --against git:{revision}")));
-    }
-    let has_unit = |path: &&PathBuf| {
-        let found = path.to_str().and_then(|text| QuantityArgument::parse(text).ok());
-        found.is_some_and(|of| of.dimension.is_some()) && !path.exists()
-    };
-    let misplaced = arguments.tolerance.and(arguments.robots.iter().find(has_unit));
-    misplaced.map_or(Ok(()), |part| {
-        Err(Diagnostic::error(NOT_FOUND, absence(part)).with_help(format!(
-            "a comma joins both parts of a tolerance, without a space: --tolerance 1mm,{}",
-            part.display()
-        )))
-    })
 }
 
 /// A plot is of one robot, at configurations.

@@ -7,4 +7,5 @@ pub(crate) mod describe;
 mod errors_at;
 mod fixed_table;
 pub(crate) mod lint;
+mod split_values;
 mod written_model;

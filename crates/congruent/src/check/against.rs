@@ -35,6 +35,9 @@ pub struct OtherDescription {
     /// Why the two dynamics are not compared, or no more than masses, losses and limits, with the first joint that differs; `null` if
     /// they are.
     pub dynamics_not_compared: Option<String>,
+    /// Whether they are not compared because a value of masses or losses cannot be read.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_unreadable: bool,
     /// If one of the two is a table or screws, without dynamics to compare: the joints whose ranges both state and that
     /// differ.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -88,6 +91,7 @@ impl OtherDescription {
             file: other.path.display().to_string(),
             robot: other.name.clone(),
             dynamics_not_compared: other_joint.or_else(|| missing_tip(description, &other.robot, poses)),
+            is_unreadable: false,
             ranges_differ: None,
             links_in_other_frames: Vec::new(),
             joints_left_out: Vec::new(),
@@ -168,7 +172,8 @@ fn dynamics_of(
         return None;
     }
     against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_value);
-    if against.dynamics_not_compared.is_some() {
+    against.is_unreadable = against.dynamics_not_compared.is_some();
+    if against.is_unreadable {
         return None;
     }
     let ([found, mut expected], armature_of) = compared_models([description, other], &tolerance);

@@ -319,7 +319,9 @@ fn after_mapping(check: &RobotCheck) -> Option<Headline> {
             format!("; torques differ: {}{}", check.cause_of_torques(report), check.other_limits(report)),
         ),
     };
-    let details = format!(": {joints}; in the same variables {worst}{differ}. {declare}");
+    // A question has its mark already.
+    let stop = if differ.ends_with('?') { "" } else { "." };
+    let details = format!(": {joints}; in the same variables {worst}{differ}{stop} {declare}");
     Some(Headline::new(answer, details))
 }
 
@@ -329,7 +331,8 @@ fn different_dynamics(check: &RobotCheck) -> Headline {
     let same = if has_geometry { "SAME GEOMETRY, " } else { "" };
     let not_compared = check.against.as_ref().and_then(|of| of.dynamics_not_compared.as_ref());
     if let Some(why) = not_compared {
-        return Headline::new(format!("{same}DIFFERENT DYNAMICS"), format!(": {why}"));
+        let answer = if check.is_unreadable() { "DYNAMICS NOT READ" } else { "DIFFERENT DYNAMICS" };
+        return Headline::new(format!("{same}{answer}"), format!(": {why}"));
     }
     if let Some(ranges) = check.against.as_ref().and_then(|of| of.ranges_differ.as_ref()) {
         return Headline::new(format!("{same}DIFFERENT JOINT LIMITS"), format!(": {ranges}"));

@@ -2,6 +2,7 @@
 
 use congruent_input::display::{angle, counted, length, listed};
 
+use super::cause_in_words::place;
 use super::reported_mapping::{ReportedEnd, ReportedJoint, ReportedMapping};
 
 /// What differs in joints, in words: `2 of 6 joints have other zeros (joint_2, joint_3)`.
@@ -63,7 +64,7 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
 /// The line of the axis, or of the origin, of a joint with another variable.
 fn line_of(mapping: &ReportedMapping, joint: &str) -> String {
     let line = mapping.joints.iter().find(|of| of.joint == joint).and_then(|of| of.line);
-    line.map_or_else(String::new, |line| format!(" (line {line})"))
+    place(mapping.file.as_deref(), line)
 }
 
 /// Lengths along the axes of last joints that are not compared, in words.

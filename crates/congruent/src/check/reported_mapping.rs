@@ -21,6 +21,9 @@ pub(super) const LEAST_ZERO_RAD: f64 = 0.087;
 pub struct ReportedMapping {
     /// How the joints were found to be the same.
     pub matched_by: MatchedBy,
+    /// The URDF of this robot, in which the lines of joints are; missing if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// The joints that both have, in the order of this robot.
     pub joints: Vec<ReportedJoint>,
     /// Moving joints of this robot that do not move in the other: they are not compared, and neither is what they carry; those
@@ -123,6 +126,7 @@ impl ReportedMapping {
         let root_from_other_root = (!is_same).then(|| ReportedPose::from(&root));
         Self {
             matched_by: found.matched_by,
+            file: description.places.urdf.as_ref().map(|urdf| urdf.source().path.display().to_string()),
             lines: lines(&joints, [&left_out, &other_left_out], root_from_other_root.as_ref()),
             joints,
             left_out,

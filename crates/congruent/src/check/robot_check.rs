@@ -99,6 +99,12 @@ impl RobotCheck {
         self.lint.is_strict && self.geometry.verdict == Agreement::Agree && self.lacks_second_description()
     }
 
+    /// Whether nothing else differs than that masses or losses of one description cannot be read.
+    pub fn is_unreadable(&self) -> bool {
+        let is_unreadable = self.against.as_ref().is_some_and(|against| against.is_unreadable);
+        is_unreadable && !self.geometry.poses_disagree()
+    }
+
     /// The other description with the reason why nothing of the two was compared: they have other joints.
     pub(super) fn other_chain(&self) -> Option<(&OtherDescription, &str)> {
         let against = self.against.as_ref()?;

@@ -84,9 +84,9 @@ pub(super) fn with_other(
         let reading = PairReading::simpler([geometry, &mapped], &in_variables, &pair.report);
         if reading != PairReading::AsWritten {
             (against, dynamics) = (in_variables, found);
+            against.mapping = against.mapping.map(|mapping| mapping.with_difference_as_written(geometry));
         }
         if reading == PairReading::Mapped {
-            against.mapping = against.mapping.map(|mapping| mapping.with_difference_as_written(geometry));
             *geometry = mapped;
             (own, there, own_options) = (pair.description, pair.other, pair.options);
         }
@@ -133,6 +133,7 @@ fn in_same_variables(
     let (mapped, dynamics) = compared(geometry, &pair.description, &mut pair.other, &pair.options)?;
     against.mapping = Some(ReportedMapping::with_worst(pair.report.clone(), geometry));
     against.dynamics_not_compared = mapped.dynamics_not_compared;
+    against.is_unreadable = mapped.is_unreadable;
     against.links_in_other_frames = mapped.links_in_other_frames;
     against.fused_links = mapped.fused_links;
     against.values_within_digits = mapped.values_within_digits;

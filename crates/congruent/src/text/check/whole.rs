@@ -292,6 +292,10 @@ fn certified(text: &mut String, report: &CheckReport, robot: &Robot, options: &T
     let Some(Brackets { position_m, orientation_rad }) = &report.certificate_bracket else {
         let _ = writeln!(text, "  largest difference at link {}, at", report.worst.link);
         *text += &wrapped(&report.worst.at.for_people(robot));
+        if !report.worst.at_in_other.is_empty() {
+            let _ =
+                writeln!(text, "    and in the other file {}", report.worst.at_in_other.for_people(robot));
+        }
         return;
     };
     let mut line = |what: &str, bracket: &ReportedBracket, most: f64, shown: fn(f64) -> String| {
