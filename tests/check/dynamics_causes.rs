@@ -285,3 +285,24 @@ fn a_rotation_that_the_other_file_lacks_is_said_to_be_missing_there() {
     let line = congruent(&["check", "-q", &text(&original()), "--against", &text(&wrong.urdf())]).stdout;
     assert!(line.contains("the other file lacks the rotation of the inertial frame"), "{line}");
 }
+
+/// Two links with each other's mass are one mistake, whatever else differs.
+#[test]
+fn exchanged_masses_are_one_cause() {
+    let mass = |mass: &str| format!("<mass value=\"{mass}\"/>");
+    let urdf = fs::read_to_string(original()).unwrap();
+    let urdf = urdf
+        .replace(&mass("8.058"), "THIS")
+        .replace(FOREARM_MASS, &mass("8.058"))
+        .replace("THIS", FOREARM_MASS);
+    for (also, causes) in [("3.761", 1), ("3.9", 2)] {
+        let wrong = Wrong::new(&[]);
+        fs::write(wrong.urdf(), urdf.replace(&mass("3.761"), &mass(also))).unwrap();
+        let line = congruent(&["check", "-q", &text(&wrong.urdf()), "--against", &text(&original())]).stdout;
+        assert!(
+            line.contains("upper_arm_link, forearm_link: the masses of two links are exchanged"),
+            "{line}"
+        );
+        assert_eq!(line.contains("shoulder_link: the mass is off"), causes == 2, "{line}");
+    }
+}

@@ -40,7 +40,7 @@ impl RobotCheck {
             None => value.sentence(),
         };
         let of_named = format!("{}: ", value.of);
-        let is_named = explanation.place.contains(&value.of);
+        let is_named = explanation.place == [value.of.clone()];
         Some(sentence.strip_prefix(&of_named).filter(|_| is_named).map(str::to_owned).unwrap_or(sentence))
     }
 

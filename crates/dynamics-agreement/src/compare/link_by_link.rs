@@ -8,7 +8,7 @@ use crate::{
         DiagnosisInput, ExactExplanation, ExplanationGroup, ReferenceTorques, diagnose_in_stages,
         is_same_body, part_by_part, term_by_term,
     },
-    model::DynamicsModel,
+    model::{DynamicsModel, Inertial},
     report::{content::DynamicsExplanation, explained::ExplanationContext, places::ModelFiles},
     thresholds::COMPLEXITY_PER_PART,
     torque::{
@@ -159,8 +159,8 @@ fn one_by_one(
     (whole, corrected)
 }
 
-/// The same with two links as one if each has the right parameters of the other: one by one, both would be wrong in every
-/// parameter, and what they are by mistake would be lost.
+/// The same with two links as one if each has the right parameters, or the right mass, of the other: one by one, both would be
+/// wrong by themselves, and what they are by mistake would be lost.
 fn with_exchanges(
     model: &DynamicsModel,
     corrected: Vec<(DynamicsModel, Option<usize>)>,
@@ -170,14 +170,13 @@ fn with_exchanges(
         let right = |of: &DynamicsModel, link: usize| of.inertials[link];
         let is_exchanged = |link: usize, (other, at): &(DynamicsModel, Option<usize>)| {
             at.is_some_and(|at| {
-                let pairs =
-                    [(right(&one, link), model.inertials[at]), (right(other, at), model.inertials[link])];
-                pairs.iter().all(|(right, written)| {
-                    right
-                        .as_ref()
-                        .zip(written.as_ref())
-                        .is_some_and(|(right, written)| is_same_body(right, written))
-                })
+                let all = [right(&one, link), right(other, at), model.inertials[link], model.inertials[at]];
+                let [Some(right), Some(other_right), Some(written), Some(other)] = all else { return false };
+                let has_mass_of = |right: &Inertial, own: &Inertial, other: &Inertial| {
+                    is_same_body(right, &Inertial { mass_kg: other.mass_kg, ..*own })
+                };
+                (is_same_body(&right, &other) && is_same_body(&other_right, &written))
+                    || (has_mass_of(&right, &written, &other) && has_mass_of(&other_right, &other, &written))
             })
         };
         let partner = link.and_then(|link| merged.iter().position(|other| is_exchanged(link, other)));
@@ -221,7 +220,10 @@ fn alone(
     let by_parts = by_parts.map(ExactExplanation::alone);
     let whole = found.explanations.into_iter().next();
     let best = whole.into_iter().chain(by_parts).min_by(|a, b| {
-        let of = |grouped: &ExplanationGroup| (grouped.named.contradicted, grouped.named.complexity);
+        let of = |ExplanationGroup { named, .. }: &ExplanationGroup| {
+            let is_other = !named.gives_values_of(one, setting.candidate);
+            ((named.contradicted, is_other), named.complexity)
+        };
         let (a, b) = (of(a), of(b));
         a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
     });

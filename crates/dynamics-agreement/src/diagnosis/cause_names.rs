@@ -101,6 +101,7 @@ causes! {
     InertiaAxes = "inertia_axes", "the inertia is given in the axes of another frame", LINK_FRAME;
     CountedTwice = "counted_twice", "the inertia of one link is counted twice: that of the other link contains it", WHOLE_LINKS;
     InertialsSwapped = "inertials_swapped", "the inertias of two links are exchanged", WHOLE_LINKS;
+    MassesSwapped = "masses_swapped", "the masses of two links are exchanged", WHOLE_LINKS;
     InertialLeftOut = "inertial_left_out", "the inertia of a link is left out", MISSING;
     PrincipalAxesMissing = "principal_axes_missing", "principal moments are given without their axes", INERTIAL_AXES;
     InertiaRotation = "inertia_rotation", "the inertia has the right principal moments and wrong axes", INERTIAL_AXES;

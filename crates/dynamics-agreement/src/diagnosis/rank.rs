@@ -82,6 +82,18 @@ impl ExactExplanation {
         })
     }
 
+    /// Whether the masses, centres of mass and tensors that it changes become those of `right`, up to the digits of a file: torques alone
+    /// do not show which of several values is written there.
+    pub(crate) fn gives_values_of(&self, right: &DynamicsModel, model: &DynamicsModel) -> bool {
+        self.corrected.links.iter().all(|(link, corrected)| {
+            let right = right.inertials[*link].unwrap_or_else(Inertial::nothing);
+            let written = model.inertials[*link].unwrap_or_else(Inertial::nothing);
+            let LinkDifferences(changed) = LinkDifferences::between(&written, corrected);
+            let LinkDifferences(wrong) = LinkDifferences::above(FILE_DIGITS, corrected, &right);
+            changed.into_iter().zip(wrong).all(|(changed, wrong)| !(changed && wrong))
+        })
+    }
+
     /// Number of identifiable free parameters, those that the file lacks included.
     pub(super) fn free_numbers(&self) -> usize {
         self.parts.iter().map(|part| part.rank).sum()

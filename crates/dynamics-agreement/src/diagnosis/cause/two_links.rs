@@ -32,6 +32,10 @@ pub(super) fn pairs(model: &DynamicsModel, faulty: FaultySide) -> Vec<DynamicsHy
             // An exchange is the same in both orders; what is counted twice is not.
             if first < second {
                 hypotheses.push(pair(DynamicsCause::InertialsSwapped, vec![(first, *b), (second, *a)]));
+                let with_mass_of =
+                    |own: &Inertial, other: &Inertial| Inertial { mass_kg: other.mass_kg, ..*own };
+                let swapped = vec![(first, with_mass_of(a, b)), (second, with_mass_of(b, a))];
+                hypotheses.push(pair(DynamicsCause::MassesSwapped, swapped));
             }
             if first != second && carries(&model.frames, first, second) {
                 let both = with_other(&model.frames, faulty, [(first, a), (second, b)]);
