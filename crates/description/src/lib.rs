@@ -12,6 +12,7 @@ mod mjcf;
 mod model_file;
 mod named_robot;
 mod own_model;
+mod parameter_places;
 mod revision;
 mod robot_file;
 mod srdf;
@@ -24,16 +25,17 @@ pub use changed::{ChangedRobots, robots_of_changed};
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
 pub use congruent_robot::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
-    Geometry, Inertia, InertiaRounding, Joint, JointIndex, JointKind, JointLimit, JointParts, JointRounding,
-    JointValueRounding, JointValues, Link, LinkIndex, MappedJoint, Mimic, Obstacle, PlacedAxis,
-    RequestedTolerance, Robot, RobotError, RobotQ, RobotQList, SPEED_MARGIN, Shape, SmallMotion, Tolerance,
-    principal_moments,
+    Geometry, Inertia, InertiaRounding, Joint, JointIndex, JointKind, JointLimit, JointParts,
+    JointResistance, JointRounding, JointValueRounding, JointValues, Link, LinkIndex, MappedJoint, Mimic,
+    Obstacle, PlacedAxis, RequestedTolerance, Robot, RobotError, RobotQ, RobotQList, SPEED_MARGIN, Shape,
+    SmallMotion, Tolerance, principal_moments,
 };
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
 pub use mjcf::is_mjcf;
 pub use named_robot::{file_of_robot, open};
 pub use own_model::{OwnModelForm, OwnModelPlaces};
+pub use parameter_places::{ParameterPlace, ParameterPlaces};
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DeclaredMapping, DeclaredReference, DeclaredVariable,
     DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey, TableDigits,

@@ -1,6 +1,6 @@
 //! A robot as rigid bodies that joints move relative to each other, prepared for the algorithms.
 
-use congruent_description::{Joint, JointKind, LinkIndex, Robot, RobotQ};
+use congruent_description::{JointKind, JointResistance, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{Pose, Twist, frame_about, rotation_exp};
 use nalgebra::{Matrix3, Vector3};
 
@@ -12,25 +12,6 @@ use crate::{
 
 /// Gravity in the root link unless another is chosen, in m/s^2.
 pub const GRAVITY_M_S2: [f64; 3] = [0.0, 0.0, -9.81];
-
-/// The resistance of a joint itself: damping, dry friction and armature.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct JointResistance {
-    /// Viscous damping, N m s/rad or N s/m.
-    pub damping: f64,
-    /// Dry friction against the motion, N m or N; zero at rest.
-    pub friction: f64,
-    /// Inertia of motor and gear as the joint feels it, kg m^2 or kg.
-    pub armature: f64,
-}
-
-impl From<&Joint> for JointResistance {
-    /// The values of a description; an armature that it does not state counts as zero.
-    fn from(joint: &Joint) -> Self {
-        let armature = joint.armature.unwrap_or(0.0);
-        Self { damping: joint.damping, friction: joint.friction, armature }
-    }
-}
 
 /// A robot as a tree of rigid bodies: each moving joint carries one, the links that fixed joints hold together.
 ///

@@ -8,7 +8,7 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::{
     algebra::columns::PaddedVector,
     algebra::rigid::{BodyMotion, BodyTwist},
-    body_tree::{BodyTree, JointMotionState, JointResistance},
+    body_tree::{BodyTree, JointMotionState},
     buffer::{BodyValues, DynamicsBuffer},
     error::DynamicsError,
 };
@@ -174,15 +174,5 @@ impl WithSimd for NewtonEuler<'_> {
                 values.wrench = values.wrench.plus(carried);
             }
         }
-    }
-}
-
-impl JointResistance {
-    /// Torque of damping and dry friction against a speed, N m or N.
-    #[inline]
-    pub(crate) fn against_speed(&self, qd: f64) -> f64 {
-        // `signum` of zero is one, but there is no friction at rest.
-        let direction = if qd == 0.0 { 0.0 } else { qd.signum() };
-        self.damping * qd + self.friction * direction
     }
 }

@@ -28,8 +28,9 @@ mod parameters;
 mod rollout;
 mod spatial_inertia;
 
-pub use body_tree::{BodyTree, GRAVITY_M_S2, JointMotionState, JointResistance};
+pub use body_tree::{BodyTree, GRAVITY_M_S2, JointMotionState};
 pub use buffer::DynamicsBuffer;
+pub use congruent_description::JointResistance;
 pub use energy::Energy;
 pub use error::DynamicsError;
 pub use forward::DrivenState;

@@ -1,14 +1,14 @@
 //! The URDF against the `[[inertial]]` entries of the robot file: a vendor's masses, in link frames or DH frames.
 
-use std::ops::Range;
+use std::sync::Arc;
 
 use congruent_description::{
-    DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, Robot, RobotDescription,
+    DeclaredInertial, DynamicsTable, Inertia, InertialFrame, InertialPlaces, InertialPoint, JointResistance,
+    ParameterPlace, ParameterPlaces, Robot, RobotDescription,
 };
-use congruent_dynamics::JointResistance;
 use congruent_dynamics_agreement::{
     CompareError, DynamicsCause, DynamicsExplanation, DynamicsModel, DynamicsReport, Inertial, NamedModel,
-    ParameterDifference, ParameterPlaces, compare,
+    ParameterDifference, compare,
 };
 use congruent_input::{SourceFile, TextEdit};
 use congruent_kinematics::Pose;
@@ -291,16 +291,21 @@ impl DeclaredPlaces<'_> {
 }
 
 impl ParameterPlaces for DeclaredPlaces<'_> {
-    fn source(&self) -> &SourceFile {
+    fn source(&self) -> &Arc<SourceFile> {
         self.places.source()
     }
 
-    fn parameter(&self, of: &str, parameter: &str) -> Option<Range<usize>> {
-        if of.is_empty() { self.places.gravity() } else { self.places.parameter(self.entry(of)?, parameter) }
+    fn parameter(&self, of: &str, parameter: &str) -> Option<ParameterPlace> {
+        let span = match of {
+            "" => self.places.gravity(),
+            _ => self.places.parameter(self.entry(of)?, parameter),
+        };
+        Some(ParameterPlace { source: Arc::clone(self.places.source()), span: span? })
     }
 
-    fn set_inertial(&self, link: &str, parameters: &Inertial) -> Vec<TextEdit> {
+    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Vec<TextEdit> {
         let Some(entry) = self.entry(link) else { return Vec::new() };
+        let parameters = &Inertial::from(inertia);
         let body = &self.bodies[entry];
         let written = body.written();
         let new = match self.parameters {

@@ -2,9 +2,9 @@
 
 use std::{ops::Range, sync::Arc};
 
-use congruent_description::{RobotDescription, RobotQ};
+use congruent_description::{ParameterPlaces, RobotDescription, RobotQ};
 use congruent_dynamics_agreement::{
-    CompareError, DynamicsModel, DynamicsReport, Frames, NamedModel, ParameterPlaces, certify, compare,
+    CompareError, DynamicsModel, DynamicsReport, Frames, NamedModel, certify, compare,
 };
 use congruent_input::{Diagnostic, line_column};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};

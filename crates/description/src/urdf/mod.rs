@@ -21,6 +21,7 @@ mod joint;
 mod large;
 mod link;
 pub mod node;
+mod parameters;
 mod places;
 mod pose;
 mod shape;

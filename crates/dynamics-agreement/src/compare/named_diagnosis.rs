@@ -1,5 +1,6 @@
 //! A diagnosis whose links, joints and parameters are named, for the report.
 
+use congruent_description::ParameterPlaces;
 use congruent_dynamics::DynamicsError;
 
 use crate::{
@@ -8,7 +9,7 @@ use crate::{
     report::{
         content::{DynamicsExplanation, DynamicsVerdict, PlacedCause},
         explained::ExplanationContext,
-        places::{ModelFiles, ParameterPlaces},
+        places::ModelFiles,
     },
     torque::reduced_difference::ReducedTorqueDifference,
 };

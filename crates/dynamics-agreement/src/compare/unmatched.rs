@@ -1,7 +1,5 @@
 //! Links that only one of two descriptions has, such as a camera on a bracket: their mass is missing in the other one.
 
-use congruent_input::line_column;
-
 use crate::{
     diagnosis::DynamicsCause,
     differences::parameters,
@@ -80,8 +78,8 @@ impl<'a> Unmatched<'a> {
     pub(super) fn explanations(&self, files: ModelFiles<'_>) -> Vec<DynamicsExplanation> {
         let added = self.added.iter().map(|&link| {
             let name = self.candidate.frames.link_name(link);
-            let nothing = Inertial::nothing();
-            let edits = files.found.map(|file| file.lines(&file.set_inertial(name, &nothing)));
+            let nothing = Inertial::nothing().to_inertia();
+            let edits = files.found.map(|file| file.changed_lines(&file.set_inertial(name, &nothing)));
             let explanation = explanation(
                 DynamicsCause::LinkAdded,
                 name,
@@ -101,16 +99,16 @@ impl<'a> Unmatched<'a> {
             let found = self.reference.inertials[link].as_ref();
             let explanation = explanation(DynamicsCause::LinkMissing, name, [None, found], files);
             let there = files.expected.map_or_else(String::new, |file| {
-                let line = file.parameter(name, "mass").map(|at| line_column(&file.source().text, at.start).0);
-                let line = line.map_or_else(String::new, |line| format!(":{line}"));
-                format!(", {}{line}", file.source().path.display())
+                let place = file.parameter(name, "mass");
+                let place = place.map_or_else(|| file.source().path.display().to_string(), |at| at.to_string());
+                format!(", {place}")
             });
             let suggestion = format!(
                 "add link {name} with its fixed joint as in the other description{there}, or add its mass to the \
                  link that carries it"
             );
             let text = files.expected.and_then(|file| file.link_text(name));
-            let edits = files.found.zip(text).map(|(file, text)| file.lines(&file.add_link(&text)));
+            let edits = files.found.zip(text).map(|(file, text)| file.changed_lines(&file.add_link(&text)));
             let changes = edits.unwrap_or_default();
             // The candidate has no line of this link: the place where it would be inserted stands for it.
             let line = changes.first().map(|lines| lines.from_line);

@@ -2,7 +2,7 @@
 
 use congruent_description::{Inertia, principal_moments};
 use congruent_dynamics::{PARAMETERS, SpatialInertia};
-use nalgebra::{Matrix3, SVector, Vector3};
+use nalgebra::{Isometry3, Matrix3, Rotation3, SVector, Translation3, UnitQuaternion, Vector3};
 
 /// The ten inertial parameters of a link about its origin, in the order of [`SpatialInertia::parameters`].
 pub(crate) type TenNumbers = SVector<f64, PARAMETERS>;
@@ -35,6 +35,19 @@ impl Inertial {
             com_m: Vector3::zeros(),
             link_from_axes: Matrix3::identity(),
             tensor_kg_m2: Matrix3::zeros(),
+        }
+    }
+
+    /// The same as an inertia of a link.
+    pub(crate) fn to_inertia(self) -> Inertia {
+        let rotation = Rotation3::from_matrix_unchecked(self.link_from_axes);
+        Inertia {
+            mass_kg: self.mass_kg,
+            link_from_inertial: Isometry3::from_parts(
+                Translation3::from(self.com_m),
+                UnitQuaternion::from_rotation_matrix(&rotation),
+            ),
+            tensor_kg_m2: self.tensor_kg_m2,
         }
     }
 

@@ -237,7 +237,7 @@ impl ExplanationContext<'_> {
         let model = self.candidate;
         let mut edits: Vec<TextEdit> = Vec::new();
         for (link, parameters) in corrected.links.iter().filter(|(_, of)| *of != Inertial::nothing()) {
-            edits.extend(file.set_inertial(model.frames.link_name(*link), parameters));
+            edits.extend(file.set_inertial(model.frames.link_name(*link), &parameters.to_inertia()));
         }
         for (joint, terms) in corrected.joints.iter().flatten().enumerate() {
             if *terms != model.resistances[joint] {
@@ -245,6 +245,6 @@ impl ExplanationContext<'_> {
             }
         }
         edits.extend(corrected.gravity.iter().flat_map(|gravity| file.set_gravity(gravity)));
-        file.lines(&edits)
+        file.changed_lines(&edits)
     }
 }

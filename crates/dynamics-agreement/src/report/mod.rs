@@ -11,4 +11,3 @@ pub use content::{
     ComparedModels, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PlacedCause,
     TorqueCertificates,
 };
-pub use places::ParameterPlaces;

@@ -1,0 +1,79 @@
+//! Places of parameters in a file, and the edits that change them: the same questions to a URDF, an MJCF and a robot file.
+
+use std::{
+    fmt::{self, Debug},
+    ops::Range,
+    sync::Arc,
+};
+
+use congruent_input::{ChangedLines, SourceFile, TextEdit, changed_lines, line_column};
+use congruent_robot::{Inertia, JointResistance};
+use nalgebra::Vector3;
+
+/// Where a parameter is written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ParameterPlace {
+    /// The file, which may be one that the file of the robot includes.
+    pub source: Arc<SourceFile>,
+    /// Byte range in its text.
+    pub span: Range<usize>,
+}
+
+impl ParameterPlace {
+    /// The line, from 1.
+    pub fn line(&self) -> usize {
+        line_column(&self.source.text, self.span.start).0
+    }
+}
+
+/// File and line, as `arm.urdf:12`.
+impl fmt::Display for ParameterPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.source.path.display(), self.line())
+    }
+}
+
+/// A file with parameters of links, joints or gravity that can be located and edited.
+pub trait ParameterPlaces: Debug {
+    /// The file with its text.
+    fn source(&self) -> &Arc<SourceFile>;
+
+    /// Place of a parameter, such as `mass` or `com_x`; `of` is the link or joint, empty for gravity.
+    fn parameter(&self, of: &str, parameter: &str) -> Option<ParameterPlace>;
+
+    /// Whether the file has an entry for damping and dry friction of a joint: if not, their zeros are no statement.
+    fn states_joint_terms(&self, _joint: &str) -> bool {
+        true
+    }
+
+    /// The edits that give a link this inertia; empty if the file format cannot express it.
+    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Vec<TextEdit>;
+
+    /// The edits that give a joint these terms; empty if the file format cannot express them.
+    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit>;
+
+    /// The edits that set gravity, in the root link; empty if the file format cannot express it.
+    fn set_gravity(&self, _gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit> {
+        Vec::new()
+    }
+
+    /// The text of a link and of the joint that carries it, to be added to another file; `None` if the file has no such link.
+    fn link_text(&self, _link: &str) -> Option<String> {
+        None
+    }
+
+    /// The edits that add a link of another file; empty if the file format cannot express it.
+    fn add_link(&self, _text: &str) -> Vec<TextEdit> {
+        Vec::new()
+    }
+
+    /// The edits that set a limit of a joint, such as `effort`; empty if the file format cannot express it.
+    fn set_limit(&self, _joint: &str, _parameter: &str, _value: f64) -> Vec<TextEdit> {
+        Vec::new()
+    }
+
+    /// The lines of the file that these edits change, with their new text.
+    fn changed_lines(&self, edits: &[TextEdit]) -> Vec<ChangedLines> {
+        changed_lines(&self.source().text, edits)
+    }
+}
