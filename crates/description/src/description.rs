@@ -13,7 +13,9 @@ use nalgebra::Isometry3;
 use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
     codes,
+    mjcf::MjcfPlaces,
     own_model::{OwnModelForm, OwnModelPlaces, without_bodies},
+    parameter_places::ParameterPlaces,
     robot_file::{
         DeclaredMapping, DeclaredReference, DynamicsTable, InertialPlaces, RobotFilePlaces, joint_for_link,
     },
@@ -30,8 +32,35 @@ pub struct Places {
     pub inertials: Option<Arc<InertialPlaces>>,
     /// The URDF; `None` if the robot was made without one.
     pub urdf: Option<UrdfPlaces>,
+    /// The MJCF with the files that it includes; `None` if the robot was made without one.
+    pub mjcf: Option<MjcfPlaces>,
     /// The robot file whose table or screws are the robot; `None` if the robot is that of a URDF or an MJCF.
     pub own_model: Option<Arc<OwnModelPlaces>>,
+}
+
+impl Places {
+    /// Where the URDF or the MJCF writes parameters of links and joints.
+    pub fn parameters(&self) -> Option<&dyn ParameterPlaces> {
+        let urdf = self.urdf.as_ref().map(|places| places as &dyn ParameterPlaces);
+        urdf.or_else(|| self.mjcf.as_ref().map(|places| places as &dyn ParameterPlaces))
+    }
+
+    /// The places of a robot that has been rewritten in other variables: the names of its joints and links in the URDF or the
+    /// MJCF by those that they have. What the file writes of a joint is then no value of the robot.
+    #[must_use]
+    pub fn of_rewritten(self, joints: &BTreeMap<String, String>, links: &BTreeMap<String, String>) -> Self {
+        let urdf = self.urdf.map(|urdf| urdf.of_rewritten(joints.clone(), links.clone()));
+        let mjcf = self.mjcf.map(|mjcf| mjcf.of_rewritten(joints.clone(), links.clone()));
+        Self { urdf, mjcf, ..self }
+    }
+
+    /// The same without places of these links, whose values no element of the URDF or the MJCF has.
+    #[must_use]
+    pub fn without_links(self, links: &[String]) -> Self {
+        let urdf = self.urdf.map(|urdf| urdf.without_links(links.iter()));
+        let mjcf = self.mjcf.map(|mjcf| mjcf.without_links(links.iter()));
+        Self { urdf, mjcf, ..self }
+    }
 }
 
 /// Files and folders that a robot file names in addition to the URDF.

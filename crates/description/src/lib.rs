@@ -19,6 +19,7 @@ mod srdf;
 mod tolerance_scale;
 mod toml_literal;
 mod urdf;
+mod written_names;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use changed::{ChangedRobots, robots_of_changed};
@@ -32,10 +33,10 @@ pub use congruent_robot::{
 };
 pub use description::{NamedFiles, Places, RobotDescription};
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
-pub use mjcf::is_mjcf;
+pub use mjcf::{MjcfPlaces, is_mjcf};
 pub use named_robot::{file_of_robot, open};
 pub use own_model::{OwnModelForm, OwnModelPlaces};
-pub use parameter_places::{ParameterPlace, ParameterPlaces};
+pub use parameter_places::{ParameterPlace, ParameterPlaces, PlaceElsewhere};
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DeclaredMapping, DeclaredReference, DeclaredVariable,
     DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey, TableDigits,

@@ -162,7 +162,7 @@ fn bare(source: &Arc<SourceFile>, model: ModelFile) -> RobotDescription {
         disabled_collisions: excluded,
         warnings,
         inputs: Vec::new(),
-        places: Places { urdf: places, ..Places::default() },
+        places,
     }
     .with_tip_warning()
 }
@@ -242,7 +242,8 @@ fn read_own_model(
     let is_tip_named = written.tip.is_some();
     // Given, because a choice would end the chain before a last joint that slides, as before a gripper.
     written.tip.get_or_insert_with(|| Spanned::new(0..0, TIP.to_owned()));
-    let model = ModelFile { robot, warnings: Vec::new(), excluded: BTreeSet::new(), places: None };
+    let model =
+        ModelFile { robot, warnings: Vec::new(), excluded: BTreeSet::new(), places: Places::default() };
     let mut own = declared(written, robot_file, robot_file, model, diagnostics)?;
     if !is_tip_named {
         own.chain_ends.tip = ChainEnd::Chosen;
@@ -294,7 +295,7 @@ fn declared(
         disabled_collisions: excluded,
         warnings: Vec::new(),
         inputs: Vec::new(),
-        places: Places { robot_file: table, inertials, urdf: places, own_model: None },
+        places: Places { robot_file: table, inertials, ..places },
     })
 }
 

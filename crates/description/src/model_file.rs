@@ -13,6 +13,7 @@ use congruent_meshes::MeshStore;
 use congruent_robot::{LinkIndex, Robot};
 
 use crate::{
+    description::Places,
     mjcf::{self, MjcfInputs},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
 };
@@ -23,8 +24,8 @@ pub(crate) struct ModelFile {
     pub(crate) warnings: Vec<Diagnostic>,
     /// Pairs of links whose contacts the file excludes, the smaller index first; a URDF excludes none.
     pub(crate) excluded: BTreeSet<(LinkIndex, LinkIndex)>,
-    /// The places of a URDF. An MJCF has none: its findings have the places that its reader knows.
-    pub(crate) places: Option<UrdfPlaces>,
+    /// The places of the URDF or the MJCF.
+    pub(crate) places: Places,
 }
 
 impl ModelFile {
@@ -75,7 +76,7 @@ impl ModelFile {
         let Some(robot) = robot else { return Err(diagnostics.into()) };
         // Sizes are warned of part by part; which links are large, and so explain their sizes, is known only now.
         let warnings = urdf::without_large_links(&robot, diagnostics);
-        let places = Some(UrdfPlaces::new(Arc::clone(source)));
+        let places = Places { urdf: Some(UrdfPlaces::new(Arc::clone(source))), ..Places::default() };
         Ok(Self { robot, warnings, excluded: BTreeSet::new(), places })
     }
 
@@ -93,7 +94,8 @@ impl ModelFile {
         let warnings = diagnostics.in_file(source);
         match read {
             Some(read) if !is_refused => {
-                Ok(Self { robot: read.robot, warnings, excluded: read.excluded, places: None })
+                let places = Places { mjcf: Some(read.places), ..Places::default() };
+                Ok(Self { robot: read.robot, warnings, excluded: read.excluded, places })
             }
             _ => Err(warnings.into()),
         }

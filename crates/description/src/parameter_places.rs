@@ -17,6 +17,8 @@ pub struct ParameterPlace {
     pub source: Arc<SourceFile>,
     /// Byte range in its text.
     pub span: Range<usize>,
+    /// The class of defaults that states it, if a change there changes other elements, too.
+    pub class: Option<String>,
 }
 
 impl ParameterPlace {
@@ -24,12 +26,53 @@ impl ParameterPlace {
     pub fn line(&self) -> usize {
         line_column(&self.source.text, self.span.start).0
     }
+
+    /// The line if the place is in this file.
+    pub fn line_in(&self, file: &SourceFile) -> Option<usize> {
+        (self.source.path == file.path).then(|| self.line())
+    }
+
+    /// What a line of this file does not say: `None` if the element itself writes the value there.
+    pub fn elsewhere(&self, file: &SourceFile) -> Option<PlaceElsewhere> {
+        let other_file = (self.source.path != file.path).then(|| self.source.path.display().to_string());
+        let is_elsewhere = other_file.is_some() || self.class.is_some();
+        is_elsewhere.then(|| PlaceElsewhere {
+            file: other_file,
+            line: self.line(),
+            class: self.class.clone(),
+        })
+    }
 }
 
 /// File and line, as `arm.urdf:12`.
 impl fmt::Display for ParameterPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}", self.source.path.display(), self.line())
+        let elsewhere = PlaceElsewhere { file: None, line: self.line(), class: self.class.clone() };
+        f.write_str(&elsewhere.in_words(&self.source.path.display().to_string()))
+    }
+}
+
+/// Where a value is written if that is not the element itself in the file of the robot: an included file, or a class of defaults.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+pub struct PlaceElsewhere {
+    /// Path of the included file; left out if it is the file of the robot.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub file: Option<String>,
+    /// The line there.
+    pub line: usize,
+    /// The class of defaults that states the value, if a change there changes other elements, too.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub class: Option<String>,
+}
+
+impl PlaceElsewhere {
+    /// `arm.xml:45 (class "visual")`, of a robot of this file.
+    pub fn in_words(&self, file: &str) -> String {
+        let place = format!("{}:{}", self.file.as_deref().unwrap_or(file), self.line);
+        match &self.class {
+            Some(class) => format!("{place} (class \"{class}\")"),
+            None => place,
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use std::{
 
 use congruent_input::{Diagnostic, FileAccess, Findings, InputFile, RevisionFiles, SourceFile};
 
-use crate::RobotDescription;
+use crate::{RobotDescription, mjcf::MjcfPlaces};
 
 /// What was loaded from the files of a revision, with paths that a person can give again: `git:main:robots/arm.urdf`. The files that
 /// were read are added to those of `access`.
@@ -47,6 +47,7 @@ fn named(mut description: RobotDescription, files: &RevisionFiles) -> RobotDescr
     places.inertials.iter_mut().filter_map(Arc::get_mut).for_each(|places| source(places.source_mut()));
     places.own_model.iter_mut().filter_map(Arc::get_mut).for_each(|places| source(places.source_mut()));
     places.urdf.iter_mut().for_each(|places| source(places.source_mut()));
+    places.mjcf.iter_mut().flat_map(MjcfPlaces::files_mut).for_each(source);
     description
 }
 

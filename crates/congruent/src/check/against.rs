@@ -228,9 +228,8 @@ fn adopt_places_of_masses(own: &RobotDescription, there: &mut RobotDescription) 
     let (robot, fused) = with_masses_at_links_of([&own.robot, &there.robot]);
     let names = [there.base, there.tip].map(|link| there.robot.link(link).name.clone());
     let [base, tip] = names.map(|name| robot.find_link(&name).unwrap_or(robot.root()));
-    let urdf = there.places.urdf.take();
-    let links = || fused.iter().flat_map(|of| of.with.iter().chain([&of.link]));
-    there.places.urdf = urdf.map(|urdf| urdf.without_links(links()));
+    let links = fused.iter().flat_map(|of| of.with.iter().chain([&of.link]));
+    there.places = std::mem::take(&mut there.places).without_links(&links.cloned().collect::<Vec<_>>());
     (there.robot, there.base, there.tip) = (robot, base, tip);
     fused.iter().map(|of| format!("{} with {}", of.link, of.with.join(", "))).collect()
 }

@@ -300,7 +300,7 @@ impl ParameterPlaces for DeclaredPlaces<'_> {
             "" => self.places.gravity(),
             _ => self.places.parameter(self.entry(of)?, parameter),
         };
-        Some(ParameterPlace { source: Arc::clone(self.places.source()), span: span? })
+        Some(ParameterPlace { source: Arc::clone(self.places.source()), span: span?, class: None })
     }
 
     fn set_inertial(&self, link: &str, inertia: &Inertia) -> Vec<TextEdit> {

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use congruent_agreement::compare::CheckOptions;
-use congruent_description::{ChainEnd, ChainEnds, JointIndex, MappedJoint, Places, Robot, RobotDescription};
+use congruent_description::{ChainEnd, ChainEnds, JointIndex, MappedJoint, Robot, RobotDescription};
 use congruent_kinematics::PoseError;
 use congruent_mapping::{
     CommonAxes, EndInOtherFrames, FoundMapping, MatchedBy, MatchedRobots, declared, ends_in_other_frames,
@@ -158,9 +158,7 @@ impl MappedPair {
             }
         };
         let there = part(other, robot);
-        let urdf =
-            there.places.urdf.clone().map(|urdf| urdf.of_rewritten(names.collect(), link_names.collect()));
-        let places = Places { urdf, ..there.places };
+        let places = there.places.clone().of_rewritten(&names.collect(), &link_names.collect());
         Self { description: own, other: RobotDescription { places, ..there }, options, report }
     }
 }

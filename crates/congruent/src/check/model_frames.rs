@@ -86,9 +86,9 @@ fn unreadable_inertial(description: &RobotDescription) -> Option<String> {
     Some(format!("{}:{line}: {what}", description.urdf_path.display()))
 }
 
-/// Where the URDF of a description says parameters.
+/// Where the URDF or the MJCF of a description says parameters.
 pub(super) fn urdf_places(description: &RobotDescription) -> Option<&dyn ParameterPlaces> {
-    description.places.urdf.as_ref().map(|places| places as &dyn ParameterPlaces)
+    description.places.parameters()
 }
 
 /// Links and frames of the table, joints at zero.

@@ -3,7 +3,8 @@
 //! Crate `mjcf` reads the file. Here
 //! 1. `tree` makes links and joints of bodies, `joint` the values of a joint, `site` the frames of sites;
 //! 2. `inertia` and `shape` give the links their mass and shapes, with meshes from `mesh`;
-//! 3. `coupling` makes followers of equalities, `unmodeled` lists what forces would need and a robot has no place for.
+//! 3. `coupling` makes followers of equalities, `unmodeled` lists what forces would need and a robot has no place for;
+//! 4. `places` finds the values of the robot in the files.
 //!
 //! The root is the link `world`, body 0 of MuJoCo, so that poses of links are those of MuJoCo's bodies.
 
@@ -13,20 +14,25 @@ mod joint;
 mod mesh;
 mod names;
 mod placed;
+mod places;
 mod rounding;
 mod shape;
 mod site;
 mod tree;
 mod unmodeled;
 
-use std::{collections::BTreeSet, sync::Arc};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
 
 use congruent_input::{Capability, Diagnostic, Diagnostics, SourceFile};
 use congruent_meshes::FindMesh;
 use congruent_mjcf::{MjModel, ReadFile, codes::mjcf::LOOP};
 use congruent_robot::{LinkIndex, Robot};
 
-use self::{mesh::ModelMeshes, tree::RobotParts};
+pub use self::places::MjcfPlaces;
+use self::{mesh::ModelMeshes, places::PartsByName, tree::RobotParts};
 use crate::codes;
 
 /// Most links and moving joints; as for a URDF.
@@ -39,10 +45,11 @@ pub(crate) struct MjcfInputs<'a, 'i, 'm> {
     pub(crate) find_mesh: &'a mut FindMesh<'m>,
 }
 
-/// A robot, and the pairs of its links whose contacts the model excludes, the smaller index first.
+/// A robot, the pairs of its links whose contacts the model excludes, the smaller index first, and where its values are written.
 pub(crate) struct ModelRobot {
     pub(crate) robot: Robot,
     pub(crate) excluded: BTreeSet<(LinkIndex, LinkIndex)>,
+    pub(crate) places: MjcfPlaces,
 }
 
 /// Whether the root element of a text is `<mujoco>`, as far as its first tag says. What is before it is skipped: a byte order
@@ -75,7 +82,7 @@ pub(crate) fn parse(
         if found.code == LOOP { found.needed_by(Some(Capability::Physics)) } else { found }
     };
     diagnostics.extend(found.map(stopping).into_vec());
-    let model = model?;
+    let model = Arc::new(model?);
     if let Err(fault) = bounded(&model) {
         diagnostics.push(fault.in_file(source));
         return None;
@@ -99,7 +106,11 @@ fn bounded(model: &MjModel) -> Result<(), Diagnostic> {
     }
 }
 
-fn robot(model: &MjModel, find_mesh: &mut FindMesh<'_>, diagnostics: &mut Diagnostics) -> Option<ModelRobot> {
+fn robot(
+    model: &Arc<MjModel>,
+    find_mesh: &mut FindMesh<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<ModelRobot> {
     let mut parts = RobotParts::from_model(model, diagnostics);
     site::add(model, &mut parts, diagnostics);
     let mut meshes = ModelMeshes::new(model, find_mesh);
@@ -108,6 +119,7 @@ fn robot(model: &MjModel, find_mesh: &mut FindMesh<'_>, diagnostics: &mut Diagno
     coupling::add(model, &mut parts, diagnostics);
     unmodeled::report(model, &parts, diagnostics);
     let (links_of_bodies, excluded) = (parts.body_links.clone(), &model.exclusions);
+    let places = MjcfPlaces::new(Arc::clone(model), parts_by_name(&parts));
     let made = Robot::new(robot_name(model), parts.links, parts.joints);
     let robot = diagnostics.keep(made.map_err(|error| {
         let fault = Diagnostic::error(codes::mjcf::TREE, error.to_string()).at(0..0);
@@ -116,7 +128,15 @@ fn robot(model: &MjModel, find_mesh: &mut FindMesh<'_>, diagnostics: &mut Diagno
     let link = |body: usize| robot.find_link(&links_of_bodies[body]);
     let pair = |[one, other]: [usize; 2]| Some((link(one)?.min(link(other)?), link(one)?.max(link(other)?)));
     let excluded = excluded.iter().filter_map(|of| pair(of.bodies)).collect();
-    Some(ModelRobot { robot, excluded })
+    Some(ModelRobot { robot, excluded, places })
+}
+
+fn parts_by_name(parts: &RobotParts) -> PartsByName {
+    let by_name = |(index, name): (usize, &String)| (name.clone(), index);
+    let joints = parts.joint_positions.iter().enumerate();
+    let moving = joints.filter_map(|(index, at)| Some((index, &parts.joints[(*at)?].joint.name)));
+    let bodies: BTreeMap<String, usize> = parts.body_links.iter().enumerate().map(by_name).collect();
+    PartsByName { bodies, joints: moving.map(by_name).collect() }
 }
 
 /// The name of the model, or that of its file.

@@ -30,7 +30,7 @@ impl ParameterPlaces for UrdfPlaces {
 
     fn parameter(&self, of: &str, parameter: &str) -> Option<ParameterPlace> {
         let span = self.parameter_span(of, parameter)?;
-        Some(ParameterPlace { source: Arc::clone(UrdfPlaces::source(self)), span })
+        Some(ParameterPlace { source: Arc::clone(UrdfPlaces::source(self)), span, class: None })
     }
 
     fn states_joint_terms(&self, joint: &str) -> bool {

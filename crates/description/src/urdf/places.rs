@@ -9,61 +9,51 @@ use super::{
     digits::JointDigits,
     node::{element, elements, last, place, tag},
 };
+use crate::written_names::WrittenNames;
 
 /// The text of a URDF, in which joints and links are found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UrdfPlaces {
     source: Arc<SourceFile>,
-    /// Names of joints in the file by those under which they are asked for, where these differ.
-    joint_names: Arc<BTreeMap<String, String>>,
-    /// The same of links; `None` for a link whose values are those of no element of the file.
-    link_names: Arc<BTreeMap<String, Option<String>>>,
-    is_rewritten: bool,
+    names: WrittenNames,
 }
 
 impl UrdfPlaces {
     /// `source` must have been read before. It is parsed again for each place, since places are needed only for messages.
     pub(crate) fn new(source: Arc<SourceFile>) -> Self {
-        Self { source, joint_names: Arc::default(), link_names: Arc::default(), is_rewritten: false }
+        Self { source, names: WrittenNames::default() }
     }
 
     /// The places of a robot that has been rewritten in other variables: the names of its joints and links in the file by those
     /// that they have. What the file writes of a joint is then no value of the robot.
     #[must_use]
-    pub fn of_rewritten(self, joints: BTreeMap<String, String>, links: BTreeMap<String, String>) -> Self {
-        let link_names = links.into_iter().map(|(name, written)| {
-            let known = self.link_names.get(&written).cloned();
-            (name, known.unwrap_or(Some(written)))
-        });
-        let link_names = link_names.collect();
-        Self { joint_names: joints.into(), link_names: Arc::new(link_names), is_rewritten: true, ..self }
+    pub(crate) fn of_rewritten(
+        self,
+        joints: BTreeMap<String, String>,
+        links: BTreeMap<String, String>,
+    ) -> Self {
+        Self { names: self.names.rewritten(joints, links), ..self }
     }
 
     /// The same without places of these links, whose values no element of the file has.
     #[must_use]
-    pub fn without_links<'a>(mut self, links: impl Iterator<Item = &'a String>) -> Self {
-        Arc::make_mut(&mut self.link_names).extend(links.map(|link| (link.clone(), None)));
-        self
+    pub(crate) fn without_links<'a>(self, links: impl Iterator<Item = &'a String>) -> Self {
+        Self { names: self.names.without_links(links), ..self }
     }
 
     /// Whether the robot has been rewritten in other variables: values of its joints are not those that the file writes.
     pub fn is_rewritten(&self) -> bool {
-        self.is_rewritten
+        self.names.is_rewritten()
     }
 
     /// The element of a joint.
     pub(super) fn joint<'a, 'i>(&self, document: &'a Document<'i>, name: &str) -> Option<Node<'a, 'i>> {
-        let name = self.joint_names.get(name).map_or(name, String::as_str);
-        last(document.root_element(), "joint", name)
+        last(document.root_element(), "joint", self.names.joint(name))
     }
 
     /// The element of a link.
     pub(super) fn link<'a, 'i>(&self, document: &'a Document<'i>, name: &str) -> Option<Node<'a, 'i>> {
-        let name = match self.link_names.get(name) {
-            Some(written) => written.as_deref()?,
-            None => name,
-        };
-        last(document.root_element(), "link", name)
+        last(document.root_element(), "link", self.names.link(name)?)
     }
 
     /// The URDF that the places are in.
@@ -92,7 +82,7 @@ impl UrdfPlaces {
 
     /// The `rpy` of a joint's `<origin>` as the file writes it, and its line from 1; `None` if it has none.
     pub fn joint_rpy(&self, name: &str) -> Option<(String, usize)> {
-        if self.is_rewritten {
+        if self.names.is_rewritten() {
             return None;
         }
         let document = xml::parse(&self.source.text).ok()?;
@@ -118,7 +108,7 @@ impl UrdfPlaces {
 
     /// An attribute of a part of a joint, such as `xyz` of its `origin`, as the file writes it; `None` if it has none.
     pub fn joint_attribute(&self, name: &str, part: &str, attribute: &str) -> Option<String> {
-        if self.is_rewritten {
+        if self.names.is_rewritten() {
             return None;
         }
         let document = xml::parse(&self.source.text).ok()?;

@@ -1,6 +1,6 @@
 //! Joint limits, compared by value: they have no effect on torques.
 
-use congruent_description::JointLimit;
+use congruent_description::{JointLimit, PlaceElsewhere};
 use congruent_input::{ChangedLines, SiUnit};
 
 use crate::{
@@ -42,6 +42,12 @@ pub struct LimitDifference {
     pub line: Option<usize>,
     /// Line of the limit in the reference's file; `null` if it is not known.
     pub expected_line: Option<usize>,
+    /// Where the candidate's value is written if its element does not write it in the candidate's file.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub elsewhere: Option<PlaceElsewhere>,
+    /// The same of the reference.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub expected_elsewhere: Option<PlaceElsewhere>,
     /// Path of the candidate's file; `null` if it is not known.
     pub file: Option<String>,
     /// The lines of the candidate's file with all limits of the joint set to the reference's values; empty if the reference
@@ -136,6 +142,8 @@ pub(crate) fn differences(
                 unit: unit(cause, &candidate.frames.joints[joint]),
                 line: None,
                 expected_line: None,
+                elsewhere: None,
+                expected_elsewhere: None,
                 file: None,
                 changes: Vec::new(),
             });

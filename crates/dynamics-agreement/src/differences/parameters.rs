@@ -1,5 +1,6 @@
 //! Parameters of links, joints and gravity that differ, each as one entry.
 
+use congruent_description::PlaceElsewhere;
 use congruent_dynamics::JointResistance;
 use congruent_input::SiUnit;
 use nalgebra::{Matrix3, Vector3};
@@ -28,6 +29,12 @@ pub struct ParameterDifference {
     pub line: Option<usize>,
     /// Line of the parameter in the reference's file; `null` if it is not known.
     pub expected_line: Option<usize>,
+    /// Where the candidate's value is written if its element does not write it in the candidate's file.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub elsewhere: Option<PlaceElsewhere>,
+    /// The same of the reference.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub expected_elsewhere: Option<PlaceElsewhere>,
     /// The relative change of all torques by this difference alone, if it is below the resolution of the comparison; `null`
     /// if the parameter has no effect on torques, or one above the resolution.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -104,6 +111,8 @@ pub(crate) fn link_differences(
         unit,
         line: None,
         expected_line: None,
+        elsewhere: None,
+        expected_elsewhere: None,
         below_resolution: None,
         cancelled: None,
     })
@@ -129,6 +138,8 @@ pub(crate) fn joint_term_differences(
                     unit: term.unit(joint),
                     line: None,
                     expected_line: None,
+                    elsewhere: None,
+                    expected_elsewhere: None,
                     below_resolution: None,
                     cancelled: None,
                 });
@@ -152,6 +163,8 @@ pub(crate) fn gravity_differences(found: &Vector3<f64>, expected: &Vector3<f64>)
             unit: SiUnit::MetrePerSecondSquared,
             line: None,
             expected_line: None,
+            elsewhere: None,
+            expected_elsewhere: None,
             below_resolution: None,
             cancelled: None,
         })

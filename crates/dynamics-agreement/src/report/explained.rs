@@ -65,13 +65,20 @@ impl ExplanationContext<'_> {
         let is_changed = |line: &usize| changes.iter().any(|of| (of.from_line..=of.to_line).contains(line));
         let written = changes.first().map(|of| of.from_line);
         let line = lines().find(is_changed).or(written).or_else(|| lines().next());
+        let file = file.map(|file| file.source().path.display().to_string());
+        let included = parameters.iter().filter_map(|parameter| parameter.elsewhere.as_ref());
+        let mut included = included.filter(|_| line.is_none() && file.is_some());
+        let (file, line) = match included.find(|place| place.file.is_some()) {
+            Some(place) => (place.file.clone(), Some(place.line)),
+            None => (file, line),
+        };
         DynamicsExplanation {
             cause: first.cause,
             detail: first.detail,
             place: first.place,
             suggestion: super::sentences::suggestion(self.faulty, &parameters),
-            file: file.map(|file| file.source().path.display().to_string()),
-            line: file.and(line),
+            line: file.as_ref().and(line),
+            file,
             changes,
             otherwise: None,
             parameters,

@@ -2,7 +2,7 @@
 
 use congruent_input::display::{counted, limit_number, position};
 
-use super::{content::DynamicsReport, sentences::with_distinct_digits};
+use super::{content::DynamicsReport, parameter_sentence::place_in, sentences::with_distinct_digits};
 use crate::differences::{
     LimitCause, LimitDifference,
     limits::{DEGREES_DETAIL, EXCHANGED, FOUR_TURNS, UNIFORM, UNIFORM_THERE},
@@ -26,11 +26,9 @@ impl LimitDifference {
     /// `elbow_joint: velocity limit 10313 deg/s in a.urdf:5, 180 deg/s in b.urdf:7: is a.urdf in degrees?`, of two files of which
     /// either may be wrong.
     pub fn sentence_in(&self, files: [&str; 2]) -> String {
-        let place = |file: &str, line: Option<usize>| match line {
-            Some(line) => format!("{file}:{line}"),
-            None => file.to_owned(),
-        };
         let [found, expected] = self.values();
+        let here = place_in(files[0], self.line, self.elsewhere.as_ref());
+        let there = place_in(files[1], self.expected_line, self.expected_elsewhere.as_ref());
         let written = self.expected_as_written.map_or_else(String::new, |written| {
             format!(" (written as {} in the variable there)", position(written, self.unit.symbol()))
         });
@@ -47,11 +45,8 @@ impl LimitDifference {
             format!(": is {} in {unit}?", files[usize::from(at)])
         });
         format!(
-            "{}: {} limit {found} in {}, {expected} in {}{written}{remark}",
-            self.joint,
-            self.parameter,
-            place(files[0], self.line),
-            place(files[1], self.expected_line)
+            "{}: {} limit {found} in {here}, {expected} in {there}{written}{remark}",
+            self.joint, self.parameter
         )
     }
 

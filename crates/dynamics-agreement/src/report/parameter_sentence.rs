@@ -1,6 +1,7 @@
 //! A parameter that differs, as a sentence: both values with the digits that are written, their files, and the unit that a
 //! factor between them suggests.
 
+use congruent_description::PlaceElsewhere;
 use congruent_input::{SiUnit, display::quantity_with_digits};
 
 use super::sentences::with_distinct_digits;
@@ -20,12 +21,9 @@ impl ParameterDifference {
 
     /// `link_2: mass 3.909 kg in a.urdf:5, 3.099 kg in b.urdf:5`, of two files of which either may be wrong.
     pub fn sentence_in(&self, [candidate, reference]: [&str; 2]) -> String {
-        let place = |file: &str, line: Option<usize>| match line {
-            Some(line) => format!("{file}:{line}"),
-            None => file.to_owned(),
-        };
         let [found, expected] = self.values("not given");
-        let (here, there) = (place(candidate, self.line), place(reference, self.expected_line));
+        let here = place_in(candidate, self.line, self.elsewhere.as_ref());
+        let there = place_in(reference, self.expected_line, self.expected_elsewhere.as_ref());
         self.about(&format!("{} {found} in {here}, {expected} in {there}", self.parameter))
     }
 
@@ -80,6 +78,15 @@ impl ParameterDifference {
     }
 }
 
+/// `arm.urdf:5`, or the file alone if the line is not known.
+pub(super) fn place_in(file: &str, line: Option<usize>, elsewhere: Option<&PlaceElsewhere>) -> String {
+    match (elsewhere, line) {
+        (Some(elsewhere), _) => elsewhere.in_words(file),
+        (None, Some(line)) => format!("{file}:{line}"),
+        (None, None) => file.to_owned(),
+    }
+}
+
 /// Whether a value is one with few digits, up to the rounding of a product with a factor between units.
 fn is_typed(value: f64) -> bool {
     /// Some units of the last place. No unit, relative; kind: rounding.
@@ -102,6 +109,8 @@ mod tests {
             unit,
             line: Some(5),
             expected_line: None,
+            elsewhere: None,
+            expected_elsewhere: None,
             below_resolution: None,
             cancelled: None,
         }

@@ -1,6 +1,6 @@
 //! Parameters of the two models with their lines, and as they should be written.
 
-use congruent_description::{ParameterPlace, ParameterPlaces};
+use congruent_description::{ParameterPlaces, PlaceElsewhere};
 use congruent_input::TextEdit;
 use nalgebra::Matrix3;
 
@@ -20,15 +20,19 @@ pub(crate) struct ModelFiles<'a> {
 impl ModelFiles<'_> {
     pub(crate) fn place(&self, differences: &mut [ParameterDifference]) {
         for difference in differences {
-            let line = |file| line(file, &difference.of, &difference.parameter);
-            (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
+            let at = |file| line(file, &difference.of, &difference.parameter);
+            let [found, expected] = [self.found, self.expected].map(at);
+            (difference.line, difference.elsewhere) = found;
+            (difference.expected_line, difference.expected_elsewhere) = expected;
         }
     }
 
     pub(crate) fn place_limits(&self, differences: &mut [LimitDifference]) {
         for difference in &mut *differences {
-            let line = |file| line(file, &difference.joint, &difference.parameter);
-            (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
+            let at = |file| line(file, &difference.joint, &difference.parameter);
+            let [found, expected] = [self.found, self.expected].map(at);
+            (difference.line, difference.elsewhere) = found;
+            (difference.expected_line, difference.expected_elsewhere) = expected;
         }
         let Some(file) = self.found else { return };
         // A placeholder is no value to write.
@@ -51,8 +55,14 @@ impl ModelFiles<'_> {
     }
 }
 
-fn line(file: Option<&dyn ParameterPlaces>, of: &str, parameter: &str) -> Option<usize> {
-    file?.parameter(of, parameter).as_ref().map(ParameterPlace::line)
+/// The line of a parameter in the file of the model, and where it is if that is not the whole place.
+fn line(
+    file: Option<&dyn ParameterPlaces>,
+    of: &str,
+    parameter: &str,
+) -> (Option<usize>, Option<PlaceElsewhere>) {
+    let placed = file.and_then(|file| Some((file.source(), file.parameter(of, parameter)?)));
+    placed.map_or((None, None), |(file, at)| (at.line_in(file), at.elsewhere(file)))
 }
 
 /// Corrected parameters as they should be written: values that differ from the written ones by rounding alone keep the written

@@ -71,6 +71,13 @@ impl MjModel {
     }
 }
 
+impl MjModel {
+    /// The geoms that the mass of a body follows from; none if its `<inertial>` states it, or if it has no mass.
+    pub fn geoms_of_mass(&self, body: usize) -> Vec<&MjGeom> {
+        inferring(&self.bodies[body], self.geoms_of(body)).unwrap_or_default()
+    }
+}
+
 type MjMeshes<'a> = dyn FnMut(usize) -> Result<MeshMass, Diagnostic> + 'a;
 
 fn compiled(

@@ -1,0 +1,89 @@
+//! Where an MJCF writes values of the robot that was made of it.
+
+mod parameters;
+mod users;
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use congruent_input::SourceFile;
+use congruent_mjcf::{MjBody, MjJoint, MjModel, MjPlace};
+
+use self::users::PlaceUsers;
+use crate::{parameter_places::ParameterPlace, written_names::WrittenNames};
+
+/// The texts of an MJCF and of the files that it includes, in which values of links and joints are found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MjcfPlaces {
+    model: Arc<MjModel>,
+    /// The files of the model in its order, as messages name them.
+    files: Vec<Arc<SourceFile>>,
+    parts: Arc<PartsByName>,
+    users: Arc<PlaceUsers>,
+    names: WrittenNames,
+}
+
+/// The parts of a model by the names that they have in the robot.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct PartsByName {
+    /// Bodies by the names of their links.
+    pub(super) bodies: BTreeMap<String, usize>,
+    /// Joints that move.
+    pub(super) joints: BTreeMap<String, usize>,
+}
+
+impl MjcfPlaces {
+    pub(super) fn new(model: Arc<MjModel>, parts: PartsByName) -> Self {
+        let (files, users) = (model.files.clone(), PlaceUsers::of(&model).into());
+        Self { model, files, parts: parts.into(), users, names: WrittenNames::default() }
+    }
+
+    /// The places of a robot that has been rewritten in other variables: the names of its joints and links in the file by those
+    /// that they have.
+    #[must_use]
+    pub(crate) fn of_rewritten(
+        self,
+        joints: BTreeMap<String, String>,
+        links: BTreeMap<String, String>,
+    ) -> Self {
+        Self { names: self.names.rewritten(joints, links), ..self }
+    }
+
+    /// The same without places of these links, whose values no element of the file has.
+    #[must_use]
+    pub(crate) fn without_links<'a>(self, links: impl Iterator<Item = &'a String>) -> Self {
+        Self { names: self.names.without_links(links), ..self }
+    }
+
+    /// The main file, then those that it includes.
+    pub fn files(&self) -> &[Arc<SourceFile>] {
+        &self.files
+    }
+
+    /// The same, to name them in another form.
+    pub(crate) fn files_mut(&mut self) -> &mut [Arc<SourceFile>] {
+        &mut self.files
+    }
+
+    /// The number and the values of the body of a link; `None` if the link is no body, or joined with others.
+    fn body(&self, link: &str) -> Option<(usize, &MjBody)> {
+        let index = *self.parts.bodies.get(self.names.link(link)?)?;
+        Some((index, &self.model.bodies[index]))
+    }
+
+    /// A joint that moves.
+    fn joint(&self, name: &str) -> Option<(usize, &MjJoint)> {
+        let index = *self.parts.joints.get(self.names.joint(name))?;
+        Some((index, &self.model.joints[index]))
+    }
+
+    /// A place of the model, in the files as messages name them.
+    fn named(&self, place: &MjPlace) -> ParameterPlace {
+        let index = self.model.files.iter().position(|file| Arc::ptr_eq(file, &place.source));
+        let source = index.map_or(&place.source, |index| &self.files[index]);
+        let class = place.class.as_ref().filter(|_| self.users.are_several(place));
+        ParameterPlace { source: Arc::clone(source), span: place.span.clone(), class: class.cloned() }
+    }
+}
+
+#[cfg(test)]
+mod tests;
