@@ -36,7 +36,7 @@ pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
 pub use mjcf::{MjcfPlaces, is_mjcf};
 pub use named_robot::{file_of_robot, open};
 pub use own_model::{OwnModelForm, OwnModelPlaces};
-pub use parameter_places::{ParameterPlace, ParameterPlaces, PlaceElsewhere};
+pub use parameter_places::{JointElement, ParameterPlace, ParameterPlaces, PlaceElsewhere};
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DeclaredMapping, DeclaredReference, DeclaredVariable,
     DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey, TableDigits,

@@ -76,6 +76,17 @@ impl PlaceElsewhere {
     }
 }
 
+/// A part of a joint that has its own place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointElement {
+    /// Its pose in the link before it.
+    Origin,
+    /// Its axis.
+    Axis,
+    /// The joint that it follows.
+    Mimic,
+}
+
 /// A file with parameters of links, joints or gravity that can be located and edited.
 pub trait ParameterPlaces: Debug {
     /// The file with its text.
@@ -83,6 +94,11 @@ pub trait ParameterPlaces: Debug {
 
     /// Place of a parameter, such as `mass` or `com_x`; `of` is the link or joint, empty for gravity.
     fn parameter(&self, of: &str, parameter: &str) -> Option<ParameterPlace>;
+
+    /// Place of a part of a joint, or of the element that would have it; `None` if the file has no such joint.
+    fn joint_part(&self, _joint: &str, _part: JointElement) -> Option<ParameterPlace> {
+        None
+    }
 
     /// Whether the file has an entry for damping and dry friction of a joint: if not, their zeros are no statement.
     fn states_joint_terms(&self, _joint: &str) -> bool {

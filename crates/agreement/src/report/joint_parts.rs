@@ -1,9 +1,9 @@
 //! An `<origin>` or an `<axis>` of a joint that another URDF has otherwise: as a fault with the places in both files,
 //! what each writes, and the line to write.
 
-use std::{ops::Range, sync::Arc};
+use std::sync::Arc;
 
-use congruent_description::{Joint, RobotDescription, UrdfPlaces};
+use congruent_description::{Joint, JointElement, ParameterPlace, RobotDescription, UrdfPlaces};
 use congruent_input::{
     RevisionName, Slack, changed_lines,
     display::angle,
@@ -129,17 +129,19 @@ struct CorrectionMessages<'a> {
 impl CorrectionMessages<'_> {
     fn message(&self, correction: &JointCorrection) -> FaultMessage {
         let joint = self.robots.robot.joint(correction.joint);
-        let (part, attributes, fault) = match &correction.expected {
+        let (element, part, attributes, fault) = match &correction.expected {
             JointPart::Origin(expected) => {
-                ("origin", self.origin(joint, expected), origin_fault(&joint.parent_from_joint, expected))
+                let fault = origin_fault(&joint.parent_from_joint, expected);
+                (JointElement::Origin, "origin", self.origin(joint, expected), fault)
             }
-            JointPart::Axis(expected) => ("axis", self.axis(joint, expected), axis_fault(joint, expected)),
+            JointPart::Axis(expected) => {
+                (JointElement::Axis, "axis", self.axis(joint, expected), axis_fault(joint, expected))
+            }
         };
-        let [own, other] = self.descriptions.map(|of| of.places.urdf.as_ref());
-        let location = own.and_then(|places| {
-            let span = place(places, part, &joint.name)?;
-            Some(FileLocation { source: Arc::clone(places.source()), span })
-        });
+        let own = self.descriptions[0].places.urdf.as_ref();
+        let [found_at, other] = self.descriptions.map(|of| of.places.parameters());
+        let location = found_at.and_then(|places| places.joint_part(&joint.name, element));
+        let location = location.map(|at| FileLocation { source: at.source, span: at.span });
         // Screws that are the robot have no elements of a URDF: the row of the joint is the place.
         let own_model = self.descriptions[0].places.own_model.as_ref();
         let location = location.or_else(|| {
@@ -147,15 +149,13 @@ impl CorrectionMessages<'_> {
             Some(FileLocation { source: Arc::clone(own_model?.source()), span })
         });
         let there = self.there(joint, &correction.expected);
-        let expected_at = there.zip(other).and_then(|(there, places)| place(places, part, &there.name));
-        let expected_line =
-            expected_at.zip(other).map(|(span, places)| line_column(&places.source().text, span.start).0);
+        let expected_at = there.zip(other).and_then(|(there, of)| of.joint_part(&there.name, element));
         let words = |value: fn(&JointAttribute) -> &str| {
             let written = attributes.iter().map(|of| format!("{}=\"{}\"", of.name, value(of)));
             written.collect::<Vec<_>>().join(" ")
         };
         let [found, expected] = [words(|of| &of.found), words(|of| &of.expected)];
-        let as_in = self.as_in(joint, there, expected_line);
+        let as_in = self.as_in(joint, there, expected_at.as_ref());
         let unit = attributes.iter().find_map(JointAttribute::other_unit).unwrap_or_default();
         // Of two files one may be right; a revision is what the file was.
         let other = if self.is_revision() { "was" } else { "expected" };
@@ -174,8 +174,8 @@ impl CorrectionMessages<'_> {
             expected: Some(ReportedValue::Text(expected)),
             file: location.as_ref().map(|at| at.source.path.display().to_string()),
             line: location.as_ref().map(|at| line_column(&at.source.text, at.span.start).0),
-            expected_file: expected_line.map(|_| self.descriptions[1].urdf_path.display().to_string()),
-            expected_line,
+            expected_file: expected_at.as_ref().map(|at| at.source.path.display().to_string()),
+            expected_line: expected_at.as_ref().map(ParameterPlace::line),
             message: text.clone(),
             ..fault
         };
@@ -205,20 +205,20 @@ impl CorrectionMessages<'_> {
         }
     }
 
-    fn as_in(&self, joint: &Joint, there: Option<&Joint>, line: Option<usize>) -> String {
-        let (Some(there), Some(line)) = (there, line) else { return String::new() };
-        let file = self.descriptions[1].urdf_path.display();
+    fn as_in(&self, joint: &Joint, there: Option<&Joint>, at: Option<&ParameterPlace>) -> String {
+        let (Some(there), Some(at)) = (there, at) else { return String::new() };
         let named =
             if there.name == joint.name { String::new() } else { format!(" (joint \"{}\")", there.name) };
+        // An MJCF has these numbers in other attributes.
         let places = self.descriptions[1].places.urdf.as_ref();
-        let is_written = !places.is_some_and(UrdfPlaces::is_rewritten);
+        let is_written = places.is_some_and(|places| !places.is_rewritten());
         let preposition = match (self.is_revision(), is_written) {
             (true, _) => "in",
             (false, true) => "as in",
             // In the variables and frames of this file, which the line does not have.
             (false, false) => "from",
         };
-        format!(" {preposition} {file}:{line}{named}")
+        format!(" {preposition} {at}{named}")
     }
 
     /// `xyz` and `rpy` of an origin, each if it differs.
@@ -248,11 +248,6 @@ impl CorrectionMessages<'_> {
     fn written(&self, file: usize, joint: &Joint, part: &str, attribute: &str) -> Option<String> {
         self.descriptions[file].places.urdf.as_ref()?.joint_attribute(&joint.name, part, attribute)
     }
-}
-
-/// Where a part of a joint is in the file, or the joint itself if it does not write that part.
-fn place(places: &UrdfPlaces, part: &str, joint: &str) -> Option<Range<usize>> {
-    if part == "origin" { places.joint_origin(joint) } else { places.joint_axis(joint) }
 }
 
 /// The sentence for one fault: what the file has, and what is expected or was before.

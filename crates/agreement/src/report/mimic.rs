@@ -1,11 +1,10 @@
 //! A joint that follows another one in two files in different ways: as a fault with the lines of both, and what to
 //! write.
 
-use congruent_description::RobotDescription;
+use congruent_description::{JointElement, ParameterPlace, RobotDescription};
 use congruent_input::{
     Diagnostic,
     display::{number, quantity},
-    line_column,
 };
 use congruent_kinematics::PoseError;
 
@@ -98,11 +97,9 @@ impl FollowedJoint {
             None => [found, expected].map(|relation| ReportedValue::Text(self.words(relation.as_ref()))),
         };
         let finding = Diagnostic::error(Cause::Mimic.code(), message.clone()).with_help(suggestion.clone());
-        let span = description.places.urdf.as_ref().and_then(|places| {
-            let span = places.joint_mimic(&self.joint)?;
-            Some((places.source(), span))
-        });
-        let line = span.as_ref().map(|(source, span)| line_column(&source.text, span.start).0);
+        let place = mimic_place(description, &self.joint);
+        let path = place.as_ref().map_or(&description.urdf_path, |at| &at.source.path);
+        let file = path.display().to_string();
         let fault = Fault {
             cause: Cause::Mimic,
             joint: Some(self.joint.clone()),
@@ -110,14 +107,14 @@ impl FollowedJoint {
             value: numbers.map(|[found, expected]| found - expected),
             found: Some(found_value),
             expected: Some(expected_value),
-            file: Some(description.urdf_path.display().to_string()),
-            line,
+            file: Some(file),
+            line: place.as_ref().map(ParameterPlace::line),
             message,
             suggestion,
             ..Fault::default()
         };
-        let finding = match span {
-            Some((source, span)) => finding.at(span).in_file(source),
+        let finding = match place {
+            Some(at) => finding.at(at.span).in_file(&at.source),
             None => finding,
         };
         (fault, finding)
@@ -166,11 +163,12 @@ impl FollowedJoint {
     }
 }
 
-/// File and line of the `<mimic>` of a joint.
+/// File and line of the `<mimic>` of a joint, or of its `<equality>`.
 fn place(description: &RobotDescription, joint: &str) -> String {
-    let file = description.urdf_path.display();
-    let places = description.places.urdf.as_ref();
-    let line = places
-        .and_then(|places| Some(line_column(&places.source().text, places.joint_mimic(joint)?.start).0));
-    line.map_or_else(|| file.to_string(), |line| format!("{file}:{line}"))
+    let place = mimic_place(description, joint);
+    place.map_or_else(|| description.urdf_path.display().to_string(), |at| at.to_string())
+}
+
+fn mimic_place(description: &RobotDescription, joint: &str) -> Option<ParameterPlace> {
+    description.places.parameters()?.joint_part(joint, JointElement::Mimic)
 }

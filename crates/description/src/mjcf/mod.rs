@@ -29,10 +29,14 @@ use std::{
 use congruent_input::{Capability, Diagnostic, Diagnostics, SourceFile};
 use congruent_meshes::FindMesh;
 use congruent_mjcf::{MjModel, ReadFile, codes::mjcf::LOOP};
-use congruent_robot::{LinkIndex, Robot};
+use congruent_robot::{JointKind, LinkIndex, Robot};
 
 pub use self::places::MjcfPlaces;
-use self::{mesh::ModelMeshes, places::PartsByName, tree::RobotParts};
+use self::{
+    mesh::ModelMeshes,
+    places::{FixedPart, PartsByName},
+    tree::RobotParts,
+};
 use crate::codes;
 
 /// Most links and moving joints; as for a URDF.
@@ -119,7 +123,7 @@ fn robot(
     coupling::add(model, &mut parts, diagnostics);
     unmodeled::report(model, &parts, diagnostics);
     let (links_of_bodies, excluded) = (parts.body_links.clone(), &model.exclusions);
-    let places = MjcfPlaces::new(Arc::clone(model), parts_by_name(&parts));
+    let places = MjcfPlaces::new(Arc::clone(model), parts_by_name(model, &parts));
     let made = Robot::new(robot_name(model), parts.links, parts.joints);
     let robot = diagnostics.keep(made.map_err(|error| {
         let fault = Diagnostic::error(codes::mjcf::TREE, error.to_string()).at(0..0);
@@ -131,12 +135,23 @@ fn robot(
     Some(ModelRobot { robot, excluded, places })
 }
 
-fn parts_by_name(parts: &RobotParts) -> PartsByName {
+fn parts_by_name(model: &MjModel, parts: &RobotParts) -> PartsByName {
     let by_name = |(index, name): (usize, &String)| (name.clone(), index);
     let joints = parts.joint_positions.iter().enumerate();
     let moving = joints.filter_map(|(index, at)| Some((index, &parts.joints[(*at)?].joint.name)));
     let bodies: BTreeMap<String, usize> = parts.body_links.iter().enumerate().map(by_name).collect();
-    PartsByName { bodies, joints: moving.map(by_name).collect() }
+    // A link of a site has its name, or this prefix if that was taken.
+    let site = |link: &str| {
+        let is_of = |name: &str| link == name || link.strip_prefix("site:") == Some(name);
+        model.sites.iter().position(|site| site.name.is_written && is_of(&site.name.text))
+    };
+    let part = |link: &str| {
+        let body = bodies.get(link).map(|body| FixedPart::Body(*body));
+        body.or_else(|| site(link).map(FixedPart::Site))
+    };
+    let fixed = parts.joints.iter().filter(|of| of.joint.kind == JointKind::Fixed);
+    let fixed = fixed.filter_map(|of| Some((of.joint.name.clone(), part(&of.child)?))).collect();
+    PartsByName { joints: moving.map(by_name).collect(), fixed, bodies }
 }
 
 /// The name of the model, or that of its file.

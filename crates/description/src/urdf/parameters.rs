@@ -6,9 +6,13 @@ use congruent_input::{SourceFile, TextEdit};
 use congruent_robot::{Inertia, JointResistance};
 
 use super::places::UrdfPlaces;
-use crate::parameter_places::{ParameterPlace, ParameterPlaces};
+use crate::parameter_places::{JointElement, ParameterPlace, ParameterPlaces};
 
 impl UrdfPlaces {
+    fn place_of(&self, span: Range<usize>) -> ParameterPlace {
+        ParameterPlace { source: Arc::clone(UrdfPlaces::source(self)), span, class: None }
+    }
+
     fn parameter_span(&self, of: &str, parameter: &str) -> Option<Range<usize>> {
         match parameter {
             "mass" => self.inertial_part(of, "mass"),
@@ -29,8 +33,16 @@ impl ParameterPlaces for UrdfPlaces {
     }
 
     fn parameter(&self, of: &str, parameter: &str) -> Option<ParameterPlace> {
-        let span = self.parameter_span(of, parameter)?;
-        Some(ParameterPlace { source: Arc::clone(UrdfPlaces::source(self)), span, class: None })
+        Some(self.place_of(self.parameter_span(of, parameter)?))
+    }
+
+    fn joint_part(&self, joint: &str, part: JointElement) -> Option<ParameterPlace> {
+        let span = match part {
+            JointElement::Origin => self.joint_origin(joint),
+            JointElement::Axis => self.joint_axis(joint),
+            JointElement::Mimic => self.joint_mimic(joint),
+        };
+        Some(self.place_of(span?))
     }
 
     fn states_joint_terms(&self, joint: &str) -> bool {

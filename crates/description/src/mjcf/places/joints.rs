@@ -53,8 +53,7 @@ impl MjcfPlaces {
 
     /// The equality that makes a joint follow another one.
     fn coupling(&self, joint: usize) -> Option<&MjPlace> {
-        let follows =
-            |kind: &MjEqualityKind| matches!(kind, MjEqualityKind::Joint { follower, .. } if *follower == joint);
+        let follows = |kind: &MjEqualityKind| matches!(kind, MjEqualityKind::Joint { follower, .. } if *follower == joint);
         self.model.equalities.iter().find(|of| of.is_active && follows(&of.kind)).map(|of| &of.place)
     }
 }

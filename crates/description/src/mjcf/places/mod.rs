@@ -1,5 +1,6 @@
 //! Where an MJCF writes values of the robot that was made of it.
 
+mod joints;
 mod parameters;
 mod users;
 
@@ -29,6 +30,17 @@ pub(super) struct PartsByName {
     pub(super) bodies: BTreeMap<String, usize>,
     /// Joints that move.
     pub(super) joints: BTreeMap<String, usize>,
+    /// What fixed joints carry.
+    pub(super) fixed: BTreeMap<String, FixedPart>,
+}
+
+/// What a fixed joint carries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FixedPart {
+    /// A body, which may have joints before it.
+    Body(usize),
+    /// A site.
+    Site(usize),
 }
 
 impl MjcfPlaces {

@@ -7,7 +7,7 @@ use congruent_mjcf::{MjActuator, MjEffort, MjInertial, MjPlace, MjTarget};
 use congruent_robot::{Inertia, JointResistance};
 
 use super::MjcfPlaces;
-use crate::parameter_places::{ParameterPlace, ParameterPlaces};
+use crate::parameter_places::{JointElement, ParameterPlace, ParameterPlaces};
 
 impl ParameterPlaces for MjcfPlaces {
     fn source(&self) -> &Arc<SourceFile> {
@@ -31,6 +31,10 @@ impl ParameterPlaces for MjcfPlaces {
             _ => None,
         };
         place.map(|place| self.named(place))
+    }
+
+    fn joint_part(&self, joint: &str, part: JointElement) -> Option<ParameterPlace> {
+        self.part_of_joint(joint, part)
     }
 
     fn set_inertial(&self, _link: &str, _inertia: &Inertia) -> Vec<TextEdit> {

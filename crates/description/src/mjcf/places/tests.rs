@@ -6,8 +6,8 @@ use congruent_input::{Diagnostics, SourceFile};
 
 use super::MjcfPlaces;
 use crate::{
-    mjcf::{MjcfInputs, parse},
-    parameter_places::ParameterPlaces,
+    mjcf::{MjcfInputs, ModelRobot, parse},
+    parameter_places::{JointElement, ParameterPlaces},
 };
 
 fn source(path: &str, text: &str) -> Arc<SourceFile> {
@@ -17,11 +17,17 @@ fn source(path: &str, text: &str) -> Arc<SourceFile> {
 /// The places of a model that may include `arm.xml`.
 #[track_caller]
 pub(super) fn places(main: &str, included: &str) -> MjcfPlaces {
+    read(main, included).places
+}
+
+/// A model that may include `arm.xml`.
+#[track_caller]
+pub(super) fn read(main: &str, included: &str) -> ModelRobot {
     let mut diagnostics = Diagnostics::default();
     let mut include = |_: &str| Ok(source("arm.xml", included));
     let inputs = MjcfInputs { include: &mut include, find_mesh: &mut crate::urdf::no_mesh };
     let read = parse(&source("robot.xml", main), &mut { inputs }, &mut diagnostics);
-    read.unwrap_or_else(|| panic!("{:#?}", diagnostics.into_vec())).places
+    read.unwrap_or_else(|| panic!("{:#?}", diagnostics.into_vec()))
 }
 
 /// A place as a message has it, and the text there.
@@ -123,4 +129,31 @@ fn copies_share_their_places() {
     let places = places(&text.replace("</worldbody>", "</replicate></worldbody>"), "");
     let (_, body) = places.body("upper0").expect("a copy");
     assert!(places.users.are_several(&body.place));
+}
+
+#[test]
+fn the_origin_of_a_joint_is_at_its_body_and_the_axis_at_the_joint() {
+    let text = ARM.replace(
+        "<body name=\"lower\">",
+        "<body name=\"lower\"\n pos=\"0 0 1\">\n<body name=\"flange\" quat=\"0 1 0 0\"/>\n<site name=\"tool\"/>",
+    );
+    let text = text
+        .replace("class=\"arm\" range=\"-2 2\"", "class=\"arm\"\n axis=\"0 1 0\"/><joint name=\"second\"");
+    let coupling = "<equality>\n<joint joint1=\"wrist\" joint2=\"elbow\"/>\n</equality>\n</mujoco>";
+    let places = places(&text.replace("</mujoco>", coupling), "");
+    let part = |joint: &str, part| {
+        let place = places.joint_part(joint, part).expect("it has a place");
+        (place.line(), place.source.text[place.span.clone()].to_owned())
+    };
+    let text_at = |line: usize, text: &str| (line, text.to_owned());
+    assert_eq!(part("elbow", JointElement::Origin), text_at(17, "0 0 1"));
+    assert_eq!(part("elbow", JointElement::Axis), text_at(23, "0 1 0"));
+    assert_eq!(part("second", JointElement::Origin), text_at(23, "<joint"));
+    assert_eq!(part("shoulder", JointElement::Origin), text_at(12, "<body"));
+    assert_eq!(part("shoulder", JointElement::Axis), text_at(15, "<joint"));
+    assert_eq!(part("flange (fixed)", JointElement::Origin), text_at(18, "0 1 0 0"));
+    assert_eq!(part("tool (fixed)", JointElement::Origin), text_at(19, "<site"));
+    assert_eq!(part("wrist", JointElement::Mimic).1, "<joint");
+    assert!(part("wrist", JointElement::Mimic).0 > part("wrist", JointElement::Axis).0);
+    assert!(places.joint_part("nobody", JointElement::Axis).is_none());
 }
