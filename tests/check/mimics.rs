@@ -106,6 +106,8 @@ fn an_mjcf_is_corrected_in_its_own_elements() {
         printed.contains("to do: remove joint \"joint8\" from <equality>, or write <mimic "),
         "{printed}"
     );
-    assert!(printed.contains("in the <body> of joint \"joint4\""), "{printed}");
+    let pose = "pos=\"-0.2422100788 0.0685081015 -0.000000369\" quat=\"0.5447666607 -0.5447687785 ";
+    assert!(printed.contains(&format!("to write: <body name=\"link4\" {pose}")), "{printed}");
+    assert!(printed.contains("(robot.xml:71)"), "{printed}");
     assert!(!printed.contains("in the <origin>"), "{printed}");
 }

@@ -14,6 +14,7 @@ mod joint_losses;
 mod joint_origins;
 mod mapping;
 mod mimics;
+mod mjcf_edits;
 mod other_frames;
 mod planted_dynamics;
 mod public_pairs;

@@ -105,11 +105,16 @@ pub trait ParameterPlaces: Debug {
         true
     }
 
-    /// The edits that give a link this inertia; empty if the file format cannot express it.
-    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Vec<TextEdit>;
+    /// Whether the file writes damping or dry friction of a joint; it may state them without that, by a default of its format.
+    fn writes_joint_terms(&self, joint: &str) -> bool {
+        self.states_joint_terms(joint)
+    }
 
-    /// The edits that give a joint these terms; empty if the file format cannot express them.
-    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit>;
+    /// The edits that give a link this inertia; `None` if its element in the file cannot.
+    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Option<Vec<TextEdit>>;
+
+    /// The edits that give a joint these terms; `None` if its element in the file cannot.
+    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Option<Vec<TextEdit>>;
 
     /// The edits that set gravity, in the root link; empty if the file format cannot express it.
     fn set_gravity(&self, _gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit> {

@@ -90,6 +90,15 @@ impl WrittenUnit {
     pub fn to_si(self, value: f64) -> f64 {
         if self.system == UnitSystem::Si { value } else { self.unit.convert(value) }
     }
+
+    /// A value in m or rad, in this unit.
+    pub fn from_si(self, value: f64) -> f64 {
+        match (self.system, self.unit) {
+            (UnitSystem::Si, _) => value,
+            (UnitSystem::Engineering, Unit::Length) => value * 1e3,
+            (UnitSystem::Engineering, Unit::Angle) => value.to_degrees(),
+        }
+    }
 }
 
 /// The fault of a quantity that two keys give, in SI units and in engineering units.

@@ -3,7 +3,9 @@
 
 use std::sync::Arc;
 
-use congruent_description::{Joint, JointElement, ParameterPlace, RobotDescription, UrdfPlaces};
+use congruent_description::{
+    Joint, JointElement, MjcfPlaces, ParameterPlace, ParameterPlaces, RobotDescription, UrdfPlaces,
+};
 use congruent_input::{
     RevisionName, Slack, changed_lines,
     display::angle,
@@ -180,8 +182,10 @@ impl CorrectionMessages<'_> {
             ..fault
         };
         let mut message = FaultMessage { fault, message: text, location };
-        if let Some(places) = own {
-            advise(&mut message, places, &joint.name, part, &attributes);
+        match (own, self.descriptions[0].places.mjcf.as_ref()) {
+            (Some(places), _) => advise(&mut message, places, &joint.name, part, &attributes),
+            (None, Some(places)) => advise_in_mjcf(&mut message, places, &joint.name, &correction.expected),
+            (None, None) => {}
         }
         message
     }
@@ -281,6 +285,18 @@ pub(super) fn advise(
     let changes = changed_lines(&source.text, &places.set_joint_part(joint, part, &new));
     if !changes.is_empty() {
         message.advise(changes, source);
+    }
+}
+
+/// Replaces the suggestion in words by the lines of an MJCF with the expected pose of the body, or axis of the joint.
+fn advise_in_mjcf(message: &mut FaultMessage, places: &MjcfPlaces, joint: &str, expected: &JointPart) {
+    let edits = match expected {
+        JointPart::Origin(origin) => places.set_joint_origin(joint, origin),
+        JointPart::Axis(axis) => places.set_joint_axis(joint, axis),
+    };
+    let changes = places.changed_lines(&edits);
+    if !changes.is_empty() {
+        message.advise(changes, places.source());
     }
 }
 

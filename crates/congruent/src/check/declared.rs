@@ -303,8 +303,8 @@ impl ParameterPlaces for DeclaredPlaces<'_> {
         Some(ParameterPlace { source: Arc::clone(self.places.source()), span: span?, class: None })
     }
 
-    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Vec<TextEdit> {
-        let Some(entry) = self.entry(link) else { return Vec::new() };
+    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Option<Vec<TextEdit>> {
+        let entry = self.entry(link)?;
         let parameters = &Inertial::from(inertia);
         let body = &self.bodies[entry];
         let written = body.written();
@@ -324,12 +324,12 @@ impl ParameterPlaces for DeclaredPlaces<'_> {
             let tensor = new.tensor_kg_m2.map(|value| cleaned(value, size));
             edits.extend(self.places.set_tensor(entry, &tensor));
         }
-        edits
+        Some(edits)
     }
 
-    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit> {
-        let Some(entry) = self.entry(joint) else { return Vec::new() };
-        self.places.set_terms(entry, [terms.armature, terms.damping, terms.friction])
+    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Option<Vec<TextEdit>> {
+        let entry = self.entry(joint)?;
+        Some(self.places.set_terms(entry, [terms.armature, terms.damping, terms.friction]))
     }
 
     fn set_gravity(&self, gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit> {

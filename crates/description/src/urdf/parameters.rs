@@ -49,12 +49,12 @@ impl ParameterPlaces for UrdfPlaces {
         self.has_joint_dynamics(joint)
     }
 
-    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Vec<TextEdit> {
-        self.set_inertia(link, inertia)
+    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Option<Vec<TextEdit>> {
+        Some(self.set_inertia(link, inertia))
     }
 
-    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit> {
-        self.set_joint_dynamics(joint, terms.damping, terms.friction)
+    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Option<Vec<TextEdit>> {
+        Some(self.set_joint_dynamics(joint, terms.damping, terms.friction))
     }
 
     fn link_text(&self, link: &str) -> Option<String> {

@@ -62,7 +62,7 @@ impl StatedReference {
             |model: &DynamicsModel, joint: usize| model.resistances[joint] != JointResistance::default();
         let own = candidate.model;
         let is_written = |joint: &usize| match candidate.places {
-            Some(places) => places.states_joint_terms(own.frames.joint_name(*joint)),
+            Some(places) => places.writes_joint_terms(own.frames.joint_name(*joint)),
             None => has_terms(own, *joint),
         };
         if 2 * (0..joints.len()).filter(is_written).count() <= joints.len() {

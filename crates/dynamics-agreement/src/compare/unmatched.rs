@@ -79,7 +79,8 @@ impl<'a> Unmatched<'a> {
         let added = self.added.iter().map(|&link| {
             let name = self.candidate.frames.link_name(link);
             let nothing = Inertial::nothing().to_inertia();
-            let edits = files.found.map(|file| file.changed_lines(&file.set_inertial(name, &nothing)));
+            let edits =
+                files.found.and_then(|file| Some(file.changed_lines(&file.set_inertial(name, &nothing)?)));
             let explanation = explanation(
                 DynamicsCause::LinkAdded,
                 name,

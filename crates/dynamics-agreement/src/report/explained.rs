@@ -59,7 +59,7 @@ impl ExplanationContext<'_> {
         let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate);
         let first = self.name(exact, &corrected);
         let law_broken = corrected.law_broken(self.candidate);
-        let changes = self.changes(&corrected);
+        let changes = self.changes(&corrected).unwrap_or_default();
         // Where something is to be written: a rotation of the inertial frame changes every entry of the tensor.
         let lines = || parameters.iter().filter_map(|parameter| parameter.line);
         let is_changed = |line: &usize| changes.iter().any(|of| (of.from_line..=of.to_line).contains(line));
@@ -236,22 +236,20 @@ impl ExplanationContext<'_> {
         differences
     }
 
-    /// The lines with the corrected parameters; empty if the file is right, or if its format cannot express them.
-    fn changes(&self, corrected: &Corrected) -> Vec<ChangedLines> {
-        let Some(file) = self.files.found.filter(|_| self.faulty == FaultySide::Candidate) else {
-            return Vec::new();
-        };
+    /// The lines with the corrected parameters; `None` if the file is right, or if its elements cannot have all of them.
+    fn changes(&self, corrected: &Corrected) -> Option<Vec<ChangedLines>> {
+        let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate)?;
         let model = self.candidate;
         let mut edits: Vec<TextEdit> = Vec::new();
         for (link, parameters) in corrected.links.iter().filter(|(_, of)| *of != Inertial::nothing()) {
-            edits.extend(file.set_inertial(model.frames.link_name(*link), &parameters.to_inertia()));
+            edits.extend(file.set_inertial(model.frames.link_name(*link), &parameters.to_inertia())?);
         }
         for (joint, terms) in corrected.joints.iter().flatten().enumerate() {
             if *terms != model.resistances[joint] {
-                edits.extend(file.set_terms(model.frames.joint_name(joint), terms));
+                edits.extend(file.set_terms(model.frames.joint_name(joint), terms)?);
             }
         }
         edits.extend(corrected.gravity.iter().flat_map(|gravity| file.set_gravity(gravity)));
-        file.changed_lines(&edits)
+        Some(file.changed_lines(&edits))
     }
 }

@@ -99,6 +99,11 @@ impl MjNotation {
         if self.is_in_degrees { UnitSystem::Engineering } else { UnitSystem::Si }
     }
 
+    /// An angle, rad, in the unit of the file.
+    pub fn written_angle(&self, angle_rad: f64) -> f64 {
+        WrittenUnit { unit: Unit::Angle, system: self.angle_unit() }.from_si(angle_rad)
+    }
+
     /// An angle of the file, rad.
     pub(crate) fn angle_rad(&self, written: f64) -> f64 {
         WrittenUnit { unit: Unit::Angle, system: self.angle_unit() }.to_si(written)

@@ -1,7 +1,11 @@
 //! Where an MJCF writes values of the robot that was made of it.
 
+mod element;
+mod inertial_edits;
+mod joint_edits;
 mod joints;
 mod parameters;
+mod pose_edits;
 mod users;
 
 use std::{collections::BTreeMap, sync::Arc};
@@ -88,6 +92,12 @@ impl MjcfPlaces {
         Some((index, &self.model.joints[index]))
     }
 
+    /// Whether a place is in the main file, and a change there changes one element alone: not a class of defaults, nor a copy.
+    fn is_of_one_element(&self, place: &MjPlace) -> bool {
+        let is_in_main = Arc::ptr_eq(&place.source, &self.model.files[0]);
+        is_in_main && place.class.is_none() && !self.users.are_several(place)
+    }
+
     /// A place of the model, in the files as messages name them.
     fn named(&self, place: &MjPlace) -> ParameterPlace {
         let index = self.model.files.iter().position(|file| Arc::ptr_eq(file, &place.source));
@@ -97,5 +107,7 @@ impl MjcfPlaces {
     }
 }
 
+#[cfg(test)]
+mod edit_tests;
 #[cfg(test)]
 mod tests;

@@ -22,7 +22,7 @@ impl ParameterPlaces for MjcfPlaces {
                 self.of_inertial(of, |inertial| inertial.inertia.place.as_ref())
             }
             "damping" | "friction" | "armature" => self.of_losses(of, parameter),
-            "effort" => self.of_effort(of),
+            "effort" => self.of_effort(self.joint(of)?.0),
             "lower" | "upper" => {
                 let (_, joint) = self.joint(of)?;
                 Some(joint.range.as_ref().and_then(|range| range.place.as_ref()).unwrap_or(&joint.place))
@@ -37,12 +37,23 @@ impl ParameterPlaces for MjcfPlaces {
         self.part_of_joint(joint, part)
     }
 
-    fn set_inertial(&self, _link: &str, _inertia: &Inertia) -> Vec<TextEdit> {
-        Vec::new()
+    fn writes_joint_terms(&self, joint: &str) -> bool {
+        let joint = self.joint(joint).map(|(_, joint)| joint);
+        joint.is_some_and(|of| {
+            of.damping.place.is_some() || of.friction_loss.place.is_some() || of.armature.place.is_some()
+        })
     }
 
-    fn set_terms(&self, _joint: &str, _terms: &JointResistance) -> Vec<TextEdit> {
-        Vec::new()
+    fn set_inertial(&self, link: &str, inertia: &Inertia) -> Option<Vec<TextEdit>> {
+        self.inertial_edits(link, inertia)
+    }
+
+    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Option<Vec<TextEdit>> {
+        self.loss_edits(joint, terms)
+    }
+
+    fn set_limit(&self, joint: &str, parameter: &str, value: f64) -> Vec<TextEdit> {
+        self.limit_edits(joint, parameter, value)
     }
 }
 
@@ -76,8 +87,8 @@ impl MjcfPlaces {
     }
 
     /// The range of forces that limits the effort: of the joint, or of its first actuator.
-    fn of_effort(&self, joint: &str) -> Option<&MjPlace> {
-        let (_, joint) = self.joint(joint)?;
+    pub(super) fn of_effort(&self, joint: usize) -> Option<&MjPlace> {
+        let joint = &self.model.joints[joint];
         let MjEffort::Within { places, .. } = &joint.effort else { return None };
         // The limit of the joint is behind those of the actuators, and only there if it is the smaller one.
         let of_joint = joint.actuator_force_range.as_ref().and_then(|range| range.place.as_ref());
@@ -85,7 +96,7 @@ impl MjcfPlaces {
     }
 
     /// The actuators that act on a joint itself.
-    fn actuators_of(&self, joint: usize) -> impl Iterator<Item = &MjActuator> {
+    pub(super) fn actuators_of(&self, joint: usize) -> impl Iterator<Item = &MjActuator> {
         self.model.actuators.iter().filter(move |actuator| actuator.target == MjTarget::Joint(joint))
     }
 }
