@@ -86,7 +86,8 @@ impl ExactExplanation {
     /// do not show which of several values is written there.
     pub(crate) fn gives_values_of(&self, right: &DynamicsModel, model: &DynamicsModel) -> bool {
         self.corrected.links.iter().all(|(link, corrected)| {
-            let right = right.inertials[*link].unwrap_or_else(Inertial::nothing);
+            let there = right.frames.find_link(model.frames.link_name(*link));
+            let right = there.and_then(|there| right.inertials[there]).unwrap_or_else(Inertial::nothing);
             let written = model.inertials[*link].unwrap_or_else(Inertial::nothing);
             let LinkDifferences(changed) = LinkDifferences::between(&written, corrected);
             let LinkDifferences(wrong) = LinkDifferences::above(FILE_DIGITS, corrected, &right);

@@ -35,6 +35,10 @@ pub struct ParameterDifference {
     /// The same of the reference.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub expected_elsewhere: Option<PlaceElsewhere>,
+    /// Whether `expected` is what gives the torques of the reference, and not what its file writes: it has other links as one, or writes
+    /// the same body in other parameters.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    pub is_computed: bool,
     /// The relative change of all torques by this difference alone, if it is below the resolution of the comparison; `null`
     /// if the parameter has no effect on torques, or one above the resolution.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -114,6 +118,7 @@ pub(crate) fn link_differences(
         elsewhere: None,
         expected_elsewhere: None,
         below_resolution: None,
+        is_computed: false,
         cancelled: None,
     })
     .collect()
@@ -141,6 +146,7 @@ pub(crate) fn joint_term_differences(
                     elsewhere: None,
                     expected_elsewhere: None,
                     below_resolution: None,
+                    is_computed: false,
                     cancelled: None,
                 });
             }
@@ -166,6 +172,7 @@ pub(crate) fn gravity_differences(found: &Vector3<f64>, expected: &Vector3<f64>)
             elsewhere: None,
             expected_elsewhere: None,
             below_resolution: None,
+            is_computed: false,
             cancelled: None,
         })
         .collect()

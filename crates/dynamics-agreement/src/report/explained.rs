@@ -56,6 +56,13 @@ impl ExplanationContext<'_> {
         let corrected = self.rounded_for_file(exact);
         let mut parameters = self.parameters(&corrected);
         self.files.place(&mut parameters);
+        if self.reference.is_some_and(|reference| !exact.gives_values_of(reference, self.candidate)) {
+            // Torques alone do not show which of several values is written there.
+            for parameter in parameters.iter_mut().filter(|of| of.expected.is_some()) {
+                parameter.is_computed = true;
+                (parameter.expected_line, parameter.expected_elsewhere) = (None, None);
+            }
+        }
         let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate);
         let first = self.name(exact, &corrected);
         let law_broken = corrected.law_broken(self.candidate);

@@ -24,6 +24,12 @@ impl ParameterDifference {
         let [found, expected] = self.values("not given");
         let here = place_in(candidate, self.line, self.elsewhere.as_ref());
         let there = place_in(reference, self.expected_line, self.expected_elsewhere.as_ref());
+        if self.is_computed {
+            return self.about(&format!(
+                "{} {found} in {here}, {expected} computed for {reference}",
+                self.parameter
+            ));
+        }
         self.about(&format!("{} {found} in {here}, {expected} in {there}", self.parameter))
     }
 
@@ -112,6 +118,7 @@ mod tests {
             elsewhere: None,
             expected_elsewhere: None,
             below_resolution: None,
+            is_computed: false,
             cancelled: None,
         }
     }

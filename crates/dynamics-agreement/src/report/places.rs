@@ -24,6 +24,10 @@ impl ModelFiles<'_> {
             let [found, expected] = [self.found, self.expected].map(at);
             (difference.line, difference.elsewhere) = found;
             (difference.expected_line, difference.expected_elsewhere) = expected;
+            // The sum of links that the reference has as one is written nowhere.
+            let is_known = self.expected.is_some() && difference.expected.is_some();
+            difference.is_computed =
+                is_known && (&difference.expected_line, &difference.expected_elsewhere) == (&None, &None);
         }
     }
 
