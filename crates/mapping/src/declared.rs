@@ -1,5 +1,7 @@
 //! The mapping that a robot file declares.
 
+use std::collections::BTreeSet;
+
 use congruent_description::{DeclaredMapping, JointIndex, RobotDescription};
 use congruent_input::known_names;
 
@@ -83,6 +85,7 @@ impl Both<'_> {
             unmatched: self.unmatched(pairs),
             root_from_other_root: solution.as_ref().map_or(base, |solution| solution.a_from_b),
             has_fitted_base: mapping.has_fitted_base,
+            misplaced: BTreeSet::new(),
             angle_rad: solution.as_ref().map_or(0.0, |solution| solution.angle_rad),
             distance_m: solution.as_ref().map_or(0.0, |solution| solution.distance_m),
             equivalent: Vec::new(),

@@ -6,7 +6,10 @@
 //! Of a number that both files write, the coarser alone counts as rounded: two files that round a value to the same place write
 //! the same number, and a last digit that differs is a difference.
 
-use std::{collections::BTreeSet, f64::consts::FRAC_PI_2};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    f64::consts::FRAC_PI_2,
+};
 
 use congruent_description::{
     Joint, JointIndex, JointKind, JointRounding, LinkIndex, MappedJoint, Robot, SmallMotion, Tolerance,
@@ -25,8 +28,8 @@ const SAME: f64 = 1e-3;
 /// than what digits leave open.
 const FITTED: f64 = 1e-2;
 /// A smaller share of what the written digits allow is no difference: frames of one link that lie elsewhere in two files turn and
-/// shift roundings a little. Kind: choice.
-const NO_PART: f64 = 1e-2;
+/// shift roundings a little, and so does the norm of a rounded quaternion. Kind: choice; worst seen 0.036 (`piper`).
+const NO_PART: f64 = 5e-2;
 /// Damping of the solver, relative to the largest effect. Kind: solver.
 const DAMPING: f64 = 1e-14;
 /// Most values that are varied together, and most joints and links that they move; of larger robots digits explain nothing. Kind:
@@ -34,10 +37,41 @@ const DAMPING: f64 = 1e-14;
 const MOST_VALUES: usize = 1000;
 const MOST_MOVED: usize = 200;
 
+/// What the digits allow, if they explain all that differs.
+struct DigitsExplanation {
+    /// The largest difference of a link at zero, to first order.
+    at_links: PoseError,
+    /// The parts of all motions that are taken: those of the robot, then those of the other.
+    parts: Vec<f64>,
+}
+
 impl MatchedRobots<'_> {
     /// The largest difference of a link at zero that the digits allow, to first order, if they explain all that differs; `None`
     /// if they do not, or if programs have written both files with all digits.
     pub fn explained_by_digits(&self) -> Option<PoseError> {
+        Some(self.digits_explanation()?.at_links)
+    }
+
+    /// By how much fitted zeros of the other robot must be turned or shifted for the digits to explain the rest, rad or m, by joint;
+    /// `None` if they do not explain it.
+    pub fn zeros_by_digits(&self) -> Option<BTreeMap<&str, f64>> {
+        let DigitsExplanation { parts, .. } = self.digits_explanation()?;
+        let [own, other] = self.roundings();
+        let of_own: usize = own.iter().map(|of| of.rounding.values()).sum();
+        let mut zeros = BTreeMap::new();
+        let mut at = of_own;
+        for RoundedJoint { joint, rounding } in &other {
+            // The zero of a joint is the last motion of its origin.
+            let zero = rounding.origin.last().filter(|last| is_written(last) == 0.0);
+            if zero.is_some() {
+                zeros.insert(joint.name.as_str(), parts[at + rounding.origin.len() - 1] * FITTED);
+            }
+            at += rounding.values();
+        }
+        Some(zeros)
+    }
+
+    fn digits_explanation(&self) -> Option<DigitsExplanation> {
         let sides = self.sides();
         let roundings = self.roundings();
         let values: usize = roundings.iter().flatten().map(|of| of.rounding.values()).sum();
@@ -70,7 +104,10 @@ impl MatchedRobots<'_> {
             |(rest, written): (&f64, &f64)| rest.abs() <= same + used * used + NO_PART * written;
         // Of what is fitted the part that the fit takes, and not all that it might have.
         let most = parts.zip_map(&is_written, |part: f64, is_written| is_written.max(part.abs()));
-        rest.iter().zip(written.iter()).all(is_explained).then(|| sides[0].largest_at_links(&effects, &most))
+        rest.iter().zip(written.iter()).all(is_explained).then(|| DigitsExplanation {
+            at_links: sides[0].largest_at_links(&effects, &most),
+            parts: parts.iter().copied().collect(),
+        })
     }
 
     /// The two robots with the joints and links that are compared, in one order.
@@ -156,6 +193,16 @@ pub fn with_fitted_base(robot: &Robot) -> Robot {
 }
 
 impl FoundMapping {
+    /// The same with the zeros of turning joints to five decimals, as files write angles in radians.
+    #[must_use]
+    pub fn with_rounded_zeros(&self) -> Self {
+        let mut found = self.clone();
+        for joint in &mut found.joints {
+            joint.offset = (joint.offset * 1e5).round() / 1e5;
+        }
+        found
+    }
+
     /// The same with each zero that is next to 0 at it, if the digits of both files reach that far, and each that is next to a
     /// quarter turn, if those of its joint do; `None` if there is no such zero.
     #[must_use]

@@ -46,6 +46,8 @@ pub struct FoundMapping {
     /// Whether the base is fitted to the axes, as declared or because it is turned about the first of them: the frames that are fixed to
     /// it are no evidence then.
     pub has_fitted_base: bool,
+    /// Joints of the other description that carry the same link from the same link, with another axis: one of the two files is wrong.
+    pub misplaced: BTreeSet<JointIndex>,
     /// The largest angle between two axes that should be the same, rad.
     pub angle_rad: f64,
     /// The largest distance of two axes that should be the same, m.
@@ -56,6 +58,12 @@ pub struct FoundMapping {
 
 /// Variables by joint of the robot.
 type KnownVariables = BTreeMap<JointIndex, JointVariable>;
+
+/// What the branches beside the main one add to a mapping.
+struct BranchesSolved {
+    off: PoseError,
+    misplaced: BTreeSet<JointIndex>,
+}
 
 /// What is known of two robots beside their files.
 pub(crate) struct Both<'a> {
@@ -73,9 +81,15 @@ pub fn find(a: &RobotDescription, b: &RobotDescription) -> Option<FoundMapping> 
         (MatchedBy::Names, with_one_name(&a.robot, &b.robot)),
         (MatchedBy::SimilarNames, with_similar_names(&a.robot, &b.robot)),
     ];
+    // A joint that the other file fixes has a partner that does not move.
+    let is_fixed_there = |joint: &JointIndex| {
+        let there = b.robot.find_joint(&a.robot.joint(*joint).name);
+        there.is_some_and(|there| !b.robot.joint(there).kind.is_movable())
+    };
     let covers = |pairs: &JointPairs| {
+        let is_paired = |joint: &JointIndex| pairs.iter().any(|[of_a, _]| of_a == joint);
         let chain = a.moving_chain();
-        !chain.is_empty() && chain.iter().all(|joint| pairs.iter().any(|[of_a, _]| of_a == joint))
+        chain.iter().any(is_paired) && chain.iter().all(|joint| is_paired(joint) || is_fixed_there(joint))
     };
     let mut found =
         named.into_iter().filter(|(_, pairs)| covers(pairs)).filter_map(|(by, pairs)| both.solved(by, pairs));
@@ -189,7 +203,8 @@ impl Both<'_> {
             main.iter().map(|pair| pair[0]).zip(solution.variables.iter().copied()).collect()
         };
         let mut solved = of_main(solution);
-        let of_branches = self.solve_branches(&branches, &solution.a_from_b, &mut solved, &mut pairs);
+        let BranchesSolved { off: of_branches, misplaced } =
+            self.solve_branches(&branches, &solution.a_from_b, &mut solved, &mut pairs);
         let angle_rad = solution.angle_rad.max(of_branches.orientation_rad);
         let distance_m = solution.distance_m.max(of_branches.position_m);
         let mapped = |known: &KnownVariables| -> Vec<MappedJoint> {
@@ -202,6 +217,7 @@ impl Both<'_> {
             unmatched: self.unmatched(&pairs),
             root_from_other_root: solution.a_from_b,
             has_fitted_base: turned.is_some(),
+            misplaced,
             angle_rad,
             distance_m,
             equivalent: solutions.iter().skip(1).map(|other| mapped(&of_main(other))).collect(),
@@ -209,15 +225,16 @@ impl Both<'_> {
     }
 
     /// Adds the variables of the joints of all branches to those of the main one, and drops the pairs that are not the same joint. Returns
-    /// the largest distance and angle of axes.
+    /// the largest distance and angle of axes, and joints of the other that are misplaced.
     fn solve_branches(
         &self,
         branches: &[(LinkIndex, JointPairs)],
         a_from_b: &Isometry3<f64>,
         solved: &mut KnownVariables,
         pairs: &mut JointPairs,
-    ) -> PoseError {
+    ) -> BranchesSolved {
         let mut off = PoseError::default();
+        let mut misplaced = BTreeSet::new();
         for (end, branch) in branches {
             let known: Vec<_> = branch.iter().map(|pair| solved.get(&pair[0]).copied()).collect();
             if known.iter().all(Option::is_some) {
@@ -240,9 +257,11 @@ impl Both<'_> {
             let Some(found) = solutions.into_iter().next() else {
                 // Joints of the same name whose axes are others are the same joints only if they carry the same link from the same
                 // link: then one of the two files is wrong.
-                for pair in branch.iter().filter(|pair| self.has_same_links(**pair)) {
-                    solved.entry(pair[0]).or_default();
-                }
+                let is_misplaced =
+                    |pair: &&[JointIndex; 2]| self.has_same_links(**pair) && !solved.contains_key(&pair[0]);
+                let found: JointPairs = branch.iter().filter(is_misplaced).copied().collect();
+                solved.extend(found.iter().map(|pair| (pair[0], JointVariable::default())));
+                misplaced.extend(found.iter().map(|pair| pair[1]));
                 pairs.retain(|pair| solved.contains_key(&pair[0]) || !branch.contains(pair));
                 continue;
             };
@@ -251,7 +270,7 @@ impl Both<'_> {
                 solved.entry(pair[0]).or_insert(variable);
             }
         }
-        off
+        BranchesSolved { off, misplaced }
     }
 
     /// Whether two joints carry a link of one name from a link of one name.

@@ -26,13 +26,15 @@ pub enum CommonAxes {
 
 /// The other description with its root and the links of its moving joints in the frames of `robot`: it has the same moving
 /// joints by name, in the same variables. A frame is turned and shifted along the axis of its joint, which changes no motion;
-/// an axis that lies elsewhere stays there, and then the frames of links that have one name, too.
+/// an axis that lies elsewhere stays there, and then the frames of links that have one name, too. Joints that are `misplaced`, by name,
+/// keep their frames: what differs there is a difference.
 #[must_use]
 pub fn in_frames_of(
     [robot, other]: [&Robot; 2],
     named_tip: Option<LinkIndex>,
     root_from_other_root: &Isometry3<f64>,
     axes: CommonAxes,
+    misplaced: &BTreeSet<&str>,
 ) -> Robot {
     let trees = [robot, other].map(ScrewTree::new);
     let home = |of: usize, link: LinkIndex| trees[of].home(link).to_isometry();
@@ -45,7 +47,9 @@ pub fn in_frames_of(
         // The frame of a tip that is named, or at the end of a branch, shows the zero of its joint if both files call the link the
         // same and place its frame alike.
         let is_evidence = named_tip == Some(here.child) || is_end(robot, here.child);
-        if is_same_link && is_evidence && is_along_axis(joint, &link_from_frame, here) {
+        if misplaced.contains(joint.name.as_str())
+            || (is_same_link && is_evidence && is_along_axis(joint, &link_from_frame, here))
+        {
             continue;
         }
         if axes == CommonAxes::Differ && is_same_link && link_from_frame.rotation.angle() < SAME_FRAME_RAD {

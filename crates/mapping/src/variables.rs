@@ -19,6 +19,9 @@ const MOST_SOLUTIONS: usize = 256;
 const EXACT: f64 = 1e-7;
 /// What an offset near a quarter turn may hide of a fault, as a share of the reach. Kind: choice, some centimetres.
 const FAULT: f64 = 0.02;
+/// The same of an offset that would need another range than both files write, which is a fault of the origin then. Kind: choice, some
+/// degrees.
+const OF_RANGES: f64 = 0.1;
 /// Cosine of the tilt of an upright base. Kind: choice, a degree.
 const UPRIGHT: f64 = 0.9998;
 /// A base at the first axes is another one than the fitted, if all axes are farther off than this multiple. Kind: choice; a fault in the
@@ -88,17 +91,21 @@ impl ChainPair {
         for start in self.starts() {
             self.follow(&start, start, &mut Vec::new(), &mut solutions);
         }
-        let polished = solutions.into_iter().map(|solution| self.polished(solution));
-        let rounded: Vec<ChainSolution> =
-            polished.map(|solution| self.with_one_fault(self.with_round_offsets(solution))).collect();
-        // Again, since one fault alone may have kept some of them from a round value.
-        let rounded: Vec<ChainSolution> =
-            rounded.into_iter().map(|solution| self.with_round_offsets(solution)).collect();
-        let best_m =
-            rounded.iter().map(|solution| solution.off_m(self.reach_m)).fold(f64::INFINITY, f64::min);
+        let off_m = |solution: &ChainSolution| solution.off_m(self.reach_m);
+        // Each with how far off it is at least: a round offset may only move a fault to where the files have it.
+        let rounded = solutions.into_iter().map(|solution| {
+            let polished = self.polished(solution);
+            let least_m = off_m(&polished);
+            let rounded = self.with_one_fault(self.with_round_offsets(polished));
+            // Again, since one fault alone may have kept some of them from a round value.
+            let rounded = self.with_round_offsets(rounded);
+            (least_m.min(off_m(&rounded)), rounded)
+        });
+        let rounded: Vec<(f64, ChainSolution)> = rounded.collect();
+        let best_m = rounded.iter().map(|(least_m, _)| *least_m).fold(f64::INFINITY, f64::min);
         let limit_m = 2.0 * best_m + 1e-9 * self.reach_m;
         let mut solutions: Vec<ChainSolution> = Vec::new();
-        for solution in rounded.into_iter().filter(|solution| solution.off_m(self.reach_m) <= limit_m) {
+        for (_, solution) in rounded.into_iter().filter(|(least_m, _)| *least_m <= limit_m) {
             if !solutions.iter().any(|known| is_same(known, &solution)) {
                 solutions.push(solution);
             }
@@ -295,7 +302,13 @@ impl ChainPair {
                 variables[at].offset = offset;
             }
             let rounded = self.judged(&solution.a_from_b, &variables)?;
-            (rounded.off_m(self.reach_m) <= self.acceptable_m(solution)).then_some(rounded)
+            let moved =
+                offsets.iter().filter(|(at, offset)| !is_equal(solution.variables[*at].offset, *offset));
+            let is_of_ranges =
+                moved.clone().all(|&(at, offset)| self.has_written_range(at, solution.variables[at], offset));
+            let slack = if is_of_ranges { OF_RANGES } else { self.slack(solution) };
+            let most_m = 1.2 * solution.off_m(self.reach_m) + slack * self.reach_m;
+            (rounded.off_m(self.reach_m) <= most_m).then_some(rounded)
         };
         let first = round.iter().enumerate().filter_map(|(at, offsets)| Some((at, *offsets.first()?)));
         if let Some(rounded) = with(&solution, &first.collect::<Vec<_>>()) {
@@ -310,12 +323,17 @@ impl ChainPair {
         solution
     }
 
-    /// How far off axes may be with rounder offsets than those of a solution, m.
-    fn acceptable_m(&self, solution: &ChainSolution) -> f64 {
+    /// How far off axes may be with rounder offsets than those of a solution, as a share of the reach.
+    fn slack(&self, solution: &ChainSolution) -> f64 {
         // Between files that do not agree exactly, an offset of a degree may only make up for a fault.
         let is_exact = solution.off_m(self.reach_m) <= EXACT * self.reach_m;
-        let slack = if is_exact { 1e-10 } else { FAULT };
-        1.2 * solution.off_m(self.reach_m) + slack * self.reach_m
+        if is_exact { 1e-10 } else { FAULT }
+    }
+
+    /// Whether both files write the same range of a joint, which is then the same with this offset: another zero would need another range,
+    /// and a fault of the origin does not.
+    fn has_written_range(&self, at: usize, found: JointVariable, offset: f64) -> bool {
+        offset == 0.0 && self.offset_of_ranges(at, JointVariable { offset, ..found }) == Some(0.0)
     }
 
     /// The offsets near that of a joint that are rounder, the best first; none if it is known.
@@ -357,6 +375,10 @@ impl ChainPair {
         let offset = if lower.abs().max(upper.abs()) < SAME_END { 0.0 } else { lower };
         ((lower - upper).abs() < SAME_END).then_some(offset + turns)
     }
+}
+
+fn is_equal(a: f64, b: f64) -> bool {
+    a.total_cmp(&b).is_eq()
 }
 
 /// Whether two solutions are the same except for rounding and whole turns.

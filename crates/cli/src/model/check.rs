@@ -187,7 +187,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         answers.extend((1..others).map(|at| batch.answer(path, || compared(path, at, arguments, &batch))));
     }
     if let Some(hint) = two_alone(&answers, arguments) {
-        printer.notes([&hint[..]]);
+        printer.hint(&hint);
     }
     let plotted = answers.iter().try_for_each(|answer| draw(answer, arguments, &batch));
     let written = arguments.page.write(|| page(&answers), &batch.read()).and(plotted);

@@ -213,6 +213,13 @@ impl Printer {
         }
     }
 
+    /// What the caller seems to have meant instead: also with --quiet, whose answer would look like one to it.
+    pub(crate) fn hint(&self, hint: &str) {
+        if self.format == Format::Human {
+            to_stderr(&format!("note: {hint}\n"));
+        }
+    }
+
     /// What was done, for those who ask with --verbose.
     pub(crate) fn detail(&self, detail: impl FnOnce() -> String) {
         if self.verbosity == Verbosity::Verbose {

@@ -228,8 +228,15 @@ fn adopt_places_of_masses(own: &RobotDescription, there: &mut RobotDescription) 
     let (robot, fused) = with_masses_at_links_of([&own.robot, &there.robot]);
     let names = [there.base, there.tip].map(|link| there.robot.link(link).name.clone());
     let [base, tip] = names.map(|name| robot.find_link(&name).unwrap_or(robot.root()));
+    // A link that has the mass that its file writes is where the file says it.
+    let mass_kg = |of: &Robot, name: &String| of.link(of.find_link(name)?).inertia.map(|of| of.mass_kg);
+    let is_written = |name: &&String| {
+        let both = mass_kg(&robot, name).zip(mass_kg(&there.robot, name));
+        both.is_some_and(|(moved, written)| is_same_value(moved, written))
+    };
     let links = fused.iter().flat_map(|of| of.with.iter().chain([&of.link]));
-    there.places = std::mem::take(&mut there.places).without_links(&links.cloned().collect::<Vec<_>>());
+    let links: Vec<String> = links.filter(|name| !is_written(name)).cloned().collect();
+    there.places = std::mem::take(&mut there.places).without_links(&links);
     (there.robot, there.base, there.tip) = (robot, base, tip);
     fused.iter().map(|of| format!("{} with {}", of.link, of.with.join(", "))).collect()
 }

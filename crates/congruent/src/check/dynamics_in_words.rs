@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use congruent_dynamics_agreement::{DynamicsExplanation, DynamicsReport, ParameterDifference};
+use congruent_dynamics_agreement::{
+    DynamicsExplanation, DynamicsReport, LimitCause, LimitDifference, ParameterDifference,
+};
 
 use super::{
     cause_in_words::{and_more, place},
@@ -44,11 +46,14 @@ impl RobotCheck {
         Some(sentence.strip_prefix(&of_named).filter(|_| is_named).map(str::to_owned).unwrap_or(sentence))
     }
 
-    /// The first limit that disagrees, and how many more do.
+    /// The limit that disagrees most, and how many more do.
     pub(super) fn limits(&self, report: &DynamicsReport) -> String {
-        let mut decide = report.limits.iter().filter(|difference| difference.decides);
-        let Some(first) = decide.next() else { return String::new() };
-        let rest = and_more(decide.count());
+        let decide: Vec<&LimitDifference> =
+            report.limits.iter().filter(|difference| difference.decides).collect();
+        let Some(first) = decide.iter().rev().max_by(|a, b| severity(a).total_cmp(&severity(b))) else {
+            return String::new();
+        };
+        let rest = and_more(decide.len() - 1);
         match self.files_of(report) {
             Some(files) => format!(": {}{rest}", first.sentence_in(short_names(files))),
             None => format!(": {}{}{rest}", first.sentence(), place(first.file.as_deref(), first.line)),
@@ -67,6 +72,17 @@ impl RobotCheck {
     /// The two files of a comparison with --against: the caller has not said that one of them is right.
     pub fn files_of<'r>(&self, report: &'r DynamicsReport) -> Option<[&'r str; 2]> {
         report.sides.files().filter(|_| self.against.is_some())
+    }
+}
+
+/// How far two limits are apart: ends of ranges in rad or m, others as the logarithm of their ratio. A limit that one file lacks is
+/// farthest.
+fn severity(of: &LimitDifference) -> f64 {
+    let Some((found, expected)) = of.found.zip(of.expected) else { return f64::INFINITY };
+    match (of.cause, of.factor) {
+        (LimitCause::PositionLimit, _) => (found - expected).abs(),
+        (_, Some(factor)) => libm::log(factor.abs()).abs(),
+        (_, None) => f64::MAX,
     }
 }
 

@@ -110,8 +110,34 @@ impl MappedPair {
     ) -> Self {
         let pair = |found: &FoundMapping| Self::in_variables(description, other, options, found);
         let rounded = found.with_round_zeros([&description.robot, &other.robot]);
-        let rounded = rounded.map(|found| pair(&found)).filter(Self::is_explained_by_digits);
-        rounded.unwrap_or_else(|| pair(found))
+        let rounded =
+            rounded.map(|found| (pair(&found), found)).filter(|(pair, _)| pair.is_explained_by_digits());
+        let (mapped, found) = rounded.unwrap_or_else(|| (pair(found), found.clone()));
+        let declared = |found: &FoundMapping| {
+            pair(&FoundMapping { matched_by: MatchedBy::Declared, ..found.clone() }).is_explained_by_digits()
+        };
+        // Zeros that are fitted to the axes may be beside those that the digits explain, and are no lines to declare then.
+        match mapped.zeros_of_digits(&found) {
+            Some(moved) if !declared(&found) => {
+                let rounded = moved.with_rounded_zeros();
+                let best = [rounded, moved].into_iter().find(declared);
+                best.map_or(mapped, |found| pair(&found))
+            }
+            _ => mapped,
+        }
+    }
+
+    /// The mapping with the zeros at which the digits explain the rest; `None` if they do not, or explain it without another zero.
+    fn zeros_of_digits(&self, found: &FoundMapping) -> Option<FoundMapping> {
+        let robots = [&self.description.robot, &self.other.robot];
+        let mut poses = PosesOfOther::new(robots[0], robots[1]);
+        let robots = MatchedRobots::new(robots, &mut poses).ok()?;
+        let zeros = robots.zeros_by_digits().filter(|_| found.matched_by != MatchedBy::Declared)?;
+        let mut moved = found.clone();
+        for joint in moved.joints.iter_mut().filter(|of| of.offset != 0.0) {
+            joint.offset += joint.sign() * zeros.get(joint.name.as_str()).copied().unwrap_or_default();
+        }
+        (moved != *found).then_some(moved)
     }
 
     fn is_explained_by_digits(&self) -> bool {
@@ -137,8 +163,10 @@ impl MappedPair {
         let axes = common_axes(found, description, [&own.robot, &in_variables]);
         report.ends_in_other_frames = ends([&own.robot, &in_variables], found);
         let named_tip = (own.chain_ends.tip != ChainEnd::Chosen).then_some(own.tip);
-        let in_frames =
-            in_frames_of([&own.robot, &in_variables], named_tip, &found.root_from_other_root, axes);
+        let misplaced = found.joints.iter().filter(|of| found.misplaced.contains(&of.joint));
+        let misplaced = misplaced.map(|of| of.name.as_str()).collect();
+        let root = &found.root_from_other_root;
+        let in_frames = in_frames_of([&own.robot, &in_variables], named_tip, root, axes, &misplaced);
         let is_fitted = |of: &&MappedJoint| of.offset != 0.0 && found.matched_by != MatchedBy::Declared;
         let fitted = found.joints.iter().filter(is_fitted).map(|of| of.name.as_str()).collect();
         let in_frames = with_fitted(&in_frames, &fitted);

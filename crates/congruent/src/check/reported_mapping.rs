@@ -80,10 +80,44 @@ pub struct ReportedJoint {
     pub offset: f64,
     /// `rad` or `m`.
     pub unit: &'static str,
+    /// What the variable does to the range.
+    #[serde(skip)]
+    pub(super) range: RangeInVariable,
     /// The line of the URDF with the axis of a joint in the opposite direction, or with the origin of one with another zero; missing if
     /// the variable is the same, or the file is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
+}
+
+/// Whether the ranges of a joint of two files are the same in the variable that is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum RangeInVariable {
+    /// As they are written: the same, other ones, or not stated.
+    AsWritten,
+    /// The variable makes them the same.
+    Explained,
+    /// They are the same as both files write them, and would have to be others.
+    Contradicted,
+}
+
+impl RangeInVariable {
+    fn new(description: &RobotDescription, other: &RobotDescription, of: &MappedJoint) -> Self {
+        /// Ranges are given to a tenth of a degree, or to some tenths of a millimetre.
+        const SAME_END: f64 = 2e-3;
+        let is_near =
+            |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs() < SAME_END && (a.1 - b.1).abs() < SAME_END;
+        let own = description.robot.find_joint(&of.name);
+        let own = own.and_then(|own| description.robot.joint(own).position_range());
+        let Some((own, there)) = own.zip(other.robot.joint(of.joint).position_range()) else {
+            return Self::AsWritten;
+        };
+        let [from, to] = [there.0, there.1].map(|end| of.there(end));
+        match (is_near(own, there), is_near(own, (from.min(to), from.max(to)))) {
+            (true, false) => Self::Contradicted,
+            (false, true) => Self::Explained,
+            _ => Self::AsWritten,
+        }
+    }
 }
 
 impl ReportedJoint {
@@ -108,6 +142,7 @@ impl ReportedMapping {
                 sign: if of.is_flipped { -1 } else { 1 },
                 offset: of.offset,
                 unit: joint.kind.unit(),
+                range: RangeInVariable::new(description, other, of),
                 line: line(description, of),
             }
         };
@@ -159,6 +194,15 @@ impl ReportedMapping {
         let root = Pose::from(self.root_from_other_root.as_ref()?);
         let turn_rad = PoseError::between(&Pose::identity(), &root).orientation_rad;
         (turn_rad > LEAST_ZERO_RAD).then_some(turn_rad)
+    }
+
+    /// Whether all that differs is what people choose, and no mistake of a digit: directions, and zeros next to quarter turns.
+    pub(super) fn is_by_convention(&self) -> bool {
+        /// Digits of pi that a file writes. Unit: rad.
+        const QUARTER_RAD: f64 = 1e-2;
+        let quarters = |offset: f64| offset / std::f64::consts::FRAC_PI_2;
+        let is_round = |offset: f64| (quarters(offset) - quarters(offset).round()).abs() < QUARTER_RAD;
+        self.joints.iter().all(|of| of.unit == "rad" && is_round(of.offset) || of.has_same_variable())
     }
 
     /// The joints of both files together, if no joint of both has another name, direction or zero there, and the roots are the same:

@@ -17,7 +17,7 @@ use super::{
     mapped_joints::mapped_joints,
     narrowed::NarrowedPair,
     own_model::placed_as_in,
-    reported_mapping::ReportedMapping,
+    reported_mapping::{RangeInVariable, ReportedMapping},
 };
 use crate::codes;
 
@@ -154,16 +154,22 @@ enum PairReading {
 impl PairReading {
     /// Whether another reading may have fewer statements: not if fewer causes explain the difference than variables differ.
     fn may_be_other(written: &CheckReport, mapping: &ReportedMapping) -> bool {
-        causes(written).is_none_or(|causes| causes >= Self::differing(mapping))
+        let explained = Self::ranges(mapping, RangeInVariable::Explained);
+        causes(written).is_none_or(|causes| causes + explained >= Self::differing(mapping))
     }
 
-    /// How many joints have another variable, with a turned base as one more.
+    /// How many joints have another variable, and another range for it than both files write, with a turned base as one more.
     fn differing(mapping: &ReportedMapping) -> usize {
         mapping.joints.iter().filter(|of| !of.has_same_variable()).count()
+            + Self::ranges(mapping, RangeInVariable::Contradicted)
             + usize::from(mapping.turn_of_base_rad().is_some())
     }
 
-    /// The reading with fewer statements: causes, and joints with another variable.
+    fn ranges(mapping: &ReportedMapping, which: RangeInVariable) -> usize {
+        mapping.joints.iter().filter(|of| of.range == which).count()
+    }
+
+    /// The reading with fewer statements: causes, joints with another variable, and ranges that differ.
     fn simpler(
         [written, mapped]: [&CheckReport; 2],
         against: &OtherDescription,
@@ -178,9 +184,11 @@ impl PairReading {
         };
         let is_equal = against.is_equal_after_mapping();
         let rest = if is_equal { Some(0) } else { self::causes(mapped) };
-        match rest.map_or(Ordering::Less, |rest| causes.cmp(&(differing + rest))) {
+        let as_written = causes + Self::ranges(mapping, RangeInVariable::Explained);
+        match rest.map_or(Ordering::Less, |rest| as_written.cmp(&(differing + rest))) {
             Ordering::Greater => Self::Mapped,
             Ordering::Equal if is_equal => Self::Conventions,
+            Ordering::Equal if mapping.is_by_convention() => Self::Mapped,
             Ordering::Less | Ordering::Equal => Self::AsWritten,
         }
     }

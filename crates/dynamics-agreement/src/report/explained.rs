@@ -1,6 +1,7 @@
 //! Turns an exact hypothesis into an explanation with names, parameters and places in the file.
 
 use congruent_input::{ChangedLines, TextEdit};
+use nalgebra::Matrix3;
 
 use super::{
     content::{DynamicsExplanation, PlacedCause},
@@ -9,12 +10,16 @@ use super::{
 use crate::{
     diagnosis::{
         Corrected, DiagnosisInput, DynamicsCause, DynamicsHypothesis, DynamicsPlace, ExactExplanation,
-        ExplanationGroup, FaultySide, rounded_damping_unit, rounded_unit,
+        ExplanationGroup, FaultySide, MISSING_THERE, rounded_damping_unit, rounded_unit,
     },
-    differences::parameters,
+    differences::{ParameterDifference, parameters},
     model::{BodyLaw, DynamicsModel, Inertial, JointTerm},
+    thresholds::FILE_DIGITS,
     torque::reduced_difference::ReducedTorqueDifference,
 };
+
+/// Products of inertia of a smaller share are those of frames that digits turn a little. Kind: choice.
+const NO_PRODUCT: f64 = 1e-4;
 
 /// Everything that an explanation needs beside the hypothesis: both models, their files and the torque difference.
 #[derive(Clone, Copy)]
@@ -29,6 +34,20 @@ pub(crate) struct ExplanationContext<'a> {
     pub(crate) difference: f64,
     /// The largest residual norm that counts as exact.
     pub(crate) exact: f64,
+}
+
+/// Whether the expected value of a link is not that of the reference, up to the digits of a file.
+fn is_other_value(parameter: &ParameterDifference, reference: &DynamicsModel) -> bool {
+    let link = reference.frames.find_link(&parameter.of);
+    let of_link = link.and_then(|link| reference.inertials[link]);
+    let Some((of_link, expected)) = of_link.zip(parameter.expected) else { return false };
+    // Tensors are compared as they are written if the axes are the same.
+    let as_written = Inertial { link_from_axes: Matrix3::identity(), ..of_link };
+    let is_other = |of: Inertial| {
+        let written = of.value(&parameter.parameter);
+        written.is_some_and(|(written, size)| (written - expected).abs() > FILE_DIGITS * size)
+    };
+    is_other(of_link) && is_other(as_written)
 }
 
 impl<'a> ExplanationContext<'a> {
@@ -56,12 +75,14 @@ impl ExplanationContext<'_> {
         let corrected = self.rounded_for_file(exact);
         let mut parameters = self.parameters(&corrected);
         self.files.place(&mut parameters);
-        if self.reference.is_some_and(|reference| !exact.gives_values_of(reference, self.candidate)) {
-            // Torques alone do not show which of several values is written there.
-            for parameter in parameters.iter_mut().filter(|of| of.expected.is_some()) {
-                parameter.is_computed = true;
-                (parameter.expected_line, parameter.expected_elsewhere) = (None, None);
-            }
+        self.files.mark_computed(&mut parameters);
+        // Torques alone do not show which of several values is written there.
+        let is_other = |parameter: &&mut ParameterDifference| {
+            self.reference.is_some_and(|reference| is_other_value(parameter, reference))
+        };
+        for parameter in parameters.iter_mut().filter(is_other) {
+            parameter.is_computed = true;
+            (parameter.expected_line, parameter.expected_elsewhere) = (None, None);
         }
         let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate);
         let first = self.name(exact, &corrected);
@@ -131,10 +152,28 @@ impl ExplanationContext<'_> {
         PlacedCause { cause: DynamicsCause::Several, detail: causes.join(" + "), place }
     }
 
+    /// The detail, or that the other file has the moments without their axes: its tensor is diagonal in the axes of the link, and the one here
+    /// is not.
+    fn missing_there(&self, hypothesis: &DynamicsHypothesis, corrected: &Corrected) -> String {
+        let is_diagonal = |tensor: Matrix3<f64>| {
+            let products = tensor - Matrix3::from_diagonal(&tensor.diagonal());
+            products.amax() <= NO_PRODUCT * tensor.amax()
+        };
+        let lost = |(link, right): &(usize, Inertial)| {
+            let written = self.candidate.inertials[*link].map(|of| of.tensor_in_link());
+            is_diagonal(right.tensor_in_link()) && written.is_some_and(|written| !is_diagonal(written))
+        };
+        let is_turned = hypothesis.cause == DynamicsCause::InertiaRotation && self.reference.is_some();
+        if is_turned && !corrected.links.is_empty() && corrected.links.iter().all(lost) {
+            return MISSING_THERE.to_owned();
+        }
+        hypothesis.detail.clone()
+    }
+
     fn parts(&self, exact: &ExactExplanation, corrected: &Corrected) -> Vec<PlacedCause> {
         let part = |hypothesis: &DynamicsHypothesis| {
             let (cause, detail) = self.rounded_unit(hypothesis, corrected).map_or_else(
-                || (hypothesis.cause, hypothesis.detail.clone()),
+                || (hypothesis.cause, self.missing_there(hypothesis, corrected)),
                 |(cause, unit)| (cause, unit.to_owned()),
             );
             PlacedCause { cause, detail, place: self.place(&hypothesis.place) }

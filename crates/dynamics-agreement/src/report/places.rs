@@ -24,10 +24,15 @@ impl ModelFiles<'_> {
             let [found, expected] = [self.found, self.expected].map(at);
             (difference.line, difference.elsewhere) = found;
             (difference.expected_line, difference.expected_elsewhere) = expected;
-            // The sum of links that the reference has as one is written nowhere.
-            let is_known = self.expected.is_some() && difference.expected.is_some();
+        }
+    }
+
+    /// Marks values that the reference writes nowhere, as the rest of links that it has as one.
+    pub(super) fn mark_computed(&self, differences: &mut [ParameterDifference]) {
+        for difference in differences.iter_mut().filter(|of| self.expected.is_some() && of.expected.is_some())
+        {
             difference.is_computed =
-                is_known && (&difference.expected_line, &difference.expected_elsewhere) == (&None, &None);
+                difference.expected_line.is_none() && difference.expected_elsewhere.is_none();
         }
     }
 

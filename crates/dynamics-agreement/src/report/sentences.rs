@@ -77,6 +77,9 @@ impl DynamicsCause {
             (Self::Rpy, MISSING_THERE) => {
                 "the other file lacks the rotation of the inertial frame".to_owned()
             }
+            (Self::InertiaRotation, MISSING_THERE) => {
+                "the other file has the principal moments without their axes".to_owned()
+            }
             (Self::InertiaAboutOrigin, _) => {
                 "the parallel-axis term is subtracted from an inertia that is already about the centre of mass"
                     .to_owned()
