@@ -19,6 +19,7 @@ mod other_frames;
 mod planted_dynamics;
 mod public_pairs;
 mod published_tables;
+mod ranges_of_variables;
 mod revisions;
 mod second_source;
 mod stated;

@@ -1,5 +1,6 @@
 //! Turns an exact hypothesis into an explanation with names, parameters and places in the file.
 
+use congruent_dynamics::JointResistance;
 use congruent_input::{ChangedLines, TextEdit};
 use nalgebra::Matrix3;
 
@@ -176,7 +177,7 @@ impl ExplanationContext<'_> {
                 || (hypothesis.cause, self.missing_there(hypothesis, corrected)),
                 |(cause, unit)| (cause, unit.to_owned()),
             );
-            PlacedCause { cause, detail, place: self.place(&hypothesis.place) }
+            PlacedCause { cause, detail, place: self.place(&hypothesis.place, corrected) }
         };
         exact.parts.iter().map(|fit| part(&fit.hypothesis)).collect()
     }
@@ -203,9 +204,17 @@ impl ExplanationContext<'_> {
         }
     }
 
-    fn place(&self, place: &DynamicsPlace) -> Vec<String> {
+    fn place(&self, place: &DynamicsPlace, corrected: &Corrected) -> Vec<String> {
         let frames = &self.candidate.frames;
+        let is_right = |joint: usize, right: &JointResistance| *right == self.candidate.resistances[joint];
+        let joints = corrected.joints.iter().flatten().enumerate();
+        let changed: Vec<usize> =
+            joints.filter(|(joint, right)| !is_right(*joint, right)).map(|(joint, _)| joint).collect();
         match place {
+            // Of all joints those whose values change.
+            DynamicsPlace::AllJoints if !changed.is_empty() && changed.len() < frames.dof() => {
+                changed.iter().map(|&joint| frames.joint_name(joint).to_owned()).collect()
+            }
             DynamicsPlace::Links(links) => {
                 links.iter().map(|&link| frames.link_name(link).to_owned()).collect()
             }
