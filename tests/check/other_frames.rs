@@ -16,7 +16,8 @@ fn first_line(from: &str, to: &str) -> Option<String> {
     let [urdf, mjcf] = pair()?;
     let text = fs::read_to_string(urdf).unwrap();
     assert!(text.contains(from), "{from}");
-    let changed = ScratchFolder::new().write("ur5e.urdf", &text.replace(from, to));
+    let scratch = ScratchFolder::new();
+    let changed = scratch.write("ur5e.urdf", &text.replace(from, to));
     Some(congruent(&["check", "-q", &changed, "--against", &mjcf.display().to_string()]).stdout)
 }
 

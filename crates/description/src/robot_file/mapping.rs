@@ -49,7 +49,8 @@ pub(crate) enum MappingBase {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(
     untagged,
-    expecting = "expected the name of the joint there, or { joint = \"NAME\", sign = -1, offset_deg = 90 }"
+    expecting = "expected the name of the joint there, or { joint = \"NAME\", sign = -1, offset_deg = 90 }, of which an \
+                 offset names its unit: offset_deg, offset_rad, offset_mm or offset_m"
 )]
 pub(crate) enum WrittenMappedJoint {
     /// Its name there; the variable is the same.
