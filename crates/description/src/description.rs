@@ -21,6 +21,7 @@ use crate::{
     },
     tolerance_scale::ToleranceScale,
     urdf::UrdfPlaces,
+    written_names::WrittenNames,
 };
 
 /// The texts that a description was read from. Messages show lines of these texts, even if the files have changed since.
@@ -49,16 +50,18 @@ impl Places {
     /// MJCF by those that they have. What the file writes of a joint is then no value of the robot.
     #[must_use]
     pub fn of_rewritten(self, joints: &BTreeMap<String, String>, links: &BTreeMap<String, String>) -> Self {
-        let urdf = self.urdf.map(|urdf| urdf.of_rewritten(joints.clone(), links.clone()));
-        let mjcf = self.mjcf.map(|mjcf| mjcf.of_rewritten(joints.clone(), links.clone()));
-        Self { urdf, mjcf, ..self }
+        self.with_names(|names| names.rewritten(joints.clone(), links.clone()))
     }
 
     /// The same without places of these links, whose values no element of the URDF or the MJCF has.
     #[must_use]
     pub fn without_links(self, links: &[String]) -> Self {
-        let urdf = self.urdf.map(|urdf| urdf.without_links(links.iter()));
-        let mjcf = self.mjcf.map(|mjcf| mjcf.without_links(links.iter()));
+        self.with_names(|names| names.without_links(links.iter()))
+    }
+
+    fn with_names(self, change: impl Fn(WrittenNames) -> WrittenNames) -> Self {
+        let urdf = self.urdf.map(|urdf| urdf.with_names(&change));
+        let mjcf = self.mjcf.map(|mjcf| mjcf.with_names(&change));
         Self { urdf, mjcf, ..self }
     }
 }

@@ -36,14 +36,11 @@ pub fn in_frames_of(
     axes: CommonAxes,
     misplaced: &BTreeSet<&str>,
 ) -> Robot {
-    let trees = [robot, other].map(ScrewTree::new);
-    let home = |of: usize, link: LinkIndex| trees[of].home(link).to_isometry();
     let mut frames = vec![Isometry3::identity(); other.links().len()];
     frames[other.root().get()] = root_from_other_root.inverse();
-    for joint in other.joints().iter().filter(|joint| joint.kind != JointKind::Fixed) {
-        let Some(here) = robot.find_joint(&joint.name).map(|index| robot.joint(index)) else { continue };
-        let link_from_frame = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here.child);
-        let is_same_link = robot.link(here.child).name == other.link(joint.child).name;
+    for JointFrames { joint, here, link_from_frame, is_same_link } in
+        joint_frames([robot, other], root_from_other_root)
+    {
         // The frame of a tip that is named, or at the end of a branch, shows the zero of its joint if both files call the link the
         // same and place its frame alike.
         let is_evidence = named_tip == Some(here.child) || is_end(robot, here.child);
@@ -89,19 +86,17 @@ pub fn ends_in_other_frames(
     [robot, other]: [&Robot; 2],
     root_from_other_root: &Isometry3<f64>,
 ) -> Vec<EndInOtherFrames> {
-    let trees = [robot, other].map(ScrewTree::new);
-    let home = |of: usize, link: LinkIndex| trees[of].home(link).to_isometry();
-    let turning = other.joints().iter().filter(|joint| joint.kind.is_movable());
-    let end = |joint: &Joint| {
-        let here = robot.joint(robot.find_joint(&joint.name)?);
-        let is_same_link = robot.link(here.child).name == other.link(joint.child).name;
-        let link_from_frame = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here.child);
-        let is_evidence = is_along_axis(joint, &link_from_frame, here);
-        let along_axis_m = joint.axis_in_joint.dot(&link_from_frame.translation.vector).abs();
-        (is_same_link && is_end(robot, here.child) && !is_evidence)
-            .then_some(EndInOtherFrames { link: here.child, along_axis_m })
+    let frames = joint_frames([robot, other], root_from_other_root).into_iter();
+    let is_other = |of: &JointFrames<'_>| {
+        of.is_same_link
+            && is_end(robot, of.here.child)
+            && !is_along_axis(of.joint, &of.link_from_frame, of.here)
     };
-    turning.filter_map(end).collect()
+    let end = |of: JointFrames<'_>| EndInOtherFrames {
+        link: of.here.child,
+        along_axis_m: of.joint.axis_in_joint.dot(&of.link_from_frame.translation.vector).abs(),
+    };
+    frames.filter(is_other).map(end).collect()
 }
 
 /// Whether a link of one name has a frame that lies elsewhere in it: with the same axis in other coordinates, or farther than `least_m`
@@ -111,17 +106,38 @@ pub fn has_other_frames(
     root_from_other_root: &Isometry3<f64>,
     least_m: f64,
 ) -> bool {
+    joint_frames([robot, other], root_from_other_root).into_iter().any(|of| {
+        let has_other_axis = of.joint.axis_in_joint.angle(&of.here.axis_in_joint) > SAME_FRAME_RAD;
+        of.is_same_link && (has_other_axis || of.link_from_frame.translation.vector.norm() > least_m)
+    })
+}
+
+/// A moving joint of the other description, and the joint of its name.
+struct JointFrames<'a> {
+    joint: &'a Joint,
+    here: &'a Joint,
+    /// Where the robot has the frame of the link, in the link of the other.
+    link_from_frame: Isometry3<f64>,
+    /// Whether both files call the link the same.
+    is_same_link: bool,
+}
+
+fn joint_frames<'a>(
+    [robot, other]: [&'a Robot; 2],
+    root_from_other_root: &Isometry3<f64>,
+) -> Vec<JointFrames<'a>> {
     let trees = [robot, other].map(ScrewTree::new);
     let home = |of: usize, link: LinkIndex| trees[of].home(link).to_isometry();
-    other.joints().iter().filter(|joint| joint.kind != JointKind::Fixed).any(|joint| {
-        let Some(here) = robot.find_joint(&joint.name).map(|index| robot.joint(index)) else {
-            return false;
-        };
-        let is_same_link = robot.link(here.child).name == other.link(joint.child).name;
-        let apart = (root_from_other_root * home(1, joint.child)).inverse() * home(0, here.child);
-        let has_other_axis = joint.axis_in_joint.angle(&here.axis_in_joint) > SAME_FRAME_RAD;
-        is_same_link && (has_other_axis || apart.translation.vector.norm() > least_m)
-    })
+    let of_both = |joint: &'a Joint| {
+        let here = robot.joint(robot.find_joint(&joint.name)?);
+        Some(JointFrames {
+            joint,
+            here,
+            link_from_frame: (root_from_other_root * home(1, joint.child)).inverse() * home(0, here.child),
+            is_same_link: robot.link(here.child).name == other.link(joint.child).name,
+        })
+    };
+    other.joints().iter().filter(|joint| joint.kind.is_movable()).filter_map(of_both).collect()
 }
 
 /// Whether the frames of a link differ by a shift alone if it slides, or else by a turn about the axis of its joint and a shift along

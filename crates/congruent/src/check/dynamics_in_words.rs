@@ -15,21 +15,26 @@ impl RobotCheck {
     /// The first cause of different torques, and how many more there are.
     pub(super) fn cause_of_torques(&self, report: &DynamicsReport) -> String {
         let Some(first) = report.explanations.first() else { return report.headline() };
-        let (sentence, line) = match (&first.parameters[..], self.files_of(report)) {
-            ([only], Some(files)) => (only.sentence_in(short_names(files)), None),
-            ([only], None) => (only.sentence(), only.line),
-            _ => (first.sentence(), first.line),
-        };
-        let (remark, line) = match &first.parameters[..] {
-            [only] => (only.unit_remark(), line),
-            _ => match self.first_value(report, first) {
-                // It has its line.
-                Some(value) => (Some(value), None),
-                None => (None, line),
-            },
+        let (sentence, remark, line) = if let [only] = &first.parameters[..] {
+            // With two files the sentence has the line.
+            let line = only.line.filter(|_| self.files_of(report).is_none());
+            (self.value_in_words(report, only), only.unit_remark(), line)
+        } else {
+            let value = self.first_value(report, first);
+            // The value has its line.
+            let line = first.line.filter(|_| value.is_none());
+            (first.sentence(), value, line)
         };
         let remark = remark.map_or_else(String::new, |remark| format!(": {remark}"));
         sentence + &place(first.file.as_deref(), line) + &remark + &and_more(report.explanations.len() - 1)
+    }
+
+    /// A parameter with both values.
+    fn value_in_words(&self, report: &DynamicsReport, value: &ParameterDifference) -> String {
+        match self.files_of(report) {
+            Some(files) => value.sentence_in(short_names(files)),
+            None => value.sentence(),
+        }
     }
 
     /// Of several parameters the one whose values say most: the mass of a link, or the first of joints.
@@ -37,10 +42,7 @@ impl RobotCheck {
         let is_mass = |of: &&ParameterDifference| of.parameter == "mass";
         let of_joints = || explanation.parameters.first().filter(|_| explanation.cause.is_of_joints());
         let value = explanation.parameters.iter().find(is_mass).or_else(of_joints)?;
-        let sentence = match self.files_of(report) {
-            Some(files) => value.sentence_in(short_names(files)),
-            None => value.sentence(),
-        };
+        let sentence = self.value_in_words(report, value);
         let of_named = format!("{}: ", value.of);
         let is_named = explanation.place == [value.of.clone()];
         Some(sentence.strip_prefix(&of_named).filter(|_| is_named).map(str::to_owned).unwrap_or(sentence))

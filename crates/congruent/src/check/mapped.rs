@@ -129,9 +129,7 @@ impl MappedPair {
 
     /// The mapping with the zeros at which the digits explain the rest; `None` if they do not, or explain it without another zero.
     fn zeros_of_digits(&self, found: &FoundMapping) -> Option<FoundMapping> {
-        let robots = [&self.description.robot, &self.other.robot];
-        let mut poses = PosesOfOther::new(robots[0], robots[1]);
-        let robots = MatchedRobots::new(robots, &mut poses).ok()?;
+        let robots = self.matched_robots()?;
         let zeros = robots.zeros_by_digits().filter(|_| found.matched_by != MatchedBy::Declared)?;
         let mut moved = found.clone();
         for joint in moved.joints.iter_mut().filter(|of| of.offset != 0.0) {
@@ -141,9 +139,13 @@ impl MappedPair {
     }
 
     fn is_explained_by_digits(&self) -> bool {
+        self.matched_robots().is_some_and(|robots| robots.explained_by_digits().is_some())
+    }
+
+    /// The links and joints of both; `None` if a source of poses fails.
+    fn matched_robots(&self) -> Option<MatchedRobots<'_>> {
         let robots = [&self.description.robot, &self.other.robot];
-        let mut poses = PosesOfOther::new(robots[0], robots[1]);
-        MatchedRobots::new(robots, &mut poses).is_ok_and(|robots| robots.explained_by_digits().is_some())
+        MatchedRobots::new(robots, &mut PosesOfOther::new(robots[0], robots[1])).ok()
     }
 
     fn in_variables(

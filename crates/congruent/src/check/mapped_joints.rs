@@ -1,9 +1,11 @@
 //! Joints that are called or counted otherwise in another description, in words.
 
-use congruent_input::display::{angle, counted, length, listed};
+use congruent_input::display::{angle, counted, listed};
 
-use super::cause_in_words::place;
-use super::reported_mapping::{ReportedEnd, ReportedJoint, ReportedMapping};
+use super::{
+    cause_in_words::place,
+    reported_mapping::{ReportedEnd, ReportedJoint, ReportedMapping},
+};
 
 /// What differs in joints, in words: `2 of 6 joints have other zeros (joint_2, joint_3)`.
 pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
@@ -69,9 +71,6 @@ fn line_of(mapping: &ReportedMapping, joint: &str) -> String {
 
 /// Lengths along the axes of last joints that are not compared, in words.
 pub(super) fn ends_not_compared(mapping: &ReportedMapping) -> Option<String> {
-    let words = |end: &ReportedEnd| {
-        format!("{} lies {} elsewhere along the axis of its joint", end.link, length(end.along_axis_m))
-    };
-    let ends: Vec<String> = mapping.ends_in_other_frames.iter().map(words).collect();
+    let ends: Vec<String> = mapping.ends_in_other_frames.iter().map(ReportedEnd::sentence).collect();
     (!ends.is_empty()).then(|| format!("not compared: {}", ends.join(", ")))
 }

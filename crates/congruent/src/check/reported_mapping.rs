@@ -7,7 +7,7 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport},
 };
 use congruent_description::{MappedJoint, RobotDescription, toml_key, toml_string};
-use congruent_input::{line_column, number::significant};
+use congruent_input::{display::length, line_column, number::significant};
 use congruent_kinematics::{Pose, PoseError, ReportedPose};
 use congruent_mapping::{FoundMapping, MatchedBy};
 use schemars::JsonSchema;
@@ -65,6 +65,13 @@ pub struct ReportedEnd {
     pub link: String,
     /// How far the origins of both frames are apart along the axis of its joint, m.
     pub along_axis_m: f64,
+}
+
+impl ReportedEnd {
+    /// `wrist_3_link lies 98.9 mm elsewhere along the axis of its joint`.
+    pub fn sentence(&self) -> String {
+        format!("{} lies {} elsewhere along the axis of its joint", self.link, length(self.along_axis_m))
+    }
 }
 
 /// A joint of two descriptions.

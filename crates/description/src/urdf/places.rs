@@ -1,6 +1,6 @@
 //! Byte ranges of joints and links in the text of a URDF, for messages about one of them.
 
-use std::{collections::BTreeMap, ops::Range, sync::Arc};
+use std::{ops::Range, sync::Arc};
 
 use congruent_input::{SourceFile, line_column, xml};
 use roxmltree::{Document, Node};
@@ -24,21 +24,10 @@ impl UrdfPlaces {
         Self { source, names: WrittenNames::default() }
     }
 
-    /// The places of a robot that has been rewritten in other variables: the names of its joints and links in the file by those
-    /// that they have. What the file writes of a joint is then no value of the robot.
+    /// The same of a robot whose joints and links have other names than in the file, or are those of no element there.
     #[must_use]
-    pub(crate) fn of_rewritten(
-        self,
-        joints: BTreeMap<String, String>,
-        links: BTreeMap<String, String>,
-    ) -> Self {
-        Self { names: self.names.rewritten(joints, links), ..self }
-    }
-
-    /// The same without places of these links, whose values no element of the file has.
-    #[must_use]
-    pub(crate) fn without_links<'a>(self, links: impl Iterator<Item = &'a String>) -> Self {
-        Self { names: self.names.without_links(links), ..self }
+    pub(crate) fn with_names(self, change: impl FnOnce(WrittenNames) -> WrittenNames) -> Self {
+        Self { names: change(self.names), ..self }
     }
 
     /// Whether the robot has been rewritten in other variables: values of its joints are not those that the file writes.

@@ -81,6 +81,13 @@ fn parameters(inertial: &Inertial, t: &Matrix3<f64>) -> ([f64; 10], [f64; 10]) {
     (values, sizes)
 }
 
+/// A parameter of an inertial with this tensor by its name, with the size that its difference is relative to; `None` if no inertial has it.
+pub(crate) fn parameter(name: &str, inertial: &Inertial, tensor: &Matrix3<f64>) -> Option<(f64, f64)> {
+    let at = PARAMETER_UNITS.iter().position(|(parameter, _)| *parameter == name)?;
+    let (values, sizes) = parameters(inertial, tensor);
+    Some((values[at], sizes[at]))
+}
+
 /// The parameters of a link that differ. Tensors are compared as they are written if the axes are the same, else in the
 /// axes of the link.
 pub(crate) fn link_differences(

@@ -51,27 +51,6 @@ impl Inertial {
         }
     }
 
-    /// A parameter by its name, such as `com_x` or `ixy`, in the link's axes, and the size that its digits are relative to: the largest of
-    /// its kind. `None` if it is none of an inertial.
-    pub(crate) fn value(&self, parameter: &str) -> Option<(f64, f64)> {
-        let tensor = self.tensor_in_link();
-        let entry = |row, column| Some((tensor[(row, column)], tensor.amax()));
-        let coordinate = |axis: usize| Some((self.com_m[axis], self.com_m.amax()));
-        match parameter {
-            "mass" => Some((self.mass_kg, self.mass_kg.abs())),
-            "com_x" => coordinate(0),
-            "com_y" => coordinate(1),
-            "com_z" => coordinate(2),
-            "ixx" => entry(0, 0),
-            "ixy" => entry(0, 1),
-            "ixz" => entry(0, 2),
-            "iyy" => entry(1, 1),
-            "iyz" => entry(1, 2),
-            "izz" => entry(2, 2),
-            _ => None,
-        }
-    }
-
     /// The inertia about the link's origin, in the link's axes.
     pub fn about_origin(&self) -> SpatialInertia {
         let mut inertia = SpatialInertia::point_mass(self.mass_kg, self.com_m);

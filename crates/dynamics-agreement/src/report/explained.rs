@@ -43,12 +43,11 @@ fn is_other_value(parameter: &ParameterDifference, reference: &DynamicsModel) ->
     let of_link = link.and_then(|link| reference.inertials[link]);
     let Some((of_link, expected)) = of_link.zip(parameter.expected) else { return false };
     // Tensors are compared as they are written if the axes are the same.
-    let as_written = Inertial { link_from_axes: Matrix3::identity(), ..of_link };
-    let is_other = |of: Inertial| {
-        let written = of.value(&parameter.parameter);
+    let is_other = |tensor: Matrix3<f64>| {
+        let written = parameters::parameter(&parameter.parameter, &of_link, &tensor);
         written.is_some_and(|(written, size)| (written - expected).abs() > FILE_DIGITS * size)
     };
-    is_other(of_link) && is_other(as_written)
+    is_other(of_link.tensor_in_link()) && is_other(of_link.tensor_kg_m2)
 }
 
 impl<'a> ExplanationContext<'a> {

@@ -77,10 +77,8 @@ fn not_compared(text: &mut String, mapping: &ReportedMapping, other: &str) {
     for end in &mapping.ends_in_other_frames {
         let _ = writeln!(
             text,
-            "    {} lies {} elsewhere along the axis of its joint, not compared: the files write this axis in other coordinates, and may \
-             count from another place",
-            end.link,
-            length(end.along_axis_m)
+            "    {}, not compared: the files write this axis in other coordinates, and may count from another place",
+            end.sentence()
         );
     }
 }

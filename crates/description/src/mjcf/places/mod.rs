@@ -53,21 +53,10 @@ impl MjcfPlaces {
         Self { model, files, parts: parts.into(), users, names: WrittenNames::default() }
     }
 
-    /// The places of a robot that has been rewritten in other variables: the names of its joints and links in the file by those
-    /// that they have.
+    /// The same of a robot whose joints and links have other names than in the file, or are those of no element there.
     #[must_use]
-    pub(crate) fn of_rewritten(
-        self,
-        joints: BTreeMap<String, String>,
-        links: BTreeMap<String, String>,
-    ) -> Self {
-        Self { names: self.names.rewritten(joints, links), ..self }
-    }
-
-    /// The same without places of these links, whose values no element of the file has.
-    #[must_use]
-    pub(crate) fn without_links<'a>(self, links: impl Iterator<Item = &'a String>) -> Self {
-        Self { names: self.names.without_links(links), ..self }
+    pub(crate) fn with_names(self, change: impl FnOnce(WrittenNames) -> WrittenNames) -> Self {
+        Self { names: change(self.names), ..self }
     }
 
     /// The main file, then those that it includes.
