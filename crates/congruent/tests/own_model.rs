@@ -14,7 +14,7 @@ use std::{
 };
 
 use congruent::{
-    agreement::compare::{Agreement, CheckOptions},
+    agreement::compare::{Agreement, CheckOptions, Grade},
     analysis::conversion::{Conversion, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes, convert},
     check, check_against,
     description::{Joint, RobotDescription, RobotQ, load_robot, parse_robot},
@@ -195,6 +195,53 @@ fn wrong_screws_are_named_with_their_row() {
     assert_eq!(cause.joint.as_deref(), Some("q2"), "{}", cause.message);
     let line = right.lines().position(|line| line == "joint = \"q2\"").unwrap() + 1;
     assert_eq!(cause.line, Some(line), "{}", cause.message);
+}
+
+/// The tip of the UR5e's table with all lengths a little longer, in the other forms to four and three decimals.
+#[test]
+fn digits_explain_what_they_leave_open_in_every_form() {
+    let exact = fs::read_to_string(file("ur5e_standard")).unwrap();
+    // A calibration has all digits.
+    let exact = exact.replace("-0.425", "-0.42512345678901234").replace("-0.3922", "-0.39217654321098765");
+    let calibrated = robot_of(&exact);
+    let rounded = robot_of(
+        &exact.replace("-0.42512345678901234", "-0.4251").replace("-0.39217654321098765", "-0.3922"),
+    );
+    let screws = |decimals: usize| {
+        let report = convert(&calibrated, &conversion(ConversionTarget::Poe)).unwrap();
+        let text = own_robot_file_text(&calibrated, report.robot_toml.as_deref().unwrap());
+        robot_of(&with_decimals(&text, "v_m = [", decimals))
+    };
+    for other in [rounded, screws(4), screws(3)] {
+        for pair in [[&calibrated, &other], [&other, &calibrated]] {
+            let report = check_against(pair[0], pair[1], &CheckOptions::default()).unwrap();
+            assert_eq!(report.geometry.grade, Some(Grade::SameWithinDigits), "{}", report.headline());
+        }
+    }
+    // Half a millimetre is no rounding of four decimals.
+    let wrong = robot_of(
+        &exact.replace("-0.42512345678901234", "-0.4256").replace("-0.39217654321098765", "-0.3922"),
+    );
+    let report = check_against(&wrong, &calibrated, &CheckOptions::default()).unwrap();
+    let cause = &report.geometry.diagnosis[0].fault;
+    assert_eq!(
+        (cause.joint.as_deref(), cause.parameter.as_deref()),
+        (Some("q2"), Some("a")),
+        "{}",
+        cause.message
+    );
+}
+
+/// The text with the numbers of each list behind this key to some decimals.
+fn with_decimals(text: &str, key: &str, decimals: usize) -> String {
+    let rounded = |line: &str| {
+        let Some((before, list)) = line.split_once(key) else { return line.to_owned() };
+        let (list, after) = list.split_once(']').unwrap();
+        let numbers = list.split(',').map(|of| of.trim().parse::<f64>().unwrap());
+        let numbers: Vec<String> = numbers.map(|of| format!("{of:.decimals$}")).collect();
+        format!("{before}{key}{}]{after}", numbers.join(", "))
+    };
+    text.lines().map(rounded).collect::<Vec<_>>().join("\n")
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod model_file;
 mod named_robot;
 mod own_model;
 mod parameter_places;
+mod pose_rounding;
 mod revision;
 mod robot_file;
 mod srdf;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use congruent_description::{JointKind, OwnModelForm, RobotDescription, load_robot};
+use congruent_description::{JointKind, JointRounding, OwnModelForm, Robot, RobotDescription, load_robot};
 use congruent_input::Findings;
 
 fn load(text: &str) -> Result<RobotDescription, Findings> {
@@ -80,7 +80,42 @@ fn screws_are_a_robot() {
     assert_eq!(turn.parent_from_joint.translation.vector, nalgebra::Vector3::new(0.3, 0.0, 0.0));
     let by_point =
         SCREWS.replace("omega = [0, 0, 1]\nv_m = [0, -0.3, 0]", "axis = [0, 0, 1]\npoint_mm = [300, 0, 7]");
-    assert_eq!(load(&by_point).expect("it is one").robot, arm.robot);
+    assert_eq!(exact(&load(&by_point).expect("it is one").robot), exact(&arm.robot));
+}
+
+/// Links and joints alone: a point leaves open something else than a moment.
+fn exact(robot: &Robot) -> Robot {
+    robot.with_joints(|joint| joint.rounding = JointRounding::default())
+}
+
+#[test]
+fn the_digits_of_a_row_move_the_axes_behind_it() {
+    let arm = load(&TABLE.replace("d_m = 0.1", "d_m = 0.123")).expect("it is one");
+    let [turn, slide, tip] = [0, 1, 2].map(|at| arm.robot.joints()[at].rounding.clone());
+    assert_eq!(turn, JointRounding { form: turn.form, ..JointRounding::default() });
+    // a = 0.3 m and d = 200 mm of the first row have lost their zeros: they are as fine as 0.123 m of the second.
+    let sizes =
+        |of: &JointRounding| of.origin.iter().map(|motion| motion.linear_m.norm()).collect::<Vec<_>>();
+    assert_eq!(sizes(&slide), [5e-4, 5e-4]);
+    // A zero is off by less, and whole degrees are exact.
+    assert_eq!(sizes(&tip), [5e-4, 5e-5]);
+    assert!(slide.axis.is_empty() && slide.origin.iter().all(|motion| motion.angular_rad.norm() == 0.0));
+}
+
+#[test]
+fn the_digits_of_a_screw_move_its_axis_alone() {
+    let text = SCREWS
+        .replace("[0, -0.3, 0]", "[0, -0.312, 0.0003]")
+        .replace("[0, 0, 1]\nv", "[0, 0.0008, 0.99999968]\nv");
+    let arm = load(&text).expect("a pitch of 0.05 mm per radian is within the digits of v");
+    let turn = &arm.robot.joints()[0].rounding;
+    assert!(turn.origin.is_empty() && turn.axis.len() >= 3, "{turn:?}");
+    // In the tip, all axes lie where its digits place it.
+    let in_tip = load(&SCREWS.replace("'space'", "'body'").replace("0.6, 0, 0.1", "0.612, 0, 0.1"))
+        .expect("it is one");
+    let joints = in_tip.robot.joints();
+    assert_eq!((joints[0].rounding.origin.len(), joints[2].rounding.origin.len()), (3, 0));
+    assert_eq!(arm.robot.joints()[2].rounding.origin.len(), 3);
 }
 
 #[test]
@@ -90,7 +125,7 @@ fn wrong_screws_are_refused_at_their_line() {
         ("omega = [0, 0, 1]", "omega = [0, 0, 0]", 7, "its omega is 0", "prismatic"),
         ("omega = [0, 0, 1]", "omega = [0, 0, nan]", 7, "omega is NaN", "finite"),
         ("omega = [0, 0, 1]\n", "", 5, "has no omega", "direction of its axis"),
-        ("[0, -0.3, 0]", "[0, -0.3, 0.05]", 8, "advances by 0.050 m/rad", "v_m = [0.0, -0.3, 0.0]"),
+        ("[0, -0.3, 0]", "[0, -0.3, 0.05]", 8, "advances by 50 mm per radian", "v_m = [0.0, -0.3, 0.0]"),
         ("axis = [0, 0, 1]", "omega = [0, 1, 0]\nv_m = [0, 0, 1]", 13, "its omega is not 0", "revolute"),
         ("axis = [0, 0, 1]", "axis = [0, 0, 1]\npoint_m = [0, 0, 0]", 11, "has no meaning", "remove"),
         ("axis = [0, 0, 1]", "axis = [0, 0, 1]\nv_m = [0, 0, 1]", 11, "both an axis and a twist", "keep"),

@@ -32,6 +32,10 @@ const FITTED: f64 = 1e-2;
 const NO_PART: f64 = 5e-2;
 /// Damping of the solver, relative to the largest effect. Kind: solver.
 const DAMPING: f64 = 1e-14;
+/// An axis moves no link while its joint is at zero.
+const AT_ZERO: f64 = 0.0;
+/// Elsewhere, a link is carried by the motion of the axis, less the same motion turned by the joint.
+const BY_AXES: f64 = 2.0;
 /// Most values that are varied together, and most joints and links that they move; of larger robots digits explain nothing. Kind:
 /// limit of the time, a second.
 const MOST_VALUES: usize = 1000;
@@ -79,33 +83,31 @@ impl MatchedRobots<'_> {
         if values == 0 || values > MOST_VALUES || moved > MOST_MOVED {
             return None;
         }
-        let [own, other]: [Vec<DVector<f64>>; 2] =
-            [0, 1].map(|at| roundings[at].iter().flat_map(|of| sides[at].columns(of)).collect());
-        let columns: Vec<DVector<f64>> = own.into_iter().chain(other.into_iter().map(|of| -of)).collect();
-        let (effects, difference) = (DMatrix::from_columns(&columns), self.difference(&sides));
+        let effects = effects(&sides, &roundings, AT_ZERO);
+        let difference = self.difference(&sides);
         let same = Tolerance::default().position_m;
-        let allowed = row_sums(&effects, &DVector::repeat(columns.len(), 1.0));
+        let allowed = row_sums(&effects, &DVector::repeat(values, 1.0));
         // Terms of second order are not known of values that are known to half a place.
         let second_order = allowed.amax() * allowed.amax();
         let is_beyond = |(off, allowed): (&f64, &f64)| off.abs() > MOST * allowed + second_order + same;
         if difference.iter().zip(allowed.iter()).any(is_beyond) {
             return None;
         }
-        let from = DVector::zeros(columns.len());
-        let scale = columns.iter().map(DVector::norm_squared).fold(0.0, f64::max);
+        let from = DVector::zeros(values);
+        let scale = effects.column_iter().map(|of| of.norm_squared()).fold(0.0, f64::max);
         let problem = BoundedLeastSquares { effects: &effects, rest: &difference, from: &from, most: MOST };
         let parts = problem.nearest(DAMPING * scale);
         let used = row_sums(&effects, &parts).amax();
         let rest = &difference + &effects * &parts;
         let is_written = roundings.iter().flatten().flat_map(|of| of.rounding.motions().map(is_written));
-        let is_written = DVector::from_iterator(columns.len(), is_written);
+        let is_written = DVector::from_iterator(values, is_written);
         let written = row_sums(&effects, &is_written);
         let is_explained =
             |(rest, written): (&f64, &f64)| rest.abs() <= same + used * used + NO_PART * written;
         // Of what is fitted the part that the fit takes, and not all that it might have.
         let most = parts.zip_map(&is_written, |part: f64, is_written| is_written.max(part.abs()));
         rest.iter().zip(written.iter()).all(is_explained).then(|| DigitsExplanation {
-            at_links: sides[0].largest_at_links(&effects, &most),
+            at_links: sides[0].largest_at_links(&self::effects(&sides, &roundings, BY_AXES), &most),
             parts: parts.iter().copied().collect(),
         })
     }
@@ -177,17 +179,22 @@ pub(crate) fn along_axis(joint: &Joint) -> [SmallMotion; 2] {
     [SmallMotion::shift(along), SmallMotion::turn(along, &joint.parent_from_joint.translation.vector)]
 }
 
+/// The motions of a frame at this point that is chosen and not written: it may lie anywhere near.
+pub fn free_frame(at: &Vector3<f64>) -> Vec<SmallMotion> {
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| axis * FITTED);
+    let turns = axes.map(|axis| SmallMotion::turn(axis, at));
+    axes.map(SmallMotion::shift).into_iter().chain(turns).collect()
+}
+
 /// The robot whose base is fitted: all that it moves may lie elsewhere together, if one joint carries all of it.
 #[must_use]
 pub fn with_fitted_base(robot: &Robot) -> Robot {
     let is_first = |joint: &Joint| joint.kind != JointKind::Fixed && robot.body(joint.parent) == robot.root();
     let mut first = robot.joints().iter().filter(|joint| is_first(joint));
     let (Some(only), None) = (first.next(), first.next()) else { return robot.clone() };
-    let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| axis * FITTED);
     robot.with_joints(|joint| {
         if joint.name == only.name {
-            joint.rounding.origin.extend(axes.map(SmallMotion::shift));
-            joint.rounding.origin.extend(axes.map(|axis| SmallMotion::turn(axis, &Vector3::zeros())));
+            joint.rounding.origin.extend(free_frame(&Vector3::zeros()));
         }
     })
 }
@@ -250,8 +257,13 @@ impl ComparedRobot<'_> {
         self.screws.screw(joint).map_or_else(Twist::zero, Screw::twist)
     }
 
-    /// What each motion of the rounding of a joint changes in screws and poses at zero, in the root's frame.
-    fn columns(&self, RoundedJoint { joint, rounding }: &RoundedJoint<'_>) -> Vec<DVector<f64>> {
+    /// What each motion of the rounding of a joint changes in screws and poses at zero, in the root's frame; those of its axis move
+    /// the links that it carries by this share.
+    fn columns(
+        &self,
+        RoundedJoint { joint, rounding }: &RoundedJoint<'_>,
+        of_axes_at_links: f64,
+    ) -> Vec<DVector<f64>> {
         if rounding.values() == 0 {
             return Vec::new();
         }
@@ -274,7 +286,12 @@ impl ComparedRobot<'_> {
                 let is_its = self.robot.joint(*index).child == joint.child;
                 if is_its { rate_of(&self.screw(*index), &motion) } else { Twist::zero() }
             };
-            rows(self.joints.iter().map(of_joint).chain(self.links.iter().map(|_| Twist::zero())))
+            let at_links = Twist {
+                angular: motion.angular * of_axes_at_links,
+                linear: motion.linear * of_axes_at_links,
+            };
+            let of_link = |link: &LinkIndex| if carried[link.get()] { at_links } else { Twist::zero() };
+            rows(self.joints.iter().map(of_joint).chain(self.links.iter().map(of_link)))
         });
         let of_frame = rounding.frame.iter().map(in_root).map(|motion| {
             let of_link = |link: &LinkIndex| if *link == joint.child { motion } else { Twist::zero() };
@@ -311,6 +328,17 @@ impl ComparedRobot<'_> {
     }
 }
 
+/// What each motion of the roundings of two robots changes, those of the other the other way: a column for each.
+fn effects(
+    sides: &[ComparedRobot<'_>; 2],
+    roundings: &[Vec<RoundedJoint<'_>>; 2],
+    of_axes_at_links: f64,
+) -> DMatrix<f64> {
+    let of = |at: usize| roundings[at].iter().flat_map(move |of| sides[at].columns(of, of_axes_at_links));
+    let columns: Vec<DVector<f64>> = of(0).chain(of(1).map(|of| -of)).collect();
+    DMatrix::from_columns(&columns)
+}
+
 /// How a screw changes if a motion carries its axis along: the bracket of the two.
 ///
 /// Source: Lynch & Park, *Modern Robotics* (2017), definition 8.5.
@@ -332,9 +360,9 @@ fn row_sums(effects: &DMatrix<f64>, parts: &DVector<f64>) -> DVector<f64> {
 }
 
 /// The motions of the numbers of a joint that the other file does not write as coarse or coarser; all of them if it does not write
-/// this joint.
+/// this joint by the same numbers.
 fn coarser(own: &JointRounding, other: Option<&JointRounding>) -> JointRounding {
-    let Some(other) = other else { return own.clone() };
+    let Some(other) = other.filter(|other| other.form == own.form) else { return own.clone() };
     let keep = |own: &[SmallMotion], other: &[SmallMotion]| -> Vec<SmallMotion> {
         // Angles about other axes are other numbers, of which neither is the rounded other.
         let has_same_angles = has_turns_along(own, other) && has_turns_along(other, own);
@@ -348,7 +376,7 @@ fn coarser(own: &JointRounding, other: Option<&JointRounding>) -> JointRounding 
     JointRounding {
         origin: keep(&own.origin, &other.origin),
         axis: keep(&own.axis, &other.axis),
-        frame: own.frame.clone(),
+        ..own.clone()
     }
 }
 

@@ -28,7 +28,7 @@ pub use changed_values::{ChangedValue, JointRange, changed_inertias, changed_val
 pub use common_joints::{common_tip, other_joint};
 pub use corrections::{ComparedAt, ExplainedByJoints, JointCorrection, JointPart, explained_by_joints};
 pub use declared::declared;
-pub use digits::{with_fitted, with_fitted_base};
+pub use digits::{free_frame, with_fitted, with_fitted_base};
 pub use drivers::driven_as_in;
 pub use find::{FoundMapping, MatchedBy, find, find_exchanged};
 pub use frames::{CommonAxes, EndInOtherFrames, ends_in_other_frames, has_other_frames, in_frames_of};

@@ -42,5 +42,5 @@ pub use placed_axis::PlacedAxis;
 pub use positions::{ArmQ, ChainQ, RobotQ};
 pub use robot::Robot;
 pub use robot_q_list::RobotQList;
-pub use rounding::{InertiaRounding, JointRounding, JointValueRounding, SmallMotion};
+pub use rounding::{InertiaRounding, JointForm, JointRounding, JointValueRounding, SmallMotion};
 pub use tolerance::{RequestedTolerance, Tolerance};

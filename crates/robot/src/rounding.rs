@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::{inertia::Inertia, joint_limit::JointLimit};
+use super::{dh_table::DhConvention, inertia::Inertia, joint_limit::JointLimit};
 
 /// A small motion, to first order: every point `p` moves by `linear_m + angular_rad x p`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +44,22 @@ pub struct JointRounding {
     /// Those of the frame of the link that it carries, which move no axis and no other link: none of a file, whose numbers say
     /// where a frame lies, but of a frame that was chosen to lie where another description has it.
     pub frame: Vec<SmallMotion>,
+    /// What the numbers are.
+    pub form: JointForm,
+}
+
+/// The numbers that place a joint: those of two files are the same numbers in the same form alone.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum JointForm {
+    /// Pose and axis in the link before, as in a URDF or an MJCF.
+    #[default]
+    Pose,
+    /// A row of a table.
+    Row(DhConvention),
+    /// A screw in the base.
+    ScrewInBase,
+    /// A screw in the tip at zero.
+    ScrewInTip,
 }
 
 impl JointRounding {
@@ -59,11 +75,12 @@ impl JointRounding {
 
     /// The same in another frame of the parent link.
     #[must_use]
-    pub(crate) fn expressed_in(&self, outer_from_frame: &Isometry3<f64>) -> Self {
+    pub fn expressed_in(&self, outer_from_frame: &Isometry3<f64>) -> Self {
         let moved = |motions: &[SmallMotion]| {
             motions.iter().map(|motion| motion.expressed_in(outer_from_frame)).collect()
         };
-        Self { origin: moved(&self.origin), axis: moved(&self.axis), frame: moved(&self.frame) }
+        let Self { origin, axis, frame, form } = self;
+        Self { origin: moved(origin), axis: moved(axis), frame: moved(frame), form: *form }
     }
 }
 

@@ -13,6 +13,7 @@ use congruent_description::{
 };
 use congruent_input::{Diagnostic, Findings};
 use congruent_kinematics::{Pose, ScrewTree, Twist};
+use congruent_mapping::free_frame;
 use nalgebra::{Isometry3, Unit, Vector3};
 
 use super::own_screws::replace_diagnosis;
@@ -43,12 +44,20 @@ pub(super) fn placed_as_in(own: &RobotDescription, other: &RobotDescription) -> 
     let tip = end(own.tip, own.chain_ends.tip, other.tip);
     let root_from_own_root = *screws[1].home(base) * screws[0].home(own.base).inverse();
     let mut tree = PlacedTree::new(&other.robot, base, tip, &screws[1]);
+    let in_root = |joint: &Joint| {
+        let root_from_parent = root_from_own_root * *screws[0].home(joint.parent);
+        let rounding = joint.rounding.expressed_in(&root_from_parent.to_isometry());
+        Joint { rounding, ..joint.clone() }
+    };
     for &joint in own.robot.movable_joints() {
         let twist = screws[0].screw(joint)?.twist().transformed_by(&root_from_own_root);
-        tree.add(own.robot.joint(joint), &twist, &screws[1]);
+        tree.add(&in_root(own.robot.joint(joint)), &twist, &screws[1]);
     }
     let tip_name = other.robot.link(tip).name.clone();
-    let robot = tree.finish(own.robot.name(), &tip_name, root_from_own_root * *screws[0].home(own.tip))?;
+    let to_tip = own.robot.parent_joint(own.tip).map(|joint| in_root(own.robot.joint(joint)));
+    let to_tip = to_tip.filter(|joint| joint.kind == JointKind::Fixed);
+    let root_from_tip = root_from_own_root * *screws[0].home(own.tip);
+    let robot = tree.finish(own.robot.name(), &tip_name, root_from_tip, to_tip)?;
     let base = robot.find_link(&other.robot.link(base).name)?;
     let tip = robot.find_link(&tip_name)?;
     Some(RobotDescription { base, tip, robot, ..without_own_table(own) })
@@ -78,16 +87,12 @@ impl<'a> PlacedTree<'a> {
         };
         if base != other.root() {
             let name = format!("{}_to_{base_name}", tree.parent);
-            tree.put(
-                &JointParts::new(&name, JointKind::Fixed, "", "", Isometry3::identity()).joint,
-                base_name,
-                *there.home(base),
-            );
+            tree.put(&fixed(&name), base_name, *there.home(base));
         }
         tree
     }
 
-    /// Adds a joint that moves by `twist`, in the root at zero.
+    /// Adds a joint that moves by `twist`, and whose digits leave open what its rounding says, both in the root at zero.
     fn add(&mut self, joint: &Joint, twist: &Twist, there: &ScrewTree) {
         let same = self.other.find_joint(&joint.name).map(|same| self.other.joint(same).child);
         let frame = same.map_or(self.root_from_parent, |link| *there.home(link));
@@ -105,16 +110,20 @@ impl<'a> PlacedTree<'a> {
             .unwrap_or_else(|| format!("{}_link", joint.name));
         let name = if self.taken.contains(&name) { format!("{}_frame", joint.name) } else { name };
         let axis_in_joint: Vector3<f64> = frame.rotation.transpose() * axis.into_inner();
-        let moved = Joint { axis_in_joint: Unit::new_normalize(axis_in_joint), ..joint.clone() };
+        let mut moved = Joint { axis_in_joint: Unit::new_normalize(axis_in_joint), ..joint.clone() };
+        // Its digits say nothing of a frame that was chosen here.
+        moved.rounding.frame = free_frame(&at);
         self.put(&moved, name, Pose { translation: at, ..frame });
     }
 
     fn put(&mut self, joint: &Joint, child: String, root_from_child: Pose) {
-        let parent_from_joint = (self.root_from_parent.inverse() * root_from_child).to_isometry();
+        let parent_from_root = self.root_from_parent.inverse();
+        let parent_from_joint = (parent_from_root * root_from_child).to_isometry();
+        let rounding = joint.rounding.expressed_in(&parent_from_root.to_isometry());
         self.links.push(named(&child));
         self.taken.insert(child.clone());
         self.parts.push(JointParts {
-            joint: Joint { parent_from_joint, mimic: None, ..joint.clone() },
+            joint: Joint { parent_from_joint, mimic: None, rounding, ..joint.clone() },
             parent: std::mem::replace(&mut self.parent, child.clone()),
             child,
             mimic: None,
@@ -122,12 +131,17 @@ impl<'a> PlacedTree<'a> {
         self.root_from_parent = root_from_child;
     }
 
-    fn finish(mut self, name: &str, tip: &str, root_from_tip: Pose) -> Option<Robot> {
-        let joint = format!("{}_to_{tip}", self.parent);
-        let fixed = JointParts::new(&joint, JointKind::Fixed, "", "", Isometry3::identity()).joint;
-        self.put(&fixed, tip.to_owned(), root_from_tip);
+    /// The robot with its tip, which digits of `to_tip` leave open.
+    fn finish(mut self, name: &str, tip: &str, root_from_tip: Pose, to_tip: Option<Joint>) -> Option<Robot> {
+        let joint = fixed(&format!("{}_to_{tip}", self.parent));
+        let rounding = to_tip.map(|of| of.rounding).unwrap_or_default();
+        self.put(&Joint { rounding, ..joint }, tip.to_owned(), root_from_tip);
         Robot::new(name, self.links, self.parts).ok()
     }
+}
+
+fn fixed(name: &str) -> Joint {
+    JointParts::new(name, JointKind::Fixed, "", "", Isometry3::identity()).joint
 }
 
 fn named(name: &str) -> Link {

@@ -73,7 +73,7 @@ impl RobotParts {
             frame.joint.rounding = JointRounding {
                 origin: if at == 0 { roundings.of_body(body, index) } else { Vec::new() },
                 axis: roundings.of_joint(of, number, &before_from_body),
-                frame: Vec::new(),
+                ..JointRounding::default()
             };
             self.joint_positions[number] = Some(self.joints.len());
             self.joints.push(joint::with_values(frame, model, number));

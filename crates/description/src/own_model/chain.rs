@@ -1,22 +1,31 @@
 //! The chain of a table or of screws as twists at zero in the base.
 
+use std::sync::Arc;
+
 use congruent_input::{
-    Diagnostic, Diagnostics, WrittenTransform, codes::toml::UNKNOWN_KEY, rotation_from_rpy_fixed_xyz,
-    units::Unit,
+    Diagnostic, Diagnostics, SourceFile, WrittenTransform, codes::toml::UNKNOWN_KEY,
+    rotation_from_rpy_fixed_xyz, units::Unit,
 };
-use congruent_robot::{DhConvention, DhRowKind};
+use congruent_robot::{DhConvention, DhRowKind, JointForm, JointRounding};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use toml::Spanned;
 
+use super::rounding::{ScrewDigits, along_x, along_z};
 use crate::{
     codes,
-    robot_file::{WrittenDh, WrittenPoe, WrittenRow, screw_twist, space_twist},
+    pose_rounding::motions_of_pose,
+    robot_file::{
+        RobotFilePlaces, ScrewFrame, WrittenDh, WrittenPoe, WrittenRow, base_from_twist, screw_twist,
+        space_twist,
+    },
 };
 
 /// A chain of joints from base to tip, at zero.
 pub(super) struct OwnChain {
     pub(super) joints: Vec<OwnJoint>,
     pub(super) base_from_tip_at_zero: Isometry3<f64>,
+    /// What the digits leave open of the tip alone, in the base.
+    pub(super) rounding_of_tip: JointRounding,
 }
 
 /// A joint with its twist.
@@ -29,19 +38,21 @@ pub(super) struct OwnJoint {
     pub(super) angular_in_base: Vector3<f64>,
     /// Velocity of the point at the base's origin, m per unit of the joint.
     pub(super) linear_in_base: Vector3<f64>,
+    /// What the digits leave open, in the base.
+    pub(super) rounding: JointRounding,
 }
 
 impl OwnChain {
     /// The chain of a table. A value that is missing or wrong counts as 0 here: the check of the rows, which follows, reports it.
     pub(super) fn of_table(
         dh: &Spanned<WrittenDh>,
-        text: &str,
+        robot_file: &Arc<SourceFile>,
         diagnostics: &mut Diagnostics,
     ) -> Option<Self> {
         let table = dh.get_ref();
         if table.row.is_empty() {
             if !diagnostics.has_misspelt("row") {
-                diagnostics.push(no_joint("[dh] has no [[dh.row]]", dh.span().start, text));
+                diagnostics.push(no_joint("[dh] has no [[dh.row]]", dh.span().start, &robot_file.text));
             }
             return None;
         }
@@ -49,11 +60,18 @@ impl OwnChain {
             let isometry = written.as_ref().map(|written| written.get_ref().isometry());
             isometry.and_then(Result::ok).unwrap_or_else(Isometry3::identity)
         };
-        let is_modified = table.convention.as_ref().is_some_and(|of| *of.get_ref() == DhConvention::Modified);
+        let convention = table.convention.as_ref().map_or(DhConvention::Standard, |of| *of.get_ref());
+        let (is_modified, form) = (convention == DhConvention::Modified, JointForm::Row(convention));
+        let digits = RobotFilePlaces::new(Arc::clone(robot_file), dh.clone(), None).digits();
         let mut base_from_here = constant(&table.base_from_dh0);
+        // What moves the next axis and all behind it.
+        let mut open = motions_of_pose(digits.base, &base_from_here);
         let mut joints = Vec::with_capacity(table.row.len());
-        for row in table.row.iter().map(Spanned::get_ref) {
+        for (row, [a, alpha, d, theta]) in table.row.iter().map(Spanned::get_ref).zip(digits.rows) {
             let [motion, link] = transforms(row);
+            if is_modified {
+                open.extend(along_x([a, alpha], &base_from_here));
+            }
             // The axis is z of the frame before the motion, in the modified convention behind Tx(a) Rx(alpha).
             let base_from_axis = if is_modified { base_from_here * link } else { base_from_here };
             let along = base_from_axis.rotation * Vector3::z() * sign(row);
@@ -64,14 +82,29 @@ impl OwnChain {
                 DhRowKind::Prismatic => [Vector3::zeros(), along],
             };
             let range = diagnostics.keep(row.range().read(row.joint.get_ref(), kind)).flatten();
-            joints.push(OwnJoint { name: row.joint.clone(), kind, range, angular_in_base, linear_in_base });
+            let rounding =
+                JointRounding { origin: std::mem::take(&mut open), form, ..JointRounding::default() };
+            let name = row.joint.clone();
+            joints.push(OwnJoint { name, kind, range, angular_in_base, linear_in_base, rounding });
+            open.extend(along_z([d, theta], &base_from_axis));
+            if !is_modified {
+                open.extend(along_x([a, alpha], &(base_from_here * motion)));
+            }
             base_from_here *= if is_modified { link * motion } else { motion * link };
         }
-        Some(Self { joints, base_from_tip_at_zero: base_from_here * constant(&table.dhn_from_tip) })
+        let dhn_from_tip = constant(&table.dhn_from_tip);
+        let of_tip = motions_of_pose(digits.tool, &dhn_from_tip).into_iter();
+        open.extend(of_tip.map(|motion| motion.expressed_in(&base_from_here)));
+        let rounding_of_tip = JointRounding { origin: open, form, ..JointRounding::default() };
+        Some(Self { joints, base_from_tip_at_zero: base_from_here * dhn_from_tip, rounding_of_tip })
     }
 
     /// The chain of screws; `None` if one of them is wrong.
-    pub(super) fn of_screws(poe: &Spanned<WrittenPoe>, diagnostics: &mut Diagnostics) -> Option<Self> {
+    pub(super) fn of_screws(
+        poe: &Spanned<WrittenPoe>,
+        text: &str,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Self> {
         let written = poe.get_ref();
         if written.joint.is_empty() {
             if !diagnostics.has_misspelt("joint") {
@@ -83,23 +116,39 @@ impl OwnChain {
             return None;
         }
         let home = diagnostics.keep(written.home.get_ref().isometry());
-        let joint = |screw| {
+        let digits = ScrewDigits::new(written, text);
+        let form = match written.frame.get_ref() {
+            ScrewFrame::Space => JointForm::ScrewInBase,
+            ScrewFrame::Body => JointForm::ScrewInTip,
+        };
+        let joint = |(index, screw)| {
             // A part under an unknown key is reported already: that it is missing would say it twice.
             let has_unknown_key = diagnostics.any(|found| found.code == UNKNOWN_KEY);
-            let twist = match screw_twist(screw) {
+            let twist = match screw_twist(screw, digits.of_joint(index)) {
                 Err(_) if has_unknown_key => None,
                 read => diagnostics.keep(read),
             };
             let screw = screw.get_ref();
             let kind = *screw.kind.get_ref();
             let range = diagnostics.keep(screw.range().read(screw.joint.get_ref(), kind));
-            let [angular_in_base, linear_in_base] = space_twist(twist?, *written.frame.get_ref(), &home?);
-            Some(OwnJoint { name: screw.joint.clone(), kind, range: range?, angular_in_base, linear_in_base })
+            let (twist, home, name) = (twist?, home?, screw.joint.clone());
+            let [angular_in_base, linear_in_base] = space_twist(twist, *written.frame.get_ref(), &home);
+            let base_from_twist = base_from_twist(*written.frame.get_ref(), &home);
+            let axis = digits.of_axis(index, screw, twist).into_iter();
+            let axis = axis.map(|motion| motion.expressed_in(&base_from_twist)).collect();
+            let rounding = JointRounding { axis, form, ..JointRounding::default() };
+            Some(OwnJoint { name, kind, range: range?, angular_in_base, linear_in_base, rounding })
         };
         // All are read before the first that is wrong ends the check, so that each fault is reported.
-        let joints: Vec<Option<OwnJoint>> = written.joint.iter().map(joint).collect();
-        let joints = joints.into_iter().collect::<Option<_>>()?;
-        Some(Self { joints, base_from_tip_at_zero: home? })
+        let joints: Vec<Option<OwnJoint>> = written.joint.iter().enumerate().map(joint).collect();
+        let mut joints: Vec<OwnJoint> = joints.into_iter().collect::<Option<_>>()?;
+        let mut of_home = digits.of_home(&home?);
+        // In the tip's frame, all axes move with it.
+        if let (ScrewFrame::Body, Some(first)) = (written.frame.get_ref(), joints.first_mut()) {
+            first.rounding.origin = std::mem::take(&mut of_home);
+        }
+        let rounding_of_tip = JointRounding { origin: of_home, form, ..JointRounding::default() };
+        Some(Self { joints, base_from_tip_at_zero: home?, rounding_of_tip })
     }
 }
 

@@ -3,12 +3,13 @@
 mod chain;
 mod places;
 mod refused;
+mod rounding;
 
 use std::{path::Path, sync::Arc};
 
 use congruent_input::{Diagnostic, Diagnostics, SourceFile, hidden_character, line_column};
 use congruent_robot::{DhRowKind, Joint, JointKind, JointLimit, JointParts, Link, PlacedAxis, Robot};
-use nalgebra::Vector3;
+use nalgebra::{Translation3, Vector3};
 use toml::Spanned;
 
 use self::chain::{OwnChain, OwnJoint};
@@ -47,8 +48,8 @@ pub(crate) fn own_model(
             ));
             return None;
         }
-        (Some(dh), None) => (OwnModelForm::Table, OwnChain::of_table(dh, &robot_file.text, diagnostics)?),
-        (None, Some(poe)) => (OwnModelForm::Screws, OwnChain::of_screws(poe, diagnostics)?),
+        (Some(dh), None) => (OwnModelForm::Table, OwnChain::of_table(dh, robot_file, diagnostics)?),
+        (None, Some(poe)) => (OwnModelForm::Screws, OwnChain::of_screws(poe, &robot_file.text, diagnostics)?),
         (None, None) => return None,
     };
     let rows = chain.joints.iter().map(|joint| (joint.name.get_ref().clone(), joint.name.span()));
@@ -119,15 +120,18 @@ fn tree(chain: &OwnChain, name: String, written: &WrittenRobot) -> Result<Robot,
             placed.shift_from(&here_in_base),
         );
         let limit = joint.range.map(|[lower, upper]| JointLimit { lower, upper, ..JointLimit::default() });
+        let rounding = joint.rounding.expressed_in(&Translation3::from(-here_in_base).into());
         parts.push(JointParts {
-            joint: Joint { axis_in_joint: placed.axis_in_base, limit, ..new.joint },
+            joint: Joint { axis_in_joint: placed.axis_in_base, limit, rounding, ..new.joint },
             ..new
         });
         (parent, here_in_base) = (child, placed.origin_in_base);
     }
     let last = PlacedAxis::last_shift(&chain.base_from_tip_at_zero, &here_in_base);
     links.push(link(&tip));
-    parts.push(JointParts::new(&format!("{parent}_to_{tip}"), JointKind::Fixed, &parent, &tip, last));
+    let mut to_tip = JointParts::new(&format!("{parent}_to_{tip}"), JointKind::Fixed, &parent, &tip, last);
+    to_tip.joint.rounding = chain.rounding_of_tip.expressed_in(&Translation3::from(-here_in_base).into());
+    parts.push(to_tip);
     Robot::new(name, links, parts).map_err(|error| {
         let at = written.tip.as_ref().or(written.base.as_ref()).map_or(0..0, Spanned::span);
         Diagnostic::error(codes::robot_file::OWN_MODEL, error.to_string()).at(at).with_help(

@@ -1,7 +1,7 @@
 //! The digits with which a table is typed.
 
 use congruent_input::{
-    TypedNumber, half_places,
+    TypedNumber, WrittenTransform, half_places,
     units::{Unit, UnitSystem},
 };
 use toml::Spanned;
@@ -65,17 +65,34 @@ impl RobotFilePlaces {
         cells.chain(base).chain(tool).collect()
     }
 
-    /// The lengths, or the roll, pitch and yaw, of a declared transform. Quaternions and matrices are exact.
+    /// The lengths, or the roll, pitch and yaw, of a declared transform.
     fn typed_constant(&self, key: ConstantKey, unit: Unit) -> Vec<(usize, TypedNumber<'_>)> {
-        let Some(written) = self.written(key).map(Spanned::get_ref) else { return Vec::new() };
-        let (si, engineering, first) = match unit {
-            Unit::Length => (&written.xyz_m, &written.xyz_mm, 0),
-            Unit::Angle => (&written.rpy_rad, &written.rpy_deg, 3),
-        };
-        let units = UnitSystem::from_given_key(si.as_ref(), engineering.as_ref(), UnitSystem::Si);
-        let Some(vector) = si.as_ref().or(engineering.as_ref()) else { return Vec::new() };
-        let text = self.source().text[vector.span()].trim_matches(['[', ']']);
-        let numbers = text.split(',').take(3).enumerate();
-        numbers.map(|(at, text)| (first + at, TypedNumber { text: text.trim(), units })).collect()
+        let written = self.written(key).map(Spanned::get_ref);
+        written.map_or_else(Vec::new, |written| typed_transform(written, unit, &self.source().text))
     }
+}
+
+/// The lengths, or the roll, pitch and yaw, of a transform, with their place among the six. Quaternions and matrices are exact.
+pub(crate) fn typed_transform<'a>(
+    written: &WrittenTransform,
+    unit: Unit,
+    text: &'a str,
+) -> Vec<(usize, TypedNumber<'a>)> {
+    let (si, engineering, first) = match unit {
+        Unit::Length => (&written.xyz_m, &written.xyz_mm, 0),
+        Unit::Angle => (&written.rpy_rad, &written.rpy_deg, 3),
+    };
+    let numbers = typed_vector([si.as_ref(), engineering.as_ref()], text);
+    numbers.into_iter().map(|(at, number)| (first + at, number)).collect()
+}
+
+/// The components of a vector that has one of two keys, that of SI units or that of engineering units, as they are typed.
+pub(crate) fn typed_vector<'a>(
+    [si, engineering]: [Option<&Spanned<[f64; 3]>>; 2],
+    text: &'a str,
+) -> Vec<(usize, TypedNumber<'a>)> {
+    let units = UnitSystem::from_given_key(si, engineering, UnitSystem::Si);
+    let Some(vector) = si.or(engineering) else { return Vec::new() };
+    let components = text[vector.span()].trim_matches(['[', ']']).split(',').take(3);
+    components.map(|text| TypedNumber { text: text.trim(), units }).enumerate().collect()
 }

@@ -19,10 +19,13 @@ mod written_lint;
 pub(crate) use check::{check, joint_for_link};
 pub use dh_text::dh_text;
 pub use digits::TableDigits;
+pub(crate) use digits::{typed_transform, typed_vector};
 pub use inertials::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint};
 pub use mapping::{DeclaredMapping, DeclaredReference, DeclaredVariable};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
-pub(crate) use poe::{WrittenPoe, screw_twist, space_twist};
+pub(crate) use poe::{
+    ScrewFrame, WrittenPoe, WrittenScrew, WrittenTwist, base_from_twist, screw_twist, space_twist,
+};
 pub(crate) use written::{WrittenDh, WrittenRow};
 pub use written::{WrittenRobot, robot_file_schema};
 pub use written_lint::{WrittenIgnore, WrittenLint};

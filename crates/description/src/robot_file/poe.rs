@@ -1,7 +1,9 @@
 //! `[poe]` of a robot file: the chain as a product of exponentials, one twist for each joint and the pose of the tip at zero.
 
 use congruent_input::{
-    Diagnostic, WrittenTransform, fixed_array,
+    Diagnostic, WrittenTransform,
+    display::length,
+    fixed_array,
     number::significant_components,
     units::{Unit, check_finite},
 };
@@ -110,8 +112,12 @@ impl WrittenScrew {
 /// Angular and linear part of a twist: rad and m per unit of the joint.
 pub(crate) type WrittenTwist = [Vector3<f64>; 2];
 
-/// The twist of a joint in the frame in which it is written.
-pub(crate) fn screw_twist(written: &Spanned<WrittenScrew>) -> Result<WrittenTwist, Diagnostic> {
+/// The twist of a joint in the frame in which it is written; `halves` are half of the last place of the components of its direction,
+/// and of `v_m` or of its point, in m.
+pub(crate) fn screw_twist(
+    written: &Spanned<WrittenScrew>,
+    halves: &[Vector3<f64>; 2],
+) -> Result<WrittenTwist, Diagnostic> {
     let screw = written.get_ref();
     let name = screw.joint.get_ref();
     let refused = |message: String, help: &str| {
@@ -142,7 +148,7 @@ pub(crate) fn screw_twist(written: &Spanned<WrittenScrew>) -> Result<WrittenTwis
             refused("has a point without an axis".to_owned(), "for example axis = [0, 0, 1]")
         }
         (None, omega, Some(linear)) if is_revolute => match omega {
-            Some(omega) => turning(omega, linear, name),
+            Some(omega) => turning(omega, linear, name, halves),
             None => refused(
                 "is revolute, but has no omega".to_owned(),
                 "omega is the direction of its axis, for example omega = [0, 0, 1]",
@@ -161,6 +167,7 @@ fn turning(
     omega: &Spanned<[f64; 3]>,
     linear: &Spanned<[f64; 3]>,
     joint: &str,
+    [of_omega, of_linear]: &[Vector3<f64>; 2],
 ) -> Result<WrittenTwist, Diagnostic> {
     if omega.get_ref().iter().all(|component| *component == 0.0) {
         let message = format!("joint \"{joint}\" is revolute, but its omega is 0");
@@ -171,12 +178,14 @@ fn turning(
     let axis = unit_vector("omega", omega, joint)?;
     let moment = Vector3::from(Unit::Length.vector("v", Some(linear), None)?.unwrap_or_default());
     let pitch = axis.dot(&moment);
-    if pitch.abs() <= WRITTEN_UNIT {
+    let by_digits = axis.abs().dot(of_linear) + moment.abs().dot(of_omega);
+    if pitch.abs() <= WRITTEN_UNIT + by_digits {
         return Ok([axis, moment - axis * pitch]);
     }
     let without = significant_components((moment - axis * pitch).into()).join(", ");
     let message = format!(
-        "joint \"{joint}\" advances by {pitch:.3} m/rad as it turns: a screw with a pitch is not supported"
+        "joint \"{joint}\" advances by {} per radian as it turns: a screw with a pitch is not supported",
+        length(pitch)
     );
     Err(Diagnostic::error(codes::robot_file::SCREW, message)
         .at(linear.span())
@@ -223,12 +232,16 @@ pub(crate) fn space_twist(
     frame: ScrewFrame,
     base_from_tip_at_zero: &Isometry3<f64>,
 ) -> WrittenTwist {
+    let base_from_twist = base_from_twist(frame, base_from_tip_at_zero);
+    let angular = base_from_twist.rotation * angular;
+    let at = base_from_twist.translation.vector;
+    [angular, base_from_twist.rotation * linear + at.cross(&angular)]
+}
+
+/// The frame of the twists in the base.
+pub(crate) fn base_from_twist(frame: ScrewFrame, base_from_tip_at_zero: &Isometry3<f64>) -> Isometry3<f64> {
     match frame {
-        ScrewFrame::Space => [angular, linear],
-        ScrewFrame::Body => {
-            let angular = base_from_tip_at_zero.rotation * angular;
-            let at = base_from_tip_at_zero.translation.vector;
-            [angular, base_from_tip_at_zero.rotation * linear + at.cross(&angular)]
-        }
+        ScrewFrame::Space => Isometry3::identity(),
+        ScrewFrame::Body => *base_from_tip_at_zero,
     }
 }

@@ -142,7 +142,7 @@ pub(crate) enum WrittenInertia {
 }
 
 /// A Denavit-Hartenberg table of the chain from base to tip.
-#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "DhTable")]
 pub(crate) struct WrittenDh {
@@ -169,7 +169,7 @@ pub(crate) struct WrittenDh {
 }
 
 /// A row of the table. Each quantity has one of its two keys: SI units or engineering units.
-#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "DhRow")]
 pub(crate) struct WrittenRow {

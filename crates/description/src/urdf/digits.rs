@@ -1,7 +1,7 @@
 //! The digits that joints are written with.
 
 use congruent_input::{
-    TypedNumber, axes_of_rpy_fixed_xyz, half_places,
+    TypedNumber, half_places,
     units::{Unit, UnitSystem},
 };
 use congruent_robot::{Joint, JointParts, JointRounding, SmallMotion};
@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use roxmltree::Node;
 
 use super::node::element;
+use crate::pose_rounding::motions_of_pose;
 
 /// Half of the last place of the typed values of a joint: how far each true value may be from the typed one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -51,20 +52,15 @@ impl JointDigits {
     fn rounding(&self, joint: &Joint) -> JointRounding {
         let parent_from_joint = &joint.parent_from_joint;
         let point = parent_from_joint.translation.vector;
-        let axes = axes_of_rpy_fixed_xyz(parent_from_joint.rotation.to_rotation_matrix().matrix());
-        let motion = |(at, half): (usize, f64)| match at {
-            0..3 => SmallMotion::shift(Vector3::ith(at, half)),
-            _ => SmallMotion::turn(axes[at - 3] * half, &point),
-        };
         let axis = |(at, half): (usize, f64)| {
             let tilt = joint.axis_in_joint.cross(&Vector3::ith(at, half));
             SmallMotion::turn(parent_from_joint.rotation * tilt, &point)
         };
         let is_open = |(_, half): &(usize, f64)| *half > 0.0;
         JointRounding {
-            origin: self.origin.into_iter().enumerate().filter(is_open).map(motion).collect(),
+            origin: motions_of_pose(self.origin, parent_from_joint),
             axis: self.axis.into_iter().enumerate().filter(is_open).map(axis).collect(),
-            frame: Vec::new(),
+            ..JointRounding::default()
         }
     }
 }
