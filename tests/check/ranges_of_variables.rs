@@ -56,12 +56,41 @@ fn a_zero_that_explains_the_range_is_a_mapping() {
     }
 }
 
-/// A joint that one of the two files fixes moves in one file alone, in both orders of the files.
+/// A joint of the arm that one of the two files fixes makes another chain, in both orders of the files. Nobody has declared it, so that
+/// the rest is compared with it at 0.
 #[test]
-fn a_fixed_joint_is_left_out_in_both_orders() {
-    for line in both_ways(&ELBOW.replace("revolute", "fixed"), ["", ""]) {
-        assert!(line.contains("EQUAL IN 5 OF 6 JOINTS: elbow_joint moves in one file alone"), "{line}");
+fn a_fixed_joint_of_the_arm_is_another_chain_in_both_orders() {
+    let lines = both_ways(&ELBOW.replace("revolute", "fixed"), ["", ""]);
+    for line in lines {
+        let answer = "DIFFERENT JOINTS: elbow_joint moves in ur5e.urdf alone, between base and tip; with elbow_joint at 0, poses agree";
+        assert!(line.contains(answer), "{line}");
     }
+    let scratch = ScratchFolder::new();
+    scratch.write("fixed.urdf", &ur5e().replace(ELBOW, &ELBOW.replace("revolute", "fixed")));
+    let declared =
+        scratch.write("fixed.toml", "urdf = \"fixed.urdf\"\n[mapping]\nleft_out = [\"elbow_joint\"]\n");
+    let answer = congruent(&["check", "-q", &declared, "--against", "robots/ur5e/ur5e.urdf"]);
+    let (code, line) = (answer.code, answer.stdout);
+    assert!(
+        code == 0
+            && line.contains("SAME ROBOT in 5 of 6 joints (those of both files, with elbow_joint at 0)"),
+        "{line}"
+    );
+}
+
+/// Behind a joint that moves in both files and is left out, nothing is compared, and nothing counts as compared.
+#[test]
+fn joints_behind_one_that_is_left_out_are_not_counted() {
+    let scratch = ScratchFolder::new();
+    scratch.write("own.urdf", &ur5e());
+    let declared =
+        scratch.write("own.toml", "urdf = \"own.urdf\"\n[mapping]\nleft_out = [\"elbow_joint\"]\n");
+    let other = scratch.write("other.urdf", &ur5e().replace("0 -0.0997 0", "0 -0.0997 0.02"));
+    let answer = congruent(&["check", "-q", &declared, "--against", &other]).stdout;
+    assert!(
+        answer.contains("SAME ROBOT in 2 of 6 joints (none behind elbow_joint, which [mapping] leaves out)"),
+        "{answer}"
+    );
 }
 
 /// A flip of a joint with a one-sided range, which both files write, is a wrong axis and no exchanged range.

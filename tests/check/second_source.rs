@@ -74,7 +74,7 @@ fn joints_that_move_in_one_file_alone_do_not_stop_the_comparison_of_the_others()
     let whole = congruent(&["check", own, "--against", &other]);
     assert_eq!(whole.code, 1, "{}", whole.stderr);
     let answer = format!(
-        "{own}: EQUAL IN 7 OF 9 JOINTS: panda_finger_joint1 and panda_finger_joint2 move in one file alone"
+        "{own}: EQUAL IN 7 OF 9 JOINTS: panda_finger_joint1 and panda_finger_joint2 move in panda.urdf alone"
     );
     assert!(whole.stdout.starts_with(&answer), "{}", whole.stdout);
     let left_out = "left_out = [\"panda_finger_joint1\", \"panda_finger_joint2\"]";

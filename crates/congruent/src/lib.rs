@@ -42,8 +42,9 @@ pub mod text;
 mod with_physics;
 
 pub use check::{
-    ChangedMass, ChangedTorque, DeclaredSource, Headline, OtherDescription, ReportedJoint, ReportedMapping,
-    RevisionChange, RobotCheck, WrittenFix, check, check_against, check_suite, checked_robot,
+    ChangedMass, ChangedTorque, DeclaredSource, Headline, LeftOutInChain, OtherDescription, ReportedJoint,
+    ReportedMapping, RevisionChange, RobotCheck, WrittenFix, check, check_against, check_suite,
+    checked_robot,
 };
 pub use congruent_lint_report::{
     LintFinding, LintFix, LintReport, LintSummary, LintVerdict, lint, lint_among,

@@ -72,3 +72,9 @@ pub(super) fn frames_elsewhere(links: &[String]) -> Option<String> {
     let (first, more) = (links.first()?, and_more(links.len() - 1));
     Some(format!("No joint is off: the frame of {first} lies elsewhere in its link{more}"))
 }
+
+/// A bound in words: `at most 0.8 pm`, or `<1 pm`.
+pub(super) fn at_most(bound: PoseError) -> String {
+    let bound = largest(bound);
+    if bound.starts_with('<') { bound } else { format!("at most {bound}") }
+}

@@ -93,3 +93,17 @@ fn short_names(files: [&str; 2]) -> [&str; 2] {
     let names = files.map(|file| Path::new(file).file_name().and_then(|name| name.to_str()).unwrap_or(file));
     if names[0] == names[1] { files } else { names }
 }
+
+/// What differs in the dynamics of two descriptions beside their poses.
+pub(super) fn other_torques(check: &RobotCheck) -> String {
+    let mut compared = check.dynamics_of_descriptions().filter(|_| check.against.is_some());
+    let differing = compared.find(|report| !report.agrees());
+    differing.map_or_else(String::new, |report| {
+        let torques = if report.has_same_torques() {
+            String::new()
+        } else {
+            format!("; torques differ, too: {}", check.cause_of_torques(report))
+        };
+        torques + &check.other_limits(report)
+    })
+}

@@ -13,11 +13,13 @@ use congruent_kinematics::PoseError;
 
 use super::{
     against::OtherDescription,
-    cause_in_words::{cause, frames_elsewhere, largest, place, unknown},
+    cause_in_words::{at_most, cause, frames_elsewhere, largest, place, unknown},
     change_answer::answer_of_change,
     declared::DeclaredSource,
+    dynamics_in_words::other_torques,
     judged_by::{BY_DIGITS, allowed, beyond_rounding, judged_by, tolerance_in_words},
-    mapped_joints::{ends_not_compared, mapped_joints},
+    mapped_answer::{after_mapping, which_joints},
+    mapped_joints::ends_not_compared,
     own_model::ONE_MODEL,
     robot_check::RobotCheck,
 };
@@ -83,8 +85,8 @@ impl RobotCheck {
             }
             return Headline::new("DIFFERENT JOINTS", format!(": {details}"));
         }
-        if let Some(mapped) = after_mapping(self) {
-            return mapped;
+        if let Some((answer, details)) = after_mapping(self) {
+            return Headline::new(answer, details);
         }
         if report.verdict == Agreement::NothingCompared {
             let is_alone = |of: &&NotCompared| of.findings.iter().any(|of| of.message == ONE_MODEL);
@@ -169,7 +171,8 @@ fn extent(check: &RobotCheck) -> String {
         Some(OtherDescription { mapping: Some(mapping), .. })
             if !mapping.left_out.is_empty() || !mapping.other_left_out.is_empty() =>
         {
-            format!(" in {} of {all} joints (those of both files)", mapping.joints.len())
+            let (compared, all) = (mapping.compared_joints(), mapping.all_joints());
+            format!(" in {compared} of {all} joints ({})", which_joints(mapping))
         }
         Some(against) if against.links_not_found.contains(&report.chain.tip) => {
             format!(" without the tip \"{}\" (in one file alone)", report.chain.tip)
@@ -195,12 +198,6 @@ fn agreeing(report: &CheckReport) -> String {
             at_most(report.worst.error)
         ),
     }
-}
-
-/// A bound in words: `at most 0.8 pm`, or `<1 pm`.
-fn at_most(bound: PoseError) -> String {
-    let bound = largest(bound);
-    if bound.starts_with('<') { bound } else { format!("at most {bound}") }
 }
 
 /// The bound over the whole joint range, if every pair has one within the tolerance.
@@ -241,20 +238,6 @@ fn different_poses(check: &RobotCheck) -> Headline {
     Headline::new("DIFFERENT", format!(", {found}. {cause}{}", other_torques(check)))
 }
 
-/// What differs in the dynamics of two descriptions beside their poses.
-fn other_torques(check: &RobotCheck) -> String {
-    let mut compared = check.dynamics_of_descriptions().filter(|_| check.against.is_some());
-    let differing = compared.find(|report| !report.agrees());
-    differing.map_or_else(String::new, |report| {
-        let torques = if report.has_same_torques() {
-            String::new()
-        } else {
-            format!("; torques differ, too: {}", check.cause_of_torques(report))
-        };
-        torques + &check.other_limits(report)
-    })
-}
-
 /// Whether the digits of two descriptions decide: no tolerance is declared, and the other is no revision.
 fn is_by_digits_of_two(check: &RobotCheck) -> bool {
     let report = &check.geometry;
@@ -275,54 +258,6 @@ fn by_rounding_alone(check: &RobotCheck) -> String {
         )
     };
     format!("{removed} the digits decide")
-}
-
-/// Joints that are called or counted otherwise, or that only one description has, if nothing declares it.
-fn after_mapping(check: &RobotCheck) -> Option<Headline> {
-    let against = check.against.as_ref()?;
-    let mapping = against.mapping.as_ref().filter(|mapping| !mapping.is_declared)?;
-    let as_written = mapping.as_written.map_or_else(String::new, |error| {
-        format!("; at the same joint values poses differ by up to {}", largest(error))
-    });
-    let joints = mapped_joints(mapping) + &as_written;
-    let agrees = mapping.verdict == Some(Agreement::Agree);
-    let worst = mapping.worst.map_or_else(
-        || "poses were not compared".to_owned(),
-        |worst| match worst {
-            worst if worst == PoseError::default() => "poses are equal".to_owned(),
-            worst if worst.is_within(&check.geometry.tolerance) => {
-                format!("poses agree ({})", at_most(worst))
-            }
-            worst if agrees => format!("poses agree within the digits written ({})", largest(worst)),
-            worst => format!("poses still differ ({})", largest(worst)),
-        },
-    );
-    if !against.is_equal_after_mapping() {
-        let cause = check.diagnosis().map_or_else(String::new, |diagnosis| format!(". {}", cause(diagnosis)));
-        let torques = other_torques(check);
-        let details = format!(": {joints}; in the same variables {worst}{cause}{torques}");
-        return Some(Headline::new("DIFFERENT", details));
-    }
-    let (where_compared, declare) = match mapping.all_of_alike() {
-        Some(all) => (format!("IN {} OF {all} JOINTS", mapping.joints.len()), "left_out in [mapping]"),
-        None => ("AFTER MAPPING".to_owned(), "[mapping]"),
-    };
-    let declare = format!("Declare {declare} if this is meant");
-    let (answer, differ) = match check.all_dynamics().find(|report| !report.agrees()) {
-        None => (format!("EQUAL {where_compared}"), String::new()),
-        Some(report) if report.has_same_torques() => {
-            let limits = check.limits(report);
-            (format!("EQUAL {where_compared}, DIFFERENT JOINT LIMITS"), format!("; limits differ{limits}"))
-        }
-        Some(report) => (
-            format!("SAME GEOMETRY {where_compared}, DIFFERENT DYNAMICS"),
-            format!("; torques differ: {}{}", check.cause_of_torques(report), check.other_limits(report)),
-        ),
-    };
-    // A question has its mark already.
-    let stop = if differ.ends_with('?') { "" } else { "." };
-    let details = format!(": {joints}; in the same variables {worst}{differ}{stop} {declare}");
-    Some(Headline::new(answer, details))
 }
 
 /// Poses agree, but masses, friction, gravity or limits do not.

@@ -13,6 +13,7 @@ use congruent_mapping::{
 };
 
 use super::{
+    left_out::LeftOutInChain,
     part::{kept_joints, part},
     poses_of_other::PosesOfOther,
     reported_mapping::{LEAST_ZERO_RAD, ReportedEnd, ReportedMapping},
@@ -157,6 +158,7 @@ impl MappedPair {
         let mut report = ReportedMapping::new(description, other, found);
         let kept: BTreeSet<&str> = found.joints.iter().map(|of| of.name.as_str()).collect();
         let [locked, other_locked] = locked(description, other, &found.unmatched);
+        report.left_out_in_chain = left_out_in_chain([description, other], found, [&locked, &other_locked]);
         let robot = description.robot.locked(&locked).moved_by(&kept);
         let own = if found.unmatched[0].is_empty() { description.clone() } else { part(description, robot) };
         let options =
@@ -191,6 +193,25 @@ impl MappedPair {
         let places = there.places.clone().of_rewritten(&names.collect(), &link_names.collect());
         Self { description: own, other: RobotDescription { places, ..there }, options, report }
     }
+}
+
+/// The joints of each description that are left out and carry joints of both.
+fn left_out_in_chain(
+    [description, other]: [&RobotDescription; 2],
+    found: &FoundMapping,
+    locked: [&BTreeSet<JointIndex>; 2],
+) -> Vec<LeftOutInChain> {
+    let own = found.joints.iter().filter_map(|of| description.robot.find_joint(&of.name));
+    let common = [own.collect(), found.joints.iter().map(|of| of.joint).collect::<Vec<_>>()];
+    let of = |at: usize| {
+        let robot = &[description, other][at].robot;
+        LeftOutInChain::of(robot, &found.unmatched[at], &common[at], |joint| locked[at].contains(&joint))
+    };
+    let mut both = of(0);
+    both.extend(of(1).into_iter().filter(|there| {
+        description.robot.find_joint(&there.joint).is_none_or(|own| !found.unmatched[0].contains(&own))
+    }));
+    both
 }
 
 /// The last links of branches whose frames are chosen otherwise in the two files.

@@ -44,8 +44,8 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
         });
     }
     let [own, there] = mapping.alone();
-    for (what, names) in
-        [("elsewhere on the robot", mapping.elsewhere()), ("in one file alone", [own, there].concat())]
+    let [in_own, in_other] = [0, 1].map(|at| format!("in {} alone", mapping.names[at]));
+    for (what, names) in [("elsewhere on the robot", mapping.elsewhere()), (&in_own, own), (&in_other, there)]
     {
         match names[..] {
             [] => {}

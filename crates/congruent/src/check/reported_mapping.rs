@@ -6,12 +6,16 @@ use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckReport},
 };
-use congruent_description::{MappedJoint, RobotDescription, toml_key, toml_string};
-use congruent_input::{display::length, line_column, number::significant};
+use congruent_description::{
+    JointElement, MappedJoint, ParameterPlaces, RobotDescription, toml_key, toml_string,
+};
+use congruent_input::{display::length, number::significant};
 use congruent_kinematics::{Pose, PoseError, ReportedPose};
 use congruent_mapping::{FoundMapping, MatchedBy};
 use schemars::JsonSchema;
 use serde::Serialize;
+
+use super::left_out::LeftOutInChain;
 
 /// A smaller zero is a calibration or a mistake of a digit. Kind: choice, 5 deg.
 pub(super) const LEAST_ZERO_RAD: f64 = 0.087;
@@ -21,9 +25,12 @@ pub(super) const LEAST_ZERO_RAD: f64 = 0.087;
 pub struct ReportedMapping {
     /// How the joints were found to be the same.
     pub matched_by: MatchedBy,
-    /// The URDF of this robot, in which the lines of joints are; missing if there is none.
+    /// The URDF or MJCF of this robot, in which the lines of joints are; missing if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// The two files, by name.
+    #[serde(skip)]
+    pub(super) names: [String; 2],
     /// The joints that both have, in the order of this robot.
     pub joints: Vec<ReportedJoint>,
     /// Moving joints of this robot that do not move in the other: they are not compared, and neither is what they carry; those
@@ -33,6 +40,9 @@ pub struct ReportedMapping {
     /// The same of the other description.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub other_left_out: Vec<String>,
+    /// Joints that are left out and carry joints of both: those of this description, then those of the other.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out_in_chain: Vec<LeftOutInChain>,
     /// Pose of the other root in this one, if the two are not the same frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub root_from_other_root: Option<ReportedPose>,
@@ -90,7 +100,7 @@ pub struct ReportedJoint {
     /// What the variable does to the range.
     #[serde(skip)]
     pub(super) range: RangeInVariable,
-    /// The line of the URDF with the axis of a joint in the opposite direction, or with the origin of one with another zero; missing if
+    /// The line of the URDF or MJCF with the axis of a joint in the opposite direction, or with the origin of one with another zero; missing if
     /// the variable is the same, or the file is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
@@ -168,11 +178,16 @@ impl ReportedMapping {
         let root_from_other_root = (!is_same).then(|| ReportedPose::from(&root));
         Self {
             matched_by: found.matched_by,
-            file: description.places.urdf.as_ref().map(|urdf| urdf.source().path.display().to_string()),
+            file: places(description).map(|of| of.source().path.display().to_string()),
+            names: [description, other].map(|of| {
+                let name = of.urdf_path.file_name().unwrap_or(of.urdf_path.as_os_str());
+                name.to_string_lossy().into_owned()
+            }),
             lines: lines(&joints, [&left_out, &other_left_out], root_from_other_root.as_ref()),
             joints,
             left_out,
             other_left_out,
+            left_out_in_chain: Vec::new(),
             root_from_other_root,
             ends_in_other_frames: Vec::new(),
             equivalent: found.equivalent.len(),
@@ -203,6 +218,16 @@ impl ReportedMapping {
         (turn_rad > LEAST_ZERO_RAD).then_some(turn_rad)
     }
 
+    /// How many joints of both are compared: not those that a joint which is left out carries, unless that is held at 0.
+    pub fn compared_joints(&self) -> usize {
+        let moves = self.left_out_in_chain.iter().filter(|of| !of.is_held);
+        let behind: BTreeSet<&str> = moves.flat_map(|of| &of.carries).map(String::as_str).collect();
+        let is_behind = |of: &&ReportedJoint| {
+            [&of.joint, &of.other].into_iter().any(|name| behind.contains(name.as_str()))
+        };
+        self.joints.len() - self.joints.iter().filter(is_behind).count()
+    }
+
     /// Whether all that differs is what people choose, and no mistake of a digit: directions, and zeros next to quarter turns.
     pub(super) fn is_by_convention(&self) -> bool {
         /// Digits of pi that a file writes. Unit: rad.
@@ -217,8 +242,13 @@ impl ReportedMapping {
     pub(super) fn all_of_alike(&self) -> Option<usize> {
         let is_same = |of: &ReportedJoint| of.has_same_variable() && of.joint == of.other;
         let is_alike = self.joints.iter().all(is_same) && self.root_from_other_root.is_none();
-        let alone = self.left_out.len() + self.other_left_out.len() - self.elsewhere().len();
-        (is_alike && alone > 0).then_some(self.joints.len() + alone)
+        let all = self.all_joints();
+        (is_alike && all > self.joints.len()).then_some(all)
+    }
+
+    /// The joints of both files together.
+    pub(super) fn all_joints(&self) -> usize {
+        self.joints.len() + self.left_out.len() + self.other_left_out.len() - self.elsewhere().len()
     }
 
     /// The mapping with the largest difference of poses that the comparison of the two has found.
@@ -236,11 +266,15 @@ impl ReportedMapping {
     }
 }
 
+fn places(description: &RobotDescription) -> Option<&dyn ParameterPlaces> {
+    description.places.parameters()
+}
+
 /// The line of what a joint with another variable would have otherwise: its axis, or its origin.
 fn line(description: &RobotDescription, of: &MappedJoint) -> Option<usize> {
-    let urdf = description.places.urdf.as_ref().filter(|_| !of.has_same_variable())?;
-    let place = if of.is_flipped { urdf.joint_axis(&of.name) } else { urdf.joint_origin(&of.name) };
-    Some(line_column(&urdf.source().text, place?.start).0)
+    let places = places(description).filter(|_| !of.has_same_variable())?;
+    let part = if of.is_flipped { JointElement::Axis } else { JointElement::Origin };
+    places.joint_part(&of.name, part)?.line_in(places.source())
 }
 
 /// The section of a robot file that declares a mapping.

@@ -27,7 +27,8 @@ pub(crate) struct WrittenMapping {
     #[serde(default)]
     #[schemars(with = "MappingBase")]
     base: Option<MappingBase>,
-    /// Joints that move in only one of the two descriptions: they are not compared, and neither is what they carry.
+    /// Joints that move in only one of the two descriptions. One that the other file fixes is held at 0; behind every other one nothing is
+    /// compared.
     #[serde(default)]
     left_out: Vec<String>,
     /// For each joint of this robot that is called or counted otherwise there: its name there, or a table with `joint`, `sign`

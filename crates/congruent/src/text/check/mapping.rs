@@ -65,11 +65,20 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
 fn not_compared(text: &mut String, mapping: &ReportedMapping, other: &str) {
     let [here, there] = mapping.alone();
     let only = |whose: &str| format!("moving only in {whose}");
-    for (joints, what) in [
-        (here, only("this file")),
-        (there, only(other)),
-        (mapping.elsewhere(), "placed elsewhere in one of the files".to_owned()),
-    ] {
+    let elsewhere = match mapping.matched_by {
+        MatchedBy::Declared => "left out by [mapping], although they move in both files",
+        _ => "placed elsewhere in one of the files",
+    };
+    for (joints, what) in
+        [(here, only("this file")), (there, only(other)), (mapping.elsewhere(), elsewhere.to_owned())]
+    {
+        let held =
+            |joint: &&str| mapping.left_out_in_chain.iter().any(|of| of.is_held && of.joint == **joint);
+        let (held, joints): (Vec<&str>, Vec<&str>) = joints.into_iter().partition(held);
+        if !held.is_empty() {
+            let _ =
+                writeln!(text, "    {what}, what they carry is compared with them at 0: {}", held.join(", "));
+        }
         if !joints.is_empty() {
             let _ = writeln!(text, "    {what}, not compared with what they carry: {}", joints.join(", "));
         }

@@ -1,0 +1,38 @@
+//! Joints that are left out of a comparison although they carry joints that both descriptions have.
+
+use congruent_description::{JointIndex, LinkIndex, Robot};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// A joint between base and tip that moves in one of two descriptions alone, or that is left out in both: a part of the arm, and no
+/// gripper.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct LeftOutInChain {
+    /// The joint.
+    pub joint: String,
+    /// The joints of both descriptions that it carries, by their names in its own.
+    pub carries: Vec<String>,
+    /// Whether it is held at 0, since it is fixed in the other description: what it carries is compared then, and otherwise not.
+    pub is_held: bool,
+}
+
+impl LeftOutInChain {
+    /// Those of a robot among the joints that are left out; `common` are joints that both have, `held` those that are fixed at 0.
+    pub(super) fn of(
+        robot: &Robot,
+        left_out: &[JointIndex],
+        common: &[JointIndex],
+        held: impl Fn(JointIndex) -> bool,
+    ) -> Vec<Self> {
+        let name = |joint: JointIndex| robot.joint(joint).name.clone();
+        let is_carried = |by: JointIndex, link: LinkIndex| {
+            robot.chain(robot.root(), link).is_some_and(|chain| chain.contains(&by))
+        };
+        let of_joint = |&joint: &JointIndex| {
+            let carried = common.iter().filter(|&&of| is_carried(joint, robot.joint(of).parent));
+            let carries: Vec<String> = carried.map(|&of| name(of)).collect();
+            (!carries.is_empty()).then(|| Self { joint: name(joint), carries, is_held: held(joint) })
+        };
+        left_out.iter().filter_map(of_joint).collect()
+    }
+}

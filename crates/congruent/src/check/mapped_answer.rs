@@ -1,0 +1,97 @@
+//! The answer of a check whose joints are called or counted otherwise in the other description.
+
+use congruent_agreement::compare::Agreement;
+use congruent_input::display::listed;
+use congruent_kinematics::PoseError;
+
+use super::{
+    cause_in_words::{at_most, cause, largest},
+    dynamics_in_words::other_torques,
+    mapped_joints::mapped_joints,
+    reported_mapping::ReportedMapping,
+    robot_check::RobotCheck,
+};
+
+/// Joints that are called or counted otherwise, or that only one description has, if nothing declares it.
+pub(super) fn after_mapping(check: &RobotCheck) -> Option<(String, String)> {
+    let against = check.against.as_ref()?;
+    let mapping = against.mapping.as_ref().filter(|mapping| !mapping.is_declared)?;
+    let as_written = mapping.as_written.map_or_else(String::new, |error| {
+        format!("; at the same joint values poses differ by up to {}", largest(error))
+    });
+    let joints = mapped_joints(mapping) + &as_written;
+    let agrees = mapping.verdict == Some(Agreement::Agree);
+    let worst = mapping.worst.map_or_else(
+        || "poses were not compared".to_owned(),
+        |worst| match worst {
+            worst if worst == PoseError::default() => "poses are equal".to_owned(),
+            worst if worst.is_within(&check.geometry.tolerance) => {
+                format!("poses agree ({})", at_most(worst))
+            }
+            worst if agrees => format!("poses agree within the digits written ({})", largest(worst)),
+            worst => format!("poses still differ ({})", largest(worst)),
+        },
+    );
+    if !against.is_equal_after_mapping() {
+        let cause = check.diagnosis().map_or_else(String::new, |diagnosis| format!(". {}", cause(diagnosis)));
+        let torques = other_torques(check);
+        let details = format!(": {joints}; in the same variables {worst}{cause}{torques}");
+        return Some(("DIFFERENT".to_owned(), details));
+    }
+    if !mapping.left_out_in_chain.is_empty() {
+        let differ = other_torques(check);
+        return Some(other_chain_in_part(mapping, &joints, &(worst + &differ)));
+    }
+    let (where_compared, declare) = match mapping.all_of_alike() {
+        Some(all) => (format!("IN {} OF {all} JOINTS", mapping.joints.len()), "left_out in [mapping]"),
+        None => ("AFTER MAPPING".to_owned(), "[mapping]"),
+    };
+    let declare = format!("Declare {declare} if this is meant");
+    let (answer, differ) = match check.all_dynamics().find(|report| !report.agrees()) {
+        None => (format!("EQUAL {where_compared}"), String::new()),
+        Some(report) if report.has_same_torques() => {
+            let limits = check.limits(report);
+            (format!("EQUAL {where_compared}, DIFFERENT JOINT LIMITS"), format!("; limits differ{limits}"))
+        }
+        Some(report) => (
+            format!("SAME GEOMETRY {where_compared}, DIFFERENT DYNAMICS"),
+            format!("; torques differ: {}{}", check.cause_of_torques(report), check.other_limits(report)),
+        ),
+    };
+    // A question has its mark already.
+    let stop = if differ.ends_with('?') { "" } else { "." };
+    let details = format!(": {joints}; in the same variables {worst}{differ}{stop} {declare}");
+    Some((answer, details))
+}
+
+/// A joint between base and tip that moves in one file alone: another chain, even if the rest agrees.
+fn other_chain_in_part(mapping: &ReportedMapping, joints: &str, worst: &str) -> (String, String) {
+    let held = held_at_zero(mapping);
+    let rest = match &held[..] {
+        [] => format!("the {} joints that it does not carry: {worst}", mapping.compared_joints()),
+        held => format!("with {} at 0, {worst}", listed(held)),
+    };
+    let stop = if rest.ends_with('?') { "" } else { "." };
+    (
+        "DIFFERENT JOINTS".to_owned(),
+        format!(
+            ": {joints}, between base and tip; {rest}{stop} Declare left_out in [mapping] if this is meant"
+        ),
+    )
+}
+
+/// Which joints of a mapping are compared, and at which position of the others.
+pub(super) fn which_joints(mapping: &ReportedMapping) -> String {
+    let held: Vec<&str> = held_at_zero(mapping);
+    let behind = mapping.left_out_in_chain.iter().filter(|of| !of.is_held).map(|of| of.joint.as_str());
+    match (&held[..], &behind.collect::<Vec<_>>()[..]) {
+        ([], []) => "those of both files".to_owned(),
+        (held, []) => format!("those of both files, with {} at 0", listed(held)),
+        (_, behind) => format!("none behind {}, which [mapping] leaves out", listed(behind)),
+    }
+}
+
+/// The joints between base and tip that are fixed in the other file.
+fn held_at_zero(mapping: &ReportedMapping) -> Vec<&str> {
+    mapping.left_out_in_chain.iter().filter(|of| of.is_held).map(|of| of.joint.as_str()).collect()
+}
