@@ -363,21 +363,31 @@ impl Clearance {
     /// The exact distance of one pair, m; computed once for each relative pose.
     pub fn measure(&mut self, pair: usize) -> f64 {
         let watch = &mut self.watches[pair];
+        let Pair { a, b } = watch.pair;
         if watch.measured_at != self.instant {
-            let Pair { a, b } = watch.pair;
             let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
             if watch.exact_m.is_nan() || a_from_b != watch.a_from_b {
                 watch.exact_m = self.hulls[a].distance_m(&self.hulls[b], &a_from_b);
                 watch.a_from_b = a_from_b;
             }
             watch.measured_at = self.instant;
+            watch.reach_m = watch.exact_m - DISTANCE_SLACK_M + self.travelled_m[a] + self.travelled_m[b];
         }
         watch.exact_m
     }
 
     /// The distance of one pair if it is below `threshold_m`; it is measured only if its bound does not decide that.
     pub fn measure_below(&mut self, pair: usize, threshold_m: f64) -> Option<f64> {
-        if self.bound_m(&self.watches[pair]) >= threshold_m || !self.counts(&self.watches[pair]) {
+        let watch = &self.watches[pair];
+        let travelled_m = self.travelled_m[watch.pair.a] + self.travelled_m[watch.pair.b];
+        // By path lengths first: two numbers decide that of most pairs, while the relative motion takes two poses.
+        if watch.reach_m - travelled_m >= threshold_m || !self.counts(watch) {
+            return None;
+        }
+        let bound_m = self.bound_m(watch);
+        if bound_m >= threshold_m {
+            // Less the slack, since the bound is the distance itself if that was measured at this instant.
+            self.watches[pair].reach_m = bound_m - DISTANCE_SLACK_M + travelled_m;
             return None;
         }
         Some(self.measure(pair)).filter(|&distance_m| distance_m < threshold_m)
