@@ -119,9 +119,14 @@ impl<'a> RunningCheck<'a> {
         Self { is_default: true, ..Self::new(check, None, context) }
     }
 
+    /// Whether the check would end the run if it failed.
+    pub fn may_stop(&self) -> bool {
+        self.on_violation == OnViolation::Stop
+    }
+
     /// Whether the check has failed and ends the run with that.
     pub fn stops(&self) -> bool {
-        self.on_violation == OnViolation::Stop && self.monitor.has_failed()
+        self.may_stop() && self.monitor.has_failed()
     }
 
     /// Calls `take` with the values of the check at this time.

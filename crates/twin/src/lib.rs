@@ -5,6 +5,7 @@
 pub mod codes;
 mod control;
 pub mod fault;
+mod outcome;
 mod random_streams;
 mod run;
 pub mod setup;
@@ -12,5 +13,6 @@ pub mod source;
 mod stopping;
 
 pub use control::JointController;
-pub use run::{Outcome, Run, RunError};
+pub use outcome::{Outcome, RunError};
+pub use run::Run;
 pub use setup::RunSetup;

@@ -1,71 +1,33 @@
 //! The run loop: a source of joint states, comparison with the model, clearance, checks and recording, one
 //! sample after another. It does not know what the source is.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::{
+    panic::resume_unwind,
+    sync::atomic::{AtomicBool, Ordering},
+};
 
 use congruent_agreement::compare::Model;
-use congruent_description::Robot;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use congruent_monitors::{
-    Names, Recorder, RecordingError, RunningCheck, Sample, SampleStore,
-    verdict::{CheckResult, CheckValue, RunStop, StopAcceleration, StopLimit},
+    Names, Recorder, RunningCheck, Sample, SampleStore,
+    verdict::{CheckResult, CheckValue},
 };
-use congruent_motion::{ServoResult, SlowedMotion};
-use congruent_proximity::{Clearance, MovingBodies, PairChoice, ProximityError};
+use congruent_proximity::{Clearance, MovingBodies, PairChoice};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 
 use crate::{
+    outcome::{Outcome, RunError, braked, hex},
     setup::RunSetup,
-    source::{ActuatorUse, JointStateSource, SimulationSource, SourceError, stop_accelerations},
+    source::{JointStateSource, RunSource, SimulationSource, UntilEnd, longer_s},
     stopping::Stopping,
 };
-
-/// Why a run cannot start or cannot continue.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum RunError {
-    /// The source of joint states cannot start, or failed during the run.
-    #[error(transparent)]
-    Source(#[from] SourceError),
-    /// The model does not fit the robot.
-    #[error(transparent)]
-    Kinematics(#[from] KinematicsError),
-    /// A collision shape has no convex hull.
-    #[error(transparent)]
-    Proximity(#[from] ProximityError),
-    /// The recording cannot be written.
-    #[error(transparent)]
-    Recording(#[from] RecordingError),
-    /// Somebody has ended the run.
-    #[error("interrupted")]
-    Interrupted,
-}
-
-/// What a finished run has found.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    /// Results of all checks, in the order of the scenario.
-    pub checks: Vec<CheckResult>,
-    /// Number of steps that were taken.
-    pub steps: u64,
-    /// The check that ended the run early, and when; `None` if none did.
-    pub stopped: Option<RunStop>,
-    /// The result of each servo: its error at the end.
-    pub servos: Vec<ServoResult>,
-    /// Motions that were planned in the run and take longer than the scenario says.
-    pub slowed: Vec<SlowedMotion>,
-    /// The use of each joint's actuator, if the source has actuators.
-    pub actuators: Vec<ActuatorUse>,
-    /// SHA-256 over the true joint positions of every sample.
-    pub trajectory_sha256: String,
-}
 
 /// A run in progress. [`Run::finish`] does all of it; the stages are public so that a benchmark can
 /// time each of them.
 pub struct Run<'a> {
     setup: &'a RunSetup,
-    source: Box<dyn JointStateSource + 'a>,
+    source: RunSource<'a>,
     model: Model,
     /// Computes the poses of the links for a source that has joint states only.
     tree: UrdfTree,
@@ -101,7 +63,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// [`RunError`] if the robot cannot be simulated.
     pub fn new(setup: &'a RunSetup) -> Result<Self, RunError> {
-        Self::with_source(setup, Box::new(SimulationSource::new(setup)?))
+        Self::new_with(setup, RunSource::Simulation(Box::new(SimulationSource::new(setup)?)))
     }
 
     /// A run whose joint states come from another source.
@@ -112,6 +74,10 @@ impl<'a> Run<'a> {
         setup: &'a RunSetup,
         source: Box<dyn JointStateSource + 'a>,
     ) -> Result<Self, RunError> {
+        Self::new_with(setup, RunSource::Given(source))
+    }
+
+    fn new_with(setup: &'a RunSetup, source: RunSource<'a>) -> Result<Self, RunError> {
         let robot = &setup.description.robot;
         let links = robot.links().len();
         let mobility = setup.mobility();
@@ -168,7 +134,7 @@ impl<'a> Run<'a> {
 
     /// Number of steps, as far as it is known by now: a motion that is made slower in the run makes the run longer.
     fn steps(&self) -> u64 {
-        self.setup.clock.steps_with(longer_s(self.source.as_ref()))
+        self.setup.clock.steps_with(longer_s(&*self.source))
     }
 
     /// Advances the source by one sample.
@@ -262,7 +228,7 @@ impl<'a> Run<'a> {
         let sample = Sample {
             step,
             time_s: self.setup.clock.time_s(step),
-            motions_s: self.setup.trajectory.duration_s() + longer_s(self.source.as_ref()),
+            motions_s: self.setup.trajectory.duration_s() + longer_s(&*self.source),
             is_last: false,
             is_stopping: self.stopping.is_some(),
             violated_checks: 0,
@@ -303,29 +269,73 @@ impl<'a> Run<'a> {
         self.stopping.as_mut().is_none_or(|stopping| stopping.ends(time_s, &joints, tcp_in_root))
     }
 
+    /// The loop. With the simulation computed ahead, on a thread of its own, unless a check may stop the run: then the next
+    /// step depends on the checks of this one.
+    fn go_ahead(
+        &mut self,
+        checks: &mut [RunningCheck<'_>],
+        recorder: &mut dyn Recorder,
+        progress: impl FnMut(u64),
+    ) -> Result<(), RunError> {
+        let may_stop = checks.iter().any(RunningCheck::may_stop);
+        let ahead = if may_stop { None } else { self.source.compute_ahead(self.root_from_links.len()) };
+        let Some((mut simulation, thread)) = ahead else { return self.go(checks, recorder, progress) };
+        let until = UntilEnd { clock: &self.setup.clock, interrupt: self.interrupt };
+        let (result, simulation) = std::thread::scope(|scope| {
+            let computing = scope.spawn(move || {
+                thread.compute(&mut *simulation, until);
+                simulation
+            });
+            let result = EndsAhead(self).0.go(checks, recorder, progress);
+            (result, computing.join().unwrap_or_else(|panic| resume_unwind(panic)))
+        });
+        let reached = self.source.step_count();
+        self.source = RunSource::Simulation(simulation);
+        if matches!(result, Err(RunError::Recording(_))) {
+            // The thread was ahead by a number of steps that differs from call to call: results are those of the sample that
+            // could not be recorded.
+            self.source = RunSource::Simulation(Box::new(SimulationSource::at_step(self.setup, reached)?));
+        }
+        result
+    }
+
+    fn go(
+        &mut self,
+        checks: &mut [RunningCheck<'_>],
+        recorder: &mut dyn Recorder,
+        mut progress: impl FnMut(u64),
+    ) -> Result<(), RunError> {
+        // The state at time 0 is a sample as well.
+        self.compare()?;
+        while !self.observe(checks, recorder)? {
+            if !self.goes_on() {
+                return Err(RunError::Interrupted);
+            }
+            self.step()?;
+            self.compare()?;
+            progress(self.source.step_count());
+        }
+        Ok(())
+    }
+
+    /// Whether nobody has ended the run. What was computed ahead until then is still taken.
+    fn goes_on(&mut self) -> bool {
+        match &mut self.source {
+            RunSource::Ahead(source) => source.has_next(),
+            _ => !self.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)),
+        }
+    }
+
     /// Runs to the end, or to rest after the first violation of a check that stops the run. After an error, the
     /// outcome holds the results up to it.
     pub fn finish(
         &mut self,
         checks: &mut [RunningCheck<'_>],
         recorder: &mut dyn Recorder,
-        mut progress: impl FnMut(u64),
+        progress: impl FnMut(u64),
     ) -> (Outcome, Result<(), RunError>) {
-        // A closure, so that an error ends the loop but the results so far still get into the outcome.
-        let mut go = || -> Result<(), RunError> {
-            // The state at time 0 is a sample as well.
-            self.compare()?;
-            while !self.observe(checks, recorder)? {
-                if self.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-                    return Err(RunError::Interrupted);
-                }
-                self.step()?;
-                self.compare()?;
-                progress(self.source.step_count());
-            }
-            Ok(())
-        };
-        let result = go();
+        // An error ends the loop, but the results so far still get into the outcome.
+        let result = self.go_ahead(checks, recorder, progress);
         let steps = self.steps();
         // The error of the run itself is the cause; one of the clean-up follows from it.
         let (servos, result) = match self.source.finish() {
@@ -354,27 +364,13 @@ impl<'a> Run<'a> {
     }
 }
 
-/// How each joint was slowed down in a stop.
-fn braked(robot: &Robot, declared: &[f64], lost: &[Option<f64>]) -> Vec<StopAcceleration> {
-    let limits = stop_accelerations(robot, declared).into_iter().zip(robot.movable_joint_names());
-    let one = |(at, ((limit, source), joint)): (usize, ((f64, StopLimit), &str))| StopAcceleration {
-        joint: joint.to_owned(),
-        limit,
-        source,
-        lost_at_end_of_range: lost.get(at).copied().flatten(),
-    };
-    limits.enumerate().map(one).collect()
-}
+/// Ends the thread that computes ahead when the loop ends. Also by a panic: it would wait for the run for ever.
+struct EndsAhead<'r, 'a>(&'r mut Run<'a>);
 
-/// By how much the motions end later than planned.
-fn longer_s(source: &dyn JointStateSource) -> f64 {
-    source.slowed().iter().map(|slowed| slowed.longer_s).sum()
-}
-
-fn hex(bytes: &[u8]) -> String {
-    use std::fmt::Write;
-    bytes.iter().fold(String::new(), |mut text, byte| {
-        write!(text, "{byte:02x}").expect("a String takes every byte");
-        text
-    })
+impl Drop for EndsAhead<'_, '_> {
+    fn drop(&mut self) {
+        if let RunSource::Ahead(source) = &mut self.0.source {
+            source.end();
+        }
+    }
 }

@@ -66,6 +66,11 @@ pub trait JointStateSource {
     }
 }
 
+/// By how much the motions end later than planned.
+pub(crate) fn longer_s(source: &dyn JointStateSource) -> f64 {
+    source.slowed().iter().map(|slowed| slowed.longer_s).sum()
+}
+
 /// Why a source has no further sample.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]

@@ -1,18 +1,23 @@
 //! Sources of link poses, of dynamics and of joint states. A run takes any source of joint states.
 
 mod actuators;
+mod ahead;
 mod braking;
 mod carried;
 mod friction_at_rest;
 mod joint_states;
+mod run_source;
 mod sensors;
 mod simulated_dynamics;
 mod simulated_poses;
 mod simulation;
 
 pub use actuators::ActuatorUse;
+pub(crate) use ahead::UntilEnd;
 pub(crate) use braking::stop_accelerations;
+pub(crate) use joint_states::longer_s;
 pub use joint_states::{JointStateSource, SourceError};
+pub(crate) use run_source::RunSource;
 pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;
 pub use simulation::SimulationSource;

@@ -91,6 +91,15 @@ impl<'a> SimulationSource<'a> {
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
     }
+
+    /// The same after this number of steps: simulations repeat to the last bit.
+    pub(crate) fn at_step(setup: &'a RunSetup, steps: u64) -> Result<Self, SourceError> {
+        let mut source = Self::new(setup)?;
+        while source.step_count() < steps {
+            source.advance(setup.clock.time_s(source.step_count() + 1))?;
+        }
+        Ok(source)
+    }
 }
 
 /// Sets damping, dry friction and armature of the joints in the physics.
