@@ -14,6 +14,8 @@ pub struct RunDynamics<'a> {
     payloads: &'a [RunPayload],
     /// Which of the payloads the tree has.
     is_carried: Vec<bool>,
+    /// Counts the changes of the tree.
+    revision: u64,
     tree: BodyTree,
     buffer: DynamicsBuffer,
 }
@@ -32,7 +34,7 @@ impl<'a> RunDynamics<'a> {
         let tree = BodyTree::new(robot).with_gravity(gravity_in_root_m_s2);
         let tree = tree.with_resistances(resistances.to_vec()).expect("a setup has one for each joint");
         let is_carried = vec![false; payloads.len()];
-        let mut declared = Self { robot, payloads, is_carried, buffer: tree.buffer(), tree };
+        let mut declared = Self { robot, payloads, is_carried, revision: 0, buffer: tree.buffer(), tree };
         declared.at(0.0);
         declared
     }
@@ -51,12 +53,18 @@ impl<'a> RunDynamics<'a> {
         }
         // Only inertias differ, so that the tree's shape, and with it the buffer, stays valid.
         if has_changed {
+            self.revision += 1;
             let loaded = self.loaded(time_s);
             let inertias: Vec<_> = (0..loaded.dof()).map(|joint| loaded.inertia_in_link(joint)).collect();
             let tree = self.tree.clone().with_inertias_in_links(&inertias);
             self.tree = tree.expect("the same robot has as many bodies");
         }
         (&self.tree, &mut self.buffer)
+    }
+
+    /// A number that is another one whenever [`RunDynamics::at`] has given other equations than before.
+    pub fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// The robot with the payloads that it carries at a time.

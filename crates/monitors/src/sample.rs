@@ -9,6 +9,15 @@ use crate::{ContactForce, JointSample, StepForces, verdict::CheckValue};
 /// How far the physics keeps two shapes apart at most, m: the path of a link at 5 m/s in a step of 1 ms. Kind: physics.
 const KEPT_APART_M: f64 = 5e-3;
 
+/// Whether a pose differs from that of the sample before, by the model or by the twin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PoseChange {
+    /// One does.
+    Moved,
+    /// None does, to the last bit: what follows from poses alone is as before.
+    AsBefore,
+}
+
 /// One instant: borrowed from the run loop, nothing is copied.
 #[derive(Debug)]
 pub struct Sample<'a> {
@@ -18,6 +27,8 @@ pub struct Sample<'a> {
     pub time_s: f64,
     /// When the last motion ends, as far as it is known by now.
     pub motions_s: f64,
+    /// Whether the poses are those of the sample before.
+    pub change: PoseChange,
     /// Whether no step follows. For monitors this is the end of the scenario, for recorders also the end
     /// by a check at this instant.
     pub is_last: bool,

@@ -87,6 +87,11 @@ impl Watch {
         }
     }
 
+    /// The values of the last instant once more, at a later time: none can be worse than the worst so far.
+    pub(crate) fn observe_again(&mut self, time_s: f64) {
+        self.latest.1 = time_s;
+    }
+
     /// The worst value of this instant, if it has one.
     pub(crate) fn at(&self, time_s: f64) -> Option<InstantValue> {
         let Self { quantity, unit, bound, limit, latest: (value, at_s), latest_subject: subject, .. } = *self;

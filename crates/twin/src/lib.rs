@@ -8,6 +8,7 @@ pub mod fault;
 mod outcome;
 mod random_streams;
 mod run;
+mod same_poses;
 pub mod setup;
 pub mod source;
 mod stopping;

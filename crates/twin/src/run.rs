@@ -9,7 +9,7 @@ use std::{
 use congruent_agreement::compare::Model;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use congruent_monitors::{
-    Names, Recorder, RunningCheck, Sample, SampleStore,
+    Names, PoseChange, Recorder, RunningCheck, SameInput, Sample, SampleStore,
     verdict::{CheckResult, CheckValue},
 };
 use congruent_proximity::{Clearance, MovingBodies, PairChoice};
@@ -18,6 +18,7 @@ use sha2::{Digest, Sha256};
 
 use crate::{
     outcome::{Outcome, RunError, braked, hex},
+    same_poses::are_same,
     setup::RunSetup,
     source::{JointStateSource, RunSource, SimulationSource, UntilEnd, longer_s},
     stopping::Stopping,
@@ -36,6 +37,12 @@ pub struct Run<'a> {
     zones: Clearance,
     names: Names,
     root_from_links: Vec<Isometry3<f64>>,
+    /// At the sample before.
+    links_before: Vec<Isometry3<f64>>,
+    /// What the poses of the model were computed from.
+    modelled: SameInput,
+    /// Whether poses of the model or of the twin differ from the sample before.
+    change: PoseChange,
     by_tree: Vec<Pose>,
     errors: Vec<PoseError>,
     /// What the checks have measured at this instant.
@@ -95,6 +102,9 @@ impl<'a> Run<'a> {
             bodies: MovingBodies::new(&setup.bodies, &setup.obstacles),
             zones,
             root_from_links: vec![Isometry3::identity(); links],
+            links_before: vec![Isometry3::identity(); links],
+            modelled: SameInput::default(),
+            change: PoseChange::Moved,
             by_tree: vec![Pose::identity(); links],
             errors: vec![PoseError::default(); links],
             values: Vec::new(),
@@ -152,6 +162,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// [`KinematicsError`] if the source gives no configuration of the robot.
     pub fn compare(&mut self) -> Result<(), KinematicsError> {
+        std::mem::swap(&mut self.root_from_links, &mut self.links_before);
         let joints = self.source.joints();
         // Poses of the source come first: those of a simulation are its own kinematics, and comparing them is what a
         // twin is for.
@@ -163,6 +174,12 @@ impl<'a> Run<'a> {
         }
         // The model gets what the encoders say, the twin is where the joints truly are: their difference is what
         // encoder faults cause.
+        let is_modelled = self.modelled.repeats(0, [joints.measured.q]);
+        if is_modelled && are_same(&self.root_from_links, &self.links_before) {
+            self.change = PoseChange::AsBefore;
+            return Ok(());
+        }
+        self.change = PoseChange::Moved;
         let model: &[Pose] = self.model.root_from_links(joints.measured.q)?;
         for ((error, model), twin) in self.errors.iter_mut().zip(model).zip(&self.root_from_links) {
             *error = PoseError::to_isometry(model, twin);
@@ -229,6 +246,7 @@ impl<'a> Run<'a> {
             step,
             time_s: self.setup.clock.time_s(step),
             motions_s: self.setup.trajectory.duration_s() + longer_s(&*self.source),
+            change: self.change,
             is_last: false,
             is_stopping: self.stopping.is_some(),
             violated_checks: 0,

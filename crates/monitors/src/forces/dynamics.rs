@@ -15,7 +15,7 @@ use nalgebra::DMatrix;
 
 use super::not_evaluated::NotEvaluated;
 use crate::{
-    CheckContext, Names, RunDynamics, StepForces,
+    CheckContext, Names, RunDynamics, SameInput, StepForces,
     joints::LARGEST_VELOCITY_SHARE,
     monitor::{Monitor, Observed},
     sample::Sample,
@@ -41,8 +41,12 @@ const STOPPED_IN_A_STEP: f64 = 5e-3;
 pub(crate) struct DynamicsMonitor<'a> {
     dynamics: RunDynamics<'a>,
     mass_matrix: DMatrix<f64>,
-    /// Accelerations by analysis, then those of the twin minus those by analysis.
+    /// Accelerations by analysis.
     qdd: Vec<f64>,
+    /// Those of the twin minus those by analysis.
+    difference: Vec<f64>,
+    /// What the analysis started from.
+    analysed: SameInput,
     bias: Vec<f64>,
     before: StateBefore,
     /// For each joint, the one that it follows with its ratio; itself if it follows none.
@@ -86,6 +90,8 @@ impl<'a> DynamicsMonitor<'a> {
             dynamics,
             mass_matrix: DMatrix::zeros(dof, dof),
             qdd: vec![0.0; dof],
+            difference: vec![0.0; dof],
+            analysed: SameInput::default(),
             bias: vec![0.0; dof],
             before: StateBefore { time_s: 0.0, q: RobotQ::zeros(dof), qd: vec![0.0; dof], is_set: false },
             drivers: robot.movable_joints().iter().enumerate().map(driver).collect(),
@@ -99,11 +105,20 @@ impl<'a> DynamicsMonitor<'a> {
     /// velocity are those of the end of the step, as in the physics, which integrates them implicitly.
     fn analyse(&mut self, effort: &[f64], qd: &[f64]) -> Option<()> {
         let StateBefore { time_s, q, .. } = &self.before;
+        self.dynamics.at(*time_s);
+        if self.analysed.repeats(self.dynamics.revision(), [q, qd, effort]) {
+            return Some(());
+        }
         let (tree, buffer) = self.dynamics.at(*time_s);
         let state = DrivenState { q, qd, tau: effort };
-        tree.forward_into(&state, buffer, &mut self.qdd).ok()?;
-        tree.bias_into(q, qd, buffer, &mut self.bias).ok()?;
-        tree.mass_matrix_into(q, buffer, &mut self.mass_matrix).ok()
+        let analysed = tree
+            .forward_into(&state, buffer, &mut self.qdd)
+            .and_then(|()| tree.bias_into(q, qd, buffer, &mut self.bias))
+            .and_then(|()| tree.mass_matrix_into(q, buffer, &mut self.mass_matrix));
+        if analysed.is_err() {
+            self.analysed.forget();
+        }
+        analysed.ok()
     }
 
     /// The relative difference at one joint and the joints that mimic it. Friction at rest is any torque up to its largest, so
@@ -122,7 +137,8 @@ impl<'a> DynamicsMonitor<'a> {
             if sticks(friction, self.before.qd[row], truth.qd[row], at_rest.max(stopped)) {
                 held.add(friction, ratio, truth.qd[row]);
             }
-            let torque: f64 = (0..dof).map(|other| self.mass_matrix[(row, other)] * self.qdd[other]).sum();
+            let torque: f64 =
+                (0..dof).map(|other| self.mass_matrix[(row, other)] * self.difference[other]).sum();
             difference += ratio * torque;
             acting += ratio.abs() * truth.effort[row].abs().max(self.bias[row].abs());
             acting += ratio.abs() * self.torque_of_frictions(row);
@@ -148,8 +164,10 @@ impl<'a> DynamicsMonitor<'a> {
             return;
         }
         let step_s = sample.time_s - self.before.time_s;
-        for ((difference, after), before) in self.qdd.iter_mut().zip(truth.qd).zip(&self.before.qd) {
-            *difference = (after - before) / step_s - *difference;
+        let accelerations =
+            truth.qd.iter().zip(&self.before.qd).map(|(after, before)| (after - before) / step_s);
+        for ((difference, twin), model) in self.difference.iter_mut().zip(accelerations).zip(&self.qdd) {
+            *difference = twin - model;
         }
         let speeds = truth.qd.iter().chain(&self.before.qd);
         // Coupling passes a share of the fastest joint's motion on to joints that friction holds.

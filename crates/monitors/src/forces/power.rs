@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 
 use super::{dynamics::AT_REST, not_evaluated::NotEvaluated};
 use crate::{
-    CheckContext, Names, RunDynamics, RunPayload, StepForces,
+    CheckContext, Names, RunDynamics, RunPayload, SameInput, StepForces,
     monitor::{Monitor, Observed},
     names::ALL_JOINTS,
     sample::Sample,
@@ -36,6 +36,10 @@ pub(crate) struct PowerMonitor<'a> {
     dynamics: RunDynamics<'a>,
     payloads: &'a [RunPayload],
     mass_matrix: DMatrix<f64>,
+    /// Torques that hold the robot against gravity, as the mass matrix of the last sample.
+    gravity: Vec<f64>,
+    /// What both were computed from.
+    computed: SameInput,
     before: PreviousSample,
     now: EnergyState,
     /// Work minus change of energy minus losses, since the start.
@@ -73,6 +77,8 @@ impl<'a> PowerMonitor<'a> {
             dynamics: context.dynamics.clone(),
             payloads: context.payloads,
             mass_matrix: DMatrix::zeros(dof, dof),
+            gravity: vec![0.0; dof],
+            computed: SameInput::default(),
             before: PreviousSample { time_s: 0.0, qd: vec![0.0; dof], state: state(), is_set: false },
             now: state(),
             missing_j: 0.0,
@@ -88,9 +94,18 @@ impl<'a> PowerMonitor<'a> {
     /// Takes the state of a sample, with the payloads of a time.
     fn take(&mut self, time_s: f64, sample: &Sample<'_>) -> Option<()> {
         let truth = sample.joints.truth;
-        let (tree, buffer) = self.dynamics.at(time_s);
-        tree.mass_matrix_into(truth.q, buffer, &mut self.mass_matrix).ok()?;
-        tree.gravity_into(truth.q, buffer, &mut self.now.gravity).ok()?;
+        self.dynamics.at(time_s);
+        if !self.computed.repeats(self.dynamics.revision(), [truth.q]) {
+            let (tree, buffer) = self.dynamics.at(time_s);
+            let computed = tree
+                .mass_matrix_into(truth.q, buffer, &mut self.mass_matrix)
+                .and_then(|()| tree.gravity_into(truth.q, buffer, &mut self.gravity));
+            if computed.is_err() {
+                self.computed.forget();
+                return None;
+            }
+        }
+        self.now.gravity.copy_from_slice(&self.gravity);
         self.now.kinetic_j = 0.0;
         for (row, qd) in truth.qd.iter().enumerate() {
             let momentum: f64 =

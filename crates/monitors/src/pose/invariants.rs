@@ -11,7 +11,7 @@ use super::joint_constraints::{ConstraintError, JointConstraint};
 use crate::{
     CheckContext, Names,
     monitor::{Monitor, Observed},
-    sample::Sample,
+    sample::{PoseChange, Sample},
     verdict::{Bound, InstantValue},
     watch::Watch,
 };
@@ -74,11 +74,14 @@ impl InvariantsMonitor {
         self.orthonormality.observe(pose.orthonormality_error() + nothing, link, sample);
         self.determinant.observe((pose.determinant() - 1.0).abs() + nothing, link, sample);
     }
-}
 
-impl Monitor for InvariantsMonitor {
-    fn observe(&mut self, sample: &mut Sample<'_>) {
-        self.samples += 1;
+    fn observe_poses(&mut self, sample: &Sample<'_>) {
+        if sample.change == PoseChange::AsBefore {
+            for watch in [&mut self.orthonormality, &mut self.determinant, &mut self.offset, &mut self.tilt] {
+                watch.observe_again(sample.time_s);
+            }
+            return;
+        }
         for (link, (model, twin)) in sample.model.iter().zip(sample.twin).enumerate() {
             self.observe_rotation(model, link, sample);
             // Quaternions that the physics integrates may drift from norm 1, and then describe no rotation.
@@ -89,6 +92,13 @@ impl Monitor for InvariantsMonitor {
             self.offset.observe(offset_m, constraint.link, sample);
             self.tilt.observe(tilt_rad, constraint.link, sample);
         }
+    }
+}
+
+impl Monitor for InvariantsMonitor {
+    fn observe(&mut self, sample: &mut Sample<'_>) {
+        self.samples += 1;
+        self.observe_poses(sample);
         let [truth, measured] = [sample.joints.truth, sample.joints.measured];
         let vectors = [&truth.q[..], truth.qd, truth.effort, &measured.q[..], measured.qd, measured.effort];
         for joint in 0..truth.q.len() {

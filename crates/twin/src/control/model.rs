@@ -2,7 +2,7 @@
 
 use congruent_description::{Robot, RobotQ};
 use congruent_dynamics::JointMotionState;
-use congruent_monitors::RunDynamics;
+use congruent_monitors::{RunDynamics, SameInput};
 use congruent_simulation::JointsView;
 
 use crate::setup::RunSetup;
@@ -20,7 +20,10 @@ struct MimicFollower {
 pub(super) struct DeclaredModel<'a> {
     dynamics: RunDynamics<'a>,
     followers: Vec<MimicFollower>,
+    /// Torques of the actuators, of the last motion or against gravity.
     torque: Vec<f64>,
+    /// The positions of the latter.
+    held: SameInput,
 }
 
 impl<'a> DeclaredModel<'a> {
@@ -30,15 +33,20 @@ impl<'a> DeclaredModel<'a> {
             dynamics: setup.declared_dynamics(),
             followers: followers(robot),
             torque: vec![0.0; robot.dof()],
+            held: SameInput::default(),
         }
     }
 
     /// Adds the torques that hold the robot against gravity.
     pub(super) fn add_gravity(&mut self, time_s: f64, q: &RobotQ, torque: &mut [f64]) {
         // The declared tree of this instant: payloads come and go.
-        let (tree, buffer) = self.dynamics.at(time_s);
-        tree.gravity_into(q, buffer, &mut self.torque).expect("a state of this robot");
-        self.add_actuated(torque);
+        self.dynamics.at(time_s);
+        if !self.held.repeats(self.dynamics.revision(), [q]) {
+            let (tree, buffer) = self.dynamics.at(time_s);
+            tree.gravity_into(q, buffer, &mut self.torque).expect("a state of this robot");
+            self.shift_to_masters();
+        }
+        self.add_to(torque);
     }
 
     /// Adds the torques of a motion. The accelerations of mimic joints are replaced by those that they follow with.
@@ -50,17 +58,22 @@ impl<'a> DeclaredModel<'a> {
         let (tree, buffer) = self.dynamics.at(joints.time_s());
         let motion = JointMotionState { q: joints.q(), qd: joints.qd(), qdd };
         tree.inverse_into(&motion, buffer, &mut self.torque).expect("a state of this robot");
-        self.add_actuated(torque);
+        self.held.forget();
+        self.shift_to_masters();
+        self.add_to(torque);
     }
 
     /// The master of a mimic joint exerts its torque as well.
-    fn add_actuated(&mut self, torque: &mut [f64]) {
+    fn shift_to_masters(&mut self) {
         for follower in &self.followers {
             // By virtual work: the master's torque does the follower's work, `ratio` times its speed. A follower has
             // no actuator, so its entry becomes zero.
             let own = std::mem::take(&mut self.torque[follower.coordinate]);
             self.torque[follower.master] += follower.ratio * own;
         }
+    }
+
+    fn add_to(&self, torque: &mut [f64]) {
         for (torque, added) in torque.iter_mut().zip(&self.torque) {
             *torque += added;
         }
