@@ -2,6 +2,7 @@
 
 mod configurations;
 mod corrected_file;
+mod declared_digits;
 mod declared_mapping;
 mod diagnosis;
 mod diagnosis_chains;

@@ -88,7 +88,7 @@ fn joints_behind_one_that_is_left_out_are_not_counted() {
     let other = scratch.write("other.urdf", &ur5e().replace("0 -0.0997 0", "0 -0.0997 0.02"));
     let answer = congruent(&["check", "-q", &declared, "--against", &other]).stdout;
     assert!(
-        answer.contains("SAME ROBOT in 2 of 6 joints (none behind elbow_joint, which [mapping] leaves out)"),
+        answer.contains("SAME ROBOT in 2 of 6 joints (none behind elbow_joint, left out by [mapping])"),
         "{answer}"
     );
 }

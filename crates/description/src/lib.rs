@@ -40,8 +40,8 @@ pub use own_model::{OwnModelForm, OwnModelPlaces};
 pub use parameter_places::{JointElement, ParameterPlace, ParameterPlaces, PlaceElsewhere};
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredInertial, DeclaredMapping, DeclaredReference, DeclaredVariable,
-    DynamicsTable, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey, TableDigits,
-    ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
+    DynamicsTable, InertialDigits, InertialFrame, InertialPlaces, InertialPoint, RobotFilePlaces, RowKey,
+    TableDigits, ValuePlace, WrittenIgnore, WrittenLint, WrittenRobot, dh_text, robot_file_schema,
 };
 pub use tolerance_scale::ToleranceScale;
 pub use toml_literal::{toml_key, toml_string};

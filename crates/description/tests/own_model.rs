@@ -83,7 +83,7 @@ fn screws_are_a_robot() {
     assert_eq!(exact(&load(&by_point).expect("it is one").robot), exact(&arm.robot));
 }
 
-/// Links and joints alone: a point leaves open something else than a moment.
+/// Links and joints alone: a point opens something else than a moment.
 fn exact(robot: &Robot) -> Robot {
     robot.with_joints(|joint| joint.rounding = JointRounding::default())
 }

@@ -273,7 +273,6 @@ fn rounding_of_sum(
 #[cfg(test)]
 mod tests {
     use congruent_description::parse_urdf;
-    use congruent_kinematics::PoseError;
 
     use super::*;
 
@@ -340,7 +339,7 @@ mod tests {
         heavier.set_inertia(index, inertia);
         let split = with_camera(HAND, CAMERA);
         let (same, _) = with_masses_at_links_of([&split, &heavier]);
-        let (_, names) = crate::with_values_within_digits([&split, &same], PoseError::default());
+        let (_, names) = crate::with_values_within_digits([&split, &same], crate::DigitsOfFrames::default());
         assert_eq!(names, [""; 0]);
     }
 

@@ -9,6 +9,7 @@ mod axis;
 mod bodies;
 mod changed_values;
 mod common_joints;
+mod compared_robot;
 mod corrections;
 mod declared;
 mod digits;
@@ -35,4 +36,6 @@ pub use frames::{CommonAxes, EndInOtherFrames, ends_in_other_frames, has_other_f
 pub use fused_links::{FusedLinks, with_masses_at_links_of};
 pub use link_names::{link_names, same_fixed_link, with_other_still_links};
 pub use matched::MatchedRobots;
-pub use rounded_values::with_values_within_digits;
+pub use rounded_values::{
+    DigitsOfFrames, inertia_within_digits, is_rounded_value, with_values_within_digits,
+};

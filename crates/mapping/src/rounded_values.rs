@@ -5,7 +5,7 @@
 
 use congruent_description::{Inertia, InertiaRounding, Joint, JointKind, JointLimit, Link, Robot};
 use congruent_kinematics::PoseError;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector3};
 
 use crate::digits::MOST;
 
@@ -24,12 +24,23 @@ const LIMITS: [(&str, LimitField); 5] = [
     ("jerk", |limit| &mut limit.jerk),
 ];
 
+/// How far frames of links of two files are apart by what their digits leave open.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct DigitsOfFrames {
+    /// The most of any frame.
+    pub apart: PoseError,
+    /// The most of a frame that was chosen on the axis of its joint, along this axis: it has the rounding of all joints before it.
+    pub along_axis_m: f64,
+}
+
 /// The other robot with the values of this one where the digits that the two are written with explain the difference, and the
 /// names of these values, as `elbow_joint: effort` and `forearm_link: mass`.
 ///
-/// Links and joints are matched by name; those of both must have the same variables, and the same frames up to `of_frames`, the
-/// most that digits have moved one.
-pub fn with_values_within_digits([robot, other]: [&Robot; 2], of_frames: PoseError) -> (Robot, Vec<String>) {
+/// Links and joints are matched by name; those of both must have the same variables, and the same frames up to `of_frames`.
+pub fn with_values_within_digits(
+    [robot, other]: [&Robot; 2],
+    of_frames: DigitsOfFrames,
+) -> (Robot, Vec<String>) {
     let mut names = Vec::new();
     let mut same = other.with_joints(|there| {
         let Some(own) = robot.find_joint(&there.name).map(|index| robot.joint(index)) else { return };
@@ -39,7 +50,11 @@ pub fn with_values_within_digits([robot, other]: [&Robot; 2], of_frames: PoseErr
     for there in other.link_indices() {
         let link = other.link(there);
         let Some(own) = robot.find_link(&link.name).map(|index| robot.link(index)) else { continue };
-        if let Some((inertia, found)) = adopted_inertia(link, own, of_frames) {
+        let joint = other.parent_joint(there).map(|joint| other.joint(joint));
+        let along_axis = joint.filter(|joint| !joint.rounding.frame.is_empty());
+        let along_axis_m = along_axis
+            .map_or_else(Vector3::zeros, |joint| joint.axis_in_joint.abs() * of_frames.along_axis_m);
+        if let Some((inertia, found)) = inertia_within_digits([own, link], of_frames.apart, &along_axis_m) {
             same.set_inertia(there, inertia);
             names.extend(found.into_iter().map(|value| format!("{}: {value}", link.name)));
         }
@@ -54,7 +69,7 @@ fn adopt_values(there: &mut Joint, own: &Joint) -> Vec<&'static str> {
     }
     let mut names = Vec::new();
     let mut adopt = |name: &'static str, [value, half]: [f64; 2], other: &mut f64, other_half: f64| {
-        if is_rounded(value, *other, half.max(other_half)) {
+        if is_rounded_value(value, *other, half.max(other_half)) {
             *other = value;
             names.push(name);
         }
@@ -79,26 +94,33 @@ fn adopt_values(there: &mut Joint, own: &Joint) -> Vec<&'static str> {
     names
 }
 
-/// Whether two values differ, by half of a last place at most.
-fn is_rounded(value: f64, other: f64, half: f64) -> bool {
+/// Whether two values differ, by half of a last place at most: `half` is that of the coarser one.
+pub fn is_rounded_value(value: f64, other: f64, half: f64) -> bool {
     let off = (value - other).abs();
     off > SAME * value.abs().max(other.abs()) && off <= MOST * half
 }
 
-/// The inertia of a link with the parts of the other link's that are the same within the digits, and their names; `None` if there
-/// are none.
-fn adopted_inertia(there: &Link, own: &Link, of_frames: PoseError) -> Option<(Inertia, Vec<&'static str>)> {
+/// The inertia of the second link with the parts of the first one's that are the same within the digits, and their names; `None` if
+/// there are none. The frames of the two are apart by `of_frames` at most, and by `along_axis_m` along the axis of their joint.
+pub fn inertia_within_digits(
+    [own, there]: [&Link; 2],
+    of_frames: PoseError,
+    along_axis_m: &Vector3<f64>,
+) -> Option<(Inertia, Vec<&'static str>)> {
     let ((here, mut inertia), mut names) = (own.inertia.zip(there.inertia)?, Vec::new());
     let most = coarser(&own.inertia_rounding, &there.inertia_rounding);
-    if is_rounded(here.mass_kg, inertia.mass_kg, most.mass_kg) {
+    if is_rounded_value(here.mass_kg, inertia.mass_kg, most.mass_kg) {
         inertia.mass_kg = here.mass_kg;
         names.push("mass");
     }
     let [from, to] = [&here, &inertia].map(|of| of.link_from_inertial.translation);
     let shift_m = of_frames.position_m + of_frames.orientation_rad * from.vector.norm();
-    if are_rounded(&from.vector, &to.vector, &most.com_m.add_scalar(shift_m)) {
+    if are_rounded(&from.vector, &to.vector, &(most.com_m.add_scalar(shift_m) + along_axis_m)) {
         inertia.link_from_inertial.translation = from;
         names.push("centre of mass");
+    } else if from != to && (from.vector - to.vector).amax() <= SAME * from.vector.amax() {
+        // A point that was computed and written with twelve digits is the point.
+        inertia.link_from_inertial.translation = from;
     }
     let [own, other] = [&here, &inertia].map(Inertia::tensor_in_link);
     let turned = 2.0 * of_frames.orientation_rad * own.norm();
@@ -113,7 +135,7 @@ fn adopted_inertia(there: &Link, own: &Link, of_frames: PoseError) -> Option<(In
         inertia.tensor_kg_m2 = here.tensor_kg_m2;
         names.push("moments of inertia");
     }
-    (!names.is_empty()).then_some((inertia, names))
+    (Some(inertia) != there.inertia).then_some((inertia, names))
 }
 
 /// Whether entries differ, each by half of a last place at most.
@@ -164,13 +186,13 @@ mod tests {
     /// Whether the other has the own values then, whichever of the two is written with fewer digits.
     fn names(texts: [&str; 6]) -> Vec<String> {
         let (own, other) = (arm(EXACT), arm(texts));
-        let (same, names) = with_values_within_digits([&own, &other], PoseError::default());
+        let (same, names) = with_values_within_digits([&own, &other], DigitsOfFrames::default());
         if !names.is_empty() {
             assert_eq!(same.links()[1].inertia, own.links()[1].inertia);
             assert_eq!(same.joints()[0].limit, own.joints()[0].limit);
         }
         assert_eq!(
-            with_values_within_digits([&other, &own], PoseError::default()).1,
+            with_values_within_digits([&other, &own], DigitsOfFrames::default()).1,
             names,
             "the other way round"
         );
@@ -203,9 +225,24 @@ mod tests {
         inertia.link_from_inertial.rotation *= turn;
         inertia.tensor_kg_m2 = turned.matrix().transpose() * inertia.tensor_kg_m2 * turned.matrix();
         other.set_inertia(other.find_link("arm").unwrap(), inertia);
-        let (same, names) = with_values_within_digits([&own, &other], PoseError::default());
+        let (same, names) = with_values_within_digits([&own, &other], DigitsOfFrames::default());
         assert_eq!(names, [""; 0]);
         assert_eq!(same, other);
+    }
+
+    /// A frame that was chosen on its axis has the rounding of all joints before it, along this axis alone.
+    #[test]
+    fn a_frame_that_was_chosen_shifts_the_centre_of_mass_along_its_axis() {
+        let (own, other) = (arm(EXACT), arm(rounded(1, "0.124456")));
+        let chosen = other.with_joints(|joint| joint.rounding.frame = crate::free_frame(&Vector3::zeros()));
+        let names = |other: &Robot, along_axis_m: f64| {
+            let of_frames = DigitsOfFrames { along_axis_m, ..DigitsOfFrames::default() };
+            with_values_within_digits([&own, other], of_frames).1
+        };
+        // The axis of a URDF that gives none is x.
+        assert_eq!(names(&chosen, 2e-3), ["arm: centre of mass"]);
+        assert_eq!(names(&chosen, 5e-4), [""; 0], "1 mm is more");
+        assert_eq!(names(&other, 2e-3), [""; 0], "the frame is that of the file");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::{dh_table::DhConvention, inertia::Inertia, joint_limit::JointLimit};
+use super::{inertia::Inertia, joint_limit::JointLimit};
 
 /// A small motion, to first order: every point `p` moves by `linear_m + angular_rad x p`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,8 +54,10 @@ pub enum JointForm {
     /// Pose and axis in the link before, as in a URDF or an MJCF.
     #[default]
     Pose,
-    /// A row of a table.
-    Row(DhConvention),
+    /// A row of a table of the standard convention.
+    StandardRow,
+    /// A row of a table of the modified convention.
+    ModifiedRow,
     /// A screw in the base.
     ScrewInBase,
     /// A screw in the tip at zero.

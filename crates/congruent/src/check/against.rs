@@ -11,7 +11,8 @@ use congruent_dynamics_agreement::{
 use congruent_input::{Capability, Diagnostic, Finding, RevisionName, display::position, nearest};
 use congruent_kinematics::PoseError;
 use congruent_mapping::{
-    common_tip, is_same_value, other_joint, with_masses_at_links_of, with_values_within_digits,
+    DigitsOfFrames, common_tip, is_same_value, other_joint, with_masses_at_links_of,
+    with_values_within_digits,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -252,9 +253,14 @@ fn adopt_rounded_values(
     let compared = geometry.comparisons.iter().filter(is_other);
     let moved = compared.filter(|of| geometry.is_judged_by_digits() || of.verdict == Agreement::Disagree);
     let nearly = nearly_same(own);
-    let links =
-        moved.flat_map(|of| &of.links).map(|link| link.error).filter(|error| error.is_within(&nearly));
-    let of_frames = links.fold(PoseError::default(), PoseError::larger);
+    let links: Vec<PoseError> = moved.flat_map(|of| &of.links).map(|link| link.error).collect();
+    let near = links.iter().filter(|error| error.is_within(&nearly)).map(|error| error.position_m);
+    let turns =
+        links.iter().map(|error| error.orientation_rad).filter(|turn| *turn <= nearly.orientation_rad);
+    let apart =
+        PoseError { position_m: near.fold(0.0, f64::max), orientation_rad: turns.fold(0.0, f64::max) };
+    let allowed = geometry.allowed_by_digits.filter(|_| geometry.is_judged_by_digits());
+    let of_frames = DigitsOfFrames { apart, along_axis_m: allowed.map_or(0.0, |of| of.position_m) };
     let (robot, names) = with_values_within_digits([&own.robot, &there.robot], of_frames);
     there.robot = robot;
     names

@@ -4,7 +4,9 @@ use std::iter::once;
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, NotCompared},
+    compare::{
+        Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, Grade, NotCompared,
+    },
 };
 use congruent_description::{DynamicsTable, InertialFrame, RobotDescription};
 use congruent_dynamics_agreement::DynamicsReport;
@@ -104,18 +106,7 @@ fn checked_in_links(
         with_other.as_ref().map_or((description, options), |of| (&of.description, &of.options));
     let there = with_other.as_ref().map(|of| &of.other);
     let at_configurations = at_configurations(own, there, &geometry, own_options)?;
-    let mut declared_dynamics = None;
-    if let Some(declared) = &description.dynamics {
-        match compared_with_declared(description, declared, &geometry, options.seed) {
-            Ok((source, report)) => {
-                declared_dynamics = Some(source);
-                compared.push(report);
-            }
-            Err(finding) => {
-                geometry.not_asked.push(NotCompared::because(ComparedSource::DeclaredDynamics, &finding));
-            }
-        }
-    }
+    let declared_dynamics = add_declared(&mut geometry, &mut compared, description, options.seed);
     if is_simulated {
         match physics::compared(description, options.seed) {
             Ok(report) => compared.push(report),
@@ -148,6 +139,28 @@ fn checked_in_links(
         tolerance_line: description.places.robot_file.as_ref().and_then(|places| places.tolerance_line()),
         fix: None,
     })
+}
+
+/// Adds the comparison with the dynamics that the robot file declares, or why there is none.
+fn add_declared(
+    geometry: &mut CheckReport,
+    compared: &mut Vec<DynamicsReport>,
+    description: &RobotDescription,
+    seed: u64,
+) -> Option<DeclaredSource> {
+    match compared_with_declared(description, description.dynamics.as_ref()?, geometry, seed) {
+        Ok((source, report)) => {
+            if !source.values_within_digits.is_empty() {
+                geometry.grade = geometry.grade.max(Some(Grade::SameWithinDigits));
+            }
+            compared.push(report);
+            Some(source)
+        }
+        Err(finding) => {
+            geometry.not_asked.push(NotCompared::because(ComparedSource::DeclaredDynamics, &finding));
+            None
+        }
+    }
 }
 
 /// Names a difference from a table or screws that are the robot by their rows. `compared` are the two
@@ -226,9 +239,11 @@ fn compared_with_declared(
 ) -> Result<(DeclaredSource, DynamicsReport), Diagnostic> {
     // A value that cannot be read was taken as 0 and would appear as a difference.
     let readable = unreadable_value(description).map_or(Ok(()), Err);
-    let compared = readable
-        .and_then(|()| comparable(declared, geometry))
-        .and_then(|()| declared::compared(description, declared, seed).map_err(|error| error.to_string()));
+    let compared = readable.and_then(|()| comparable(declared, geometry)).and_then(|()| {
+        let of_table = geometry.allowed_by_digits.filter(|_| geometry.is_judged_by_digits());
+        declared::compared(description, declared, of_table.unwrap_or_default(), seed)
+            .map_err(|error| error.to_string())
+    });
     compared.map_err(|why| Diagnostic::error(codes::check::DECLARED_DYNAMICS, why))
 }
 

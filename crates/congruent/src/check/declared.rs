@@ -3,20 +3,24 @@
 use std::sync::Arc;
 
 use congruent_description::{
-    DeclaredInertial, DynamicsTable, Inertia, InertialFrame, InertialPlaces, InertialPoint, JointResistance,
-    ParameterPlace, ParameterPlaces, Robot, RobotDescription,
+    DeclaredInertial, DynamicsTable, Inertia, InertialPlaces, JointResistance, ParameterPlace,
+    ParameterPlaces, Robot, RobotDescription,
 };
 use congruent_dynamics_agreement::{
     CompareError, DynamicsCause, DynamicsExplanation, DynamicsModel, DynamicsReport, Inertial, NamedModel,
     ParameterDifference, compare,
 };
 use congruent_input::{SourceFile, TextEdit};
-use congruent_kinematics::Pose;
-use nalgebra::{Matrix3, Vector3};
+use congruent_kinematics::{Pose, PoseError};
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::model_frames::{AtZero, add_certificates, urdf_model, urdf_places};
+use super::{
+    declared_body::DeclaredBody,
+    declared_digits::with_values_of_urdf,
+    model_frames::{AtZero, add_certificates, urdf_model, urdf_places},
+};
 
 /// The dynamics that the robot file declares beside the URDF.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
@@ -25,13 +29,17 @@ pub struct DeclaredSource {
     pub source: Option<String>,
     /// Values that the file does not declare, so that they are not compared.
     pub not_declared: Vec<String>,
+    /// Values that differ from those of the URDF by no more than the digits that they are written with, which is no difference.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values_within_digits: Vec<String>,
 }
 
 /// Compares the URDF with what the robot file declares. One of the two is taken to be wrong: the one whose correction
-/// costs less, and the URDF if both cost the same.
+/// costs less, and the URDF if both cost the same. `of_table` is what digits leave open of the frames of the table.
 pub(super) fn compared(
     description: &RobotDescription,
     declared: &DynamicsTable,
+    of_table: PoseError,
     seed: u64,
 ) -> Result<(DeclaredSource, DynamicsReport), CompareError> {
     // By bodies, since an entry declares all that fixed joints hold to the link of its joint.
@@ -40,7 +48,8 @@ pub(super) fn compared(
         AtZero::new(description).map_err(|error| CompareError::Source { message: error.to_string() })?;
     let bodies: Vec<DeclaredBody> =
         declared.inertials.iter().map(|of| DeclaredBody::new(of, &zero, &description.robot)).collect();
-    let model = declared_model(declared, &bodies, &zero, &urdf);
+    let mut model = declared_model(declared, &bodies, &zero, &urdf);
+    let values_within_digits = with_values_of_urdf(&mut model, &urdf, &bodies, description, of_table);
     let places = description.places.inertials.as_deref();
     let robot = &description.robot;
     let places =
@@ -85,7 +94,8 @@ pub(super) fn compared(
         }
     }
     let source = declared.source.clone();
-    Ok((DeclaredSource { source, not_declared: not_declared(declared, &description.robot) }, report))
+    let not_declared = not_declared(declared, &description.robot);
+    Ok((DeclaredSource { source, not_declared, values_within_digits }, report))
 }
 
 /// Cost of the explanation that one of the two files is wrong. Fields are compared in their order.
@@ -158,77 +168,6 @@ fn not_declared(declared: &DynamicsTable, robot: &Robot) -> Vec<String> {
         declared.gravity_in_base_m_s2.is_none().then(|| "gravity".to_owned()),
     ];
     left_out.into_iter().flatten().collect()
-}
-
-/// A declared body in the frame of the link that its joint carries.
-#[derive(Debug, Clone)]
-struct DeclaredBody {
-    joint: usize,
-    link: usize,
-    link_from_frame: Pose,
-    about: InertialPoint,
-    /// Declared parameters; those that are not declared are zero here.
-    parameters: Inertial,
-    has_com: bool,
-    has_tensor: bool,
-}
-
-impl DeclaredBody {
-    fn new(declared: &DeclaredInertial, zero: &AtZero, robot: &Robot) -> Self {
-        let link = robot.joint(declared.joint).child.get();
-        let link_from_frame = match declared.frame {
-            InertialFrame::Link => Pose::identity(),
-            InertialFrame::Dh(frame) => zero.link_from_dh(link, frame),
-        };
-        let mut in_frame = Inertial {
-            mass_kg: declared.mass_kg,
-            com_m: declared.com_m.unwrap_or_else(Vector3::zeros),
-            link_from_axes: Matrix3::identity(),
-            tensor_kg_m2: declared.tensor_kg_m2.unwrap_or_else(Matrix3::zeros),
-        };
-        // Parallel axes (Steiner): the tensor about the centre of mass is that about the frame minus m (c.c I - c
-        // c^T).
-        if declared.about == InertialPoint::Frame && declared.tensor_kg_m2.is_some() {
-            in_frame.tensor_kg_m2 -= in_frame.shift();
-        }
-        Self {
-            joint: robot.coordinate(declared.joint).expect("checked to move"),
-            link,
-            link_from_frame,
-            about: declared.about,
-            parameters: Inertial {
-                com_m: link_from_frame.rotation * in_frame.com_m + link_from_frame.translation,
-                link_from_axes: link_from_frame.rotation,
-                ..in_frame
-            },
-            has_com: declared.com_m.is_some(),
-            has_tensor: declared.tensor_kg_m2.is_some(),
-        }
-    }
-
-    /// Parameters as they are written.
-    fn written(&self) -> Inertial {
-        self.about_point(&self.in_frame(&self.parameters))
-    }
-
-    /// Parameters of the link in the frame of the entry.
-    fn in_frame(&self, parameters: &Inertial) -> Inertial {
-        let frame_from_link = self.link_from_frame.inverse();
-        Inertial {
-            com_m: frame_from_link.rotation * parameters.com_m + frame_from_link.translation,
-            link_from_axes: frame_from_link.rotation * parameters.link_from_axes,
-            ..*parameters
-        }
-    }
-
-    /// Parameters in the frame of the entry with the tensor in its axes and about the point of the entry.
-    fn about_point(&self, in_frame: &Inertial) -> Inertial {
-        let mut tensor_kg_m2 = in_frame.tensor_in_link();
-        if self.about == InertialPoint::Frame {
-            tensor_kg_m2 += in_frame.shift();
-        }
-        Inertial { link_from_axes: Matrix3::identity(), tensor_kg_m2, ..*in_frame }
-    }
 }
 
 /// The dynamics that the file declares; values that it omits are those of the URDF.

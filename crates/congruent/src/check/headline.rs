@@ -105,7 +105,9 @@ impl RobotCheck {
         let (answer, extent) = (self.agreeing_answer(), extent(self));
         let (same, rest) = answer.split_at(answer.find(',').unwrap_or(answer.len()));
         if report.grade != Some(Grade::SameWithinDigits) || !report.is_judged_by_digits() {
-            let rounded = self.against.as_ref().map_or(0, |against| against.values_within_digits.len());
+            let of_other = self.against.as_ref().map_or(0, |against| against.values_within_digits.len());
+            let declared = self.declared_dynamics.as_ref().map_or(0, |of| of.values_within_digits.len());
+            let rounded = of_other + declared;
             if rounded > 0 {
                 let values = counted(rounded, "value");
                 let found = format!("{}; rounded: {values} of masses, inertias and limits", agreeing(report));

@@ -87,7 +87,7 @@ pub(super) fn which_joints(mapping: &ReportedMapping) -> String {
     match (&held[..], &behind.collect::<Vec<_>>()[..]) {
         ([], []) => "those of both files".to_owned(),
         (held, []) => format!("those of both files, with {} at 0", listed(held)),
-        (_, behind) => format!("none behind {}, which [mapping] leaves out", listed(behind)),
+        (_, behind) => format!("none behind {}, left out by [mapping]", listed(behind)),
     }
 }
 

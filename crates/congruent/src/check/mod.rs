@@ -7,6 +7,8 @@ mod change_answer;
 mod changed_table;
 mod checked;
 mod declared;
+mod declared_body;
+mod declared_digits;
 mod dynamics_in_words;
 mod headline;
 mod judged_by;

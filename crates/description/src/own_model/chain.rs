@@ -60,8 +60,8 @@ impl OwnChain {
             let isometry = written.as_ref().map(|written| written.get_ref().isometry());
             isometry.and_then(Result::ok).unwrap_or_else(Isometry3::identity)
         };
-        let convention = table.convention.as_ref().map_or(DhConvention::Standard, |of| *of.get_ref());
-        let (is_modified, form) = (convention == DhConvention::Modified, JointForm::Row(convention));
+        let is_modified = table.convention.as_ref().is_some_and(|of| *of.get_ref() == DhConvention::Modified);
+        let form = if is_modified { JointForm::ModifiedRow } else { JointForm::StandardRow };
         let digits = RobotFilePlaces::new(Arc::clone(robot_file), dh.clone(), None).digits();
         let mut base_from_here = constant(&table.base_from_dh0);
         // What moves the next axis and all behind it.

@@ -20,7 +20,9 @@ pub(crate) use check::{check, joint_for_link};
 pub use dh_text::dh_text;
 pub use digits::TableDigits;
 pub(crate) use digits::{typed_transform, typed_vector};
-pub use inertials::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPlaces, InertialPoint};
+pub use inertials::{
+    DeclaredInertial, DynamicsTable, InertialDigits, InertialFrame, InertialPlaces, InertialPoint,
+};
 pub use mapping::{DeclaredMapping, DeclaredReference, DeclaredVariable};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub(crate) use poe::{

@@ -27,15 +27,16 @@ pub(super) fn check(root: Node<'_, '_>) -> Result<(), Diagnostic> {
     let name = root.tag_name().name();
     if name != "robot" {
         let what = match name {
-            "sdf" | "gazebo" => "this is an SDF file; ",
+            "sdf" | "gazebo" => "SDF files are not read; ",
             "mujoco" => "this is a MuJoCo model; ",
             "COLLADA" => "this is a COLLADA mesh; ",
             _ => "",
         };
-        let message = format!("the root element is <{name}>: {what}a URDF begins with <robot>");
+        let message =
+            format!("the root element is <{name}>: {what}a URDF begins with <robot>, an MJCF with <mujoco>");
         return Err(Diagnostic::error(codes::urdf::ROOT, message)
             .at(tag(root))
-            .with_help("export or convert the robot to URDF"));
+            .with_help("export or convert the robot to URDF or MJCF"));
     }
     unexpanded(root.document()).map_or(Ok(()), Err)
 }

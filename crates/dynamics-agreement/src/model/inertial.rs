@@ -39,7 +39,7 @@ impl Inertial {
     }
 
     /// The same as an inertia of a link.
-    pub(crate) fn to_inertia(self) -> Inertia {
+    pub fn to_inertia(self) -> Inertia {
         let rotation = Rotation3::from_matrix_unchecked(self.link_from_axes);
         Inertia {
             mass_kg: self.mass_kg,

@@ -2,7 +2,7 @@
 //! report shows, and the whole diagnosis is in `report.json`.
 
 use congruent_agreement::{
-    compare::diagnose,
+    compare::{CheckOptions, Grade, check, diagnose},
     report::{ReportedDiagnosis, foremost},
 };
 use congruent_description::{RobotDescription, Tolerance};
@@ -121,8 +121,24 @@ fn explain_poses(setup: &RunSetup, checks: &mut [CheckResult], causes: &mut Caus
         // Model and physics are the same robot, so the cause is a fault of the twin, which the report states once for all
         // checks.
         (Some(_), None) => {}
+        (None, None) if differs_by_rounding(&setup.description, setup.scenario.seed) => {
+            check.notes.push(BY_ROUNDING.to_owned());
+        }
         _ => check.notes.extend(notes(&causes.poses, &description)),
     }
+}
+
+/// What to do about a table that is typed with fewer digits than the URDF.
+const BY_ROUNDING: &str = "table and URDF differ by rounding alone, by which a run does not judge: declare in robot.toml what it may \
+    be, for example [tolerance] position_mm = 1.0, or write more digits";
+
+/// Whether `check` finds table and URDF the same within the digits that they are written with.
+fn differs_by_rounding(description: &RobotDescription, seed: u64) -> bool {
+    let written = RobotDescription { tolerance: Tolerance::default(), ..description.clone() };
+    let options = CheckOptions { seed, ..CheckOptions::default() };
+    let physics = SimulatedPoses::new(&written.robot).ok();
+    let report = physics.and_then(|mut physics| check(&written, Ok(&mut physics), &options).ok());
+    report.is_some_and(|report| report.grade == Some(Grade::SameWithinDigits))
 }
 
 /// The diagnosis of model against physics; none if the robot cannot be simulated again.

@@ -39,10 +39,25 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         .filter(disagrees)
         .into_iter()
         .for_each(|report| compared(text, report, None, robot));
+    within_digits(
+        text,
+        check.declared_dynamics.as_ref().map_or(&[], |declared| &declared.values_within_digits),
+    );
     let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
     if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
         let _ =
             writeln!(text, "  not compared, since the robot file does not state it: {}", left_out.join("; "));
+    }
+}
+
+fn within_digits(text: &mut String, values: &[String]) {
+    if !values.is_empty() {
+        let _ = writeln!(
+            text,
+            "  {} of masses, inertias, limits and losses differ within the digits written, which is no difference: {}",
+            counted(values.len(), "value"),
+            first_of(values, SHOWN)
+        );
     }
 }
 
@@ -93,15 +108,7 @@ fn as_compared(text: &mut String, check: &RobotCheck, against: &OtherDescription
             first_of(links, SHOWN)
         );
     }
-    let values = &against.values_within_digits;
-    if !values.is_empty() {
-        let _ = writeln!(
-            text,
-            "  {} of masses, inertias, limits and losses differ within the digits written, which is no difference: {}",
-            counted(values.len(), "value"),
-            first_of(values, SHOWN)
-        );
-    }
+    within_digits(text, &against.values_within_digits);
     let mut pairs = check.geometry.comparisons.iter().filter(|of| of.name == SourcePair::UrdfOther);
     let is_compared =
         check.dynamics_of_descriptions().next().is_some() && against.links_in_other_frames.is_empty();

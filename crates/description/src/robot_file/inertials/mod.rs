@@ -2,11 +2,13 @@
 
 mod check;
 mod declared;
+mod digits;
 mod places;
 mod written;
 
 pub(super) use check::{InertialContext, check};
 pub use declared::{DeclaredInertial, DynamicsTable, InertialFrame, InertialPoint};
+pub use digits::InertialDigits;
 pub use places::InertialPlaces;
 pub(crate) use written::{WrittenDynamics, WrittenInertial};
 

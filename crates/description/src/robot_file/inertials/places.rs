@@ -34,6 +34,11 @@ impl InertialPlaces {
         &mut self.source
     }
 
+    /// The entries, in the order of the file.
+    pub(super) fn entries(&self) -> impl Iterator<Item = &WrittenInertial> {
+        self.entries.iter().map(Spanned::get_ref)
+    }
+
     /// The robot file that the places are in.
     pub fn source(&self) -> &Arc<SourceFile> {
         &self.source
