@@ -328,3 +328,25 @@ fn an_origin_of_a_bare_file_is_named_beside_rounded_quarter_turns() {
         assert_eq!(report["diagnosis"][0]["cause"], "joint_origin", "{quarter}");
     }
 }
+
+/// Two mistakes in one line are corrected by one line: written one after the other, each would undo the other.
+#[test]
+fn two_mistakes_of_one_line_are_corrected_together() {
+    let scratch = ScratchFolder::new();
+    let urdf = fs::read_to_string(workspace().join("robots/ur5e/ur5e.urdf")).unwrap();
+    let elbow = urdf.find("<joint name=\"elbow_joint\"").unwrap();
+    let end = elbow + urdf[elbow..].find("</joint>").unwrap();
+    let in_one_line = urdf[elbow..end].replace('\n', " ");
+    let right = format!("{}{in_one_line}{}", &urdf[..elbow], &urdf[end..]);
+    let wrong = in_one_line
+        .replace("-0.425 0 0", "-0.435 0 0")
+        .replace("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0.1 0.99\"/>");
+    let wrong = format!("{}{wrong}{}", &urdf[..elbow], &urdf[end..]);
+    let (own, other) = (scratch.write("own.urdf", &wrong), scratch.write("other.urdf", &right));
+    let answer = congruent_json(&["check", &own, "--against", &other]).json();
+    let parts = answer["diagnosis"][0]["parts"].as_array().unwrap();
+    assert_eq!(parts.len(), 2, "{answer:#}");
+    let [first, second] = [0, 1].map(|at| parts[at]["suggestion"].as_str().unwrap());
+    assert_eq!(first.trim(), right.lines().find(|line| line.contains("\"elbow_joint\"")).unwrap().trim());
+    assert!(second.contains("nothing more"), "{second}");
+}

@@ -232,6 +232,61 @@ fn digits_explain_what_they_leave_open_in_every_form() {
     );
 }
 
+/// The same two screws by twist and by a point on the axis, of three decimals: other numbers, of which neither is the rounded other.
+#[test]
+fn digits_of_a_twist_and_of_a_point_count_both() {
+    let arm = |screws: [&str; 2]| {
+        let [first, second] = screws;
+        robot_of(&format!(
+            "[poe]\nframe = 'space'\nhome = {{ xyz_m = [0.451, 0.111, -0.523], rpy_deg = [-90, 20, -180] }}\n\
+             joint = [{{ joint = 'j1', kind = 'revolute', {first} }}, {{ joint = 'j2', kind = 'revolute', {second} }}]\n"
+        ))
+    };
+    let axis = "[-0.3420201433256687, 0.0, 0.9396926207859084]";
+    let twist = format!("omega = {axis}, v_m = [0.105, 0.195, 0.038]");
+    let point = format!("axis = {axis}, point_m = [0, 0.111, -0.571]");
+    let by_twist = arm(["omega = [0, 0, -1], v_m = [0, 0, 0]", &twist]);
+    let by_point = arm(["axis = [0, 0, -1], point_m = [0, 0, 0]", &point]);
+    let elsewhere = arm(["axis = [0, 0, -1], point_m = [0, 0, 0]", &point.replace("0.111", "0.115")]);
+    for [a, b] in [[&by_twist, &by_point], [&by_point, &by_twist]] {
+        let report = check_against(a, b, &CheckOptions::default()).unwrap();
+        assert_eq!(report.geometry.grade, Some(Grade::SameWithinDigits), "{}", report.headline());
+    }
+    let report = check_against(&by_twist, &elsewhere, &CheckOptions::default()).unwrap();
+    assert_eq!(report.geometry.grade, Some(Grade::Different), "{}", report.headline());
+}
+
+/// A declared zero turns what the digits of an axis leave open, and a wrong row is named although the other table is rounded.
+#[test]
+fn digits_count_in_other_variables_and_beside_a_wrong_row() {
+    let table = |first: &str, second: &str| {
+        format!(
+            "[dh]\nconvention = 'standard'\ndhn_from_tip = {{ xyz_m = [0, 0.0844, -0.20364], rpy_deg = [20, 20, -90] }}\n\
+             row = [{{ joint = 'j1', kind = 'revolute', a_m = {first}, alpha_deg = 180, d_m = -0.58709, theta_deg = -90 }},\n\
+             {{ joint = 'j2', kind = 'revolute', a_m = {second}, alpha_deg = 20, d_m = 0, theta_deg = -30 }}]\n"
+        )
+    };
+    let mapped = robot_of(
+        &(table("0.42046", "0.52247") + "[mapping.joints]\nj2 = { joint = 'j2', offset_deg = 90 }\n"),
+    );
+    let screws = robot_of(
+        "[poe]\nframe = 'space'\nhome = { xyz_m = [0.5270, -0.2882, -0.4246], rpy_deg = [-160, -40, 120] }\n\
+         joint = [{ joint = 'j1', kind = 'revolute', omega = [0, 0, 1], v_m = [0, 0, 0] },\n\
+         { joint = 'j2', kind = 'revolute', omega = [0, 0, -1], v_m = [0.4205, 0, 0] }]\n",
+    );
+    let report = check_against(&mapped, &screws, &CheckOptions::default()).unwrap();
+    assert_eq!(report.geometry.grade, Some(Grade::SameWithinDigits), "{}", report.headline());
+    let (wrong, rounded) = (robot_of(&table("0.42046", "0.54247")), robot_of(&table("0.4205", "0.5225")));
+    let report = check_against(&wrong, &rounded, &CheckOptions::default()).unwrap();
+    let cause = &report.geometry.diagnosis[0].fault;
+    assert_eq!(
+        (cause.joint.as_deref(), cause.parameter.as_deref()),
+        (Some("j2"), Some("a")),
+        "{}",
+        cause.message
+    );
+}
+
 /// The text with the numbers of each list behind this key to some decimals.
 fn with_decimals(text: &str, key: &str, decimals: usize) -> String {
     let rounded = |line: &str| {

@@ -110,6 +110,8 @@ fn the_digits_of_a_screw_move_its_axis_alone() {
     let arm = load(&text).expect("a pitch of 0.05 mm per radian is within the digits of v");
     let turn = &arm.robot.joints()[0].rounding;
     assert!(turn.origin.is_empty() && turn.axis.len() >= 3, "{turn:?}");
+    // A direction of four digits is of length 1 within these.
+    load(&SCREWS.replace("axis = [0, 0, 1]", "axis = [0.8660, 0.5000, 0]")).expect("it is one");
     // In the tip, all axes lie where its digits place it.
     let in_tip = load(&SCREWS.replace("'space'", "'body'").replace("0.6, 0, 0.1", "0.612, 0, 0.1"))
         .expect("it is one");

@@ -60,6 +60,17 @@ impl MatchedRobots<'_> {
         Some(self.digits_explanation()?.at_links)
     }
 
+    /// What the digits leave open of a link, to first order, whether they explain what differs or not; what is fitted is no part of it.
+    pub fn open_by_digits(&self) -> PoseError {
+        let (sides, roundings) = (self.sides(), self.roundings());
+        let motions = roundings.iter().flatten().flat_map(|of| of.rounding.motions().map(is_written));
+        let written = DVector::from_vec(motions.collect());
+        if written.is_empty() || written.len() > MOST_VALUES {
+            return PoseError::default();
+        }
+        sides[0].largest_at_links(&effects(&sides, &roundings, BY_AXES), &written)
+    }
+
     /// By how much fitted zeros of the other robot must be turned or shifted for the digits to explain the rest, rad or m, by joint;
     /// `None` if they do not explain it.
     pub fn zeros_by_digits(&self) -> Option<BTreeMap<&str, f64>> {

@@ -9,6 +9,7 @@ use super::{
     joint_limit::JointLimit,
     link::{Link, LinkIndex},
     robot::Robot,
+    rounding::{JointForm, SmallMotion},
 };
 
 /// A joint of a robot in the variable of another description: `q = sign * q_there + offset`.
@@ -41,6 +42,15 @@ impl MappedJoint {
     /// Whether the variable is the same.
     pub fn has_same_variable(&self) -> bool {
         !self.is_flipped && self.offset == 0.0
+    }
+
+    /// What the digits of the axis of a joint leave open of what it carries, where the joint is at the offset: an axis that lies
+    /// elsewhere turns and shifts it to elsewhere. In the parent link.
+    fn motions_at_offset<'a>(&self, joint: &'a Joint) -> impl Iterator<Item = SmallMotion> + 'a {
+        let parent_from_joint = joint.parent_from_joint;
+        let by_offset = parent_from_joint * joint.motion(self.offset) * parent_from_joint.inverse();
+        let axes = if self.offset == 0.0 { &[][..] } else { &joint.rounding.axis };
+        axes.iter().map(move |motion| motion.less(&motion.expressed_in(&by_offset)))
     }
 
     /// The joint with the other name, in the other variable.
@@ -103,9 +113,24 @@ impl Robot {
             Some(of) => of.name.clone(),
             None => free_name(&self.joint(index).name, &taken),
         };
+        let is_other = mapping.iter().any(|of| !of.has_same_variable());
         let parts = self.joints().iter().enumerate().map(|(at, joint)| {
             let index = JointIndex(at);
-            let rewritten = mapped(index).map_or_else(|| joint.clone(), |of| of.rewritten(joint));
+            let mut rewritten = mapped(index).map_or_else(|| joint.clone(), |of| of.rewritten(joint));
+            if is_other && joint.rounding.form != JointForm::Pose {
+                rewritten.rounding.form = JointForm::Rewritten;
+            }
+            if let Some(of) = mapped(index) {
+                rewritten.rounding.frame.extend(of.motions_at_offset(joint));
+            }
+            let before = self
+                .parent_joint(joint.parent)
+                .and_then(|before| Some((mapped(before)?, self.joint(before))));
+            if let Some((of, before)) = before {
+                let link_from_before = (before.parent_from_joint * before.motion(of.offset)).inverse();
+                let moved = of.motions_at_offset(before);
+                rewritten.rounding.origin.extend(moved.map(|motion| motion.expressed_in(&link_from_before)));
+            }
             // q_f = m q + c, with q = s q' + o on both sides.
             let mimic = joint.mimic.map(|mimic| {
                 let variable =

@@ -24,6 +24,12 @@ impl SmallMotion {
         Self { angular_rad, linear_m: through.cross(&angular_rad) }
     }
 
+    /// This motion less another one.
+    #[must_use]
+    pub fn less(&self, other: &Self) -> Self {
+        Self { angular_rad: self.angular_rad - other.angular_rad, linear_m: self.linear_m - other.linear_m }
+    }
+
     /// The same motion in the coordinates of another frame.
     #[must_use]
     pub fn expressed_in(&self, outer_from_frame: &Isometry3<f64>) -> Self {
@@ -58,10 +64,16 @@ pub enum JointForm {
     StandardRow,
     /// A row of a table of the modified convention.
     ModifiedRow,
-    /// A screw in the base.
-    ScrewInBase,
-    /// A screw in the tip at zero.
-    ScrewInTip,
+    /// A twist in the base.
+    TwistInBase,
+    /// A twist in the tip at zero.
+    TwistInTip,
+    /// An axis with a point on it in the base.
+    PointInBase,
+    /// An axis with a point on it in the tip at zero.
+    PointInTip,
+    /// A row, a twist or an axis in other variables: its numbers are not those that the file of these variables has.
+    Rewritten,
 }
 
 impl JointRounding {

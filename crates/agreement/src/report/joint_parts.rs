@@ -3,11 +3,9 @@
 
 use std::sync::Arc;
 
-use congruent_description::{
-    Joint, JointElement, MjcfPlaces, ParameterPlace, ParameterPlaces, RobotDescription, UrdfPlaces,
-};
+use congruent_description::{Joint, JointElement, ParameterPlace, RobotDescription};
 use congruent_input::{
-    RevisionName, Slack, changed_lines,
+    RevisionName, Slack, TextEdit,
     display::angle,
     fitted_rpy_fixed_xyz_rad, line_column,
     units::{Unit, UnitSystem},
@@ -22,37 +20,13 @@ use super::{
     },
     describe::{finding, several},
     fault_message::{FaultMessage, FileLocation, off_by},
+    joint_advice::{JointAttribute, advise_together, edits_of},
     values::ReportedValue,
 };
 use crate::{
     diagnosis::{Cause, Equivalence, thresholds::SAME_UNIT_RATIO},
     source_pair::SourcePair,
 };
-
-/// An attribute of a part of a joint: its name, as the file writes it, and as it is expected.
-pub(super) struct JointAttribute {
-    pub(super) name: &'static str,
-    pub(super) found: String,
-    pub(super) expected: String,
-}
-
-impl JointAttribute {
-    /// The end of the sentence if the found numbers are the expected ones in another unit.
-    fn other_unit(&self) -> Option<&'static str> {
-        let (factor, words) = match self.name {
-            "rpy" => (1_f64.to_degrees(), ": the rpy is in degrees"),
-            _ => (1e3, ": the xyz is in millimetres"),
-        };
-        let numbers = |text: &str| -> Vec<f64> {
-            text.split_whitespace().map(|word| word.parse().unwrap_or(f64::NAN)).collect()
-        };
-        let (found, expected) = (numbers(&self.found), numbers(&self.expected));
-        let is_scaled = |(found, expected): (&f64, &f64)| {
-            (found - factor * expected).abs() <= SAME_UNIT_RATIO * found.abs()
-        };
-        found.iter().zip(&expected).all(is_scaled).then_some(words)
-    }
-}
 
 /// A part of a turn or of a shift that is smaller is rounding. Unit: m or rad; kind: rounding of products of poses, and of zeros
 /// that are found by a fit.
@@ -86,12 +60,13 @@ pub(crate) fn diagnosed_by_joints(
     let ExplainedByJoints { corrections, worst, alternatives } = explained;
     let stages: Vec<ReportedStage> =
         worst.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] }).collect();
-    let messages: Vec<FaultMessage> = corrections.iter().map(|of| parts.message(of)).collect();
+    let messages = parts.messages(corrections);
     let findings = messages.iter().zip(&stages).map(|(message, stage)| finding(message, stage)).collect();
     let faults = messages.into_iter().map(|message| message.fault).collect();
-    let alternative = |of| {
+    let alternative = |of: &JointCorrection| {
         let equivalence = Equivalence::SameEffect;
-        let cause = cause(vec![parts.message(of).fault], stages.clone());
+        let messages = parts.messages(std::slice::from_ref(of));
+        let cause = cause(messages.into_iter().map(|of| of.fault).collect(), stages.clone());
         ReportedAlternative { cause, equivalence, reason: equivalence.sentence() }
     };
     let pair = SourcePair::UrdfOther;
@@ -129,6 +104,33 @@ struct CorrectionMessages<'a> {
 }
 
 impl CorrectionMessages<'_> {
+    /// The messages of corrections, with the lines in which all of them are made.
+    fn messages(&self, corrections: &[JointCorrection]) -> Vec<FaultMessage> {
+        let mut messages: Vec<FaultMessage> = corrections.iter().map(|of| self.message(of)).collect();
+        if let Some(places) = self.descriptions[0].places.parameters() {
+            let edits: Vec<Vec<TextEdit>> = corrections.iter().map(|of| self.edits(of)).collect();
+            advise_together(&mut messages, &edits, places);
+        }
+        messages
+    }
+
+    /// What a correction changes in the file.
+    fn edits(&self, correction: &JointCorrection) -> Vec<TextEdit> {
+        let joint = self.robots.robot.joint(correction.joint);
+        let places = &self.descriptions[0].places;
+        match (&places.urdf, &places.mjcf, &correction.expected) {
+            (Some(urdf), _, JointPart::Origin(expected)) => {
+                edits_of(urdf, &joint.name, "origin", &self.origin(joint, expected))
+            }
+            (Some(urdf), _, JointPart::Axis(expected)) => {
+                edits_of(urdf, &joint.name, "axis", &self.axis(joint, expected))
+            }
+            (None, Some(mjcf), JointPart::Origin(origin)) => mjcf.set_joint_origin(&joint.name, origin),
+            (None, Some(mjcf), JointPart::Axis(axis)) => mjcf.set_joint_axis(&joint.name, axis),
+            (None, None, _) => Vec::new(),
+        }
+    }
+
     fn message(&self, correction: &JointCorrection) -> FaultMessage {
         let joint = self.robots.robot.joint(correction.joint);
         let (element, part, attributes, fault) = match &correction.expected {
@@ -181,13 +183,7 @@ impl CorrectionMessages<'_> {
             message: text.clone(),
             ..fault
         };
-        let mut message = FaultMessage { fault, message: text, location };
-        match (own, self.descriptions[0].places.mjcf.as_ref()) {
-            (Some(places), _) => advise(&mut message, places, &joint.name, part, &attributes),
-            (None, Some(places)) => advise_in_mjcf(&mut message, places, &joint.name, &correction.expected),
-            (None, None) => {}
-        }
-        message
+        FaultMessage { fault, message: text, location }
     }
 
     fn is_revision(&self) -> bool {
@@ -268,35 +264,6 @@ fn sentence(fault: &Fault, joint: &str, [found, other]: [&str; 2]) -> String {
             let off = off_by(shift(fault), turn(fault));
             format!("joint \"{joint}\": origin {found}, {other}, off by {off}")
         }
-    }
-}
-
-/// Replaces the suggestion in words by the lines of the file with the expected attributes.
-pub(super) fn advise(
-    message: &mut FaultMessage,
-    places: &UrdfPlaces,
-    joint: &str,
-    part: &str,
-    attributes: &[JointAttribute],
-) {
-    let new: Vec<(&'static str, String)> =
-        attributes.iter().map(|of| (of.name, of.expected.clone())).collect();
-    let source = places.source();
-    let changes = changed_lines(&source.text, &places.set_joint_part(joint, part, &new));
-    if !changes.is_empty() {
-        message.advise(changes, source);
-    }
-}
-
-/// Replaces the suggestion in words by the lines of an MJCF with the expected pose of the body, or axis of the joint.
-fn advise_in_mjcf(message: &mut FaultMessage, places: &MjcfPlaces, joint: &str, expected: &JointPart) {
-    let edits = match expected {
-        JointPart::Origin(origin) => places.set_joint_origin(joint, origin),
-        JointPart::Axis(axis) => places.set_joint_axis(joint, axis),
-    };
-    let changes = places.changed_lines(&edits);
-    if !changes.is_empty() {
-        message.advise(changes, places.source());
     }
 }
 

@@ -7,6 +7,7 @@ mod describe;
 mod diagnose_models;
 mod exchanged;
 mod fault_message;
+mod joint_advice;
 mod joint_parts;
 mod mimic;
 mod names;

@@ -8,7 +8,8 @@ use congruent_kinematics::rotation_log;
 use super::{
     content::Fault,
     fault_message::{FaultContext, FaultMessage, FileLocation, off_by},
-    joint_parts::{JointAttribute, advise, origin_attributes, origin_fault, shift, turn},
+    joint_advice::{JointAttribute, advise_together, edits_of},
+    joint_parts::{origin_attributes, origin_fault, shift, turn},
     values::ReportedValue,
 };
 use crate::diagnosis::{Cause, ModelPair, thresholds::ROUNDED_QUARTER_RAD};
@@ -84,7 +85,8 @@ impl FaultContext<'_> {
         // Without its place until the lines are known, so that they name their file: others are of the robot file.
         let mut message = FaultMessage { fault, message, location: None };
         if let Some(urdf) = urdf {
-            advise(&mut message, urdf, &name, "origin", &attributes);
+            let edits = edits_of(urdf, &name, "origin", &attributes);
+            advise_together(std::slice::from_mut(&mut message), &[edits], urdf);
         }
         FaultMessage { location, ..message }
     }

@@ -113,7 +113,8 @@ impl RobotCheck {
                 let found = format!("{}; rounded: {values} of masses, inertias and limits", agreeing(report));
                 return Headline::new(same, format!("{extent} within the digits written{rest}. {found}"));
             }
-            return Headline::new(answer, format!("{extent}. {}", agreeing(report)));
+            // What was compared is said behind it, and not behind what was not.
+            return Headline::new(format!("{same}{extent}{rest}"), format!(". {}", agreeing(report)));
         }
         let by_digits = report.comparisons.iter().find(|of| of.name.is_written());
         let pair = by_digits.map_or([""; 2], sources).join(" against ");

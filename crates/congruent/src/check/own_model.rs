@@ -8,15 +8,15 @@ use congruent_agreement::{
     compare::{CheckError, CheckOptions, CheckReport},
 };
 use congruent_description::{
-    ChainEnd, DhRow, DhTable, Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, Places, Robot,
-    RobotDescription,
+    ChainEnd, DhRow, DhTable, Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, Places,
+    RequestedTolerance, Robot, RobotDescription, Tolerance,
 };
 use congruent_input::{Diagnostic, Findings};
-use congruent_kinematics::{Pose, ScrewTree, Twist};
-use congruent_mapping::free_frame;
+use congruent_kinematics::{Pose, PoseError, ScrewTree, Twist};
+use congruent_mapping::{MatchedRobots, free_frame};
 use nalgebra::{Isometry3, Unit, Vector3};
 
-use super::own_screws::replace_diagnosis;
+use super::{own_screws::replace_diagnosis, poses_of_other::PosesOfOther};
 
 /// Why a model on its own is not compared with anything.
 pub(super) const ONE_MODEL: &str =
@@ -171,7 +171,12 @@ pub(super) fn diagnose_by_table(
         return Ok(false);
     }
     for of in [0, 1] {
-        let Some(with_table) = with_table_of(written[of], compared[of], compared[1 - of]) else { continue };
+        let Some(mut with_table) = with_table_of(written[of], compared[of], compared[1 - of]) else {
+            continue;
+        };
+        if written[1 - of].places.urdf.is_none() {
+            allow_digits(&mut with_table, [compared[of], compared[1 - of]]);
+        }
         let found = table_against_links(&with_table, options)?;
         let pair = SourcePair::UrdfOther;
         let mut of_table = found.diagnoses.into_iter();
@@ -183,6 +188,24 @@ pub(super) fn diagnose_by_table(
         }
     }
     Ok(false)
+}
+
+/// Digits of rows count beside those of a URDF. What other files leave open is tolerated, so that their rounding is no cause.
+fn allow_digits(with_table: &mut RobotDescription, [own, other]: [&RobotDescription; 2]) {
+    let robots = [&own.robot, &other.robot];
+    let Ok(matched) = MatchedRobots::new(robots, &mut PosesOfOther::new(robots[0], robots[1])) else {
+        return;
+    };
+    let PoseError { position_m, orientation_rad } = matched.open_by_digits();
+    let tolerance = with_table.tolerance;
+    let open = Tolerance {
+        position_m: tolerance.position_m.max(position_m),
+        orientation_rad: tolerance.orientation_rad.max(orientation_rad),
+    };
+    if open != tolerance {
+        with_table.declared_tolerance = RequestedTolerance::both(open);
+        with_table.tolerance = open;
+    }
 }
 
 /// The other description with the table of a model on its own, as a robot file with both would declare it; `None` if `written` is

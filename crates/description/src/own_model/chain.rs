@@ -15,8 +15,8 @@ use crate::{
     codes,
     pose_rounding::motions_of_pose,
     robot_file::{
-        RobotFilePlaces, ScrewFrame, WrittenDh, WrittenPoe, WrittenRow, base_from_twist, screw_twist,
-        space_twist,
+        RobotFilePlaces, ScrewFrame, WrittenDh, WrittenPoe, WrittenRow, WrittenScrew, base_from_twist,
+        screw_twist, space_twist,
     },
 };
 
@@ -117,10 +117,6 @@ impl OwnChain {
         }
         let home = diagnostics.keep(written.home.get_ref().isometry());
         let digits = ScrewDigits::new(written, text);
-        let form = match written.frame.get_ref() {
-            ScrewFrame::Space => JointForm::ScrewInBase,
-            ScrewFrame::Body => JointForm::ScrewInTip,
-        };
         let joint = |(index, screw)| {
             // A part under an unknown key is reported already: that it is missing would say it twice.
             let has_unknown_key = diagnostics.any(|found| found.code == UNKNOWN_KEY);
@@ -136,7 +132,11 @@ impl OwnChain {
             let base_from_twist = base_from_twist(*written.frame.get_ref(), &home);
             let axis = digits.of_axis(index, screw, twist).into_iter();
             let axis = axis.map(|motion| motion.expressed_in(&base_from_twist)).collect();
-            let rounding = JointRounding { axis, form, ..JointRounding::default() };
+            let rounding = JointRounding {
+                axis,
+                form: form(*written.frame.get_ref(), screw),
+                ..JointRounding::default()
+            };
             Some(OwnJoint { name, kind, range: range?, angular_in_base, linear_in_base, rounding })
         };
         // All are read before the first that is wrong ends the check, so that each fault is reported.
@@ -147,8 +147,21 @@ impl OwnChain {
         if let (ScrewFrame::Body, Some(first)) = (written.frame.get_ref(), joints.first_mut()) {
             first.rounding.origin = std::mem::take(&mut of_home);
         }
+        // The pose of the tip is the same number, however the axes are written.
+        let form = JointForm::TwistInBase;
         let rounding_of_tip = JointRounding { origin: of_home, form, ..JointRounding::default() };
         Some(Self { joints, base_from_tip_at_zero: home?, rounding_of_tip })
+    }
+}
+
+/// What the numbers of a screw are.
+fn form(frame: ScrewFrame, screw: &WrittenScrew) -> JointForm {
+    let has_point = screw.point_m.is_some() || screw.point_mm.is_some();
+    match (frame, has_point) {
+        (ScrewFrame::Space, false) => JointForm::TwistInBase,
+        (ScrewFrame::Space, true) => JointForm::PointInBase,
+        (ScrewFrame::Body, false) => JointForm::TwistInTip,
+        (ScrewFrame::Body, true) => JointForm::PointInTip,
     }
 }
 

@@ -132,7 +132,7 @@ pub(crate) fn screw_twist(
             "keep `axis` with a point on it, or `omega` and `v_m`",
         ),
         (Some(axis), None, None) => {
-            let axis = unit_vector("axis", axis, name)?;
+            let axis = unit_vector("axis", axis, name, &halves[0])?;
             match (is_revolute, point) {
                 (true, Some(point)) => Ok([axis, Vector3::from(point).cross(&axis)]),
                 (true, None) => {
@@ -154,7 +154,7 @@ pub(crate) fn screw_twist(
                 "omega is the direction of its axis, for example omega = [0, 0, 1]",
             ),
         },
-        (None, omega, Some(linear)) => sliding(omega.as_ref(), linear, name),
+        (None, omega, Some(linear)) => sliding(omega.as_ref(), linear, name, &halves[0]),
         (None, _, None) => refused(
             "has no screw: v_m is missing".to_owned(),
             "write omega = [0, 0, 1] and v_m = [0, 0, 0], or axis = [0, 0, 1] and point_m = [0, 0, 0]",
@@ -175,7 +175,7 @@ fn turning(
             .at(omega.span())
             .with_help("omega is the direction of the axis; a joint that slides has kind = \"prismatic\""));
     }
-    let axis = unit_vector("omega", omega, joint)?;
+    let axis = unit_vector("omega", omega, joint, of_omega)?;
     let moment = Vector3::from(Unit::Length.vector("v", Some(linear), None)?.unwrap_or_default());
     let pitch = axis.dot(&moment);
     let by_digits = axis.abs().dot(of_linear) + moment.abs().dot(of_omega);
@@ -196,6 +196,7 @@ fn sliding(
     omega: Option<&Spanned<[f64; 3]>>,
     linear: &Spanned<[f64; 3]>,
     joint: &str,
+    of_direction: &Vector3<f64>,
 ) -> Result<WrittenTwist, Diagnostic> {
     if let Some(omega) = omega.filter(|omega| omega.get_ref().iter().any(|part| *part != 0.0)) {
         let message = format!("joint \"{joint}\" is prismatic, but its omega is not 0");
@@ -203,15 +204,20 @@ fn sliding(
             .at(omega.span())
             .with_help("a joint that slides has omega = [0, 0, 0] and its direction in v_m; one that turns has kind = \"revolute\""));
     }
-    Ok([Vector3::zeros(), unit_vector("v_m", linear, joint)?])
+    Ok([Vector3::zeros(), unit_vector("v_m", linear, joint, of_direction)?])
 }
 
-/// A written direction; one that is not of length 1 is refused.
-fn unit_vector(key: &str, written: &Spanned<[f64; 3]>, joint: &str) -> Result<Vector3<f64>, Diagnostic> {
+/// A written direction; one that is not of length 1 within its digits is refused.
+fn unit_vector(
+    key: &str,
+    written: &Spanned<[f64; 3]>,
+    joint: &str,
+    halves: &Vector3<f64>,
+) -> Result<Vector3<f64>, Diagnostic> {
     written.get_ref().iter().try_for_each(|value| check_finite(key, *value, written.span()))?;
     let vector = Vector3::from(*written.get_ref());
     let norm = vector.norm();
-    if (norm - 1.0).abs() <= WRITTEN_UNIT {
+    if (norm - 1.0).abs() <= WRITTEN_UNIT + vector.abs().dot(halves) {
         return Ok(vector / norm);
     }
     let message = format!("joint \"{joint}\": {key} has length {norm:.6}, expected a unit vector");

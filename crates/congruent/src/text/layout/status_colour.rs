@@ -8,7 +8,7 @@ const RED: u8 = 31;
 const YELLOW: u8 = 33;
 
 /// Words with their colours; of two with the same beginning the longer is first.
-const WORDS: [(&str, u8); 30] = [
+const WORDS: [(&str, u8); 31] = [
     ("SAME ROBOT", GREEN),
     ("SAME GEOMETRY, DIFFERENT DYNAMICS", RED),
     ("SAME GEOMETRY AND DYNAMICS, DIFFERENT JOINT LIMITS", RED),
@@ -17,6 +17,7 @@ const WORDS: [(&str, u8); 30] = [
     ("SAME DYNAMICS, GEOMETRY NOT COMPARED", GREEN),
     ("SAME GEOMETRY AFTER MAPPING", RED),
     ("SAME GEOMETRY IN", RED),
+    ("SAME GEOMETRY in", GREEN),
     ("EQUAL", RED),
     ("DIFFERENT DYNAMICS", RED),
     ("DIFFERENT JOINT LIMITS", RED),
