@@ -50,6 +50,21 @@ fn agree(a: &RobotDescription, b: &RobotDescription) {
     assert!(!report.geometry.comparisons.is_empty());
 }
 
+#[track_caller]
+fn assert_grade(a: &RobotDescription, b: &RobotDescription, expected: Grade) {
+    let report = check_against(a, b, &CheckOptions::default()).unwrap();
+    assert_eq!(report.geometry.grade, Some(expected), "{}", report.headline());
+}
+
+/// The cause is the length of the row of this joint.
+#[track_caller]
+fn assert_names_length(a: &RobotDescription, b: &RobotDescription, joint: &str) {
+    let report = check_against(a, b, &CheckOptions::default()).unwrap();
+    let cause = &report.geometry.diagnosis[0].fault;
+    let named = (cause.joint.as_deref(), cause.parameter.as_deref());
+    assert_eq!(named, (Some(joint), Some("a")), "{}", cause.message);
+}
+
 #[test]
 fn every_form_has_the_poses_of_the_matrices() {
     /// Rounding of six products within 1 m, and of the twelve digits of the screws; worst seen 3e-13.
@@ -214,22 +229,14 @@ fn digits_explain_what_they_leave_open_in_every_form() {
     };
     for other in [rounded, screws(4), screws(3)] {
         for pair in [[&calibrated, &other], [&other, &calibrated]] {
-            let report = check_against(pair[0], pair[1], &CheckOptions::default()).unwrap();
-            assert_eq!(report.geometry.grade, Some(Grade::SameWithinDigits), "{}", report.headline());
+            assert_grade(pair[0], pair[1], Grade::SameWithinDigits);
         }
     }
     // Half a millimetre is no rounding of four decimals.
     let wrong = robot_of(
         &exact.replace("-0.42512345678901234", "-0.4256").replace("-0.39217654321098765", "-0.3922"),
     );
-    let report = check_against(&wrong, &calibrated, &CheckOptions::default()).unwrap();
-    let cause = &report.geometry.diagnosis[0].fault;
-    assert_eq!(
-        (cause.joint.as_deref(), cause.parameter.as_deref()),
-        (Some("q2"), Some("a")),
-        "{}",
-        cause.message
-    );
+    assert_names_length(&wrong, &calibrated, "q2");
 }
 
 /// The same two screws by twist and by a point on the axis, of three decimals: other numbers, of which neither is the rounded other.
@@ -249,11 +256,9 @@ fn digits_of_a_twist_and_of_a_point_count_both() {
     let by_point = arm(["axis = [0, 0, -1], point_m = [0, 0, 0]", &point]);
     let elsewhere = arm(["axis = [0, 0, -1], point_m = [0, 0, 0]", &point.replace("0.111", "0.115")]);
     for [a, b] in [[&by_twist, &by_point], [&by_point, &by_twist]] {
-        let report = check_against(a, b, &CheckOptions::default()).unwrap();
-        assert_eq!(report.geometry.grade, Some(Grade::SameWithinDigits), "{}", report.headline());
+        assert_grade(a, b, Grade::SameWithinDigits);
     }
-    let report = check_against(&by_twist, &elsewhere, &CheckOptions::default()).unwrap();
-    assert_eq!(report.geometry.grade, Some(Grade::Different), "{}", report.headline());
+    assert_grade(&by_twist, &elsewhere, Grade::Different);
 }
 
 /// A declared zero turns what the digits of an axis leave open, and a wrong row is named although the other table is rounded.
@@ -274,17 +279,9 @@ fn digits_count_in_other_variables_and_beside_a_wrong_row() {
          joint = [{ joint = 'j1', kind = 'revolute', omega = [0, 0, 1], v_m = [0, 0, 0] },\n\
          { joint = 'j2', kind = 'revolute', omega = [0, 0, -1], v_m = [0.4205, 0, 0] }]\n",
     );
-    let report = check_against(&mapped, &screws, &CheckOptions::default()).unwrap();
-    assert_eq!(report.geometry.grade, Some(Grade::SameWithinDigits), "{}", report.headline());
+    assert_grade(&mapped, &screws, Grade::SameWithinDigits);
     let (wrong, rounded) = (robot_of(&table("0.42046", "0.54247")), robot_of(&table("0.4205", "0.5225")));
-    let report = check_against(&wrong, &rounded, &CheckOptions::default()).unwrap();
-    let cause = &report.geometry.diagnosis[0].fault;
-    assert_eq!(
-        (cause.joint.as_deref(), cause.parameter.as_deref()),
-        (Some("j2"), Some("a")),
-        "{}",
-        cause.message
-    );
+    assert_names_length(&wrong, &rounded, "j2");
 }
 
 /// The text with the numbers of each list behind this key to some decimals.

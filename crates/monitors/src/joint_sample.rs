@@ -39,9 +39,10 @@ pub struct JointSample<'a> {
 }
 
 /// The forces that acted on the joints in the step that led to the present instant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum StepForces {
     /// Unknown: the source has no dynamics, or the robot was placed at its state.
+    #[default]
     Unknown,
     /// Only the efforts of the sample, gravity, damping and friction of the joints.
     Declared,

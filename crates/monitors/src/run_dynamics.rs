@@ -62,8 +62,9 @@ impl<'a> RunDynamics<'a> {
         (&self.tree, &mut self.buffer)
     }
 
-    /// A number that is another one whenever [`RunDynamics::at`] has given other equations than before.
-    pub fn revision(&self) -> u64 {
+    /// A number that is another one whenever the equations of motion are others than before.
+    pub fn revision_at(&mut self, time_s: f64) -> u64 {
+        self.at(time_s);
         self.revision
     }
 

@@ -146,6 +146,11 @@ impl CheckReport {
         written.any(|of| of.verdict == Agreement::Agree && !of.worst.error.is_within(&self.tolerance))
     }
 
+    /// What the digits allow, if they decide.
+    pub fn allowed_if_by_digits(&self) -> Option<PoseError> {
+        self.allowed_by_digits.filter(|_| self.is_judged_by_digits())
+    }
+
     /// Whether poses differ, and not dynamics alone.
     pub fn poses_disagree(&self) -> bool {
         self.comparisons.iter().any(|comparison| comparison.verdict == Agreement::Disagree)

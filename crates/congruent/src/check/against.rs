@@ -259,8 +259,8 @@ fn adopt_rounded_values(
         links.iter().map(|error| error.orientation_rad).filter(|turn| *turn <= nearly.orientation_rad);
     let apart =
         PoseError { position_m: near.fold(0.0, f64::max), orientation_rad: turns.fold(0.0, f64::max) };
-    let allowed = geometry.allowed_by_digits.filter(|_| geometry.is_judged_by_digits());
-    let of_frames = DigitsOfFrames { apart, along_axis_m: allowed.map_or(0.0, |of| of.position_m) };
+    let open = geometry.allowed_if_by_digits().unwrap_or_default();
+    let of_frames = DigitsOfFrames { apart, along_axis_m: open.position_m };
     let (robot, names) = with_values_within_digits([&own.robot, &there.robot], of_frames);
     there.robot = robot;
     names

@@ -240,9 +240,8 @@ fn compared_with_declared(
     // A value that cannot be read was taken as 0 and would appear as a difference.
     let readable = unreadable_value(description).map_or(Ok(()), Err);
     let compared = readable.and_then(|()| comparable(declared, geometry)).and_then(|()| {
-        let of_table = geometry.allowed_by_digits.filter(|_| geometry.is_judged_by_digits());
-        declared::compared(description, declared, of_table.unwrap_or_default(), seed)
-            .map_err(|error| error.to_string())
+        let of_table = geometry.allowed_if_by_digits().unwrap_or_default();
+        declared::compared(description, declared, of_table, seed).map_err(|error| error.to_string())
     });
     compared.map_err(|why| Diagnostic::error(codes::check::DECLARED_DYNAMICS, why))
 }

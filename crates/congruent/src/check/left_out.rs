@@ -1,6 +1,8 @@
 //! Joints that are left out of a comparison although they carry joints that both descriptions have.
 
-use congruent_description::{JointIndex, LinkIndex, Robot};
+use std::collections::BTreeMap;
+
+use congruent_description::{JointIndex, Robot};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -25,13 +27,16 @@ impl LeftOutInChain {
         held: impl Fn(JointIndex) -> bool,
     ) -> Vec<Self> {
         let name = |joint: JointIndex| robot.joint(joint).name.clone();
-        let is_carried = |by: JointIndex, link: LinkIndex| {
-            robot.chain(robot.root(), link).is_some_and(|chain| chain.contains(&by))
-        };
+        let mut carried: BTreeMap<JointIndex, Vec<String>> = BTreeMap::new();
+        for &joint in common {
+            let before = robot.chain(robot.root(), robot.joint(joint).parent).unwrap_or_default();
+            for by in before {
+                carried.entry(by).or_default().push(name(joint));
+            }
+        }
         let of_joint = |&joint: &JointIndex| {
-            let carried = common.iter().filter(|&&of| is_carried(joint, robot.joint(of).parent));
-            let carries: Vec<String> = carried.map(|&of| name(of)).collect();
-            (!carries.is_empty()).then(|| Self { joint: name(joint), carries, is_held: held(joint) })
+            let carries = carried.get(&joint)?.clone();
+            Some(Self { joint: name(joint), carries, is_held: held(joint) })
         };
         left_out.iter().filter_map(of_joint).collect()
     }

@@ -15,7 +15,7 @@ use congruent_mapping::{
 use super::{
     left_out::LeftOutInChain,
     part::{kept_joints, part},
-    poses_of_other::PosesOfOther,
+    poses_of_other::matched_robots,
     reported_mapping::{LEAST_ZERO_RAD, ReportedEnd, ReportedMapping},
 };
 
@@ -143,10 +143,8 @@ impl MappedPair {
         self.matched_robots().is_some_and(|robots| robots.explained_by_digits().is_some())
     }
 
-    /// The links and joints of both; `None` if a source of poses fails.
     fn matched_robots(&self) -> Option<MatchedRobots<'_>> {
-        let robots = [&self.description.robot, &self.other.robot];
-        MatchedRobots::new(robots, &mut PosesOfOther::new(robots[0], robots[1])).ok()
+        matched_robots([&self.description.robot, &self.other.robot])
     }
 
     fn in_variables(

@@ -43,10 +43,9 @@ pub(super) fn after_mapping(check: &RobotCheck) -> Option<(String, String)> {
         return Some(other_chain_in_part(mapping, &joints, &(worst + &differ)));
     }
     let (where_compared, declare) = match mapping.all_of_alike() {
-        Some(all) => (format!("IN {} OF {all} JOINTS", mapping.joints.len()), "left_out in [mapping]"),
+        Some(all) => (format!("IN {} OF {all} JOINTS", mapping.joints.len()), LEFT_OUT),
         None => ("AFTER MAPPING".to_owned(), "[mapping]"),
     };
-    let declare = format!("Declare {declare} if this is meant");
     let (answer, differ) = match check.all_dynamics().find(|report| !report.agrees()) {
         None => (format!("EQUAL {where_compared}"), String::new()),
         Some(report) if report.has_same_torques() => {
@@ -58,10 +57,8 @@ pub(super) fn after_mapping(check: &RobotCheck) -> Option<(String, String)> {
             format!("; torques differ: {}{}", check.cause_of_torques(report), check.other_limits(report)),
         ),
     };
-    // A question has its mark already.
-    let stop = if differ.ends_with('?') { "" } else { "." };
-    let details = format!(": {joints}; in the same variables {worst}{differ}{stop} {declare}");
-    Some((answer, details))
+    let details = format!(": {joints}; in the same variables {worst}{differ}");
+    Some((answer, to_declare(&details, declare)))
 }
 
 /// A joint between base and tip that moves in one file alone: another chain, even if the rest agrees.
@@ -71,13 +68,18 @@ fn other_chain_in_part(mapping: &ReportedMapping, joints: &str, worst: &str) -> 
         [] => format!("the {} joints that it does not carry: {worst}", mapping.compared_joints()),
         held => format!("with {} at 0, {worst}", listed(held)),
     };
-    let stop = if rest.ends_with('?') { "" } else { "." };
-    (
-        "DIFFERENT JOINTS".to_owned(),
-        format!(
-            ": {joints}, between base and tip; {rest}{stop} Declare left_out in [mapping] if this is meant"
-        ),
-    )
+    let details = format!(": {joints}, between base and tip; {rest}");
+    ("DIFFERENT JOINTS".to_owned(), to_declare(&details, LEFT_OUT))
+}
+
+/// What a joint that moves in one file alone is declared as.
+const LEFT_OUT: &str = "left_out in [mapping]";
+
+/// The details with what to declare if they are meant.
+fn to_declare(details: &str, what: &str) -> String {
+    // A question has its mark already.
+    let stop = if details.ends_with('?') { "" } else { "." };
+    format!("{details}{stop} Declare {what} if this is meant")
 }
 
 /// Which joints of a mapping are compared, and at which position of the others.

@@ -8,15 +8,15 @@ use congruent_agreement::{
     compare::{CheckError, CheckOptions, CheckReport},
 };
 use congruent_description::{
-    ChainEnd, DhRow, DhTable, Joint, JointIndex, JointKind, JointParts, Link, LinkIndex, Places,
-    RequestedTolerance, Robot, RobotDescription, Tolerance,
+    ChainEnd, DhRow, DhTable, Joint, JointIndex, JointKind, JointParts, JointRounding, Link, LinkIndex,
+    Places, RequestedTolerance, Robot, RobotDescription, Tolerance,
 };
 use congruent_input::{Diagnostic, Findings};
 use congruent_kinematics::{Pose, PoseError, ScrewTree, Twist};
-use congruent_mapping::{MatchedRobots, free_frame};
+use congruent_mapping::free_frame;
 use nalgebra::{Isometry3, Unit, Vector3};
 
-use super::{own_screws::replace_diagnosis, poses_of_other::PosesOfOther};
+use super::{own_screws::replace_diagnosis, poses_of_other::matched_robots};
 
 /// Why a model on its own is not compared with anything.
 pub(super) const ONE_MODEL: &str =
@@ -54,10 +54,11 @@ pub(super) fn placed_as_in(own: &RobotDescription, other: &RobotDescription) -> 
         tree.add(&in_root(own.robot.joint(joint)), &twist, &screws[1]);
     }
     let tip_name = other.robot.link(tip).name.clone();
-    let to_tip = own.robot.parent_joint(own.tip).map(|joint| in_root(own.robot.joint(joint)));
+    let to_tip = own.robot.parent_joint(own.tip).map(|joint| own.robot.joint(joint));
     let to_tip = to_tip.filter(|joint| joint.kind == JointKind::Fixed);
+    let rounding = to_tip.map(|joint| in_root(joint).rounding).unwrap_or_default();
     let root_from_tip = root_from_own_root * *screws[0].home(own.tip);
-    let robot = tree.finish(own.robot.name(), &tip_name, root_from_tip, to_tip)?;
+    let robot = tree.finish(own.robot.name(), &tip_name, root_from_tip, rounding)?;
     let base = robot.find_link(&other.robot.link(base).name)?;
     let tip = robot.find_link(&tip_name)?;
     Some(RobotDescription { base, tip, robot, ..without_own_table(own) })
@@ -131,10 +132,15 @@ impl<'a> PlacedTree<'a> {
         self.root_from_parent = root_from_child;
     }
 
-    /// The robot with its tip, which digits of `to_tip` leave open.
-    fn finish(mut self, name: &str, tip: &str, root_from_tip: Pose, to_tip: Option<Joint>) -> Option<Robot> {
+    /// The robot with its tip, and with what its digits leave open, in the root at zero.
+    fn finish(
+        mut self,
+        name: &str,
+        tip: &str,
+        root_from_tip: Pose,
+        rounding: JointRounding,
+    ) -> Option<Robot> {
         let joint = fixed(&format!("{}_to_{tip}", self.parent));
-        let rounding = to_tip.map(|of| of.rounding).unwrap_or_default();
         self.put(&Joint { rounding, ..joint }, tip.to_owned(), root_from_tip);
         Robot::new(name, self.links, self.parts).ok()
     }
@@ -192,10 +198,7 @@ pub(super) fn diagnose_by_table(
 
 /// Digits of rows count beside those of a URDF. What other files leave open is tolerated, so that their rounding is no cause.
 fn allow_digits(with_table: &mut RobotDescription, [own, other]: [&RobotDescription; 2]) {
-    let robots = [&own.robot, &other.robot];
-    let Ok(matched) = MatchedRobots::new(robots, &mut PosesOfOther::new(robots[0], robots[1])) else {
-        return;
-    };
+    let Some(matched) = matched_robots([&own.robot, &other.robot]) else { return };
     let PoseError { position_m, orientation_rad } = matched.open_by_digits();
     let tolerance = with_table.tolerance;
     let open = Tolerance {

@@ -2,7 +2,7 @@
 
 use congruent_description::{Link, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree, sample_configurations};
-use congruent_mapping::same_fixed_link;
+use congruent_mapping::{MatchedRobots, same_fixed_link};
 
 /// Random positions at which links are found to move alike. Kind: choice.
 pub(super) const POSITIONS: usize = 50;
@@ -19,6 +19,11 @@ pub(super) struct PosesOfOther {
     followed: Option<Robot>,
     q: RobotQ,
     poses: Vec<Pose>,
+}
+
+/// The links and joints of two robots with the same moving joints by name; `None` if a source of poses fails.
+pub(super) fn matched_robots(robots: [&Robot; 2]) -> Option<MatchedRobots<'_>> {
+    MatchedRobots::new(robots, &mut PosesOfOther::new(robots[0], robots[1])).ok()
 }
 
 /// The link of the same name, if another joint of the robot moves it in the other description: names of joints are exchanged, and

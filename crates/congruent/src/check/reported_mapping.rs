@@ -6,9 +6,7 @@ use congruent_agreement::{
     SourcePair,
     compare::{Agreement, CheckReport},
 };
-use congruent_description::{
-    JointElement, MappedJoint, ParameterPlaces, RobotDescription, toml_key, toml_string,
-};
+use congruent_description::{JointElement, MappedJoint, RobotDescription, toml_key, toml_string};
 use congruent_input::{display::length, number::significant};
 use congruent_kinematics::{Pose, PoseError, ReportedPose};
 use congruent_mapping::{FoundMapping, MatchedBy};
@@ -178,7 +176,7 @@ impl ReportedMapping {
         let root_from_other_root = (!is_same).then(|| ReportedPose::from(&root));
         Self {
             matched_by: found.matched_by,
-            file: places(description).map(|of| of.source().path.display().to_string()),
+            file: description.places.parameters().map(|of| of.source().path.display().to_string()),
             names: [description, other].map(|of| {
                 let name = of.urdf_path.file_name().unwrap_or(of.urdf_path.as_os_str());
                 name.to_string_lossy().into_owned()
@@ -266,13 +264,9 @@ impl ReportedMapping {
     }
 }
 
-fn places(description: &RobotDescription) -> Option<&dyn ParameterPlaces> {
-    description.places.parameters()
-}
-
 /// The line of what a joint with another variable would have otherwise: its axis, or its origin.
 fn line(description: &RobotDescription, of: &MappedJoint) -> Option<usize> {
-    let places = places(description).filter(|_| !of.has_same_variable())?;
+    let places = description.places.parameters().filter(|_| !of.has_same_variable())?;
     let part = if of.is_flipped { JointElement::Axis } else { JointElement::Origin };
     places.joint_part(&of.name, part)?.line_in(places.source())
 }

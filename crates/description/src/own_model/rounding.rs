@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use crate::{
     pose_rounding::motions_of_pose,
-    robot_file::{WrittenPoe, WrittenScrew, WrittenTwist, typed_transform, typed_vector},
+    robot_file::{WrittenPoe, WrittenScrew, WrittenTwist, halves_at, typed_transform, typed_vector},
 };
 
 /// A small motion along z of a frame, and one about it.
@@ -49,15 +49,13 @@ impl ScrewDigits {
         let joints = vec![[Vector3::zeros(); 2]; poe.joint.len()];
         let mut digits = Self { home: [0.0; 6], joints };
         for unit in [Unit::Length, Unit::Angle] {
-            let typed = typed(poe, unit, text);
-            let numbers: Vec<TypedNumber<'_>> = typed.iter().map(|(_, number)| *number).collect();
-            // The zeros of a computed vector are rounded, too.
-            let halves = match unit {
-                Unit::Length => half_places_of_point(&numbers),
-                Unit::Angle => half_places(unit, &numbers),
-            };
-            for ((place, _), half) in typed.iter().zip(halves) {
-                match *place {
+            let halves = halves_at(typed(poe, unit, text), |numbers| match unit {
+                // The zeros of a computed vector are rounded, too.
+                Unit::Length => half_places_of_point(numbers),
+                Unit::Angle => half_places(unit, numbers),
+            });
+            for (place, half) in halves {
+                match place {
                     Place::Home(component) => digits.home[component] = half,
                     Place::Joint { joint, part, component } => digits.joints[joint][part][component] = half,
                 }

@@ -33,10 +33,9 @@ impl RobotFilePlaces {
         let mut digits =
             TableDigits { rows: vec![[0.0; 4]; self.row_count()], base: [0.0; 6], tool: [0.0; 6] };
         for unit in [Unit::Length, Unit::Angle] {
-            let typed = self.typed(unit);
-            let numbers: Vec<TypedNumber<'_>> = typed.iter().map(|(_, number)| *number).collect();
-            for ((place, _), half) in typed.iter().zip(half_places(unit, &numbers)) {
-                match *place {
+            let halves = halves_at(self.typed(unit), |numbers| half_places(unit, numbers));
+            for (place, half) in halves {
+                match place {
                     Place::Row(row, entry) => digits.rows[row][entry] = half,
                     Place::Base(component) => digits.base[component] = half,
                     Place::Tool(component) => digits.tool[component] = half,
@@ -70,6 +69,15 @@ impl RobotFilePlaces {
         let written = self.written(key).map(Spanned::get_ref);
         written.map_or_else(Vec::new, |written| typed_transform(written, unit, &self.source().text))
     }
+}
+
+/// Half of the last place of typed numbers that are judged together, each with the place of its number.
+pub(crate) fn halves_at<P>(
+    typed: Vec<(P, TypedNumber<'_>)>,
+    halves: impl FnOnce(&[TypedNumber<'_>]) -> Vec<f64>,
+) -> impl Iterator<Item = (P, f64)> {
+    let (places, numbers): (Vec<P>, Vec<TypedNumber<'_>>) = typed.into_iter().unzip();
+    places.into_iter().zip(halves(&numbers))
 }
 
 /// The lengths, or the roll, pitch and yaw, of a transform, with their place among the six. Quaternions and matrices are exact.

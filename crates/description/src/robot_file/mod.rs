@@ -19,7 +19,7 @@ mod written_lint;
 pub(crate) use check::{check, joint_for_link};
 pub use dh_text::dh_text;
 pub use digits::TableDigits;
-pub(crate) use digits::{typed_transform, typed_vector};
+pub(crate) use digits::{halves_at, typed_transform, typed_vector};
 pub use inertials::{
     DeclaredInertial, DynamicsTable, InertialDigits, InertialFrame, InertialPlaces, InertialPoint,
 };

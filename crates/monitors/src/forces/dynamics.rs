@@ -105,8 +105,7 @@ impl<'a> DynamicsMonitor<'a> {
     /// velocity are those of the end of the step, as in the physics, which integrates them implicitly.
     fn analyse(&mut self, effort: &[f64], qd: &[f64]) -> Option<()> {
         let StateBefore { time_s, q, .. } = &self.before;
-        self.dynamics.at(*time_s);
-        if self.analysed.repeats(self.dynamics.revision(), [q, qd, effort]) {
+        if self.analysed.repeats(self.dynamics.revision_at(*time_s), [q, qd, effort]) {
             return Some(());
         }
         let (tree, buffer) = self.dynamics.at(*time_s);

@@ -94,8 +94,7 @@ impl<'a> PowerMonitor<'a> {
     /// Takes the state of a sample, with the payloads of a time.
     fn take(&mut self, time_s: f64, sample: &Sample<'_>) -> Option<()> {
         let truth = sample.joints.truth;
-        self.dynamics.at(time_s);
-        if !self.computed.repeats(self.dynamics.revision(), [truth.q]) {
+        if !self.computed.repeats(self.dynamics.revision_at(time_s), [truth.q]) {
             let (tree, buffer) = self.dynamics.at(time_s);
             let computed = tree
                 .mass_matrix_into(truth.q, buffer, &mut self.mass_matrix)

@@ -40,8 +40,7 @@ impl<'a> DeclaredModel<'a> {
     /// Adds the torques that hold the robot against gravity.
     pub(super) fn add_gravity(&mut self, time_s: f64, q: &RobotQ, torque: &mut [f64]) {
         // The declared tree of this instant: payloads come and go.
-        self.dynamics.at(time_s);
-        if !self.held.repeats(self.dynamics.revision(), [q]) {
+        if !self.held.repeats(self.dynamics.revision_at(time_s), [q]) {
             let (tree, buffer) = self.dynamics.at(time_s);
             tree.gravity_into(q, buffer, &mut self.torque).expect("a state of this robot");
             self.shift_to_masters();

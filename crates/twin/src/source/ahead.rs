@@ -20,7 +20,7 @@ const BATCH: usize = 32;
 const WAITING: usize = 8;
 
 /// The state of a source at one instant.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct SourceState {
     step_count: u64,
     truth: OwnedJoints,
@@ -70,20 +70,6 @@ fn copy<T: Copy>(to: &mut Vec<T>, from: &[T]) {
 }
 
 impl SourceState {
-    fn new() -> Self {
-        Self {
-            step_count: 0,
-            truth: OwnedJoints::default(),
-            measured: OwnedJoints::default(),
-            setpoint: None,
-            root_from_links: Vec::new(),
-            knows_poses: false,
-            forces: StepForces::Unknown,
-            contact_forces: Vec::new(),
-            slowed: Vec::new(),
-        }
-    }
-
     fn take(&mut self, source: &dyn JointStateSource, links: usize) {
         let JointSample { truth, measured, setpoint } = source.joints();
         self.step_count = source.step_count();
@@ -119,7 +105,7 @@ struct StateBatch {
 
 impl StateBatch {
     fn new() -> Self {
-        let states = std::iter::repeat_with(SourceState::new).take(BATCH).collect();
+        let states = std::iter::repeat_with(SourceState::default).take(BATCH).collect();
         Self { states, len: 0, failure: None }
     }
 }

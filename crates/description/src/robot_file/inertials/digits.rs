@@ -1,6 +1,6 @@
 //! The digits that `[[inertial]]` entries are written with.
 
-use congruent_input::{TypedNumber, half_places_of_point, half_places_of_values};
+use congruent_input::{half_places_of_point, half_places_of_values};
 use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
@@ -8,7 +8,7 @@ use super::{
     InertialPlaces,
     written::{WrittenInertial, WrittenTensor, WrittenTerm},
 };
-use crate::robot_file::typed_vector;
+use crate::robot_file::{halves_at, typed_vector};
 
 /// Half of the last place of the numbers of an entry, in the frame of the entry; 0 where nothing is written or a program has written
 /// all digits.
@@ -66,13 +66,11 @@ impl InertialPlaces {
         let of_entry = |(entry, written): (usize, &&WrittenInertial)| {
             let point = [written.com_m.as_ref(), written.com_mm.as_ref()];
             let numbers = typed_vector(point, &self.source().text).into_iter();
-            numbers.map(|(at, number)| (entry, at, number)).collect::<Vec<_>>()
+            numbers.map(|(at, number)| ((entry, at), number)).collect::<Vec<_>>()
         };
-        let typed: Vec<(usize, usize, TypedNumber<'_>)> =
-            entries.iter().enumerate().flat_map(of_entry).collect();
-        let numbers: Vec<TypedNumber<'_>> = typed.iter().map(|(.., number)| *number).collect();
-        for ((entry, at, _), half) in typed.iter().zip(half_places_of_point(&numbers)) {
-            digits[*entry].com_m[*at] = half;
+        let typed = entries.iter().enumerate().flat_map(of_entry).collect();
+        for ((entry, at), half) in halves_at(typed, half_places_of_point) {
+            digits[entry].com_m[at] = half;
         }
     }
 
