@@ -110,6 +110,7 @@ fn reach_m(shapes: &[Shape], direction_in_link: [f64; 3]) -> f64 {
                     radius_m * in_shape.x.hypot(in_shape.y) + length_m / 2.0 * in_shape.z.abs()
                 }
                 Geometry::Sphere { radius_m } => *radius_m,
+                Geometry::Ellipsoid { semi_axes_m } => in_shape.component_mul(semi_axes_m).norm(),
                 Geometry::Mesh(mesh) => {
                     let along = mesh.vertices_m.iter().map(|vertex| vertex.coords.dot(&in_shape));
                     along.fold(f64::NEG_INFINITY, f64::max)

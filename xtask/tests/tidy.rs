@@ -172,7 +172,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 /// Crates that stand in one place of the sources only.
 const PLACES: &[(&str, &str)] = &[
     ("rapier3d_f64", "crates/simulation/src"),
-    ("parry3d_f64", "crates/proximity/src/hulls.rs"),
+    ("parry3d_f64", "crates/proximity/src/hulls/"),
     ("re_chunk::", "crates/recording/src"),
     ("re_log_encoding::", "crates/recording/src"),
     ("re_log_types::", "crates/recording/src"),

@@ -15,7 +15,7 @@ congruent_input::codes! {
         BALL = "CGR-MJCF-053", "mjcf::ball",
             "A ball joint has no position that is one number. A body on which nothing moves is fixed at its written pose, and forces are refused; with moving joints behind it the robot is refused. Replace it by three hinges in the same body.";
         SHAPE = "CGR-MJCF-054", "mjcf::shape",
-            "A geom has a shape that is not read: an ellipsoid, a plane on a body that moves, a height field, or a shape that is fitted to a mesh. Distances are refused if it collides.";
+            "A geom has a shape that is not read: a plane on a body that moves, a height field, or a shape that is fitted to a mesh. Distances are refused if it collides.";
         MESH = "CGR-MJCF-055", "mjcf::mesh",
             "A mesh has neither a file nor vertices that enclose a volume: meshes that MuJoCo builds itself are not read.";
         COUPLING = "CGR-MJCF-056", "mjcf::coupling",

@@ -3,7 +3,9 @@
 
 use std::{collections::BTreeMap, fs, path::Path};
 
-use congruent_description::{JointKind, Robot, RobotDescription, load_robot, load_robot_with, parse_robot};
+use congruent_description::{
+    Geometry, JointKind, Robot, RobotDescription, load_robot, load_robot_with, parse_robot,
+};
 use congruent_input::{Capability, Diagnostic, FileAccess, Severity, SourceFile};
 use nalgebra::{Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use serde_json::Value;
@@ -202,6 +204,21 @@ fn constructs_are_read_as_mujoco_reads_them() {
         read += 1;
     }
     assert!(read >= 33, "{read}");
+}
+
+/// Bodies of one shape each, among them an ellipsoid, whose mass MuJoCo computes from it.
+#[test]
+fn an_ellipsoid_is_a_shape_as_every_other() {
+    let Some(corpus) = corpus::corpus() else { return };
+    for case in ["c15-inertia-from-primitives", "c16-inertiafromgeom-true-overrides"] {
+        let read = load_robot(&corpus.join("pairs/mjcf-constructs").join(format!("{case}.xml")));
+        let read = read.expect("MuJoCo reads it");
+        assert!(read.warnings.iter().all(|found| found.code.name != "mjcf::shape"), "{:#?}", read.warnings);
+        let body = read.robot.links().iter().find(|link| link.name == "ellipsoid").expect("the file has it");
+        let [shape] = &body.collisions[..] else { panic!("{case}: {:#?}", body.collisions) };
+        assert_eq!(shape.geometry, Geometry::Ellipsoid { semi_axes_m: Vector3::new(0.1, 0.2, 0.3) });
+        assert_eq!(body.visuals, body.collisions);
+    }
 }
 
 fn check_construct(case: &str, robot: &Robot, golden: &Value) {

@@ -8,7 +8,8 @@ use congruent_description::{Link, Obstacle, RobotDescription, Shape};
 use nalgebra::Isometry3;
 
 use super::{
-    hulls::{Hulls, ProximityError},
+    error::ProximityError,
+    hulls::Hulls,
     pairs::{Carried, ObstacleMobility, Pair, PairChoice, WatchedPair, pairs, while_carried},
     travel::largest_shift_m,
     waiting::WaitingPairs,

@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 
 use super::{
     clearance::Clearance,
-    hulls::ProximityError,
+    error::ProximityError,
     pair_names::{PairFault, PairNames},
     pairs::PairChoice,
     simplified_hulls::simplified_hulls,

@@ -1,5 +1,5 @@
 //! Distances of links from each other, from obstacles and from forbidden zones, along a run ([`Clearance`]) or at given
-//! configurations (`distances`); and obstacles that move. Only `hulls.rs` names parry.
+//! configurations (`distances`); and obstacles that move. Only `hulls/` names parry.
 
 mod bodies;
 mod clearance;
@@ -8,6 +8,7 @@ mod constant_pairs;
 mod disabled_pairs;
 mod disabled_srdf;
 mod distances;
+mod error;
 mod hulls;
 mod pair_names;
 mod pairs;
@@ -28,7 +29,8 @@ pub use disabled_srdf::srdf_text;
 pub use distances::{
     BelowLimit, DistanceError, DistanceList, DistanceOptions, DistanceReport, Distances, Overlap, distances,
 };
-pub use hulls::{Hulls, ProximityError};
+pub use error::ProximityError;
+pub use hulls::Hulls;
 pub use pair_names::{PairFault, PairNames, matches};
 pub use pairs::{Carried, ObstacleMobility, Pair, PairChoice, measured_pairs};
 pub use simplified_hulls::simplified_hulls;

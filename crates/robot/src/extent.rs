@@ -34,6 +34,7 @@ impl Extent {
             Geometry::Box { size_m } => size_m / 2.0,
             Geometry::Cylinder { radius_m, length_m } => Vector3::new(*radius_m, *radius_m, length_m / 2.0),
             Geometry::Sphere { radius_m } => Vector3::repeat(*radius_m),
+            Geometry::Ellipsoid { semi_axes_m } => *semi_axes_m,
             Geometry::Mesh(mesh) => {
                 let points = mesh.vertices_m.iter().map(|vertex| Self::of_point(vertex.coords));
                 return points.reduce(Self::with);

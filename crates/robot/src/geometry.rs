@@ -36,6 +36,11 @@ pub enum Geometry {
         /// Radius of the sphere, m.
         radius_m: f64,
     },
+    /// An ellipsoid about the origin, its axes along x, y, z.
+    Ellipsoid {
+        /// Half of its extent along x, y, z; each is above 0.
+        semi_axes_m: Vector3<f64>,
+    },
     /// A triangle mesh, shared by all shapes that use the same file and scale.
     Mesh(Arc<Mesh>),
 }

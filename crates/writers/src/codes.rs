@@ -28,6 +28,8 @@ congruent_input::codes! {
             "A URDF cannot state the armature of a joint, the inertia of its motor behind the gear, so forces of the new file are those without it. Keep it in the [[inertial]] entry of robot.toml, or in the scenario of a run.\n    [joints]\n    armature = { elbow = 0.1 }";
         RATES = "CGR-WRITE-015", "write::rates",
             "MJCF has no limits of acceleration, deceleration and jerk, so those of the joints are not written. Keep them in robot.toml.\n    [limits]\n    acceleration_rad_s2 = { elbow = 10 }";
+        ELLIPSOID = "CGR-WRITE-016", "write::ellipsoid",
+            "A URDF has boxes, cylinders, spheres and meshes, but no ellipsoids, so the shape is left out, and nothing collides in its place. Write the robot as MJCF, which has them, or add a mesh of the same form.";
         READ_BACK = "CGR-WRITE-012", "write::read_back",
             "The written text was read again, and the robot in it is not the same, so nothing is written. A mesh that is found from the old folder and not from the new one is a usual reason. Otherwise this is a fault of Congruent: please report it with the file.";
         MASS = "CGR-WRITE-013", "write::mass",

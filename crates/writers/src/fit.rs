@@ -2,10 +2,10 @@
 //! of it is exact.
 
 use congruent_description::{
-    Geometry, Joint, JointKind, JointLimit, JointParts, Link, Robot, RobotDescription, Shape,
+    Geometry, Joint, JointKind, JointLimit, JointParts, Link, Mesh, Robot, RobotDescription, Shape,
 };
 use congruent_input::{
-    Diagnostic, Diagnostics,
+    Code, Diagnostic, Diagnostics,
     display::{counted, position, quantity},
 };
 
@@ -87,14 +87,14 @@ fn declared(description: &RobotDescription, format: RobotFormat, diagnostics: &m
     }
 }
 
-/// Leaves out meshes that the format cannot name, and colours that it has no place for.
+/// Leaves out shapes that the format cannot name, and colours that it has no place for.
 fn shapes(link: &mut Link, format: RobotFormat, diagnostics: &mut Diagnostics) {
     let name = link.name.clone();
     let mut is_kept = |shape: &Shape| {
-        let Some(why) = unwritable(shape, format) else { return true };
+        let Some((code, why)) = unwritable(shape, format) else { return true };
         let message = format!("link \"{name}\": {why}, so this shape is left out");
         let kind = format!("shapes are left out: {why}");
-        diagnostics.push(Diagnostic::warning(codes::write::MESH, message).one_of(kind, &name));
+        diagnostics.push(Diagnostic::warning(code, message).one_of(kind, &name));
         false
     };
     link.visuals.retain(&mut is_kept);
@@ -107,9 +107,18 @@ fn shapes(link: &mut Link, format: RobotFormat, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Why a shape cannot be written; `None` if it can.
-fn unwritable(shape: &Shape, format: RobotFormat) -> Option<String> {
-    let Geometry::Mesh(mesh) = &shape.geometry else { return None };
+/// Why a shape cannot be written, with the code of the reason; `None` if it can.
+fn unwritable(shape: &Shape, format: RobotFormat) -> Option<(&'static Code, String)> {
+    match &shape.geometry {
+        Geometry::Mesh(mesh) => unwritable_mesh(mesh, format).map(|why| (codes::write::MESH, why)),
+        Geometry::Ellipsoid { .. } if format == RobotFormat::Urdf => {
+            Some((codes::write::ELLIPSOID, "a URDF has no ellipsoids".to_owned()))
+        }
+        _ => None,
+    }
+}
+
+fn unwritable_mesh(mesh: &Mesh, format: RobotFormat) -> Option<String> {
     let has_file = !mesh.path.as_os_str().is_empty();
     if format == RobotFormat::Urdf {
         return (!has_file).then(|| "a URDF has no meshes within its own text".to_owned());

@@ -9,7 +9,8 @@ pub(crate) fn difference_m(found: &Shape, expected: &Shape) -> f64 {
         return f64::INFINITY;
     }
     let size = match (&found.geometry, &expected.geometry) {
-        (Geometry::Box { size_m: a }, Geometry::Box { size_m: b }) => (a - b).amax(),
+        (Geometry::Box { size_m: a }, Geometry::Box { size_m: b })
+        | (Geometry::Ellipsoid { semi_axes_m: a }, Geometry::Ellipsoid { semi_axes_m: b }) => (a - b).amax(),
         (Geometry::Sphere { radius_m: a }, Geometry::Sphere { radius_m: b }) => (a - b).abs(),
         (
             Geometry::Cylinder { radius_m: a, length_m: c },

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Writes all that a robot has as URDF, for a file in `folder` (absolute, without links), to which paths of meshes are relative.
-/// A mesh without a file is left out: [`robot_text`](crate::robot_text) reports it.
+/// A mesh without a file and an ellipsoid are left out: [`robot_text`](crate::robot_text) reports them.
 ///
 /// # Examples
 /// ```
@@ -76,6 +76,7 @@ fn write_shape(text: &mut XmlText, tag: &'static str, shape: &Shape, folder: &Pa
             ("cylinder", attributes.number("radius", *radius_m).number("length", *length_m))
         }
         Geometry::Sphere { radius_m } => ("sphere", attributes.number("radius", *radius_m)),
+        Geometry::Ellipsoid { .. } => return,
         Geometry::Mesh(mesh) => {
             let Some(file) = file_name(mesh, folder) else { return };
             ("mesh", attributes.text("filename", &file).numbers("scale", mesh.scale.iter().copied()))

@@ -79,6 +79,20 @@ fn all_that_a_urdf_has_is_written_and_read_again() {
 }
 
 #[test]
+fn an_ellipsoid_is_written_as_mjcf_and_reported_as_urdf() {
+    // A box, a sphere, a capsule, a cylinder, an ellipsoid and others, each on a body of its own; all are drawn and collide.
+    let text = include_str!("../../../fuzz/corpus/mjcf/c15-inertia-from-primitives.xml");
+    let (mjcf, all) = written(text, RobotFormat::Mjcf);
+    assert_eq!(mjcf.text.matches("type=\"ellipsoid\" size=\"0.1 0.2 0.3\"").count(), 2, "{}", mjcf.text);
+    assert_eq!(codes(&mjcf), [""; 0]);
+    let (urdf, without) = written(text, RobotFormat::Urdf);
+    assert_eq!(all.shapes - without.shapes, 2);
+    assert_eq!(codes(&urdf), ["write::ellipsoid"]);
+    let message = &urdf.warnings[0].message;
+    assert_eq!(message, "2 shapes are left out: a URDF has no ellipsoids: ellipsoid, ellipsoid");
+}
+
+#[test]
 fn limits_of_version_1_2_are_written_with_the_version() {
     let limit =
         "<limit lower='-1' upper='2' effort='30' velocity='4' acceleration='7' deceleration='8' jerk='90'/>";

@@ -34,6 +34,8 @@ pub enum ShapeSummary {
     Cylinder,
     /// A sphere by its radius.
     Sphere,
+    /// An ellipsoid by its half axes.
+    Ellipsoid,
     /// A mesh: one of `meshes`.
     Mesh,
 }
@@ -130,6 +132,7 @@ fn kind_of(geometry: &Geometry) -> ShapeSummary {
         Geometry::Box { .. } => ShapeSummary::Box,
         Geometry::Cylinder { .. } => ShapeSummary::Cylinder,
         Geometry::Sphere { .. } => ShapeSummary::Sphere,
+        Geometry::Ellipsoid { .. } => ShapeSummary::Ellipsoid,
         Geometry::Mesh(_) => ShapeSummary::Mesh,
     }
 }

@@ -266,5 +266,6 @@ mod tests {
     fn shapes_are_counted() {
         let shapes = [ShapeSummary::Box, ShapeSummary::Mesh, ShapeSummary::Box, ShapeSummary::Sphere];
         assert_eq!(shape_words(&shapes), "2 boxes and sphere and mesh");
+        assert_eq!(shape_words(&[ShapeSummary::Ellipsoid; 2]), "2 ellipsoids");
     }
 }

@@ -78,6 +78,7 @@ fn shapes(
         MjShape::Cylinder { radius, half_length } => {
             at_center(Geometry::Cylinder { radius_m: radius, length_m: 2.0 * half_length })
         }
+        MjShape::Ellipsoid { radii } => at_center(Geometry::Ellipsoid { semi_axes_m: Vector3::from(radii) }),
         MjShape::Box { half_sizes } => at_center(Geometry::Box { size_m: Vector3::from(half_sizes) * 2.0 }),
         MjShape::Capsule { radius, half_length } => Geometry::capsule(radius, 2.0 * half_length),
         MjShape::Mesh { mesh } => {
@@ -86,7 +87,6 @@ fn shapes(
         }
         MjShape::Plane => return Err(left_out("plane")),
         MjShape::HeightField => return Err(left_out("height field")),
-        MjShape::Ellipsoid { .. } => return Err(left_out("ellipsoid")),
         MjShape::Fitted { ref kind, .. } => {
             return Err(left_out(&format!("{kind} that is fitted to a mesh")));
         }
@@ -116,6 +116,7 @@ fn extent_m(link_from_shape: &Isometry3<f64>, geometry: &Geometry) -> f64 {
         Geometry::Box { size_m } => size_m.amax(),
         Geometry::Cylinder { radius_m, length_m } => radius_m.max(*length_m),
         Geometry::Sphere { radius_m } => *radius_m,
+        Geometry::Ellipsoid { semi_axes_m } => semi_axes_m.amax(),
         Geometry::Mesh(_) => 0.0,
     };
     link_from_shape.translation.vector.amax().max(size_m)

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use congruent_input::{Capability, Diagnostics, Severity, SourceFile};
-use congruent_robot::JointKind;
+use congruent_robot::{Geometry, JointKind};
+use nalgebra::{Isometry3, Vector3};
 
 use super::*;
 
@@ -112,11 +113,17 @@ fn geoms_are_shapes_that_collide_or_are_drawn() {
     let (robot, found) = read(&format!(
         "<worldbody><geom type='plane' size='1 1 1'/><body name='b'>{MASS}<joint/>\
          <geom type='capsule' size='0.1 0.2' group='3'/><geom type='box' size='1 2 3' contype='0' conaffinity='0'/>\
-         <geom type='ellipsoid' size='1 2 3'/></body></worldbody>"
+         <geom type='ellipsoid' size='1 2 3' pos='0 0 4'/></body>\
+         <body name='hill'><geom type='hfield' hfield='h'/></body></worldbody>\
+         <asset><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset>"
     ));
     let robot = robot.unwrap();
-    let [world, body] = robot.links() else { panic!("{:?}", link_names(&robot)) };
-    assert_eq!((world.collisions.len(), body.collisions.len(), body.visuals.len()), (0, 3, 1));
+    let [world, body, hill] = robot.links() else { panic!("{:?}", link_names(&robot)) };
+    assert_eq!((world.collisions.len(), body.collisions.len(), body.visuals.len()), (0, 4, 2));
+    let ellipsoid = &body.collisions[3];
+    assert_eq!(ellipsoid.geometry, Geometry::Ellipsoid { semi_axes_m: Vector3::new(1.0, 2.0, 3.0) });
+    assert_eq!(ellipsoid.link_from_shape, Isometry3::translation(0.0, 0.0, 4.0));
+    assert_eq!((hill.collisions.len(), found.len()), (0, 1), "{found:#?}");
     assert_eq!(found[0].stops, Some(Capability::Clearance), "{found:#?}");
 }
 

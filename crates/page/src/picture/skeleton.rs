@@ -56,6 +56,11 @@ pub(crate) fn corners(geometry: &Geometry, root_from_shape: &Isometry3<f64>) -> 
         let angles = (0..CORNERS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(CORNERS));
         angles.map(move |angle| Point3::new(radius_m * libm::cos(angle), radius_m * libm::sin(angle), z))
     };
+    let ball = |radius_m: f64| {
+        let polar_angles =
+            (0..=CORNERS / 2).map(|k| std::f64::consts::PI * f64::from(2 * k) / f64::from(CORNERS));
+        polar_angles.flat_map(move |polar| circle(radius_m * libm::sin(polar), radius_m * libm::cos(polar)))
+    };
     let points: Vec<Point3<f64>> = match geometry {
         Geometry::Box { size_m } => {
             let corner = |x: f64, y: f64, z: f64| Point3::new(x * size_m.x, y * size_m.y, z * size_m.z);
@@ -65,10 +70,10 @@ pub(crate) fn corners(geometry: &Geometry, root_from_shape: &Isometry3<f64>) -> 
         Geometry::Cylinder { radius_m, length_m } => {
             signs.into_iter().flat_map(|side| circle(*radius_m, side * length_m)).collect()
         }
-        Geometry::Sphere { radius_m } => (0..=CORNERS / 2)
-            .map(|k| std::f64::consts::PI * f64::from(2 * k) / f64::from(CORNERS))
-            .flat_map(|polar| circle(radius_m * libm::sin(polar), radius_m * libm::cos(polar)))
-            .collect(),
+        Geometry::Sphere { radius_m } => ball(*radius_m).collect(),
+        Geometry::Ellipsoid { semi_axes_m } => {
+            ball(1.0).map(|point| point.coords.component_mul(semi_axes_m).into()).collect()
+        }
         Geometry::Mesh(mesh) => {
             // Evenly through the list of vertices: the first of them could be those of one part of the shape.
             let every = mesh.vertices_m.len().div_ceil(MOST_VERTICES).max(1);
@@ -76,4 +81,25 @@ pub(crate) fn corners(geometry: &Geometry, root_from_shape: &Isometry3<f64>) -> 
         }
     };
     points.iter().map(|point| root_from_shape * point).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ellipsoid_has_points_on_its_surface_and_at_the_ends_of_its_axes() {
+        let semi_axes_m = Vector3::new(0.1, 0.2, 0.3);
+        let place = Isometry3::translation(1.0, 2.0, 3.0);
+        let points = corners(&Geometry::Ellipsoid { semi_axes_m }, &place);
+        let in_shape: Vec<_> = points.iter().map(|point| point - place.translation.vector).collect();
+        // Rounding of a sine, 1e-16.
+        let is_on =
+            |point: &Point3<f64>| (point.coords.component_div(&semi_axes_m).norm() - 1.0).abs() < 1e-12;
+        assert!(in_shape.iter().all(is_on), "{in_shape:?}");
+        for axis in 0..3 {
+            let most = in_shape.iter().map(|point| point[axis]).fold(0.0, f64::max);
+            assert!((most - semi_axes_m[axis]).abs() < 1e-12, "{axis}: {most}");
+        }
+    }
 }

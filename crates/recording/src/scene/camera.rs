@@ -115,6 +115,7 @@ fn half_size(geometry: &Geometry) -> Vector3<f64> {
         Geometry::Box { size_m } => size_m / 2.0,
         Geometry::Cylinder { radius_m, length_m } => Vector3::new(*radius_m, *radius_m, length_m / 2.0),
         Geometry::Sphere { radius_m } => Vector3::repeat(*radius_m),
+        Geometry::Ellipsoid { semi_axes_m } => *semi_axes_m,
         Geometry::Mesh(mesh) => {
             mesh.vertices_m.iter().fold(Vector3::zeros(), |half, vertex| half.sup(&vertex.coords.abs()))
         }

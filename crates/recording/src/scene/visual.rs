@@ -1,4 +1,4 @@
-//! The shapes of one link, obstacle or zone in rerun's types: boxes, cylinders and spheres at the body's own
+//! The shapes of one link, obstacle or zone in rerun's types: boxes, cylinders and ellipsoids at the body's own
 //! path, each mesh at a path below it.
 
 use congruent_description::{Geometry, Mesh, Shape};
@@ -59,7 +59,8 @@ pub(crate) enum Coloring {
 pub(crate) struct VisualBody {
     boxes: ShapeColumns<[f32; 3]>,
     cylinders: ShapeColumns<(f32, f32)>,
-    spheres: ShapeColumns<f32>,
+    /// Spheres among them.
+    ellipsoids: ShapeColumns<[f32; 3]>,
     meshes: Vec<ColoredMesh>,
 }
 
@@ -70,7 +71,7 @@ impl VisualBody {
         let mut body = Self {
             boxes: ShapeColumns::new(),
             cylinders: ShapeColumns::new(),
-            spheres: ShapeColumns::new(),
+            ellipsoids: ShapeColumns::new(),
             meshes: Vec::new(),
         };
         for shape in shapes {
@@ -86,7 +87,12 @@ impl VisualBody {
                     let length = 2.0 * inner(length_m / 2.0);
                     body.cylinders.push(body_from_shape, color, (inner(*radius_m), length));
                 }
-                Geometry::Sphere { radius_m } => body.spheres.push(body_from_shape, color, inner(*radius_m)),
+                Geometry::Sphere { radius_m } => {
+                    body.ellipsoids.push(body_from_shape, color, [inner(*radius_m); 3]);
+                }
+                Geometry::Ellipsoid { semi_axes_m } => {
+                    body.ellipsoids.push(body_from_shape, color, semi_axes_m.map(inner).into());
+                }
                 Geometry::Mesh(mesh) if mesh.triangles.is_empty() => {}
                 Geometry::Mesh(mesh) => {
                     body.meshes
@@ -114,13 +120,12 @@ impl VisualBody {
                 .with_fill_mode(FillMode::Solid);
             own.extend(cylinders.as_serialized_batches());
         }
-        if !self.spheres.centers.is_empty() {
-            let spheres = Ellipsoids3D::from_centers_and_radii(
-                &self.spheres.centers,
-                self.spheres.sizes.iter().copied(),
-            )
-            .with_fill_mode(FillMode::Solid);
-            own.extend(spheres.as_serialized_batches());
+        if !self.ellipsoids.centers.is_empty() {
+            let ellipsoids =
+                Ellipsoids3D::from_centers_and_half_sizes(&self.ellipsoids.centers, &self.ellipsoids.sizes)
+                    .with_quaternions(self.ellipsoids.quaternions.iter().copied())
+                    .with_fill_mode(FillMode::Solid);
+            own.extend(ellipsoids.as_serialized_batches());
         }
         let meshes = self.meshes.iter().enumerate();
         let meshes =
@@ -147,9 +152,9 @@ impl VisualBody {
             let cylinders = Cylinders3D::update_fields().with_colors(all(&self.cylinders.colors));
             own.extend(cylinders.as_serialized_batches());
         }
-        if !self.spheres.colors.is_empty() {
-            let spheres = Ellipsoids3D::update_fields().with_colors(all(&self.spheres.colors));
-            own.extend(spheres.as_serialized_batches());
+        if !self.ellipsoids.colors.is_empty() {
+            let ellipsoids = Ellipsoids3D::update_fields().with_colors(all(&self.ellipsoids.colors));
+            own.extend(ellipsoids.as_serialized_batches());
         }
         let meshes = self.meshes.iter().enumerate().map(|(index, mesh)| {
             let factor = AlbedoFactor(colored(&mesh.color).0);
@@ -196,4 +201,28 @@ fn triangles(mesh: &Mesh, body_from_mesh: &Isometry3<f64>, inset_m: f64) -> Mesh
 fn color(rgba: [f32; 4]) -> Color {
     let [r, g, b, a] = rgba.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8);
     Color::from_unmultiplied_rgba(r, g, b, a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ellipsoids_and_spheres_are_drawn_with_their_half_axes_and_turns() {
+        let shape = |link_from_shape, geometry| Shape { link_from_shape, geometry, color_rgba: None };
+        let turned = Isometry3::rotation(Vector3::x() * std::f64::consts::PI);
+        let semi_axes_m = Vector3::new(0.125, 0.25, 0.5);
+        let shapes = [
+            shape(turned, Geometry::Ellipsoid { semi_axes_m }),
+            shape(Isometry3::identity(), Geometry::Sphere { radius_m: 0.25 }),
+        ];
+        let body = VisualBody::new(&shapes, Color::from_rgb(1, 2, 3), 0.0);
+        assert_eq!(body.ellipsoids.sizes, [[0.125, 0.25, 0.5], [0.25; 3]]);
+        let drawn = body.shapes(&EntityPath::from("link"));
+        let [(_, parts)] = &drawn[..] else { panic!("{drawn:?}") };
+        for component in [Ellipsoids3D::descriptor_half_sizes(), Ellipsoids3D::descriptor_quaternions()] {
+            let part = parts.iter().find(|part| part.descriptor == component);
+            assert_eq!(part.map(|part| part.array.len()), Some(2), "{component:?}");
+        }
+    }
 }

@@ -6,6 +6,7 @@ use rapier3d_f64::prelude::{
     Collider, ColliderBuilder, Group, InteractionGroups, InteractionTestMode, Pose, Rotation, SharedShape,
 };
 
+use super::ellipsoid::EllipsoidShape;
 use crate::{
     adapter,
     error::SimulationError,
@@ -86,6 +87,10 @@ fn shaped(
             (SharedShape::cuboid(half.x, half.y, half.z), pose)
         }
         Geometry::Sphere { radius_m } => (SharedShape::ball(*radius_m), pose),
+        Geometry::Ellipsoid { semi_axes_m } => {
+            let semi_axes_m = adapter::vector(semi_axes_m);
+            (SharedShape::new(EllipsoidShape { semi_axes_m }), pose)
+        }
         Geometry::Cylinder { radius_m, length_m } => {
             // Along z in a description, along y in rapier.
             let y_onto_z = Pose::from_rotation(Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));

@@ -142,12 +142,17 @@ pub fn swinging_bar() -> Robot {
 
 /// A block of 2 kg and edges of 0.1 m that slides along x and along z, its faces 0.05 m from its origin.
 pub fn sliding_block() -> Robot {
-    let mut block = link("block", 2.0, [0.0; 3], [0.01; 3]);
-    block.collisions.push(Shape {
+    sliding_block_of(Shape {
         link_from_shape: Isometry3::identity(),
         geometry: Geometry::Box { size_m: Vector3::new(0.1, 0.1, 0.1) },
         color_rgba: None,
-    });
+    })
+}
+
+/// The same with another shape.
+pub fn sliding_block_of(shape: Shape) -> Robot {
+    let mut block = link("block", 2.0, [0.0; 3], [0.01; 3]);
+    block.collisions.push(shape);
     let carriage = link("carriage", 1e-3, [0.0; 3], [1e-6; 3]);
     let slide = |ends, axis| about(joint(JointKind::Prismatic, ends, [0.0; 3], [0.0; 3]), axis);
     let joints =

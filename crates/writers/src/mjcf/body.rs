@@ -79,6 +79,9 @@ pub(super) fn write_geom(text: &mut XmlText, class: &str, shape: &Shape, assets:
             attributes.text("type", "cylinder").numbers("size", [*radius_m, length_m / 2.0])
         }
         Geometry::Sphere { radius_m } => attributes.text("type", "sphere").number("size", *radius_m),
+        Geometry::Ellipsoid { semi_axes_m } => {
+            attributes.text("type", "ellipsoid").numbers("size", semi_axes_m.iter().copied())
+        }
         Geometry::Mesh(mesh) => {
             let Some(name) = assets.name(mesh) else { return };
             attributes.text("type", "mesh").text("mesh", name)

@@ -313,6 +313,11 @@ fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Resul
                 let across = mass_kg * (3.0 * radius_m * radius_m + length_m * length_m) / 12.0;
                 Vector3::new(across, across, mass_kg * radius_m * radius_m / 2.0)
             }
+            Geometry::Ellipsoid { semi_axes_m } => {
+                // Ixx = m (b^2 + c^2) / 5.
+                let squares = semi_axes_m.component_mul(semi_axes_m);
+                (Vector3::repeat(squares.sum()) - squares) * (mass_kg / 5.0)
+            }
             Geometry::Mesh(_) => {
                 let help = "give `inertia_kg_m2`, and `com_m` if it is not at the origin of the mesh";
                 return refused("the inertia of a mesh is not known", help);

@@ -135,6 +135,7 @@ fn largest_size_m(geometry: &Geometry) -> f64 {
         Geometry::Box { size_m } => size_m.amax(),
         Geometry::Cylinder { radius_m, length_m } => radius_m.max(*length_m),
         Geometry::Sphere { radius_m } => *radius_m,
+        Geometry::Ellipsoid { semi_axes_m } => semi_axes_m.amax(),
         Geometry::Mesh(mesh) => mesh.vertices_m.iter().map(|vertex| vertex.coords.amax()).fold(0.0, f64::max),
     }
 }

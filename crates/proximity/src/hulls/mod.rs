@@ -1,40 +1,29 @@
-//! The one file that names parry: convex hulls and exact distances between them.
+//! The one folder that names parry: convex hulls and exact distances between them.
 //!
 //! Meshes are replaced by their convex hulls, which contain them: a distance between hulls is never larger than the distance
 //! between the meshes. A hull of very many points is simplified and then a little smaller than its mesh ([`HullPoints`]);
 //! every distance is reduced by that error, so that it stays a lower bound.
 
+mod form;
+
 use congruent_description::{Geometry, HullPoints, Mesh, Shape};
-use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 use parry3d_f64::{
     math::{Pose, Rotation, Vector},
     query::{
         self, ClosestPoints,
+        details::contact_support_map_support_map,
         gjk::{self, CsoPoint, GJKResult, VoronoiSimplex},
     },
-    shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, Shape as Form, SharedShape, SupportMap},
+    shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, Shape as ParryShape, SharedShape, SupportMap},
 };
 
+use self::form::{ConvexForm, EllipsoidForm, from_parry, isometry, pose, support_map, vector};
 use super::{
+    error::ProximityError,
     penetration::{Penetration, depth_of_boxes, least_overlap, overlap_along},
-    separation::{direction, nearest_to_origin},
+    separation::{Separation, direction, nearest_to_origin},
 };
-
-/// Why a shape has no hull.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ProximityError {
-    /// All vertices lie on a line or in a point. A mesh in a plane has a hull: a plate without
-    /// thickness.
-    #[error(
-        "{subject}: the mesh has no convex hull, since its vertices lie on one line or in one point; correct the mesh or \
-         remove its <collision>"
-    )]
-    NoHull {
-        /// Kind and name of the link or obstacle: `link "forearm"`.
-        subject: String,
-    },
-}
 
 /// The collision shapes of one link or obstacle, ready for distance queries.
 #[derive(Clone)]
@@ -47,7 +36,7 @@ pub struct Hulls {
 #[derive(Clone)]
 struct Hull {
     link_from_local: Pose,
-    form: SharedShape,
+    form: ConvexForm,
     /// Radius of a ball about its own origin that contains it.
     radius_m: f64,
     /// How far the shape may reach beyond the form.
@@ -143,7 +132,7 @@ impl Hulls {
         other: &Self,
         self_from_other: &Isometry3<f64>,
         most_m: f64,
-        distance: impl Fn(&Pose, &dyn Form, &dyn Form) -> f64,
+        distance: impl Fn(&Pose, &ConvexForm, &ConvexForm) -> f64,
     ) -> f64 {
         let self_from_other = pose(self_from_other);
         let mut smallest = most_m;
@@ -155,7 +144,7 @@ impl Hulls {
                 if a_from_b.translation.length() - a.radius_m - b.radius_m > smallest + SOLVER_STOP_M {
                     continue;
                 }
-                let apart = distance(&a_from_b, &*a.form, &*b.form);
+                let apart = distance(&a_from_b, &a.form, &b.form);
                 // Each mesh may reach beyond its simplified hull, towards the other.
                 smallest = smallest.min(apart - a.error_m - b.error_m);
             }
@@ -168,7 +157,13 @@ impl Hulls {
 ///
 /// Parry has closed forms for a ball with a ball, a box or a cylinder. Its method for two boxes is avoided: it measures between
 /// points that are not always the nearest ones.
-fn distance_apart(a_from_b: &Pose, a: &dyn Form, b: &dyn Form) -> f64 {
+fn distance_apart(a_from_b: &Pose, a: &ConvexForm, b: &ConvexForm) -> f64 {
+    let (ConvexForm::Parry(a), ConvexForm::Parry(b)) = (a, b) else {
+        // A ball as its centre: one curved side fewer, which takes fewer steps and is more accurate.
+        let [(a, of_a_m), (b, of_b_m)] = [a, b].map(ConvexForm::core);
+        return (maps_apart(a_from_b, a, b) - of_a_m - of_b_m).max(0.0);
+    };
+    let (a, b) = (&**a, &**b);
     match (a.as_ball(), b.as_ball()) {
         (Some(ball), None) if b.as_convex_polyhedron().is_some() => ball_apart(&a_from_b.inverse(), b, *ball),
         (None, Some(ball)) if a.as_convex_polyhedron().is_some() => ball_apart(a_from_b, a, *ball),
@@ -178,7 +173,7 @@ fn distance_apart(a_from_b: &Pose, a: &dyn Form, b: &dyn Form) -> f64 {
 }
 
 /// The distance of a hull and a ball: of the hull and a point.
-fn ball_apart(hull_from_ball: &Pose, hull: &dyn Form, ball: Ball) -> f64 {
+fn ball_apart(hull_from_ball: &Pose, hull: &dyn ParryShape, ball: Ball) -> f64 {
     let nearest = hull.project_local_point(hull_from_ball.translation, true);
     let between = hull_from_ball.translation - nearest.point;
     if nearest.is_inside || between == Vector::ZERO {
@@ -219,7 +214,12 @@ fn proven_m(lowest: impl Fn(&Vector3<f64>) -> Vector3<f64>, between: Vector3<f64
     if length_m - lowest(&along).dot(&along) <= SOLVER_STOP_M {
         return length_m;
     }
-    nearest_to_origin(lowest, between).least_m
+    let found = nearest_to_origin(&lowest, between);
+    if found.nearest.norm() - found.least_m <= SOLVER_STOP_M {
+        return found.least_m;
+    }
+    // Beside a shape of many metres rounding may stop the search at once, from a direction of parry that is 1e-8 rad off.
+    found.least_m.max(nearest_to_origin(&lowest, lowest(&along)).least_m)
 }
 
 /// Of all vectors from a point of `a` to a point of `b`, the one that is farthest against a direction.
@@ -229,7 +229,7 @@ fn lowest_point(
     b: &dyn SupportMap,
 ) -> impl Fn(&Vector3<f64>) -> Vector3<f64> {
     move |along| {
-        let along = Vector::new(along.x, along.y, along.z);
+        let along = vector(along);
         from_parry(b.support_point(a_from_b, -along) - a.local_support_point(along))
     }
 }
@@ -238,13 +238,19 @@ fn lowest_point(
 ///
 /// Parry stops early at parallel faces and edges, up to 9 mm too shallow for two boxes: its answer counts only if the
 /// overlap along its direction is what it says.
-fn penetration(a_from_b: &Pose, a: &dyn Form, b: &dyn Form) -> Penetration {
-    if let (Some(a), Some(b)) = (a.as_cuboid(), b.as_cuboid()) {
+fn penetration(a_from_b: &Pose, a: &ConvexForm, b: &ConvexForm) -> Penetration {
+    let cuboid = |form: &ConvexForm| form.as_parry().and_then(|form| form.as_cuboid()).copied();
+    if let (Some(a), Some(b)) = (cuboid(a), cuboid(b)) {
         let halves = [from_parry(a.half_extents), from_parry(b.half_extents)];
         return depth_of_boxes([&halves[0], &halves[1]], &isometry(a_from_b));
     }
-    let lowest = lowest_point(a_from_b, support_map(a), support_map(b));
-    let contact = query::contact(&Pose::IDENTITY, a, a_from_b, b, 0.0).expect(ANSWERS);
+    let lowest = lowest_point(a_from_b, a.support_map(), b.support_map());
+    let contact = match (a, b) {
+        (ConvexForm::Parry(a), ConvexForm::Parry(b)) => {
+            query::contact(&Pose::IDENTITY, &**a, a_from_b, &**b, 0.0).expect(ANSWERS)
+        }
+        _ => contact_support_map_support_map(a_from_b, a.support_map(), b.support_map(), 0.0),
+    };
     let by_parry = contact.map(|contact| (contact.dist, from_parry(contact.normal1)));
     if let Some((distance_m, along)) = by_parry {
         let overlap = overlap_along(&lowest, direction(&along));
@@ -257,10 +263,6 @@ fn penetration(a_from_b: &Pose, a: &dyn Form, b: &dyn Form) -> Penetration {
     let both = axes.into_iter().chain(axes.map(|axis| turn * axis)).flat_map(|axis| [axis, -axis]);
     let starts = by_parry.map(|(_, along)| direction(&along)).into_iter().chain(both);
     least_overlap(lowest, starts).expect("there are twelve axes")
-}
-
-fn support_map(form: &dyn Form) -> &dyn SupportMap {
-    form.as_support_map().expect("boxes, balls, cylinders and hulls have support points")
 }
 
 /// The nearest points of two shapes, in the first link's frame.
@@ -278,25 +280,47 @@ fn nearest_points(a: &Hull, a_from_b: &Pose, b: &Hull) -> Option<NearestPoints> 
             Point3::new(point.x, point.y, point.z)
         })
     };
-    // With an infinite margin anything that does not intersect is within it; overlaps need the penetration.
-    if let ClosestPoints::WithinMargin(on_a, on_b) = closest_points(a_from_b, a, b) {
+    if let Some([on_a, on_b]) = closest_points(a_from_b, &a.form, &b.form) {
         let distance_m = (on_b - on_a).length();
         return Some(NearestPoints { distance_m, points: in_link(on_a, on_b) });
     }
-    let Penetration { depth_m, along } = penetration(a_from_b, &*a.form, &*b.form);
+    let Penetration { depth_m, along } = penetration(a_from_b, &a.form, &b.form);
     if depth_m <= 0.0 {
         return None;
     }
     // Beyond the depth the shapes are apart, and their nearest points are those that came out last.
-    let shift = Vector::new(along.x, along.y, along.z) * (2.0 * depth_m);
+    let shift = vector(&along) * (2.0 * depth_m);
     let shifted = Pose::from_parts(a_from_b.translation + shift, a_from_b.rotation);
-    let ClosestPoints::WithinMargin(on_a, on_b) = closest_points(&shifted, a, b) else { return None };
+    let [on_a, on_b] = closest_points(&shifted, &a.form, &b.form)?;
     Some(NearestPoints { distance_m: -depth_m, points: in_link(on_a, on_b - shift) })
 }
 
-/// The nearest points of two shapes that do not intersect, in the frame of the first.
-fn closest_points(a_from_b: &Pose, a: &Hull, b: &Hull) -> ClosestPoints {
-    query::closest_points(&Pose::IDENTITY, &*a.form, a_from_b, &*b.form, f64::MAX).expect(ANSWERS)
+/// The nearest points of two shapes, in the frame of the first; `None` if they intersect.
+fn closest_points(a_from_b: &Pose, a: &ConvexForm, b: &ConvexForm) -> Option<[Vector; 2]> {
+    if let (ConvexForm::Parry(a), ConvexForm::Parry(b)) = (a, b) {
+        // With an infinite margin anything that does not intersect is within it.
+        let found = query::closest_points(&Pose::IDENTITY, &**a, a_from_b, &**b, f64::MAX).expect(ANSWERS);
+        let ClosestPoints::WithinMargin(on_a, on_b) = found else { return None };
+        return Some([on_a, on_b]);
+    }
+    let lowest = lowest_point(a_from_b, a.support_map(), b.support_map());
+    let start = lowest(&direction(&from_parry(a_from_b.translation)));
+    let Separation { least_m, nearest } = nearest_to_origin(lowest, start);
+    if least_m <= 0.0 {
+        return None;
+    }
+    let between = vector(&nearest);
+    // An ellipsoid has one point that is farthest along the vector; a face of the other shape may have many.
+    Some(match a {
+        ConvexForm::Ellipsoid(a) => {
+            let on_a = a.local_support_point(between);
+            [on_a, on_a + between]
+        }
+        ConvexForm::Parry(_) => {
+            let on_b = b.support_map().support_point(a_from_b, -between);
+            [on_b - between, on_b]
+        }
+    })
 }
 
 /// The convex shape of a geometry, in the frame of that geometry; `None` for an empty mesh.
@@ -305,17 +329,22 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Hull>, ProximityE
     let mut hull_error_m = 0.0;
     let (form, radius_m) = match geometry {
         Geometry::Box { size_m } => {
-            let half = Vector::new(size_m.x / 2.0, size_m.y / 2.0, size_m.z / 2.0);
-            (SharedShape::new(Cuboid::new(half)), half.length())
+            let half = vector(&(size_m / 2.0));
+            (ConvexForm::Parry(SharedShape::new(Cuboid::new(half))), half.length())
         }
         Geometry::Cylinder { radius_m, length_m } => {
             // The axis of parry's cylinder is y, that of URDF is z.
             link_from_local =
                 Pose::from_parts(Vector::ZERO, Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
             let upright = SharedShape::new(Cylinder::new(length_m / 2.0, *radius_m));
-            (upright, libm::hypot(*radius_m, length_m / 2.0))
+            (ConvexForm::Parry(upright), libm::hypot(*radius_m, length_m / 2.0))
         }
-        Geometry::Sphere { radius_m } => (SharedShape::new(Ball::new(*radius_m)), *radius_m),
+        Geometry::Sphere { radius_m } => {
+            (ConvexForm::Parry(SharedShape::new(Ball::new(*radius_m))), *radius_m)
+        }
+        Geometry::Ellipsoid { semi_axes_m } => {
+            (ConvexForm::Ellipsoid(EllipsoidForm { semi_axes_m: vector(semi_axes_m) }), semi_axes_m.max())
+        }
         Geometry::Mesh(mesh) if mesh.triangles.is_empty() => return Ok(None),
         Geometry::Mesh(mesh) => {
             let (hull, error_m) =
@@ -323,7 +352,7 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Hull>, ProximityE
             // Of the reduced hull, so the mesh may reach beyond it by its error, which is added below.
             let radius_m = hull.points().iter().map(|point| point.length()).fold(0.0, f64::max);
             hull_error_m = error_m;
-            (SharedShape::new(hull), radius_m + error_m)
+            (ConvexForm::Parry(SharedShape::new(hull)), radius_m + error_m)
         }
     };
     Ok(Some(Hull { link_from_local, form, radius_m, error_m: hull_error_m }))
@@ -332,30 +361,8 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Hull>, ProximityE
 /// The hull of a mesh, and how far the mesh may reach beyond it.
 fn hull_of(mesh: &Mesh) -> Option<(ConvexPolyhedron, f64)> {
     let HullPoints { points_m, error_m } = HullPoints::from_vertices(&mesh.vertices_m);
-    let points: Vec<Vector> = points_m.iter().map(vector).collect();
+    let points: Vec<Vector> = points_m.iter().map(|point| vector(&point.coords)).collect();
     Some((ConvexPolyhedron::from_convex_hull(&points)?, error_m))
-}
-
-fn vector(point: &Point3<f64>) -> Vector {
-    Vector::new(point.x, point.y, point.z)
-}
-
-fn from_parry(vector: Vector) -> Vector3<f64> {
-    Vector3::new(vector.x, vector.y, vector.z)
-}
-
-fn isometry(pose: &Pose) -> Isometry3<f64> {
-    let turn = pose.rotation;
-    let quaternion = Quaternion::new(turn.w, turn.x, turn.y, turn.z);
-    Isometry3::from_parts(from_parry(pose.translation).into(), UnitQuaternion::from_quaternion(quaternion))
-}
-
-fn pose(isometry: &Isometry3<f64>) -> Pose {
-    let (shift, turn) = (&isometry.translation, isometry.rotation.coords);
-    Pose::from_parts(
-        Vector::new(shift.x, shift.y, shift.z),
-        Rotation::from_xyzw(turn.x, turn.y, turn.z, turn.w),
-    )
 }
 
 #[cfg(test)]

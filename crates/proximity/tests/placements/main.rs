@@ -1,5 +1,7 @@
 //! Distances and depths at many random placements, against oracles that know the shapes and not the methods.
 
+mod ellipsoids;
+
 use congruent_description::{Geometry, Mesh, Shape};
 use congruent_proximity::Hulls;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -25,6 +27,11 @@ impl Draws {
         Vector3::from_fn(|_, _| self.between(-size, size))
     }
 
+    /// Axes that differ by up to 55 times.
+    fn semi_axes(&mut self) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| 0.005 * self.between(0.0, 4.0).exp())
+    }
+
     fn half_sizes(&mut self) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.between(0.01, 0.2))
     }
@@ -44,6 +51,10 @@ fn corners_of(half: &Vector3<f64>) -> Vec<Point3<f64>> {
     (0..8)
         .map(|at| Point3::from(half.component_mul(&Vector3::from_fn(|row, _| sign(at, [0, 1, 2][row])))))
         .collect()
+}
+
+fn ellipsoid(semi_axes_m: &Vector3<f64>) -> Hulls {
+    hulls(Geometry::Ellipsoid { semi_axes_m: *semi_axes_m })
 }
 
 /// A mesh of the same corners.
@@ -173,6 +184,8 @@ fn boxes_and_their_meshes_are_as_deep_as_their_corners_say() {
 enum Solid {
     Box(Vector3<f64>),
     Can { radius_m: f64, half_m: f64 },
+    Ball(f64),
+    Ellipsoid(Vector3<f64>),
 }
 
 impl Solid {
@@ -182,6 +195,8 @@ impl Solid {
             Self::Can { radius_m, half_m } => {
                 hulls(Geometry::Cylinder { radius_m: *radius_m, length_m: 2.0 * half_m })
             }
+            Self::Ball(radius_m) => hulls(Geometry::Sphere { radius_m: *radius_m }),
+            Self::Ellipsoid(semi_axes_m) => ellipsoid(semi_axes_m),
         }
     }
 
@@ -192,6 +207,8 @@ impl Solid {
                 let scale = (radius_m / point.x.hypot(point.y)).min(1.0);
                 Point3::new(point.x * scale, point.y * scale, point.z.clamp(-half_m, *half_m))
             }
+            Self::Ball(radius_m) => point * (radius_m / point.coords.norm()).min(1.0),
+            Self::Ellipsoid(semi_axes_m) => nearest_on_ellipsoid(semi_axes_m, point),
         }
     }
 
@@ -200,8 +217,31 @@ impl Solid {
         match self {
             Self::Box(half) => along.abs().dot(half),
             Self::Can { radius_m, half_m } => radius_m * along.x.hypot(along.y) + half_m * along.z.abs(),
+            Self::Ball(radius_m) => *radius_m,
+            Self::Ellipsoid(semi_axes_m) => semi_axes_m.component_mul(along).norm(),
         }
     }
+}
+
+/// The point of an ellipsoid that is nearest to a point: `x_i = p_i s_i^2 / (s_i^2 + t)` with the `t >= 0` for which it is on the
+/// surface. The equation for `t` is convex and falls, so that Newton's method from 0 goes up to its root.
+fn nearest_on_ellipsoid(semi_axes_m: &Vector3<f64>, point: &Point3<f64>) -> Point3<f64> {
+    let squares = semi_axes_m.component_mul(semi_axes_m);
+    let mut t = 0.0;
+    for _ in 0..200 {
+        let terms = Vector3::from_fn(|row, _| {
+            let below = squares[row] + t;
+            squares[row] * point[row] * point[row] / (below * below)
+        });
+        let slope: f64 = (0..3).map(|row| -2.0 * terms[row] / (squares[row] + t)).sum();
+        let next = t - (terms.sum() - 1.0) / slope;
+        // Also where the point is inside, and the root below 0.
+        if next.is_nan() || next <= t {
+            break;
+        }
+        t = next;
+    }
+    squares.zip_map(&point.coords, |square, at| square * at / (square + t)).into()
 }
 
 /// The distance is between these: the plane across two points, which projections onto one solid and the other in turn bring
