@@ -11,9 +11,11 @@ use congruent_kinematics::{
 use proptest::prelude::*;
 use support::within;
 
-/// Rounding over up to eight joints within 10 m, by two paths; worst seen 4.4e-15, and 6.3e-14 where
-/// the screws were identified.
+/// Rounding over up to eight joints within 10 m, by two paths; worst seen 4.4e-15.
 const ROUNDING: f64 = 1e-13;
+/// The same where screws were identified from poses: each has the rounding of a few poses, and turns all links behind it; worst seen
+/// 1.1e-13.
+const IDENTIFIED: f64 = 1e-12;
 /// Central difference, h = 2^-10 and Richardson's fourth order: h^4/30 on 10 m is 3e-13, rounding
 /// 10 eps/h is 2e-12; worst seen 2.6e-12.
 const DIFFERENCE: f64 = 1e-11;
@@ -144,11 +146,11 @@ proptest! {
         let screws = ScrewChain::from_urdf(&robot, robot.root(), tip, by_urdf.coordinates()).unwrap();
         let by_screws = SerialChain::from_screws(&screws);
         let tree = UrdfTree::new(&robot).jacobian(q, tip, JacobianKind::Geometric).unwrap();
-        for chain in [by_urdf, by_table, by_screws] {
+        for (chain, rounding) in [(by_urdf, ROUNDING), (by_table, ROUNDING), (by_screws, IDENTIFIED)] {
             let mut columns = vec![Twist::zero(); chain.joint_count()];
             chain.pose_and_jacobian_into(of_chain, JacobianKind::Geometric, &mut columns).unwrap();
             for (found, expected) in columns.iter().zip(tree.columns()) {
-                prop_assert!(within(apart(found, expected), ROUNDING), "{found:?} {expected:?}");
+                prop_assert!(within(apart(found, expected), rounding), "{found:?} {expected:?}");
             }
         }
     }
