@@ -64,6 +64,8 @@ fn what_was_computed_before_a_file_could_not_grow_is_kept() {
         assert!(names.iter().any(|known| known == name), "no {name}: {names:?}");
     }
     assert!(!names.iter().any(|name| name.contains(".tmp") || name == "trajectory.csv"), "{names:?}");
+    let answer = String::from_utf8_lossy(&output.stdout);
+    assert!(answer.contains(", without trajectory.csv"), "{answer}");
     let rows = fs::read_to_string(folder.join("trajectory.csv.partial")).unwrap();
     assert!(rows.lines().count() > 100, "{}", rows.lines().count());
     // The next run takes no notice of it.

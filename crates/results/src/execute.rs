@@ -119,6 +119,12 @@ pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, P
     (changed.is_empty() && wanted.all(|name| intact.contains(&name))).then_some((report, folder))
 }
 
+/// The files that the options ask for and that are not in the folder: they could not be completed.
+pub fn missing_files(setup: &RunSetup, options: &Options<'_>, folder: &OutputFolder) -> Vec<&'static str> {
+    let names = formats(setup, options).map(RecordingFormat::file_name);
+    names.filter(|name| !folder.file(name).is_file()).collect()
+}
+
 /// The checks of the run for CI.
 const JUNIT: &str = "junit.xml";
 /// The scenario with every default.

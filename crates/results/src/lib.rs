@@ -9,5 +9,6 @@ pub mod report;
 pub mod trajectory_file;
 
 pub use execute::{
-    ExecuteError, IfIncomplete, Options, RecordedRun, Recording, RecordingFormat, execute, finished, record,
+    ExecuteError, IfIncomplete, Options, RecordedRun, Recording, RecordingFormat, execute, finished,
+    missing_files, record,
 };

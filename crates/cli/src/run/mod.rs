@@ -70,7 +70,7 @@ fn run_all(
             let Some((index, loaded)) = next else { return answers };
             let answer = batch.go_on(loaded, |loaded| match loaded {
                 LoadedScenario::Finished(report, folder) => {
-                    Ok(RunAnswer { report: *report, results: Ok(folder), is_kept: true })
+                    Ok(RunAnswer { report: *report, results: Ok(folder), missing: Vec::new(), is_kept: true })
                 }
                 LoadedScenario::New(_) if is_interrupted() => {
                     Err(Failure::Machine("interrupted before it started".to_owned()))

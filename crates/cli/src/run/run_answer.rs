@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use congruent::{
-    input::Diagnostic,
+    input::{Diagnostic, display::listed},
     results::{
         ExecuteError, Options, execute,
         files::FolderError,
+        missing_files,
         report::{Reason, RunReport, TestCase, TestResult, TestSuite},
     },
     text::run_text,
@@ -26,6 +27,8 @@ pub(crate) struct RunAnswer {
     pub(crate) report: RunReport,
     /// Where its results are, or why they are not all on disk.
     pub(crate) results: Result<PathBuf, String>,
+    /// Files that could not be completed, as on a full disk.
+    pub(crate) missing: Vec<&'static str>,
     /// Whether it ran in an earlier call.
     pub(crate) is_kept: bool,
 }
@@ -46,7 +49,8 @@ impl BatchReport for RunAnswer {
             Ok(folder) if self.is_kept => {
                 format!("kept from an earlier call, results in {}", folder.display())
             }
-            Ok(folder) => format!("results in {}", folder.display()),
+            Ok(folder) if self.missing.is_empty() => format!("results in {}", folder.display()),
+            Ok(folder) => format!("results in {}, without {}", folder.display(), listed(&self.missing)),
             Err(_) => "results are not all on disk".to_owned(),
         };
         format!("{}  {results}\n", run_text(&self.report))
@@ -82,11 +86,13 @@ pub(crate) fn run_one(
     let progress = progress.start_run(setup);
     match execute(setup, options, |steps| progress.steps(steps)) {
         Ok((report, folder)) => {
-            Ok(RunAnswer { report, results: Ok(folder.path().to_owned()), is_kept: false })
+            let missing = missing_files(setup, options, &folder);
+            Ok(RunAnswer { report, results: Ok(folder.path().to_owned()), missing, is_kept: false })
         }
         Err(ExecuteError::Lost { report, source }) => {
             Printer::explain(setup.path.as_deref(), &Failure::Machine(source.to_string()));
-            Ok(RunAnswer { report: *report, results: Err(source.to_string()), is_kept: false })
+            let results = Err(source.to_string());
+            Ok(RunAnswer { report: *report, results, missing: Vec::new(), is_kept: false })
         }
         Err(ExecuteError::Folder(error)) => Err(no_folder(error)),
         Err(ExecuteError::Output(error)) => Err(no_folder(error.into())),
