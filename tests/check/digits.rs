@@ -231,3 +231,35 @@ fn an_exact_origin_is_named_before_values_that_digits_excuse() {
     let right = checked(&urdf.replace("0 0.05 0", "0 0 0"), &table).1;
     assert_eq!(right["verdict"], "agree", "{right:#}");
 }
+
+/// An `<origin>` whose x of -0.45 mm was rounded to 0: a wrong sign and exchanged angles together give the same poses as that 0.14 deg,
+/// and each alone moves the tip by 370 mm.
+#[test]
+fn two_corrections_that_make_up_for_each_other_are_no_cause() {
+    let origins = [
+        ["0.321 0.0 0.0", "0.0 0.0 0.0"],
+        ["-0.001 0.268 0.0", "-1.5708 0.0 1.573"],
+        ["0.0 0.185 0.0", "0.0 0.0 1.5732"],
+        ["0.0 -0.369 0.309", "1.5647 0.0 -1.5708"],
+        ["0.0 0.0 0.244", "0.0027 0.0 0.0"],
+    ];
+    let tool = "<link name=\"tip\"/><joint name=\"tool\" type=\"fixed\"><parent link=\"link_5\"/><child link=\"tip\"/>\
+                <origin xyz=\"0.0 0.0 0.072\" rpy=\"0.0 0.0 -0.0031\"/></joint>\n";
+    let rows = [
+        "a_m = 0.321, alpha_deg = 0.0, d_m = 0.0, theta_deg = 90.13",
+        "a_m = 0.268, alpha_deg = -90.0, d_m = 0.0, theta_deg = 90.14",
+        "a_m = 0.185, alpha_deg = 0.0, d_m = 0.309, theta_deg = -90.0",
+        "a_m = 0.369, alpha_deg = 89.65, d_m = 0.244, theta_deg = 0.0",
+        "a_m = 0.0, alpha_deg = 0.15, d_m = 0.072, theta_deg = -0.18",
+    ];
+    let row = |(at, values): (usize, &&str)| {
+        format!("  {{ joint = \"joint_{}\", kind = \"revolute\", {values} }},\n", at + 1)
+    };
+    let rows: String = rows.iter().enumerate().map(row).collect();
+    let table = format!(
+        "urdf = \"arm.urdf\"\nbase = \"link_0\"\ntip = \"tip\"\n[dh]\nconvention = \"modified\"\nrow = [\n{rows}]\n"
+    );
+    let (_, report) = checked(&chain(&origins, tool), &table);
+    let first = &report["diagnosis"][0];
+    assert_eq!((&first["cause"], &first["joint"]), (&"joint_origin".into(), &"joint_3".into()), "{report:#}");
+}

@@ -101,6 +101,10 @@ pub(super) const FIRST_ORDER_ERRORS: f64 = 10.0;
 /// The rounding of one file does not change a residual that much.
 pub(super) const REFUTED: f64 = 10.0;
 
+/// A correction that makes a difference this many times larger is no correction. No unit; kind: judgement. The first of two true
+/// ones may make it somewhat larger.
+pub(super) const FAR_WORSE: f64 = 10.0;
+
 /// A value below this many times the residual could as well be zero. No unit; kind: judgement.
 pub(super) const EVIDENT: f64 = 3.0;
 

@@ -14,7 +14,7 @@ use crate::diagnosis::{
     hypothesis::{FaultPlace, PoseHypothesis},
     nearest_table::nearby_table,
     thresholds::{
-        GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_GROSS_ONE_BY_ONE, MAX_PARAMETERS, PARAMETER_GAIN,
+        FAR_WORSE, GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_GROSS_ONE_BY_ONE, MAX_PARAMETERS, PARAMETER_GAIN,
         SAME_EFFECT, SAME_NORM, SAME_VALUE,
     },
 };
@@ -195,6 +195,15 @@ impl ExplanationSearch<'_> {
         } else {
             a.norm.total_cmp(&b.norm)
         }
+    }
+
+    /// Whether one correction makes the models far worse and another takes it back: together they are a small change, and no two
+    /// mistakes.
+    pub(super) fn make_up_for_each_other(&self, fit: &HypothesisFit) -> bool {
+        let given = self.context.models.residual(self.criterion);
+        let most = FAR_WORSE * self.criterion.in_tolerances(&given);
+        let is_far_worse = |residual: &PoseError| self.criterion.in_tolerances(residual) > most;
+        fit.hypotheses.len() > 1 && self.in_turn(fit).1.iter().any(is_far_worse)
     }
 
     /// The hypotheses of a fit in the order in which they are corrected, each time the one behind which the least remains,
