@@ -296,6 +296,17 @@ fn with_decimals(text: &str, key: &str, decimals: usize) -> String {
     text.lines().map(rounded).collect::<Vec<_>>().join("\n")
 }
 
+/// Where the axis of a sliding joint lies neither table says: what is compared is the tip.
+#[test]
+fn a_link_that_slides_is_as_far_off_as_the_link_before_it() {
+    let table = fs::read_to_string(file("scara_standard")).unwrap();
+    let longer = table.replacen("a_m = 0.325", "a_m = 0.32514", 1);
+    assert_ne!(longer, table);
+    let report = check_against(&robot_of(&table), &robot_of(&longer), &CheckOptions::default()).unwrap();
+    let worst_m = report.geometry.worst.error.position_m;
+    assert!((worst_m - 0.14e-3).abs() < 1e-9, "{worst_m}");
+}
+
 #[test]
 fn alone_there_is_nothing_to_compare() {
     for form in FORMS {

@@ -73,6 +73,8 @@ struct PlacedTree<'a> {
     taken: BTreeSet<String>,
     parent: String,
     root_from_parent: Pose,
+    /// How far the last frame was moved onto its own axis, in the root at zero, m.
+    moved_m: Vector3<f64>,
 }
 
 impl<'a> PlacedTree<'a> {
@@ -85,6 +87,7 @@ impl<'a> PlacedTree<'a> {
             taken: [root.clone(), base_name.clone(), tip].into(),
             parent: root,
             root_from_parent: Pose::identity(),
+            moved_m: Vector3::zeros(),
         };
         if base != other.root() {
             let name = format!("{}_to_{base_name}", tree.parent);
@@ -103,8 +106,12 @@ impl<'a> PlacedTree<'a> {
             let on_axis = axis.cross(&twist.linear);
             on_axis + axis.into_inner() * (frame.translation - on_axis).dot(&axis)
         } else {
-            frame.translation
+            // Where the axis of a sliding joint lies the model does not say: as far from the link before it as there.
+            frame.translation + self.moved_m
         };
+        if same.is_some() {
+            self.moved_m = at - frame.translation;
+        }
         let wanted = same.map(|link| self.other.link(link).name.clone());
         let name = wanted
             .filter(|name| !self.taken.contains(name))
