@@ -94,3 +94,29 @@ fn a_fitted_base_of_a_planar_arm_has_the_height_of_its_tip() {
     assert!(answer.stdout.contains("its root frame is at x -100 mm"), "{}", answer.stdout);
     assert!(answer.stdout.contains("z -200 mm"), "{}", answer.stdout);
 }
+
+/// A finger that the other file fixes is held at 0, and what it carries is compared; one that is left out moves nowhere else.
+#[test]
+fn a_finger_that_one_file_fixes_is_compared_at_zero() {
+    let urdf = fs::read_to_string(workspace().join("robots/rrr_arm/rrr_arm.urdf")).unwrap();
+    let scratch = ScratchFolder::new();
+    scratch.write("arm.urdf", &urdf);
+    let fixed = urdf
+        .replace("name=\"gripper_joint_2\" type=\"prismatic\"", "name=\"gripper_joint_2\" type=\"fixed\"");
+    assert_ne!(fixed, urdf);
+    let other = scratch.write("other.urdf", &fixed);
+    let check = |left_out: &str| {
+        let lines = format!("description = \"arm.urdf\"\n[mapping]\nleft_out = [\"{left_out}\"]\n");
+        congruent(&["check", &scratch.write("robot.toml", &lines), "--against", &other])
+    };
+    let declared = check("gripper_joint_2");
+    assert!(declared.stdout.contains("with gripper_joint_2 at 0)"), "{}", declared.stdout);
+    assert!(declared.stdout.contains("compared with them at 0: gripper_joint_2\n"), "{}", declared.stdout);
+    let undeclared = check("gripper_joint_1");
+    assert!(
+        undeclared.stdout.contains("JOINTS: gripper_joint_2 moves in arm.urdf alone;"),
+        "{}",
+        undeclared.stdout
+    );
+    assert!(!undeclared.stdout.contains("elsewhere on the robot"), "{}", undeclared.stdout);
+}

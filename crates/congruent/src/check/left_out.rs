@@ -14,18 +14,11 @@ pub struct LeftOutInChain {
     pub joint: String,
     /// The joints of both descriptions that it carries, by their names in its own.
     pub carries: Vec<String>,
-    /// Whether it is held at 0, since it is fixed in the other description: what it carries is compared then, and otherwise not.
-    pub is_held: bool,
 }
 
 impl LeftOutInChain {
-    /// Those of a robot among the joints that are left out; `common` are joints that both have, `held` those that are fixed at 0.
-    pub(super) fn of(
-        robot: &Robot,
-        left_out: &[JointIndex],
-        common: &[JointIndex],
-        held: impl Fn(JointIndex) -> bool,
-    ) -> Vec<Self> {
+    /// Those of a robot among the joints that are left out; `common` are joints that both have.
+    pub(super) fn of(robot: &Robot, left_out: &[JointIndex], common: &[JointIndex]) -> Vec<Self> {
         let name = |joint: JointIndex| robot.joint(joint).name.clone();
         let mut carried: BTreeMap<JointIndex, Vec<String>> = BTreeMap::new();
         for &joint in common {
@@ -34,10 +27,8 @@ impl LeftOutInChain {
                 carried.entry(by).or_default().push(name(joint));
             }
         }
-        let of_joint = |&joint: &JointIndex| {
-            let carries = carried.get(&joint)?.clone();
-            Some(Self { joint: name(joint), carries, is_held: held(joint) })
-        };
+        let of_joint =
+            |&joint: &JointIndex| Some(Self { joint: name(joint), carries: carried.get(&joint)?.clone() });
         left_out.iter().filter_map(of_joint).collect()
     }
 }

@@ -156,7 +156,11 @@ impl MappedPair {
         let mut report = ReportedMapping::new(description, other, found);
         let kept: BTreeSet<&str> = found.joints.iter().map(|of| of.name.as_str()).collect();
         let [locked, other_locked] = locked(description, other, &found.unmatched);
-        report.left_out_in_chain = left_out_in_chain([description, other], found, [&locked, &other_locked]);
+        report.held_at_zero = [(description, &locked), (other, &other_locked)]
+            .into_iter()
+            .flat_map(|(of, locked)| locked.iter().map(|&joint| of.robot.joint(joint).name.clone()))
+            .collect();
+        report.left_out_in_chain = left_out_in_chain([description, other], found);
         let robot = description.robot.locked(&locked).moved_by(&kept);
         let own = if found.unmatched[0].is_empty() { description.clone() } else { part(description, robot) };
         let options =
@@ -197,13 +201,12 @@ impl MappedPair {
 fn left_out_in_chain(
     [description, other]: [&RobotDescription; 2],
     found: &FoundMapping,
-    locked: [&BTreeSet<JointIndex>; 2],
 ) -> Vec<LeftOutInChain> {
     let own = found.joints.iter().filter_map(|of| description.robot.find_joint(&of.name));
     let common = [own.collect(), found.joints.iter().map(|of| of.joint).collect::<Vec<_>>()];
     let of = |at: usize| {
         let robot = &[description, other][at].robot;
-        LeftOutInChain::of(robot, &found.unmatched[at], &common[at], |joint| locked[at].contains(&joint))
+        LeftOutInChain::of(robot, &found.unmatched[at], &common[at])
     };
     let mut both = of(0);
     both.extend(of(1).into_iter().filter(|there| {

@@ -1,7 +1,7 @@
 //! The answer of a check whose joints are called or counted otherwise in the other description.
 
 use congruent_agreement::compare::Agreement;
-use congruent_input::display::listed;
+use congruent_input::display::{counted, listed};
 use congruent_kinematics::PoseError;
 
 use super::{
@@ -63,10 +63,9 @@ pub(super) fn after_mapping(check: &RobotCheck) -> Option<(String, String)> {
 
 /// A joint between base and tip that moves in one file alone: another chain, even if the rest agrees.
 fn other_chain_in_part(mapping: &ReportedMapping, joints: &str, worst: &str) -> (String, String) {
-    let held = held_at_zero(mapping);
-    let rest = match &held[..] {
+    let rest = match &mapping.held_at_zero[..] {
         [] => format!("the {} joints that it does not carry: {worst}", mapping.compared_joints()),
-        held => format!("with {} at 0, {worst}", listed(held)),
+        held => format!("with {} at 0, {worst}", few_or_number(held)),
     };
     let details = format!(": {joints}, between base and tip; {rest}");
     ("DIFFERENT JOINTS".to_owned(), to_declare(&details, LEFT_OUT))
@@ -84,16 +83,16 @@ fn to_declare(details: &str, what: &str) -> String {
 
 /// Which joints of a mapping are compared, and at which position of the others.
 pub(super) fn which_joints(mapping: &ReportedMapping) -> String {
-    let held: Vec<&str> = held_at_zero(mapping);
-    let behind = mapping.left_out_in_chain.iter().filter(|of| !of.is_held).map(|of| of.joint.as_str());
-    match (&held[..], &behind.collect::<Vec<_>>()[..]) {
+    let behind: Vec<&str> = mapping.free_in_chain().map(|of| of.joint.as_str()).collect();
+    match (&mapping.held_at_zero[..], &behind[..]) {
         ([], []) => "those of both files".to_owned(),
-        (held, []) => format!("those of both files, with {} at 0", listed(held)),
+        (held, []) => format!("those of both files, with {} at 0", few_or_number(held)),
         (_, behind) => format!("none behind {}, left out by [mapping]", listed(behind)),
     }
 }
 
-/// The joints between base and tip that are fixed in the other file.
-fn held_at_zero(mapping: &ReportedMapping) -> Vec<&str> {
-    mapping.left_out_in_chain.iter().filter(|of| of.is_held).map(|of| of.joint.as_str()).collect()
+/// Up to three joints by name: the fingers of a hand by number.
+fn few_or_number(joints: &[String]) -> String {
+    let names: Vec<&str> = joints.iter().map(String::as_str).collect();
+    if names.len() > 3 { counted(names.len(), "joint") } else { listed(&names) }
 }

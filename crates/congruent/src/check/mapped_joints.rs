@@ -7,6 +7,9 @@ use super::{
     reported_mapping::{ReportedEnd, ReportedJoint, ReportedMapping},
 };
 
+const OTHER_DIRECTION: &str = "the opposite direction";
+const OTHER_ZERO: &str = "another zero";
+
 /// What differs in joints, in words: `2 of 6 joints have other zeros (joint_2, joint_3)`.
 pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
     let all = mapping.joints.len();
@@ -23,8 +26,8 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
     }
     let kinds = [
         ("another name", those(&|of| of.joint != of.other && !is_known(of))),
-        ("the opposite direction", those(&|of| of.sign < 0)),
-        ("another zero", those(&|of| of.offset != 0.0)),
+        (OTHER_DIRECTION, those(&|of| of.sign < 0)),
+        (OTHER_ZERO, those(&|of| of.offset != 0.0)),
     ];
     // What differs in the same joints is said of them once.
     let mut differing: Vec<(Vec<&str>, Vec<&str>)> = Vec::new();
@@ -35,18 +38,19 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
         }
     }
     for (what, joints) in differing {
-        let what = listed(&what);
         words.push(match joints[..] {
-            _ if joints.len() == all => format!("all {all} joints have {what}"),
-            [only] => format!("{only} has {what}{}", line_of(mapping, only)),
-            [_, _] => format!("{} have {what}", listed(&joints)),
-            _ => format!("{} of {all} joints have {what}", joints.len()),
+            _ if joints.len() == all => format!("all {all} joints have {}", listed(&what)),
+            [only] => format!("{only} has {}", with_lines(mapping, only, &what)),
+            [_, _] => format!("{} have {}", listed(&joints), listed(&what)),
+            _ => format!("{} of {all} joints have {}", joints.len(), listed(&what)),
         });
     }
     let [own, there] = mapping.alone();
     let [in_own, in_other] = [0, 1].map(|at| format!("in {} alone", mapping.names[at]));
     for (what, names) in [("elsewhere on the robot", mapping.elsewhere()), (&in_own, own), (&in_other, there)]
     {
+        let is_undeclared = |name: &&str| mapping.undeclared.iter().any(|of| of == name);
+        let names: Vec<&str> = names.into_iter().filter(is_undeclared).collect();
         match names[..] {
             [] => {}
             [only] => words.push(format!("{only} moves {what}")),
@@ -55,7 +59,8 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
         }
     }
     if let Some(turn_rad) = mapping.turn_of_base_rad() {
-        words.push(format!("the base is turned by {}", angle(turn_rad)));
+        let or_zero = mapping.zero_of_first_joint.iter().fold(String::new(), |or, zero| or + ", or " + zero);
+        words.push(format!("the base is turned by {}{or_zero}", angle(turn_rad)));
     }
     if words.is_empty() {
         words.push("the root frames differ".to_owned());
@@ -63,10 +68,17 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
     words.join(", ")
 }
 
-/// The line of the axis, or of the origin, of a joint with another variable.
-fn line_of(mapping: &ReportedMapping, joint: &str) -> String {
-    let line = mapping.joints.iter().find(|of| of.joint == joint).and_then(|of| of.line);
-    place(mapping.file.as_deref(), line)
+/// What differs in a joint, each with the line of its value: `the opposite direction (a.urdf:8) and another zero (a.urdf:7)`.
+fn with_lines(mapping: &ReportedMapping, joint: &str, what: &[&str]) -> String {
+    let of = mapping.joints.iter().find(|of| of.joint == joint);
+    let line = |what: &str| match what {
+        OTHER_DIRECTION => of.and_then(|of| of.axis_line),
+        OTHER_ZERO => of.and_then(|of| of.origin_line),
+        _ => None,
+    };
+    let in_line = |what: &&str| format!("{what}{}", place(mapping.file.as_deref(), line(what)));
+    let in_lines: Vec<String> = what.iter().map(in_line).collect();
+    listed(&in_lines.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// Lengths along the axes of last joints that are not compared, in words.

@@ -30,6 +30,7 @@ mod same_chain;
 mod suite;
 mod table_of_other;
 mod titles;
+mod turned_base;
 mod with_other;
 
 pub use against::OtherDescription;

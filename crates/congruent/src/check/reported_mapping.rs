@@ -13,7 +13,7 @@ use congruent_mapping::{FoundMapping, MatchedBy};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::left_out::LeftOutInChain;
+use super::{left_out::LeftOutInChain, turned_base::zero_of_first_joint};
 
 /// A smaller zero is a calibration or a mistake of a digit. Kind: choice, 5 deg.
 pub(super) const LEAST_ZERO_RAD: f64 = 0.087;
@@ -38,12 +38,21 @@ pub struct ReportedMapping {
     /// The same of the other description.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub other_left_out: Vec<String>,
+    /// Joints that are left out without a word of the robot file.
+    #[serde(skip)]
+    pub(super) undeclared: Vec<String>,
+    /// Joints that are left out and fixed in the other description: they are held at 0 there, and what they carry is compared.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub held_at_zero: Vec<String>,
     /// Joints that are left out and carry joints of both: those of this description, then those of the other.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub left_out_in_chain: Vec<LeftOutInChain>,
     /// Pose of the other root in this one, if the two are not the same frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub root_from_other_root: Option<ReportedPose>,
+    /// The first joint with another zero, in words, if that is the same motion as with this root.
+    #[serde(skip)]
+    pub(super) zero_of_first_joint: Option<String>,
     /// Last links of branches whose axes the two files write in other coordinates: a length along these axes is not compared. Only those
     /// that are farther apart than the poses that are.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -98,10 +107,12 @@ pub struct ReportedJoint {
     /// What the variable does to the range.
     #[serde(skip)]
     pub(super) range: RangeInVariable,
-    /// The line of the URDF or MJCF with the axis of a joint in the opposite direction, or with the origin of one with another zero; missing if
-    /// the variable is the same, or the file is none.
+    /// The line of the URDF or MJCF with the axis of a joint that has the opposite direction; missing if there is no such file.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub line: Option<usize>,
+    pub axis_line: Option<usize>,
+    /// The line with the origin of a joint that has another zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub origin_line: Option<usize>,
 }
 
 /// Whether the ranges of a joint of two files are the same in the variable that is found.
@@ -158,7 +169,10 @@ impl ReportedMapping {
                 offset: of.offset,
                 unit: joint.kind.unit(),
                 range: RangeInVariable::new(description, other, of),
-                line: line(description, of),
+                axis_line: of.is_flipped.then(|| line(description, of, JointElement::Axis)).flatten(),
+                origin_line: (of.offset != 0.0)
+                    .then(|| line(description, of, JointElement::Origin))
+                    .flatten(),
             }
         };
         let names = |of: usize| -> Vec<String> {
@@ -169,10 +183,11 @@ impl ReportedMapping {
         let is_same = PoseError::between(&Pose::identity(), &root).is_within(&description.tolerance);
         let joints: Vec<ReportedJoint> = found.joints.iter().map(joint).collect();
         let (left_out, other_left_out) = (names(0), names(1));
-        let is_known =
-            |name: &String| description.mapping.as_ref().is_some_and(|of| of.left_out.contains(name));
-        let is_declared =
-            found.matched_by == MatchedBy::Declared && left_out.iter().chain(&other_left_out).all(is_known);
+        let is_unknown =
+            |name: &&String| description.mapping.as_ref().is_none_or(|of| !of.left_out.contains(*name));
+        let undeclared: Vec<String> =
+            left_out.iter().chain(&other_left_out).filter(is_unknown).cloned().collect();
+        let is_declared = found.matched_by == MatchedBy::Declared && undeclared.is_empty();
         let root_from_other_root = (!is_same).then(|| ReportedPose::from(&root));
         Self {
             matched_by: found.matched_by,
@@ -183,8 +198,11 @@ impl ReportedMapping {
             }),
             lines: lines(&joints, [&left_out, &other_left_out], root_from_other_root.as_ref()),
             joints,
+            zero_of_first_joint: zero_of_first_joint(description, &found.root_from_other_root),
             left_out,
             other_left_out,
+            undeclared,
+            held_at_zero: Vec::new(),
             left_out_in_chain: Vec::new(),
             root_from_other_root,
             ends_in_other_frames: Vec::new(),
@@ -216,10 +234,15 @@ impl ReportedMapping {
         (turn_rad > LEAST_ZERO_RAD).then_some(turn_rad)
     }
 
+    /// Joints that are left out, carry joints of both, and are held nowhere: what they carry is not compared.
+    pub(super) fn free_in_chain(&self) -> impl Iterator<Item = &LeftOutInChain> {
+        self.left_out_in_chain.iter().filter(|of| !self.held_at_zero.contains(&of.joint))
+    }
+
     /// How many joints of both are compared: not those that a joint which is left out carries, unless that is held at 0.
     pub fn compared_joints(&self) -> usize {
-        let moves = self.left_out_in_chain.iter().filter(|of| !of.is_held);
-        let behind: BTreeSet<&str> = moves.flat_map(|of| &of.carries).map(String::as_str).collect();
+        let carried = self.free_in_chain().flat_map(|of| &of.carries);
+        let behind: BTreeSet<&str> = carried.map(String::as_str).collect();
         let is_behind = |of: &&ReportedJoint| {
             [&of.joint, &of.other].into_iter().any(|name| behind.contains(name.as_str()))
         };
@@ -264,10 +287,9 @@ impl ReportedMapping {
     }
 }
 
-/// The line of what a joint with another variable would have otherwise: its axis, or its origin.
-fn line(description: &RobotDescription, of: &MappedJoint) -> Option<usize> {
-    let places = description.places.parameters().filter(|_| !of.has_same_variable())?;
-    let part = if of.is_flipped { JointElement::Axis } else { JointElement::Origin };
+/// The line of a part of a joint, in the URDF or MJCF of the robot.
+fn line(description: &RobotDescription, of: &MappedJoint, part: JointElement) -> Option<usize> {
+    let places = description.places.parameters()?;
     places.joint_part(&of.name, part)?.line_in(places.source())
 }
 

@@ -72,8 +72,7 @@ fn not_compared(text: &mut String, mapping: &ReportedMapping, other: &str) {
     for (joints, what) in
         [(here, only("this file")), (there, only(other)), (mapping.elsewhere(), elsewhere.to_owned())]
     {
-        let held =
-            |joint: &&str| mapping.left_out_in_chain.iter().any(|of| of.is_held && of.joint == **joint);
+        let held = |joint: &&str| mapping.held_at_zero.iter().any(|of| of == joint);
         let (held, joints): (Vec<&str>, Vec<&str>) = joints.into_iter().partition(held);
         if !held.is_empty() {
             let _ =
