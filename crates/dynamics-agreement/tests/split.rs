@@ -153,7 +153,7 @@ fn counted(name: &str, pairs: usize) -> [usize; 3] {
 #[test]
 fn two_faults_are_named_although_every_link_differs() {
     let found = counted("ur5e", 20);
-    assert!(found[0] * 100 >= found[2] * 90, "{found:?}");
+    assert!(found[0] * 100 >= found[2] * 90 && found[1] * 100 >= found[2] * 95, "{found:?}");
 }
 
 /// The damping and the dry friction of all joints of a model, by joint and term.
