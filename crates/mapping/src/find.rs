@@ -296,6 +296,9 @@ impl Both<'_> {
     fn solutions_of_chain(&self, pairs: &JointPairs) -> Option<Vec<ChainSolution>> {
         /// Axes that are nearer than this share of the reach are the same up to what a calibration changes.
         const NEAR: f64 = 1e-4;
+        /// The same where the frames at the tip agree as well: these show the zero of the last joint, and files with four decimals are
+        /// farther apart than [`NEAR`].
+        const NEAR_WITH_TIPS: f64 = 1e-3;
         /// Kind: choice; a fault is smaller, a base elsewhere farther.
         const SAME_BASE: f64 = 0.05;
         let tips = [self.shared_tips(), Some(self.both_tips())];
@@ -310,7 +313,8 @@ impl Both<'_> {
         for (base, tips) in attempts {
             let solutions = self.chain_pair(pairs, base, tips).solutions();
             let is_fault = best.as_ref().is_some_and(|best| off(best) <= SAME_BASE * self.reach_m);
-            if off(&solutions) < NEAR * self.reach_m && !(base.is_none() && is_fault) {
+            let near = if tips.is_some() { NEAR_WITH_TIPS } else { NEAR };
+            if off(&solutions) < near * self.reach_m && !(base.is_none() && is_fault) {
                 return Some(solutions);
             }
             // Another base or tool must explain much to be believed, and more than a fault of some centimetres, which it would
