@@ -110,6 +110,19 @@ fn a_limit_and_a_mass_that_nothing_moves_are_reported() {
     );
 }
 
+/// No pose and no torque depends on them, and what collides does.
+#[test]
+fn other_collision_shapes_are_named() {
+    let (_folder, robot) = repository();
+    let urdf = robot.join("ur5e.urdf");
+    let drawn = "<geometry><cylinder radius=\"0.058\" length=\"0.152\"/></geometry>";
+    edit(&urdf, drawn, &drawn.replace("0.058", "0.057"));
+    answers(&robot, "git:HEAD", 0, "UNCHANGED since HEAD: poses, torques and limits are the same");
+    edit(&urdf, drawn, &drawn.replace("0.152", "0.162"));
+    let expected = "UNCHANGED since HEAD in poses, torques and limits; other collision shapes of shoulder_link";
+    answers(&robot, "git:HEAD", 0, expected);
+}
+
 #[test]
 fn an_armature_is_compared_with_that_of_a_revision_and_not_with_a_urdf() {
     let (folder, robot) = repository();

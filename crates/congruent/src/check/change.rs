@@ -15,6 +15,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
+    changed_shapes::changed_shapes,
     changed_table::{changed_table, has_other_table},
     reported_mapping::ReportedMapping,
 };
@@ -55,6 +56,9 @@ pub struct RevisionChange {
     /// Links of both with another centre of mass or inertia.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub inertias: Vec<String>,
+    /// Links of both that collide with other shapes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub collision_shapes: Vec<String>,
     /// Values of the table, limits and losses of joints that differ.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<ChangedValue>,
@@ -126,6 +130,7 @@ impl RevisionChange {
             links_removed: links_alone(&before.robot, &description.robot),
             masses: changed_masses(&description.robot, &before.robot),
             inertias: changed_inertias(&description.robot, &before.robot),
+            collision_shapes: changed_shapes(&description.robot, &before.robot),
             values: changed_table([description, before]).into_iter().chain(pair.values()).collect(),
             has_other_table: has_other_table([description, before]),
             gravity: pair.gravity(),
@@ -186,11 +191,17 @@ impl RevisionChange {
             let [by, found] = [by.abs(), torque.found].map(|value| quantity(value, torque.unit.symbol()));
             format!("largest gravity torque of {} {sign}{by} (now {found})", torque.joint)
         }));
-        let names: Vec<&str> = self.inertias.iter().map(String::as_str).collect();
-        match names.len() {
-            0 => {}
-            1..=MOST_NAMED => parts.push(format!("other centre of mass or inertia of {}", listed(&names))),
-            count => parts.push(format!("other centres of mass or inertias of {}", counted(count, "link"))),
+        let lists = [
+            (["other centre of mass or inertia", "other centres of mass or inertias"], &self.inertias),
+            (["other collision shapes"; 2], &self.collision_shapes),
+        ];
+        for ([of_few, of_many], links) in lists {
+            let names: Vec<&str> = links.iter().map(String::as_str).collect();
+            match names.len() {
+                0 => {}
+                1..=MOST_NAMED => parts.push(format!("{of_few} of {}", listed(&names))),
+                count => parts.push(format!("{of_many} of {}", counted(count, "link"))),
+            }
         }
         parts.extend(self.has_other_table.then(|| "another DH table".to_owned()));
         parts.extend(self.values.iter().take(MOST_NAMED).map(ChangedValue::sentence));

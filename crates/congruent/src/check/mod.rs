@@ -4,6 +4,7 @@ mod against;
 mod cause_in_words;
 mod change;
 mod change_answer;
+mod changed_shapes;
 mod changed_table;
 mod checked;
 mod declared;
