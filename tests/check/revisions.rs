@@ -119,7 +119,8 @@ fn other_collision_shapes_are_named() {
     edit(&urdf, drawn, &drawn.replace("0.058", "0.057"));
     answers(&robot, "git:HEAD", 0, "UNCHANGED since HEAD: poses, torques and limits are the same");
     edit(&urdf, drawn, &drawn.replace("0.152", "0.162"));
-    let expected = "UNCHANGED since HEAD in poses, torques and limits; other collision shapes of shoulder_link";
+    let expected =
+        "UNCHANGED since HEAD in poses, torques and limits; other collision shapes of shoulder_link";
     answers(&robot, "git:HEAD", 0, expected);
 }
 

@@ -325,6 +325,44 @@ fn what_cannot_be_read_is_named_with_its_place() {
     }
 }
 
+/// `refpos` and `refquat` move the vertices of the file, and `scale` what has been moved: centres and principal moments of MuJoCo 4.0.
+#[test]
+fn a_mesh_is_moved_before_it_is_scaled() {
+    let cases = [
+        (
+            "refpos='.1 0 0'",
+            [0.114_366_160_450, 0.237_078_026_032, 0.382_272_920_329],
+            [0.005_024_676_550, 0.003_886_148_147, 0.001_589_175_302],
+        ),
+        (
+            "refpos='.1 0 0' refquat='0.9 0.1 0.2 0.3'",
+            [0.124_451_607_718, 0.229_002_504_988, 0.384_970_085_398],
+            [0.004_649_508_072, 0.003_230_539_739, 0.001_874_024_209],
+        ),
+    ];
+    for (moved, com_m, moments_kg_m2) in cases {
+        let text = format!(
+            "<mujoco><asset><mesh name='w' vertex='0 0 0 1 0 0 0 1 0 0 0 1' scale='.1 .2 .3' {moved}/></asset><worldbody>\
+             <body name='b'><joint name='j'/><geom type='mesh' mesh='w' pos='.1 .2 .3' euler='10 20 30'/></body></worldbody></mujoco>"
+        );
+        let folder = folder(&[("w.xml", &text)]);
+        let description = load(&folder.path().join("w.xml"));
+        let link = description.robot.link(description.robot.find_link("b").unwrap());
+        let inertia = link.inertia.unwrap();
+        let com = inertia.link_from_inertial.translation.vector;
+        // MuJoCo keeps vertices in single precision.
+        assert!((com - Vector3::from(com_m)).norm() < 1e-8, "{moved}: {com}");
+        let mut found = inertia.tensor_in_link().symmetric_eigenvalues();
+        found.as_mut_slice().sort_by(|a, b| b.total_cmp(a));
+        assert!((found - Vector3::from(moments_kg_m2)).norm() < 1e-9, "{moved}: {found}");
+        // The shape is where its mass is: the mean of the corners of a tetrahedron.
+        let Geometry::Mesh(mesh) = &link.collisions[0].geometry else { panic!("{:?}", link.collisions) };
+        let corners =
+            mesh.vertices_m.iter().map(|corner| (link.collisions[0].link_from_shape * corner).coords);
+        assert!((corners.sum::<Vector3<f64>>() / 4.0 - com).norm() < 1e-12, "{moved}");
+    }
+}
+
 #[test]
 fn a_mesh_that_is_missing_stops_what_needs_it() {
     let robot = |inertial: &str| {

@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Point3, Translation3};
 use super::placed::placed;
 use crate::codes;
 
-/// A mesh that was looked for: the mesh, scaled but not moved, or why there is none.
+/// A mesh that was looked for: the mesh, scaled but not moved if [`scaled_from_mesh`] does that, or why there is none.
 type FoundOnce = Result<Arc<Mesh>, Diagnostic>;
 
 /// Finds meshes, each once.
@@ -45,6 +45,7 @@ impl<'a, 'm> ModelMeshes<'a, 'm> {
             }
             None => inline(mesh),
         };
+        let found = found.map(|scaled| moved(mesh, scaled));
         // At the mesh, not at each geom that uses it: the file is named there.
         let found = found.map_err(|fault| {
             placed(fault, mesh.file.as_ref().and_then(|file| file.place.as_ref()).unwrap_or(&mesh.place))
@@ -76,9 +77,30 @@ impl<'a, 'm> ModelMeshes<'a, 'm> {
     }
 }
 
-/// The frame of a mesh in that of its scaled vertices: [`MjMesh::vertex`] without the scale.
+/// The frame of a mesh in that of its scaled vertices: [`MjMesh::vertex`] without the scale. The identity if the scale distorts what
+/// was turned: its vertices are moved then.
 pub(super) fn scaled_from_mesh(mesh: &MjMesh) -> Isometry3<f64> {
-    Isometry3::from_parts(Translation3::from(mesh.reference_pos), mesh.reference_orientation)
+    if is_distorted(mesh) {
+        return Isometry3::identity();
+    }
+    let scaled = mesh.reference_pos.component_mul(&mesh.scale.value);
+    Isometry3::from_parts(Translation3::from(scaled), mesh.reference_orientation)
+}
+
+/// Whether a turn before the scale is none behind it.
+fn is_distorted(mesh: &MjMesh) -> bool {
+    let scale = mesh.scale.value;
+    mesh.reference_orientation.angle() > 0.0 && scale.add_scalar(-scale.x).amax() > 0.0
+}
+
+/// A mesh of scaled vertices; one that is distorted is no longer that of its file.
+fn moved(mesh: &MjMesh, scaled: Arc<Mesh>) -> Arc<Mesh> {
+    if !is_distorted(mesh) {
+        return scaled;
+    }
+    let vertex = |of: &Point3<f64>| mesh.vertex(Point3::from(of.coords.component_div(&mesh.scale.value)));
+    let vertices_m = scaled.vertices_m.iter().map(vertex).collect();
+    Arc::new(Mesh { path: PathBuf::new(), vertices_m, ..(*scaled).clone() })
 }
 
 /// A mesh whose vertices are in the model; without faces it is their convex hull.

@@ -119,9 +119,9 @@ pub struct MjMesh {
     pub faces: Vec<[usize; 3]>,
     /// Scale along each axis, m per unit of the file; may be negative.
     pub scale: MjWritten<Vector3<f64>>,
-    /// What is subtracted from the scaled vertices, m.
+    /// What is subtracted from the vertices of the file, in its unit.
     pub reference_pos: Vector3<f64>,
-    /// Its inverse turns the vertices, after the subtraction.
+    /// Its inverse turns the vertices, after the subtraction and before the scale.
     pub reference_orientation: UnitQuaternion<f64>,
     /// How its inertia is computed.
     pub inertia: MjMeshInertia,
@@ -132,8 +132,9 @@ pub struct MjMesh {
 impl MjMesh {
     /// A vertex of the file in the frame of the mesh, m.
     pub fn vertex(&self, in_file: Point3<f64>) -> Point3<f64> {
-        let scaled = in_file.coords.component_mul(&self.scale.value) - self.reference_pos;
-        Point3::from(self.reference_orientation.inverse_transform_vector(&scaled))
+        let turned =
+            self.reference_orientation.inverse_transform_vector(&(in_file.coords - self.reference_pos));
+        Point3::from(turned.component_mul(&self.scale.value))
     }
 }
 
