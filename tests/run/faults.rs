@@ -5,7 +5,10 @@ use std::{fs, path::Path};
 
 use serde_json::Value;
 
-use crate::support::command::{congruent, congruent_json, text};
+use crate::support::{
+    command::{congruent, congruent_json, text},
+    corpus::workspace,
+};
 
 /// The scenarios of `scenarios/faults/`, by name.
 fn scenarios() -> Vec<String> {
@@ -168,4 +171,24 @@ fn a_wrong_fault_is_refused_at_its_place() {
     let twice = "kind = \"flipped_axis\"\njoint = \"elbow_joint\"\n[[fault]]\nkind = \"swapped_joints\"\n\
                  joints = [\"wrist_1_joint\", \"elbow_joint\"]";
     refused("kinematic", twice, "scenario::faults_exclude", "[[fault]]\nkind = \"swapped", "until_s");
+}
+
+/// Encoder and drive count the other way round: at 2.4 deg the arm is never farther than 5 deg from its setpoint.
+#[test]
+fn a_small_motion_the_other_way_fails_by_default() {
+    let folder = tempfile::tempdir().unwrap();
+    let robot = text(&workspace().join("robots/ur5e"));
+    let contents = format!(
+        "schema_version = 1\nname = \"opposite\"\nrobot = {robot:?}\n[simulation]\nstep_s = 0.001\nduration_s = 2.0\n\
+         [start]\njoints_deg = {{ shoulder_lift_joint = -90.0, elbow_joint = 90.0 }}\n\
+         [controller]\nkind = \"pd\"\nstiffness = 300\ndamping = 60\n\
+         [[motion]]\nmove_joints_deg = {{ shoulder_pan_joint = 2.4 }}\nduration_s = 0.8\n\
+         [[fault]]\nkind = \"flipped_axis\"\njoint = \"shoulder_pan_joint\"\n[[check]]\nkind = \"limits\"\n"
+    );
+    let scenario = folder.path().join("opposite.toml");
+    fs::write(&scenario, contents).unwrap();
+    let out = text(&folder.path().join("out"));
+    let answer = congruent(&["run", &text(&scenario), "--out", &out, "--no-recording", "--allow", &robot]);
+    assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+    assert!(answer.stdout.contains("share of travel -1.0"), "{}", answer.stdout);
 }

@@ -95,7 +95,7 @@ pub struct TrackingCheck {
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub settling_s: Option<f64>,
     /// Smallest share of its commanded travel that each joint makes in the run: least to largest position, of the joint and of its
-    /// setpoint. Joints that are commanded to move by less than 1e-3 rad or m are not judged.
+    /// setpoint; negative if it goes the other way. Joints that are commanded to move by less than 1e-3 rad or m are not judged.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub travel_share: Option<f64>,
     /// Largest overshoot of a turning joint beyond a setpoint that has stopped, in rad or in degrees.

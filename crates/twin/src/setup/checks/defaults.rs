@@ -11,7 +11,7 @@ pub(crate) const PATH_MM: f64 = 20.0;
 
 /// Smallest share of its commanded travel that a joint makes: whatever the size of a motion, an arm that makes less of it does
 /// not follow. Kind: judgement; the scenarios of this project make all of it, to 1e-3.
-pub(crate) const TRAVEL_SHARE: f64 = 0.5;
+pub(crate) const TRAVEL_SHARE: f64 = 0.8;
 
 /// The checks that are added to those of the scenario: `tracking` if it has motions, `limits` if its robot declares some, and
 /// `effort` if actuators drive it. A check of the scenario replaces the default check of the same kind; one that limits only the
