@@ -111,3 +111,21 @@ fn an_mjcf_is_corrected_in_its_own_elements() {
     assert!(printed.contains("(robot.xml:71)"), "{printed}");
     assert!(!printed.contains("in the <origin>"), "{printed}");
 }
+
+/// A link that turns alone, about its own origin, is the one that differs: not the root, which no joint moves.
+#[test]
+fn a_follower_that_turns_its_link_in_place_is_named_by_that_link() {
+    let report = against(HALF, "<mimic joint=\"lift\" multiplier=\"0.6\"/>", 0.4).json();
+    assert_eq!(report["worst"]["link"], "tool", "{report:#}");
+    let temporary = tempfile::tempdir().unwrap();
+    let files = ["0.5", "0.6"].map(|multiplier| {
+        let mimic = format!("<mimic joint=\"lift\" multiplier=\"{multiplier}\"/>");
+        let path = temporary.path().join(format!("{multiplier}.urdf"));
+        let in_place =
+            urdf(&mimic, 0.4).replace("<origin xyz=\"0.4 0 0\"/></joint>\n</robot>", "</joint>\n</robot>");
+        fs::write(&path, in_place).unwrap();
+        text(&path)
+    });
+    let answer = congruent(&["check", &files[0], "--against", &files[1], "-q"]);
+    assert!(answer.stdout.contains("deg at lower "), "{}", answer.stdout);
+}

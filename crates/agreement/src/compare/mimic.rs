@@ -2,7 +2,9 @@
 //! comparison of poses takes each joint for a driven one, which finds the faults of the chain itself; what follows is
 //! compared here.
 
-use congruent_description::{Joint, JointIndex, JointValues, Mimic, Robot, RobotDescription, RobotQ};
+use congruent_description::{
+    Joint, JointIndex, JointValues, Mimic, Robot, RobotDescription, RobotQ, Tolerance,
+};
 use congruent_kinematics::{LinkPoses, Pose, PoseError, Uniform, UrdfTree, range, sample_configurations};
 
 use super::{
@@ -85,7 +87,7 @@ impl CheckReport {
             comparison.verdict = Agreement::Disagree;
             let furthest = differences.furthest.as_ref();
             if let Some((link, [own, other], error)) = furthest
-                && error.position_m >= comparison.worst.error.position_m
+                && !is_farther(&comparison.worst.error, error, &description.tolerance)
             {
                 let robot = &description.robot;
                 comparison.worst.link.clone_from(&robot.links()[*link].name);
@@ -110,6 +112,15 @@ impl CheckReport {
         self.verdict = verdict(&self.comparisons);
         self.worst = worst_difference(&self.comparisons, &self.tolerance);
     }
+}
+
+/// Whether a link is farther off than another: by its position, or if no position is beyond the tolerance, by its orientation.
+fn is_farther(error: &PoseError, than: &PoseError, tolerance: &Tolerance) -> bool {
+    let key = |of: &PoseError| {
+        let beyond_m = if of.position_m > tolerance.position_m { of.position_m } else { 0.0 };
+        [beyond_m, of.orientation_rad]
+    };
+    key(error) > key(than)
 }
 
 /// A joint with two relations that are not the same.
@@ -170,6 +181,7 @@ impl DifferingMimic {
 struct MimicDifferences<'a> {
     robot: &'a Robot,
     joints: &'a [DifferingMimic],
+    tolerance: Tolerance,
     own: UrdfTree,
     own_links: Vec<Pose>,
     other_links: Vec<Pose>,
@@ -186,6 +198,7 @@ impl<'a> MimicDifferences<'a> {
         Self {
             robot,
             joints,
+            tolerance: description.tolerance,
             own: UrdfTree::new(robot),
             own_links: vec![Pose::identity(); links],
             other_links: vec![Pose::identity(); links],
@@ -237,7 +250,8 @@ impl<'a> MimicDifferences<'a> {
             let error = PoseError::between(&self.own_links[link], &self.other_links[link]);
             here = here.larger(error);
             self.links[link] = self.links[link].larger(error);
-            if self.furthest.as_ref().is_none_or(|(.., most)| error.position_m > most.position_m) {
+            let is_first = |(.., most): &(_, _, PoseError)| is_farther(&error, most, &self.tolerance);
+            if self.furthest.as_ref().is_none_or(is_first) {
                 self.furthest = Some((link, [own.clone(), other.clone()], error));
             }
         }
