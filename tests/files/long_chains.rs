@@ -77,8 +77,11 @@ fn differing(joints: usize, shifted: &[usize], most_mib: u32) -> String {
 fn a_long_chain_is_diagnosed_in_little_memory() {
     let shifted: Vec<usize> = (5..15).map(|tenth| 5 * tenth).collect();
     let text = differing(100, &shifted, 160);
+    assert!(text.contains("after 10 corrections") && text.contains("agree     dynamics of"), "{text}");
+    // More than are named together.
+    let shifted: Vec<usize> = (5..45).map(|half| 2 * half).collect();
+    let text = differing(100, &shifted, 160);
     assert!(text.contains("no known cause explains the difference"), "{text}");
-    assert!(text.contains("agree     dynamics of"), "{text}");
 }
 
 /// Both files give every origin: a joint with another one is found without a search.

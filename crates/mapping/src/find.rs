@@ -296,8 +296,7 @@ impl Both<'_> {
     fn solutions_of_chain(&self, pairs: &JointPairs) -> Option<Vec<ChainSolution>> {
         /// Axes that are nearer than this share of the reach are the same up to what a calibration changes.
         const NEAR: f64 = 1e-4;
-        /// The same where the frames at the tip agree as well: these show the zero of the last joint, and files with four decimals are
-        /// farther apart than [`NEAR`].
+        /// The same where frames at the tip, which show the zero of the last joint, agree as well: of files with four decimals.
         const NEAR_WITH_TIPS: f64 = 1e-3;
         /// Kind: choice; a fault is smaller, a base elsewhere farther.
         const SAME_BASE: f64 = 0.05;
@@ -341,8 +340,7 @@ impl Both<'_> {
         };
         let (a, b) = (axes(0), axes(1));
         let range = |[of_a, of_b]: &[JointIndex; 2]| {
-            let [a, b] = [self.a.robot.joint(*of_a), self.b.robot.joint(*of_b)];
-            Some([a.position_range()?, b.position_range()?])
+            Some([self.a.robot.joint(*of_a).position_range()?, self.b.robot.joint(*of_b).position_range()?])
         };
         let ranges = pairs.iter().map(range).collect();
         ChainPair { known: vec![None; a.len()], a, b, tips, a_from_b, ranges, reach_m: self.reach_m }

@@ -22,7 +22,11 @@ pub struct ExplainedByJoints {
 }
 
 /// Most corrections that are searched together. Kind: choice; more wrong joints are a matter of calibration.
-const MOST_CORRECTIONS: usize = 8;
+const MOST_CORRECTIONS: usize = 30;
+
+/// Beside more origins that differ, frames that all lie elsewhere in their links may be the reason, and one displacement the only fault.
+/// Kind: choice.
+const FEW_CORRECTIONS: usize = 8;
 
 /// The corrections of joints that explain the difference; `None` if there are none, too many, or if the two differ only
 /// in where frames lie in links that move alike.
@@ -38,6 +42,12 @@ pub fn explained_by_joints(
     // Largest first, so that the fewest are needed: after them the rest is rounding.
     all.sort_by(|one, other| other.size_m.total_cmp(&one.size_m));
     all.truncate(MOST_CORRECTIONS);
+    if all.len() > FEW_CORRECTIONS
+        && let Some(only) = single_displacement(robots, poses, displaced(robots, at), at)?
+        && moves_alike(&robots.with(&corrected(robots.robot, &only.corrections)), at)
+    {
+        return Ok(Some(only));
+    }
     let every_link = |link| robots.is_matched(link);
     let mut difference = CorrectedDifference::new(robots, poses, &every_link);
     // All corrections together first: if these do not suffice, no part of them does.
