@@ -41,11 +41,15 @@ impl Renamed {
                 "`derive --base-parameters` is now `dynamics --base-parameters`",
             );
         }
-        let hint = "`derive --convention standard` is now `convert --to dh`";
+        let hint = "`derive` is now `convert --to dh`";
         self.replace(at..=at, &["convert", "--from", "urdf"], hint);
         // The first hint has it already.
         let hints = self.hints.len();
-        self.rename(&["--convention", "--out", "--output"], "--to");
+        let names_model = self.rename(&["--convention"], "--to");
+        self.rename(&["--out", "--output"], "--to");
+        if !names_model && !asks_for_help(&self.words) {
+            self.words.extend(["--to", "dh"].map(OsString::from));
+        }
         self.hints.truncate(hints);
     }
 
@@ -152,6 +156,7 @@ mod tests {
 
     #[test]
     fn calls_in_old_names_are_calls_in_new_ones() {
+        check("c derive a.urdf", "c convert --from urdf a.urdf --to dh");
         check("c derive a.urdf --convention standard", "c convert --from urdf a.urdf --to standard");
         check(
             "c -q --format json derive a.urdf --convention=modified --out=a.toml --force",
