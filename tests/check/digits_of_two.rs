@@ -239,3 +239,50 @@ fn another_direction_beside_rounded_lengths_is_a_mapping() {
     assert!(line.contains("EQUAL AFTER MAPPING: elbow_joint has the opposite direction"), "{line}");
     assert_eq!(json["against"]["mapping"]["verdict"], "agree", "{line}");
 }
+
+/// 0.4 g at a point of the second axis count to the first link or to the second: no torque differs. Masses and centres are within
+/// their digits of each other, products of inertia of 0 are not.
+#[test]
+fn masses_that_are_split_otherwise_are_equal_although_a_part_of_them_is_within_the_digits() {
+    let link = |name: &str, mass: &str, com: &str, tensor: [&str; 6]| {
+        let [xx, yy, zz, xy, xz, yz] = tensor;
+        format!(
+            "<link name=\"{name}\"><inertial><origin xyz=\"{com}\"/><mass value=\"{mass}\"/><inertia ixx=\"{xx}\" iyy=\"{yy}\" \
+             izz=\"{zz}\" ixy=\"{xy}\" ixz=\"{xz}\" iyz=\"{yz}\"/></inertial></link>\n"
+        )
+    };
+    let joint = |name: &str, links: [&str; 2], placed: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"revolute\"><parent link=\"{}\"/><child link=\"{}\"/>{placed}\
+             <limit lower=\"-2\" upper=\"2\" effort=\"9\" velocity=\"3\"/></joint>\n",
+            links[0], links[1]
+        )
+    };
+    let joints = joint("j1", ["base", "upper"], "<axis xyz=\"0 1 0\"/>")
+        + &joint("j2", ["upper", "lower"], "<origin xyz=\"0.4 0 0\"/><axis xyz=\"1 0 0\"/>");
+    let robot = |links: [String; 2]| {
+        format!("<robot name=\"two\"><link name=\"base\"/>\n{}{joints}</robot>\n", links.concat())
+    };
+    let typed = ["0.02", "0.03", "0.04", "0", "0", "0"];
+    let own =
+        robot([link("upper", "3.000", "0.2 0 0", typed), link("lower", "2.000", "0.1 0.05 0.02", typed)]);
+    let upper = ["0.02", "0.030099986668444212", "0.040099986668444221", "0", "0", "0"];
+    let lower = [
+        "0.019998839767953591",
+        "0.029983836767353465",
+        "0.039982996599319871",
+        "-4.0008001600342485e-06",
+        "-1.6003200640126586e-06",
+        "4.0008001600316465e-07",
+    ];
+    let other = robot([
+        link("upper", "3.0004", "0.20006665777896282 0 0", upper),
+        link("lower", "1.9996", "0.09995999199839968 0.050010002000400081 0.020004000800160033", lower),
+    ]);
+    let scratch = ScratchFolder::new();
+    let files = [scratch.write("own.urdf", &own), scratch.write("other.urdf", &other)];
+    for [one, two] in [[0, 1], [1, 0]] {
+        let answer = congruent(&["check", &files[one], "--against", &files[two], "-q"]);
+        assert!(answer.code == 0 && answer.stdout.contains(": SAME ROBOT."), "{}", answer.stdout);
+    }
+}

@@ -165,3 +165,28 @@ fn inertials_of_a_public_pair_are_corrected() {
         assert!(left < BESIDE_THE_CAUSE, "{name}: {:#}", report["dynamics"]);
     }
 }
+
+/// Springs, another gravity and closed loops have no part in the torques that are compared, and the answer says so.
+#[test]
+fn forces_of_an_mjcf_that_are_not_compared_are_said() {
+    let plain = WrongMjcf::new(&[]);
+    let cases = [
+        (ELBOW, ELBOW.replace("/>", " stiffness=\"500\"/>"), "a spring of 500 N m/rad is left out"),
+        ("<worldbody>", "<option gravity=\"0 0 -1.6\"/><worldbody>".to_owned(), "gravity is (0, 0, -1.6) m/s^2"),
+        (
+            "<worldbody>",
+            "<equality><connect body1=\"forearm_link\" body2=\"wrist_2_link\" anchor=\"0 0 0\"/></equality><worldbody>"
+                .to_owned(),
+            "closes a loop",
+        ),
+    ];
+    for (old, new, expected) in cases {
+        let changed = WrongMjcf::new(&[(old, &new)]);
+        for files in [[&plain.file, &changed.file], [&changed.file, &plain.file]] {
+            let answer = congruent(&["check", files[0], "--against", files[1], "-q"]);
+            let line = answer.stdout;
+            assert!(line.contains(": SAME ROBOT, FORCES COMPARED IN PART."), "{line}{}", answer.stderr);
+            assert!(line.contains("; not compared: ") && line.contains(expected), "{line}");
+        }
+    }
+}

@@ -25,6 +25,7 @@ mod written_names;
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use changed::{ChangedRobots, robots_of_changed};
 pub use congruent_meshes::{HullPoints, Mesh, read_mesh};
+pub use congruent_mjcf::codes::mjcf::LOOP as MJCF_LOOP;
 pub use congruent_robot::{
     ArmQ, CarriedBody, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, DrivenCoordinates, Extent, Followers,
     Geometry, Inertia, InertiaRounding, Joint, JointIndex, JointKind, JointLimit, JointParts,

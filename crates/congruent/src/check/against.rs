@@ -19,6 +19,7 @@ use serde::Serialize;
 
 use super::{
     cause_in_words::and_more,
+    forces_not_compared::forces_not_compared,
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::PosesOfOther,
     reported_mapping::ReportedMapping,
@@ -64,6 +65,9 @@ pub struct OtherDescription {
     /// sum.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fused_links: Vec<String>,
+    /// Springs, gravity and loops of an MJCF that the two have otherwise: they have no part in the torques that are compared.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub forces_not_compared: Vec<String>,
     /// Masses, inertias, limits and losses that differ by no more than the digits that they are written with, which is no
     /// difference: `forearm_link: mass`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -100,6 +104,7 @@ impl OtherDescription {
             common_tip,
             links_not_found: lacking.collect(),
             fused_links: Vec::new(),
+            forces_not_compared: forces_not_compared(description, other),
             values_within_digits: Vec::new(),
         }
     }
@@ -130,8 +135,10 @@ pub(super) fn compared(
     } else {
         Vec::new()
     };
+    let mut as_written = None;
     if RevisionName::of(&other.path).is_none() {
         against.fused_links = adopt_places_of_masses(description, other);
+        as_written = Some(other.clone());
         against.values_within_digits = adopt_rounded_values(geometry, description, other);
     }
     geometry.add_mimics(description, other, &mut poses, options)?;
@@ -146,11 +153,25 @@ pub(super) fn compared(
         }
     }
     let frames = PlacedFrames { tolerance, misplaced, in_other_frames };
-    let dynamics = dynamics_of(geometry, &mut against, [description, other], frames, options.seed);
+    let dynamics = dynamics_of(geometry, &mut against, [description, other], frames.clone(), options.seed);
+    let as_written = as_written.filter(|_| !against.values_within_digits.is_empty());
+    if let Some((written, report)) = as_written.zip(dynamics.as_ref())
+        && !report.has_same_torques()
+    {
+        // Masses that are split otherwise between links compensate to all digits: with a part of them adopted they do not.
+        let (mut geometry, mut exact) = (geometry.clone(), against.clone());
+        let found = dynamics_of(&mut geometry, &mut exact, [description, &written], frames, options.seed);
+        if found.as_ref().is_some_and(DynamicsReport::has_same_torques) {
+            exact.values_within_digits.clear();
+            *other = written;
+            return Ok((exact, found));
+        }
+    }
     Ok((against, dynamics))
 }
 
 /// Where the links of two descriptions lie that are the same chain.
+#[derive(Clone)]
 struct PlacedFrames {
     tolerance: Tolerance,
     /// The first joint whose link lies elsewhere, in words.

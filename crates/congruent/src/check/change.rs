@@ -1,12 +1,10 @@
 //! What a change does to a robot: the description of today against that of a revision, in the terms of who reviews it.
 
-use std::collections::BTreeSet;
-
-use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, Tolerance, codes::mjcf};
+use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, Tolerance};
 use congruent_dynamics::BodyTree;
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{
-    Code, RevisionName, SiUnit,
+    RevisionName, SiUnit,
     display::{counted, listed, quantity},
 };
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree, sample_configurations};
@@ -17,6 +15,7 @@ use serde::Serialize;
 use super::{
     changed_shapes::changed_shapes,
     changed_table::{changed_table, has_other_table},
+    forces_not_compared::forces_not_compared,
     reported_mapping::ReportedMapping,
 };
 
@@ -24,8 +23,6 @@ use super::{
 const RANDOM: usize = 200;
 /// Smaller changes of a mass or torque are rounding, relative to the value.
 const ROUNDED: f64 = 1e-9;
-/// What the reader of an MJCF omits from forces.
-const LEFT_OUT: [&Code; 3] = [mjcf::SPRING, mjcf::DAMPING, mjcf::GRAVITY];
 /// Links whose masses a headline names.
 const MOST_NAMED: usize = 3;
 
@@ -134,7 +131,7 @@ impl RevisionChange {
             values: changed_table([description, before]).into_iter().chain(pair.values()).collect(),
             has_other_table: has_other_table([description, before]),
             gravity: pair.gravity(),
-            not_compared: not_compared(description, before),
+            not_compared: forces_not_compared(description, before),
         }))
     }
 
@@ -360,14 +357,4 @@ fn changed_masses(robot: &Robot, before: &Robot) -> Vec<ChangedMass> {
             > ROUNDED * mass.found_kg.unwrap_or_default().max(mass.before_kg.unwrap_or_default())
     };
     own.chain(links_alone(before, robot)).map(of).filter(differs).collect()
-}
-
-/// What the reader of an MJCF has left out of one of the two and not, or otherwise, of the other: springs, gravity.
-fn not_compared(description: &RobotDescription, before: &RobotDescription) -> Vec<String> {
-    let of_mjcf = |of: &RobotDescription| -> BTreeSet<String> {
-        let warnings = of.warnings.iter().filter(|of| LEFT_OUT.contains(&of.code));
-        warnings.map(|of| of.message.clone()).collect()
-    };
-    let [own, before] = [description, before].map(of_mjcf);
-    own.symmetric_difference(&before).cloned().collect()
 }

@@ -59,6 +59,9 @@ impl RobotCheck {
         if let Some(ends) = mapping.and_then(ends_not_compared) {
             let _ = write!(headline.details, "; {ends}");
         }
+        if let Some(force) = self.first_force_not_compared() {
+            let _ = write!(headline.details, "; not compared: {force}");
+        }
         if self.fails_by_lint() {
             let findings = counted(self.lint.findings(), "finding");
             let _ = write!(headline.details, "; --strict: {findings} of lint");
@@ -138,6 +141,9 @@ impl RobotCheck {
         let has_dynamics =
             self.dynamics_of_descriptions().any(|of| of.verdict != DynamicsVerdict::NotCompared);
         match (has_geometry, has_dynamics) {
+            (true, true) if self.first_force_not_compared().is_some() => {
+                "SAME ROBOT, FORCES COMPARED IN PART"
+            }
             (true, true) if self.is_stated_once("mass") || self.is_stated_once("centre of mass") => {
                 "SAME ROBOT, MASSES COMPARED IN PART"
             }
@@ -148,6 +154,12 @@ impl RobotCheck {
             (false, true) => "SAME DYNAMICS, GEOMETRY NOT COMPARED",
             (false, false) => "NO SECOND DESCRIPTION",
         }
+    }
+
+    /// The first of the forces that the two have otherwise and that are in no torque; `None` for a revision, whose answer has them.
+    fn first_force_not_compared(&self) -> Option<&String> {
+        let against = self.against.as_ref().filter(|_| self.change.is_none())?;
+        against.forces_not_compared.first()
     }
 
     /// Whether the other description, or the robot file if that is the only second source of dynamics, says nothing of this kind

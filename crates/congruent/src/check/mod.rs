@@ -11,6 +11,7 @@ mod declared;
 mod declared_body;
 mod declared_digits;
 mod dynamics_in_words;
+mod forces_not_compared;
 mod headline;
 mod judged_by;
 mod left_out;

@@ -36,10 +36,11 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
     // With equal variables there was nothing to choose.
     if mapping.equivalent > 0 && mapping.joints.iter().any(|of| !of.has_same_variable()) {
         let sets = counted(mapping.equivalent, "other set");
+        let give = if mapping.equivalent == 1 { "gives" } else { "give" };
         let _ = writeln!(
             text,
-            "    {sets} of directions and zeros, as of a wrist, give the same motion of the tip; with these the bodies of both \
-             files are in the same places"
+            "    {sets} of directions and zeros, as of a wrist, {give} the same motion of the tip; with the set above the bodies of \
+             both files are in the same places"
         );
     }
     let mut differing = mapping.joints.iter().filter(|of| !of.has_same_variable());
