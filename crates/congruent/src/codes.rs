@@ -8,6 +8,10 @@ congruent_input::codes! {
             "The physics of this robot cannot be built. The message names the link, joint or shape that stops it. Correct that value in the URDF; kinematics do not need it, and `check` compares poses without the physics.";
     }
     check {
+        ROBOT = "CGR-COMMAND-026", "check::robot",
+            "The robot cannot be checked. The message names the joint or value that stops it, such as a chain without a moving joint. Correct it, or choose another chain with --base and --tip.";
+        DECLARED_MAPPING = "CGR-COMMAND-079", "check::declared_mapping",
+            "[mapping] of the robot file does not fit the other description: it names a joint there that does not move or does not exist, pairs a joint that turns with one that slides, means one joint twice, or has a joint in left_out that neither file has.\n    [mapping]\n    left_out = [\"finger_joint\"]\n    [mapping.joints]\n    elbow = \"A3\"";
         DECLARED_DYNAMICS = "CGR-COMMAND-027", "check::declared_dynamics",
             "The masses and inertias that the robot file declares cannot be compared with those of the URDF. The message names the entry that stops it. Correct the [[inertial]] entry of that joint, or remove all of them to compare poses alone.";
         SIMULATED_DYNAMICS = "CGR-COMMAND-028", "check::simulated_dynamics",
@@ -18,6 +22,10 @@ congruent_input::codes! {
             "Joints have another name, direction or zero in the other description, or move in one of the two alone, and the robot file does not declare it. What is compared is compared in the variables of the first. The help has the lines to declare it.\n    [mapping.joints]\n    elbow = { joint = \"A3\", sign = -1, offset_deg = 90 }";
         NO_SECOND_SOURCE = "CGR-COMMAND-071", "check::no_second_source",
             "Geometry or dynamics is stated by one description alone, so the check says nothing about whether it is right: the physics is built from the same file. A [dh] table or [[inertial]] entries in robot.toml, or a second file, give something to compare it with.\n    congruent check arm.urdf --against other.urdf";
+    }
+    run {
+        CANNOT_RUN = "CGR-COMMAND-010", "run::cannot_run",
+            "The scenario cannot be run: its robot cannot be simulated, or a motion cannot be planned. The message names the value; correct it there. `congruent check ROBOT` shows what the robot lacks.";
     }
     dynamics {
         OVERFLOW = "CGR-COMMAND-040", "dynamics::overflow",

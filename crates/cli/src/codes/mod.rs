@@ -29,8 +29,6 @@ congruent::input::codes! {
             "The word after `explain` is no code of a finding and no cause of `check`. The help names the most similar one.";
     }
     run {
-        CANNOT_RUN = "CGR-COMMAND-010", "run::cannot_run",
-            "The scenario cannot be run: its robot cannot be simulated, or a motion cannot be planned. The message names the value; correct it there. `congruent check ROBOT` shows what the robot lacks.";
         OUTPUT = "CGR-COMMAND-011", "run::output",
             "A result cannot be written to its file. For example its folder is in use by another run, or may not be written. Give another folder or file.";
         SAME_OUTPUT = "CGR-COMMAND-012", "run::same_output",
@@ -55,10 +53,6 @@ congruent::input::codes! {
     check {
         PLOT = "CGR-COMMAND-025", "check::plot",
             "--plot shows errors at configurations, but no configurations are given. Give --configurations FILE.";
-        ROBOT = "CGR-COMMAND-026", "check::robot",
-            "The robot cannot be checked. The message names the joint or value that stops it, such as a chain without a moving joint. Correct it, or choose another chain with --base and --tip.";
-        DECLARED_MAPPING = "CGR-COMMAND-079", "check::declared_mapping",
-            "[mapping] of the robot file does not fit the other description: it names a joint there that does not move or does not exist, pairs a joint that turns with one that slides, means one joint twice, or has a joint in left_out that neither file has.\n    [mapping]\n    left_out = [\"finger_joint\"]\n    [mapping.joints]\n    elbow = \"A3\"";
         TABLE = "CGR-COMMAND-070", "check::table",
             "--table lists errors at configurations, but no configurations are given. Give --configurations FILE.";
     }

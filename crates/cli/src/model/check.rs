@@ -3,18 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    RobotCheck,
-    agreement::compare::{Agreement, CheckError, CheckOptions},
+    NamedBy, RobotCheck,
+    agreement::compare::{Agreement, CheckOptions},
     analysis::plot::errors,
-    check_suite, checked_robot,
+    cannot_be_checked, check_suite, checked_robot,
     configurations::read_configurations,
     description::{RobotDescription, RobotQList, Tolerance, load_robot_with, robots_of_changed},
-    input::{
-        Diagnostic, FileAccess, Finding, Findings, RevisionName, Severity, absence, codes::file::NOT_FOUND,
-    },
+    input::{Diagnostic, Finding, Findings},
     page::{CheckEntry, check_page},
     results::report::TestSuite,
     text::{CheckTextParts, TextOptions, check_text_parts, layout::visible_path},
+    unusable_inertials,
 };
 use serde::{Serialize, Serializer};
 
@@ -27,7 +26,7 @@ use crate::{
     batch::{Answer, Batch, BatchReport, TextParts},
     ci::CiArguments,
     codes,
-    failure::{BAD_INPUT, FAILED, Failure, NOTHING},
+    failure::Failure,
     input::{AccessArguments, ChainArguments, files_of, seed},
     invocation,
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
@@ -122,14 +121,7 @@ impl Serialize for Checked {
 
 impl BatchReport for Checked {
     fn exit_code(&self) -> u8 {
-        match self.decisive().geometry.verdict {
-            Agreement::Agree if self.decisive().fails_by_lint() => FAILED,
-            Agreement::Agree if self.decisive().fails_without_second() => NOTHING,
-            Agreement::Agree => 0,
-            Agreement::Disagree if self.decisive().is_unreadable() => BAD_INPUT,
-            Agreement::Disagree => FAILED,
-            Agreement::NothingCompared => NOTHING,
-        }
+        self.decisive().exit_code()
     }
 
     fn text(&self) -> String {
@@ -315,7 +307,7 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
             of.warnings.iter().filter(|warning| !is_listed(warning)).cloned().collect();
         batch.warn(if std::ptr::eq(of, &raw const description) { path } else { &of.path }, &others);
     }
-    let mut report = compared.map_err(|error| refused(path, &error))?;
+    let mut report = compared.map_err(|error| cannot_be_checked(path, &error))?;
     let unusable = unusable_inertials(&description);
     if report.geometry.verdict == Agreement::Agree && !unusable.is_empty() {
         return Err(Findings::from(unusable).into());
@@ -328,61 +320,12 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
     Ok(Checked { report, description, other, with_basics, with_table, options: text_options(), fixed: None })
 }
 
-/// Why a robot cannot be checked.
-fn refused(path: &Path, error: &CheckError) -> Diagnostic {
-    let file = visible_path(path);
-    match error {
-        CheckError::Mapping(why) => {
-            let help = "correct [mapping] of the robot file, or name in left_out the joints that move in one file alone; \
-                        without [mapping], `congruent check --against` finds the joints and prints the lines to declare";
-            Diagnostic::error(codes::check::DECLARED_MAPPING, format!("{file}: {why}")).with_help(help)
-        }
-        error => Diagnostic::error(codes::check::ROBOT, format!("{file}: {error}")),
-    }
-}
-
 /// Another description, with the mapping that the robot file declares for it.
 fn other_description(
     description: &mut RobotDescription,
     other: &Path,
     arguments: &Arguments,
 ) -> Result<RobotDescription, Failure> {
-    let mut access = arguments.access.access()?;
-    let named = description.references.iter().find(|reference| reference.path == other).cloned();
-    if let Some(reference) = named {
-        if arguments.against.is_empty() {
-            // Named by a file and not by the caller: it must be in the project, if all must.
-            access = access.inside_project_of(&description.path)?;
-            access.check(other)?;
-        }
-        description.mapping = reference.mapping;
-    }
-    refuse_bare_revision(other, &description.path, &access)?;
-    // Without a path it is the same robot in another revision.
-    let revision = RevisionName::of(other).map(|name| name.beside(&description.path).to_path());
-    Ok(load_robot_with(revision.as_deref().unwrap_or(other), &access)?)
-}
-
-/// Refuses the name of a revision that is written without `git:`, as `HEAD~1`, if there is no such file.
-fn refuse_bare_revision(other: &Path, robot: &Path, access: &FileAccess) -> Result<(), Diagnostic> {
-    if other.exists() || RevisionName::of(other).is_some() {
-        return Ok(());
-    }
-    let written = format!("git:{}", other.display());
-    let revision = RevisionName::of(Path::new(&written)).map(|name| name.beside(robot).to_path());
-    if revision.is_none_or(|revision| load_robot_with(&revision, access).is_err()) {
-        return Ok(());
-    }
-    Err(Diagnostic::error(NOT_FOUND, absence(other))
-        .with_help(format!("it is a revision of the repository: --against {written}")))
-}
-
-/// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the
-/// comparison of poses decides.
-fn unusable_inertials(description: &RobotDescription) -> Vec<Diagnostic> {
-    let of_inertials = description
-        .warnings
-        .iter()
-        .filter(|warning| warning.code == congruent::description::codes::robot_file::INERTIAL);
-    of_inertials.map(|warning| Diagnostic { severity: Severity::Error, ..warning.clone() }).collect()
+    let named_by = if arguments.against.is_empty() { NamedBy::RobotFile } else { NamedBy::Caller };
+    Ok(congruent::other_description(description, other, named_by, arguments.access.access()?)?)
 }

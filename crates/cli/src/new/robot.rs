@@ -170,7 +170,7 @@ fn checked(written: &Path, before: &RobotDescription, arguments: &Arguments) -> 
         }
     }
     congruent::check(&description, &CheckOptions::default())
-        .map_err(|error| Diagnostic::error(codes::check::ROBOT, error.to_string()).into())
+        .map_err(|error| Diagnostic::error(congruent::codes::check::ROBOT, error.to_string()).into())
 }
 
 fn report(

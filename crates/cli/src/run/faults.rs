@@ -67,7 +67,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 fn report(setup: &RunSetup, progress: &RunProgress) -> Result<RunReport, Failure> {
     let refused = |error: &dyn std::fmt::Display| {
         let message = format!("scenario \"{}\" cannot run: {error}", setup.scenario.name);
-        Diagnostic::error(codes::run::CANNOT_RUN, message)
+        Diagnostic::error(congruent::codes::run::CANNOT_RUN, message)
     };
     let mut run = Run::new(setup).map_err(|error| refused(&error))?;
     let sources = run.model().sources().to_vec();

@@ -96,7 +96,7 @@ pub(crate) fn run_one(
         }
         Err(ExecuteError::Folder(error)) => Err(no_folder(error)),
         Err(ExecuteError::Output(error)) => Err(no_folder(error.into())),
-        Err(error) => Err(Diagnostic::error(codes::run::CANNOT_RUN, error.to_string()).into()),
+        Err(error) => Err(Diagnostic::error(congruent::codes::run::CANNOT_RUN, error.to_string()).into()),
     }
 }
 
