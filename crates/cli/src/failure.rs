@@ -19,7 +19,7 @@ pub(crate) const NOTHING: u8 = 4;
 
 /// Of two exit codes the one that is returned: a broken run before bad input before a failed check before nothing checked,
 /// which must not hide that something else has failed.
-pub(crate) fn worse(a: u8, b: u8) -> u8 {
+pub fn worse(a: u8, b: u8) -> u8 {
     const FROM_BEST: [u8; 5] = [0, NOTHING, FAILED, BAD_INPUT, BROKEN];
     let rank = |code: u8| FROM_BEST.iter().position(|&known| known == code);
     if rank(b) > rank(a) { b } else { a }

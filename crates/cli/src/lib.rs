@@ -29,6 +29,9 @@ mod tolerance;
 mod unfinished_junit;
 mod usage_hints;
 
+pub use failure::worse;
+pub use tolerance::ToleranceArgument;
+
 use std::ffi::OsString;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};

@@ -11,14 +11,14 @@ use crate::quantity::{Dimension, QuantityArgument};
 
 /// A tolerance that replaces another, such as that of the robot file; a part that is not given is not replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct ToleranceArgument {
+pub struct ToleranceArgument {
     position_m: Option<f64>,
     orientation_rad: Option<f64>,
 }
 
 impl ToleranceArgument {
     /// The tolerance to check with.
-    pub(crate) fn replace(self, declared: Tolerance) -> Tolerance {
+    pub fn replace(self, declared: Tolerance) -> Tolerance {
         Tolerance {
             position_m: self.position_m.unwrap_or(declared.position_m),
             orientation_rad: self.orientation_rad.unwrap_or(declared.orientation_rad),
@@ -28,12 +28,12 @@ impl ToleranceArgument {
 
 impl ToleranceArgument {
     /// The length in m and the angle in rad.
-    pub(crate) fn parts(self) -> (Option<f64>, Option<f64>) {
+    pub fn parts(self) -> (Option<f64>, Option<f64>) {
         (self.position_m, self.orientation_rad)
     }
 
     /// What is declared together with a robot file that declares this.
-    pub(crate) fn requested_or(self, declared: RequestedTolerance) -> RequestedTolerance {
+    pub fn requested_or(self, declared: RequestedTolerance) -> RequestedTolerance {
         RequestedTolerance {
             position_m: self.position_m.or(declared.position_m),
             orientation_rad: self.orientation_rad.or(declared.orientation_rad),
@@ -41,12 +41,12 @@ impl ToleranceArgument {
     }
 
     /// As a report has it.
-    pub(crate) fn requested(self) -> RequestedTolerance {
+    pub fn requested(self) -> RequestedTolerance {
         RequestedTolerance { position_m: self.position_m, orientation_rad: self.orientation_rad }
     }
 
     /// What is wrong with it for a robot of this scale: errors, and warnings.
-    pub(crate) fn examine(self, scale: ToleranceScale) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+    pub fn examine(self, scale: ToleranceScale) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
         let parts = [(Unit::Length, self.position_m), (Unit::Angle, self.orientation_rad)];
         let examined =
             parts.into_iter().filter_map(|(unit, value)| scale.examine(unit, "--tolerance", value?));
