@@ -167,6 +167,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("cli", &["congruent"]),
+    // The wheel brings the command: one copy of the library for both.
+    ("python", &["congruent", "cli"]),
 ];
 
 /// Crates that stand in one place of the sources only.
@@ -178,6 +180,7 @@ const PLACES: &[(&str, &str)] = &[
     ("re_log_types::", "crates/recording/src"),
     ("re_protos::", "crates/recording/src"),
     ("re_sdk_types::", "crates/recording/src"),
+    ("pyo3", "crates/python/src"),
 ];
 
 /// Words that `kinematics` and `dynamics` do without: no I/O, no clock, no printing.
@@ -236,7 +239,8 @@ fn crates_below(name: &str) -> Vec<String> {
 #[test]
 fn the_lock_of_the_fuzz_targets_has_every_crate() {
     let lock = read(&root().join("fuzz/Cargo.lock"));
-    for name in crate_names().into_iter().filter(|name| name != "cli") {
+    let is_library = |name: &String| !["cli", "python"].contains(&name.as_str());
+    for name in crate_names().into_iter().filter(is_library) {
         let package = if name == "congruent" { name.clone() } else { format!("congruent-{name}") };
         let entry =
             lock.split("[[package]]").find(|entry| entry.contains(&format!("name = \"{package}\"\n")));

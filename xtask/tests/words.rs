@@ -43,7 +43,11 @@ const WORDS: &[Word] = &[
     never("gauge", "free choice"),
     never("blame", "explain, name"),
     never("blamed", "named"),
-    never("frozen", "held, constant"),
+    // The word of PyO3 for a class whose instances never change.
+    Word {
+        not_in: &["crates/python/src/robot/class.rs", "crates/python/src/report/class.rs"],
+        ..never("frozen", "held, constant")
+    },
     never("besides", "beside, as well, except"),
     never("but for", "except for, up to"),
     never("seen from", "expressed in, in a view from"),

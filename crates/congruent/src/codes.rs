@@ -27,6 +27,14 @@ congruent_input::codes! {
         CANNOT_RUN = "CGR-COMMAND-010", "run::cannot_run",
             "The scenario cannot be run: its robot cannot be simulated, or a motion cannot be planned. The message names the value; correct it there. `congruent check ROBOT` shows what the robot lacks.";
     }
+    python {
+        ARRAY = "CGR-PYTHON-001", "python::array",
+            "An array that Python code gives has a wrong shape, or a value that is not a finite number. Positions are (joints,) for one configuration and (n, joints) for many, in the order of `robot.joints`, or a dictionary by the names of joints.\n    robot.fk({\"elbow_joint\": 0.1})";
+        TARGET = "CGR-PYTHON-002", "python::target",
+            "A target of inverse kinematics is no pose, or the frame cannot be moved. A pose is a homogeneous matrix with an orthonormal rotation and a position in m; a position alone has three numbers.\n    robot.ik([0.4, 0.1, 0.3])";
+        XACRO = "CGR-PYTHON-003", "python::xacro",
+            "A xacro file cannot be expanded. The message is that of xacro, or says that it is not installed.\n    pip install xacro";
+    }
     dynamics {
         OVERFLOW = "CGR-COMMAND-040", "dynamics::overflow",
             "A mass, inertia, speed or torque is so large that the computed torques exceed the range of 64-bit numbers. The message names the largest value; often its exponent is wrong.";

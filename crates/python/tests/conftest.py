@@ -1,0 +1,32 @@
+"""The robots of the repository, for all tests."""
+
+from pathlib import Path
+
+import pytest
+
+import congruent
+
+ROOT = Path(__file__).resolve().parents[3]
+ROBOTS = ROOT / "robots"
+
+
+@pytest.fixture
+def root() -> Path:
+    """The root of the repository."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def ur5e() -> congruent.Robot:
+    return congruent.Robot(ROBOTS / "ur5e")
+
+
+@pytest.fixture(scope="session")
+def panda() -> congruent.Robot:
+    """Seven joints, and two fingers of which one follows the other."""
+    return congruent.Robot(ROBOTS / "panda")
+
+
+def load(name: str) -> congruent.Robot:
+    """A robot of the repository."""
+    return congruent.Robot(ROBOTS / name)
