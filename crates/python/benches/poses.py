@@ -38,7 +38,7 @@ def ours(urdf: Path, q: np.ndarray) -> tuple[int, Callable[[], object]]:
 
 
 def by_pinocchio(urdf: Path, q: np.ndarray) -> tuple[int, Callable[[], object]]:
-    import pinocchio as pin
+    import pinocchio as pin  # type: ignore[import-untyped]
 
     model = pin.buildModelFromUrdf(str(urdf))
     data, frame = model.createData(), model.getFrameId(congruent.Robot(urdf).tip)
@@ -52,7 +52,7 @@ def by_pinocchio(urdf: Path, q: np.ndarray) -> tuple[int, Callable[[], object]]:
 
 
 def by_mujoco(urdf: Path, q: np.ndarray) -> tuple[int, Callable[[], object]]:
-    import mujoco
+    import mujoco  # type: ignore[import-untyped]
 
     model = mujoco.MjModel.from_xml_path(str(urdf))
     data = mujoco.MjData(model)

@@ -14,7 +14,9 @@ PLACES = [Path(sys.executable).parent, Path(congruent.__file__).parents[1] / "bi
 
 
 def test_the_script_is_the_command(root: Path) -> None:
-    script = next(place / "congruent" for place in PLACES if (place / "congruent").exists())
+    scripts = [place / "congruent" for place in PLACES if (place / "congruent").exists()]
+    assert scripts, "there is no script: install the wheel, as crates/python/test does"
+    script = scripts[0]
     version = subprocess.run([script, "--version"], capture_output=True, text=True)
     assert version.returncode == 0 and version.stdout.startswith("congruent ")
     check = subprocess.run([script, "check", "robots/ur5e", "-q"], cwd=root, capture_output=True, text=True)

@@ -6,6 +6,8 @@ from conftest import load
 
 import congruent
 
+# Poses on two paths, m and 1. Kind: rounding; worst seen 1e-15; x10.
+ROUNDING = 1e-14
 # Digits of the documents, m. Kind: golden digits; they have twelve.
 GOLDEN_M = 1e-11
 
@@ -14,7 +16,7 @@ def test_two_links_in_a_plane() -> None:
     # A lecture on forward kinematics: lengths 0.6 m and 0.4 m, 30 deg and -45 deg.
     base_from_tip = load("planar_2r").fk(np.radians([30, -45]))
     expected = [0.6 * np.cos(np.pi / 6) + 0.4 * np.cos(-np.pi / 12), 0.6 * 0.5 + 0.4 * np.sin(-np.pi / 12), 0]
-    np.testing.assert_allclose(base_from_tip[:3, 3], expected, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(base_from_tip[:3, 3], expected, rtol=0, atol=ROUNDING)
     np.testing.assert_allclose(base_from_tip[:2, 3], [0.905985572786, 0.196472381959], rtol=0, atol=GOLDEN_M)
 
 
@@ -58,7 +60,7 @@ def test_joints_by_name(ur5e: congruent.Robot) -> None:
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.int64, np.uint8, ">f8"])
-def test_other_types_and_orders_are_read_as_numbers(ur5e: congruent.Robot, dtype: object) -> None:
+def test_other_types_and_orders_are_read_as_numbers(ur5e: congruent.Robot, dtype: type | str) -> None:
     q = np.arange(24).reshape(4, 6) % 3
     expected = ur5e.fk(q.astype(float))
     np.testing.assert_array_equal(ur5e.fk(q.astype(dtype)), expected)
@@ -81,8 +83,8 @@ def test_a_link_of_the_chain_and_one_beside_it(panda: congruent.Robot) -> None:
     # The fingers move along y of the hand, the second as the first, to the other side.
     hand = panda.fk(finger, "panda_hand")
     left, right = (np.linalg.inv(hand) @ panda.fk(finger, f"panda_{side}finger") for side in ("left", "right"))
-    np.testing.assert_allclose(left[:3, 3], [0, 0.03, 0.0584], atol=1e-12)
-    np.testing.assert_allclose(right[:3, 3], [0, -0.03, 0.0584], atol=1e-12)
+    np.testing.assert_allclose(left[:3, 3], [0, 0.03, 0.0584], rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(right[:3, 3], [0, -0.03, 0.0584], rtol=0, atol=ROUNDING)
     # They do not move the tip.
     np.testing.assert_array_equal(panda.fk(q), panda.fk(finger))
 
@@ -100,4 +102,4 @@ def test_another_chain(ur5e: congruent.Robot, root) -> None:  # type: ignore[no-
     forearm = congruent.Robot(root / "robots/ur5e", tip="forearm_link")
     assert forearm.tip == "forearm_link"
     q = np.random.default_rng(2).uniform(-1, 1, 6)
-    np.testing.assert_allclose(forearm.fk(q), ur5e.fk(q, "forearm_link"), atol=1e-15)
+    np.testing.assert_allclose(forearm.fk(q), ur5e.fk(q, "forearm_link"), rtol=0, atol=ROUNDING)

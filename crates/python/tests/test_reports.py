@@ -66,6 +66,21 @@ def test_a_missing_second_description_with_strict(root: Path, monkeypatch: pytes
     assert not congruent.check(urdf, strict=True).ok
 
 
+def test_every_reference_of_a_robot_file_is_compared(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    urdf = (root / "robots/ur5e/ur5e.urdf").read_text()
+    Path("arm.urdf").write_text(urdf)
+    Path("same.urdf").write_text(urdf)
+    Path("grams.urdf").write_text(urdf.replace('<mass value="2.846"/>', '<mass value="2846"/>'))
+    references = "".join(f'[[reference]]\nfile = "{name}.urdf"\n' for name in ("same", "grams"))
+    Path("robot.toml").write_text(f'name = "arm"\nurdf = "arm.urdf"\ntip = "tool0"\n{references}')
+    report = congruent.check(".")
+    printed = command("check", ".", cwd=tmp_path)
+    assert report.exit_code == printed.returncode == 1
+    assert [part["against"]["file"] for part in report.json()] == ["./same.urdf", "./grams.urdf"]
+    assert report.headline.count("\n") == 1 and "grams?" in report.headline
+
+
 def test_what_cannot_be_checked(root: Path) -> None:
     with pytest.raises(congruent.CongruentError, match="nothing.urdf"):
         congruent.check(root / "robots/ur5e", against="nothing.urdf")
@@ -104,6 +119,14 @@ def test_values_of_a_scenario_are_replaced(root: Path, monkeypatch: pytest.Monke
     document = report.json()
     assert document["simulation"]["step_s"] == 0.002 and document["scenario"] == "coarse" and document["seed"] == 3
     assert report.folder is None
+    # Texts stay texts, and numbers of numpy are numbers.
+    start_rad = {f"joint_{at}": np.float32(0.25) for at in range(1, 5)}
+    values = {"start.joints_rad": start_rad, "name": "17", "seed": np.int64(5), "limits.over_limit": "slow"}
+    report = congruent.run("scenarios/rrr_arm_wave.toml", set=values)
+    assert report.json()["scenario"] == "17" and report.json()["seed"] == 5
+    assert [report.series[f"joint_{at}.q_rad"][0] for at in range(1, 5)] == [0.25] * 4
+    with pytest.raises(TypeError, match="no value of type object"):
+        congruent.run("scenarios/rrr_arm_wave.toml", set={"seed": object()})
     with pytest.raises(congruent.CongruentError, match="stifness"):
         congruent.run("scenarios/rrr_arm_wave.toml", set={"controller.stifness": 500})
     with pytest.raises(congruent.CongruentError):

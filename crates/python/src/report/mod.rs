@@ -4,6 +4,7 @@ mod checks;
 mod class;
 mod runs;
 mod series;
+mod toml_value;
 
 pub(crate) use checks::check;
 pub(crate) use class::PythonReport;

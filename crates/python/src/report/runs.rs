@@ -14,14 +14,12 @@ use congruent::{
     text::{TextOptions, run_text},
     twin::RunSetup,
 };
-use pyo3::{
-    prelude::*,
-    types::{PyBool, PyDict, PyFloat, PyInt},
-};
+use pyo3::{prelude::*, types::PyDict};
 
 use super::{
     class::PythonReport,
     series::{Series, read_series},
+    toml_value::toml_value,
 };
 use crate::{
     error::{failed, refused},
@@ -78,7 +76,7 @@ pub(crate) fn run(
     keywords.finish()?;
     let mut overrides = Vec::new();
     for (key, value) in set.into_iter().flatten() {
-        let written = format!("{}={}", key.str()?, value_of_scenario(&value)?);
+        let written = format!("{}={}", key.str()?, toml_value(&value)?);
         overrides.push(written.parse::<Override>().map_err(|finding| refused(py, finding))?);
     }
     overrides.extend(seed.map(Override::seed));
@@ -91,26 +89,6 @@ pub(crate) fn run(
         Err(RunFailure::Input(findings)) => Err(refused(py, findings)),
         Err(RunFailure::Machine(message)) => Err(failed(py, &message)),
     }
-}
-
-/// A value of Python as one of TOML.
-fn value_of_scenario(value: &Bound<'_, PyAny>) -> PyResult<String> {
-    // A truth value is a whole number for Python, too.
-    if value.is_instance_of::<PyBool>() {
-        return Ok(value.str()?.to_string().to_lowercase());
-    }
-    if value.is_instance_of::<PyInt>() || value.is_instance_of::<PyFloat>() {
-        return Ok(value.str()?.to_string());
-    }
-    if let Ok(text) = value.extract::<String>() {
-        return Ok(text);
-    }
-    // Arrays and numbers of numpy, tuples: as lists of Python, which TOML writes alike.
-    let list = match value.call_method0("tolist") {
-        Ok(list) => list,
-        Err(_) => value.py().import("builtins")?.call_method1("list", (value,))?,
-    };
-    Ok(list.str()?.to_string())
 }
 
 fn execute_scenario(

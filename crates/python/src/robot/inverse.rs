@@ -25,6 +25,9 @@ const NOT_A_ROTATION: f64 = 1e-6;
 /// Results of a row behind its positions: whether it converged, both residuals, and the number of steps.
 const FURTHER: usize = 4;
 
+/// Most steps of one target. Kind: choice; a second, after which Ctrl-C is seen.
+const MOST_ITERATIONS: usize = 1_000_000;
+
 /// Target poses, one or many.
 pub(super) struct Targets {
     pub(super) targets: Vec<IkTarget>,
@@ -206,7 +209,7 @@ impl GivenOptions {
     /// The options of the library.
     ///
     /// # Errors
-    /// A tolerance that is not above 0, within which no pose or every pose would count as reached.
+    /// A tolerance that is not above 0, within which no pose or every pose would count as reached, or too many steps.
     pub(super) fn checked(self, py: Python<'_>) -> PyResult<IkOptions> {
         let usual = IkOptions::default();
         let positive = |name: &str, given: Option<f64>, usual: f64| match given.unwrap_or(usual) {
@@ -216,11 +219,16 @@ impl GivenOptions {
                 Err(refused_array(py, message, "give tolerance_m in m and tolerance_rad in rad"))
             }
         };
+        let max_iterations = self.max_iterations.unwrap_or(usual.max_iterations);
+        if max_iterations > MOST_ITERATIONS {
+            let message = format!("max_iterations = {max_iterations} is more than {MOST_ITERATIONS}");
+            return Err(refused_array(py, message, "give another start or another seed instead"));
+        }
         Ok(IkOptions {
             method: IkMethod::default(),
             tolerance_m: positive("tolerance_m", self.tolerance_m, usual.tolerance_m)?,
             tolerance_rad: positive("tolerance_rad", self.tolerance_rad, usual.tolerance_rad)?,
-            max_iterations: self.max_iterations.unwrap_or(usual.max_iterations),
+            max_iterations,
             seed: self.seed.unwrap_or(usual.seed),
         })
     }

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 import numpy as np
-import pinocchio as pin
+import pinocchio as pin  # type: ignore[import-untyped]
 
 HERE = Path(__file__).resolve().parent
 ROBOTS = HERE.parents[3] / "robots"
