@@ -1,8 +1,10 @@
 """The command that the package installs."""
 
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -32,3 +34,17 @@ def test_a_closed_pipe_is_no_traceback(root: Path) -> None:
     line = f'"{sys.executable}" -m congruent describe robots/ur5e --format json | "{head}" -c 1'
     ended = subprocess.run(line, shell=True, cwd=root, capture_output=True, text=True)
     assert "Traceback" not in ended.stderr
+
+
+def test_an_interrupted_run_ends_in_order(root: Path, tmp_path: Path) -> None:
+    words = [sys.executable, "-m", "congruent", "run", "scenarios/ur5e_pick.toml", "--out", str(tmp_path)]
+    running = subprocess.Popen(
+        [*words, "--set", "simulation.step_s=1e-5"], cwd=root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    # The recording is begun when the run is.
+    while not list(tmp_path.glob("*/*.partial")) and running.poll() is None:
+        time.sleep(0.02)
+    running.send_signal(signal.SIGINT)
+    printed, errors = running.communicate(timeout=60)
+    assert running.returncode == 3 and "Traceback" not in errors, errors
+    assert "interrupted" in printed and list(tmp_path.glob("*/report.json"))

@@ -1,5 +1,7 @@
 """Poses: numbers of teaching documents, which a reader can compute by hand, and what batches must have in common."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from conftest import load
@@ -75,6 +77,19 @@ def test_an_array_that_may_not_be_written_is_read(ur5e: congruent.Robot) -> None
     q.flags.writeable = False
     assert ur5e.fk(q).shape == (3, 4, 4)
     assert ur5e.fk(np.broadcast_to(np.zeros(6), (4, 6))).shape == (4, 4, 4)
+
+
+def test_an_array_is_read_where_it_is(ur5e: congruent.Robot) -> None:
+    q = np.random.default_rng(14).uniform(-3, 3, (200_000, 6))
+    ur5e.fk(q[:2])
+    tracemalloc.start()
+    try:
+        poses = ur5e.fk(q)
+        _, most_bytes = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    # numpy reports its memory: that of the result, and no copy of what was given.
+    assert poses.nbytes <= most_bytes < poses.nbytes + q.nbytes / 2
 
 
 def test_a_link_of_the_chain_and_one_beside_it(panda: congruent.Robot) -> None:
