@@ -245,6 +245,9 @@ fn a_robot_file_holds_its_references_together() {
     let answer = congruent(&["check", "-q", &robots.robot_file]);
     assert_eq!(answer.code, 0, "{}", answer.stdout);
     assert_eq!(answer.stdout.matches("SAME ROBOT").count(), 2);
+    for name in ["ur5e.urdf", "other.urdf"] {
+        assert!(answer.stdout.contains(&format!("{name}: SAME ROBOT")), "{}", answer.stdout);
+    }
     // One of them changes.
     let wrong = other.replacen("lower=", "lower=\"-0.5\" was=", 1);
     robots.scratch.write("other.urdf", &wrong);

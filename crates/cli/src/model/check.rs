@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    NamedBy, RobotCheck,
+    LintSummary, NamedBy, RobotCheck,
     agreement::compare::{Agreement, CheckOptions},
     analysis::plot::errors,
     cannot_be_checked, check_suite, checked_robot,
@@ -106,8 +106,9 @@ struct Checked {
     report: RobotCheck,
     description: RobotDescription,
     other: Option<RobotDescription>,
-    with_basics: bool,
-    with_table: bool,
+    /// Whether the robot is compared with others as well: a line by itself then says with which.
+    is_one_of_several: bool,
+    text_parts: CheckTextParts,
     options: TextOptions,
     /// The check of the file that --fix has written.
     fixed: Option<RobotCheck>,
@@ -129,14 +130,18 @@ impl BatchReport for Checked {
     }
 
     fn parts(&self) -> TextParts<'_> {
-        let parts = CheckTextParts { with_basics: self.with_basics, with_table: self.with_table };
-        Box::new(check_text_parts(&self.report, &self.description.robot, parts, &self.options))
+        Box::new(check_text_parts(&self.report, &self.description.robot, self.text_parts, &self.options))
     }
 
     fn one_line(&self) -> Option<String> {
         // With --fix the causes, too: the corrected file alone would hide that there were any.
         let all = std::iter::once(&self.report).chain(&self.fixed);
-        let lines = all.map(|report| format!("{}: {}", report.geometry.file, report.headline()));
+        let line = |report: &RobotCheck| {
+            let against = report.against.as_ref().filter(|_| self.is_one_of_several);
+            let other = against.map_or_else(String::new, |other| format!(" against {}", other.file));
+            format!("{}{other}: {}", report.geometry.file, report.headline())
+        };
+        let lines = all.map(line);
         Some(lines.collect::<Vec<_>>().join("\n"))
     }
 
@@ -283,7 +288,9 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
     }
     batch.warn(path, &of_options);
     let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };
-    let other = others(&description, arguments).into_iter().nth(at);
+    let others = others(&description, arguments);
+    let is_one_of_several = others.len() > 1;
+    let other = others.into_iter().nth(at);
     let other = other.map(|other| other_description(&mut description, &other, arguments)).transpose()?;
     let mut inputs = files_of(&description);
     inputs.extend(other.iter().flat_map(files_of));
@@ -295,17 +302,10 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
         None => congruent::check(&description, &options),
     };
     let compared = waiting(batch.printer(), &format!("checking {}", visible_path(path)), compare);
-    // What lint lists below the answer for people is printed there alone.
-    let is_text = batch.printer().format() == Format::Human;
     let lint = compared.as_ref().ok().map(|report| &report.lint);
-    let is_listed = |warning: &Diagnostic| {
-        let mut listed = lint.into_iter().flat_map(|lint| lint.worst.iter().chain(&lint.for_clearance));
-        is_text && listed.any(|finding| finding.message == warning.message)
-    };
-    for of in std::iter::once(&description).chain(&other) {
-        let others: Vec<Diagnostic> =
-            of.warnings.iter().filter(|warning| !is_listed(warning)).cloned().collect();
-        batch.warn(if std::ptr::eq(of, &raw const description) { path } else { &of.path }, &others);
+    let of_other = other.as_ref().map(|other| (&*other.path, other));
+    for (path, of) in std::iter::once((path, &description)).chain(of_other) {
+        warn_of(path, of, lint, batch);
     }
     let mut report = compared.map_err(|error| cannot_be_checked(path, &error))?;
     let unusable = unusable_inertials(&description);
@@ -316,8 +316,27 @@ fn compared(path: &Path, at: usize, arguments: &Arguments, batch: &Batch<'_>) ->
     report.lint.is_strict = arguments.strict;
     report.geometry.requested_tolerance = arguments.tolerance.map(ToleranceArgument::requested);
     report.geometry.replaced_tolerance = arguments.tolerance.and(declared);
-    let (with_basics, with_table) = (arguments.basics, arguments.table);
-    Ok(Checked { report, description, other, with_basics, with_table, options: text_options(), fixed: None })
+    Ok(Checked {
+        report,
+        description,
+        other,
+        is_one_of_several,
+        text_parts: CheckTextParts { with_basics: arguments.basics, with_table: arguments.table },
+        options: text_options(),
+        fixed: None,
+    })
+}
+
+/// Prints the warnings about a description, without those that lint lists below the answer for people.
+fn warn_of(path: &Path, description: &RobotDescription, lint: Option<&LintSummary>, batch: &Batch<'_>) {
+    let is_text = batch.printer().format() == Format::Human;
+    let is_listed = |warning: &&Diagnostic| {
+        let mut listed = lint.into_iter().flat_map(|lint| lint.worst.iter().chain(&lint.for_clearance));
+        is_text && listed.any(|finding| finding.message == warning.message)
+    };
+    let others: Vec<Diagnostic> =
+        description.warnings.iter().filter(|warning| !is_listed(warning)).cloned().collect();
+    batch.warn(path, &others);
 }
 
 /// Another description, with the mapping that the robot file declares for it.
