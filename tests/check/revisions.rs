@@ -216,3 +216,34 @@ fn a_changed_table_is_a_change() {
         (&"table a".into(), &(-0.3932).into(), &(-0.3922).into())
     );
 }
+
+/// Another coupling of a joint that follows moves the tip. The constant to write counts from the `ref` of both joints.
+#[test]
+fn another_coupling_of_an_mjcf_moves_the_tip() {
+    let body = |name: &str, pos: &str, joint: &str, inside: &str| {
+        format!(
+            "<body name=\"{name}\" pos=\"{pos}\"><inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"0.1 0.1 0.1\"/>{joint}{inside}</body>"
+        )
+    };
+    let tip = body("tip", "0.3 0 0", "", "");
+    let last = body("last", "0.4 0 0", "<joint name=\"j2\" axis=\"0 1 0\" range=\"-1 1\"/>", &tip);
+    let first =
+        body("first", "0 0 0.2", "<joint name=\"j1\" axis=\"0 1 0\" range=\"-1 1\" ref=\"0.2\"/>", &last);
+    let text = format!(
+        "<mujoco><compiler angle=\"radian\"/><worldbody>{first}</worldbody>\n<equality>\
+         <joint joint1=\"j2\" joint2=\"j1\" polycoef=\"0.1 -0.5 0 0 0\"/></equality></mujoco>\n"
+    );
+    let folder = ScratchFolder::new();
+    let file = PathBuf::from(folder.write("arm.xml", &text));
+    git(folder.path(), &["init", "-q", "-b", "main"]);
+    commit(folder.path());
+    edit(&file, "0.1 -0.5 0", "0.1 -0.6 0");
+    let answer = congruent(&["check", file.to_str().unwrap(), "--against", "git:HEAD", "--tip", "tip"]);
+    assert!(
+        answer.code == 1 && answer.stdout.contains("CHANGED since HEAD: moves tip by up to"),
+        "{}",
+        answer.stdout
+    );
+    assert!(!answer.stdout.contains("not the tip"), "{}", answer.stdout);
+    assert!(answer.stdout.contains("polycoef=\"0.1 -0.5 0 0 0\""), "{}", answer.stdout);
+}

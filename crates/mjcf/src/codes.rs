@@ -47,7 +47,7 @@ congruent_input::codes! {
         EQUALITY = "CGR-MJCF-022", "mjcf::equality",
             "An equality lacks one of its ends, has the same end twice, or couples joints that have no scalar position.";
         LOOP = "CGR-MJCF-023", "mjcf::loop",
-            "An equality closes a loop of bodies. The tree of bodies is read without it, so bodies of the loop may be at poses that the constraint forbids.";
+            "An equality closes a loop of bodies. The tree of bodies is read without it, so bodies of the loop may be at poses that the constraint forbids. Poses and torques are those of the tree; remove the equality if that is meant, and replace it by a linear <joint> of <equality> if one joint of the loop follows another.";
         KEYFRAME = "CGR-MJCF-024", "mjcf::keyframe",
             "A keyframe has another number of positions than the model. One position for each hinge and slide joint, four for a ball joint, seven for a free joint, in the order of the joints.";
         REPLICATE = "CGR-MJCF-025", "mjcf::replicate",

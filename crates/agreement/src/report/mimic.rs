@@ -143,9 +143,15 @@ impl FollowedJoint {
             Some(Relation { master, multiplier, offset }) if is_urdf => {
                 format!("write <mimic joint=\"{master}\" multiplier=\"{multiplier}\" offset=\"{offset}\"/>")
             }
-            Some(Relation { master, multiplier, offset }) => format!(
-                "write <joint joint1=\"{joint}\" joint2=\"{master}\" polycoef=\"{offset} {multiplier} 0 0 0\"/> in <equality>"
-            ),
+            Some(Relation { master, multiplier, offset }) => {
+                let mjcf = file.places.mjcf.as_ref();
+                let constant =
+                    mjcf.and_then(|of| of.coupling_constant([joint, master], *multiplier, *offset));
+                let constant = constant.unwrap_or(*offset);
+                format!(
+                    "write <joint joint1=\"{joint}\" joint2=\"{master}\" polycoef=\"{constant} {multiplier} 0 0 0\"/> in <equality>"
+                )
+            }
         }
     }
 

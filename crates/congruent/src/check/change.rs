@@ -250,6 +250,8 @@ impl<'a> CommonJoints<'a> {
                     None => q[coordinate] = 0.0,
                 }
             }
+            // A joint that follows another one follows as its own file says.
+            before.apply_mimic(&mut there);
             [q, there]
         };
         let configurations = sample_configurations(own, seed, RANDOM).into_iter().map(of_both).collect();

@@ -69,6 +69,21 @@ impl MjcfPlaces {
         &mut self.files
     }
 
+    /// The constant of a `polycoef` with which `follower = multiplier * leader + offset`, in rad or m: its positions count from the `ref`
+    /// of each joint. `None` if one of the two is no joint of the file.
+    pub fn coupling_constant(
+        &self,
+        [follower, leader]: [&str; 2],
+        multiplier: f64,
+        offset: f64,
+    ) -> Option<f64> {
+        /// Decimals that are no rounding of a sum of numbers that files write.
+        const DECIMALS: f64 = 1e12;
+        let [own, other] = [self.joint(follower)?.1, self.joint(leader)?.1].map(|of| of.reference.value);
+        let from_references = offset - own + multiplier * other;
+        Some((from_references * DECIMALS).round() / DECIMALS)
+    }
+
     /// The number and the values of the body of a link; `None` if the link is no body, or joined with others.
     fn body(&self, link: &str) -> Option<(usize, &MjBody)> {
         let index = *self.parts.bodies.get(self.names.link(link)?)?;
