@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     bound,
-    diagnosis::{DiagnosisInput, FaultySide, ReferenceTorques},
+    diagnosis::{DiagnosisInput, ReferenceTorques},
     differences::{ParameterDifference, hidden, invariants::invariants, limits},
     model::{DynamicsModel, Inertial, JointTerm},
     report::{
@@ -124,14 +124,7 @@ pub fn compare(
     let torque_with_all = ReducedTorqueDifference::new(candidate.model, &states, &torques)?;
     // Masses that the reference does not state may be any: what they can add to the torques is no difference.
     let torque = torque_with_all.without_bodies(&candidate.model.frames, &stated.unstated);
-    let setting = DiagnosisInput {
-        candidate: candidate.model,
-        reference: Some(reference.model),
-        faulty: FaultySide::Candidate,
-        precision: Precision::EXACT,
-        pairs: false,
-        unstated: &stated.unstated,
-    };
+    let setting = DiagnosisInput::of_files([candidate.model, reference.model], &stated.unstated);
     let files = ModelFiles { found: candidate.places, expected: reference.places };
     let mut diagnosis = diagnose_with_fallbacks(&setting, files, &reference_in_candidate, &torque, expected)?;
     // With both files at hand an explanation that changes a parameter which is equal in both is refuted.

@@ -46,6 +46,7 @@ pub fn compare_with_source(
         precision: Precision::ENGINE,
         pairs: true,
         unstated: &[],
+        known: None,
     };
     let expected = ReferenceTorques { states: &states, torques: &torques };
     let files = ModelFiles { found: candidate.places, expected: None };

@@ -84,10 +84,11 @@ pub(super) fn link_by_link(
     }
     for (one, link) in &corrected {
         let expected = torques(one, states)?;
-        let torque = setting.torque_difference(model, ReferenceTorques { states, torques: &expected })?;
         // The corrected copy is the reference of this link: every cause that changes anything else is
         // contradicted.
-        let setting = DiagnosisInput { reference: Some(one), pairs: false, ..*setting };
+        let setting =
+            DiagnosisInput { reference: Some(one), pairs: false, known: Some(whole_torque), ..*setting };
+        let torque = setting.torque_between([model, one], states)?;
         match alone(&setting, one, *link, &torque, states)? {
             Alone::Same => {}
             // One link without a cause makes the list incomplete; the explanation by torques of the whole is then
@@ -120,9 +121,7 @@ pub(super) fn joint_terms_alone(
     right: &DynamicsModel,
     states: &[SampledState],
 ) -> Result<Option<DynamicsExplanation>, DynamicsError> {
-    let torques = torques(right, states)?;
-    let torque =
-        setting.torque_difference(setting.candidate, ReferenceTorques { states, torques: &torques })?;
+    let torque = setting.torque_between([setting.candidate, right], states)?;
     let setting = DiagnosisInput { reference: Some(right), pairs: false, ..*setting };
     Ok(match alone(&setting, right, None, &torque, states)? {
         Alone::Explained(cause) => {
@@ -250,7 +249,7 @@ fn is_same(
     setting: &DiagnosisInput<'_>,
     states: &[SampledState],
 ) -> Result<bool, DynamicsError> {
-    let torque = setting.torque_difference(a, ReferenceTorques { states, torques: &torques(b, states)? })?;
+    let torque = setting.torque_between([a, b], states)?;
     let size = libm::hypot(torque.difference.norm(), torque.outside);
     Ok(size <= setting.precision.same * torque.torques)
 }

@@ -12,7 +12,10 @@ use super::{
 use crate::{
     model::DynamicsModel,
     thresholds::{PAIRS_ABOVE, Precision},
-    torque::{reduced_difference::ReducedTorqueDifference, states::SampledState},
+    torque::{
+        reduced_difference::{ReducedTorqueDifference, torques},
+        states::SampledState,
+    },
 };
 
 /// The input of a diagnosis: both models, which one is assumed to be wrong, and the precision.
@@ -27,9 +30,17 @@ pub(crate) struct DiagnosisInput<'a> {
     pub(crate) pairs: bool,
     /// Bodies whose masses the reference does not state: whatever they can add to the torques is no difference.
     pub(crate) unstated: &'a [usize],
+    /// A difference of the candidate from another model, of which that of two others follows by their parameters.
+    pub(crate) known: Option<&'a ReducedTorqueDifference>,
 }
 
-impl DiagnosisInput<'_> {
+impl<'a> DiagnosisInput<'a> {
+    /// Of two descriptions, of which the second is the reference.
+    pub(crate) fn of_files([candidate, reference]: [&'a DynamicsModel; 2], unstated: &'a [usize]) -> Self {
+        let (faulty, precision) = (FaultySide::Candidate, Precision::EXACT);
+        Self { candidate, reference: Some(reference), faulty, precision, pairs: false, unstated, known: None }
+    }
+
     /// The torque difference of a model in the candidate's frames, without what the reference does not state.
     pub(crate) fn torque_difference(
         &self,
@@ -38,6 +49,21 @@ impl DiagnosisInput<'_> {
     ) -> Result<ReducedTorqueDifference, DynamicsError> {
         let torque = ReducedTorqueDifference::new(model, expected.states, expected.torques)?;
         Ok(torque.without_bodies(&model.frames, self.unstated))
+    }
+
+    /// The same of two models in the candidate's frames.
+    pub(crate) fn torque_between(
+        &self,
+        [model, right]: [&DynamicsModel; 2],
+        states: &[SampledState],
+    ) -> Result<ReducedTorqueDifference, DynamicsError> {
+        match self.known {
+            Some(known) if model.gravity_m_s2 == right.gravity_m_s2 => Ok(known.between(model, right)),
+            _ => {
+                let torques = torques(right, states)?;
+                self.torque_difference(model, ReferenceTorques { states, torques: &torques })
+            }
+        }
     }
 }
 

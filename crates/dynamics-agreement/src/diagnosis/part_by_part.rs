@@ -6,7 +6,7 @@ use congruent_dynamics::DynamicsError;
 use super::{
     cause,
     cause_names::DynamicsCause,
-    diagnose::{DiagnosisInput, ReferenceTorques},
+    diagnose::DiagnosisInput,
     fit::{Corrected, FittedHypothesis, Target},
     free::FreeParameters,
     hypothesis::{Change, DynamicsHypothesis, DynamicsPlace},
@@ -15,10 +15,7 @@ use super::{
 use crate::{
     model::{DynamicsModel, Inertial},
     thresholds::COMPUTED_OTHERWISE,
-    torque::{
-        reduced_difference::{ReducedTorqueDifference, torques},
-        states::SampledState,
-    },
+    torque::{reduced_difference::ReducedTorqueDifference, states::SampledState},
 };
 
 /// The cause of each part if no specific cause has a residual within tolerance.
@@ -54,8 +51,7 @@ pub(crate) fn part_by_part(
     for (next, (cause, free)) in [with_mass, with_com, right].into_iter().zip(FREE) {
         let mut after = before.clone();
         after.inertials[link] = Some(next);
-        let torques = torques(&after, states)?;
-        let torque = setting.torque_difference(&before, ReferenceTorques { states, torques: &torques })?;
+        let torque = setting.torque_between([&before, &after], states)?;
         let hypotheses = cause::link_hypotheses(&before, Some(&after), setting.faulty, &mistakes, link);
         let place = DynamicsPlace::Links(vec![link]);
         let off = FittedHypothesis {

@@ -188,6 +188,7 @@ fn diagnosed(
         precision: Precision::EXACT,
         pairs: true,
         unstated: &[],
+        known: None,
     };
     let expected = ReferenceTorques { states, torques: expected };
     diagnose_in_stages(&setting, &torque, expected).expect("the robot's own states")

@@ -7,16 +7,13 @@ use congruent_dynamics::{DynamicsError, JointResistance};
 use super::{
     cause,
     cause_names::DynamicsCause,
-    diagnose::{DiagnosisInput, ReferenceTorques},
+    diagnose::DiagnosisInput,
     fit::{Corrected, FittedHypothesis},
     hypothesis::{Change, DynamicsHypothesis, DynamicsPlace},
     part_by_part::best_cause,
     rank::ExactExplanation,
 };
-use crate::{
-    model::JointTerm,
-    torque::{reduced_difference::torques, states::SampledState},
-};
+use crate::{model::JointTerm, torque::states::SampledState};
 
 /// The cause of each term if no specific cause has a residual within tolerance.
 const FREE: [(DynamicsCause, JointTerm); 3] = [
@@ -42,8 +39,7 @@ pub(crate) fn term_by_term(
         if after.resistances == before.resistances {
             continue;
         }
-        let torques = torques(&after, states)?;
-        let torque = setting.torque_difference(&before, ReferenceTorques { states, torques: &torques })?;
+        let torque = setting.torque_between([&before, &after], states)?;
         let hypotheses = cause::joint_and_gravity_hypotheses(&before, setting.faulty);
         let off = values_off(cause, term, [&before.resistances, &after.resistances]);
         parts.extend(best_cause(setting, [&before, &after], &torque, &hypotheses, off));

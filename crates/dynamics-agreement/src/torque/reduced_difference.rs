@@ -177,6 +177,22 @@ impl ReducedTorqueDifference {
         DMatrix::from_columns(&columns)
     }
 
+    /// The difference of two models in this geometry and gravity, by their parameters, of which torques are linear functions: without
+    /// another reduction, which takes seconds for a long arm. Rows keep their weights.
+    pub(crate) fn between(&self, model: &DynamicsModel, right: &DynamicsModel) -> Self {
+        let change = right.stacked_numbers() - model.stacked_numbers();
+        let mut difference = DVector::zeros(self.difference.len());
+        for (body, columns) in self.bodies.iter().enumerate() {
+            difference += columns * change.rows(PARAMETERS * body, PARAMETERS);
+        }
+        for (term, columns) in JointTerm::ALL.iter().zip(&self.terms) {
+            let resistances = right.resistances.iter().zip(&model.resistances);
+            let changes = resistances.map(|(right, own)| term.value_in(right) - term.value_in(own));
+            difference += columns * DVector::from_iterator(columns.ncols(), changes);
+        }
+        Self { outside: 0.0, ..self.with_difference(difference) }
+    }
+
     /// The same columns with another difference.
     pub(crate) fn with_difference(&self, difference: DVector<f64>) -> Self {
         Self { difference, ..self.clone() }
