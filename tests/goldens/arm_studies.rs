@@ -182,6 +182,17 @@ fn missing_m2() -> f64 {
     (0..STEPS).map(|at| edge(from + (f64::from(at) + 0.5) * step) * step).sum()
 }
 
+/// A slide without a range has no extreme: the answer says which range was taken.
+#[test]
+fn a_slide_without_a_range_is_said_to_have_been_limited() {
+    let folder = tempfile::tempdir().unwrap();
+    let mjcf = "<mujoco><worldbody><body><joint name='rail' type='slide' axis='1 0 0'/><geom size='0.1'/><body pos='0 0 0.2'>\
+                <joint name='turn' axis='0 1 0'/><geom size='0.1'/></body></body></worldbody></mujoco>";
+    let answer = congruent(&["workspace", &targets(&folder, mjcf), "--samples", "1000"]);
+    let said = "joint \"rail\" slides without a range: -1000 mm to 1000 mm are taken\n";
+    assert!(answer.stdout.contains(said) && !answer.stdout.contains("\"turn\""), "{}", answer.stdout);
+}
+
 /// The extremes are those of the arm, not of the sample: side peaks of the Panda are 0.2 to 1.3 mm lower.
 #[test]
 fn the_extremes_of_the_workspace_do_not_depend_on_the_seed() {

@@ -6,6 +6,7 @@ use crate::{
     analysis::workspace::WorkspaceReport,
     description::Robot,
     input::display::{in_column, position, quantity},
+    kinematics::range,
     text::{
         TextOptions,
         layout::{Table, wrapped},
@@ -35,7 +36,19 @@ pub fn workspace_text(report: &WorkspaceReport, robot: &Robot, options: &TextOpt
     }
     table.write(&mut text, options.columns);
     size(&mut text, report);
+    assumed_ranges(&mut text, report, robot);
     text
+}
+
+/// The ranges that were taken for joints that slide without one: the workspace is as large as these.
+fn assumed_ranges(text: &mut String, report: &WorkspaceReport, robot: &Robot) {
+    let joints = report.chain.joints.iter().filter_map(|name| Some(robot.joint(robot.find_joint(name)?)));
+    for joint in joints.filter(|joint| joint.largest_shift_m().is_infinite()) {
+        let (lower, upper) = range(joint);
+        let [lower, upper] = [lower, upper].map(|end| position(end, "m"));
+        let _ =
+            writeln!(text, "  joint \"{}\" slides without a range: {lower} to {upper} are taken", joint.name);
+    }
 }
 
 fn size(text: &mut String, report: &WorkspaceReport) {
