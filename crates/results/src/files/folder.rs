@@ -10,7 +10,7 @@ use congruent_input::InputFile;
 use super::{
     lock::{FolderLock, LockError},
     names::{result_files, result_names},
-    whole_file::{OutputError, is_same_file, write_whole},
+    whole_file::{OutputError, is_same_file, is_temporary_of, write_whole},
 };
 
 /// The folder that holds one scenario's results. As long as it is not dropped, no other run writes there.
@@ -69,7 +69,20 @@ impl OutputFolder {
             }
         }
         result_names().try_for_each(|name| folder.remove(name))?;
+        folder.remove_temporaries().map_err(|source| folder.refused("", source))?;
         Ok(folder)
+    }
+
+    /// Removes what a process that was killed in between had not yet renamed to a result.
+    fn remove_temporaries(&self) -> io::Result<()> {
+        for entry in fs::read_dir(&self.path)? {
+            let name = entry?.file_name();
+            let is_temporary = |name: &str| result_names().any(|of| is_temporary_of(of, name));
+            if let Some(name) = name.to_str().filter(|name| is_temporary(name)) {
+                fs::remove_file(self.file(name))?;
+            }
+        }
+        Ok(())
     }
 
     /// Path of the folder of the results.

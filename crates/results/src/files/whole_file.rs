@@ -61,6 +61,14 @@ fn write_beside(path: &Path, contents: &[u8]) -> io::Result<()> {
     written
 }
 
+/// Whether a file in the folder of a result is what a process writes before it renames it to the result.
+pub(super) fn is_temporary_of(result: &str, name: &str) -> bool {
+    let number = name
+        .strip_prefix('.')
+        .and_then(|name| name.strip_prefix(result)?.strip_prefix('.')?.strip_suffix(".tmp"));
+    number.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()))
+}
+
 /// The temporary files of this process.
 fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     static FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
@@ -109,6 +117,20 @@ mod tests {
         let left: Vec<_> =
             fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(left, ["report.json"]);
+    }
+
+    #[test]
+    fn temporary_files_are_those_of_a_result_and_a_process() {
+        assert!(is_temporary_of("report.json", ".report.json.30245.tmp"));
+        for name in [
+            "report.json",
+            ".report.json.tmp",
+            ".report.json.a.tmp",
+            ".other.json.1.tmp",
+            ".report.json.1.tmp2",
+        ] {
+            assert!(!is_temporary_of("report.json", name), "{name}");
+        }
     }
 
     #[cfg(unix)]
