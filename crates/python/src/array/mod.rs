@@ -8,4 +8,4 @@ mod result;
 pub(crate) use argument::{ArrayArgument, refused_array};
 pub(crate) use joint_rows::{JointRows, same_rows};
 pub(crate) use parallel::{RowBlocks, fill_rows};
-pub(crate) use result::{BatchShape, array_of_rows};
+pub(crate) use result::{BatchShape, array_of_rows, filled_array};

@@ -1,7 +1,12 @@
 //! Results as arrays of numpy: without a dimension for the rows if one configuration was given.
 
+use std::ops::Range;
+
+use congruent::input::Diagnostic;
 use numpy::{Element, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
+
+use super::parallel::{RowBlocks, fill_rows};
 
 /// How many configurations were given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,6 +40,25 @@ impl BatchShape {
             Self::Rows(rows) => format!("has {rows} rows"),
         }
     }
+}
+
+/// A new array with an entry of this shape for each configuration, filled by [`fill_rows`] in blocks of so many rows.
+pub(crate) fn filled_array<'py, Worker>(
+    py: Python<'py>,
+    batch: BatchShape,
+    of_entry: &[usize],
+    rows: usize,
+    worker: impl Fn() -> Worker + Sync,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>>
+where
+    Worker: FnMut(Range<usize>, &mut [f64]) -> Result<(), Diagnostic>,
+{
+    let array = PyArrayDyn::<f64>::zeros(py, batch.shape(of_entry), false);
+    let mut writable = array.readwrite();
+    let blocks = RowBlocks { out: writable.as_slice_mut()?, width: of_entry.iter().product(), rows };
+    fill_rows(py, blocks, worker)?;
+    drop(writable);
+    Ok(array)
 }
 
 /// An array of values that were computed elsewhere, an entry of this shape for each configuration.

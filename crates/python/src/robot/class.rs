@@ -32,7 +32,7 @@ use super::{
     velocities::jacobians,
 };
 use crate::{
-    array::{JointRows, same_rows},
+    array::{BatchShape, JointRows, same_rows},
     error::{python_findings, refused},
     options::KeywordOptions,
 };
@@ -228,8 +228,7 @@ impl PythonRobot {
     ) -> PyResult<Array<'py>> {
         let py = q.py();
         let tree = self.bodies(py, friction)?;
-        let [q, qd, qdd] = [self.rows(q, "q")?, self.rows(qd, "qd")?, self.rows(qdd, "qdd")?];
-        let batch = same_rows(py, &[&q, &qd, &qdd])?;
+        let ([q, qd, qdd], batch) = self.rows_of_motion([(q, "q"), (qd, "qd"), (qdd, "qdd")])?;
         let motions = MotionRows::new(&self.columns, Third::Accelerations, [&q, &qd, &qdd]);
         inverse(py, tree, &self.columns, motions, batch)
     }
@@ -252,8 +251,7 @@ impl PythonRobot {
     ) -> PyResult<Array<'py>> {
         let py = q.py();
         let tree = self.bodies(py, friction)?;
-        let [q, qd, tau] = [self.rows(q, "q")?, self.rows(qd, "qd")?, self.rows(tau, "tau")?];
-        let batch = same_rows(py, &[&q, &qd, &tau])?;
+        let ([q, qd, tau], batch) = self.rows_of_motion([(q, "q"), (qd, "qd"), (tau, "tau")])?;
         let motions = MotionRows::new(&self.columns, Third::Torques, [&q, &qd, &tau]);
         forward(py, tree, &self.columns, motions, batch)
     }
@@ -269,8 +267,7 @@ impl PythonRobot {
     ) -> PyResult<Array<'py>> {
         let py = q.py();
         let tree = self.bodies(py, WithFriction(false))?;
-        let [q, qd, qdd] = [self.rows(q, "q")?, self.rows(qd, "qd")?, self.rows(qdd, "qdd")?];
-        let batch = same_rows(py, &[&q, &qd, &qdd])?;
+        let ([q, qd, qdd], batch) = self.rows_of_motion([(q, "q"), (qd, "qd"), (qdd, "qdd")])?;
         let motions = MotionRows::new(&self.columns, Third::Accelerations, [&q, &qd, &qdd]);
         regressors(py, tree, &self.columns, motions, batch)
     }
@@ -340,6 +337,17 @@ impl PythonRobot {
 
     fn rows<'py>(&self, argument: &Bound<'py, PyAny>, name: &'static str) -> PyResult<JointRows<'py>> {
         JointRows::new(argument, name, self.columns.names())
+    }
+
+    /// Three vectors of each row of a motion, and how many rows all of them have.
+    fn rows_of_motion<'py>(
+        &self,
+        arguments: [(&Bound<'py, PyAny>, &'static str); 3],
+    ) -> PyResult<([JointRows<'py>; 3], BatchShape)> {
+        let [q, qd, third] = arguments.map(|(argument, name)| self.rows(argument, name));
+        let rows = [q?, qd?, third?];
+        let batch = same_rows(arguments[0].0.py(), &rows.each_ref())?;
+        Ok((rows, batch))
     }
 
     fn frame(&self, py: Python<'_>, link: Option<&str>) -> PyResult<MovedFrame> {

@@ -6,14 +6,14 @@ use congruent::{
     dynamics::{BodyTree, DrivenState, JointMotions},
     nalgebra::DMatrix,
 };
-use numpy::{PyArrayDyn, PyArrayMethods};
+use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::{
     columns::JointColumns,
     motions::{MotionRows, RowMemory},
 };
-use crate::array::{BatchShape, JointRows, RowBlocks, fill_rows};
+use crate::array::{BatchShape, JointRows, filled_array};
 
 /// Rows of a block. Kind: choice; less than a millisecond.
 const ROWS: usize = 256;
@@ -27,10 +27,7 @@ pub(super) fn inverse<'py>(
     batch: BatchShape,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let (n, moving) = (columns.count(), columns.moving());
-    let array = PyArrayDyn::<f64>::zeros(py, batch.shape(&[n]), false);
-    let mut writable = array.readwrite();
-    let blocks = RowBlocks { out: writable.as_slice_mut()?, width: n, rows: ROWS };
-    fill_rows(py, blocks, || {
+    filled_array(py, batch, &[n], ROWS, || {
         let (mut memory, mut buffer, mut tau) = (RowMemory::default(), tree.batch_buffer(), Vec::new());
         move |rows, out| {
             let count = rows.len();
@@ -43,9 +40,7 @@ pub(super) fn inverse<'py>(
             }
             Ok(())
         }
-    })?;
-    drop(writable);
-    Ok(array)
+    })
 }
 
 /// The mass matrix of each row: `G' M G` of the driven joints.
@@ -56,10 +51,7 @@ pub(super) fn mass_matrices<'py>(
     q: &JointRows<'py>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let (values, n, moving) = (q.values(), columns.count(), columns.moving());
-    let array = PyArrayDyn::<f64>::zeros(py, q.batch().shape(&[n, n]), false);
-    let mut writable = array.readwrite();
-    let blocks = RowBlocks { out: writable.as_slice_mut()?, width: n * n, rows: ROWS };
-    fill_rows(py, blocks, || {
+    filled_array(py, q.batch(), &[n, n], ROWS, || {
         let (mut memory, mut buffer) = (Vec::new(), tree.buffer());
         let (mut positions, mut matrix) = (RobotQ::zeros(moving), DMatrix::zeros(moving, moving));
         move |rows, out| {
@@ -72,9 +64,7 @@ pub(super) fn mass_matrices<'py>(
             }
             Ok(())
         }
-    })?;
-    drop(writable);
-    Ok(array)
+    })
 }
 
 /// Adds `G' M G` to a matrix of the driven joints, with the ratios of the followers in `G`.
@@ -95,10 +85,7 @@ pub(super) fn forward<'py>(
     batch: BatchShape,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let (n, moving) = (columns.count(), columns.moving());
-    let array = PyArrayDyn::<f64>::zeros(py, batch.shape(&[n]), false);
-    let mut writable = array.readwrite();
-    let blocks = RowBlocks { out: writable.as_slice_mut()?, width: n, rows: ROWS };
-    fill_rows(py, blocks, || {
+    filled_array(py, batch, &[n], ROWS, || {
         let (mut memory, mut buffer) = (RowMemory::default(), tree.buffer());
         let (mut positions, mut qdd) = (RobotQ::zeros(moving), vec![0.0; moving]);
         move |rows, out| {
@@ -113,7 +100,5 @@ pub(super) fn forward<'py>(
             }
             Ok(())
         }
-    })?;
-    drop(writable);
-    Ok(array)
+    })
 }

@@ -6,7 +6,7 @@ use congruent::{
     dynamics::{BodyTree, JointMotionState, PARAMETER_NAMES, PARAMETERS},
     nalgebra::DMatrix,
 };
-use numpy::{PyArrayDyn, PyArrayMethods};
+use numpy::PyArrayDyn;
 use pyo3::{
     prelude::*,
     types::{PyDict, PyList},
@@ -16,7 +16,7 @@ use super::{
     columns::JointColumns,
     motions::{MotionRows, RowMemory},
 };
-use crate::array::{BatchShape, RowBlocks, fill_rows};
+use crate::array::{BatchShape, filled_array};
 
 /// Rows of a block. Kind: choice; a millisecond.
 const ROWS: usize = 64;
@@ -40,10 +40,7 @@ pub(super) fn regressors<'py>(
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let (n, moving) = (columns.count(), columns.moving());
     let parameters = PARAMETERS * moving;
-    let array = PyArrayDyn::<f64>::zeros(py, batch.shape(&[n, parameters]), false);
-    let mut writable = array.readwrite();
-    let blocks = RowBlocks { out: writable.as_slice_mut()?, width: n * parameters, rows: ROWS };
-    fill_rows(py, blocks, || {
+    filled_array(py, batch, &[n, parameters], ROWS, || {
         let (mut memory, mut buffer) = (RowMemory::default(), tree.buffer());
         let (mut positions, mut matrix) = (RobotQ::zeros(moving), DMatrix::zeros(moving, parameters));
         move |rows, out| {
@@ -57,9 +54,7 @@ pub(super) fn regressors<'py>(
             }
             Ok(())
         }
-    })?;
-    drop(writable);
-    Ok(array)
+    })
 }
 
 /// Adds the rows of all moving joints to those of the driven ones: the torque of a follower acts on its master, times the ratio.

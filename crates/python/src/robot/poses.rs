@@ -4,11 +4,11 @@ use congruent::{
     input::Diagnostic,
     kinematics::{KinematicsError, Pose},
 };
-use numpy::{PyArrayDyn, PyArrayMethods};
+use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::{columns::JointColumns, frame::MovedFrame};
-use crate::array::{JointRows, RowBlocks, fill_rows};
+use crate::array::{JointRows, filled_array};
 
 /// Rows of a block: their poses fit into the second cache of a core. Kind: choice.
 const ROWS: usize = 1024;
@@ -24,10 +24,7 @@ pub(super) fn poses<'py>(
     q: &JointRows<'py>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let (batch, values, n) = (q.batch(), q.values(), columns.count());
-    let array = PyArrayDyn::<f64>::zeros(py, batch.shape(&[4, 4]), false);
-    let mut writable = array.readwrite();
-    let blocks = RowBlocks { out: writable.as_slice_mut()?, width: ENTRIES, rows: ROWS };
-    fill_rows(py, blocks, || {
+    filled_array(py, batch, &[4, 4], ROWS, || {
         let (mut memory, mut base_from_tips) = (Vec::new(), vec![Pose::identity(); ROWS.min(batch.rows())]);
         move |rows, out| {
             let base_from_tips = &mut base_from_tips[..rows.len()];
@@ -42,9 +39,7 @@ pub(super) fn poses<'py>(
             }
             Ok(())
         }
-    })?;
-    drop(writable);
-    Ok(array)
+    })
 }
 
 /// A pose as a matrix, row after row, as numpy has it.

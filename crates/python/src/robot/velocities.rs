@@ -5,7 +5,7 @@ use congruent::{
     description::ChainQ,
     kinematics::{Pose, Twist},
 };
-use numpy::{PyArrayDyn, PyArrayMethods};
+use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::{
@@ -13,7 +13,7 @@ use super::{
     frame::MovedFrame,
     poses::wrong_count,
 };
-use crate::array::{JointRows, RowBlocks, fill_rows};
+use crate::array::{JointRows, filled_array};
 
 /// Rows of a block. Kind: choice; a fraction of a millisecond.
 const ROWS: usize = 256;
@@ -30,10 +30,7 @@ pub(super) fn jacobians<'py>(
     q: &JointRows<'py>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let (batch, values, n) = (q.batch(), q.values(), columns.count());
-    let array = PyArrayDyn::<f64>::zeros(py, batch.shape(&[ENTRIES, n]), false);
-    let mut writable = array.readwrite();
-    let blocks = RowBlocks { out: writable.as_slice_mut()?, width: ENTRIES * n, rows: ROWS };
-    fill_rows(py, blocks, || {
+    filled_array(py, batch, &[ENTRIES, n], ROWS, || {
         let (mut memory, mut positions) = (Vec::new(), ChainQ::zeros(frame.chain.joint_count()));
         let mut twists = vec![Twist::zero(); frame.chain.joint_count()];
         move |rows, out| {
@@ -51,9 +48,7 @@ pub(super) fn jacobians<'py>(
             }
             Ok(())
         }
-    })?;
-    drop(writable);
-    Ok(array)
+    })
 }
 
 /// Adds the columns of the joints of the chain to those of the driven joints. Joints that follow one driven joint add up in its
