@@ -1,6 +1,6 @@
 //! The camera of the three-dimensional view, so that this robot fills the picture.
 
-use congruent_description::{Geometry, Obstacle};
+use congruent_description::{Extent, Geometry, Obstacle};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Margin around the shapes of the links.
@@ -111,15 +111,8 @@ impl BoundingBox {
 
 /// Half edges of a box that is centred at the shape's origin and contains the shape.
 fn half_size(geometry: &Geometry) -> Vector3<f64> {
-    match geometry {
-        Geometry::Box { size_m } => size_m / 2.0,
-        Geometry::Cylinder { radius_m, length_m } => Vector3::new(*radius_m, *radius_m, length_m / 2.0),
-        Geometry::Sphere { radius_m } => Vector3::repeat(*radius_m),
-        Geometry::Ellipsoid { semi_axes_m } => *semi_axes_m,
-        Geometry::Mesh(mesh) => {
-            mesh.vertices_m.iter().fold(Vector3::zeros(), |half, vertex| half.sup(&vertex.coords.abs()))
-        }
-    }
+    let corners = Extent::of_geometry(geometry).map(|extent| extent.corners());
+    corners.iter().flatten().fold(Vector3::zeros(), |half, corner| half.sup(&corner.abs()))
 }
 
 /// The viewer's camera, in the root link's frame.
