@@ -17,9 +17,33 @@ const ROUNDING_S: f64 = 1e-9;
 /// the joint goes the other way.
 pub(super) struct TravelShare {
     pub(super) watch: Watch,
-    commanded: Vec<TravelRange>,
-    made: Vec<TravelRange>,
-    together: Vec<Covariance>,
+    joints: Vec<JointTravel>,
+}
+
+/// The positions of one joint so far.
+#[derive(Clone, Copy)]
+struct JointTravel {
+    commanded: TravelRange,
+    made: TravelRange,
+    together: Covariance,
+}
+
+impl JointTravel {
+    const NONE: Self =
+        Self { commanded: TravelRange::EMPTY, made: TravelRange::EMPTY, together: Covariance::NONE };
+
+    fn take(&mut self, commanded: f64, made: f64) {
+        self.commanded.take(commanded);
+        self.made.take(made);
+        self.together.take([commanded, made]);
+    }
+
+    /// The part of the commanded travel that is made; `None` if the joint is not judged.
+    fn share(&self) -> Option<f64> {
+        let share = self.made.length() / self.commanded.length();
+        let signed = if self.together.sum < 0.0 { -share } else { share };
+        (self.commanded.length() > SMALLEST_TRAVEL).then_some(signed)
+    }
 }
 
 /// The least and the largest of some positions; NaN once one of them was.
@@ -48,7 +72,7 @@ impl TravelRange {
 }
 
 /// Whether two quantities grow together: their covariance over the samples so far, times their number (Welford 1962).
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Covariance {
     samples: f64,
     means: [f64; 2],
@@ -56,6 +80,8 @@ struct Covariance {
 }
 
 impl Covariance {
+    const NONE: Self = Self { samples: 0.0, means: [0.0; 2], sum: 0.0 };
+
     fn take(&mut self, [a, b]: [f64; 2]) {
         self.samples += 1.0;
         let from_mean = a - self.means[0];
@@ -69,34 +95,24 @@ impl TravelShare {
     pub(super) fn new(limit: f64, dof: usize) -> Self {
         Self {
             watch: Watch::new(Quantity::ShareOfTravel, SiUnit::Ratio, Bound::AtLeast, limit, dof),
-            commanded: vec![TravelRange::EMPTY; dof],
-            made: vec![TravelRange::EMPTY; dof],
-            together: vec![Covariance::default(); dof],
+            joints: vec![JointTravel::NONE; dof],
         }
     }
 
     /// Takes the setpoint and the positions of a sample; the shares are known at the end of the run.
     pub(super) fn observe(&mut self, setpoint: &RobotQ, sample: &Sample<'_>) {
-        for (commanded, &position) in self.commanded.iter_mut().zip(setpoint.iter()) {
-            commanded.take(position);
-        }
-        for (made, &position) in self.made.iter_mut().zip(sample.joints.truth.q.iter()) {
-            made.take(position);
-        }
-        for (together, of) in self.together.iter_mut().zip(setpoint.iter().zip(sample.joints.truth.q.iter()))
-        {
-            together.take([*of.0, *of.1]);
+        let positions = setpoint.iter().zip(sample.joints.truth.q.iter());
+        for (joint, (&commanded, &made)) in self.joints.iter_mut().zip(positions) {
+            joint.take(commanded, made);
         }
         // In the middle of a motion every servo is behind: nothing follows from a run that ends there.
         let is_cut_short = sample.time_s < sample.motions_s - ROUNDING_S;
         if !sample.is_last || is_cut_short {
             return;
         }
-        for (joint, (commanded, made)) in self.commanded.iter().zip(&self.made).enumerate() {
-            if commanded.length() > SMALLEST_TRAVEL {
-                let share = made.length() / commanded.length();
-                let is_opposite = self.together[joint].sum < 0.0;
-                self.watch.observe(if is_opposite { -share } else { share }, joint, sample);
+        for (index, joint) in self.joints.iter().enumerate() {
+            if let Some(share) = joint.share() {
+                self.watch.observe(share, index, sample);
             }
         }
     }
