@@ -138,8 +138,9 @@ pub(super) fn compared(
     let mut as_written = None;
     if RevisionName::of(&other.path).is_none() {
         against.fused_links = adopt_places_of_masses(description, other);
-        as_written = Some(other.clone());
-        against.values_within_digits = adopt_rounded_values(geometry, description, other);
+        let (names, written) = adopt_rounded_values(geometry, description, other);
+        as_written = (!names.is_empty()).then_some(written);
+        against.values_within_digits = names;
     }
     geometry.add_mimics(description, other, &mut poses, options)?;
     if misplaced.is_some() && in_other_frames.is_empty() {
@@ -154,18 +155,18 @@ pub(super) fn compared(
     }
     let frames = PlacedFrames { tolerance, misplaced, in_other_frames };
     let dynamics = dynamics_of(geometry, &mut against, [description, other], frames.clone(), options.seed);
-    let as_written = as_written.filter(|_| !against.values_within_digits.is_empty());
     if let Some((written, report)) = as_written.zip(dynamics.as_ref())
         && !report.has_same_torques()
     {
         // Masses that are split otherwise between links compensate to all digits: with a part of them adopted they do not.
+        let rounded = std::mem::replace(&mut other.robot, written);
         let (mut geometry, mut exact) = (geometry.clone(), against.clone());
-        let found = dynamics_of(&mut geometry, &mut exact, [description, &written], frames, options.seed);
+        let found = dynamics_of(&mut geometry, &mut exact, [description, other], frames, options.seed);
         if found.as_ref().is_some_and(DynamicsReport::has_same_torques) {
             exact.values_within_digits.clear();
-            *other = written;
             return Ok((exact, found));
         }
+        other.robot = rounded;
     }
     Ok((against, dynamics))
 }
@@ -263,12 +264,13 @@ fn adopt_places_of_masses(own: &RobotDescription, there: &mut RobotDescription) 
     fused.iter().map(|of| format!("{} with {}", of.link, of.with.join(", "))).collect()
 }
 
-/// Gives the other description the values of this one where they differ within the digits of both, and names them.
+/// Gives the other description the values of this one where they differ within the digits of both. Returns their names, and the robot
+/// as it was written.
 fn adopt_rounded_values(
     geometry: &CheckReport,
     own: &RobotDescription,
     there: &mut RobotDescription,
-) -> Vec<String> {
+) -> (Vec<String>, Robot) {
     // What digits, or a small difference of poses, turn and shift a frame by, they turn and shift the inertia in it by.
     let is_other = |of: &&Comparison| of.name == SourcePair::UrdfOther;
     let compared = geometry.comparisons.iter().filter(is_other);
@@ -283,8 +285,7 @@ fn adopt_rounded_values(
     let open = geometry.allowed_if_by_digits().unwrap_or_default();
     let of_frames = DigitsOfFrames { apart, along_axis_m: open.position_m };
     let (robot, names) = with_values_within_digits([&own.robot, &there.robot], of_frames);
-    there.robot = robot;
-    names
+    (names, std::mem::replace(&mut there.robot, robot))
 }
 
 /// The dynamics of two descriptions, without armatures that only one of the two states, and the file that states them.

@@ -3,7 +3,10 @@
 use std::path::Path;
 
 use congruent_agreement::report::{ReportedCause, ReportedDiagnosis};
-use congruent_input::{Diagnostic, display::length_and_angle};
+use congruent_input::{
+    Diagnostic,
+    display::{counted, length_and_angle, listed},
+};
 use congruent_kinematics::PoseError;
 use congruent_results::report::CasePlace;
 
@@ -44,6 +47,15 @@ fn unexplained(cause: &ReportedCause) -> String {
 /// How many others there are beside the one that is named.
 pub(super) fn and_more(others: usize) -> String {
     if others > 0 { format!(", and {others} more") } else { String::new() }
+}
+
+/// As many are named one by one, and more by their number.
+pub(super) const MOST_NAMED: usize = 3;
+
+/// A few by name, more by number: `link_1 and link_2`, or `5 links`.
+pub(super) fn few_or_number(names: &[String], what: &str) -> String {
+    let listed_names: Vec<&str> = names.iter().map(String::as_str).collect();
+    if names.len() > MOST_NAMED { counted(names.len(), what) } else { listed(&listed_names) }
 }
 
 /// ` (robot.toml:8)`.

@@ -5,7 +5,7 @@ use congruent_dynamics::BodyTree;
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::{
     RevisionName, SiUnit,
-    display::{counted, listed, quantity},
+    display::{counted, quantity},
 };
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree, sample_configurations};
 use congruent_mapping::{ChangedValue, changed_inertias, changed_values};
@@ -13,6 +13,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
+    cause_in_words::{MOST_NAMED, few_or_number},
     changed_shapes::changed_shapes,
     changed_table::{changed_table, has_other_table},
     forces_not_compared::forces_not_compared,
@@ -23,8 +24,6 @@ use super::{
 const RANDOM: usize = 200;
 /// Smaller changes of a mass or torque are rounding, relative to the value.
 const ROUNDED: f64 = 1e-9;
-/// Links whose masses a headline names.
-const MOST_NAMED: usize = 3;
 
 /// The robot against the same one in a revision.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -159,11 +158,10 @@ impl RevisionChange {
             ("removes", "link", &self.links_removed),
         ];
         for (verb, what, names) in lists {
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
             match names.len() {
                 0 => {}
-                1..=MOST_NAMED => parts.push(format!("{verb} {what} {}", listed(&names))),
-                count => parts.push(format!("{verb} {}", counted(count, what))),
+                1..=MOST_NAMED => parts.push(format!("{verb} {what} {}", few_or_number(names, what))),
+                _ => parts.push(format!("{verb} {}", few_or_number(names, what))),
             }
         }
         let added = |mass: &ChangedMass| {
@@ -193,11 +191,9 @@ impl RevisionChange {
             (["other collision shapes"; 2], &self.collision_shapes),
         ];
         for ([of_few, of_many], links) in lists {
-            let names: Vec<&str> = links.iter().map(String::as_str).collect();
-            match names.len() {
-                0 => {}
-                1..=MOST_NAMED => parts.push(format!("{of_few} of {}", listed(&names))),
-                count => parts.push(format!("{of_many} of {}", counted(count, "link"))),
+            let what = if links.len() > MOST_NAMED { of_many } else { of_few };
+            if !links.is_empty() {
+                parts.push(format!("{what} of {}", few_or_number(links, "link")));
             }
         }
         parts.extend(self.has_other_table.then(|| "another DH table".to_owned()));

@@ -1,11 +1,11 @@
 //! The answer of a check whose joints are called or counted otherwise in the other description.
 
 use congruent_agreement::compare::Agreement;
-use congruent_input::display::{counted, listed};
+use congruent_input::display::listed;
 use congruent_kinematics::PoseError;
 
 use super::{
-    cause_in_words::{at_most, cause, largest},
+    cause_in_words::{at_most, cause, few_or_number, largest},
     dynamics_in_words::other_torques,
     mapped_joints::mapped_joints,
     reported_mapping::ReportedMapping,
@@ -65,7 +65,7 @@ pub(super) fn after_mapping(check: &RobotCheck) -> Option<(String, String)> {
 fn other_chain_in_part(mapping: &ReportedMapping, joints: &str, worst: &str) -> (String, String) {
     let rest = match &mapping.held_at_zero[..] {
         [] => format!("the {} joints that it does not carry: {worst}", mapping.compared_joints()),
-        held => format!("with {} at 0, {worst}", few_or_number(held)),
+        held => format!("with {} at 0, {worst}", few_or_number(held, "joint")),
     };
     let details = format!(": {joints}, between base and tip; {rest}");
     ("DIFFERENT JOINTS".to_owned(), to_declare(&details, LEFT_OUT))
@@ -86,13 +86,7 @@ pub(super) fn which_joints(mapping: &ReportedMapping) -> String {
     let behind: Vec<&str> = mapping.free_in_chain().map(|of| of.joint.as_str()).collect();
     match (&mapping.held_at_zero[..], &behind[..]) {
         ([], []) => "those of both files".to_owned(),
-        (held, []) => format!("those of both files, with {} at 0", few_or_number(held)),
+        (held, []) => format!("those of both files, with {} at 0", few_or_number(held, "joint")),
         (_, behind) => format!("none behind {}, left out by [mapping]", listed(behind)),
     }
-}
-
-/// Up to three joints by name: the fingers of a hand by number.
-fn few_or_number(joints: &[String]) -> String {
-    let names: Vec<&str> = joints.iter().map(String::as_str).collect();
-    if names.len() > 3 { counted(names.len(), "joint") } else { listed(&names) }
 }

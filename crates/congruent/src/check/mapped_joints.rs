@@ -59,7 +59,9 @@ pub(super) fn mapped_joints(mapping: &ReportedMapping) -> String {
         }
     }
     if let Some(turn_rad) = mapping.turn_of_base_rad() {
-        let or_zero = mapping.zero_of_first_joint.iter().fold(String::new(), |or, zero| or + ", or " + zero);
+        let or_zero = mapping.turned_first_joint.as_ref().map_or_else(String::new, |(joint, line)| {
+            format!(", or {joint} has {OTHER_ZERO}{}", place(mapping.file.as_deref(), *line))
+        });
         words.push(format!("the base is turned by {}{or_zero}", angle(turn_rad)));
     }
     if words.is_empty() {

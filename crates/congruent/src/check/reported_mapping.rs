@@ -13,7 +13,7 @@ use congruent_mapping::{FoundMapping, MatchedBy};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{left_out::LeftOutInChain, turned_base::zero_of_first_joint};
+use super::{left_out::LeftOutInChain, turned_base::turned_first_joint};
 
 /// A smaller zero is a calibration or a mistake of a digit. Kind: choice, 5 deg.
 pub(super) const LEAST_ZERO_RAD: f64 = 0.087;
@@ -50,9 +50,9 @@ pub struct ReportedMapping {
     /// Pose of the other root in this one, if the two are not the same frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub root_from_other_root: Option<ReportedPose>,
-    /// The first joint with another zero, in words, if that is the same motion as with this root.
+    /// The first joint and the line of its origin, if another zero of it is the same motion as with this root.
     #[serde(skip)]
-    pub(super) zero_of_first_joint: Option<String>,
+    pub(super) turned_first_joint: Option<(String, Option<usize>)>,
     /// Last links of branches whose axes the two files write in other coordinates: a length along these axes is not compared. Only those
     /// that are farther apart than the poses that are.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -169,9 +169,9 @@ impl ReportedMapping {
                 offset: of.offset,
                 unit: joint.kind.unit(),
                 range: RangeInVariable::new(description, other, of),
-                axis_line: of.is_flipped.then(|| line(description, of, JointElement::Axis)).flatten(),
+                axis_line: of.is_flipped.then(|| line(description, &of.name, JointElement::Axis)).flatten(),
                 origin_line: (of.offset != 0.0)
-                    .then(|| line(description, of, JointElement::Origin))
+                    .then(|| line(description, &of.name, JointElement::Origin))
                     .flatten(),
             }
         };
@@ -198,7 +198,8 @@ impl ReportedMapping {
             }),
             lines: lines(&joints, [&left_out, &other_left_out], root_from_other_root.as_ref()),
             joints,
-            zero_of_first_joint: zero_of_first_joint(description, &found.root_from_other_root),
+            turned_first_joint: turned_first_joint(description, &found.root_from_other_root)
+                .map(|joint| (joint.to_owned(), line(description, joint, JointElement::Origin))),
             left_out,
             other_left_out,
             undeclared,
@@ -288,9 +289,9 @@ impl ReportedMapping {
 }
 
 /// The line of a part of a joint, in the URDF or MJCF of the robot.
-fn line(description: &RobotDescription, of: &MappedJoint, part: JointElement) -> Option<usize> {
+fn line(description: &RobotDescription, joint: &str, part: JointElement) -> Option<usize> {
     let places = description.places.parameters()?;
-    places.joint_part(&of.name, part)?.line_in(places.source())
+    places.joint_part(joint, part)?.line_in(places.source())
 }
 
 /// The section of a robot file that declares a mapping.
