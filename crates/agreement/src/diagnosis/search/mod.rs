@@ -227,7 +227,8 @@ impl ExplanationSearch<'_> {
         // better evidence than one value.
         let mut accepted: Vec<HypothesisFit> =
             accepted.iter().map(|fit| self.context.without_rounding(fit, self.criterion)).collect();
-        accepted.retain(|fit| !self.make_up_for_each_other(fit));
+        let given = self.context.models.residual(self.criterion);
+        accepted.retain(|fit| !self.make_up_for_each_other(fit, &given));
         // If the correction of something makes the files agree far better than their digits say, nothing is left to be
         // explained by the digits.
         let is_beyond = |fit: &HypothesisFit| {

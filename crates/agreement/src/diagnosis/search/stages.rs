@@ -197,11 +197,10 @@ impl ExplanationSearch<'_> {
         }
     }
 
-    /// Whether one correction makes the models far worse and another takes it back: together they are a small change, and no two
-    /// mistakes.
-    pub(super) fn make_up_for_each_other(&self, fit: &HypothesisFit) -> bool {
-        let given = self.context.models.residual(self.criterion);
-        let most = FAR_WORSE * self.criterion.in_tolerances(&given);
+    /// Whether one correction makes the models far worse than they are as given and another takes it back: together they are a small
+    /// change, and no two mistakes.
+    pub(super) fn make_up_for_each_other(&self, fit: &HypothesisFit, given: &PoseError) -> bool {
+        let most = FAR_WORSE * self.criterion.in_tolerances(given);
         let is_far_worse = |residual: &PoseError| self.criterion.in_tolerances(residual) > most;
         fit.hypotheses.len() > 1 && self.in_turn(fit).1.iter().any(is_far_worse)
     }
