@@ -7,7 +7,9 @@ mod scenario;
 mod scenario_text;
 mod settings;
 mod touching;
+mod trial;
 mod written;
 
 pub use robot_file::{NewRobot, RobotFileDraft, robot_file};
-pub use scenario::{NewScenario, ScenarioDraft, scenario, try_scenario};
+pub use scenario::{NewScenario, ScenarioDraft, scenario};
+pub use trial::try_scenario;

@@ -2,22 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_agreement::compare::CheckReport;
+use congruent_agreement::compare::{CheckOptions, check};
 use congruent_description::{ReportedChain, RobotDescription, Tolerance};
 use congruent_input::{
     Capability, Diagnostic, Finding, Findings,
     display::{length_and_angle, quantity},
 };
-use congruent_monitors::{
-    NoRecorder,
-    verdict::{CheckResult, Status},
-};
+use congruent_monitors::verdict::{CheckResult, Status};
 use congruent_results::report::lines;
 use congruent_scenario::{
-    AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, ControllerKind, ControllerSettings,
-    OnViolation, Scenario,
+    AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, ControllerSettings, OnViolation, Scenario,
 };
-use congruent_twin::{Outcome, Run, RunError, RunSetup};
+use congruent_twin::source::SimulatedPoses;
 use congruent_writers::relative_path;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -26,17 +22,14 @@ use crate::codes;
 use crate::{
     joint_move::{JointMove, moves},
     scenario_text::{ScenarioContent, text},
-    settings::{checks, computed_torque, gravity_compensation, motion_settings, start_settings},
+    settings::{checks, computed_torque, gravity_compensation, start_settings},
     touching::{FarthestMove, PairDistances},
+    trial::{MotionAttempt, PLAYBACK, SIZES, Trial, is_optional},
     written::absolute,
 };
 
 /// Distance that links must keep at least, or half of the smallest distance of the motion if that is less. Unit: m.
 const MOST_MINIMUM_M: f64 = 0.02;
-/// The controller that places the robot at its setpoint.
-const PLAYBACK: ControllerKind = ControllerKind::Kinematic;
-/// Sizes of the motion that are tried with forces, the largest first.
-const SIZES: [f64; 3] = [1.0, 0.5, 0.25];
 
 /// A scenario that has passed, and its text.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,19 +68,14 @@ pub struct NewScenario {
 }
 
 /// A scenario for the chain of `description`, to be written to `file`, an absolute path: some joints move and come back,
-/// links stay apart, and all checks pass. `checked` is the check of the robot: it is asked if the robot declares no tolerance.
+/// links stay apart, and all checks pass.
 ///
 /// # Errors
 /// What keeps the robot from being simulated, or from passing.
-pub fn scenario(
-    description: &RobotDescription,
-    file: &Path,
-    checked: impl FnOnce() -> Option<CheckReport>,
-) -> Result<ScenarioDraft, Findings> {
+pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioDraft, Findings> {
     description.check_capability(Capability::Physics)?;
     let (mut content, largest) = content(description, file)?;
-    let checked = if description.declared_tolerance.is_declared() { None } else { checked() };
-    if let Some((agreement, remark)) = checked.and_then(|report| within_digits(description, &report)) {
+    if let Some((agreement, remark)) = within_digits(description) {
         content.scenario.check.retain(|check| check.kind() != CheckKind::Agreement);
         content.scenario.check.insert(0, Check::Agreement(agreement));
         content.remarks.push(remark);
@@ -95,36 +83,23 @@ pub fn scenario(
     let mut last = String::new();
     // With forces first, and the largest motion first: the more of the robot a scenario exercises, the more it
     // checks. Playback always remains.
-    let forces = [computed_torque(), gravity_compensation()];
-    let forces = forces.into_iter().flat_map(|controller| SIZES.map(|size| (size, controller.clone())));
-    let playback = std::iter::once((1.0, ControllerSettings::default()));
-    for (size, controller) in forces.chain(playback) {
-        let is_playback = controller.kind == PLAYBACK;
-        let motion = largest.scaled(&description.robot, size);
-        content.scenario.motion = motion_settings(description, &motion);
-        content.scenario.controller = controller;
-        let (results, setup) = match tried(&content.scenario, description) {
-            Ok(tried) => tried,
-            Err(findings) if is_playback => return Err(findings),
-            Err(findings) => {
-                last = findings.to_string();
-                continue;
-            }
-        };
-        match refused(&results) {
-            // No controller or size changes the geometry: to try further would not help.
-            Some((CheckKind::Agreement, why)) => return Err(disagrees(description, &why).into()),
-            Some((_, why)) => last = why,
-            None => {
-                if is_playback {
+    let forces = [computed_torque(), gravity_compensation()].map(|controller| (controller, &SIZES[..]));
+    let playback = (ControllerSettings::default(), &SIZES[..1]);
+    for (controller, sizes) in forces.into_iter().chain([playback]) {
+        let trial = Trial { controller, scenario: &content.scenario, largest: &largest, description };
+        match trial.largest_passing(sizes)? {
+            MotionAttempt::Failed(why) => last = why,
+            MotionAttempt::Passed { motion, scenario, duration_s, results } => {
+                if scenario.controller.kind == PLAYBACK {
                     let remark = "the motion is played back without forces, so the checks dynamics, power and effort are left out: with forces";
                     content.remarks.push(format!("{remark} it does not pass ({last})"));
                 }
+                content.scenario = *scenario;
                 leave_out(&mut content, &results);
                 let joints = motion.moving.iter();
                 let joints = joints.map(|&at| joint_name(description, at).to_owned()).collect();
                 return Ok(ScenarioDraft {
-                    text: text(description, &content, setup.clock.duration_s()),
+                    text: text(description, &content, duration_s),
                     remarks: content.remarks,
                     joints,
                 });
@@ -133,59 +108,6 @@ pub fn scenario(
     }
     let message = format!("no motion of this robot was found that passes: {last}");
     Err(Diagnostic::error(codes::new::SCENARIO, message).into())
-}
-
-/// Runs a scenario without recording it.
-///
-/// # Errors
-/// What is wrong with it, or what has broken the run.
-pub fn try_scenario(setup: &RunSetup) -> Result<Outcome, Findings> {
-    let mut checks = setup.checks();
-    let mut run = Run::new(setup).map_err(|error| broken(&error))?;
-    let (outcome, result) = run.finish(&mut checks, &mut NoRecorder, |_| {});
-    result.map_err(|error| broken(&error))?;
-    Ok(outcome)
-}
-
-/// Runs a scenario up to the first check that must pass and does not: a controller that cannot hold the arm fails it early.
-fn tried(
-    scenario: &Scenario,
-    description: &RobotDescription,
-) -> Result<(Vec<CheckResult>, RunSetup), Findings> {
-    let setup = RunSetup::new(scenario.clone(), description.clone())?;
-    let mut checks = setup.checks();
-    let mut run = Run::new(&setup).map_err(|error| broken(&error))?;
-    let broken = |error: RunError| broken(&error);
-    run.compare().map_err(|error| broken(error.into()))?;
-    while !run.observe(&mut checks, &mut NoRecorder).map_err(broken)? {
-        if checks.iter().any(|check| check.monitor.has_failed() && !is_optional(check.kind)) {
-            break;
-        }
-        run.step().map_err(broken)?;
-        run.compare().map_err(|error| broken(error.into()))?;
-    }
-    let results = checks.iter().map(|check| check.result(run.names())).collect();
-    drop((checks, run));
-    Ok((results, setup))
-}
-
-fn broken(error: &dyn std::error::Error) -> Diagnostic {
-    Diagnostic::error(codes::new::RUN, error.to_string())
-}
-
-/// Checks that say how well the physics follows the equations of motion: they are left out if they do not pass, which says
-/// nothing about the scenario.
-fn is_optional(kind: CheckKind) -> bool {
-    matches!(kind, CheckKind::Dynamics | CheckKind::Power | CheckKind::Twist)
-}
-
-/// The first check that must pass and does not.
-fn refused(results: &[CheckResult]) -> Option<(CheckKind, String)> {
-    let failed = |result: &&CheckResult| result.status == Status::Fail && !is_optional(result.check);
-    let result = results.iter().find(failed)?;
-    // The violation is the first of its lines.
-    let why = lines(result).into_iter().next().unwrap_or_default();
-    Some((result.check, format!("check {}: {why}", result.check)))
 }
 
 /// Takes out the checks that have nothing to check, and the optional ones that do not pass, and says so.
@@ -208,15 +130,14 @@ fn leave_out(content: &mut ScenarioContent, results: &[CheckResult]) {
     }
 }
 
-fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
-    let message = format!("the model and the twin of \"{}\" are not the same robot: {why}", description.name);
-    Diagnostic::error(codes::new::AGREEMENT, message)
-        .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
-}
-
 /// The limits of the check of agreement for a table that is the same as the URDF by its digits alone, and the remark on them: a
 /// run is judged by a tolerance, and the robot file declares none.
-fn within_digits(description: &RobotDescription, report: &CheckReport) -> Option<(AgreementCheck, String)> {
+fn within_digits(description: &RobotDescription) -> Option<(AgreementCheck, String)> {
+    if description.declared_tolerance.is_declared() || description.places.robot_file.is_none() {
+        return None;
+    }
+    let mut physics = SimulatedPoses::new(&description.robot).ok()?;
+    let report = check(description, Ok(&mut physics), &CheckOptions::default()).ok()?;
     let allowed = report.allowed_by_digits.filter(|_| report.is_judged_by_digits())?;
     let found = report.certificate.unwrap_or_default().larger(report.worst.error);
     // Twice the difference, or less where the digits do not allow as much.

@@ -3,8 +3,6 @@
 use std::path::PathBuf;
 
 use congruent::{
-    agreement::compare::CheckOptions,
-    check,
     description::RobotDescription,
     input::{Capability, Diagnostic, Finding, is_standard_input},
     monitors::verdict::{CheckResult, Status},
@@ -58,8 +56,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let folder = folder_of(to)?;
     file.may_be_written(&inputs)?;
     let name = to.file_name().unwrap_or_default();
-    let checked = || Some(check(&description, &CheckOptions::default()).ok()?.geometry);
-    let find = || scenario(&description, &folder.join(name), checked);
+    let find = || scenario(&description, &folder.join(name));
     let draft = waiting(printer, "trying motions", find)?;
     let (setup, outcome) = file.write(&draft.text, &inputs, |written| {
         let setup =
