@@ -1,5 +1,6 @@
 //! Hypotheses on one actuator: the share of its effort that it exerts, and added friction of its joint.
 
+use congruent_monitors::ConstantShare;
 use congruent_scenario::{FaultKind, FaultQuantity, RunFault};
 
 use super::{
@@ -37,7 +38,7 @@ pub(super) fn fault(
     let mut fits = Vec::new();
     // An actuator that exerts the share s of its reported effort lacks (s - 1) effort: one column, one parameter. One that is
     // known to deliver what it is commanded to has no such fault.
-    let may_lack = observed.store.delivers_all(joint) != Some(true);
+    let may_lack = observed.store.delivered(joint).is_all() != Some(true);
     let share = least_squares(std::slice::from_ref(&effort), &missing).filter(|_| may_lack);
     if let Some((parameters, remaining)) = share {
         let share = 1.0 + parameters[0];
@@ -67,6 +68,27 @@ pub(super) fn fault(
         FaultFit { fault: make(FaultKind::AddedFriction, values, &expected), remaining, parameters }
     }));
     best(fits)
+}
+
+/// The share of its commanded effort that the actuator of a joint delivers, by both efforts: it is known although the motion shows
+/// nothing, as that of a light joint beside the truncation error of a step.
+pub(super) fn delivered_share(observed: &ObservedRun<'_>, joint: usize) -> Option<FaultFit> {
+    let ConstantShare { share, first_step, end_step } = observed.store.delivered(joint).constant_share()?;
+    let (kind, values) = if share.abs() < NO_SHARE {
+        (FaultKind::LostTorque, Vec::new())
+    } else {
+        (FaultKind::ScaledTorque, vec![FaultQuantity::share(share)])
+    };
+    let fault = RunFault {
+        kind,
+        joints: vec![observed.name(joint)],
+        link: None,
+        values,
+        // The effort of a sample has led to it, from the one before.
+        from_s: observed.clock.time_s(first_step - 1),
+        until_s: end_step.map(|step| observed.clock.time_s(step - 1)),
+    };
+    Some(FaultFit { fault, remaining: 0.0, parameters: 1 })
 }
 
 /// Whether a joint follows its moving setpoint.

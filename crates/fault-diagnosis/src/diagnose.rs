@@ -90,6 +90,7 @@ pub fn diagnose(
     search.poses();
     let first_contact = first_contact(&search.observed, &mut run.bodies, clearance);
     search.efforts(run, first_contact).ok()?;
+    search.delivered_shares();
     let Search { found: mut faults, unexplained, .. } = search;
     faults.sort_by(|a, b| a.fault.from_s.total_cmp(&b.fault.from_s));
     let found = |fit: FaultFit| FoundFault { fault: fit.fault, remaining: fit.remaining };
@@ -224,6 +225,16 @@ impl Search<'_> {
         }
         self.found.extend(found);
         Ok(())
+    }
+
+    /// The actuators that deliver another share than the commanded effort, where the motion has not shown it.
+    fn delivered_shares(&mut self) {
+        for joint in self.observed.independent_joints() {
+            let name = self.observed.name(joint);
+            if self.found.iter().all(|fit| !fit.fault.joints.contains(&name)) {
+                self.found.extend(actuator::delivered_share(&self.observed, joint));
+            }
+        }
     }
 
     /// That a joint lacks effort, or has too much, and no hypothesis says why.

@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use crate::sample::Sample;
+use crate::{delivered_effort::DeliveredEffort, sample::Sample};
 
 /// Samples that are kept at most: 8 s in steps of 1 ms, 7 MB for an arm with twelve links.
 const CAPACITY: usize = 8192;
@@ -22,14 +22,9 @@ pub struct SampleStore {
     /// For each sample: measured positions, speeds and efforts, setpoint positions.
     numbers: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
-    /// For each joint whether its actuator delivered all that it was commanded to, in all samples of the run; `None` as long as
-    /// no sample has both efforts.
-    delivers_all: Vec<Option<bool>>,
+    /// For each joint what its actuator delivered of the commanded effort, in all samples of the run.
+    delivered: Vec<DeliveredEffort>,
 }
-
-/// Delivered and commanded effort that differ by less than this part are equal. Kind: rounding; the physics delivers what is
-/// commanded to the last bit.
-const SAME_EFFORT: f64 = 1e-9;
 
 /// One kept sample, borrowed from the store.
 #[derive(Debug, Clone, Copy)]
@@ -60,7 +55,7 @@ impl SampleStore {
             steps: Vec::with_capacity(capacity),
             numbers: Vec::with_capacity(3 * dof * capacity),
             poses: Vec::with_capacity(links * capacity),
-            delivers_all: vec![None; dof],
+            delivered: vec![DeliveredEffort::default(); dof],
         }
     }
 
@@ -87,19 +82,21 @@ impl SampleStore {
 
     /// Also of samples that are not kept: an actuator may lack effort in a few steps only.
     fn compare_efforts(&mut self, sample: &Sample<'_>) {
+        // No step leads to the first sample.
+        if sample.step == 0 {
+            return;
+        }
         let commanded = sample.joints.setpoint.map_or(&[][..], |setpoint| setpoint.effort);
         // Without a source of both efforts the lists are empty, and nothing is known.
         let both = commanded.iter().zip(sample.joints.truth.effort);
-        for (delivers, (commanded, delivered)) in self.delivers_all.iter_mut().zip(both) {
-            let is_same = (delivered - commanded).abs() <= SAME_EFFORT * commanded.abs();
-            *delivers = Some(delivers.unwrap_or(true) && is_same);
+        for (seen, (commanded, delivered)) in self.delivered.iter_mut().zip(both) {
+            seen.observe(*commanded, *delivered, sample.step);
         }
     }
 
-    /// Whether the actuator of a joint delivered all that it was commanded to, in all samples of the run; `None` if the source
-    /// does not know both efforts.
-    pub fn delivers_all(&self, joint: usize) -> Option<bool> {
-        self.delivers_all[joint]
+    /// What the actuator of a joint delivered of the commanded effort, in all samples of the run.
+    pub fn delivered(&self, joint: usize) -> &DeliveredEffort {
+        &self.delivered[joint]
     }
 
     /// Adds one number for each joint; NaN if the source has none.
