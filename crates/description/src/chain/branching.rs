@@ -11,7 +11,10 @@ use super::frame_name::{is_jaw, preference};
 /// Travel up to which a slide at the tip is a jaw, m. Kind: judgement; jaws of grippers travel 10 to 50 mm, the quill of the smallest SCARA
 /// 100 mm.
 const SHORT_SLIDE_M: f64 = 0.06;
-/// Joints before a short slide from which on they are an arm, and not the axes of a small stage. Kind: judgement.
+/// Range up to which a hinge at the tip that opens to one side of zero is a jaw, rad. Kind: judgement; wrists turn farther, and the short
+/// hinges of ankles and necks turn to both sides.
+const SHORT_HINGE_RAD: f64 = 1.0;
+/// Joints before a short slide or hinge from which on they are an arm, and not the axes of a small stage. Kind: judgement.
 const JOINTS_OF_AN_ARM: usize = 3;
 
 /// The chosen tip, and the other tips that might have been meant.
@@ -76,7 +79,7 @@ impl<'a> LinkBodies<'a> {
             let are_fingers = equal.len() > 1 && passed.len() >= deepest;
             let is_gripper = !passed.is_empty()
                 && deepest == 1
-                && equal.iter().all(|&one| self.is_jaw(one) || self.is_short_slide(one, &passed));
+                && equal.iter().all(|&one| self.is_jaw(one) || self.is_short(one, &passed));
             if are_fingers || is_gripper {
                 return (self.frame(&body), equal_limbs);
             }
@@ -99,13 +102,17 @@ impl<'a> LinkBodies<'a> {
         is_jaw(joint, self.robot.link(joint.child))
     }
 
-    /// Whether a last joint without a name for it is a jaw all the same: a short slide at the end of an arm, with no frame for a
-    /// tool behind it.
-    fn is_short_slide(&self, last: JointIndex, passed: &[JointIndex]) -> bool {
+    /// Whether a last joint without a name for it is a jaw all the same: a short slide, or a short hinge that opens to one side, at the
+    /// end of an arm, with no frame for a tool behind it.
+    fn is_short(&self, last: JointIndex, passed: &[JointIndex]) -> bool {
         let joint = self.robot.joint(last);
-        let is_short = joint.position_range().is_some_and(|(lower, upper)| upper - lower <= SHORT_SLIDE_M);
-        let is_end = self.body(joint.child).len() == 1;
-        joint.kind == JointKind::Prismatic && is_short && is_end && passed.len() >= JOINTS_OF_AN_ARM
+        let Some((lower, upper)) = joint.position_range() else { return false };
+        let is_short = match joint.kind {
+            JointKind::Prismatic => upper - lower <= SHORT_SLIDE_M,
+            JointKind::Revolute => upper - lower <= SHORT_HINGE_RAD && lower * upper >= 0.0,
+            JointKind::Continuous | JointKind::Fixed => false,
+        };
+        is_short && self.body(joint.child).len() == 1 && passed.len() >= JOINTS_OF_AN_ARM
     }
 
     fn follow_branch(&self, passed: &[JointIndex]) -> LinkIndex {
@@ -217,25 +224,38 @@ mod tests {
         check(&[&ARM[..], &["lower prismatic quill"]].concat(), "quill", &[]);
     }
 
+    /// The tip of an arm of three hinges and a joint of another range.
+    fn tip_with_range(lines: &[&str], last: &str, (lower, upper): (f64, f64)) -> String {
+        let long = robot(lines);
+        let parts = long.joints().iter().map(|joint| {
+            let mut joint = joint.clone();
+            if let Some(limit) = joint.limit.as_mut().filter(|_| joint.name == last) {
+                (limit.lower, limit.upper) = (lower, upper);
+            }
+            let [parent, child] = [joint.parent, joint.child].map(|link| long.link(link).name.clone());
+            JointParts { parent, child, mimic: None, joint }
+        });
+        let robot = Robot::new("r", long.links().to_vec(), parts.collect()).unwrap();
+        robot.link(choose_tip(&robot, robot.root()).tip).name.clone()
+    }
+
     #[test]
     fn a_short_slide_without_a_frame_is_a_jaw_at_the_end_of_an_arm() {
         let lines = ["base revolute a", "a revolute b", "b revolute c", "c prismatic d", "d fixed e"];
-        let tip = |lines: &[&str], travel_m: f64| {
-            let long = robot(lines);
-            let parts = long.joints().iter().map(|joint| {
-                let mut joint = joint.clone();
-                if let Some(limit) = joint.limit.as_mut().filter(|_| joint.kind == JointKind::Prismatic) {
-                    limit.upper = travel_m;
-                }
-                let [parent, child] = [joint.parent, joint.child].map(|link| long.link(link).name.clone());
-                JointParts { parent, child, mimic: None, joint }
-            });
-            let robot = Robot::new("r", long.links().to_vec(), parts.collect()).unwrap();
-            robot.link(choose_tip(&robot, robot.root()).tip).name.clone()
-        };
+        let tip = |lines: &[&str], travel_m: f64| tip_with_range(lines, "d", (0.0, travel_m));
         assert_eq!([0.04, 0.1].map(|travel_m| tip(&lines[..4], travel_m)), ["c", "d"]);
         // With a frame behind it, or as the second axis of a stage, it belongs to the chain.
         assert_eq!([tip(&lines, 0.04), tip(&["base revolute a", "a prismatic d"], 0.04)], ["e", "d"]);
+    }
+
+    #[test]
+    fn a_short_hinge_that_opens_to_one_side_is_a_jaw_at_the_end_of_an_arm() {
+        let lines = ["base revolute a", "a revolute b", "b revolute c", "c revolute d", "d fixed e"];
+        let tip = |lines: &[&str], range: (f64, f64)| tip_with_range(lines, "d", range);
+        // A wrist turns farther, and an ankle to both sides.
+        let ranges = [(0.0, 0.6), (-0.8, -0.1), (0.0, 1.6), (-0.26, 0.26)];
+        assert_eq!(ranges.map(|range| tip(&lines[..4], range)), ["c", "c", "d", "d"]);
+        assert_eq!(tip(&lines, (0.0, 0.6)), "e");
     }
 
     #[test]
