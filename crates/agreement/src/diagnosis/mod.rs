@@ -28,6 +28,7 @@ mod search;
 pub(crate) mod thresholds;
 
 pub use candidate::{CandidateModel, CandidateRow, DeclaredTransform, DhEntry, ModelParameter, RowConstants};
+pub(crate) use digits::tie_written_alike;
 pub use digits::{TransformPart, TypedPlace, TypedValue, WrittenDigits};
 pub(crate) use dropped_joint::with_dropped_joints;
 pub use equivalence::Equivalence;

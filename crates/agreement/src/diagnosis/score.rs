@@ -7,7 +7,8 @@
 //! named.
 
 use congruent_description::Tolerance;
-use congruent_kinematics::PoseError;
+use congruent_kinematics::{PoseError, rotation_exp};
+use nalgebra::{Matrix3, Vector3};
 
 use super::{
     candidate::{CandidateModel, DeclaredTransform, DhEntry, ModelParameter},
@@ -113,13 +114,17 @@ pub(super) fn is_refuted(
             orientation_rad: residual.orientation_rad.max(ROUNDING_RESIDUAL).max(orientation_rad),
         })
     };
-    let is_certain = |at: &usize| {
-        UnitEvidence::for_hypothesis(context, fit, &context.hypotheses[*at])
-            .is_some_and(|wrong_unit| wrong_unit.is_above(CERTAIN, &own))
-    };
     // Below the rounding of a file, residuals of 1e-15 and 1e-13 are equally good: the ratio would refute by
     // chance.
-    rounded_up(&own) > REFUTED * rounded_up(best) && !fit.hypotheses.iter().all(is_certain)
+    rounded_up(&own) > REFUTED * rounded_up(best) && !is_certain_unit(context, fit, &own)
+}
+
+/// Whether an explanation is of wrong units alone, with values that are so far above its residual that this is no coincidence.
+pub(super) fn is_certain_unit(context: &FitContext<'_>, fit: &HypothesisFit, residual: &PoseError) -> bool {
+    fit.hypotheses.iter().all(|&at| {
+        UnitEvidence::for_hypothesis(context, fit, &context.hypotheses[at])
+            .is_some_and(|wrong_unit| wrong_unit.is_above(CERTAIN, residual))
+    })
 }
 
 impl Criterion {
@@ -152,7 +157,7 @@ fn choices(
     let by_quarters = |models: &ModelPair| {
         let mut rotations =
             joints.iter().map(|&joint| models.reference.joints[joint].parent_from_joint.rotation);
-        rotations.all(|rotation| (rotation - rotation.map(f64::round)).amax() < QUARTER_TURNS)
+        rotations.all(|rotation| is_by_quarter_turns(&rotation))
     };
     // As many as the parameters of a rotation: an order of quarter turns that fits is no better evidence than a
     // fit.
@@ -294,25 +299,38 @@ fn is_missing_base_turn(context: &FitContext<'_>, fit: &HypothesisFit, hypothesi
     let base = &corrected.candidate.base.pose;
     hypothesis.cause == Cause::Base
         && has_no_base(context)
-        && (base.rotation - base.rotation.map(f64::round)).amax() < QUARTER_TURNS
+        && is_by_quarter_turns(&base.rotation)
         && base.translation == context.models.candidate.base.pose.translation
 }
 
-/// Whether the zero of the first joint is off by quarter turns in a table without a base: then the missing base is
-/// the likelier fault. If both are about one axis, no pose distinguishes the two.
+/// Whether the zero of the first joint is off in place of the base: by quarter turns in a table without a base, or by what a base
+/// that is nearly made of quarter turns, as a yaw of 3.1, is off. If both are about one axis, no pose distinguishes the two.
 fn is_zero_in_place_of_base(
     context: &FitContext<'_>,
     fit: &HypothesisFit,
     hypothesis: &PoseHypothesis,
 ) -> bool {
+    if hypothesis.cause != Cause::ZeroOffset
+        || hypothesis.free[..] != [ModelParameter::Row(0, DhEntry::Theta)]
+    {
+        return false;
+    }
     let theta_rad = |candidate: &CandidateModel| candidate.entry(0, DhEntry::Theta);
-    let turn = theta_rad(&context.corrected(fit).candidate).zip(theta_rad(&context.models.candidate));
-    // A calibrated zero is off by fractions of a degree; quarter turns are a matter of definition.
-    let quarters = turn.map(|(expected, found)| (expected - found) / std::f64::consts::FRAC_PI_2);
-    hypothesis.cause == Cause::ZeroOffset
-        && hypothesis.free[..] == [ModelParameter::Row(0, DhEntry::Theta)]
-        && has_no_base(context)
-        && quarters.is_some_and(|quarters| (quarters - quarters.round()).abs() < QUARTER_TURNS)
+    let turn_rad = theta_rad(&context.corrected(fit).candidate).zip(theta_rad(&context.models.candidate));
+    turn_rad.is_some_and(|(expected, found)| {
+        let turn = rotation_exp(&(Vector3::z() * (expected - found)));
+        let base = &context.models.candidate.base.pose.rotation;
+        // A calibrated zero is off by fractions of a degree; quarter turns are a matter of definition.
+        if has_no_base(context) {
+            is_by_quarter_turns(&turn)
+        } else {
+            !is_by_quarter_turns(base) && is_by_quarter_turns(&(base * turn))
+        }
+    })
+}
+
+fn is_by_quarter_turns(rotation: &Matrix3<f64>) -> bool {
+    (rotation - rotation.map(f64::round)).amax() < QUARTER_TURNS
 }
 
 fn has_no_base(context: &FitContext<'_>) -> bool {

@@ -3,7 +3,9 @@
 use congruent_description::{JointDigits, TableDigits};
 
 use super::names::ModelNames;
-use crate::diagnosis::{Criterion, DhEntry, ModelPair, TransformPart, TypedPlace, TypedValue, WrittenDigits};
+use crate::diagnosis::{
+    Criterion, DhEntry, ModelPair, TransformPart, TypedPlace, TypedValue, WrittenDigits, tie_written_alike,
+};
 
 impl ModelNames<'_> {
     /// The digits of the files that both models were read from. A model in screws is computed, so it has none.
@@ -20,6 +22,7 @@ impl ModelNames<'_> {
                 joint_values(joint, digits, &mut values);
             }
         }
+        tie_written_alike(&mut values, models);
         WrittenDigits::new(values, models, &criterion.configurations)
     }
 }

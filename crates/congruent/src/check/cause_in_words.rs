@@ -1,14 +1,21 @@
 //! The cause of a difference as one sentence, with its place.
 
-use std::path::Path;
+use std::{borrow::Cow, path::Path};
 
-use congruent_agreement::report::{ReportedCause, ReportedDiagnosis};
+use congruent_agreement::{
+    diagnosis::Cause,
+    report::{Fault, ReportedCause, ReportedDiagnosis},
+};
 use congruent_input::{
     Diagnostic,
     display::{counted, length_and_angle, listed},
 };
 use congruent_kinematics::PoseError;
 use congruent_results::report::CasePlace;
+use nalgebra::Vector3;
+
+/// Characters of a cause that fit into the first line beside the answer. Kind: choice.
+const MOST_OF_A_CAUSE: usize = 180;
 
 pub(super) fn unknown() -> String {
     "No known cause explains it".to_owned()
@@ -28,11 +35,25 @@ pub(super) fn cause(diagnosis: &ReportedDiagnosis) -> String {
     let (second, others) = match faults.get(1) {
         Some(second) if faults.len() == 2 => {
             let place = self::place(second.file.as_deref(), second.line);
-            (format!("; {}{place}", second.message), 0)
+            (format!("; {}{place}", in_short(second)), 0)
         }
         _ => (String::new(), faults.len() - 1),
     };
-    format!("{label}: {}{place}{second}{}{}", first.message, and_more(others), unexplained(cause))
+    format!("{label}: {}{place}{second}{}{}", in_short(first), and_more(others), unexplained(cause))
+}
+
+/// The fault in words; of one with the numbers of whole transforms, which stand below, only by how much they differ.
+fn in_short(fault: &Fault) -> Cow<'_, str> {
+    let norm = |vector: [f64; 3]| Vector3::from(vector).norm();
+    match (&fault.joint, fault.translation_m, fault.rotation_rad) {
+        (Some(joint), Some(shift_m), Some(turn_rad))
+            if fault.cause == Cause::JointOrigin && fault.message.len() > MOST_OF_A_CAUSE =>
+        {
+            let off = length_and_angle(norm(shift_m), norm(turn_rad));
+            Cow::Owned(format!("joint \"{joint}\": origin off by {off}"))
+        }
+        _ => Cow::Borrowed(&fault.message),
+    }
 }
 
 /// The residual of the cause, if that is too much.

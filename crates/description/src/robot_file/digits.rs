@@ -80,18 +80,33 @@ pub(crate) fn halves_at<P>(
     places.into_iter().zip(halves(&numbers))
 }
 
-/// The lengths, or the roll, pitch and yaw, of a transform, with their place among the six. Quaternions and matrices are exact.
+/// The lengths, or the roll, pitch and yaw, of a transform, with their place among the six. Quaternions and the rotations of
+/// matrices are exact.
 pub(crate) fn typed_transform<'a>(
     written: &WrittenTransform,
     unit: Unit,
     text: &'a str,
 ) -> Vec<(usize, TypedNumber<'a>)> {
+    if let (Unit::Length, Some(matrix)) = (unit, &written.matrix) {
+        return translation_of_matrix(&text[matrix.span()]);
+    }
     let (si, engineering, first) = match unit {
         Unit::Length => (&written.xyz_m, &written.xyz_mm, 0),
         Unit::Angle => (&written.rpy_rad, &written.rpy_deg, 3),
     };
     let numbers = typed_vector([si.as_ref(), engineering.as_ref()], text);
     numbers.into_iter().map(|(at, number)| (first + at, number)).collect()
+}
+
+/// x, y and z of a homogeneous matrix as it is typed, in m; none if there is a comment between its numbers.
+fn translation_of_matrix(text: &str) -> Vec<(usize, TypedNumber<'_>)> {
+    let is_around = |character: char| character.is_whitespace() || "[],".contains(character);
+    let numbers: Vec<&str> = text.split(is_around).filter(|number| !number.is_empty()).collect();
+    if numbers.len() != 16 {
+        return Vec::new();
+    }
+    let last_column = [numbers[3], numbers[7], numbers[11]];
+    last_column.map(|text| TypedNumber { text, units: UnitSystem::Si }).into_iter().enumerate().collect()
 }
 
 /// The components of a vector that has one of two keys, that of SI units or that of engineering units, as they are typed.

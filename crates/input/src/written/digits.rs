@@ -10,6 +10,13 @@ use crate::units::{Unit, UnitSystem};
 /// Significant digits from which a program has written a number, with all that an `f64` has. Kind: format.
 const PROGRAM_DIGITS: usize = 15;
 
+/// Digits that a person types at most: a number that has no more of them, up to the rounding of an `f64`, is as precise as they are.
+/// Kind: choice.
+const SHORT_DIGITS: usize = 8;
+
+/// The rounding of an `f64` and of one multiplication, as a part of the number. Kind: rounding.
+const NOISE: f64 = 2.0 * f64::EPSILON;
+
 /// The coarsest last place, as an exponent of ten, of a value that is rounded: a millimetre, and a hundredth of a radian.
 /// Coarser ones have lost their trailing zeros: `0.4` is 400 mm, and not something from 350 mm to 450 mm. Kind: choice.
 const COARSEST_M: i32 = -3;
@@ -38,7 +45,7 @@ pub struct TypedNumber<'a> {
 /// `typed` are all lengths, or all angles, of one file. A value that is no finer than a centimetre has lost the zeros at its end:
 /// it has the finest last place of the others, or as many digits as the longest of them, whichever is coarser, and is exact if
 /// there are no others. A zero has the finest last place, and is off by 5e-5 at most.
-/// Whole degrees are exact, too: they are design angles, not measurements. A quarter turn that is cut instead of rounded, as
+/// A program that has written `0.10300000000000001` meant 0.103. Whole degrees are exact, too: they are design angles, not measurements. A quarter turn that is cut instead of rounded, as
 /// 1.57079, is off by up to a whole last place, and 3.14158 by two.
 ///
 /// # Examples
@@ -177,7 +184,21 @@ struct TypedDigits {
 }
 
 impl TypedDigits {
+    /// The digits of a number; those of `0.103` for `0.10300000000000001`, which a program has written with the rounding of 103 mm.
     fn read(text: &str) -> Option<Self> {
+        let typed = Self::of_text(text)?;
+        if typed.significant < PROGRAM_DIGITS {
+            return Some(typed);
+        }
+        let value: f64 = text.trim().parse().ok()?;
+        let short = format!("{value:.*e}", SHORT_DIGITS - 1);
+        let is_same = short.parse::<f64>().is_ok_and(|of| (of - value).abs() <= NOISE * value.abs());
+        let (mantissa, exponent) = short.split_once('e')?;
+        let short = format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'));
+        if is_same { Self::of_text(&short) } else { Some(typed) }
+    }
+
+    fn of_text(text: &str) -> Option<Self> {
         let unsigned = text.trim().trim_start_matches(['+', '-']).replace('_', "");
         let (mantissa, exponent) = unsigned.split_once(['e', 'E']).unwrap_or((&unsigned, "0"));
         let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
@@ -213,6 +234,10 @@ mod tests {
             (Unit::Length, Si, "1.5e-3", 5e-5),
             (Unit::Length, Si, "0.4", 0.0),
             (Unit::Length, Si, "0.325", 5e-4),
+            // Written by a program: 103 mm, and what it has computed.
+            (Unit::Length, Si, "0.10300000000000001", 5e-4),
+            (Unit::Length, Si, "0.103000000000123", 0.0),
+            (Unit::Angle, Si, "1.5707963267948966", 0.0),
             (Unit::Angle, Si, "1.5708", 5e-5),
             (Unit::Angle, Si, "+1.57", 5e-3),
             (Unit::Angle, Si, "-1.57079", 1e-5),

@@ -5,10 +5,12 @@
 mod nearest;
 mod typed_value;
 mod weights;
+mod written_alike;
 mod written_digits;
 
 pub(super) use nearest::most_norm;
 pub(super) use weights::Weights;
+pub(crate) use written_alike::tie_written_alike;
 
 pub use typed_value::{TransformPart, TypedPlace, TypedValue};
 pub use written_digits::WrittenDigits;

@@ -5,7 +5,7 @@ use congruent_kinematics::{Pose, rotation_exp};
 use nalgebra::Vector3;
 
 use crate::diagnosis::{
-    candidate::{DhEntry, ModelParameter},
+    candidate::{DeclaredTransform, DhEntry, ModelParameter},
     hypothesis::ModelPair,
 };
 
@@ -92,8 +92,8 @@ impl TypedValue {
         let ModelPair { candidate, reference } = models;
         match self.place {
             TypedPlace::Row(row, entry) => candidate.shift(ModelParameter::Row(row, entry), by),
-            TypedPlace::Base(part) => candidate.base.pose = shifted(&candidate.base.pose, part, by),
-            TypedPlace::Tool(part) => candidate.tool.pose = shifted(&candidate.tool.pose, part, by),
+            TypedPlace::Base(part) => shift_declared(&mut candidate.base, part, by),
+            TypedPlace::Tool(part) => shift_declared(&mut candidate.tool, part, by),
             TypedPlace::Origin(joint, part) => {
                 let pose = &mut reference.joints[joint].parent_from_joint;
                 *pose = shifted(pose, part, by);
@@ -108,6 +108,14 @@ impl TypedValue {
                 }
             }
         }
+    }
+}
+
+/// Changes one of the numbers of a declared transform, and the angles that it is written with.
+fn shift_declared(transform: &mut DeclaredTransform, part: TransformPart, by: f64) {
+    transform.pose = shifted(&transform.pose, part, by);
+    if let (TransformPart::Rotation(angle), Some(rpy)) = (part, &mut transform.written_rpy_rad) {
+        rpy[angle] += by;
     }
 }
 

@@ -134,7 +134,7 @@ impl WrittenDigits {
             TransformPart::Translation(_) => {
                 at(value.place, (pose(shifted).translation - pose(corrected).translation).norm())
             }
-            TransformPart::Rotation(_) => *value,
+            TransformPart::Rotation(_) => at(value.place, pose(shifted).angle_rad(pose(corrected))),
         };
         match value.place {
             TypedPlace::Row(..) => {

@@ -18,7 +18,7 @@ use super::{
     hypothesis::{Cause, FaultPlace, ModelPair, PoseHypothesis},
     invariants::{self, JointDifference},
     origin_reading::origin_readings,
-    score::{ExplanationRank, is_refuted, rank},
+    score::{ExplanationRank, is_certain_unit, is_refuted, rank},
     thresholds::{EVALUATED_BELOW, MAX_NEXT_BEST, SAME_EFFECT},
 };
 
@@ -230,9 +230,10 @@ impl ExplanationSearch<'_> {
         let given = self.context.models.residual(self.criterion);
         accepted.retain(|fit| !self.make_up_for_each_other(fit, &given));
         // If the correction of something makes the files agree far better than their digits say, nothing is left to be
-        // explained by the digits.
+        // explained by the digits; but an angle of 3.1416 under degrees is the right one in radians, of five digits.
         let is_beyond = |fit: &HypothesisFit| {
-            self.criterion.is_beyond_digits(&self.context.corrected(fit).residual(self.criterion))
+            let residual = self.context.corrected(fit).residual(self.criterion);
+            self.criterion.is_beyond_digits(&residual) || is_certain_unit(self.context, fit, &residual)
         };
         if accepted.iter().any(is_beyond) {
             accepted.retain(is_beyond);
