@@ -110,7 +110,6 @@ fn a_base_that_is_nearly_half_a_turn_is_corrected_at_the_base() {
         fs::write(&path, robot.replace(written, &format!("base_from_dh0 = {wrong}"))).unwrap();
         let report = congruent_json(&["check", &text(&path)]).json();
         assert_eq!(report["diagnosis"][0]["cause"], "base", "{wrong}: {}", report["diagnosis"]);
-        assert_eq!(report["diagnosis"].as_array().unwrap().len(), 1, "{wrong}");
     }
 }
 

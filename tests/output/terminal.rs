@@ -32,6 +32,9 @@ fn quiet_is_the_answer_alone_and_verbose_says_more() {
         "{}",
         verbose.stderr
     );
+    let described = congruent(&["describe", "robots/ur5e", "robots/panda", "-q"]);
+    assert_eq!(described.stdout.lines().count(), 2, "{}", described.stdout);
+    assert!(described.stdout.contains("physics ready"), "{}", described.stdout);
     // A warning is said usually, an error always.
     let outside = ["fk", "robots/ur5e", "--at", "elbow_joint=9rad"];
     assert!(congruent(&outside).stderr.contains("elbow_joint"));

@@ -6,7 +6,7 @@ use congruent::{
     analysis::description_summary::{DescriptionSummary, JointOrders, describe, joint_orders},
     description::load_robot_with,
     results::report::{TestResult, TestSuite},
-    text::{description_text, joint_orders_text},
+    text::{description_line, description_text, joint_orders_text},
 };
 
 use crate::{
@@ -43,6 +43,10 @@ impl BatchReport for DescriptionSummary {
 
     fn text(&self) -> String {
         description_text(self)
+    }
+
+    fn one_line(&self) -> Option<String> {
+        Some(format!("{}: {}", self.file, description_line(self)))
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {

@@ -12,7 +12,7 @@ use congruent::{
 };
 
 use super::{
-    inspected_files::{compare_files, judge_inputs, overrides, without_recording},
+    inspected_files::{compare_files, judge_inputs, overrides, runs_in, without_recording},
     inspected_suite::suite,
 };
 use crate::{
@@ -35,7 +35,7 @@ use crate::{
 /// another robot; changed inputs are only reported. For several recordings it is the worst.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Recordings (.rrd), or folders of results.
+    /// Recordings (.rrd), folders of results, or the folder of --out with the results of several runs.
     #[arg(required = true)]
     recordings: Vec<PathBuf>,
     /// Evaluate the checks of this scenario again, on the recordings alone, and compare with the report in each.
@@ -64,31 +64,36 @@ impl BatchReport for RecordingSummary {
         recording_text(self, &text_options())
     }
 
+    fn one_line(&self) -> Option<String> {
+        self.text().lines().next().map(str::to_owned)
+    }
+
     fn test_suite(&self, input: &str) -> TestSuite {
         suite(self, input)
     }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    examine(arguments)?;
-    let batch = Batch::begin(&arguments.recordings, &arguments.ci, printer)?;
-    let recordings = arguments.recordings.iter();
-    batch.finish(recordings.map(|path| batch.answer(path, || answer(path, arguments, &batch))).collect())
+    let recordings: Vec<PathBuf> = arguments.recordings.iter().flat_map(|path| runs_in(path)).collect();
+    examine(arguments, &recordings)?;
+    let batch = Batch::begin(&recordings, &arguments.ci, printer)?;
+    let answers = recordings.iter().map(|path| batch.answer(path, || answer(path, arguments, &batch)));
+    batch.finish(answers.collect())
 }
 
 /// The table is of one recording; no output is another one, or a file that is read.
-fn examine(arguments: &Arguments) -> Result<(), Diagnostic> {
+fn examine(arguments: &Arguments, recordings: &[PathBuf]) -> Result<(), Diagnostic> {
     let csv = arguments.csv.as_deref().map(|file| ("--csv", file));
     refuse_same(arguments.ci.outputs().chain(csv))?;
-    let inputs: Vec<PathBuf> = arguments.recordings.iter().chain(&arguments.check).cloned().collect();
+    let inputs: Vec<PathBuf> = recordings.iter().chain(&arguments.check).cloned().collect();
     let beside = |path: &PathBuf| if path.is_dir() { path.clone() } else { path.with_file_name("") };
-    let results = arguments.recordings.iter().flat_map(|path| result_files(&beside(path)));
+    let results = recordings.iter().flat_map(|path| result_files(&beside(path)));
     let inputs: Vec<PathBuf> = inputs.into_iter().chain(results).collect();
     arguments.ci.is_none_of(&inputs)?;
     let Some(file) = &arguments.csv else { return Ok(()) };
     let refused =
         |message: String, help: &str| Err(Diagnostic::error(codes::inspect::CSV, message).with_help(help));
-    if arguments.recordings.len() > 1 {
+    if recordings.len() > 1 {
         let message = format!("--csv {} is a table of one recording", file.display());
         return refused(message, "give one recording");
     }

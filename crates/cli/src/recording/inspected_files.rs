@@ -1,6 +1,9 @@
 //! A recording against the files of its run: the report beside it, and what the run was made from.
 
-use std::path::Path;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use congruent::{
     input::{Diagnostic, FileAccess, Findings, InputFile},
@@ -49,6 +52,17 @@ pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access:
     }
     summary.exit_code = worse(summary.exit_code, BAD_INPUT);
     summary.problems.push(problem);
+}
+
+/// The folders of results in the folder of several runs, by name; `path` itself if it is no such folder.
+pub(super) fn runs_in(path: &Path) -> Vec<PathBuf> {
+    let has_results =
+        |folder: &Path| [RerunFormat.file_name(), DIGESTS].iter().any(|name| folder.join(name).is_file());
+    let entries = fs::read_dir(path).ok().filter(|_| !has_results(path)).into_iter().flatten().flatten();
+    let mut runs: Vec<PathBuf> =
+        entries.map(|entry| entry.path()).filter(|folder| has_results(folder)).collect();
+    runs.sort();
+    if runs.is_empty() { vec![path.to_owned()] } else { runs }
 }
 
 /// Why a folder of results has no recording to inspect, and what is there of the run by its digests; `None` if it has one, or if it is

@@ -39,6 +39,16 @@ pub fn description_text(summary: &DescriptionSummary) -> String {
     text
 }
 
+/// The answer of `congruent describe` in one line, for `--quiet`: the robot, its chain, and for what it can be used.
+pub fn description_line(summary: &DescriptionSummary) -> String {
+    let verdict = |of: &UseSummary| {
+        let verdict = of.why_nothing().unwrap_or_else(|| readiness(of));
+        format!("{} {verdict}", serde_name(&of.needed_for))
+    };
+    let uses: Vec<String> = summary.uses.iter().map(verdict).collect();
+    format!("{}; {}; {}; {}", summary.robot, parts_line(summary), summary.chain, uses.join(", "))
+}
+
 /// What `congruent describe --orders` prints of a robot: a row for each place, a column for each order that differs from those
 /// before it, and where they differ.
 pub fn joint_orders_text(orders: &JointOrders, options: &TextOptions) -> String {
@@ -94,7 +104,6 @@ fn head(text: &mut String, summary: &DescriptionSummary) {
     if summary.has_declared_dynamics {
         line("the robot file declares dynamics ([[inertial]])".to_owned());
     }
-    let moving = summary.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
     let triangles: usize = summary.meshes.iter().map(|mesh| mesh.triangles).sum();
     let not_found = crate::input::codes::mesh::NOT_FOUND.name;
     let lacks_meshes = summary.warnings.iter().any(|warning| warning.code == not_found);
@@ -106,12 +115,18 @@ fn head(text: &mut String, summary: &DescriptionSummary) {
             format!("{} with {}{others}", counted(files, "mesh file"), counted(triangles, "triangle"))
         }
     };
-    line(format!(
-        "{}, {}; {}, {moving} of them moving; {meshes}",
+    line(format!("{}; {meshes}", parts_line(summary)));
+}
+
+/// How many links and joints the robot has, and its mass.
+fn parts_line(summary: &DescriptionSummary) -> String {
+    let moving = summary.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
+    format!(
+        "{}, {}; {}, {moving} of them moving",
         counted(summary.links.len(), "link"),
         quantity(summary.mass_kg, "kg"),
         counted(summary.joints.len(), "joint"),
-    ));
+    )
 }
 
 /// Each link below the joint that carries it. The only child of a link is indented as deep as the link; branches are
@@ -232,13 +247,16 @@ fn shape_words(shapes: &[ShapeSummary]) -> String {
     words.collect::<Vec<_>>().join(" and ")
 }
 
+fn readiness(of: &UseSummary) -> &'static str {
+    if of.is_ready { "ready" } else { "cannot be used" }
+}
+
 fn describe_use(text: &mut String, of: &UseSummary) {
     if let Some(why) = of.why_nothing() {
         let _ = writeln!(text, "  {}: {why}", serde_name(&of.needed_for));
         return;
     }
-    let verdict = if of.is_ready { "ready" } else { "cannot be used" };
-    let _ = writeln!(text, "  {}: {verdict}", serde_name(&of.needed_for));
+    let _ = writeln!(text, "  {}: {}", serde_name(&of.needed_for), readiness(of));
     for finding in &of.stopped_by {
         *text += &paragraph(&finding.to_string(), 4, 6);
     }

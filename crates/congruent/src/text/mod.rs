@@ -32,7 +32,7 @@ pub use calibration::calibration_text;
 pub use check::{CheckTextParts, check_text, check_text_parts, shown_pairs, tip_differences};
 pub use comparison::comparison_text;
 pub use conversion::{conversion_comments, conversion_remarks, conversion_text};
-pub use description::{description_text, joint_orders_text};
+pub use description::{description_line, description_text, joint_orders_text};
 pub use fault_table::fault_table_text;
 pub use findings::{MOST_FINDINGS, finding_line, finding_text, listed_findings};
 #[cfg(feature = "recording")]

@@ -24,7 +24,7 @@ pub fn clearance_text_parts<'a>(
 }
 
 fn summary(report: &DistanceReport<'_>, robot: &Robot, options: &TextOptions) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}: distances between links, the nearest pair first\n", report.robot);
     for [a, b] in &report.ignored {
         let _ = writeln!(text, "ignored: {a} -- {b}");
     }
@@ -47,7 +47,7 @@ fn summary(report: &DistanceReport<'_>, robot: &Robot, options: &TextOptions) ->
 
 /// The distances at one configuration, the nearest pair first.
 fn nearest(report: &DistanceReport<'_>, number: usize, result: &Distances, options: &TextOptions) -> String {
-    let mut text = format!("configuration {number}: nearest pairs first\n");
+    let mut text = format!("configuration {number}\n");
     let mut order: Vec<usize> = (0..report.pairs.len()).collect();
     order.sort_by(|&a, &b| result.distances_m[a].total_cmp(&result.distances_m[b]));
     let mut table = Table::headed(["", "mm"]);

@@ -27,6 +27,6 @@ pub fn forward_text_parts<'a>(
         table.write(&mut text, columns);
         text
     };
-    let heading = (first == 1).then(|| format!("{}\n", report.chain));
+    let heading = (first == 1).then(|| format!("{}: {}\n", report.robot, report.chain));
     heading.into_iter().chain((first..).zip(report.results.iter()).map(configuration))
 }

@@ -19,7 +19,7 @@ pub fn inverse_text(
     first: usize,
     options: &TextOptions,
 ) -> String {
-    let mut text = if first == 1 { format!("{}\n", report.chain) } else { String::new() };
+    let mut text = if first == 1 { format!("{}: {}\n", report.robot, report.chain) } else { String::new() };
     if report.results.is_empty() {
         text += "the file has no target\n";
     }

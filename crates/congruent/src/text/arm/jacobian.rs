@@ -20,11 +20,14 @@ pub fn jacobian_text_parts<'a>(
     options: &'a TextOptions,
 ) -> impl Iterator<Item = String> + 'a {
     let frame = frame(report, description);
-    let mut text = format!("{}\n{} Jacobian of {frame}\n", report.chain, serde_name(&report.kind));
+    let mut text =
+        format!("{}: {}\n{} Jacobian of {frame}\n", report.robot, report.chain, serde_name(&report.kind));
     text += match report.kind {
-        JacobianKind::Space => "  in the axes of the root link; linear part at the root's origin",
-        JacobianKind::Body => "  in its own axes; linear part at its origin",
-        JacobianKind::Geometric => "  in the axes of the root link; linear part at its origin",
+        JacobianKind::Space => {
+            "  in the axes of the root link; linear velocity of the point at the root's origin"
+        }
+        JacobianKind::Body => "  in the axes of this frame; linear velocity of its origin",
+        JacobianKind::Geometric => "  in the axes of the root link; linear velocity of the frame's origin",
     };
     text += "; unit m and rad per rad, for sliding joints per m\n";
     let configuration = move |(number, result): (usize, JacobianResult)| {

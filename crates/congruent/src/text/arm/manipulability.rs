@@ -18,7 +18,7 @@ pub fn manipulability_text_parts<'a>(
     robot: &Robot,
     options: &'a TextOptions,
 ) -> impl Iterator<Item = String> + 'a {
-    let mut text = format!("{}\n", report.chain);
+    let mut text = format!("{}: {}\n", report.robot, report.chain);
     let radian = length(report.metres_per_rad);
     let turns =
         |joint: &String| robot.find_joint(joint).is_some_and(|joint| robot.joint(joint).kind.is_angular());

@@ -14,12 +14,11 @@ use crate::{
 
 /// What `congruent sensitivity` prints: the displacement of the tool by an error of each parameter, and the worst of all.
 pub fn sensitivity_text(report: &SensitivityReport, robot: &Robot, options: &TextOptions) -> String {
-    let mut text = format!("{}\n", report.chain);
+    let mut text = format!("{}: {}\n", report.robot, report.chain);
     for arm in &report.arms {
         let _ = writeln!(
             text,
-            "{}, lengths x {}: displacement of the tool over {} configurations",
-            report.robot,
+            "lengths x {}: displacement of the tool over {} configurations",
             number(arm.length_factor),
             report.samples
         );

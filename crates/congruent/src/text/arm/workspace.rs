@@ -18,12 +18,8 @@ const WIDE: f64 = 0.1;
 
 /// What `congruent workspace` prints: nearest and farthest position of the tool, bounding box, and volume or area.
 pub fn workspace_text(report: &WorkspaceReport, robot: &Robot, options: &TextOptions) -> String {
-    let mut text = format!("{}\n", report.chain);
-    let _ = writeln!(
-        text,
-        "{}: the tool in link {}, {} configurations",
-        report.robot, report.chain.base, report.samples
-    );
+    let mut text = format!("{}: {}\n", report.robot, report.chain);
+    let _ = writeln!(text, "the tool in link {}, {} configurations", report.chain.base, report.samples);
     for (name, reach) in ["nearest", "farthest"].iter().zip(&report.reach) {
         let distance = position(reach.distance_m, "m");
         let _ = writeln!(text, "  {name} {distance} from the base's origin, at");

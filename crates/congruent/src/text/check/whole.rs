@@ -89,7 +89,7 @@ fn answer_text(check: &RobotCheck, robot: &Robot, options: &TextOptions) -> Stri
     let report = &check.geometry;
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}", report.file, check.headline());
-    let _ = writeln!(text, "  {}", report.chain);
+    let _ = writeln!(text, "  {}: {}", report.robot, report.chain);
     let mapping = check.against.as_ref().and_then(|of| Some((of, of.mapping.as_ref()?)));
     if let Some((against, mapping)) = mapping {
         mapped(&mut text, mapping, &against.file);
