@@ -141,6 +141,11 @@ impl RobotDescription {
         if errors.is_empty() { Ok(()) } else { Err(errors.into()) }
     }
 
+    /// The format of the file that the robot was read from: `URDF` or `MJCF`.
+    pub fn format_name(&self) -> &'static str {
+        if self.places.mjcf.is_some() { "MJCF" } else { "URDF" }
+    }
+
     /// What the robot is made of if there is no URDF: the table or the screws of its robot file.
     pub fn own_model(&self) -> Option<OwnModelForm> {
         self.places.own_model.as_ref().map(|places| places.form())

@@ -333,6 +333,12 @@ fn model_path(
     access: &FileAccess,
     diagnostics: &mut Diagnostics,
 ) -> Option<PathBuf> {
+    // A misspelt [dh] is found already: the file then lacks no URDF.
+    if written.model().is_none()
+        && ["urdf", "description", "dh", "poe"].iter().any(|key| diagnostics.has_misspelt(key))
+    {
+        return None;
+    }
     let (key, urdf) = diagnostics.keep(written.model().ok_or_else(|| {
         Diagnostic::error(codes::robot_file::URDF, "the robot file has no key \"urdf\"")
             .at(0..0)

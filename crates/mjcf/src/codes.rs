@@ -31,7 +31,7 @@ congruent_input::codes! {
         COMPILER = "CGR-MJCF-014", "mjcf::compiler",
             "A setting of <compiler> cannot be used: global coordinates were removed from MuJoCo, or `eulerseq` is not three of the letters x y z X Y Z.";
         JOINT = "CGR-MJCF-015", "mjcf::joint",
-            "MuJoCo refuses this combination of joints: a free joint beside other joints or in a body that is no child of the world, more than six degrees of freedom in a body, or a ball joint followed by a rotation.";
+            "MuJoCo refuses this combination of joints: a free joint beside other joints or in a body that is no child of the world, more than six degrees of freedom in a body, or a ball joint followed by a rotation. Or an armature is negative, with which a joint may have no inertia: torques need it to be 0 or more.";
         AXIS = "CGR-MJCF-016", "mjcf::axis",
             "The axis of a joint has the length 0, so it has no direction. Write a direction; its length does not matter.\n    axis=\"0 0 1\"";
         RANGE = "CGR-MJCF-017", "mjcf::range",

@@ -86,7 +86,10 @@ pub fn robot_file(description: &RobotDescription, to: ConversionTarget, folder: 
     text += &comment(OPTIONAL);
     text.push('\n');
     text += &match &derived {
-        Ok(report) => comment(&table_comment(report)) + report.robot_toml.as_deref().unwrap_or_default(),
+        Ok(report) => {
+            comment(&table_comment(report, description.format_name()))
+                + report.robot_toml.as_deref().unwrap_or_default()
+        }
         Err(why) => {
             comment(&format!("No [dh] table: {why}\nA robot with one has the sections [dh] and [[dh.row]]."))
         }
@@ -116,10 +119,12 @@ fn about(key: &str, description: &RobotDescription, report: Option<&ConversionRe
         ChainEnd::Given => format!("given by {option}"),
         ChainEnd::Declared => "declared".to_owned(),
     };
+    let format = description.format_name();
     match key {
-        "urdf" => "Relative to this file. The URDF and its meshes are referred to, not copied.".to_owned(),
+        "urdf" => format!("Relative to this file. The {format} and its meshes are referred to, not copied."),
         "base" => {
-            let why = named(description.chain_ends.base, "the root link of the URDF", "--base");
+            let root = format!("the root link of the {format}");
+            let why = named(description.chain_ends.base, &root, "--base");
             format!("Link in which the table's base frame is given; {why}.")
         }
         "tip" => {
@@ -138,7 +143,7 @@ fn about(key: &str, description: &RobotDescription, report: Option<&ConversionRe
         "tolerance" => match report {
             Some(report) if !report.rounded_axes.is_empty() => {
                 format!(
-                    "Largest difference of table and URDF that is accepted: {TOLERANCE_MARGIN} times the {} that rounded axes cause.\n\
+                    "Largest difference of table and {format} that is accepted: {TOLERANCE_MARGIN} times the {} that rounded axes cause.\n\
                      Remove it with the derived table: the digits of a data sheet then decide.",
                     found(report)
                 )
@@ -155,14 +160,15 @@ fn found(report: &ConversionReport) -> String {
     length_and_angle(report.proof.position_m, report.proof.orientation_rad)
 }
 
-fn table_comment(report: &ConversionReport) -> String {
-    let mut text = String::from("Derived from the axes of the URDF");
+/// `format` is that of the file that the axes are from.
+fn table_comment(report: &ConversionReport, format: &str) -> String {
+    let mut text = format!("Derived from the axes of the {format}");
     if let Some(table) = &report.table {
         let _ = write!(text, "; each row is {}", table.equation);
     }
     let _ = writeln!(
         text,
-        ".\nLargest difference from the URDF: {}, at {} configurations.",
+        ".\nLargest difference from the {format}: {}, at {} configurations.",
         found(report),
         report.proof.configurations
     );
@@ -173,7 +179,7 @@ fn table_comment(report: &ConversionReport) -> String {
         let [a, b] = &pair.joints;
         let _ = writeln!(
             text,
-            "Axes of {a} and {b} are taken as exact; in the URDF they are {} off by rounding.",
+            "Axes of {a} and {b} are taken as exact; in the {format} they are {} off by rounding.",
             length_and_angle(pair.distance_m, pair.angle_rad)
         );
     }

@@ -19,8 +19,10 @@ use crate::jacobians::TcpInLink;
 pub struct DescriptionSummary {
     /// The robot file, or the URDF if there is none.
     pub file: String,
-    /// Path of the URDF.
+    /// Path of the URDF or MJCF.
     pub urdf: String,
+    /// Its format: `URDF` or `MJCF`.
+    pub format: String,
     /// The SRDF that the robot file names.
     pub srdf: Option<String>,
     /// Name of the robot.
@@ -87,6 +89,7 @@ pub fn describe(description: &RobotDescription) -> DescriptionSummary {
     DescriptionSummary {
         file: description.path.display().to_string(),
         urdf: description.urdf_path.display().to_string(),
+        format: description.format_name().to_owned(),
         srdf: description.named_files.srdf.as_ref().map(|path| path.display().to_string()),
         robot: description.name.clone(),
         chain: description.reported_chain(),

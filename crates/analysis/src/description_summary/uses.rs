@@ -59,6 +59,7 @@ fn for_kinematics(description: &RobotDescription) -> Vec<Missing> {
         missing.push(Missing {
             what: match description.own_model() {
                 Some(_) => "no [dh] table: the screws are the robot, and `check --against` gives a second description",
+                None if description.places.mjcf.is_some() => "no [dh] table: `check` compares the MJCF with the physics alone",
                 None => "no [dh] table: `check` compares the URDF with the physics alone",
             },
             names: Vec::new(),

@@ -40,7 +40,7 @@ pub fn conversion_remarks(report: &ConversionReport) -> String {
     let mut text = String::new();
     let from = match report.from {
         ConversionSource::Dh => "its [dh] table",
-        ConversionSource::Urdf => "its URDF",
+        ConversionSource::Urdf => "its joint axes",
     };
     if let Some(found) = &report.read_back {
         whole_robot(&mut text, report, found);

@@ -80,7 +80,7 @@ fn head(text: &mut String, summary: &DescriptionSummary) {
     line(format!("robot {}", summary.robot));
     line(format!("file {}", summary.file));
     if summary.urdf != summary.file {
-        line(format!("URDF {}", summary.urdf));
+        line(format!("{} {}", summary.format, summary.urdf));
     }
     if let Some(srdf) = &summary.srdf {
         line(format!("SRDF {srdf}: {}", counted(summary.disabled_collisions, "disabled pair")));

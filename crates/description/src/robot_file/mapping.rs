@@ -3,6 +3,7 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet},
+    fmt,
     path::PathBuf,
 };
 
@@ -12,7 +13,10 @@ use congruent_input::{
 };
 use congruent_robot::{Joint, Robot};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{
+    Deserialize, Deserializer,
+    de::{self, MapAccess, Visitor, value::MapAccessDeserializer},
+};
 use toml::Spanned;
 
 use crate::codes;
@@ -47,17 +51,41 @@ pub(crate) enum MappingBase {
 }
 
 /// A joint in another description.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
-#[serde(
-    untagged,
-    expecting = "expected the name of the joint there, or { joint = \"NAME\", sign = -1, offset_deg = 90 }, of which an \
-                 offset names its unit: offset_deg, offset_rad, offset_mm or offset_m"
-)]
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
 pub(crate) enum WrittenMappedJoint {
     /// Its name there; the variable is the same.
     Name(String),
     /// Its name and variable there.
     Variable(WrittenVariable),
+}
+
+/// As written, and not as an untagged enum, whose message would not name a wrong key.
+impl<'de> Deserialize<'de> for WrittenMappedJoint {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(MappedJointVisitor)
+    }
+}
+
+struct MappedJointVisitor;
+
+impl<'de> Visitor<'de> for MappedJointVisitor {
+    type Value = WrittenMappedJoint;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(
+            "the name of the joint there, or { joint = \"NAME\", sign = -1, offset_deg = 90 }, of which an offset names its unit: \
+             offset_deg, offset_rad, offset_mm or offset_m",
+        )
+    }
+
+    fn visit_str<E: de::Error>(self, name: &str) -> Result<Self::Value, E> {
+        Ok(WrittenMappedJoint::Name(name.to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+        WrittenVariable::deserialize(MapAccessDeserializer::new(map)).map(WrittenMappedJoint::Variable)
+    }
 }
 
 /// The variable of a joint there: `q_there = sign * q_here + offset`.

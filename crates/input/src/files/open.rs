@@ -257,14 +257,14 @@ pub(super) fn valid_text(bytes: &[u8], lines_before: usize) -> Result<&str, NotT
         Ok(text) => (text, None),
         Err(error) => {
             let (good, bad) = bytes.split_at(error.valid_up_to());
-            (std::str::from_utf8(good).unwrap_or_default(), bad.first())
+            (std::str::from_utf8(good).unwrap_or_default(), Some(bad))
         }
     };
     let end = good.find('\0').unwrap_or(good.len());
     let line = lines_before + line_column(good, end).0;
     let fault = match bad {
         _ if end < good.len() => nul(line),
-        Some(&byte) => not_utf8(byte, line),
+        Some(rest) => not_utf8(rest, line),
         None => return Ok(good),
     };
     Err(Box::new((fault.at(end..end), &good[..end])))
@@ -272,6 +272,8 @@ pub(super) fn valid_text(bytes: &[u8], lines_before: usize) -> Result<&str, NotT
 
 /// The help of messages about a text in another encoding.
 const AS_UTF8: &str = "save the file as UTF-8";
+/// Bytes among which a file that is not text has a NUL. Kind: choice.
+const BINARY_WITHIN: usize = 512;
 
 /// The bytes of a text without its byte order mark; refuses an empty file and one that begins with a UTF-16 mark.
 fn without_mark(bytes: &[u8]) -> Result<&[u8], Diagnostic> {
@@ -289,9 +291,18 @@ fn nul(line: usize) -> Diagnostic {
     Diagnostic::error(codes::file::NUL, format!("NUL byte at line {line}: the file is not text"))
 }
 
-fn not_utf8(byte: u8, line: usize) -> Diagnostic {
+/// `rest` are the bytes from the first one on that is no UTF-8.
+fn not_utf8(rest: &[u8], line: usize) -> Diagnostic {
+    let byte = rest.first().copied().unwrap_or_default();
     let message = format!("byte 0x{byte:02X} at line {line} is not UTF-8");
-    Diagnostic::error(codes::file::NOT_UTF8, message).with_help(AS_UTF8)
+    // Letters of another encoding have no NUL beside them, as pictures and archives have.
+    let is_text = !rest.iter().take(BINARY_WITHIN).any(|&byte| byte == 0);
+    let found = Diagnostic::error(codes::file::NOT_UTF8, message);
+    found.with_help(if is_text {
+        AS_UTF8
+    } else {
+        "the file is not text: a URDF, an MJCF or a TOML file is expected"
+    })
 }
 
 #[cfg(test)]

@@ -199,7 +199,7 @@ impl MjReader<'_, '_> {
         if is_active && matches!(kind, MjEqualityKind::Connect { .. } | MjEqualityKind::Weld { .. }) {
             let [first, second] = bodies.map(|body| &self.model.bodies[body].name);
             let message = format!("<{}> of bodies \"{first}\" and \"{second}\" closes a loop", element.tag);
-            let help = "the tree is read without it: poses that break the loop count as possible";
+            let help = "the loop is not closed: joints move freely, also to poses that the loop forbids";
             let names = format!("{first} - {second}");
             let found = element.warning(codes::mjcf::LOOP, message).with_help(help);
             self.diagnostics.push(found.one_of("equalities close loops", names));

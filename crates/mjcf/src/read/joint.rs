@@ -62,6 +62,12 @@ impl<'s> MjReader<'s, '_> {
             );
             self.diagnostics.push(fault);
         }
+        let armature = attributes.number("armature", 0.0);
+        if armature.value < 0.0 {
+            let message = format!("joint \"{}\": armature {} is negative", name.text, armature.value);
+            let found = element.fault_at("armature", codes::mjcf::JOINT, message);
+            self.diagnostics.push(found.needed_by(Some(Capability::Physics)));
+        }
         self.springdamper(&attributes, &name.text);
         let axis_in_body = self.axis(&attributes, kind, &name.text, context);
         let frame = context.body_from_frame;
@@ -72,7 +78,7 @@ impl<'s> MjReader<'s, '_> {
             reference: attributes.number("ref", 0.0).map(position),
             damping: attributes.array("damping", [0.0; 3]),
             friction_loss: attributes.number("frictionloss", 0.0),
-            armature: attributes.number("armature", 0.0),
+            armature,
             stiffness: attributes.array("stiffness", [0.0; 3]),
             spring_reference: attributes.number("springref", 0.0).map(position),
             actuator_force_range,

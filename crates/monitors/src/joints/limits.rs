@@ -264,7 +264,7 @@ impl CoordinateLimits {
                 let why = if *setpoint_inside <= AT_THE_LIMIT {
                     "its setpoint is at the limit".to_owned()
                 } else {
-                    format!("it sags, its setpoint is {} inside the range", shown(*setpoint_inside))
+                    format!("it sags by {}, from its setpoint inside the range", shown(*setpoint_inside))
                 };
                 format!("{name} rests on its stop from {} on: {why}", quantity(*time_s, "s"))
             },

@@ -46,6 +46,9 @@ pub fn verdict_sentence(
     }
     match verdict {
         Verdict::NothingChecked if is_inconclusive => "no check could evaluate enough samples".to_owned(),
+        Verdict::NothingChecked if count.passed > 0 => {
+            "only the default checks were evaluated, and pass: add a [[check]]".to_owned()
+        }
         Verdict::NothingChecked => "no check of the scenario was evaluated: add a [[check]]".to_owned(),
         Verdict::Broken => "the run ended with an error".to_owned(),
         Verdict::AsExpected if failed.is_empty() => count.passing("every check passes, as expected"),

@@ -41,7 +41,7 @@ fn a_joint_that_sags_onto_its_stop_is_no_violation() {
     let result = led_to(1.95, controlled("pd", 60.0, 20.0));
     passes(&result);
     notes(&result, "elbow rests on its stop from ");
-    notes(&result, "it sags, its setpoint is ");
+    notes(&result, "it sags by ");
     let depth_rad = worst(&result, "angle_into_stop");
     assert!(depth_rad > 1e-6 && depth_rad < 1e-3, "{depth_rad}");
 }

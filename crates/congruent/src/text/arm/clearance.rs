@@ -69,7 +69,7 @@ fn below(text: &mut String, report: &DistanceReport<'_>, limit_m: f64, options: 
     let all = report.pairs.len();
     let _ =
         writeln!(text, "{} of {all} pairs are below the limit of {}", report.below.len(), length(limit_m));
-    let mut table = Table::headed(["", "least mm", "below mm", "configuration"]);
+    let mut table = Table::headed(["", "smallest mm", "below the limit mm", "configuration"]);
     for found in &report.below {
         let [a, b] = &found.pair;
         let values = [found.distance_m, limit_m - found.distance_m].map(|value| in_column(value, "m"));

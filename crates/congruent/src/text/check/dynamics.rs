@@ -54,7 +54,7 @@ fn within_digits(text: &mut String, values: &[String]) {
     if !values.is_empty() {
         let _ = writeln!(
             text,
-            "  {} of masses, inertias, limits and losses differ within the digits written, which is no difference: {}",
+            "  rounded: {} of masses, inertias, limits and losses are equal within the digits written: {}",
             counted(values.len(), "value"),
             first_of(values, SHOWN)
         );
@@ -114,7 +114,7 @@ fn as_compared(text: &mut String, check: &RobotCheck, against: &OtherDescription
         check.dynamics_of_descriptions().next().is_some() && against.links_in_other_frames.is_empty();
     if is_compared && pairs.any(|of| of.verdict == Agreement::Disagree) {
         text.push_str(
-            "  masses and losses are compared as both files write them, with the geometry of this file\n",
+            "  masses and losses: the numbers of both files, in torques of the geometry of this file\n",
         );
     }
     let causes = check.geometry.diagnoses.iter().filter_map(ReportedDiagnosis::named_cause);

@@ -35,12 +35,12 @@ pub(super) fn mapped(text: &mut String, mapping: &ReportedMapping, other: &str) 
     }
     // With equal variables there was nothing to choose.
     if mapping.equivalent > 0 && mapping.joints.iter().any(|of| !of.has_same_variable()) {
-        let sets = counted(mapping.equivalent, "other set");
-        let give = if mapping.equivalent == 1 { "gives" } else { "give" };
+        let (others, give) = if mapping.equivalent == 1 { ("set", "gives") } else { ("sets", "give") };
         let _ = writeln!(
             text,
-            "    {sets} of directions and zeros, as of a wrist, {give} the same motion of the tip; with the set above the bodies of \
-             both files are in the same places"
+            "    {} other {others} of directions and zeros {give} the tip the same motion, as at a wrist; only with the set above do the \
+             bodies of both files move alike, too",
+            mapping.equivalent
         );
     }
     let mut differing = mapping.joints.iter().filter(|of| !of.has_same_variable());
