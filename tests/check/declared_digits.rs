@@ -65,7 +65,7 @@ fn a_rounded_table_moves_declared_masses_and_fails_a_run() {
         answer.stdout
     );
     assert!(
-        answer.stdout.contains("6 values of masses, inertias, limits and losses differ within the digits"),
+        answer.stdout.contains("6 values of masses, inertias, limits and losses are equal within the digits"),
         "{}",
         answer.stdout
     );

@@ -371,3 +371,14 @@ fn limits_and_masses_of_two_files_have_the_values_of_both() {
     assert!(line.contains(" 50 N m in ") && line.contains("one.urdf:16, 40 N m in "), "{line}");
     assert!(line.ends_with("other.urdf:16") && !printed.contains("factor"), "{printed}");
 }
+
+/// A mass above a vertical first axis, through its centre of mass, is in no torque: the first line says that it differs.
+#[test]
+fn a_mass_without_effect_on_torques_is_in_the_first_line() {
+    let centred = ARM.replace("<origin xyz=\"0.05 0.02 0.2\"/>", "<origin xyz=\"0 0 0.2\"/>");
+    let (answer, printed) =
+        against(&centred, &centred.replace("<mass value=\"10\"/>", "<mass value=\"100\"/>"), &[]);
+    assert_eq!(answer.code, 0, "{printed}");
+    let first = printed.lines().next().unwrap();
+    assert!(first.contains("; without effect on torques: first: mass 10 kg in "), "{first}");
+}

@@ -109,7 +109,10 @@ impl Late {
         if self.others.is_empty() {
             return self.gain;
         }
-        self.gain + encoder::faults(&self.taken_out(observed), &self.others).gain
+        // Of the other joints what the latency takes away, and what faults of their encoders take of the rest.
+        let of_others: f64 =
+            self.others.iter().map(|&joint| gained(observed, joint, self.steps as u64, self.window)).sum();
+        self.gain + of_others + encoder::faults(&self.taken_out(observed), &self.others).gain
     }
 
     /// The run with the errors that the latency does not explain.
@@ -189,6 +192,19 @@ fn added(observed: &ObservedRun<'_>, joint: usize, steps: u64) -> impl Fn(usize)
     }
 }
 
+/// By how much a latency in a window lowers the sum of squares of a joint, in variances; below 0 if it raises it.
+fn gained(observed: &ObservedRun<'_>, joint: usize, steps: u64, window: Window) -> f64 {
+    let (error, added) = (&observed.error[joint], added(observed, joint, steps));
+    let used = observed.used().filter(|sample| window.samples().contains(sample));
+    let gains = used.map(|sample| lowered(error[sample], added(sample)));
+    gains.sum::<f64>() / observed.uncertainty[joint].variance()
+}
+
+/// `e^2 - (e - a)^2`, by which an added `a` lowers the square of an error.
+fn lowered(error: f64, added: f64) -> f64 {
+    added * (2.0 * error - added)
+}
+
 /// The window in which a latency explains most, in variances: the largest sum of successive gains (Kadane's algorithm).
 fn shifted(observed: &ObservedRun<'_>, joints: &[usize], steps: u64) -> (Window, f64) {
     let mut gains = vec![0.0; observed.samples()];
@@ -196,9 +212,7 @@ fn shifted(observed: &ObservedRun<'_>, joints: &[usize], steps: u64) -> (Window,
         let (error, added) = (&observed.error[joint], added(observed, joint, steps));
         let variance = observed.uncertainty[joint].variance();
         for sample in observed.used() {
-            let added = added(sample);
-            // e^2 - (e - a)^2, by which the latency lowers the sum of squares.
-            gains[sample] += added * (2.0 * error[sample] - added) / variance;
+            gains[sample] += lowered(error[sample], added(sample)) / variance;
         }
     }
     let (mut best, mut first, mut sum) = ((Window { first: 0, end: 0 }, 0.0), 0, 0.0);

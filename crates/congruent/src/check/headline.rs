@@ -62,6 +62,9 @@ impl RobotCheck {
         if let Some(force) = self.first_force_not_compared() {
             let _ = write!(headline.details, "; not compared: {force}");
         }
+        if let Some(mass) = self.first_mass_without_effect() {
+            let _ = write!(headline.details, "; without effect on torques: {mass}");
+        }
         if self.fails_by_lint() {
             let findings = counted(self.lint.findings(), "finding");
             let _ = write!(headline.details, "; --strict: {findings} of lint");
@@ -160,6 +163,19 @@ impl RobotCheck {
     fn first_force_not_compared(&self) -> Option<&String> {
         let against = self.against.as_ref().filter(|_| self.change.is_none())?;
         against.forces_not_compared.first()
+    }
+
+    /// The first mass that differs without an effect on any torque, as of a link that only turns about a vertical axis through its
+    /// centre of mass; `None` if something else differs, too, or for a revision, whose answer has it.
+    fn first_mass_without_effect(&self) -> Option<String> {
+        let agrees = self.geometry.verdict == Agreement::Agree && self.change.is_none();
+        self.dynamics_of_descriptions().filter(|_| agrees).find_map(|report| {
+            let mut hidden = report.hidden_differences.iter();
+            let mass = hidden.find(|of| {
+                of.parameter == "mass" && of.below_resolution.is_none() && of.cancelled.is_none()
+            })?;
+            Some(report.sides.files().map_or_else(|| mass.sentence(), |files| mass.sentence_in(files)))
+        })
     }
 
     /// Whether the other description, or the robot file if that is the only second source of dynamics, says nothing of this kind

@@ -62,12 +62,7 @@ impl<'s> MjReader<'s, '_> {
             );
             self.diagnostics.push(fault);
         }
-        let armature = attributes.number("armature", 0.0);
-        if armature.value < 0.0 {
-            let message = format!("joint \"{}\": armature {} is negative", name.text, armature.value);
-            let found = element.fault_at("armature", codes::mjcf::JOINT, message);
-            self.diagnostics.push(found.needed_by(Some(Capability::Physics)));
-        }
+        let armature = self.armature(element, &attributes, &name.text);
         self.springdamper(&attributes, &name.text);
         let axis_in_body = self.axis(&attributes, kind, &name.text, context);
         let frame = context.body_from_frame;
@@ -89,6 +84,22 @@ impl<'s> MjReader<'s, '_> {
             body,
             kind,
         });
+    }
+
+    /// The inertia of the rotor; with one below 0 a joint may have no inertia.
+    fn armature(
+        &mut self,
+        element: &'s MjElement,
+        attributes: &MjAttributes<'_>,
+        name: &str,
+    ) -> MjWritten<f64> {
+        let armature = attributes.number("armature", 0.0);
+        if armature.value < 0.0 {
+            let message = format!("joint \"{name}\": armature {} is negative", armature.value);
+            let found = element.fault_at("armature", codes::mjcf::JOINT, message);
+            self.diagnostics.push(found.needed_by(Some(Capability::Physics)));
+        }
+        armature
     }
 
     fn axis(
