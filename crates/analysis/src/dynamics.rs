@@ -103,17 +103,18 @@ impl DynamicsResult {
         let zeros = vec![0.0; n];
         let [mut gravity, mut inverse, mut bias, mut forward] = std::array::from_fn(|_| vec![0.0; n]);
         let mut matrix = DMatrix::zeros(n, n);
-        by.gravity_into(q, &mut gravity)?;
-        by.mass_matrix_into(q, &mut matrix)?;
-        // Bias by the same source, rather than by subtraction, which would lose digits.
-        by.inverse_into(&JointMotionState { q, qd, qdd: &zeros }, &mut bias)?;
-        by.inverse_into(&JointMotionState { q, qd, qdd }, &mut inverse)?;
+        // Accelerations first: they refuse a joint without inertia, before a large mass matrix is computed in vain.
         let driven = DrivenState { q, qd, tau };
         if coordinates.driven().len() == n {
             by.independent_forward_into(&driven, &mut forward)?;
         } else {
             by.forward_into(&driven, &mut forward)?;
         }
+        by.gravity_into(q, &mut gravity)?;
+        by.mass_matrix_into(q, &mut matrix)?;
+        // Bias by the same source, rather than by subtraction, which would lose digits.
+        by.inverse_into(&JointMotionState { q, qd, qdd: &zeros }, &mut bias)?;
+        by.inverse_into(&JointMotionState { q, qd, qdd }, &mut inverse)?;
         // G' M G, rows first; of the rows of followers the multiples are added to those of their masters.
         let rows: Vec<Vec<f64>> =
             matrix.column_iter().map(|column| coordinates.folded(column.as_slice())).collect();
