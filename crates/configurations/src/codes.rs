@@ -9,10 +9,10 @@ congruent_input::codes! {
         NONE = "CGR-TABLE-002", "configurations::none",
             "The list of configurations is empty. One configuration with all joints at 0 is:\n    [{\"q\": {}}]";
         UNKNOWN_JOINT = "CGR-TABLE-003", "configurations::unknown_joint",
-            "A configuration names a joint that the robot does not have or that does not move. The help has the most similar name and the known ones.";
+            "A configuration names a joint that the robot does not have or that does not move. The help has the most similar name and the known ones.\n    wrong: {\"q\": {\"elbow\": 0.1}}\n    right: {\"q\": {\"elbow_joint\": 0.1}}";
         MIMIC = "CGR-TABLE-004", "configurations::mimic",
-            "A mimic joint is given at a position that contradicts the position of the joint it mimics. Leave mimic joints out: their positions follow from the mimicked joints.";
+            "A mimic joint is given at a position that contradicts the position of the joint it mimics. Leave mimic joints out: their positions follow from the mimicked joints.\n    wrong: {\"panda_finger_joint1\": 0.02, \"panda_finger_joint2\": 0.0}\n    right: {\"panda_finger_joint1\": 0.02}";
         OUTSIDE_LIMITS = "CGR-TABLE-005", "configurations::outside_limits",
-            "A configuration is outside the joint limits. The result is computed, but the robot cannot reach this pose.";
+            "A configuration is outside the joint limits. The result is computed, but the robot cannot reach this pose. Write angles in radians, within the limits of the joint.\n    wrong: {\"q\": {\"elbow_joint\": 90}}\n    right: {\"q\": {\"elbow_joint\": 1.5708}}";
     }
 }

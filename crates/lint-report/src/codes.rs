@@ -9,13 +9,13 @@ congruent_input::codes! {
     }
     measurements {
         OUTSIDE_LIMITS = "CGR-TABLE-024", "measurements::outside_limits",
-            "The joint positions of a measurement are outside the joint limits. Often the unit is wrong: the ending of a column's name is its unit.";
+            "The joint positions of a measurement are outside the joint limits. Often the unit is wrong: the ending of a column's name is its unit. Correct the unit.\n    wrong: joint_1_rad\n    right: joint_1_deg";
     }
     units {
         MEASURED_POINT = "CGR-TABLE-025", "units::measured_point",
-            "A measured point is farther from the other points than the robot can reach. Often its unit is wrong.";
+            "A measured point is farther from the other points than the robot can reach. Often its unit is wrong. Correct the unit in the header.\n    wrong: x_m,y_m,z_m with values such as 259.8\n    right: x_mm,y_mm,z_mm";
         TARGET = "CGR-TABLE-026", "units::target",
-            "A target is far beyond the reach of the robot. Often its unit is wrong.";
+            "A target is far beyond the reach of the robot. Often its unit is wrong. Write metres.\n    wrong: \"translation_m\": [400, 100, 300]\n    right: \"translation_m\": [0.4, 0.1, 0.3]";
     }
 }
 

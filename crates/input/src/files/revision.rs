@@ -317,7 +317,7 @@ fn unknown_revision(top: &Path, revision: &str) -> Result<Diagnostic, Diagnostic
     Ok(match nearest(revision, listed.lines()) {
         Some(similar) => fault.with_help(format!("did you mean git:{similar}?")),
         None => fault.with_help(
-            "give a branch, a tag or a commit; a clone of a CI has only the newest commit: fetch more of it (fetch-depth: 0)",
+            "give a branch, a tag or a commit; a CI checkout often has only the newest commit: fetch more (fetch-depth: 0)",
         ),
     })
 }
