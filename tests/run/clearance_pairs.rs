@@ -287,3 +287,18 @@ fn a_joint_is_within_its_limit_by_a_tolerance() {
     let twice = slide.run("kind = \"limits\"\ntolerance_mm = 2.0\ntolerance_m = 1.0", "json");
     assert!(twice.code == 2 && twice.stdout.contains("tolerance_mm"), "{}", twice.stdout);
 }
+
+/// The box is far away at first, and links beside each other are always nearer: it is the nearest pair that changes all the same.
+#[test]
+fn a_pair_that_comes_near_from_afar_is_the_nearest_that_changes() {
+    let scratch = tempfile::tempdir().unwrap();
+    let pick = text(&workspace().join("scenarios/ur5e_pick.toml"));
+    let answer = congruent_json(&["run", &pick, "--no-recording", "--out", &text(scratch.path())]);
+    let report = answer.json();
+    let checks = report["checks"].as_array().unwrap();
+    let nearest = &checks.iter().find(|check| check["check"] == "clearance").unwrap()["nearest_that_changes"];
+    assert_eq!(nearest["subject"], "wrist_3_link--box", "{nearest}");
+    // The smallest distance of this pair alone is 47.3 mm.
+    let distance_m = nearest["value"].as_f64().unwrap();
+    assert!((distance_m - 0.0473).abs() < 1e-4, "{nearest}");
+}

@@ -25,7 +25,7 @@ pub enum SourcePair {
 impl SourcePair {
     /// Whether both sources are files of this comparison, whose digits count: physics and screws are computed.
     pub fn is_written(self) -> bool {
-        matches!(self, Self::ModelUrdf | Self::UrdfOther)
+        matches!(self, Self::ModelUrdf | Self::UrdfOther | Self::OtherModelUrdf)
     }
 
     /// The pair in words.

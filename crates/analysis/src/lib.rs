@@ -11,8 +11,11 @@ pub mod dynamics;
 pub mod forward;
 pub mod inverse;
 pub mod jacobians;
+mod largest_value;
 pub mod manipulability;
 pub mod plot;
 pub mod sensitivity;
 pub mod stream;
 pub mod workspace;
+
+pub use largest_value::largest_value;

@@ -2,7 +2,7 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet},
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::Arc,
 };
 
@@ -119,9 +119,58 @@ pub struct RobotDescription {
     pub inputs: Vec<InputFile>,
     /// The texts of robot file and URDF.
     pub places: Places,
+    /// Set if the robot is what a program has loaded: no file has its values, and what it lacks is 0. How far the program's own poses were
+    /// found to be from those of the robot, at most.
+    pub loaded: Option<Tolerance>,
 }
 
 impl RobotDescription {
+    /// A robot alone: root as base, a chosen tip, no table, default tolerance. `path` is that of its URDF or MJCF.
+    pub(crate) fn of_robot(path: &Path, robot: Robot) -> Self {
+        let base = robot.root();
+        Self {
+            path: path.to_owned(),
+            name: robot.name().to_owned(),
+            urdf_path: path.to_owned(),
+            base,
+            tip: choose_tip(&robot, base).tip,
+            chain_ends: ChainEnds::default(),
+            accelerations: vec![None; robot.dof()],
+            robot,
+            dh: None,
+            dynamics: None,
+            tip_from_tcp: None,
+            tolerance: Tolerance::default(),
+            declared_tolerance: RequestedTolerance::default(),
+            mapping: None,
+            references: Vec::new(),
+            named_files: NamedFiles::default(),
+            disabled_collisions: BTreeSet::new(),
+            warnings: Vec::new(),
+            inputs: Vec::new(),
+            places: Places::default(),
+            loaded: None,
+        }
+    }
+
+    /// The robot that a program has loaded, such as an engine of physics, under the name that messages have for it. `forces` are what
+    /// the program computes with and a robot has no place for, in words; `within` is how far its own poses are from those of the robot.
+    pub fn of_loaded(
+        name: &str,
+        robot: Robot,
+        forces: impl IntoIterator<Item = String>,
+        within: Tolerance,
+    ) -> Self {
+        let forces = forces.into_iter().map(|message| Diagnostic::warning(codes::mjcf::GRAVITY, message));
+        let warnings = forces.collect();
+        Self { warnings, loaded: Some(within), ..Self::of_robot(Path::new(name), robot) }
+    }
+
+    /// Whether it is what a program has loaded, and no file.
+    pub fn is_loaded(&self) -> bool {
+        self.loaded.is_some()
+    }
+
     /// The scale with which tolerances of its poses are compared.
     pub fn tolerance_scale(&self) -> ToleranceScale {
         ToleranceScale::with_tool(&self.robot, self.tip, self.tip_from_tcp.as_ref())

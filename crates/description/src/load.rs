@@ -11,11 +11,11 @@ use congruent_input::{
     Capability, Diagnostic, Diagnostics, FileAccess, Findings, RevisionFiles, RevisionName, SourceFile,
     TextKind, direct_path, folder_of,
 };
-use congruent_robot::{LinkIndex, RequestedTolerance, Robot, Tolerance};
+use congruent_robot::{LinkIndex, Robot};
 use toml::Spanned;
 
 use crate::{
-    chain::{ChainEnd, ChainEnds, choose_tip},
+    chain::ChainEnd,
     codes,
     description::{NamedFiles, Places, RobotDescription},
     model_file::ModelFile,
@@ -141,30 +141,8 @@ fn load_bare_model(source: &Arc<SourceFile>, access: &FileAccess) -> Result<Robo
 /// The description of a bare URDF or MJCF: root as base, a chosen tip, no table, default tolerance.
 fn bare(source: &Arc<SourceFile>, model: ModelFile) -> RobotDescription {
     let ModelFile { robot, warnings, excluded, places } = model;
-    let base = robot.root();
-    RobotDescription {
-        path: source.path.clone(),
-        name: robot.name().to_owned(),
-        urdf_path: source.path.clone(),
-        base,
-        tip: choose_tip(&robot, base).tip,
-        chain_ends: ChainEnds::default(),
-        accelerations: vec![None; robot.dof()],
-        robot,
-        dh: None,
-        dynamics: None,
-        tip_from_tcp: None,
-        tolerance: Tolerance::default(),
-        declared_tolerance: RequestedTolerance::default(),
-        mapping: None,
-        references: Vec::new(),
-        named_files: NamedFiles::default(),
-        disabled_collisions: excluded,
-        warnings,
-        inputs: Vec::new(),
-        places,
-    }
-    .with_tip_warning()
+    let alone = RobotDescription::of_robot(&source.path, robot);
+    RobotDescription { disabled_collisions: excluded, warnings, places, ..alone }.with_tip_warning()
 }
 
 fn load_robot_file(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Findings> {
@@ -296,6 +274,7 @@ fn declared(
         warnings: Vec::new(),
         inputs: Vec::new(),
         places: Places { robot_file: table, inertials, ..places },
+        loaded: None,
     })
 }
 

@@ -34,7 +34,10 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
     let help = if has_robots {
         format!("for the robots in it: {}", path.join("*/").display())
     } else if let Some(file) = robot_file_below(path).or_else(|| urdf_below(path)) {
-        format!("it has {}: give that file", direct_path(&file).display())
+        let beside = urdfs_beside(&file);
+        let names =
+            if beside.len() > 1 { beside.join(", ") } else { direct_path(&file).display().to_string() };
+        format!("it has {names}: give {}", if beside.len() > 1 { "one of these files" } else { "that file" })
     } else if find_below(path, 0, &is_toml).is_some() {
         format!("for the files in it: {}", path.join("*.toml").display())
     } else {
@@ -55,7 +58,17 @@ fn robot_file_below(folder: &Path) -> Option<PathBuf> {
 
 /// A URDF in a folder or below it.
 fn urdf_below(folder: &Path) -> Option<PathBuf> {
-    find_below(folder, SEARCHED_DEPTH, &|path| path.extension().is_some_and(|extension| extension == "urdf"))
+    find_below(folder, SEARCHED_DEPTH, &is_urdf)
+}
+
+/// The URDFs in the folder of a URDF, itself among them; none for a robot file.
+fn urdfs_beside(file: &Path) -> Vec<String> {
+    let entries = file.parent().filter(|_| is_urdf(file)).and_then(|folder| fs::read_dir(folder).ok());
+    let paths = entries.into_iter().flat_map(|entries| entries.take(MOST_ENTRIES).flatten());
+    let paths = paths.map(|entry| entry.path()).filter(|path| is_urdf(path));
+    let mut names: Vec<String> = paths.map(|path| direct_path(&path).display().to_string()).collect();
+    names.sort();
+    names
 }
 
 /// A file of this name in a folder, below it, or below the folder above.
@@ -150,6 +163,10 @@ pub(crate) fn refuse_other_text(source: &SourceFile) -> Result<(), Diagnostic> {
     }
     let message = format!("{} is neither a robot file (.toml) nor a URDF", source.path.display());
     Err(Diagnostic::error(congruent_input::codes::xml::MALFORMED, message).with_help(ACCEPTED))
+}
+
+fn is_urdf(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "urdf")
 }
 
 pub(crate) fn is_toml(path: &Path) -> bool {

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     actuator,
     encoder::{self, DISTINCT, EncoderFaults},
-    fit::FaultFit,
+    fit::{FaultFit, Window},
     observed::ObservedRun,
     payload,
     residual::{HeldSamples, OffWindow, Residual, first_contact, is_blind, residuals},
@@ -214,7 +214,8 @@ impl Search<'_> {
         let is_load = !with_load.is_empty() && (alone.len() < off.len() || score(&with_load) < score(&alone));
         if !is_load {
             let sentence = |(joint, window)| self.unexplained_effort(joint, window);
-            let unexplained: Vec<String> = unknown.into_iter().map(sentence).collect();
+            let is_open = |(_, window): &(usize, OffWindow)| !self.begins_with_a_stop(window.samples);
+            let unexplained: Vec<String> = unknown.into_iter().filter(is_open).map(sentence).collect();
             self.unexplained.extend(unexplained);
         }
         let found = if is_load { with_load } else { alone };
@@ -235,6 +236,15 @@ impl Search<'_> {
                 self.found.extend(actuator::delivered_share(&self.observed, joint));
             }
         }
+    }
+
+    /// Whether a joint has run into the end of its range by the beginning of a window: the others feel the impact, and what it exerts
+    /// is not reported.
+    fn begins_with_a_stop(&self, window: Window) -> bool {
+        /// The step of the impact, and that before it.
+        const IMPACT: usize = 2;
+        let mut joints = 0..self.observed.robot.dof();
+        joints.any(|joint| (1..=window.first + IMPACT).contains(&self.observed.samples_before_limit(joint)))
     }
 
     /// That a joint lacks effort, or has too much, and no hypothesis says why.
@@ -268,8 +278,11 @@ impl Search<'_> {
         let of = |held: HeldSamples| self.off_window(residuals, joint, held);
         // Stuck first: a brake holds the joint, and exactly those samples are the evidence. For every other fault they are not,
         // since dry friction may exert any torque in them.
-        let stuck =
-            of(HeldSamples::Counts).and_then(|window| stuck::fault(&self.observed, joint, window.samples));
+        // A joint whose actuator is known to lack effort need not be held by anything else.
+        let lacks_effort = actuator::delivered_share(&self.observed, joint).is_some();
+        let stuck = of(HeldSamples::Counts)
+            .filter(|_| !lacks_effort)
+            .and_then(|window| stuck::fault(&self.observed, joint, window.samples));
         let window = of(if stuck.is_some() { HeldSamples::Counts } else { HeldSamples::LeftOut })?;
         Some((window, stuck.or_else(|| actuator::fault(&self.observed, joint, residuals, window))))
     }

@@ -151,8 +151,12 @@ pub(super) fn late(observed: &ObservedRun<'_>, joints: &[usize]) -> Option<Late>
     }
     let (window, gain) = shifted(observed, &own, steps);
     let remaining = own.iter().map(|&joint| remaining(observed, joint, steps, window)).fold(0.0, f64::max);
-    let is_significant =
-        gain > SIGNIFICANT && remaining <= EXPLAINED && is_beyond_steps(observed, &own, steps, window);
+    // Steps of encoders are within their readings' uncertainty, however well a latency repeats their pattern.
+    let is_wrong = own.iter().any(|&joint| encoder::is_wrong(observed, joint));
+    let is_significant = gain > SIGNIFICANT
+        && remaining <= EXPLAINED
+        && is_wrong
+        && is_beyond_steps(observed, &own, steps, window);
     #[expect(clippy::cast_precision_loss, reason = "steps of a run are far below 2^52")]
     let value = FaultQuantity::latency(steps as f64 * observed.clock.step_s);
     let fault = fault(observed, FaultKind::Latency, value, window, joints);

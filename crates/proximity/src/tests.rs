@@ -58,6 +58,7 @@ fn description() -> RobotDescription {
         warnings: Vec::new(),
         inputs: Vec::new(),
         places: congruent_description::Places::default(),
+        loaded: None,
     }
 }
 

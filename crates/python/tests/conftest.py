@@ -1,5 +1,6 @@
 """The robots of the repository, for all tests."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,10 @@ import congruent
 
 ROOT = Path(__file__).resolve().parents[3]
 ROBOTS = ROOT / "robots"
+
+# A folder with public robots that nobody in the project wrote, which tests use if there is one.
+_corpus = os.environ.get("CONGRUENT_CORPUS")
+CORPUS = Path(_corpus) if _corpus else None
 
 
 @pytest.fixture

@@ -16,6 +16,7 @@ STUB = Path(congruent.__file__).with_name("_native.pyi")
 RIGHT = """
 import numpy as np
 import congruent
+from congruent.pytest import congruent_check
 
 robot = congruent.Robot("robots/ur5e", tip="tool0")
 poses = robot.fk(np.zeros((3, 6)))
@@ -29,6 +30,7 @@ try:
     congruent.run("scenario.toml", set={"seed": 3})
 except congruent.CongruentError as error:
     lines: list[int | None] = [finding.line for finding in error.findings]
+test_robots = congruent_check("robots/*", against=["git:main"], tolerance="1mm", strict=True)
 """
 
 WRONG = [
@@ -37,6 +39,7 @@ WRONG = [
     'congruent.Robot("a").jacobian([0.0], kind="spatial")',
     'congruent.check("a", tolerance=0.001)',
     'congruent.run("a", stiffness=500)',
+    'import congruent.pytest; congruent.pytest.congruent_check("robots/*", tolerance=0.001)',
     'grade: int = congruent.check("a").grade',
 ]
 

@@ -75,6 +75,21 @@ impl CheckReport {
     }
 }
 
+impl CheckReport {
+    /// Adds to the bounds of the other description how far it may be from what it stands for, such as poses of a program that computes
+    /// with fewer digits: by the triangle inequality the two add up.
+    pub fn add_residual_of_other(&mut self, PoseError { position_m, orientation_rad }: PoseError) {
+        let of_other = self.certificates.iter_mut().filter(|of| of.name == SourcePair::UrdfOther);
+        for brackets in of_other.filter_map(|of| of.brackets.as_mut()) {
+            brackets.position_m.certified += position_m;
+            brackets.orientation_rad.certified += orientation_rad;
+        }
+        let brackets = worst(&self.certificates);
+        self.certificate = brackets.as_ref().map(Brackets::bounds);
+        self.certificate_bracket = brackets;
+    }
+}
+
 /// What second-order terms add to differences that digits allow. No unit, relative; kind: choice.
 const MARGIN: f64 = 1.01;
 /// Rounding of computed angles, rad.

@@ -13,6 +13,7 @@ use super::{
     comparing::{Comparing, is_turned_only},
     configurations::CheckConfigurations,
     error::CheckError,
+    grade::Grade,
     graded::Graded,
     identified::IdentifiedChain,
 };
@@ -138,6 +139,23 @@ impl CheckReport {
     pub fn title(&self, pair: SourcePair) -> &'static str {
         let known = self.comparisons.iter().find(|comparison| comparison.name == pair);
         known.map_or_else(|| pair.title(), |comparison| comparison.title)
+    }
+
+    /// Adds the comparisons of two further sources with what their digits allow, and the grade of these.
+    pub fn add_comparisons(
+        &mut self,
+        found: Vec<Comparison>,
+        grade: Option<Grade>,
+        allowed_by_digits: Option<PoseError>,
+    ) {
+        self.comparisons.extend(found);
+        self.worst = worst_difference(&self.comparisons, &self.tolerance);
+        self.grade = self.grade.max(grade);
+        let allowed = [self.allowed_by_digits, allowed_by_digits].into_iter().flatten();
+        self.allowed_by_digits = allowed.reduce(PoseError::larger);
+        if self.poses_disagree() {
+            self.verdict = Agreement::Disagree;
+        }
     }
 
     /// Whether two files agree because of the digits that they are typed with, beyond the default tolerance.

@@ -278,7 +278,15 @@ impl FaultContext<'_> {
         let part =
             if shift.norm() > turn.norm() { ConstantPart::Translation } else { ConstantPart::Rotation };
         let span = places.map(|places| places.constant(key, part));
-        let message = format!("the declared transform {name} {how}");
+        let message = if places.is_none_or(|places| places.has_constant(key)) {
+            format!("the declared transform {name} {how}")
+        } else {
+            let ends = match key {
+                ConstantKey::BaseFromDh0 => "the base and the first frame of the table",
+                ConstantKey::DhnFromTip => "the last frame of the table and the tip",
+            };
+            format!("{name} is missing: {ends} are {} apart", off_by(shift.norm(), turn.norm()))
+        };
         FaultMessage { fault, message, location: self.in_robot_file(span) }
     }
 

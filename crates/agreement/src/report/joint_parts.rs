@@ -162,7 +162,13 @@ impl CorrectionMessages<'_> {
         let as_in = self.as_in(joint, there, expected_at.as_ref());
         let unit = attributes.iter().find_map(JointAttribute::other_unit).unwrap_or_default();
         // Of two files one may be right; a revision is what the file was.
-        let other = if self.is_revision() { "was" } else { "expected" };
+        let there = self.descriptions[1];
+        let other = match there.is_loaded() {
+            true if there.own_model().is_some() => "by the poses",
+            true => "loaded",
+            false if self.is_revision() => "was",
+            false => "expected",
+        };
         let other = format!("{other} {expected}{as_in}");
         let text = sentence(&fault, &joint.name, [&found, &other]) + unit;
         let fault = Fault {

@@ -84,7 +84,9 @@ impl FollowedJoint {
     /// The fault as data and as a finding, the file that is checked first.
     fn fault(&self, [description, other]: [&RobotDescription; 2]) -> (Fault, Diagnostic) {
         let [found, expected] = &self.relations;
-        let message = format!("{} in the other file ({})", self.message(), place(other, &self.joint));
+        let there = place(other, &self.joint);
+        let there = if other.is_loaded() { there } else { format!("the other file ({there})") };
+        let message = format!("{} in {there}", self.message());
         let suggestion = format!(
             "{}, or {} in {}",
             self.to_write(expected.as_ref(), description),

@@ -2,8 +2,12 @@
 
 use std::path::Path;
 
-use congruent_description::{DhConvention, ReportedChain, RobotDescription};
-use congruent_input::{Finding, is_standard_input};
+use congruent_description::{DhConvention, JointKind, ReportedChain, RobotDescription};
+use congruent_input::{
+    Finding,
+    display::{counted, quantity},
+    is_standard_input, serde_name,
+};
 use congruent_kinematics::Pose;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -108,6 +112,29 @@ pub fn describe(description: &RobotDescription) -> DescriptionSummary {
         meshes: meshes(robot, folder_of(&description.urdf_path)),
         uses: uses(description),
         warnings: description.warnings.iter().map(Finding::from).collect(),
+    }
+}
+
+impl DescriptionSummary {
+    /// The answer in one line: the robot, its chain, and for what it can be used.
+    pub fn answer(&self) -> String {
+        let verdict = |of: &UseSummary| {
+            let verdict = of.why_nothing().unwrap_or_else(|| of.readiness());
+            format!("{} {verdict}", serde_name(&of.needed_for))
+        };
+        let uses: Vec<String> = self.uses.iter().map(verdict).collect();
+        format!("{}; {}; {}; {}", self.robot, self.parts(), self.chain, uses.join(", "))
+    }
+
+    /// How many links and joints the robot has, and its mass.
+    pub fn parts(&self) -> String {
+        let moving = self.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
+        format!(
+            "{}, {}; {}, {moving} of them moving",
+            counted(self.links.len(), "link"),
+            quantity(self.mass_kg, "kg"),
+            counted(self.joints.len(), "joint"),
+        )
     }
 }
 

@@ -79,7 +79,20 @@ fn for_kinematics(description: &RobotDescription) -> Vec<Missing> {
 /// What is said of a robot without shapes.
 const NOTHING_TO_MEASURE: &str = "nothing to measure: no link has a collision shape";
 
+/// What is said of links that move without a mass.
+const MASSLESS: &str = "moves without any mass: cannot be simulated with forces";
+
 impl UseSummary {
+    /// Whether the robot can be used so, in words.
+    pub fn readiness(&self) -> &'static str {
+        let is_massless = self.missing.iter().any(|missing| missing.what == MASSLESS);
+        match (self.is_ready, is_massless) {
+            (false, _) => "cannot be used",
+            (true, true) => "without forces alone, for lack of masses",
+            (true, false) => "ready",
+        }
+    }
+
     /// Why there is nothing that the use could be ready for.
     pub fn why_nothing(&self) -> Option<&'static str> {
         self.missing.iter().map(|missing| missing.what).find(|what| *what == NOTHING_TO_MEASURE)
@@ -106,7 +119,7 @@ fn for_physics(description: &RobotDescription) -> Vec<Missing> {
     let has_body = |link: &Link| !(link.visuals.is_empty() && link.collisions.is_empty());
     let no_mass = |link: &Link| has_body(link) && link.inertia.is_none();
     let missing = [
-        some("moves without any mass: cannot be simulated with forces", massless(robot)),
+        some(MASSLESS, massless(robot)),
         missing_at_joints(robot, "no limit of speed is stated", no_speed),
         missing_at_joints(robot, "no limit of effort is stated", no_effort),
         missing_at_links(robot, "has a shape, but no <inertial>: its mass counts as 0", no_mass),

@@ -6,7 +6,7 @@ use congruent::{
     analysis::description_summary::{DescriptionSummary, JointOrders, describe, joint_orders},
     description::load_robot_with,
     results::report::{TestResult, TestSuite},
-    text::{description_line, description_text, joint_orders_text},
+    text::{description_text, joint_orders_text},
 };
 
 use crate::{
@@ -46,7 +46,7 @@ impl BatchReport for DescriptionSummary {
     }
 
     fn one_line(&self) -> Option<String> {
-        Some(format!("{}: {}", self.file, description_line(self)))
+        Some(format!("{}: {}", self.file, self.answer()))
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {

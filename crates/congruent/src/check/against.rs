@@ -20,6 +20,8 @@ use serde::Serialize;
 use super::{
     cause_in_words::and_more,
     forces_not_compared::forces_not_compared,
+    itself::has_one_file,
+    loaded_words::LoadedKind,
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
     poses_of_other::PosesOfOther,
     reported_mapping::ReportedMapping,
@@ -32,6 +34,9 @@ use crate::codes;
 pub struct OtherDescription {
     /// Its robot file, or its URDF if there is none.
     pub file: String,
+    /// What it is if it is no file: what a program has loaded, or the poses of a function.
+    #[serde(skip)]
+    pub loaded: Option<LoadedKind>,
     /// Name of the robot there.
     pub robot: String,
     /// Why the two dynamics are not compared, or no more than masses, losses and limits, with the first joint that differs; `null` if
@@ -94,6 +99,10 @@ impl OtherDescription {
         let lacking = poses.lacking(robot).map(|link| robot.link(link).name.clone());
         Self {
             file: other.path.display().to_string(),
+            loaded: other.is_loaded().then(|| match other.own_model() {
+                Some(_) => LoadedKind::Poses,
+                None => LoadedKind::Model,
+            }),
             robot: other.name.clone(),
             dynamics_not_compared: other_joint.or_else(|| missing_tip(description, &other.robot, poses)),
             is_unreadable: false,
@@ -296,8 +305,12 @@ fn compared_models(
     let [description, other] = descriptions;
     let mut found = urdf_model(description);
     let mut expected = urdf_model(other).with_tolerated_places_of(&found, tolerance);
-    let armature_of =
-        without_one_sided_armature(descriptions.map(|of| &of.robot), [&mut found, &mut expected]);
+    // What an engine adds to the inertia of a joint moves the robot otherwise than its file says, which has none.
+    let armature_of = if other.is_loaded() {
+        None
+    } else {
+        without_one_sided_armature(descriptions.map(|of| &of.robot), [&mut found, &mut expected])
+    };
     ([found, expected], armature_of.map(|at| descriptions[at].urdf_path.display().to_string()))
 }
 
@@ -321,19 +334,23 @@ fn files(descriptions: [&RobotDescription; 2]) -> [String; 2] {
 /// Why torques of a table or screws are not compared: they have no masses, which is no difference of the two.
 fn no_masses(descriptions: [&RobotDescription; 2]) -> Option<NotCompared> {
     let own = descriptions.into_iter().find(|of| of.own_model().is_some())?;
-    let findings = own.check_capability(Capability::Physics).err()?;
-    let findings = findings.iter().map(Finding::from).collect();
+    let findings = if own.is_loaded() {
+        let why = format!("{}: poses say nothing of masses, losses and limits", own.path.display());
+        vec![Finding::from(&Diagnostic::warning(codes::check::NO_SECOND_SOURCE, why))]
+    } else {
+        own.check_capability(Capability::Physics).err()?.iter().map(Finding::from).collect()
+    };
     Some(NotCompared { source: ComparedSource::Dynamics, findings })
 }
 
-/// That two robot files name one URDF, whose masses and limits are the same as themselves.
-fn one_urdf([description, other]: [&RobotDescription; 2]) -> Option<NotCompared> {
-    let are_robot_files = [description, other].iter().all(|of| of.path != of.urdf_path);
-    let is_one = description.urdf_path == other.urdf_path && description.path != other.path;
-    let why =
-        || format!("both robot files name {}: it has one set of masses", description.urdf_path.display());
-    (are_robot_files && is_one).then(|| {
-        let finding = Diagnostic::warning(codes::check::NO_SECOND_SOURCE, why());
+/// That the two have their masses and limits from one file, which are the same as themselves.
+fn one_urdf(descriptions: [&RobotDescription; 2]) -> Option<NotCompared> {
+    has_one_file(descriptions).then(|| {
+        let why = format!(
+            "both descriptions name {}: it has one set of masses",
+            descriptions[0].urdf_path.display()
+        );
+        let finding = Diagnostic::warning(codes::check::NO_SECOND_SOURCE, why);
         NotCompared::because(ComparedSource::OtherDynamics, &finding)
     })
 }

@@ -8,7 +8,7 @@ use congruent_agreement::{
         Agreement, CheckError, CheckOptions, CheckReport, ComparedSource, DifferencesAt, Grade, NotCompared,
     },
 };
-use congruent_description::{DynamicsTable, InertialFrame, RobotDescription};
+use congruent_description::{DynamicsTable, InertialFrame, Link, RobotDescription};
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_input::Diagnostic;
 use congruent_kinematics::LinkPoses;
@@ -18,6 +18,7 @@ use super::{
     against::OtherDescription,
     change::RevisionChange,
     declared::{self, DeclaredSource},
+    itself::{add_itself, is_itself},
     model_frames::unreadable_value,
     own_model::{ONE_MODEL, diagnose_by_table, placed_as_in, without_own_table},
     own_screws::diagnose_by_screw,
@@ -58,6 +59,8 @@ fn checked(
     other: Option<&RobotDescription>,
     options: &CheckOptions,
 ) -> Result<RobotCheck, CheckError> {
+    let itself = other.filter(|other| is_itself(description, other));
+    let other = other.filter(|_| itself.is_none());
     // A table or screws that are the robot get the links of the other description, and are no second source by themselves.
     let written = [description, other.unwrap_or(description)];
     let owned = other
@@ -67,6 +70,10 @@ fn checked(
     let other_owned = other.and_then(|other| placed_as_in(other, description));
     let other = other_owned.as_ref().or(other);
     let mut check = checked_in_links(description, other, written, options)?;
+    if let Some(itself) = itself {
+        add_itself(&mut check.geometry, itself);
+        check.itself = Some(itself.path.display().to_string());
+    }
     let mapping = check.against.as_ref().and_then(|against| against.mapping.as_ref());
     check.change = RevisionChange::new(written[0], written[1], mapping, options.seed)?;
     // A tool that is declared elsewhere moves no link, and a frame that is gone is missed by whoever names it.
@@ -122,6 +129,7 @@ fn checked_in_links(
     compared.sort_by_key(DynamicsReport::agrees);
     let against = with_other.as_ref().map(|of| &of.against);
     geometry.verdict = verdict(&geometry, against, &compared);
+    geometry.grade = geometry.grade.filter(|_| geometry.verdict != Agreement::NothingCompared);
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
     let is_mapped = against.is_some_and(|against| against.mapping.is_some());
@@ -136,6 +144,7 @@ fn checked_in_links(
         other_dynamics,
         mapped: mapped.filter(|_| is_mapped).map(Box::new),
         lint: LintSummary::from_reports(once(description).chain(other).map(lint_robot)),
+        itself: None,
         tolerance_line: description.places.robot_file.as_ref().and_then(|places| places.tolerance_line()),
         fix: None,
     })
@@ -202,8 +211,13 @@ fn stated_once(
     }
     let is_declared = geometry.not_asked.iter().any(|of| of.source == ComparedSource::DeclaredDynamics);
     if !is_own_model && !is_declared && dynamics.iter().all(physics::is_of_physics) {
-        let why = "masses, friction and gravity are stated once: [[inertial]] in robot.toml or --against gives a second \
-                   source";
+        let has_mass = |link: &Link| link.inertia.is_some_and(|of| of.mass_kg > 0.0);
+        let why = if !description.robot.links().iter().any(has_mass) {
+            "no file states a mass"
+        } else {
+            "masses, friction and gravity are stated once: [[inertial]] in robot.toml or --against gives a second \
+                   source"
+        };
         missing.push(because(ComparedSource::Dynamics, why));
     }
     missing

@@ -13,11 +13,12 @@ use congruent_kinematics::PoseError;
 
 use super::{
     against::OtherDescription,
-    cause_in_words::{at_most, cause, frames_elsewhere, largest, place, unknown},
+    cause_in_words::{at_most, cause, frames_elsewhere, place, unknown},
     change_answer::answer_of_change,
     declared::DeclaredSource,
     dynamics_in_words::other_torques,
-    judged_by::{BY_DIGITS, allowed, beyond_rounding, judged_by, tolerance_in_words},
+    judged_by::{BY_DIGITS, allowed, beyond_rounding, is_by_digits_of_two, judged_by, tolerance_in_words},
+    loaded_words::in_words_of,
     mapped_answer::{after_mapping, which_joints},
     mapped_joints::ends_not_compared,
     own_model::ONE_MODEL,
@@ -65,6 +66,9 @@ impl RobotCheck {
         if let Some(mass) = self.first_mass_without_effect() {
             let _ = write!(headline.details, "; without effect on torques: {mass}");
         }
+        if let Some(file) = &self.itself {
+            let _ = write!(headline.details, "; --against names {file}, the robot's own file");
+        }
         if self.fails_by_lint() {
             let findings = counted(self.lint.findings(), "finding");
             let _ = write!(headline.details, "; --strict: {findings} of lint");
@@ -72,7 +76,9 @@ impl RobotCheck {
         if self.fails_without_second() {
             headline.details += "; --strict: a second description is missing";
         }
-        headline
+        let Headline { answer, details } = headline;
+        let [answer, details] = [answer, details].map(|text| in_words_of(self.loaded(), text));
+        Headline { answer, details }
     }
 
     fn answer(&self) -> Headline {
@@ -122,7 +128,9 @@ impl RobotCheck {
             // What was compared is said behind it, and not behind what was not.
             return Headline::new(format!("{same}{extent}{rest}"), format!(". {}", agreeing(report)));
         }
-        let by_digits = report.comparisons.iter().find(|of| of.name.is_written());
+        let written = report.comparisons.iter().filter(|of| of.name.is_written());
+        let by_digits =
+            written.max_by(|one, other| one.worst.error.position_m.total_cmp(&other.worst.error.position_m));
         let pair = by_digits.map_or([""; 2], sources).join(" against ");
         let found = beyond_rounding(report.worst.error);
         let allowed = report.allowed_by_digits.map_or_else(String::new, |allowed| {
@@ -255,7 +263,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
         let [a, b] = sources(comparison);
         let allowed = if comparison.name.is_written() { allowed(report) } else { String::new() };
         let worst = &comparison.worst;
-        format!("{} at {} ({a} against {b}{allowed})", largest(worst.error), worst.link)
+        format!("{} at {} ({a} against {b}{allowed})", beyond_rounding(worst.error), worst.link)
     };
     let pairs: Vec<String> = differ.map(of_pair).collect();
     let judged = if is_by_digits_of_two(check) { BY_DIGITS.to_owned() } else { judged_by(report) };
@@ -267,14 +275,6 @@ fn different_poses(check: &RobotCheck) -> Headline {
     let elsewhere = || frames_elsewhere(&check.against.as_ref()?.links_in_other_frames);
     let cause = check.diagnosis().map_or_else(|| elsewhere().unwrap_or_else(unknown), cause);
     Headline::new("DIFFERENT", format!(", {found}. {cause}{}", other_torques(check)))
-}
-
-/// Whether the digits of two descriptions decide: no tolerance is declared, and the other is no revision.
-fn is_by_digits_of_two(check: &RobotCheck) -> bool {
-    let report = &check.geometry;
-    let mut pairs = report.comparisons.iter();
-    let differ = pairs.any(|of| of.name == SourcePair::UrdfOther && of.verdict == Agreement::Disagree);
-    differ && !report.tolerance_is_declared && check.change.is_none()
 }
 
 /// What to do about a tolerance that is finer than the digits of the table.

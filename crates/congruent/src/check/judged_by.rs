@@ -1,12 +1,15 @@
 //! What decides whether two sources agree, in words: a tolerance that somebody has declared, or the digits that are
 //! written.
 
-use congruent_agreement::compare::{CheckReport, Comparison, Grade};
+use congruent_agreement::{
+    SourcePair,
+    compare::{Agreement, CheckReport, Comparison, Grade},
+};
 use congruent_description::{RequestedTolerance, Tolerance};
 use congruent_input::display::{angle, length, length_and_angle};
 use congruent_kinematics::PoseError;
 
-use super::cause_in_words::largest;
+use super::{cause_in_words::largest, robot_check::RobotCheck};
 
 /// If nobody has declared a tolerance, and table and URDF are typed.
 pub(super) const BY_DIGITS: &str = "judged by the digits written (no tolerance declared)";
@@ -64,6 +67,14 @@ fn is_by_digits(report: &CheckReport) -> bool {
     is_typed(report) && !report.tolerance_is_declared
 }
 
+/// Whether the digits of two descriptions decide: no tolerance is declared, and the other is no revision.
+pub(super) fn is_by_digits_of_two(check: &RobotCheck) -> bool {
+    let report = &check.geometry;
+    let mut pairs = report.comparisons.iter();
+    let differ = pairs.any(|of| of.name == SourcePair::UrdfOther && of.verdict == Agreement::Disagree);
+    differ && !report.tolerance_is_declared && check.change.is_none()
+}
+
 fn is_typed(report: &CheckReport) -> bool {
     report.allowed_by_digits.is_some_and(|allowed| allowed != PoseError::default())
 }
@@ -85,7 +96,11 @@ fn part_by_digits(report: &CheckReport) -> Option<String> {
 }
 
 /// What decides, for a page that has the values of the tolerance: the digits, or a tolerance of which one part was requested.
-pub(super) fn judged_by_more(report: &CheckReport) -> Option<String> {
+pub(super) fn judged_by_more(check: &RobotCheck) -> Option<String> {
+    let report = &check.geometry;
+    if is_by_digits_of_two(check) {
+        return Some(BY_DIGITS.to_owned());
+    }
     let is_in_part = report.declared_tolerance.is_partial();
     let words = judged_by(report);
     (is_by_digits(report) || is_in_part).then(|| words.trim_start_matches("tolerance ").to_owned())

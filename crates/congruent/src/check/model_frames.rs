@@ -44,7 +44,10 @@ pub(super) fn urdf_model(description: &RobotDescription) -> DynamicsModel {
         link_from_frame[link] = Some(link_from_dh);
         frames = frames.with_other_frame(&format!("dh{row}"), link_from_frame);
     }
-    DynamicsModel::with_frames(robot, Arc::new(frames)).with_accelerations(&description.accelerations)
+    let mut model =
+        DynamicsModel::with_frames(robot, Arc::new(frames)).with_accelerations(&description.accelerations);
+    model.is_complete = description.is_loaded();
+    model
 }
 
 /// The first value of masses, inertias, damping or friction that cannot be read, such as `nan`: without it there is

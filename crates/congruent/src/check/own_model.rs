@@ -43,21 +43,26 @@ pub(super) fn placed_as_in(own: &RobotDescription, other: &RobotDescription) -> 
     let base = end(own.base, own.chain_ends.base, other.base);
     let tip = end(own.tip, own.chain_ends.tip, other.tip);
     let root_from_own_root = *screws[1].home(base) * screws[0].home(own.base).inverse();
+    let twists = own.robot.movable_joints().iter().map(|&joint| {
+        let twist = screws[0].screw(joint)?.twist().transformed_by(&root_from_own_root);
+        Some((own.robot.joint(joint), twist))
+    });
+    let twists: Vec<(&Joint, Twist)> = twists.collect::<Option<_>>()?;
+    let root_from_tip = root_from_own_root * *screws[0].home(own.tip);
     let mut tree = PlacedTree::new(&other.robot, base, tip, &screws[1]);
+    tree.moved = moved_behind(&twists, &root_from_tip, tip, &other.robot, &screws[1]);
     let in_root = |joint: &Joint| {
         let root_from_parent = root_from_own_root * *screws[0].home(joint.parent);
         let rounding = joint.rounding.expressed_in(&root_from_parent.to_isometry());
         Joint { rounding, ..joint.clone() }
     };
-    for &joint in own.robot.movable_joints() {
-        let twist = screws[0].screw(joint)?.twist().transformed_by(&root_from_own_root);
-        tree.add(&in_root(own.robot.joint(joint)), &twist, &screws[1]);
+    for (joint, twist) in &twists {
+        tree.add(&in_root(joint), twist, &screws[1]);
     }
     let tip_name = other.robot.link(tip).name.clone();
     let to_tip = own.robot.parent_joint(own.tip).map(|joint| own.robot.joint(joint));
     let to_tip = to_tip.filter(|joint| joint.kind == JointKind::Fixed);
     let rounding = to_tip.map(|joint| in_root(joint).rounding).unwrap_or_default();
-    let root_from_tip = root_from_own_root * *screws[0].home(own.tip);
     let robot = tree.finish(own.robot.name(), &tip_name, root_from_tip, rounding)?;
     let base = robot.find_link(&other.robot.link(base).name)?;
     let tip = robot.find_link(&tip_name)?;
@@ -75,6 +80,43 @@ struct PlacedTree<'a> {
     root_from_parent: Pose,
     /// How far the last frame was moved onto its own axis, in the root at zero, m.
     moved_m: Vector3<f64>,
+    /// The joint from which on all is where the other has it, moved by a motion in the root at zero.
+    moved: Option<(String, Pose)>,
+    /// That motion, from that joint on.
+    root_from_unmoved: Pose,
+}
+
+/// Twists that differ by less are those of one axis, in rad and m. Kind: choice; frames alone are chosen by it.
+const SAME_TWIST: f64 = 1e-6;
+
+/// If all joints from one on, and the tip, are those of the other description moved by one motion: the name of the first, and the
+/// motion. A wrong origin does that, and frames that are moved with it show it as one difference. All in the root at zero.
+fn moved_behind(
+    twists: &[(&Joint, Twist)],
+    root_from_tip: &Pose,
+    tip: LinkIndex,
+    other: &Robot,
+    there: &ScrewTree,
+) -> Option<(String, Pose)> {
+    let motion = *root_from_tip * there.home(tip).inverse();
+    let is_moved_by = |(joint, twist): &(&Joint, Twist), by: &Pose| {
+        let same = other.find_joint(&joint.name).and_then(|joint| there.screw(joint));
+        same.is_some_and(|same| {
+            let same = same.twist().transformed_by(by);
+            (twist.angular - same.angular).norm().max((twist.linear - same.linear).norm()) < SAME_TWIST
+        })
+    };
+    let first = twists.iter().position(|of| !is_moved_by(of, &Pose::identity()))?;
+    let is_all = twists[first..].iter().all(|of| is_moved_by(of, &motion));
+    // A motion of the joint before is another zero of it, which is found by the axes as they are.
+    let turn = Twist::log(&motion);
+    let is_zero = first.checked_sub(1).is_some_and(|before| {
+        let own = &twists[before].1;
+        let by = own.angular.dot(&turn.angular) + own.linear.dot(&turn.linear);
+        let by = by / (own.angular.norm_squared() + own.linear.norm_squared());
+        (turn.angular - own.angular * by).norm().max((turn.linear - own.linear * by).norm()) < SAME_TWIST
+    });
+    (is_all && !is_zero).then(|| (twists[first].0.name.clone(), motion))
 }
 
 impl<'a> PlacedTree<'a> {
@@ -88,6 +130,8 @@ impl<'a> PlacedTree<'a> {
             parent: root,
             root_from_parent: Pose::identity(),
             moved_m: Vector3::zeros(),
+            moved: None,
+            root_from_unmoved: Pose::identity(),
         };
         if base != other.root() {
             let name = format!("{}_to_{base_name}", tree.parent);
@@ -99,7 +143,10 @@ impl<'a> PlacedTree<'a> {
     /// Adds a joint that moves by `twist`, and whose digits leave open what its rounding says, both in the root at zero.
     fn add(&mut self, joint: &Joint, twist: &Twist, there: &ScrewTree) {
         let same = self.other.find_joint(&joint.name).map(|same| self.other.joint(same).child);
-        let frame = same.map_or(self.root_from_parent, |link| *there.home(link));
+        if let Some((_, motion)) = self.moved.take_if(|moved| moved.0 == joint.name) {
+            self.root_from_unmoved = motion;
+        }
+        let frame = same.map_or(self.root_from_parent, |link| self.root_from_unmoved * *there.home(link));
         let direction = if joint.kind.is_angular() { twist.angular } else { twist.linear };
         let axis = Unit::new_normalize(direction);
         let at = if joint.kind.is_angular() {

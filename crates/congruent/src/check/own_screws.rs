@@ -26,7 +26,8 @@ pub(super) fn diagnose_by_screw(
         return;
     }
     for of in [0, 1] {
-        if written[of].own_model() != Some(OwnModelForm::Screws) {
+        // Screws of a function have no lines to name.
+        if written[of].own_model() != Some(OwnModelForm::Screws) || written[of].is_loaded() {
             continue;
         }
         if let Some(diagnosis) = diagnosed(written[of], [compared[of], compared[1 - of]]) {

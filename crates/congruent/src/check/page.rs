@@ -44,7 +44,7 @@ pub fn checked_robot<'a>(
     CheckedRobot {
         answer,
         details,
-        judged_by: judged_by_more(&report.geometry),
+        judged_by: judged_by_more(report),
         findings,
         description,
         geometry: &report.geometry,

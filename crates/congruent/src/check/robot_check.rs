@@ -11,7 +11,10 @@ use congruent_lint_report::LintSummary;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{against::OtherDescription, change::RevisionChange, declared::DeclaredSource, physics};
+use super::{
+    against::OtherDescription, change::RevisionChange, declared::DeclaredSource, loaded_words::LoadedKind,
+    physics,
+};
 
 /// The answer of `congruent check` for one robot.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -45,6 +48,9 @@ pub struct RobotCheck {
     /// The two descriptions as they were compared, if joints are called or counted otherwise in the other.
     #[serde(skip)]
     pub mapped: Option<Box<[RobotDescription; 2]>>,
+    /// The robot's own file, if --against names it: it is no second description.
+    #[serde(skip)]
+    pub itself: Option<String>,
     /// Line of the robot file that declares the tolerance, if one does.
     #[serde(skip)]
     pub tolerance_line: Option<usize>,
@@ -67,6 +73,11 @@ pub struct WrittenFix {
 }
 
 impl RobotCheck {
+    /// What the other description is if it is no file.
+    pub(crate) fn loaded(&self) -> Option<LoadedKind> {
+        self.against.as_ref()?.loaded
+    }
+
     /// All comparisons of dynamics.
     pub fn all_dynamics(&self) -> impl Iterator<Item = &DynamicsReport> {
         self.dynamics.iter().chain(&self.other_dynamics)

@@ -3,7 +3,7 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckError, CheckOptions, CheckReport, Comparison, Grade, ReportedCertificate},
+    compare::{CheckError, CheckOptions, CheckReport, Comparison, ReportedCertificate},
     report::ReportedDiagnosis,
 };
 use congruent_description::RobotDescription;
@@ -32,11 +32,7 @@ pub(super) fn add_table_of_other(
     let comparisons = found.comparisons.into_iter().filter(|of| of.name == of_table);
     let comparisons: Vec<Comparison> =
         comparisons.map(|of| Comparison { name: pair, title: pair.title(), ..of }).collect();
-    if comparisons.iter().any(|of| of.verdict == Agreement::Disagree) {
-        geometry.verdict = Agreement::Disagree;
-        geometry.grade = Some(Grade::Different);
-    }
-    geometry.comparisons.extend(comparisons);
+    geometry.add_comparisons(comparisons, found.grade, found.allowed_by_digits);
     let certificates = found.certificates.into_iter().filter(|of| of.name == of_table);
     geometry.certificates.extend(certificates.map(|of| ReportedCertificate {
         name: pair,

@@ -12,10 +12,15 @@ enum Written {
     Screws,
     Urdf,
     Mjcf,
+    Loaded,
+    Poses,
 }
 
 impl Written {
     fn of(description: &RobotDescription) -> Self {
+        if description.is_loaded() {
+            return if description.own_model().is_some() { Self::Poses } else { Self::Loaded };
+        }
         match (description.own_model(), FileKind::of_links(description)) {
             (Some(OwnModelForm::Table), _) => Self::Table,
             (Some(OwnModelForm::Screws), _) => Self::Screws,
@@ -26,7 +31,7 @@ impl Written {
 
     /// Two descriptions, the first against the second.
     fn title(self, other: Self) -> &'static str {
-        use Written::{Mjcf, Screws, Table, Urdf};
+        use Written::{Loaded, Mjcf, Poses, Screws, Table, Urdf};
         match (self, other) {
             (Table, Table) => "DH table against other DH table",
             (Table, Screws) => "DH table against screws",
@@ -44,6 +49,15 @@ impl Written {
             (Mjcf, Screws) => "MJCF chain against screws",
             (Mjcf, Urdf) => "MJCF chain against URDF chain",
             (Mjcf, Mjcf) => "MJCF chain against other MJCF",
+            (Table, Loaded) => "DH table against loaded model",
+            (Screws, Loaded) => "screws against loaded model",
+            (Urdf, Loaded) => "URDF chain against loaded model",
+            (Mjcf, Loaded) => "MJCF chain against loaded model",
+            (Table, Poses) => "DH table against poses",
+            (Screws, Poses) => "screws against poses",
+            (Urdf, Poses) => "URDF chain against poses",
+            (Mjcf, Poses) => "MJCF chain against poses",
+            (Loaded | Poses, _) => "loaded model against other description",
         }
     }
 }

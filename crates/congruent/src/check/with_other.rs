@@ -6,9 +6,10 @@ use congruent_agreement::{
     SourcePair,
     compare::{CheckError, CheckOptions, CheckReport, Grade},
 };
-use congruent_description::RobotDescription;
+use congruent_description::{RobotDescription, Tolerance};
 use congruent_dynamics_agreement::{DynamicsReport, LimitCause};
 use congruent_input::{Diagnostic, Finding, display::listed};
+use congruent_kinematics::PoseError;
 use congruent_mapping::{driven_as_in, other_joint};
 
 use super::{
@@ -94,15 +95,28 @@ pub(super) fn with_other(
     if let (Some(mapping), Some(report)) = (&against.mapping, &mut dynamics) {
         add_written_ends(report, mapping);
     }
-    geometry.warnings.extend(other.warnings.iter().map(Finding::from));
-    geometry.warnings.extend(driven_by_another(&against.file, &driven_otherwise).iter().map(Finding::from));
-    geometry.warnings.extend(undeclared(&against).iter().map(Finding::from));
+    add_what_is_known(geometry, other, &against, &driven_otherwise);
     if against.is_equal_after_mapping() {
         geometry.grade = Some(Grade::EqualAfterMapping);
     } else if !against.values_within_digits.is_empty() {
         geometry.grade = geometry.grade.max(Some(Grade::SameWithinDigits));
     }
     Ok(WithOther { against, dynamics, description: own, other: there, options: own_options })
+}
+
+/// Adds to the comparison what is known of the other description: its precision and what is suspicious in it.
+fn add_what_is_known(
+    geometry: &mut CheckReport,
+    other: &RobotDescription,
+    against: &OtherDescription,
+    driven_otherwise: &[String],
+) {
+    if let Some(Tolerance { position_m, orientation_rad }) = other.loaded {
+        geometry.add_residual_of_other(PoseError { position_m, orientation_rad });
+    }
+    geometry.warnings.extend(other.warnings.iter().map(Finding::from));
+    geometry.warnings.extend(driven_by_another(&against.file, driven_otherwise).iter().map(Finding::from));
+    geometry.warnings.extend(undeclared(against).iter().map(Finding::from));
 }
 
 /// Two descriptions in the joints of the first, as its file declares or as names and axes show; `None` if all joints have
@@ -228,6 +242,9 @@ fn driven_by_another(file: &str, joints: &[String]) -> Option<Diagnostic> {
 fn undeclared(against: &OtherDescription) -> Option<Diagnostic> {
     let mapping = against.mapping.as_ref().filter(|mapping| !mapping.is_declared)?;
     let message = format!("{}: {}", against.file, mapped_joints(mapping));
-    let help = format!("if this is meant, declare it in robot.toml:\n{}", mapping.lines.join("\n"));
+    let help = format!(
+        "if this is meant, declare it in the robot file, robot.toml, which `congruent new robot` writes:\n{}",
+        mapping.lines.join("\n")
+    );
     Some(Diagnostic::warning(codes::check::MAPPING, message).with_help(help))
 }

@@ -6,14 +6,14 @@
 
 use congruent_robot::{JointIndex, JointKind, LinkIndex, Robot};
 
-use super::frame_name::{is_jaw, preference};
+use super::frame_name::{is_jaw, is_of_limb, preference};
 
 /// Travel up to which a slide at the tip is a jaw, m. Kind: judgement; jaws of grippers travel 10 to 50 mm, the quill of the smallest SCARA
 /// 100 mm.
 const SHORT_SLIDE_M: f64 = 0.06;
 /// Range up to which a hinge at the tip that opens to one side of zero is a jaw, rad. Kind: judgement; wrists turn farther, and the short
-/// hinges of ankles and necks turn to both sides.
-const SHORT_HINGE_RAD: f64 = 1.0;
+/// hinges of ankles and necks turn to both sides. Many jaws open farther: without a name for it they count as joints of the arm.
+const SHORT_HINGE_RAD: f64 = 0.7;
 /// Joints before a short slide or hinge from which on they are an arm, and not the axes of a small stage. Kind: judgement.
 const JOINTS_OF_AN_ARM: usize = 3;
 
@@ -106,10 +106,16 @@ impl<'a> LinkBodies<'a> {
     /// end of an arm, with no frame for a tool behind it.
     fn is_short(&self, last: JointIndex, passed: &[JointIndex]) -> bool {
         let joint = self.robot.joint(last);
-        let Some((lower, upper)) = joint.position_range() else { return false };
+        // A range of no length is one that the file does not state.
+        let Some((lower, upper)) = joint.position_range().filter(|(lower, upper)| lower < upper) else {
+            return false;
+        };
         let is_short = match joint.kind {
             JointKind::Prismatic => upper - lower <= SHORT_SLIDE_M,
-            JointKind::Revolute => upper - lower <= SHORT_HINGE_RAD && lower * upper >= 0.0,
+            JointKind::Revolute => {
+                let is_of_limb = is_of_limb(joint, self.robot.link(joint.child));
+                upper - lower <= SHORT_HINGE_RAD && lower * upper >= 0.0 && !is_of_limb
+            }
             JointKind::Continuous | JointKind::Fixed => false,
         };
         is_short && self.body(joint.child).len() == 1 && passed.len() >= JOINTS_OF_AN_ARM
@@ -253,9 +259,13 @@ mod tests {
         let lines = ["base revolute a", "a revolute b", "b revolute c", "c revolute d", "d fixed e"];
         let tip = |lines: &[&str], range: (f64, f64)| tip_with_range(lines, "d", range);
         // A wrist turns farther, and an ankle to both sides.
-        let ranges = [(0.0, 0.6), (-0.8, -0.1), (0.0, 1.6), (-0.26, 0.26)];
+        let ranges = [(0.0, 0.6), (-0.7, -0.1), (0.0, 1.0), (-0.26, 0.26)];
         assert_eq!(ranges.map(|range| tip(&lines[..4], range)), ["c", "c", "d", "d"]);
         assert_eq!(tip(&lines, (0.0, 0.6)), "e");
+        // A range that is not stated, and a name that says what it is.
+        assert_eq!(tip(&lines[..4], (0.0, 0.0)), "d");
+        let wrist = ["base revolute a", "a revolute b", "b revolute c", "c revolute wrist_flex"];
+        assert_eq!(tip_with_range(&wrist, "wrist_flex", (-0.6, 0.0)), "wrist_flex");
     }
 
     #[test]

@@ -18,6 +18,9 @@ const FINGERS: [&str; 5] = ["finger", "jaw", "knuckle", "claw", "thumb"];
 /// Words for joints that turn a gripper and belong to the arm.
 const TURNS: [&str; 6] = ["roll", "pitch", "yaw", "rotate", "rotation", "wrist"];
 
+/// Words for joints of arms and legs, whatever their range is.
+const LIMBS: [&str; 9] = ["shoulder", "elbow", "forearm", "neck", "waist", "hip", "knee", "ankle", "toe"];
+
 /// The words of a name, which end at a sign, or before a capital: `jointGripper`, `left_TCPFrame`.
 fn words(name: &str) -> impl DoubleEndedIterator<Item = String> {
     let letters: Vec<char> = name.chars().collect();
@@ -57,10 +60,17 @@ pub(super) fn preference(link: &Link, fixed_joints: usize, index: usize) -> impl
 
 /// Whether a last joint opens and closes a gripper, by its name or by that of the link that it moves.
 pub(super) fn is_jaw(joint: &Joint, moved: &Link) -> bool {
-    let has = |name: &str, known: &[&str]| {
-        words(name).any(|word| known.contains(&word.trim_end_matches(|c: char| c.is_ascii_digit())))
-    };
     (has(&joint.name, &JAWS) || has(&moved.name, &FINGERS)) && !has(&joint.name, &TURNS)
+}
+
+/// Whether a joint or the link that it moves is called after a part of an arm or a leg, or after how it turns.
+pub(super) fn is_of_limb(joint: &Joint, moved: &Link) -> bool {
+    [&joint.name, &moved.name].into_iter().any(|name| has(name, &TURNS) || has(name, &LIMBS))
+}
+
+/// Whether a name has one of these words, with a number behind it or without.
+fn has(name: &str, known: &[&str]) -> bool {
+    words(name).any(|word| known.contains(&word.trim_end_matches(|c: char| c.is_ascii_digit())))
 }
 
 #[cfg(test)]

@@ -203,6 +203,11 @@ impl RobotFilePlaces {
         first.or(second).or(matrix.as_ref().map(Spanned::span)).unwrap_or(written.span())
     }
 
+    /// Whether the file writes a transform at all.
+    pub fn has_constant(&self, key: ConstantKey) -> bool {
+        self.written(key).is_some()
+    }
+
     /// The unit system of the key under which a declared transform has its lengths or angles.
     pub fn constant_units(&self, key: ConstantKey, unit: Unit) -> UnitSystem {
         let default = self.units(unit);

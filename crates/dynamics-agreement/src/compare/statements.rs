@@ -28,6 +28,11 @@ impl StatedReference {
             has_mass: reference.model.bodies().iter().any(is_stated),
             unstated: Vec::new(),
         };
+        if reference.model.is_complete {
+            // Masses that are 0 there are a difference from those that the candidate has.
+            stated.has_mass |= candidate.model.bodies().iter().any(is_stated);
+            return stated;
+        }
         stated.take_masses(candidate.model, reference.model, joints);
         stated.take_joint_terms(candidate, reference, joints);
         stated

@@ -39,6 +39,7 @@ impl DynamicsModel {
             gravity_m_s2: self.gravity_m_s2,
             limits: joints.iter().map(|&joint| self.limits[joint]).collect(),
             accelerations: joints.iter().map(|&joint| self.accelerations[joint]).collect(),
+            is_complete: self.is_complete,
         })
     }
 }

@@ -33,6 +33,8 @@ pub struct DynamicsModel {
     pub limits: Vec<Option<JointLimit>>,
     /// Declared largest accelerations, rad/s^2 or m/s^2, one for each moving joint. Certificates assume 10 if none is declared.
     pub accelerations: Vec<Option<f64>>,
+    /// Whether a value that it lacks is 0, as in what a program has loaded, and not left open, as in a file.
+    pub is_complete: bool,
 }
 
 impl DynamicsModel {
@@ -65,6 +67,7 @@ impl DynamicsModel {
             gravity_m_s2: GRAVITY_M_S2.into(),
             limits: moving().map(|joint| joint.limit).collect(),
             accelerations: moving().map(|_| None).collect(),
+            is_complete: false,
         }
     }
 

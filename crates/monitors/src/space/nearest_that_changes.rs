@@ -18,7 +18,8 @@ const EXAMINED_EVERY: u64 = 10;
 
 pub(super) struct NearestThatChanges {
     nearest: Watch,
-    pairs: Vec<PairAtFirst>,
+    /// For each measured pair its distance at the first sample; negative infinity for one that is not judged.
+    first_m: Vec<f64>,
     /// For each measured pair whether its distance has changed.
     has_changed: Vec<bool>,
     /// The nearest changed pair at the present sample.
@@ -27,23 +28,18 @@ pub(super) struct NearestThatChanges {
     first_q: Vec<f64>,
 }
 
-/// A pair with its distance at the first sample.
-struct PairAtFirst {
-    pair: usize,
-    first_m: f64,
-}
-
 impl NearestThatChanges {
     pub(super) fn new(nearest: Watch) -> Self {
-        let (pairs, has_changed, first_q) = (Vec::new(), Vec::new(), Vec::new());
-        Self { nearest, pairs, has_changed, found: None, first_s: 0.0, first_q }
+        let (first_m, has_changed, first_q) = (Vec::new(), Vec::new(), Vec::new());
+        Self { nearest, first_m, has_changed, found: None, first_s: 0.0, first_q }
     }
 
     /// Remembers the distances of the first sample, so that no later one allocates.
     pub(super) fn begin(&mut self, pairs: impl Iterator<Item = usize>, sample: &mut Sample<'_>) {
-        self.has_changed = vec![false; sample.clearance.pairs().len()];
-        self.pairs =
-            pairs.map(|pair| PairAtFirst { pair, first_m: sample.clearance.measure(pair) }).collect();
+        let count = sample.clearance.pairs().len();
+        self.has_changed = vec![false; count];
+        self.first_m = vec![f64::NEG_INFINITY; count];
+        pairs.for_each(|pair| self.first_m[pair] = sample.clearance.measure(pair));
         (self.first_s, self.first_q) = (sample.time_s, sample.joints.truth.q.to_vec());
     }
 
@@ -58,21 +54,26 @@ impl NearestThatChanges {
         }
         let Some(worst_m) = self.nearest.worst() else { return };
         self.found = None;
-        let (found, has_changed) = (&mut self.found, &self.has_changed);
-        let limit_m = |pair: usize| if has_changed[pair] { worst_m } else { f64::NEG_INFINITY };
+        let (found, has_changed, first_m) = (&mut self.found, &self.has_changed, &self.first_m);
+        // A pair that was farther at first has changed as soon as it is nearer.
+        let limit_m = |pair: usize| {
+            let is_watched = has_changed[pair] || first_m[pair] > worst_m + CONSTANT_M;
+            if is_watched { worst_m } else { f64::NEG_INFINITY }
+        };
         sample.clearance.below(worst_m, limit_m, |pair, distance_m| {
             if found.is_none_or(|known: Nearest| distance_m < known.distance_m) {
                 *found = Some(Nearest { distance_m, pair });
             }
         });
         if let Some(Nearest { distance_m, pair }) = self.found {
+            self.has_changed[pair] = true;
             self.nearest.observe(distance_m, pair, sample);
         }
     }
 
     /// Finds pairs that have changed since the first sample, of those that were nearer than the nearest so far.
     fn examine(&mut self, sample: &mut Sample<'_>) {
-        for &PairAtFirst { pair, first_m } in &self.pairs {
+        for (pair, &first_m) in self.first_m.iter().enumerate().filter(|(_, first_m)| first_m.is_finite()) {
             let is_nearer = self.nearest.worst().is_none_or(|worst_m| first_m < worst_m);
             if self.has_changed[pair] || !is_nearer {
                 continue;

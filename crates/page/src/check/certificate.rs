@@ -129,8 +129,8 @@ pub(super) fn picture(robot: &CheckedRobot<'_>) -> Markup {
     };
     let title = robot.geometry.title(*pair);
     let (first, there) = title.split_once(" against ").unwrap_or((title, ""));
-    // Of a table and a URDF the poses of the URDF are the twin's, whichever is first.
-    let own = if there.ends_with(" chain") && *pair != SourcePair::UrdfOther { there } else { first };
+    // Of a table and a URDF, or the physics that is made of it, the poses of the URDF are the twin's.
+    let own = if first == "DH table" && *pair != SourcePair::UrdfOther { there } else { first };
     let mut arms = vec![arm("twin", own.trim_end_matches(" chain"), description, &urdf)];
     match (pair, robot.other) {
         (SourcePair::UrdfOther, Some(other)) => {

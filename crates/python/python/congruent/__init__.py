@@ -10,8 +10,9 @@ identical
 Units are m, kg, s and rad. ``base_from_tip`` is the pose of the tip in the base.
 """
 
+from . import engines, spatial
 from ._errors import CongruentError, Finding
 from ._native import Report, Robot, check, run
 from ._results import BaseParameter, IkResult
 
-__all__ = ["BaseParameter", "CongruentError", "Finding", "IkResult", "Report", "Robot", "check", "run"]
+__all__ = ["BaseParameter", "CongruentError", "Finding", "IkResult", "Report", "Robot", "check", "engines", "run", "spatial"]

@@ -12,7 +12,7 @@ an unknown joint or link, or a fault of a file.
 """
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, TypeAlias, final
 
 from numpy import float64
@@ -20,8 +20,31 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._errors import Finding
 from ._results import BaseParameter, IkResult
+from .engines._engine import Engine
+from .engines._loaded import LoadedModel
 
-__all__ = ["Report", "Robot", "check", "run", "run_command"]
+__all__ = [
+    "Report",
+    "Robot",
+    "adjoint",
+    "check",
+    "dh_row",
+    "dh_transform",
+    "elementary",
+    "euler_angles",
+    "euler_rotation",
+    "exp_of_rotation",
+    "identified_screws",
+    "loaded_robot",
+    "log_of_rotation",
+    "robot_of_screws",
+    "run",
+    "run_command",
+    "tool_pose",
+    "twist_exp",
+    "twist_log",
+    "twist_matrix",
+]
 
 _Path: TypeAlias = str | os.PathLike[str]
 _Joints: TypeAlias = ArrayLike | Mapping[str, ArrayLike]
@@ -166,8 +189,8 @@ class Report:
 
     @property
     def grade(self) -> str | None:
-        """``identical``, ``same_within_digits``, ``equal_after_mapping`` or ``different``; ``None`` for a run, or if nothing was
-        compared. Of several comparisons the worst."""
+        """How much alike the poses are: ``identical``, ``same_within_digits``, ``equal_after_mapping`` or ``different``; ``None`` for a
+        run, or if nothing was compared. Of several comparisons the worst. Masses and limits have no part in it: ``ok`` has."""
 
     @property
     def headline(self) -> str:
@@ -192,6 +215,9 @@ def check(
     robot: Robot | _Path,
     against: _Path | None = None,
     *,
+    engine: Engine | None = None,
+    poses: Callable[[NDArray[float64]], Any] | None = None,
+    joints: Sequence[str] | None = None,
     tolerance: str | None = None,
     base: str | None = None,
     tip: str | None = None,
@@ -201,7 +227,10 @@ def check(
     """Whether the descriptions of a robot are the same robot, as ``congruent check``: its table, its URDF and its physics, and the
     robot of ``against``, a path or ``git:REV``.
 
-    Without ``against`` each ``[[reference]]`` of the robot file is compared. ``tolerance`` is a text with units, as
+    In the place of ``against`` may be ``engine``, what an engine has loaded, as ``congruent.engines.mujoco(model)``; or ``poses``, a function
+    that takes q, (joints,), in rad and m, and gives ``base_from_tip``, (4, 4), with ``joints``, the names of the joints of q in its order.
+
+    Without these each ``[[reference]]`` of the robot file is compared. ``tolerance`` is a text with units, as
     ``"1mm,0.1deg"``. A difference is an answer, and no error. After Ctrl-C the rest of a check ends unseen.
     """
 
@@ -219,5 +248,39 @@ def run(
     nothing is kept. After Ctrl-C the run ends in order, what it has computed is in ``out``, and ``KeyboardInterrupt`` is raised.
     """
 
+def loaded_robot(model: LoadedModel, file: Robot | None = None) -> Robot:
+    """The robot of what an engine has loaded, under the name that messages have for it. ``file`` is the robot that it is compared with,
+    whose couplings of joints it gets if the engine couples none."""
+
+def identified_screws(
+    base_from_tip: Callable[[list[float]], list[list[float]]],
+    middle: list[float],
+    half: list[float],
+    configurations: list[list[float]],
+) -> tuple[list[list[float]], list[list[float]], tuple[float, float]]:
+    """The screws of a chain, angular before linear, its pose at zero, and how far these are from the function ``base_from_tip`` at the given
+    configurations: nothing if each joint is a pure turn or shift.
+
+    It is asked around ``middle`` and nowhere farther from it than some 1.3 times ``half``, since a function may have limits.
+    """
+
+def robot_of_screws(text: str, name: str, residual: tuple[float, float]) -> Robot:
+    """The robot of a ``robot.toml`` with screws that were identified, under the name that messages have for it. ``residual`` is how far the
+    poses of the function are from it, in m and rad."""
+
+def elementary(motion: str, value: float) -> list[list[float]]: ...
+def euler_rotation(set: str, angles: list[float]) -> list[list[float]]: ...
+def euler_angles(set: str, matrix: list[list[float]]) -> tuple[list[float], list[float], str, float]: ...
+def tool_pose(
+    normal: list[float] | None, sliding: list[float], approach: list[float], origin: list[float]
+) -> list[list[float]]: ...
+def dh_transform(convention: str, row: list[float]) -> list[list[float]]: ...
+def dh_row(convention: str, transform: list[list[float]]) -> list[float]: ...
+def twist_matrix(twist: list[float]) -> list[list[float]]: ...
+def adjoint(transform: list[list[float]]) -> list[list[float]]: ...
+def twist_exp(twist: list[float], scalar: float) -> list[list[float]]: ...
+def twist_log(transform: list[list[float]]) -> list[float]: ...
+def exp_of_rotation(turn_rad: list[float]) -> list[list[float]]: ...
+def log_of_rotation(matrix: list[list[float]]) -> list[float]: ...
 def run_command(arguments: list[str]) -> int:
     """Does what the command does with these arguments and returns its exit code. It is made for one call in a process."""

@@ -13,7 +13,11 @@ use congruent::{
     unusable_inertials,
 };
 use congruent_cli::{ToleranceArgument, worse};
-use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
+use pyo3::{
+    exceptions::{PyTypeError, PyValueError},
+    prelude::*,
+    types::PyDict,
+};
 
 use super::class::PythonReport;
 use crate::{
@@ -27,6 +31,8 @@ use crate::{
 struct CheckRequest {
     description: RobotDescription,
     against: Option<PathBuf>,
+    /// What an engine has loaded, or the poses of a function show, in place of another file.
+    loaded: Option<RobotDescription>,
     tolerance: Option<ToleranceArgument>,
     /// The tolerance of the robot file, and which parts of it the file declares.
     declared_tolerance: Tolerance,
@@ -44,12 +50,16 @@ struct CheckOfRobot {
 /// Whether the descriptions of a robot are the same robot, as ``congruent check``: its table, its URDF and its physics, and the
 /// robot of ``against``, a path or ``git:REV``.
 ///
-/// Without ``against`` each ``[[reference]]`` of the robot file is compared. ``tolerance`` is a text with units, as
+/// In the place of ``against`` may be ``engine``, what an engine has loaded, as ``congruent.engines.mujoco(model)``; or ``poses``, a function
+/// that takes q, (joints,), in rad and m, and gives ``base_from_tip``, (4, 4), with ``joints``, the names of the joints of q in its order.
+///
+/// Without these each ``[[reference]]`` of the robot file is compared. ``tolerance`` is a text with units, as
 /// ``"1mm,0.1deg"``. A difference is an answer, and no error. After Ctrl-C the rest of a check ends unseen.
 #[pyfunction]
 #[pyo3(signature = (robot, against=None, **options))]
 #[pyo3(
-    text_signature = "(robot, against=None, *, tolerance=None, base=None, tip=None, seed=0, strict=False)"
+    text_signature = "(robot, against=None, *, engine=None, poses=None, joints=None, tolerance=None, base=None, tip=None, \
+                      seed=0, strict=False)"
 )]
 pub(crate) fn check(
     robot: &Bound<'_, PyAny>,
@@ -60,6 +70,8 @@ pub(crate) fn check(
     let mut keywords = KeywordOptions::new("check", options);
     let tolerance: Option<String> = keywords.take("tolerance")?;
     let [base, tip]: [Option<String>; 2] = [keywords.take("base")?, keywords.take("tip")?];
+    let [engine, poses, joints]: [Option<Py<PyAny>>; 3] =
+        [keywords.take("engine")?, keywords.take("poses")?, keywords.take("joints")?];
     let seed: u64 = keywords.take("seed")?.unwrap_or_default();
     let is_strict: bool = keywords.take("strict")?.unwrap_or_default();
     keywords.finish()?;
@@ -73,9 +85,19 @@ pub(crate) fn check(
     };
     let chosen = description.with_chain(base.as_deref(), tip.as_deref());
     let description = chosen.map_err(|finding| refused(py, finding))?;
+    let asked = Asked { against: against.is_some(), engine, poses, joints };
+    let loaded = asked.loaded(py, &description)?;
     let (declared_tolerance, declared) = (description.tolerance, description.declared_tolerance);
-    let request =
-        CheckRequest { description, against, tolerance, declared_tolerance, declared, seed, is_strict };
+    let request = CheckRequest {
+        description,
+        against,
+        loaded,
+        tolerance,
+        declared_tolerance,
+        declared,
+        seed,
+        is_strict,
+    };
     // A check has no place at which it could stop; it takes a second or some.
     let answer =
         interruptible(py, OnInterrupt::Abandon, move |_| request.answer().map(|checked| joined(&checked)))?;
@@ -83,11 +105,49 @@ pub(crate) fn check(
     report.map_err(|error| failed(py, &error.to_string()))
 }
 
+/// What is compared with the robot: at most one of these.
+struct Asked {
+    against: bool,
+    engine: Option<Py<PyAny>>,
+    poses: Option<Py<PyAny>>,
+    joints: Option<Py<PyAny>>,
+}
+
+impl Asked {
+    /// The robot that an engine has loaded, or that the poses of a function show; `None` for another file.
+    fn loaded(self, py: Python<'_>, description: &RobotDescription) -> PyResult<Option<RobotDescription>> {
+        let Self { against, engine, poses, joints } = self;
+        let given = usize::from(against) + usize::from(engine.is_some()) + usize::from(poses.is_some());
+        if given > 1 {
+            return Err(PyTypeError::new_err("check() takes one of against, engine and poses"));
+        }
+        if joints.is_some() != poses.is_some() {
+            return Err(PyTypeError::new_err(
+                "check() takes poses and joints together: the joints of q, in its order",
+            ));
+        }
+        if engine.is_none() && poses.is_none() {
+            return Ok(None);
+        }
+        let robot = PythonRobot::along(py, description.clone(), None, None)?;
+        let asked = match (engine, poses) {
+            (Some(engine), _) => {
+                py.import("congruent.engines._engine")?.call_method1("asked", (engine, robot))?
+            }
+            (None, poses) => {
+                py.import("congruent.engines._poses")?.call_method1("asked", (poses, joints, robot))?
+            }
+        };
+        Ok(Some(asked.cast::<PythonRobot>()?.get().description().clone()))
+    }
+}
+
 impl CheckRequest {
     /// The check against the given description, or else against each that the robot file names.
     fn answer(mut self) -> Result<Vec<CheckOfRobot>, Findings> {
         let warnings = self.set_tolerance()?;
         let others: Vec<Option<PathBuf>> = match (&self.against, &self.description.references[..]) {
+            _ if self.loaded.is_some() => vec![None],
             (Some(against), _) => vec![Some(against.clone())],
             (None, []) => vec![None],
             (None, named) => named.iter().map(|reference| Some(reference.path.clone())).collect(),
@@ -117,7 +177,7 @@ impl CheckRequest {
         let mut description = self.description.clone();
         let named_by = if self.against.is_some() { NamedBy::Caller } else { NamedBy::RobotFile };
         let other = other.map(|other| other_description(&mut description, other, named_by, access()?));
-        let other = other.transpose()?;
+        let other = self.loaded.clone().map_or_else(|| other.transpose(), |loaded| Ok(Some(loaded)))?;
         let configurations = RobotQList::new(description.robot.dof());
         let options = CheckOptions { seed: self.seed, configurations: configurations.into() };
         let compared = match &other {

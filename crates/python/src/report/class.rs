@@ -10,7 +10,7 @@ pub(crate) struct PythonReport {
     /// Exit code of the command: 0 as expected, 1 a check failed, 2 bad input, 3 broken, 4 nothing was checked.
     #[pyo3(get)]
     pub(super) exit_code: u8,
-    /// ``identical``, ``same_within_digits``, ``equal_after_mapping`` or ``different``; ``None`` for a run, or if nothing was
+    /// How much alike the poses are: ``identical``, ``same_within_digits``, ``equal_after_mapping`` or ``different``; ``None`` for a run, or if nothing was
     /// compared. Of several comparisons the worst.
     #[pyo3(get)]
     pub(super) grade: Option<String>,

@@ -306,7 +306,7 @@ impl PythonRobot {
         &self.description
     }
 
-    fn along(
+    pub(crate) fn along(
         py: Python<'_>,
         description: RobotDescription,
         base: Option<&str>,
