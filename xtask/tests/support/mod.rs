@@ -2,11 +2,15 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
+mod arrows;
+
 use std::{
     collections::BTreeMap,
     fs,
     path::{Path, PathBuf},
 };
+
+pub use arrows::ARROWS;
 
 /// The root of the workspace.
 pub fn root() -> PathBuf {

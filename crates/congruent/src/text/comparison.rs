@@ -4,10 +4,6 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::{
-    layout::{Table, wrapped},
-    options::TextOptions,
-};
 use crate::{
     RunComparison,
     input::{
@@ -15,6 +11,10 @@ use crate::{
         visible,
     },
     results::comparison::{ComparedFile, FileComparison, SeriesDifference, ValueDifference},
+};
+use congruent_text::{
+    TextOptions,
+    layout::{Table, wrapped},
 };
 
 /// Most series, names and statements that are shown to people.
@@ -43,7 +43,7 @@ pub fn comparison_text(comparison: &RunComparison, options: &TextOptions) -> Str
 
 fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
     let FileComparison { kind, same, compared, statements, first, series, only_in_a, only_in_b } = file;
-    let what = if *kind == ComparedFile::Report { "values" } else { "series" };
+    let (one, what) = if *kind == ComparedFile::Report { ("value", "values") } else { ("series", "series") };
     if *same {
         let _ = writeln!(text, "{kind}: {compared} {what} are the same");
         return;
@@ -77,7 +77,7 @@ fn described(text: &mut String, file: &FileComparison, options: &TextOptions) {
     for (side, only) in [("A", only_in_a), ("B", only_in_b)] {
         if !only.is_empty() {
             let names = if only.len() > MOST_SHOWN { groups(only) } else { only.clone() };
-            let of = counted(only.len(), &what[..what.len() - 1]);
+            let of = format!("{} {}", only.len(), if only.len() == 1 { one } else { what });
             let _ = write!(text, "  only in {side}: {of}\n{}", wrapped(&visible(&names.join(", "))));
         }
     }

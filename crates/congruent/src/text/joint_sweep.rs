@@ -2,11 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::{
-    JointSweep, SweptJoint,
-    input::display::position,
-    text::{TextOptions, layout::Table},
-};
+use congruent_text::{TextOptions, layout::Table};
+
+use crate::{JointSweep, SweptJoint, input::display::position};
 
 /// What `congruent view` prints of a robot: when each joint moves over which range, and whether model and URDF agree meanwhile.
 pub fn joint_sweep_text(sweep: &JointSweep, options: &TextOptions) -> String {

@@ -20,7 +20,7 @@ use crate::{
     kinematics::PoseError,
 };
 
-use crate::text::{TextOptions, finding_text, layout::column_width};
+use congruent_text::{TextOptions, finding_text, layout::column_width};
 
 /// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
 /// next best ones.
@@ -78,7 +78,9 @@ pub(super) fn diagnosed(
             && next.residual_m <= AS_GOOD * first.residual_m.max(tolerance.position_m)
             && next.residual_rad <= AS_GOOD * first.residual_rad.max(tolerance.orientation_rad)
     };
-    for next in diagnosis.causes[1..].iter().filter(is_as_good) {
+    let mut next: Vec<&ReportedCause> = diagnosis.causes[1..].iter().filter(is_as_good).collect();
+    next.sort_by(|one, other| one.residual_m.total_cmp(&other.residual_m));
+    for next in next {
         let _ = writeln!(text, "  next best: {}; residual {}", next.fault.message, residual(next));
     }
     if let Some(table) = &diagnosis.table {

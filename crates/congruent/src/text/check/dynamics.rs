@@ -19,7 +19,7 @@ use crate::{
     input::display::{counted, first_of},
 };
 
-use crate::text::layout::wrapped;
+use congruent_text::layout::wrapped;
 
 /// Parameters, alternatives or hidden differences that are shown to people; JSON has all of them.
 const SHOWN: usize = 8;
@@ -104,7 +104,7 @@ fn as_compared(text: &mut String, check: &RobotCheck, against: &OtherDescription
     if !links.is_empty() {
         let _ = writeln!(
             text,
-            "  links that one file has as one are compared with the sum of those that are fixed to each other in the other file: {}",
+            "  links that are fixed to each other are compared as one body: {}",
             first_of(links, SHOWN)
         );
     }
@@ -114,7 +114,7 @@ fn as_compared(text: &mut String, check: &RobotCheck, against: &OtherDescription
         check.dynamics_of_descriptions().next().is_some() && against.links_in_other_frames.is_empty();
     if is_compared && pairs.any(|of| of.verdict == Agreement::Disagree) {
         text.push_str(
-            "  masses and losses: the numbers of both files, in torques of the geometry of this file\n",
+            "  the poses differ, so torques are computed with the geometry of this file for both: only masses and losses count in them\n",
         );
     }
     let causes = check.geometry.diagnoses.iter().filter_map(ReportedDiagnosis::named_cause);

@@ -2,13 +2,14 @@
 
 use std::iter::{from_fn, once};
 
+use congruent_text::{TextOptions, layout::Table};
+
 use crate::{
     agreement::{
         SourcePair,
         compare::{CheckReport, DifferencesAt, TipDifference},
     },
     input::display::{angle, in_column, length, length_and_angle},
-    text::{TextOptions, layout::Table},
 };
 
 /// A text in parts of whole lines.

@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
+use congruent_text::layout::column_width;
+
 use crate::{
     ReportedJoint, ReportedMapping,
     input::display::{angle, counted, length, position},
     kinematics::ReportedPose,
     mapping::MatchedBy,
-    text::layout::column_width,
 };
 
 /// The table of joints, what is fixed or fitted, and the lines that declare it.

@@ -5,6 +5,11 @@ use std::{
     iter::{empty, once, once_with},
 };
 
+use congruent_text::{
+    TextOptions,
+    layout::{column_width, with_one_sign, wrapped},
+};
+
 use crate::{
     LintSummary, RobotCheck, WrittenFix,
     agreement::{
@@ -14,16 +19,13 @@ use crate::{
             Grade, LinkDifference, NotCompared, PoseSource, Premise, ReportedBracket, ReportedCertificate,
         },
     },
+    check::in_words_of,
     description::{Robot, Tolerance},
     input::{
         Finding,
         display::{angle, counted, length, length_and_angle, number},
     },
     kinematics::PoseError,
-    text::{
-        TextOptions,
-        layout::{column_width, with_one_sign, wrapped},
-    },
 };
 
 use super::{
@@ -80,8 +82,9 @@ pub fn check_text_parts<'a>(
         None => Box::new(empty()),
     };
     let basics = if parts.with_basics { basics(&check.geometry.basics) } else { String::new() };
-    let last = once_with(move || last_text(check, robot, options) + &basics);
-    once(answer_text(check, robot, options)).chain(at_configurations).chain(last)
+    let in_words = |text: String| in_words_of(check.loaded(), text);
+    let last = once_with(move || in_words(last_text(check, robot, options)) + &basics);
+    once(in_words(answer_text(check, robot, options))).chain(at_configurations).chain(last)
 }
 
 /// The answer, its cause, and the comparisons of poses: what is before the errors at requested configurations.
@@ -186,7 +189,7 @@ fn linted(text: &mut String, check: &RobotCheck) {
     if let [first, rest @ ..] = &for_clearance[..] {
         let more = if rest.is_empty() { String::new() } else { format!(" (and {} more)", rest.len()) };
         let message = clipped(&first.message);
-        let _ = writeln!(text, "  not needed for this check, for clearance alone: {message}{more}");
+        let _ = writeln!(text, "  not needed for this check: {message}{more}");
     }
 }
 
@@ -304,9 +307,9 @@ fn certified(text: &mut String, report: &CheckReport, robot: &Robot, options: &T
         }
         let _ = writeln!(
             text,
-            "  largest {what} difference {}, certified at most {} over the whole joint range, at",
-            shown(bracket.attained),
-            shown(bracket.certified)
+            "  over the whole joint range the {what} difference is at most {} (certified); largest found {}, at",
+            shown(bracket.certified),
+            shown(bracket.attained)
         );
         *text += &wrapped(&bracket.at.for_people(robot));
     };

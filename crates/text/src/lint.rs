@@ -6,10 +6,8 @@ use super::{
     findings::{MOST_FINDINGS, finding_text, listed_findings},
     options::TextOptions,
 };
-use crate::{
-    LintReport,
-    input::{Severity, display::counted, serde_name},
-};
+use congruent_input::{Severity, display::counted, serde_name};
+use congruent_lint_report::LintReport;
 
 /// What `congruent lint` prints of a file: its findings, what `--fix` changes as a unified diff (empty without), and their
 /// number.

@@ -2,13 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::{
-    analysis::inverse::{IkOptions, InverseReport, InverseSolution, NotReached, TargetPart},
-    description::{Joint, Robot},
-    input::display::{length, length_and_angle, listed, position},
-    kinematics::{IkTarget, ReportedPose},
-    text::{TextOptions, layout::Table},
-};
+use congruent_analysis::inverse::{IkOptions, InverseReport, InverseSolution, NotReached, TargetPart};
+use congruent_description::{Joint, Robot};
+use congruent_input::display::{length, length_and_angle, listed, position};
+use congruent_kinematics::{IkTarget, ReportedPose};
+
+use crate::{TextOptions, layout::Table};
 
 /// What `congruent ik` prints: for each target whether it is reached within the tolerances, and the joint positions. `first` is the
 /// number of the first target; the chain is left out if that is not 1.

@@ -3,7 +3,7 @@
 
 use std::{borrow::Cow, ops::Range, path::Path, sync::Arc};
 
-use crate::input::{Diagnostic, SourceFile, is_hidden, visible, visible_lines};
+use congruent_input::{Diagnostic, SourceFile, is_hidden, visible, visible_lines};
 
 /// Whether the colours of a text are kept or escaped.
 #[derive(Debug, Clone, Copy)]
@@ -88,7 +88,7 @@ fn colour(text: &str) -> Option<usize> {
 }
 
 /// The finding with the lines of its snippet escaped, so that its span marks the same characters.
-pub(in crate::text) fn with_visible_lines(mut finding: Diagnostic) -> Diagnostic {
+pub(crate) fn with_visible_lines(mut finding: Diagnostic) -> Diagnostic {
     let (Some(source), Some(span)) = (&finding.source, &finding.span) else { return finding };
     let shown = lines_around(&source.text, span);
     let is_obeyed = |c: char| is_hidden(c) && c != '\n' && c != '\t';

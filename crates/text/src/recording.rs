@@ -3,14 +3,14 @@
 use std::fmt::Write;
 
 use super::{layout::paragraph, options::TextOptions};
-use crate::{
-    input::{Quantity, SiUnit, display::quantity, serde_name},
-    monitors::verdict::{Bound, Moment, Status},
-    recording::{
-        Basis, CheckSummary, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity, RecordingSummary,
-        TimelineSummary,
-    },
-    results::report::{is_not_reached, not_finite_words, quantity_words, share_in_full, value_and_margin},
+use congruent_input::{Quantity, SiUnit, display::quantity, serde_name};
+use congruent_monitors::verdict::{Bound, Moment, Status};
+use congruent_recording::{
+    Basis, CheckSummary, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity, RecordingSummary,
+    TimelineSummary,
+};
+use congruent_results::report::{
+    is_not_reached, not_finite_words, quantity_words, share_in_full, value_and_margin,
 };
 
 /// The property that is printed as the verdict.

@@ -8,7 +8,7 @@ use super::{
     layout::{visible_path, with_visible_lines},
     options::TextOptions,
 };
-use crate::input::{Diagnostic, Finding, SourceFile, serde_name};
+use congruent_input::{Diagnostic, Finding, SourceFile, serde_name};
 
 /// Most findings that are shown; the others appear once these are corrected.
 pub const MOST_FINDINGS: usize = 100;

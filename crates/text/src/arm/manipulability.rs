@@ -2,14 +2,13 @@
 
 use std::{fmt::Write, iter::once};
 
-use crate::{
-    analysis::manipulability::{
-        ConfigurationDexterity, DexterityStream, ManipulabilityReport, ReportedDexterity, ReportedEllipsoid,
-    },
-    description::Robot,
-    input::display::{in_column, length, number, quantity},
-    text::{TextOptions, layout::Table},
+use congruent_analysis::manipulability::{
+    ConfigurationDexterity, DexterityStream, ManipulabilityReport, ReportedDexterity, ReportedEllipsoid,
 };
+use congruent_description::Robot;
+use congruent_input::display::{in_column, length, number, quantity};
+
+use crate::{TextOptions, layout::Table};
 
 /// What `congruent manipulability` prints: for each configuration the linear and angular velocity ellipsoids and measures, in
 /// parts of whole lines.

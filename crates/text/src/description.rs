@@ -6,15 +6,13 @@ use super::{
     TextOptions,
     layout::{Table, paragraph},
 };
-use crate::{
-    analysis::description_summary::{
-        DescriptionSummary, JointOrders, JointSummary, LinkSummary, ShapeSummary, UseSummary,
-    },
-    description::JointKind,
-    input::{
-        display::{counted, number, position, quantity},
-        serde_name,
-    },
+use congruent_analysis::description_summary::{
+    DescriptionSummary, JointOrders, JointSummary, LinkSummary, ShapeSummary, UseSummary,
+};
+use congruent_description::JointKind;
+use congruent_input::{
+    display::{counted, number, position, quantity},
+    serde_name,
 };
 
 /// What `congruent describe` prints of a robot: what its files say, the tree of links and joints, and for what it can be
@@ -37,16 +35,6 @@ pub fn description_text(summary: &DescriptionSummary) -> String {
         describe_use(&mut text, each);
     }
     text
-}
-
-/// The answer of `congruent describe` in one line, for `--quiet`: the robot, its chain, and for what it can be used.
-pub fn description_line(summary: &DescriptionSummary) -> String {
-    let verdict = |of: &UseSummary| {
-        let verdict = of.why_nothing().unwrap_or_else(|| readiness(of));
-        format!("{} {verdict}", serde_name(&of.needed_for))
-    };
-    let uses: Vec<String> = summary.uses.iter().map(verdict).collect();
-    format!("{}; {}; {}; {}", summary.robot, parts_line(summary), summary.chain, uses.join(", "))
 }
 
 /// What `congruent describe --orders` prints of a robot: a row for each place, a column for each order that differs from those
@@ -105,7 +93,7 @@ fn head(text: &mut String, summary: &DescriptionSummary) {
         line("the robot file declares dynamics ([[inertial]])".to_owned());
     }
     let triangles: usize = summary.meshes.iter().map(|mesh| mesh.triangles).sum();
-    let not_found = crate::input::codes::mesh::NOT_FOUND.name;
+    let not_found = congruent_input::codes::mesh::NOT_FOUND.name;
     let lacks_meshes = summary.warnings.iter().any(|warning| warning.code == not_found);
     let meshes = match summary.meshes.len() {
         0 if lacks_meshes => "no mesh file is found".to_owned(),
@@ -115,18 +103,7 @@ fn head(text: &mut String, summary: &DescriptionSummary) {
             format!("{} with {}{others}", counted(files, "mesh file"), counted(triangles, "triangle"))
         }
     };
-    line(format!("{}; {meshes}", parts_line(summary)));
-}
-
-/// How many links and joints the robot has, and its mass.
-fn parts_line(summary: &DescriptionSummary) -> String {
-    let moving = summary.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
-    format!(
-        "{}, {}; {}, {moving} of them moving",
-        counted(summary.links.len(), "link"),
-        quantity(summary.mass_kg, "kg"),
-        counted(summary.joints.len(), "joint"),
-    )
+    line(format!("{}; {meshes}", summary.parts()));
 }
 
 /// Each link below the joint that carries it. The only child of a link is indented as deep as the link; branches are
@@ -247,16 +224,12 @@ fn shape_words(shapes: &[ShapeSummary]) -> String {
     words.collect::<Vec<_>>().join(" and ")
 }
 
-fn readiness(of: &UseSummary) -> &'static str {
-    if of.is_ready { "ready" } else { "cannot be used" }
-}
-
 fn describe_use(text: &mut String, of: &UseSummary) {
     if let Some(why) = of.why_nothing() {
         let _ = writeln!(text, "  {}: {why}", serde_name(&of.needed_for));
         return;
     }
-    let _ = writeln!(text, "  {}: {}", serde_name(&of.needed_for), readiness(of));
+    let _ = writeln!(text, "  {}: {}", serde_name(&of.needed_for), of.readiness());
     for finding in &of.stopped_by {
         *text += &paragraph(&finding.to_string(), 4, 6);
     }

@@ -3,7 +3,8 @@
 use std::{fmt::Write, ops::Range};
 
 use super::units::is_unit_of;
-use crate::{input::display::in_column, kinematics::ReportedPose};
+use congruent_input::display::in_column;
+use congruent_kinematics::ReportedPose;
 
 /// Rows of a table: the first column is aligned to the left, the others to the right.
 #[derive(Debug, Default)]

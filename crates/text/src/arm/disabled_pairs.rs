@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
-use crate::{
-    input::display::{counted, length},
-    proximity::{DisableReason, DisabledPairs},
-    text::layout::paragraph,
-};
+use congruent_input::display::{counted, length};
+use congruent_proximity::{DisableReason, DisabledPairs};
+
+use crate::layout::paragraph;
 
 /// What `congruent clearance --write-srdf` prints below the SRDF: how many pairs have which reason, and what to examine before it is used.
 pub fn disabled_pairs_text(pairs: &DisabledPairs) -> String {

@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
-use crate::{
-    analysis::jacobians::{JacobianBlocks, JacobianKind, JacobianReport, JacobianResult, JacobianStream},
-    description::RobotDescription,
-    input::{display::in_column, serde_name},
-    text::{TextOptions, layout::Table},
+use congruent_analysis::jacobians::{
+    JacobianBlocks, JacobianKind, JacobianReport, JacobianResult, JacobianStream,
 };
+use congruent_description::RobotDescription;
+use congruent_input::{display::in_column, serde_name};
+
+use crate::{TextOptions, layout::Table};
 
 type Report<'a> = JacobianReport<JacobianStream<'a>>;
 

@@ -3,14 +3,12 @@
 use std::fmt::Write;
 
 use super::layout::{column_width, wrapped};
-use crate::{
-    calibration::{
-        estimation::ParameterUnit,
-        report::{CalibrationReport, FitSummary, Recommendation, ResidualSummary},
-    },
-    description::Robot,
-    input::display::{length_and_angle, number},
+use congruent_calibration::{
+    estimation::ParameterUnit,
+    report::{CalibrationReport, FitSummary, Recommendation, ResidualSummary},
 };
+use congruent_description::Robot;
+use congruent_input::display::{length_and_angle, number};
 
 /// What `congruent calibrate` prints: the corrections with their uncertainty, the residuals before and after, outliers,
 /// and what to measure next.
@@ -97,7 +95,7 @@ fn fits(text: &mut String, report: &CalibrationReport) {
         let worst = length_and_angle(residuals.worst_m, residuals.worst_rad);
         let noise = noise.filter(|of| of.noise_m.is_finite()).map_or_else(String::new, |of| {
             format!(
-                "  noise of a component {}",
+                "  scatter of one coordinate {}",
                 length_and_angle(of.noise_m, if residuals.worst_rad > 0.0 { of.noise_rad } else { 0.0 })
             )
         });

@@ -2,15 +2,14 @@
 
 use std::fmt::Write;
 
+use congruent_analysis::workspace::WorkspaceReport;
+use congruent_description::Robot;
+use congruent_input::display::{in_column, position, quantity};
+use congruent_kinematics::range;
+
 use crate::{
-    analysis::workspace::WorkspaceReport,
-    description::Robot,
-    input::display::{in_column, position, quantity},
-    kinematics::range,
-    text::{
-        TextOptions,
-        layout::{Table, wrapped},
-    },
+    TextOptions,
+    layout::{Table, wrapped},
 };
 
 /// An interval wider than this share of the estimate is worth a remark.

@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
-use crate::{
-    analysis::base_parameters::{BaseParameterReport, NamedParameter, ReportedBaseParameter},
-    input::display::{number, quantity},
-    text::layout::wrapped,
-};
+use congruent_analysis::base_parameters::{BaseParameterReport, NamedParameter, ReportedBaseParameter};
+use congruent_input::display::{number, quantity};
+
+use crate::layout::wrapped;
 
 /// What `congruent dynamics --base-parameters` prints: each sum of parameters with its value, and the parameters that change no torque.
 pub fn base_parameters_text(report: &BaseParameterReport) -> String {

@@ -2,12 +2,11 @@
 
 use std::{fmt::Write, iter::once};
 
-use crate::{
-    description::Robot,
-    input::display::{in_column, length},
-    proximity::{DistanceReport, Distances},
-    text::{TextOptions, layout::Table},
-};
+use congruent_description::Robot;
+use congruent_input::display::{in_column, length};
+use congruent_proximity::{DistanceReport, Distances};
+
+use crate::{TextOptions, layout::Table};
 
 /// What `congruent clearance` prints: ignored pairs and pairs below the limit, then the distances at each configuration, in
 /// parts of whole lines.

@@ -8,7 +8,7 @@ mod table;
 mod units;
 
 pub use columns::{NARROWEST, fitted};
-pub(super) use escape::with_visible_lines;
+pub(crate) use escape::with_visible_lines;
 pub use escape::{Colours, for_people, visible_path};
 pub use status_colour::with_coloured_status;
 pub use table::{POSE_COLUMNS, Table, column_width, paragraph, pose_cells, with_one_sign, wrapped};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::results::report::FaultTable;
+use congruent_results::report::FaultTable;
 
 /// What `congruent run --faults` prints: for each scenario what is injected, which checks detect it and after what time, and
 /// what the diagnosis finds.

@@ -2,15 +2,24 @@
 
 use std::fmt::Write;
 
+use congruent_analysis::sensitivity::SensitivityReport;
+use congruent_description::Robot;
+use congruent_input::display::{in_column, length, number};
+
 use crate::{
-    analysis::sensitivity::SensitivityReport,
-    description::Robot,
-    input::display::{in_column, length, number},
-    text::{
-        TextOptions,
-        layout::{Table, wrapped},
-    },
+    TextOptions,
+    layout::{Table, wrapped},
 };
+
+/// By how much all lengths of the arm are multiplied, if they are.
+fn lengths(factor: f64) -> String {
+    // The factor is an argument of the caller, 1 unless another is given.
+    if factor.to_bits() == 1.0_f64.to_bits() {
+        String::new()
+    } else {
+        format!(", all lengths times {}", number(factor))
+    }
+}
 
 /// What `congruent sensitivity` prints: the displacement of the tool by an error of each parameter, and the worst of all.
 pub fn sensitivity_text(report: &SensitivityReport, robot: &Robot, options: &TextOptions) -> String {
@@ -18,9 +27,9 @@ pub fn sensitivity_text(report: &SensitivityReport, robot: &Robot, options: &Tex
     for arm in &report.arms {
         let _ = writeln!(
             text,
-            "lengths x {}: displacement of the tool over {} configurations",
-            number(arm.length_factor),
-            report.samples
+            "displacement of the tool by one error, at {} random configurations{}",
+            report.samples,
+            lengths(arm.length_factor)
         );
         let mut table = Table::headed(["joint", "entry", "error", "worst mm", "mean mm", "rotation deg"]);
         for parameter in &arm.parameters {

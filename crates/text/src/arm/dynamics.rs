@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
-use crate::{
-    analysis::dynamics::{DynamicsResult, DynamicsStream, JointDynamicsReport, PointPayload},
-    input::{SiUnit, display::quantity, serde_name},
-    text::layout::column_width,
-};
+use congruent_analysis::dynamics::{DynamicsResult, DynamicsStream, JointDynamicsReport, PointPayload};
+use congruent_input::{SiUnit, display::quantity, serde_name};
+
+use crate::layout::column_width;
 
 type Report<'a> = JointDynamicsReport<DynamicsStream<'a>>;
 

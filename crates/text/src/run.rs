@@ -2,13 +2,11 @@
 
 use std::fmt::Write;
 
-use crate::{
-    fault_diagnosis::RunDiagnosis,
-    input::display::quantity,
-    monitors::verdict::CheckResult,
-    results::report::{RunReport, lines, verdict_line},
-    twin::source::ActuatorUse,
-};
+use congruent_fault_diagnosis::RunDiagnosis;
+use congruent_input::display::quantity;
+use congruent_monitors::verdict::CheckResult;
+use congruent_results::report::{RunReport, lines, verdict_line};
+use congruent_twin::source::ActuatorUse;
 
 /// What `congruent run` prints of a scenario, except for the folder of its results: the verdict, then motions and checks,
 /// those that failed first, then faults and their diagnosis.

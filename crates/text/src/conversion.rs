@@ -2,15 +2,14 @@
 
 use std::fmt::Write;
 
-use crate::{
-    analysis::conversion::{ConversionReport, ConversionSource, PoeReport, ScrewReport},
-    input::{
-        display::{angle, counted, length, length_and_angle},
-        serde_name,
-    },
-    text::layout::column_width,
-    writers::ReadBackReport,
+use congruent_analysis::conversion::{ConversionReport, ConversionSource, PoeReport, ScrewReport};
+use congruent_input::{
+    display::{angle, counted, length, length_and_angle},
+    serde_name,
 };
+use congruent_writers::ReadBackReport;
+
+use crate::layout::column_width;
 
 /// What `congruent convert` and `derive` print: a text that can be pasted or saved as it is. Everything but the model itself is
 /// a comment.

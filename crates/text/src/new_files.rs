@@ -2,13 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::{
-    agreement::compare::Agreement,
-    input::display::length_and_angle,
-    results::report::lines,
-    starter::{NewRobot, NewScenario},
-    text::layout::paragraph,
-};
+use congruent_agreement::compare::Agreement;
+use congruent_input::display::length_and_angle;
+use congruent_results::report::lines;
+use congruent_starter::{NewRobot, NewScenario};
+
+use crate::layout::paragraph;
 
 /// What `congruent new robot` prints: the file, its chain and table, and the result of its check.
 pub fn new_robot_text(report: &NewRobot) -> String {

@@ -1,11 +1,10 @@
 //! What `congruent fk` prints.
 
+use congruent_analysis::forward::{ForwardReport, PoseStream, ReportedLinkPoses};
+
 use crate::{
-    analysis::forward::{ForwardReport, PoseStream, ReportedLinkPoses},
-    text::{
-        TextOptions,
-        layout::{POSE_COLUMNS, Table, pose_cells},
-    },
+    TextOptions,
+    layout::{POSE_COLUMNS, Table, pose_cells},
 };
 
 /// What `congruent fk` prints: the chain, then a table of poses for each configuration, in parts of whole lines. `root` is the
