@@ -127,7 +127,7 @@ fn a_missing_mesh_fails_no_strict_check() {
     let path = scratch.write("robot.toml", &robot);
     let strict = congruent(&["check", "--strict", &path]);
     assert_eq!(strict.code, 0, "{}{}", strict.stdout, strict.stderr);
-    let note = "  lint: no findings\n  not needed for this check, for clearance alone: link \"base_link\": mesh file ";
+    let note = "  lint: no findings\n  not needed for this check: link \"base_link\": mesh file ";
     assert!(strict.stdout.contains(note), "{}", strict.stdout);
     assert!(!strict.stderr.contains("gone.stl"), "{}", strict.stderr);
     let lint = &congruent_json(&["check", "--strict", &path]).json()["lint"];

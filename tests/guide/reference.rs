@@ -129,9 +129,11 @@ impl KeyPage<'_> {
     /// A section with the keys of a table, and the sections of the tables below.
     fn section(&mut self, path: &str, heading: &str, table: &Value) {
         let _ = writeln!(self.text, "\n## {heading}\n\n{}\n", description(table));
-        self.text += "| key | takes | default | example | meaning |\n|---|---|---|---|---|\n";
         let empty = serde_json::Map::new();
         let properties = table["properties"].as_object().unwrap_or(&empty);
+        if properties.values().any(|value| !value["const"].is_string()) {
+            self.text += "| key | takes | default | example | meaning |\n|---|---|---|---|---|\n";
+        }
         let required: Vec<&str> =
             table["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
         let mut below = Vec::new();
@@ -160,11 +162,11 @@ impl KeyPage<'_> {
         let paths: Vec<String> = below.iter().map(|(path, ..)| path.clone()).collect();
         let alike = |path: &String| paths.iter().filter(|other| *other == path).count();
         for (path, is_list, table) in below {
-            let kind = table["properties"]["kind"]["const"].as_str();
+            let kind = kind_of(&table);
             let heading = heading_of(&path, is_list);
             let own = own_key(&table).filter(|_| kind.is_none() && is_list && alike(&path) > 1);
             let heading = match (kind, own) {
-                (Some(kind), _) => format!("{heading} kind = \"{kind}\""),
+                (Some((key, word)), _) => format!("{heading} {key} = {word}"),
                 (None, Some(key)) => format!("{heading} {key}"),
                 (None, None) => heading,
             };
@@ -201,10 +203,17 @@ impl KeyPage<'_> {
                 let each = self.takes(&value["items"]);
                 if count == "list" { format!("list: {each}") } else { format!("{count} values: {each}") }
             }
-            Some("object") => format!("{} by name", self.takes(&value["additionalProperties"])),
+            Some("object") if value["properties"].is_object() => "table".to_owned(),
+            Some("object") => format!("for each name: {}", self.takes(&value["additionalProperties"])),
             _ => String::new(),
         }
     }
+}
+
+/// The key that says which one of several tables is meant, and its word, as `kind = "payload"`.
+fn kind_of(table: &Value) -> Option<(&String, &Value)> {
+    let properties = table["properties"].as_object()?.iter();
+    properties.map(|(key, value)| (key, &value["const"])).find(|(_, word)| word.is_string())
 }
 
 /// The first key that a table must have: of several tables under one heading it says which one is meant.

@@ -47,6 +47,9 @@ pub(crate) fn run(word: &str, printer: &Printer) -> Result<u8, Failure> {
             Code::nearest(word, &known).map(|code| format!("{}, {}", code.id_or_name(), code.name))
         }) {
             Some(near) => unknown.with_help(format!("did you mean {near}?")),
+            None if word.chars().all(|c| !c.is_lowercase()) => {
+                unknown.with_help("the words of an answer are explained in docs/concepts.md")
+            }
             None => unknown.with_help(
                 "give the code of a finding (CGR-URDF-018, urdf::axis) or a cause of `check` (axis_flipped)",
             ),

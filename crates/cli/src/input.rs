@@ -7,7 +7,7 @@ use std::{
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use congruent::{
-    description::{Followers, RobotDescription, load_robot_with},
+    description::{Followers, RobotDescription, codes::urdf::MASSLESS, load_robot_with},
     input::{Capability, Diagnostic, FileAccess, RosPackages},
 };
 use schemars::JsonSchema;
@@ -152,14 +152,20 @@ impl ChainArguments {
         Ok(description.with_chain(self.base.as_deref(), self.tip.as_deref())?)
     }
 
-    /// Like `of`, and prints the warnings of the robot along the chain.
-    pub(crate) fn choose(
+    /// Like `of`, and prints the warnings of the robot along the chain, as far as they matter for this use: poses need neither
+    /// masses nor meshes.
+    fn choose(
         &self,
         description: RobotDescription,
+        needed: Capability,
         printer: &Printer,
     ) -> Result<RobotDescription, Failure> {
         let description = self.of(description)?;
-        printer.warnings(None, &description.warnings);
+        let is_of_use = |of: &&Diagnostic| {
+            needed != Capability::Kinematics || (of.stops.is_none() && of.code.name != MASSLESS.name)
+        };
+        let warnings: Vec<Diagnostic> = description.warnings.iter().filter(is_of_use).cloned().collect();
+        printer.warnings(None, &warnings);
         printer.detail(|| read_from(&description));
         Ok(description)
     }
@@ -188,14 +194,14 @@ impl ArmArguments {
     ) -> Result<RobotDescription, Failure> {
         let description = self.robot.read()?;
         description.check_capability(needed)?;
-        self.chain.choose(description, printer)
+        self.chain.choose(description, needed, printer)
     }
 
     /// Like `load`, without the table of the robot file, for commands that do not need it.
     pub(crate) fn load_urdf(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
         let mut description = self.robot.read()?;
         description.dh = None;
-        self.chain.choose(description, printer)
+        self.chain.choose(description, Capability::Physics, printer)
     }
 }
 

@@ -60,7 +60,7 @@ struct Arguments {
     /// Colour what people read. `auto` is on a terminal, unless `NO_COLOR` is set.
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = Color::Auto, global = true)]
     color: Color,
-    /// Print only the answer, in a line for each input, and errors: no warnings, no progress.
+    /// Print only the answer and errors, no warnings and no progress. The answer about a whole input, as of `check`, is a line.
     #[arg(short, long, global = true)]
     quiet: bool,
     /// Also print what was read and how long it took, and findings in full, unless --quiet is given.

@@ -177,7 +177,7 @@ fn no_xml(text: &str) -> Result<(), Diagnostic> {
     if starts_with("<!doctype html") || starts_with("<html") {
         return Err(Diagnostic::error(codes::xml::MALFORMED, "the file is a web page (HTML)")
             .at(at..at)
-            .with_help("download the file itself: code hosts show it inside a page, which has a link to the raw file"));
+            .with_help("a page of results is for the browser; code hosts show a file inside a page, which has a link to the raw file"));
     }
     if begin.is_empty() || begin.starts_with('<') {
         return Ok(());

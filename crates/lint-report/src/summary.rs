@@ -1,6 +1,6 @@
 //! What lint finds in the descriptions that another command reads.
 
-use congruent_input::{Capability, Diagnostic, Finding, Severity};
+use congruent_input::{Capability, Diagnostic, Finding, Severity, codes::mesh};
 use congruent_lint::codes;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -17,7 +17,7 @@ pub struct LintSummary {
     pub warnings: usize,
     /// The worst of them, at most three.
     pub worst: Vec<Finding>,
-    /// Findings that stop clearance alone. They never fail a check.
+    /// Findings that stop clearance alone, and those of meshes. They never fail a check.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub for_clearance: Vec<Finding>,
     /// Whether a finding fails the check (--strict).
@@ -31,8 +31,11 @@ impl LintSummary {
     /// What the reports of several descriptions have together.
     pub fn from_reports(reports: impl IntoIterator<Item = LintReport>) -> Self {
         let all = reports.into_iter().flat_map(|report| report.diagnostics);
-        let (for_clearance, mut found): (Vec<_>, Vec<_>) =
-            all.partition(|found| found.stops == Some(Capability::Clearance));
+        // Meshes of visual shapes stop nothing, and a check compares no shapes.
+        let is_for_clearance = |found: &Diagnostic| {
+            found.stops == Some(Capability::Clearance) || found.code.area() == mesh::NOT_FOUND.area()
+        };
+        let (for_clearance, mut found): (Vec<_>, Vec<_>) = all.partition(is_for_clearance);
         found.sort_by_key(badness);
         let errors = found.iter().filter(|found| found.severity == Severity::Error).count();
         let worst = found.iter().take(Self::MOST_LISTED).map(Finding::from).collect();

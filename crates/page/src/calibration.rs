@@ -189,7 +189,7 @@ fn to_paste(report: &CalibrationReport, description: &RobotDescription) -> Marku
             h2 { "To paste" }
             p.small {
                 "The section " code { "[dh]" } " of " code { (portable_path(&description.path).display()) }
-                " with the recommended corrections; corrections of base and tool are not in it."
+                " with the significant ones of the recommended corrections; those of base and tool are not in it."
             }
             pre.paste { (with_changes(&dh_section(&table, &description.robot), &nominal(description))) }
         }
@@ -211,14 +211,14 @@ fn with_changes(section: &str, nominal: &str) -> String {
     text
 }
 
-/// The table with the recommended corrections.
+/// The table with the recommended corrections that are significant.
 fn corrected_table(report: &CalibrationReport, description: &RobotDescription) -> Option<DhTable> {
     if report.recommended == Recommendation::Nominal {
         return None;
     }
     let mut table = description.dh.clone()?;
     let mut is_corrected = false;
-    for each in &report.parameters {
+    for each in report.parameters.iter().filter(|each| each.significant) {
         // A name is `<joint>.<entry>`.
         let (Some(to), Some((joint, _))) = (&each.in_table, each.name.rsplit_once('.')) else { continue };
         let of_joint = |row: &&mut DhRow| description.robot.joint(row.joint).name == joint;

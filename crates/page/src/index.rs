@@ -9,7 +9,7 @@ use maud::{Markup, html};
 
 use crate::{
     parts::{BadgeKind, Provenance, badge, capitalised, document, provenance},
-    run::{Tightest, outcome, tightest},
+    run::{outcome, tightest},
 };
 
 /// One scenario of a call.
@@ -102,9 +102,10 @@ fn row(entry: &IndexEntry<'_>) -> Markup {
 /// The verdict, and the first thing that failed.
 fn happened(report: &RunReport) -> Markup {
     let failed = report.checks_failed_first().into_iter().find(|check| check.status == Status::Fail);
+    let fails = report.verdict == Verdict::NotAsExpected && failed.is_some();
     let line = failed.and_then(|check| lines(check).into_iter().next());
     html! {
-        (capitalised(&report.sentence())) "."
+        (capitalised(&report.sentence())) @if fails { " failed" } "."
         @if let Some(error) = &report.error { p.small { (error) } }
         @else if let Some(line) = line { p.small { (line) } }
     }
@@ -114,9 +115,9 @@ fn happened(report: &RunReport) -> Markup {
 fn nearest(report: &RunReport) -> Markup {
     let has_failed = report.checks.iter().any(|check| check.status == Status::Fail);
     html! {
-        @if let Some(Tightest { check, measure, worst, share }) = tightest(report).filter(|_| !has_failed) {
-            (check) ": " (quantity_words(measure.quantity)) (format!(", {:.0} % of the limit", 100.0 * share))
-            p.small { (worst.subject) }
+        @if let Some(nearest) = tightest(report).filter(|_| !has_failed) {
+            (nearest.check) ": " (quantity_words(nearest.measure.quantity)) ", " (nearest.words())
+            p.small { (nearest.worst.subject) }
         }
     }
 }

@@ -6,6 +6,7 @@ use std::{
 };
 
 use congruent_monitors::{Recorder, Recorders, RecordingError, Sample};
+use congruent_scenario::Scenario;
 use congruent_twin::{Outcome, Run, RunError, RunSetup};
 
 use crate::{
@@ -142,7 +143,7 @@ pub fn execute(
     progress: impl FnMut(u64),
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
     let folder = OutputFolder::create(&options.out, &setup.scenario.name, &setup.inputs)?;
-    folder.write(RESOLVED, setup.scenario.to_toml().as_bytes())?;
+    folder.write(RESOLVED, resolved(setup, &folder).to_toml().as_bytes())?;
     let cannot_run =
         |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
     let run = Run::new(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
@@ -152,6 +153,12 @@ pub fn execute(
         Ok(()) => Ok((report, folder)),
         Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
     }
+}
+
+/// The scenario with every default, and its files by their paths from the results: nobody else has the folders of this machine.
+fn resolved(setup: &RunSetup, folder: &OutputFolder) -> Scenario {
+    let place = folder.path().canonicalize();
+    place.map_or_else(|_| setup.scenario.clone(), |place| setup.scenario.relative_to(&place))
 }
 
 /// The files that take samples; the trajectory is completed before the page, which links to files that are there.

@@ -15,6 +15,7 @@ mod output;
 mod place;
 mod pose;
 mod reading;
+mod relative;
 mod robot;
 mod run_fault;
 mod spaces;

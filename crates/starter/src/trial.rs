@@ -137,6 +137,7 @@ fn refused(results: &[CheckResult]) -> Option<(CheckKind, String)> {
 
 fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
     let message = format!("the model and the twin of \"{}\" are not the same robot: {why}", description.name);
-    Diagnostic::error(codes::new::AGREEMENT, message)
-        .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
+    Diagnostic::error(codes::new::AGREEMENT, message).with_help(
+        "`congruent check` of the robot says why; a scenario can only pass for a robot that agrees",
+    )
 }

@@ -87,7 +87,7 @@ pub(super) fn likely_reason(
     misfit: Misfit,
 ) -> Option<LikelyReason> {
     let mut best: Option<(String, ResidualSize)> = None;
-    for interpretation in interpretations(nominal) {
+    for interpretation in interpretations(nominal, &options.free) {
         let fit = interpreted_fit(nominal, rows, options, &interpretation);
         let Some(fit) = fit.filter(|fit| misfit.is_resolved_by(fit)) else { continue };
         // Later interpretations have more free corrections, which always reduce the residual a little: they must
@@ -139,7 +139,8 @@ fn interpreted_fit(
     })
 }
 
-fn interpretations<'a>(nominal: &NominalChain<'a>) -> Vec<Interpretation<'a>> {
+/// `given` are the groups that the options free: of the groups named in a condition all are to be given.
+fn interpretations<'a>(nominal: &NominalChain<'a>, given: &[String]) -> Vec<Interpretation<'a>> {
     let plain = |condition: &str, reinterpret: Reinterpret<'a>| Interpretation {
         condition: condition.to_owned(),
         reinterpret,
@@ -168,14 +169,14 @@ fn interpretations<'a>(nominal: &NominalChain<'a>) -> Vec<Interpretation<'a>> {
     }
     let as_it_is = || -> Reinterpret<'a> { Box::new(|row| Some(row.clone())) };
     let frames: [(&str, &'static [&'static str]); 3] = [
-        ("the pose of the base is free too (--free base)", &["base"]),
-        ("the pose of the tool is free too (--free tool)", &["tool"]),
-        ("the poses of base and tool are free too (--free base,tool)", &["base", "tool"]),
+        ("the pose of the base is free too", &["base"]),
+        ("the pose of the tool is free too", &["tool"]),
+        ("the poses of base and tool are free too", &["base", "tool"]),
     ];
-    all.extend(frames.map(|(condition, free)| Interpretation {
-        condition: condition.to_owned(),
-        reinterpret: as_it_is(),
-        free,
+    all.extend(frames.map(|(condition, free)| {
+        let groups: Vec<&str> = given.iter().map(String::as_str).chain(free.iter().copied()).collect();
+        let condition = format!("{condition} (--free {})", groups.join(","));
+        Interpretation { condition, reinterpret: as_it_is(), free }
     }));
     all
 }

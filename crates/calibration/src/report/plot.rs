@@ -1,6 +1,7 @@
 //! Figure of a calibration as SVG: the cost as a function of the most significant correction, and the residual of each
 //! measurement.
 
+use congruent_input::display::number;
 use plotters::{
     chart::{ChartContext, LabelAreaPosition, SeriesAnno, SeriesLabelPosition},
     coord::{Shift, types::RangedCoordf64},
@@ -14,6 +15,9 @@ const NOMINAL: RGBColor = RGBColor(110, 110, 110);
 const LEAST_SQUARES: RGBColor = RGBColor(213, 94, 0);
 const ROBUST: RGBColor = RGBColor(0, 114, 178);
 const GRID: RGBColor = RGBColor(228, 228, 228);
+
+/// Height of a figure over its largest value: the legend is above all curves and bars.
+const ABOVE: f64 = 1.42;
 
 /// Width and height in points.
 const SIZE: (u32, u32) = (860, 780);
@@ -77,10 +81,11 @@ fn cost(
     let (scale, unit) = (parameter.unit.for_people(1.0), parameter.unit.name_for_people());
     let (lower, upper) = (first(&curve.values) * scale, last(&curve.values) * scale);
     let top = |costs: &[f64]| positive(costs.iter().copied().fold(0.0, f64::max));
-    let highest = top(&curve.least_squares_m2);
-    // Square millimetres unless the residuals are beyond a decimetre or so.
-    let (cost_scale, cost_unit) = if highest < 1e-2 { (1e6, "mm²") } else { (1.0, "m²") };
-    let (top, robust_top) = (highest * cost_scale * 1.08, top(&curve.robust_m2) * cost_scale * 1.08);
+    let [highest, robust_highest] = [&curve.least_squares_m2, &curve.robust_m2].map(|costs| top(costs));
+    // Square millimetres unless the residuals are beyond a decimetre or so; each axis has its own.
+    let unit_of = |highest: f64| if highest < 1e-2 { (1e6, "mm²") } else { (1.0, "m²") };
+    let [(cost_scale, cost_unit), (robust_scale, robust_unit)] = [highest, robust_highest].map(unit_of);
+    let (top, robust_top) = (highest * cost_scale * ABOVE, robust_highest * robust_scale * ABOVE);
     let loss = report.loss.to_string();
     let (x, y) = (format!("{} in {unit}", parameter.name), format!("least squares, cost in {cost_unit}"));
     let mut chart = ChartBuilder::on(area)
@@ -97,20 +102,27 @@ fn cost(
         .configure_secondary_axes()
         .set_all_tick_mark_size(5 * FINE)
         .axis_style(NOMINAL.stroke_width(FINE))
-        .y_desc(format!("{loss}, cost in {cost_unit}"))
+        .y_desc(format!("{loss}, cost in {robust_unit}"))
+        .y_label_formatter(&|cost| number(*cost))
         .label_style((FONT, LABEL))
         .axis_desc_style((FONT, DESCRIPTION))
         .draw()?;
-    let points = |costs: &[f64]| -> Vec<(f64, f64)> {
+    let points = |costs: &[f64], cost_scale: f64| -> Vec<(f64, f64)> {
         curve.values.iter().zip(costs).map(|(value, cost)| (value * scale, cost * cost_scale)).collect()
     };
     let label = |name: &str, estimate: f64| format!("{name}: {:.4} {unit}", estimate * scale);
     chart
-        .draw_series(LineSeries::new(points(&curve.least_squares_m2), LEAST_SQUARES.stroke_width(2 * FINE)))?
+        .draw_series(LineSeries::new(
+            points(&curve.least_squares_m2, cost_scale),
+            LEAST_SQUARES.stroke_width(2 * FINE),
+        ))?
         .label(label("least squares, left", parameter.correction))
         .legend(line(LEAST_SQUARES));
     chart
-        .draw_secondary_series(LineSeries::new(points(&curve.robust_m2), ROBUST.stroke_width(2 * FINE)))?
+        .draw_secondary_series(LineSeries::new(
+            points(&curve.robust_m2, robust_scale),
+            ROBUST.stroke_width(2 * FINE),
+        ))?
         .label(label(&format!("{loss}, right"), parameter.robust_correction))
         .legend(line(ROBUST));
     upright(&mut chart, parameter.correction * scale, top, LEAST_SQUARES)?;
@@ -139,7 +151,7 @@ fn rows(
         })
         .fold(0.0, f64::max);
     let count = f64::from(u32::try_from(rows.len()).unwrap_or(u32::MAX));
-    let top = positive(highest) * 1.18;
+    let top = positive(highest) * ABOVE;
     let mut chart = ChartBuilder::on(area)
         .margin(14 * FINE)
         .caption("residual of each measurement", (FONT, CAPTION))
@@ -192,6 +204,7 @@ fn mesh(chart: &mut PlotChart<'_, '_>, x: &str, y: &str) -> Result<(), Calibrati
         .axis_style(NOMINAL.stroke_width(FINE))
         .x_desc(x)
         .y_desc(y)
+        .y_label_formatter(&|value| number(*value))
         .label_style((FONT, LABEL))
         .axis_desc_style((FONT, DESCRIPTION))
         .draw()?;

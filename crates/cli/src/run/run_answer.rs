@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use congruent::{
     input::{Diagnostic, display::listed},
+    monitors::verdict::Status,
     results::{
         ExecuteError, Options, execute,
         files::FolderError,
         missing_files,
-        report::{Reason, RunReport, TestCase, TestResult, TestSuite},
+        report::{Reason, RunReport, TestCase, TestResult, TestSuite, lines},
     },
     text::run_text,
     twin::RunSetup,
@@ -57,7 +58,10 @@ impl BatchReport for RunAnswer {
     }
 
     fn one_line(&self) -> Option<String> {
-        run_text(&self.report).lines().next().map(str::to_owned)
+        let line = run_text(&self.report).lines().next()?.to_owned();
+        let failed = self.report.checks_failed_first().into_iter().find(|check| check.status == Status::Fail);
+        let found = failed.and_then(|check| lines(check).into_iter().next());
+        Some(found.map_or_else(|| line.clone(), |found| format!("{line}: {found}")))
     }
 
     fn test_suite(&self, _: &str) -> TestSuite {

@@ -11,7 +11,7 @@ use std::{
 
 use clap::ValueEnum;
 use congruent::{
-    input::{Diagnostic, Finding, serde_name, visible},
+    input::{Diagnostic, Finding, Severity, serde_name, visible},
     text::{
         MOST_FINDINGS, TextOptions, finding_line, finding_text,
         layout::{fitted, for_people, visible_path},
@@ -62,6 +62,9 @@ pub(crate) enum Verbosity {
 
 /// Set if findings are shown in full.
 static IN_FULL: OnceLock<()> = OnceLock::new();
+
+/// Set if nothing but errors is printed beside the answer.
+static QUIET: OnceLock<()> = OnceLock::new();
 
 /// The choice of a call; findings are rendered in many places.
 static COLOR: OnceLock<Color> = OnceLock::new();
@@ -123,10 +126,12 @@ impl Refusal<'_> {
 
 impl Printer {
     pub(crate) fn new(format: Format, verbosity: Verbosity) -> Self {
-        if verbosity == Verbosity::Verbose {
-            // There is one call.
-            let _ = IN_FULL.set(());
-        }
+        // There is one call.
+        let _ = match verbosity {
+            Verbosity::Verbose => IN_FULL.set(()),
+            Verbosity::Quiet => QUIET.set(()),
+            Verbosity::Usual => Ok(()),
+        };
         Self { format, verbosity }
     }
 
@@ -241,9 +246,13 @@ impl Printer {
         let text = match failure {
             Failure::Machine(message) => format!("error: {}{}\n", named(input), visible(message)),
             Failure::Input(findings) => {
+                let is_error = |finding: &&Diagnostic| finding.severity == Severity::Error;
+                let shown: Vec<&Diagnostic> =
+                    findings.iter().filter(|of| QUIET.get().is_none() || is_error(of)).collect();
                 let listed =
-                    listed_findings(findings.iter(), &text_options(), |finding| labelled(input, finding));
-                listed + &explained_where(findings.iter().next())
+                    listed_findings(shown.into_iter(), &text_options(), |finding| labelled(input, finding));
+                let first = findings.iter().find(is_error);
+                listed + &explained_where(first.or(findings.iter().next()))
             }
         };
         to_stderr(&text);

@@ -65,6 +65,9 @@ fn syntax_in_words(found: Diagnostic, text: &str, at: usize) -> Diagnostic {
     if let Some(fault) = missing_comma(text, line_start, line) {
         return fault;
     }
+    if found.message.ends_with("expected `,`") {
+        return found.with_help("a comma is missing before this key");
+    }
     match unclosed(text, at) {
         Some(Unclosed { span, message }) => Diagnostic::error(codes::toml::INVALID, message).at(span),
         None => found,
@@ -301,7 +304,13 @@ pub fn diagnostic(error: &Error) -> Diagnostic {
             },
         )
     } else if text.starts_with("missing field ") {
-        Diagnostic::error(codes::toml::MISSING_KEY, format!("missing key \"{first}\""))
+        let found = Diagnostic::error(codes::toml::MISSING_KEY, format!("missing key \"{first}\""));
+        // The version of a format has one value, which a person cannot guess.
+        if first == "schema_version" {
+            found.with_help("write at the top: schema_version = 1")
+        } else {
+            found
+        }
     } else {
         let (message, help) = in_words(&text.replace('\n', ", "));
         let found = Diagnostic::error(codes::toml::INVALID, message);

@@ -33,14 +33,17 @@ impl<'a> Columns<'a> {
         html! { th { "position, " (self.position.unit) } th { "orientation, " (self.orientation.unit) } }
     }
 
-    /// Both parts of a difference, each with how much of the tolerance it uses.
-    fn cells(&self, error: &PoseError, at: &Pointer) -> Markup {
+    /// Both parts of a difference, each with how much of the tolerance it uses. What agrees beyond the tolerance does so within the
+    /// digits of its files, and has no bar.
+    fn cells(&self, error: &PoseError, verdict: Agreement, at: &Pointer) -> Markup {
         let Tolerance { position_m, orientation_rad } = *self.tolerance;
         let cell = |name: &str, key: &str, error: f64, tolerance: f64, column: &UnitColumn| {
+            let holds = error <= tolerance;
+            let has_bar = tolerance > 0.0 && (holds || verdict != Agreement::Agree);
             html! {
                 td data-label=(format!("{name}, {}", column.unit)) {
                     (value(&at.key(key), error, &column.words(error)))
-                    @if tolerance > 0.0 { (self.scale.bar(UsedShare { share: error / tolerance, holds: error <= tolerance })) }
+                    @if has_bar { (self.scale.bar(UsedShare { share: error / tolerance, holds })) }
                 }
             }
         };
@@ -85,7 +88,7 @@ fn row(comparison: &Comparison, columns: &Columns<'_>, at: &Pointer) -> Markup {
         tr {
             th scope="row" { (comparison.title) }
             td { (badge(outcome, word)) }
-            (columns.cells(&comparison.worst.error, &at.key("worst")))
+            (columns.cells(&comparison.worst.error, comparison.verdict, &at.key("worst")))
             td data-label="largest at" { (comparison.worst.link) }
         }
     }
@@ -97,18 +100,23 @@ fn links(comparison: &Comparison, tolerance: &Tolerance, at: &Pointer) -> Markup
     let all = comparison.links.iter().enumerate();
     let (fitted, defined): (Vec<_>, Vec<_>) = all.partition(|(_, of)| of.source == PoseSource::DhFitted);
     html! {
-        (link_table(&defined, tolerance, at))
+        (link_table(&defined, comparison.verdict, tolerance, at))
         @if !fitted.is_empty() {
             details {
                 summary { "for information only: frames that the table does not define (" (fitted.len()) ")" }
-                (link_table(&fitted, tolerance, at))
+                (link_table(&fitted, comparison.verdict, tolerance, at))
             }
         }
     }
 }
 
 /// A table of links, each with its place in the report.
-fn link_table(links: &[(usize, &LinkDifference)], tolerance: &Tolerance, at: &Pointer) -> Markup {
+fn link_table(
+    links: &[(usize, &LinkDifference)],
+    verdict: Agreement,
+    tolerance: &Tolerance,
+    at: &Pointer,
+) -> Markup {
     let errors: Vec<PoseError> = links.iter().map(|(_, of)| of.error).collect();
     let columns = Columns::new(&errors, tolerance);
     html! {
@@ -118,7 +126,7 @@ fn link_table(links: &[(usize, &LinkDifference)], tolerance: &Tolerance, at: &Po
                 @for (index, link) in links {
                     tr {
                         th scope="row" { (link.link) }
-                        (columns.cells(&link.error, &at.key(*index)))
+                        (columns.cells(&link.error, verdict, &at.key(*index)))
                         td data-label="pose of the first" {
                             @match link.source {
                                 PoseSource::Dh | PoseSource::DhFitted => "table",

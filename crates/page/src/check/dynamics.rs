@@ -17,7 +17,9 @@ pub(super) fn dynamics(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     html! {
         @if !robot.dynamics.is_empty() {
             section {
-                h2 { "Dynamics" }
+                // The physics is built from the URDF: it is no second description of the dynamics.
+                @let is_own = robot.dynamics.iter().all(|report| is_of_physics(report));
+                h2 { @if is_own { "Self-test of the physics" } @else { "Dynamics" } }
                 @for (index, report) in robot.dynamics.iter().enumerate() {
                     @let at = match index {
                         0 => at.key("dynamics"),
@@ -88,10 +90,15 @@ fn compared(robot: &CheckedRobot<'_>, report: &DynamicsReport, at: &Pointer) -> 
 /// What was compared; the physics is no second description, but is built from the URDF.
 fn sides(report: &DynamicsReport) -> String {
     let (candidate, reference) = (&report.sides.candidate, &report.sides.reference);
-    match reference.as_str() {
-        "physics" => format!("{candidate} against the program's own physics"),
-        _ => format!("{candidate} against {reference}"),
+    if is_of_physics(report) {
+        format!("the physics against {candidate}, from which it is built")
+    } else {
+        format!("{candidate} against {reference}")
     }
+}
+
+fn is_of_physics(report: &DynamicsReport) -> bool {
+    report.sides.reference == "physics"
 }
 
 /// A cause, the values that it corrects with their lines, and what to write.

@@ -56,7 +56,10 @@ impl BarScale {
     /// What the bars of a table mean.
     pub(crate) fn words() -> Markup {
         html! {
-            p.small { "Bars are logarithmic, from 1/1000 of the limit; the mark is the limit." }
+            p.small {
+                "Bars show how much of its limit a value uses (limit over value, if the limit is a least one), logarithmic from 1/1000; \
+                 the mark is the limit."
+            }
         }
     }
 }

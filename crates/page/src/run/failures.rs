@@ -96,6 +96,14 @@ fn mark(chart: &mut Chart, measure: &Measure, times_s: &Floats) {
         line.and_then(|line| value_at(line, times_s, first.time_s)).is_some_and(|value| value < 0.0);
     let value = if is_below { -first.value } else { first.value };
     chart.points.push(PlotPoint { time_s: first.time_s, value, text: text.trim_end().to_owned() });
+    // The sentence above the plot has the worst instant, which need not be the first.
+    if let Some(worst) =
+        measure.worst.as_ref().filter(|worst| !is_goal && worst.time_s > first.time_s + HALF_A_MICROSECOND_S)
+    {
+        let text = format!("worst: {} {unit}", number(worst.value * scale));
+        let value = worst.value.copysign(value);
+        chart.points.push(PlotPoint { time_s: worst.time_s, value, text: text.trim_end().to_owned() });
+    }
 }
 
 /// The value of a line at a time, or the last before.

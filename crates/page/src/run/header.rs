@@ -82,11 +82,11 @@ pub(crate) fn sentence(report: &RunReport) -> String {
         _ if report.verdict != Verdict::NotAsExpected => {
             format!("{}: {found}", capitalised(&report.sentence()))
         }
-        [_] => format!("Check {first} fails: {found}"),
+        [_] => format!("The check {first} fails: {found}"),
         several => {
             let names: Vec<String> = several.iter().map(|check| check.check.to_string()).collect();
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            format!("Checks {} fail; {first}: {found}", listed(&names))
+            format!("The checks {} fail; {first}: {found}", listed(&names))
         }
     }
 }
@@ -104,14 +104,10 @@ fn proved(report: &RunReport) -> Option<String> {
         "{measures} {quantities} within the limits, in {} at {samples} samples.",
         counted(conclusive().count(), "check")
     );
-    if let Some(Tightest { check, measure, worst, share }) = tightest(report) {
-        let subject = &worst.subject;
-        let what = quantity_words(measure.quantity);
-        let _ = write!(
-            text,
-            " Nearest to its limit: {what} of {subject} ({check}), {:.0} % of it.",
-            100.0 * share
-        );
+    if let Some(nearest) = tightest(report) {
+        let Tightest { check, measure, worst, .. } = &nearest;
+        let (subject, what) = (&worst.subject, quantity_words(measure.quantity));
+        let _ = write!(text, " Nearest to its limit: {what} of {subject} ({check}), {}.", nearest.words());
     }
     Some(text)
 }

@@ -19,4 +19,4 @@ mod violated;
 
 pub(crate) use header::outcome;
 pub use recorder::PageFormat;
-pub(crate) use tightest::{Tightest, tightest};
+pub(crate) use tightest::tightest;

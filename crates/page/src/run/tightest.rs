@@ -11,6 +11,16 @@ pub(crate) struct Tightest<'a> {
     pub(crate) share: f64,
 }
 
+impl Tightest<'_> {
+    /// The value against its limit: `88 % of the limit`, or of a least value `3.1 times the limit`.
+    pub(crate) fn words(&self) -> String {
+        match self.measure.bound {
+            Bound::AtMost => format!("{:.0} % of the limit", 100.0 * self.share),
+            Bound::AtLeast | Bound::Above => format!("{:.1} times the limit", 1.0 / self.share),
+        }
+    }
+}
+
 /// The quantity that uses most of its limit, of the checks that passed; quantities of no size, as rounding, do not count, and of
 /// distances those that change.
 pub(crate) fn tightest(report: &RunReport) -> Option<Tightest<'_>> {

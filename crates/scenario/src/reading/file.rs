@@ -7,13 +7,19 @@ use std::{
 };
 
 use congruent_input::{
-    Diagnostic, Diagnostics, FileAccess, Findings, SourceFile, TomlKind, codes::toml::UNKNOWN_KEY,
-    direct_path, is_standard_input, known_names, nearest, toml_text,
+    Diagnostic, Diagnostics, FileAccess, Findings, SourceFile, codes::toml::UNKNOWN_KEY, direct_path,
+    is_standard_input, known_names, nearest, toml_text,
 };
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{faults::read_fault, motion::read_motion, overrides::Override, section::Section};
+use super::{
+    faults::read_fault,
+    motion::read_motion,
+    other_file::{refuse_folder, refuse_other_text},
+    overrides::Override,
+    section::Section,
+};
 use crate::{
     Check, CheckKind, ControllerKind, ControllerSettings, Expectation, FilePlace, SCHEMA_VERSION, Scenario,
     codes, place::PlaceNode,
@@ -78,16 +84,9 @@ impl ScenarioFile {
     /// # Errors
     /// As [`ScenarioFile::read`].
     pub fn read_with(path: &Path, overrides: &[Override], access: &FileAccess) -> Result<Self, Findings> {
-        let is_robot = |text: &str| {
-            text.trim_start().starts_with('<') || TomlKind::from_text(text) == Some(TomlKind::RobotFile)
-        };
-        if path.is_dir() && path.join("robot.toml").is_file() {
-            return Err(robot_given(path).into());
-        }
+        refuse_folder(path)?;
         let source = access.read_named_text(path, MOST_BYTES)?;
-        if is_robot(&source.text) {
-            return Err(robot_given(path).into());
-        }
+        refuse_other_text(path, &source.text)?;
         let in_file = |fault: Diagnostic| fault.in_file(&source);
         let mut document = toml_text::parse_document(&source.text).map_err(in_file)?;
         let places = PlaceNode::of_document(&source.text, &document);
@@ -159,13 +158,6 @@ fn named_too(found: Vec<Diagnostic>, key: &str) -> Vec<Diagnostic> {
         if is_unknown_key(&finding) { with_more_help(finding, key) } else { finding }
     };
     found.into_iter().map(named).collect()
-}
-
-/// The error about a robot in the place of a scenario.
-fn robot_given(path: &Path) -> Diagnostic {
-    let path = path.display();
-    Diagnostic::error(codes::scenario::ROBOT_GIVEN, format!("{path} is a robot, not a scenario"))
-        .with_help(format!("to check it: congruent check {path}; for a scenario of it: congruent new scenario {path} --to FILE.toml"))
 }
 
 /// Adds to a fault of an overridden value that it was set: the line of the file has another value.

@@ -4,6 +4,7 @@ mod faults;
 mod file;
 mod motion;
 mod name;
+mod other_file;
 mod overrides;
 mod section;
 

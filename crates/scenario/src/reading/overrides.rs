@@ -127,11 +127,10 @@ impl Override {
             }
             DeValue::Table(table) => self.put(table, &place, path, value),
             DeValue::Array(items) => {
-                let count = items.len();
-                let index = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
-                match index.and_then(|index| items.get_mut(index)) {
+                let of_entries = entries(items);
+                match position(items, number).and_then(|index| items.get_mut(index)) {
                     Some(item) => self.replace(name, item, rest, value),
-                    None => Err(self.refused(&format!("\"{name}\" has entries 1 to {count}"))),
+                    None => Err(self.refused(&format!("\"{name}\" has {of_entries}"))),
                 }
             }
             _ => Err(self.refused(&format!("\"{name}\" is a value, not a table"))),
@@ -145,10 +144,34 @@ impl Override {
 
     pub(super) fn refused(&self, why: &str) -> Diagnostic {
         Diagnostic::error(codes::cli::SET, format!("--set {}: {why}", self.written)).with_help(
-            "KEY is the keys of the file joined by dots, entries of lists by their number from 1: \
-             check.1.position_m=1e-6",
+            "KEY is the keys of the file joined by dots, entries of lists by their number from 1, or by their kind: \
+             check.1.position_m=1e-6, check.agreement.position_m=1e-6",
         )
     }
+}
+
+/// The kind of an entry, or its name: what a person calls it.
+fn label<'a>(item: &'a Spanned<DeValue<'_>>) -> Option<&'a str> {
+    let table = item.get_ref().as_table()?;
+    table.get("kind").or_else(|| table.get("name"))?.get_ref().as_str()
+}
+
+/// Which entry is meant: by its number from 1, or by its kind or name if no other has it.
+fn position(items: &[Spanned<DeValue<'_>>], word: &str) -> Option<usize> {
+    if let Ok(number) = word.parse::<usize>() {
+        return number.checked_sub(1);
+    }
+    let mut called = items.iter().enumerate().filter(|(_, item)| label(item) == Some(word));
+    let (first, _) = called.next()?;
+    called.next().is_none().then_some(first)
+}
+
+/// The entries of a list: `entries 1 to 2: 1 agreement, 2 clearance`.
+fn entries(items: &[Spanned<DeValue<'_>>]) -> String {
+    let named = |(number, item)| Some(format!("{number} {}", label(item)?));
+    let names: Vec<String> = (1..).zip(items).filter_map(named).collect();
+    let names = if names.is_empty() { String::new() } else { format!(": {}", names.join(", ")) };
+    format!("entries 1 to {}{names}", items.len())
 }
 
 /// A value with all that it holds at one place: its own text is not the file's.
