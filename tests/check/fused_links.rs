@@ -63,3 +63,26 @@ fn differences_that_cancel_are_not_said_to_be_below_the_resolution() {
     assert!(mass.contains(", 2.25 kg in ") && mass.contains("; the other differences cancel"), "{mass}");
     assert!(!printed.contains("below the resolution"), "{printed}");
 }
+
+/// A frame to which an importer has given a mass, so that it does not refuse the link, is no difference; a camera is one.
+#[test]
+fn a_mass_that_is_negligible_in_its_body_is_no_difference() {
+    let with_frame = |mass: &str| {
+        with(
+            "<joint name=\"mount\"",
+            &format!(
+                "<link name=\"frame\"><inertial><mass value=\"{mass}\"/>\
+                 <inertia ixx=\"0\" iyy=\"0\" izz=\"0\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n\
+                 <joint name=\"frame\" type=\"fixed\"><parent link=\"third\"/><child link=\"frame\"/></joint>\n\
+                 <joint name=\"mount\""
+            ),
+        )
+    };
+    for (mass, code) in [("1e-9", 0), ("0.05", 1)] {
+        let frame = with_frame(mass);
+        for (own, other) in [(ARM, &frame[..]), (&frame, ARM)] {
+            let (answer, printed) = against(own, other, &[]);
+            assert_eq!(answer.code, code, "{mass}: {printed}");
+        }
+    }
+}

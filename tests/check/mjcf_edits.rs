@@ -103,12 +103,16 @@ fn losses_and_ranges_are_attributes_of_the_joint() {
     WrongMjcf::new(&[(motor, &weaker)]).is_corrected(&weaker, limits);
 }
 
-#[test]
-fn poses_of_bodies_and_axes_are_corrected() {
-    let causes = |report: &Value| match report["diagnosis"][0]["parts"].as_array() {
+/// The causes of a difference of poses, each with what to write.
+fn causes(report: &Value) -> Value {
+    match report["diagnosis"][0]["parts"].as_array() {
         Some(parts) if !parts.is_empty() => parts.clone().into(),
         _ => report["diagnosis"].clone(),
-    };
+    }
+}
+
+#[test]
+fn poses_of_bodies_and_axes_are_corrected() {
     let shifted = FOREARM.replace("-0.425", "-0.415");
     WrongMjcf::new(&[(FOREARM, &shifted)]).is_corrected(&shifted, causes);
     let turned = FOREARM.replace('>', " euler=\"0.1 0 0\">");
@@ -173,6 +177,7 @@ fn forces_of_an_mjcf_that_are_not_compared_are_said() {
     let cases = [
         (ELBOW, ELBOW.replace("/>", " stiffness=\"500\"/>"), "a spring of 500 N m/rad is left out"),
         ("<worldbody>", "<option gravity=\"0 0 -1.6\"/><worldbody>".to_owned(), "gravity is (0, 0, -1.6) m/s^2"),
+        ("<worldbody>", "<option density=\"1000\"/><worldbody>".to_owned(), "a medium with a density of 1000 kg/m^3"),
         (
             "<worldbody>",
             "<equality><connect body1=\"forearm_link\" body2=\"wrist_2_link\" anchor=\"0 0 0\"/></equality><worldbody>"
@@ -189,4 +194,37 @@ fn forces_of_an_mjcf_that_are_not_compared_are_said() {
             assert!(line.contains("; not compared: ") && line.contains(expected), "{line}");
         }
     }
+}
+
+/// MuJoCo saves the effort of a URDF at the joint, which has no actuator, and holds it for every one that is added.
+#[test]
+fn an_effort_limit_without_an_actuator_is_compared() {
+    let folder = ScratchFolder::new();
+    let arm = |effort: &str| {
+        format!(
+            "<mujoco><worldbody><body name=\"arm\"><joint name=\"turn\" range=\"-90 90\" \
+             actuatorfrcrange=\"-{effort} {effort}\"/><geom size=\"0.1\" mass=\"1\" pos=\"0.2 0 0\"/></body></worldbody></mujoco>"
+        )
+    };
+    let [own, same, other] = [("own.xml", "150"), ("same.xml", "150"), ("other.xml", "1500")]
+        .map(|(name, effort)| folder.write(name, &arm(effort)));
+    assert_eq!(congruent(&["check", &own, "--against", &same, "-q"]).code, 0);
+    let differs = congruent(&["check", &own, "--against", &other, "-q"]);
+    assert!(
+        differs.stdout.contains("DIFFERENT JOINT LIMITS: turn: effort limit 150 N m"),
+        "{}",
+        differs.stdout
+    );
+}
+
+/// A `ref` moves position 0 of a joint, and is what is wrong: the pose of the body is right.
+#[test]
+fn a_wrong_ref_is_corrected_at_the_joint() {
+    let mjcf = WrongMjcf::new(&[(ELBOW, &ELBOW.replace("/>", " ref=\"0.3\"/>"))]);
+    let report = mjcf.check().json();
+    assert_eq!(report["verdict"], "disagree");
+    apply(&causes(&report));
+    let report = mjcf.check().json();
+    assert_eq!(report["verdict"], "agree", "{:#}", report["diagnosis"]);
+    assert!(fs::read_to_string(&mjcf.file).unwrap().contains("ref=\"0\""));
 }

@@ -177,3 +177,35 @@ fn a_mass_that_cannot_be_read_is_no_difference() {
         );
     }
 }
+
+/// A file against itself is compared with nothing, whatever path names it.
+#[test]
+fn the_robots_own_file_is_no_second_description() {
+    let urdf = "robots/planar_2r/planar_2r.urdf";
+    for other in [urdf, "robots/../robots/planar_2r/planar_2r.urdf"] {
+        let shown = congruent(&["check", urdf, "--against", other]).stdout;
+        assert!(shown.starts_with(&format!("{urdf}: NO SECOND DESCRIPTION. ")), "{shown}");
+        assert!(shown.lines().next().unwrap().contains("the robot's own file"), "{shown}");
+        let table = congruent(&["check", "robots/panda", "--against", "robots/panda/panda.urdf"]).stdout;
+        assert!(table.contains(": SAME GEOMETRY in 7 of 9 joints"), "{table}");
+    }
+    assert_eq!(congruent(&["check", "--strict", urdf, "--against", urdf]).code, 4);
+    // Two robot files of one URDF have one set of masses.
+    let other = congruent(&["check", urdf, "--against", "robots/planar_2r"]).stdout;
+    assert!(other.contains(": SAME GEOMETRY, DYNAMICS NOT COMPARED. "), "{other}");
+}
+
+/// The table of the other description is a part of the answer, and of its grade.
+#[test]
+fn the_table_of_the_other_description_counts_in_the_grade() {
+    let scratch = ScratchFolder::new();
+    let gen3 = workspace().join("docs/examples/gen3");
+    let [robot, urdf] = ["robot.toml", "gen3.urdf"].map(|name| fs::read_to_string(gen3.join(name)).unwrap());
+    let urdf = scratch.write("gen3.urdf", &urdf);
+    let corrected = scratch.write("robot.toml", &robot);
+    assert_eq!(congruent(&["check", &corrected, "--fix"]).code, 0);
+    let fixed = text(&scratch.path().join("robot.fixed.toml"));
+    let answer = congruent_json(&["check", &urdf, "--against", &fixed]).json();
+    assert_eq!((&answer["grade"], &answer["verdict"]), (&"same_within_digits".into(), &"agree".into()));
+    assert!(answer["worst"]["error"]["position_m"].as_f64().unwrap() > 1e-4, "{}", answer["worst"]);
+}

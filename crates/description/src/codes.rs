@@ -26,6 +26,8 @@ congruent_input::codes! {
             "A joint has a spring (`stiffness`), whose torque is left out of forces. Remove the spring, or expect other torques in MuJoCo.\n    wrong: <joint name=\"elbow_joint\" stiffness=\"50\" .../>\n    right: <joint name=\"elbow_joint\" .../>";
         DAMPING = "CGR-MJCF-060", "mjcf::damping",
             "A joint has a damping that grows with a power of the speed. Only the part that is proportional to the speed is read. Write the proportional part alone to compare with MuJoCo.\n    wrong: <joint damping=\"1 0.5\" .../>\n    right: <joint damping=\"1\" .../>";
+        MEDIUM = "CGR-MJCF-061", "mjcf::medium",
+            "MuJoCo would add the forces of a medium, such as water or air, to each body that moves: they are left out. Write no density and no viscosity of a medium to compare with MuJoCo.\n    wrong: <option density=\"1000\" viscosity=\"0.1\"/>\n    right: <option/>";
     }
     srdf {
         UNKNOWN_LINK = "CGR-SRDF-001", "srdf::unknown_link",

@@ -279,12 +279,15 @@ impl Search<'_> {
         // Stuck first: a brake holds the joint, and exactly those samples are the evidence. For every other fault they are not,
         // since dry friction may exert any torque in them.
         // A joint whose actuator is known to lack effort need not be held by anything else.
-        let lacks_effort = actuator::delivered_share(&self.observed, joint).is_some();
+        let delivered = actuator::delivered_share(&self.observed, joint);
         let stuck = of(HeldSamples::Counts)
-            .filter(|_| !lacks_effort)
+            .filter(|_| delivered.is_none())
             .and_then(|window| stuck::fault(&self.observed, joint, window.samples));
         let window = of(if stuck.is_some() { HeldSamples::Counts } else { HeldSamples::LeftOut })?;
-        Some((window, stuck.or_else(|| actuator::fault(&self.observed, joint, residuals, window))))
+        let fault = stuck.or_else(|| actuator::fault(&self.observed, joint, residuals, window));
+        // What the actuator lacks by its two efforts is known: the friction that may fit the motion as well is a guess.
+        let is_guess = |fit: &FaultFit| fit.fault.kind == FaultKind::AddedFriction;
+        Some((window, if fault.as_ref().is_none_or(is_guess) { delivered.or(fault) } else { fault }))
     }
 
     /// A payload that explains most joints with a residual, and faults of the others beside it, whose residuals are judged

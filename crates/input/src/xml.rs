@@ -94,7 +94,13 @@ fn unbuilt(error: &roxmltree::Error, text: &str) -> Diagnostic {
         Error::NoRootNode => (codes::xml::MALFORMED, "the file holds no XML element".to_owned()),
         _ => (codes::xml::MALFORMED, format!("XML is not well-formed: {error}")),
     };
-    Diagnostic::error(code, message).at(at..at)
+    let found = Diagnostic::error(code, message).at(at..at);
+    match error {
+        Error::UnknownNamespace(prefix, _) => found.with_help(format!(
+            "declare it in the first element, as xmlns:{prefix}=\"urn:{prefix}\": some readers of URDFs do without, those of XML do not"
+        )),
+        _ => found,
+    }
 }
 
 /// Refuses DTDs, too deep nesting and text that ends early.

@@ -23,20 +23,41 @@ pub struct FusedLinks {
 ///
 /// A link that is missing, such as a camera without which the body is as much lighter, is a difference and stays one.
 pub fn with_masses_at_links_of([robot, other]: [&Robot; 2]) -> (Robot, Vec<FusedLinks>) {
+    let other = &with_negligible_masses_of([robot, other]);
+    let mut fused = Vec::new();
+    let same = for_each_body([robot, other], |body, same| {
+        let (changed, links) = body.with_masses_moved(same)?;
+        fused.push(links);
+        Some(changed)
+    });
+    (same, fused)
+}
+
+/// The other robot with the masses of this one that are negligible in their body, such as those of frames that an importer wants to
+/// have one, and without its own.
+fn with_negligible_masses_of(robots: [&Robot; 2]) -> Robot {
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method itself is of one lifetime only"
+    )]
+    for_each_body(robots, |body, same| body.with_negligible_masses(same))
+}
+
+/// The other robot after what `change` makes of it for each body that both have.
+fn for_each_body(
+    [robot, other]: [&Robot; 2],
+    mut change: impl FnMut(&BodyPair<'_>, &Robot) -> Option<Robot>,
+) -> Robot {
     let trees = [robot, other].map(ScrewTree::new);
     let mut same = other.clone();
-    let mut fused = Vec::new();
     for own in robot.link_indices().filter(|&link| robot.body(link) == link) {
         let joint = robot.parent_joint(own).map(|joint| &robot.joint(joint).name);
         let there = joint.map_or(Some(other.root()), |name| Some(other.joint(other.find_joint(name)?).child));
         let Some(there) = there.filter(|&there| other.body(there) == there) else { continue };
         let body = BodyPair { robots: [robot, other], trees: &trees, bodies: [own, there] };
-        if let Some((changed, links)) = body.with_masses_moved(&same) {
-            same = changed;
-            fused.push(links);
-        }
+        same = change(&body, &same).unwrap_or(same);
     }
-    (same, fused)
+    same
 }
 
 /// One body of both descriptions, each named by the first of its links.
@@ -68,6 +89,24 @@ impl BodyPair<'_> {
         };
         let of_body = robot.link_indices().filter(|&link| robot.body(link) == self.bodies[of]);
         of_body.filter_map(part).collect()
+    }
+
+    /// `same` with the negligible masses that the robot alone has on this body, and without those that it alone has; `None` if there are
+    /// none.
+    fn with_negligible_masses(&self, same: &Robot) -> Option<Robot> {
+        /// A mass that is a smaller part of that of its body. Kind: choice; it changes torques by less than a sensor sees.
+        const NEGLIGIBLE: f64 = 1e-6;
+        let [own, there] = [0, 1].map(|of| self.parts(of));
+        let most_kg = NEGLIGIBLE * mass_kg(&own).min(mass_kg(&there));
+        let [names, other_names] = [&own, &there].map(|parts| names(parts));
+        let is_negligible = |part: &&Part<'_>, known: &BTreeSet<&str>| {
+            part.inertia.mass_kg < most_kg && !known.contains(part.link.name.as_str())
+        };
+        let added = own.iter().filter(|part| is_negligible(part, &other_names));
+        let kept = there.iter().filter(|part| !is_negligible(part, &names));
+        let parts: Vec<Part<'_>> = kept.chain(added.clone()).copied().collect();
+        let is_changed = added.count() > 0 || parts.len() < there.len();
+        if is_changed { self.moved(same, &parts, None) } else { None }
     }
 
     /// `same` with the masses of this body where the robot has them; `None` if they are there, or if the sums differ by what

@@ -1,6 +1,6 @@
 //! What the tests of the repository share: its folders, its files, and the code of a source without its tests.
 
-#![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
+#![allow(dead_code, unreachable_pub, unused_imports, reason = "each test file uses its own part")]
 
 mod arrows;
 

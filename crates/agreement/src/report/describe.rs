@@ -120,7 +120,7 @@ fn describe(
         }
     }
     let stages = explanation.stages.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] });
-    let stages: Vec<ReportedStage> = stages.collect();
+    let (messages, stages) = without_repeated(messages, stages.collect());
     // After the advice: the findings show the lines to write.
     let findings = messages.iter().zip(&stages).map(|(message, stage)| finding(message, stage));
     let findings = findings.collect();
@@ -146,6 +146,31 @@ fn describe(
         stages,
     };
     DescribedCause { cause, findings, corrected }
+}
+
+/// Two faults with the same words as one, such as two rows that are exchanged in one half after the other.
+fn without_repeated(
+    messages: Vec<FaultMessage>,
+    stages: Vec<ReportedStage>,
+) -> (Vec<FaultMessage>, Vec<ReportedStage>) {
+    // An incomplete explanation may have fewer stages than faults.
+    if messages.len() != stages.len() {
+        return (messages, stages);
+    }
+    let mut kept: Vec<(FaultMessage, ReportedStage)> = Vec::new();
+    for (message, stage) in messages.into_iter().zip(stages) {
+        match kept.last_mut().filter(|(last, _)| last.message == message.message) {
+            Some((last, before)) => {
+                before.after = stage.after;
+                // The lines to write are those of one of the two.
+                if last.fault.changes.is_empty() {
+                    *last = message;
+                }
+            }
+            None => kept.push((message, stage)),
+        }
+    }
+    kept.into_iter().unzip()
 }
 
 /// Several faults as one: all of their lines.

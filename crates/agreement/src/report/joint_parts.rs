@@ -177,7 +177,12 @@ impl CorrectionMessages<'_> {
             suggestion: match own_model {
                 Some(_) => format!("correct the row of joint \"{}\": its axis is elsewhere", joint.name),
                 // An MJCF, whose bodies have other attributes than an origin.
-                None if own.is_none() => in_mjcf(&joint.name, &attributes, &correction.expected),
+                None if own.is_none() => {
+                    let mjcf = self.descriptions[0].places.mjcf.as_ref();
+                    let has_reference = mjcf.is_some_and(|places| places.has_reference(&joint.name));
+                    in_mjcf(&joint.name, &attributes, &correction.expected)
+                        + if has_reference { "; its ref is then 0" } else { "" }
+                }
                 None => format!("write {expected} in the <{part}> of joint \"{}\"", joint.name),
             },
             found: Some(ReportedValue::Text(found)),

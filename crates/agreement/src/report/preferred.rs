@@ -43,15 +43,15 @@ pub(super) fn with_known_values(
         };
         let known =
             near.into_iter().map(|value| if value == 0.0 { 0.0 } else { value.abs().copysign(fitted) });
-        let values = known.chain(rounded_values(fitted, entry, criterion, within));
+        let quarter = nearest_quarter_turn(fitted).filter(|_| entry.is_angle()).into_iter();
+        let values = quarter.chain(known).chain(rounded_values(fitted, entry, criterion, within));
         let as_good = as_good_as(&preferred.corrected, criterion);
-        // No fit has measured a converted value, and one of an angle follows the rounding of a quarter turn in the other
-        // file: what the digits allow is as good.
+        // No fit has measured a converted value, and one of an angle follows the rounding of a quarter turn in either file: what
+        // the digits allow is as good.
         let is_converted = is_converted(explanation, row, entry);
         let is_quarter_turn = |it: &ModelPair| {
-            let half_place = criterion.digits.coarsest_half_place(DhEntry::Alpha);
             let value = it.candidate.entry(row, entry).filter(|_| entry.is_angle());
-            value.is_some_and(|value| is_quarter_turn(value) && (value - fitted).abs() <= half_place)
+            value.is_some_and(is_quarter_turn)
         };
         let is_as_good =
             |it: &ModelPair| is_converted || is_quarter_turn(it) || it.is_within(&as_good, criterion);
@@ -70,6 +70,14 @@ pub(super) fn with_known_values(
 fn is_quarter_turn(angle_rad: f64) -> bool {
     let quarters = angle_rad / FRAC_PI_2;
     (quarters - quarters.round()).abs() < SAME_VALUE
+}
+
+/// The quarter turn of which an angle is a rounding: 1.5708 is one of four decimals.
+fn nearest_quarter_turn(angle_rad: f64) -> Option<f64> {
+    /// Half of the last of four decimals.
+    const ROUNDED_RAD: f64 = 5e-5;
+    let quarters = libm::round(angle_rad / FRAC_PI_2) * FRAC_PI_2;
+    ((quarters - angle_rad).abs() < ROUNDED_RAD).then_some(quarters)
 }
 
 /// The residual up to which another value is as good as a fitted one: what remains is the rounding of the other values,

@@ -23,6 +23,7 @@ use super::{
     itself::has_one_file,
     loaded_words::LoadedKind,
     model_frames::{two_descriptions, unreadable_value, urdf_model, urdf_places},
+    other_parents::other_parents,
     poses_of_other::PosesOfOther,
     reported_mapping::ReportedMapping,
     same_chain::{misplaced_joint, moved_alike, nearly_same, tolerated, within_small_fault},
@@ -56,6 +57,9 @@ pub struct OtherDescription {
     /// Joints that do not move the tip which the caller named: they are not compared, and neither is what they carry.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub joints_left_out: Vec<String>,
+    /// Joints that hang on another link there, each with the lines of both.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joints_on_other_links: Vec<String>,
     /// If the two have other joints: the last link up to which they have the same ones, for --tip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub common_tip: Option<String>,
@@ -109,6 +113,7 @@ impl OtherDescription {
             ranges_differ: None,
             links_in_other_frames: Vec::new(),
             joints_left_out: Vec::new(),
+            joints_on_other_links: other_parents([description, other]),
             mapping: None,
             common_tip,
             links_not_found: lacking.collect(),
@@ -127,7 +132,7 @@ pub(super) fn compared(
     other: &mut RobotDescription,
     options: &CheckOptions,
 ) -> Result<(OtherDescription, Option<DynamicsReport>), CheckError> {
-    let poses = PosesOfOther::new(&description.robot, &other.robot);
+    let poses = PosesOfOther::new(&description.robot, &other.robot).with_tip_of([description, other]);
     let mut against = OtherDescription::before_comparison(description, other, &poses);
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));

@@ -6,9 +6,9 @@ use congruent_description::{MJCF_LOOP, RobotDescription, codes::mjcf};
 use congruent_input::Code;
 
 /// What is read and has no part in the torques that are compared.
-const LEFT_OUT: [&Code; 4] = [mjcf::SPRING, mjcf::DAMPING, mjcf::GRAVITY, MJCF_LOOP];
+const LEFT_OUT: [&Code; 5] = [mjcf::SPRING, mjcf::DAMPING, mjcf::GRAVITY, mjcf::MEDIUM, MJCF_LOOP];
 
-/// Springs, damping by powers of the speed, gravity and closed loops that one of the two has and the other has not, or otherwise, in
+/// Springs, damping by powers of the speed, gravity, a medium and closed loops that one of the two has and the other has not, or otherwise, in
 /// words.
 pub(super) fn forces_not_compared(description: &RobotDescription, other: &RobotDescription) -> Vec<String> {
     let of_mjcf = |of: &RobotDescription| -> BTreeSet<String> {

@@ -7,13 +7,13 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport, Comparison, Grade, NotCompared},
 };
 use congruent_description::codes::chain::TABLE_DROPPED;
-use congruent_dynamics_agreement::DynamicsVerdict;
+use congruent_dynamics_agreement::{DynamicsVerdict, ParameterDifference};
 use congruent_input::display::{counted, listed};
 use congruent_kinematics::PoseError;
 
 use super::{
     against::OtherDescription,
-    cause_in_words::{at_most, cause, frames_elsewhere, place, unknown},
+    cause_in_words::{and_more, at_most, cause, frames_elsewhere, place, unknown},
     change_answer::answer_of_change,
     declared::DeclaredSource,
     dynamics_in_words::other_torques,
@@ -63,8 +63,8 @@ impl RobotCheck {
         if let Some(force) = self.first_force_not_compared() {
             let _ = write!(headline.details, "; not compared: {force}");
         }
-        if let Some(mass) = self.first_mass_without_effect() {
-            let _ = write!(headline.details, "; without effect on torques: {mass}");
+        if let Some(value) = self.first_value_without_effect() {
+            let _ = write!(headline.details, "; without effect on torques: {value}");
         }
         if let Some(file) = &self.itself {
             let _ = write!(headline.details, "; --against names {file}, the robot's own file");
@@ -173,16 +173,25 @@ impl RobotCheck {
         against.forces_not_compared.first()
     }
 
-    /// The first mass that differs without an effect on any torque, as of a link that only turns about a vertical axis through its
+    /// The first value that differs without an effect on any torque, as the mass of a link that only turns about a vertical axis through its
     /// centre of mass; `None` if something else differs, too, or for a revision, whose answer has it.
-    fn first_mass_without_effect(&self) -> Option<String> {
+    fn first_value_without_effect(&self) -> Option<String> {
         let agrees = self.geometry.verdict == Agreement::Agree && self.change.is_none();
         self.dynamics_of_descriptions().filter(|_| agrees).find_map(|report| {
-            let mut hidden = report.hidden_differences.iter();
-            let mass = hidden.find(|of| {
-                of.parameter == "mass" && of.below_resolution.is_none() && of.cancelled.is_none()
-            })?;
-            Some(report.sides.files().map_or_else(|| mass.sentence(), |files| mass.sentence_in(files)))
+            // A zero that only one of the two writes is no difference.
+            let differs =
+                |of: &ParameterDifference| (of.found.unwrap_or(0.0) - of.expected.unwrap_or(0.0)).abs() > 0.0;
+            let is_alone = |of: &&ParameterDifference| {
+                of.below_resolution.is_none() && of.cancelled.is_none() && differs(of)
+            };
+            let mut hidden: Vec<&ParameterDifference> =
+                report.hidden_differences.iter().filter(is_alone).collect();
+            // A mass is what people know of a link.
+            hidden.sort_by_key(|of| (of.parameter != "mass", of.found.is_none() || of.expected.is_none()));
+            let first = hidden.first()?;
+            let first =
+                report.sides.files().map_or_else(|| first.sentence(), |files| first.sentence_in(files));
+            Some(first + &and_more(hidden.len() - 1))
         })
     }
 
@@ -273,8 +282,18 @@ fn different_poses(check: &RobotCheck) -> Headline {
         return Headline::new("DIFFERENT", format!(" by rounding alone, {found}: {advice}"));
     }
     let elsewhere = || frames_elsewhere(&check.against.as_ref()?.links_in_other_frames);
-    let cause = check.diagnosis().map_or_else(|| elsewhere().unwrap_or_else(unknown), cause);
+    let cause = match (check.diagnosis(), on_other_link(check)) {
+        (Some(diagnosis), joint) if diagnosis.is_explained() || joint.is_none() => cause(diagnosis),
+        (_, Some(joint)) => format!("Cause: {joint}"),
+        (_, None) => elsewhere().unwrap_or_else(unknown),
+    };
     Headline::new("DIFFERENT", format!(", {found}. {cause}{}", other_torques(check)))
+}
+
+/// The first joint that hangs on another link in the other description, which no value of a joint explains.
+fn on_other_link(check: &RobotCheck) -> Option<String> {
+    let joints = &check.against.as_ref()?.joints_on_other_links;
+    Some(joints.first()?.clone() + &and_more(joints.len() - 1))
 }
 
 /// What to do about a tolerance that is finer than the digits of the table.

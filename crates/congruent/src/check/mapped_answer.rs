@@ -44,6 +44,10 @@ pub(super) fn after_mapping(check: &RobotCheck) -> Option<(String, String)> {
     }
     let (where_compared, declare) = match mapping.all_of_alike() {
         Some(all) => (format!("IN {} OF {all} JOINTS", mapping.joints.len()), LEFT_OUT),
+        None if mapping.alone().iter().any(|alone| !alone.is_empty()) => (
+            format!("IN {} OF {} JOINTS AFTER MAPPING", mapping.joints.len(), mapping.all_joints()),
+            "[mapping]",
+        ),
         None => ("AFTER MAPPING".to_owned(), "[mapping]"),
     };
     let (answer, differ) = match check.all_dynamics().find(|report| !report.agrees()) {

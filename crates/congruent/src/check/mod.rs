@@ -22,6 +22,7 @@ mod mapped_answer;
 mod mapped_joints;
 mod model_frames;
 mod narrowed;
+mod other_parents;
 mod own_model;
 mod own_screws;
 mod page;

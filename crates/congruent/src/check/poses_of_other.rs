@@ -77,6 +77,16 @@ impl PosesOfOther {
         }
     }
 
+    /// A table, screws or the poses of a function say where the tip is, also if it is the link of the last joint, for which they say
+    /// nothing else: a frame that was chosen for it would agree with any tool.
+    pub(super) fn with_tip_of(mut self, [description, other]: [&RobotDescription; 2]) -> Self {
+        let [tip, there] = [description, other].map(|of| &of.robot.link(of.tip).name);
+        if other.own_model().is_some() && tip == there {
+            self.links[description.tip.get()] = LinkCorrespondence::Other(other.tip.get());
+        }
+        self
+    }
+
     /// The links of the robot that the other description lacks: nothing of them is compared.
     pub(super) fn lacking<'a>(&'a self, robot: &'a Robot) -> impl Iterator<Item = LinkIndex> + 'a {
         let is_lacking = |link: &LinkIndex| matches!(self.links[link.get()], LinkCorrespondence::Behind(..));

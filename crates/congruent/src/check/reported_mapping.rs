@@ -268,9 +268,9 @@ impl ReportedMapping {
         (is_alike && all > self.joints.len()).then_some(all)
     }
 
-    /// The joints of both files together.
+    /// The joints of the file that has more of them.
     pub(super) fn all_joints(&self) -> usize {
-        self.joints.len() + self.left_out.len() + self.other_left_out.len() - self.elsewhere().len()
+        self.joints.len() + self.left_out.len().max(self.other_left_out.len())
     }
 
     /// The mapping with the largest difference of poses that the comparison of the two has found.

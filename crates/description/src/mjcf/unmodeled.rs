@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use congruent_input::{Diagnostic, Diagnostics, display::quantity};
-use congruent_mjcf::{MjJoint, MjJointKind, MjModel};
+use congruent_mjcf::{MjJoint, MjJointKind, MjModel, MjWritten};
 
 use super::{placed::placed, tree::RobotParts};
 use crate::codes;
@@ -11,7 +11,7 @@ use crate::codes;
 /// The gravity with which all forces are computed, m/s^2.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// Reports springs, damping that is not linear, gravity and its compensation.
+/// Reports springs, damping that is not linear, gravity and its compensation, and a medium around the bodies.
 pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diagnostics) {
     let gravity = &model.gravity_in_world;
     if gravity.value.iter().zip(GRAVITY).any(|(found, usual)| (found - usual).abs() > 0.0) {
@@ -24,6 +24,8 @@ pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diag
             None => found,
         });
     }
+    of_medium(&model.medium_density_kg_m3, "density", "kg/m^3", diagnostics);
+    of_medium(&model.medium_viscosity_pa_s, "viscosity", "Pa s", diagnostics);
     for body in model.bodies.iter().filter(|body| body.gravcomp.value != 0.0) {
         let share = body.gravcomp.value;
         let message = format!(
@@ -37,6 +39,19 @@ pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diag
     for (joint, _) in model.joints.iter().zip(&parts.joint_positions).filter(|(_, at)| at.is_some()) {
         of_joint(joint, diagnostics);
     }
+}
+
+/// The forces of a medium such as water, which MuJoCo adds to each body that moves in it.
+fn of_medium(value: &MjWritten<f64>, what: &str, unit: &str, diagnostics: &mut Diagnostics) {
+    if value.value == 0.0 {
+        return;
+    }
+    let message = format!("a medium with a {what} of {} is left out of forces", quantity(value.value, unit));
+    let found = Diagnostic::warning(codes::mjcf::MEDIUM, message);
+    diagnostics.push(match &value.place {
+        Some(place) => placed(found, place),
+        None => found,
+    });
 }
 
 fn of_joint(joint: &MjJoint, diagnostics: &mut Diagnostics) {

@@ -12,6 +12,27 @@ const MOST_TYPED_DIGITS: usize = 8;
 /// How far a ratio may be from a factor between units: three digits of a converted value. No unit, relative.
 const ROUNDED: f64 = 5e-3;
 
+/// Values of one link that are larger are in another unit. Kind: engineering; links of the heaviest six-axis arms, which carry a tonne,
+/// have 900 kg, 1.5 m and 400 kg m^2.
+const LARGEST_MASS_KG: f64 = 1000.0;
+const LARGEST_LENGTH_M: f64 = 3.0;
+const LARGEST_INERTIA_KG_M2: f64 = 500.0;
+
+/// A factor between two values that is one between units.
+struct OtherUnit {
+    factor: &'static str,
+    /// The unit that the larger value has, unless it is plausible as it is.
+    unit: &'static str,
+    larger: Larger,
+}
+
+/// The larger one of two values.
+struct Larger {
+    is_of_reference: bool,
+    /// Whether a link of a robot may have it in SI units.
+    is_plausible: bool,
+}
+
 impl ParameterDifference {
     /// `shoulder_link: mass is 2.63 kg, expected 3.76 kg`.
     pub fn sentence(&self) -> String {
@@ -35,31 +56,39 @@ impl ParameterDifference {
 
     /// `a factor of 1000, grams?`, if such a factor is between the two.
     pub fn unit_remark(&self) -> Option<String> {
-        let (factor, unit, _) = self.other_unit()?;
-        Some(format!("a factor of {factor}, {unit}?"))
+        let OtherUnit { factor, unit, larger } = self.other_unit()?;
+        // A value that is plausible in SI units is not the one in another unit: the smaller one was converted although it was not.
+        let how =
+            if larger.is_plausible { format!("converted from {unit} twice?") } else { format!("{unit}?") };
+        Some(format!("a factor of {factor}, {how}"))
     }
 
     /// Whether the reference seems to have the value in another unit, so that the candidate is right.
     pub fn is_reference_in_other_unit(&self) -> bool {
-        self.other_unit().is_some_and(|(_, _, is_reference_larger)| is_reference_larger)
+        self.other_unit().is_some_and(|of| of.larger.is_of_reference && !of.larger.is_plausible)
     }
 
-    /// The factor between the two values, the unit that the larger one then is in, and whether that is the reference's.
-    fn other_unit(&self) -> Option<(&'static str, &'static str, bool)> {
+    /// The factor between the two values, if it is one between units.
+    fn other_unit(&self) -> Option<OtherUnit> {
         let (found, expected) = self.found.zip(self.expected)?;
-        let is_reference_larger = found.abs() < expected.abs();
-        let ratio = if is_reference_larger { expected / found } else { found / expected };
-        let units: &[(f64, &str, &str)] = match self.unit {
-            SiUnit::Kilogram => &[(1e3, "1000", "grams")],
-            SiUnit::Metre => &[(1e3, "1000", "millimetres")],
-            SiUnit::KilogramSquareMetre => {
-                &[(1e3, "1000", "g m^2"), (1e6, "1,000,000", "kg mm^2"), (1e9, "1,000,000,000", "g mm^2")]
-            }
-            _ => &[],
+        let is_of_reference = found.abs() < expected.abs();
+        let (larger, smaller) = if is_of_reference { (expected, found) } else { (found, expected) };
+        let (units, most): (&[(f64, &str, &str)], f64) = match self.unit {
+            SiUnit::Kilogram => (&[(1e3, "1000", "grams")], LARGEST_MASS_KG),
+            SiUnit::Metre => (&[(1e3, "1000", "millimetres")], LARGEST_LENGTH_M),
+            SiUnit::KilogramSquareMetre => (
+                &[(1e3, "1000", "g m^2"), (1e6, "1,000,000", "kg mm^2"), (1e9, "1,000,000,000", "g mm^2")],
+                LARGEST_INERTIA_KG_M2,
+            ),
+            _ => return None,
         };
-        let is_near = |factor: f64| (ratio / factor - 1.0).abs() < ROUNDED;
-        let (_, factor, unit) = units.iter().find(|(factor, ..)| is_near(*factor))?;
-        Some((factor, unit, is_reference_larger))
+        let is_near = |factor: f64| (larger / smaller / factor - 1.0).abs() < ROUNDED;
+        let (_, factor, unit) = *units.iter().find(|(factor, ..)| is_near(*factor))?;
+        Some(OtherUnit {
+            factor,
+            unit,
+            larger: Larger { is_of_reference, is_plausible: larger.abs() <= most },
+        })
     }
 
     fn about(&self, what: &str) -> String {
@@ -145,6 +174,10 @@ mod tests {
         assert_eq!(remark(SiUnit::Kilogram, 3909.0, 3.91), grams);
         assert!(difference("mass", SiUnit::Kilogram, 3.909, 3909.0).is_reference_in_other_unit());
         assert!(!difference("mass", SiUnit::Kilogram, 3909.0, 3.909).is_reference_in_other_unit());
+        // An arm of grams is as wrong as one of tonnes.
+        assert!(!difference("mass", SiUnit::Kilogram, 0.0027, 2.7).is_reference_in_other_unit());
+        let twice = Some("a factor of 1000, converted from grams twice?".to_owned());
+        assert_eq!(remark(SiUnit::Kilogram, 0.0027, 2.7), twice);
         let tensor = Some("a factor of 1,000,000, kg mm^2?".to_owned());
         assert_eq!(remark(SiUnit::KilogramSquareMetre, 60_300.0, 0.0603), tensor);
         assert_eq!(remark(SiUnit::Kilogram, 3.909, 3.099), None);

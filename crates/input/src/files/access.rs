@@ -139,7 +139,7 @@ impl FileAccess {
     }
 
     /// The text of a file that a person names: a regular file of at most `most_bytes`, a pipe, or `-` for standard input. If a file
-    /// names it, as a scenario names its robot, it must be a regular file.
+    /// names it, as a scenario names its robot, it must be a regular file. Behind a fence a link must not lead out of its project.
     ///
     /// # Errors
     /// The file cannot be read or is no UTF-8 text; the fault comes with as much of the text as is needed to show its
@@ -147,6 +147,9 @@ impl FileAccess {
     pub fn read_named_text(&self, path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
         // The project is set as soon as a file names others: from then on no path is a person's.
         let is_named_by_file = self.project.is_some();
+        if self.is_fenced && !is_named_by_file {
+            self.refuse_links(path)?;
+        }
         let bytes = if is_named_by_file {
             read_regular_bytes(path, most_bytes)?
         } else {
@@ -154,6 +157,24 @@ impl FileAccess {
         };
         self.note(&path.display(), path, &bytes);
         self.marked(decode_text(path, &bytes))
+    }
+
+    /// Refuses the path of a person if a link of the project leads out of it: the person has named the link, and whoever made the
+    /// project has chosen what it leads to.
+    fn refuse_links(&self, path: &Path) -> Result<(), Diagnostic> {
+        let current = std::env::current_dir().and_then(|current| current.canonicalize()).ok();
+        for link in path.ancestors().filter(|part| part.is_symlink()) {
+            let access = self.inside_project_of(link)?;
+            // Links of the machine, as of a folder for temporary files, belong to no project.
+            let is_of_a_project = |project: &PathBuf| {
+                let is_marked = MARKS.iter().any(|mark| project.join(mark).exists());
+                is_marked || current.as_ref().is_some_and(|current| current.starts_with(project))
+            };
+            if access.project.as_ref().is_some_and(is_of_a_project) {
+                access.check(path)?;
+            }
+        }
+        Ok(())
     }
 
     /// The text of a file that another file names: a regular file of at most `most_bytes`, and outside of the project of this kind.
@@ -348,6 +369,27 @@ mod tests {
             std::os::unix::fs::symlink(top.path().join("outside"), &link).unwrap();
             assert_eq!(code(&access, &link.join("secret")), Some("file::outside"));
         }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn behind_a_fence_a_link_that_a_person_names_does_not_lead_out_of_its_project() {
+        let top = folders();
+        let project = top.path().join("project");
+        fs::write(project.join("package.xml"), "").unwrap();
+        let (file, folder) = (project.join("robots/arm.urdf"), project.join("robots/arm"));
+        std::os::unix::fs::symlink(top.path().join("outside/secret"), &file).unwrap();
+        std::os::unix::fs::symlink(top.path().join("outside"), &folder).unwrap();
+        let inside = project.join("robots/same.urdf");
+        std::os::unix::fs::symlink(project.join("robots/r.urdf"), &inside).unwrap();
+        let code = |access: &FileAccess, path: &Path| {
+            access.read_named_text(path, 99).err().map(|fault| fault.code.name)
+        };
+        let fenced = FileAccess::default().fenced();
+        assert_eq!(code(&fenced, &file), Some("file::outside"));
+        assert_eq!(code(&fenced, &folder.join("secret")), Some("file::outside"));
+        assert_eq!(code(&fenced, &inside), None);
+        assert_eq!(code(&FileAccess::default(), &file), None);
     }
 
     #[test]

@@ -45,8 +45,9 @@ pub struct TypedNumber<'a> {
 /// `typed` are all lengths, or all angles, of one file. A value that is no finer than a centimetre has lost the zeros at its end:
 /// it has the finest last place of the others, or as many digits as the longest of them, whichever is coarser, and is exact if
 /// there are no others. A zero has the finest last place, and is off by 5e-5 at most.
-/// A program that has written `0.10300000000000001` meant 0.103. Whole degrees are exact, too: they are design angles, not measurements. A quarter turn that is cut instead of rounded, as
-/// 1.57079, is off by up to a whole last place, and 3.14158 by two.
+/// A program that has written `0.10300000000000001` meant 0.103. Whole degrees are exact, too: they are design angles, not
+/// measurements; of those that are typed with two decimals or more, as `10.00`, multiples of 15 alone. A quarter turn that is cut
+/// instead of rounded, as 1.57079, is off by up to a whole last place, and 3.14158 by two.
 ///
 /// # Examples
 /// ```
@@ -137,8 +138,7 @@ fn half_of_place(exponent: i32) -> f64 {
 /// Half of the last place; `None` if zeros at the end may be left out.
 fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Option<f64> {
     let Some(TypedDigits { significant, last_place }) = TypedDigits::read(text) else { return Some(0.0) };
-    let is_whole = text.parse::<f64>().is_ok_and(|value| value.fract() == 0.0);
-    if (unit, units, is_whole) == (Unit::Angle, UnitSystem::Engineering, true) {
+    if (unit, units) == (Unit::Angle, UnitSystem::Engineering) && is_design_angle(text, last_place) {
         return Some(0.0);
     }
     let (one, coarsest) = places(unit, units);
@@ -153,6 +153,14 @@ fn half_place(unit: Unit, TypedNumber { text, units }: TypedNumber<'_>) -> Optio
         return Some(half * halves_of_cut_quarter_turns(text, half).unwrap_or(1.0));
     }
     Some(half * one)
+}
+
+/// Whether an angle in degrees is one of a drawing, and no rounded one: whole degrees, of those that are typed with two decimals or
+/// more, as `10.00`, only multiples of 15.
+fn is_design_angle(text: &str, last_place: i32) -> bool {
+    const OF_DRAWINGS_DEG: f64 = 15.0;
+    let is_rounded = last_place <= -2;
+    text.parse::<f64>().is_ok_and(|value| value % if is_rounded { OF_DRAWINGS_DEG } else { 1.0 } == 0.0)
 }
 
 /// The unit of a typed number in m or rad, and the coarsest last place of one that is rounded.

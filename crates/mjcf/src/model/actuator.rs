@@ -55,7 +55,7 @@ impl MjActuator {
 /// What the actuators of a joint can do together.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MjEffort {
-    /// No actuator acts on the joint itself.
+    /// No actuator acts on the joint itself, and the joint states no limits for one.
     Unactuated,
     /// Limits of the effort, N m or N: the sum over its actuators, within `actuatorfrcrange`.
     Within {

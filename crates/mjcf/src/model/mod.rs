@@ -48,6 +48,10 @@ pub struct MjModel {
     pub keyframes: Vec<MjKeyframe>,
     /// Gravity, m/s^2, in the world.
     pub gravity_in_world: MjWritten<Vector3<f64>>,
+    /// Density of the medium around the bodies, kg/m^3: 0 without one.
+    pub medium_density_kg_m3: MjWritten<f64>,
+    /// Viscosity of the medium, Pa s: 0 without one.
+    pub medium_viscosity_pa_s: MjWritten<f64>,
     /// `settotalmass`: all masses and inertias are scaled so that their sum is this, kg.
     pub total_mass_kg: Option<MjWritten<f64>>,
     /// The main file, then the others in the order of reading.

@@ -188,14 +188,14 @@ fn added(effort: MjEffort, actuator: &MjActuator) -> MjEffort {
 fn capped(effort: MjEffort, limits: Option<&MjWritten<[f64; 2]>>) -> MjEffort {
     let Some(MjWritten { value: [low, high], place }) = limits else { return effort };
     match effort {
-        MjEffort::Unactuated => MjEffort::Unactuated,
         MjEffort::Within { range, mut places } => {
             if range[0] < *low || range[1] > *high {
                 places.extend(place.clone());
             }
             MjEffort::Within { range: [range[0].clamp(*low, *high), range[1].clamp(*low, *high)], places }
         }
-        MjEffort::Unlimited | MjEffort::ThroughTendon => {
+        // Without an actuator it is the limit of any that is added: so MuJoCo saves the effort of a URDF.
+        MjEffort::Unactuated | MjEffort::Unlimited | MjEffort::ThroughTendon => {
             MjEffort::Within { range: [*low, *high], places: place.iter().cloned().collect() }
         }
     }

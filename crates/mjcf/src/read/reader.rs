@@ -242,9 +242,17 @@ fn empty(scope: &MjScope) -> MjModel {
         exclusions: Vec::new(),
         keyframes: Vec::new(),
         gravity_in_world: gravity(&scope.root).map(Vector3::from),
+        medium_density_kg_m3: of_medium(&scope.root, "density"),
+        medium_viscosity_pa_s: of_medium(&scope.root, "viscosity"),
         total_mass_kg: scope.settings.total_mass_kg.clone(),
         files: Vec::new(),
     }
+}
+
+/// What the last of several sections says of the medium around the bodies; none without one.
+fn of_medium(root: &MjElement, key: &str) -> MjWritten<f64> {
+    let given = root.all("option").filter(|option| option.text(key).is_some()).last();
+    given.map_or(MjWritten::unwritten(0.0), |option| MjAttributes::own(option).number(key, 0.0))
 }
 
 /// The last gravity of several sections; none if a flag switches it off.

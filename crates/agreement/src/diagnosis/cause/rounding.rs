@@ -47,12 +47,16 @@ fn rounded(reference: &ReferenceModel) -> Vec<usize> {
 
 /// The rotation that is meant: by quarter turns, or with quarter turns among its roll, pitch and yaw.
 fn exact(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let rpy = rpy_from_rotation(rotation);
+    // A small angle is no rounded 0, which has no digits to lose. Where the pitch is a quarter turn, roll and yaw are not defined.
+    let is_small = |angle: f64| angle.abs() > NO_TURN && angle.abs() < ROUNDED_QUARTER_RAD;
+    let has_small = libm::cos(rpy[1]).abs() > ROUNDED_QUARTER_RAD && rpy.into_iter().any(is_small);
     // A rotation by quarter turns first: its rpy may be singular, and the entries decide more exactly.
-    quarter_turns(rotation).or_else(|| {
-        let rpy = rpy_from_rotation(rotation);
+    quarter_turns(rotation).filter(|_| !has_small).or_else(|| {
         let meant = rpy.map(|angle| {
             let quarters = (angle / FRAC_PI_2).round() * FRAC_PI_2;
-            if (quarters - angle).abs() < ROUNDED_QUARTER_RAD { quarters } else { angle }
+            let is_rounded = (quarters - angle).abs() < ROUNDED_QUARTER_RAD && !is_small(angle);
+            if is_rounded { quarters } else { angle }
         });
         let [roll, pitch, yaw] = meant;
         meant

@@ -216,8 +216,12 @@ fn an_origin_is_the_pose_of_the_body() {
         }
     }
     let reference = places(&arm(BALL, "ref=\"10\"", ""), "");
-    assert_eq!(reference.set_joint_origin("shoulder", &wanted), []);
     assert_eq!(reference.set_joint_origin("nobody", &wanted), []);
+    // Without the `ref` the body is where it is written at position 0.
+    let plain = arm(BALL, "pos=\"0 0.5 0\" ref=\"0\"", "quat=\"0 1 0 0\"");
+    let turned = places(&plain.replace("ref=\"0\"", "ref=\"25\""), "");
+    let origin = joint(&read(&plain, "").robot, "shoulder").parent_from_joint;
+    assert_eq!(applied(&turned, &turned.set_joint_origin("shoulder", &origin)).1, plain);
     let shifted = Isometry3::translation(0.0, 0.0, 0.5);
     let (_, text) = applied(&reference, &reference.set_joint_origin("elbow", &shifted));
     assert!(text.contains("<body name=\"lower\" pos=\"0 0 0.5\">"), "{text}");

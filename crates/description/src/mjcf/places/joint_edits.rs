@@ -78,7 +78,8 @@ impl MjcfPlaces {
             // What the actuators give together must not be less.
             let given = actuators.iter().map(|of| of.effort_range().map(|range| range.value[1]));
             let given: Option<f64> = given.sum();
-            (own?.place.as_ref()?, given.is_none_or(|given| given >= value).then_some(1.0)?)
+            let is_given = actuators.is_empty() || given.is_none_or(|given| given >= value);
+            (own?.place.as_ref()?, is_given.then_some(1.0)?)
         } else {
             let [actuator] = actuators[..] else { return None };
             let is_within = own.is_none_or(|range| range.value[1] >= value && -range.value[0] >= value);

@@ -19,8 +19,11 @@ const WITHOUT_NOISE: Slack = Slack { length_m: ROUNDING, angle_rad: ROUNDING };
 
 impl MjcfPlaces {
     /// The edits after which a joint has this origin in the link before it; none if that is not the pose of a body of its own in
-    /// the main file, or if the joint has a `ref`.
+    /// the main file. Of a joint with a `ref` the `ref` is edited, if that is all that is to change.
     pub fn set_joint_origin(&self, name: &str, origin: &Isometry3<f64>) -> Vec<TextEdit> {
+        if let Some(edits) = self.set_reference(name, origin) {
+            return edits;
+        }
         let Some((body, parent_from_body)) = self.body_of_origin(name, origin) else { return Vec::new() };
         if !self.is_of_one_element(&body.place) {
             return Vec::new();
@@ -41,6 +44,33 @@ impl MjcfPlaces {
             new.push(NewAttribute { in_place_of: key.to_owned(), key: "quat", value });
         }
         changed_attributes(&self.files[0].text, body.place.span.start, &new, &[])
+    }
+
+    /// Whether the pose of the body of a joint is not that of position 0.
+    pub fn has_reference(&self, name: &str) -> bool {
+        self.joint(name).is_some_and(|(_, joint)| joint.reference.value != 0.0)
+    }
+
+    /// The edits of the `ref` of a joint after which it has this origin; `None` if it has none, or if another one is not enough.
+    fn set_reference(&self, name: &str, origin: &Isometry3<f64>) -> Option<Vec<TextEdit>> {
+        let (index, joint) = self.joint(name).filter(|_| self.has_reference(name))?;
+        let body = self.moved_body(index)?;
+        let axis = joint.axis_in_body.value;
+        let is_hinge = joint.kind == MjJointKind::Hinge;
+        let point = if is_hinge { joint.pos_in_body.value.coords } else { Vector3::zeros() };
+        // At `ref` the body is where the file puts it, and position 0 is that much behind.
+        let written_from_zero = (body.parent_from_body * Translation3::from(point)).inverse() * origin;
+        let (shift, turn) = (written_from_zero.translation.vector, written_from_zero.rotation.scaled_axis());
+        let (moved, rest) = if is_hinge { (turn, shift) } else { (shift, turn) };
+        let back = moved.dot(&axis);
+        if rest.norm() > ROUNDING || (moved - axis.into_inner() * back).norm() > ROUNDING {
+            return None;
+        }
+        let reference = if is_hinge { joint.notation.written_angle(-back) } else { -back };
+        let new = [NewAttribute::value("ref", numbers([reference]))];
+        let is_own = self.is_of_one_element(&joint.place)
+            && joint.reference.place.as_ref().is_none_or(|place| self.is_of_one_element(place));
+        is_own.then(|| changed_attributes(&self.files[0].text, joint.place.span.start, &new, &[]))
     }
 
     /// The edits after which a joint has this axis; none if it has no axis of its own in the main file, or if the joint has a `ref`.

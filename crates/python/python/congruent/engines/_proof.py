@@ -74,8 +74,10 @@ def _ends(joint: LoadedJoint) -> tuple[float, float]:
     most = np.pi if joint.kind == "hinge" else SLIDE_M
     if joint.range is None:
         return -most, most
+    # A loaded range may be the wrong way round, which is a difference and no reason to ask nothing.
+    low, high = sorted(map(float, joint.range))
     # A range of 1e6 m stands for none, and would leave no digits.
-    return max(float(joint.range[0]), -4 * most), min(float(joint.range[1]), 4 * most)
+    return max(low, -4 * most), min(high, 4 * most)
 
 
 def _prove_poses(engine: Engine, asked: Asked, robot: Robot, states: list[_State]) -> tuple[float, float]:
