@@ -123,7 +123,7 @@ fn errors_of_order_sign_and_frame_are_named() {
         let [x, y, z] = values(&row["translation_m"]);
         row["translation_m"] = json!([x + 0.2, y - 0.1, z + 0.4]);
     };
-    named(shifted_base, "--free base)");
+    named(shifted_base, "--free zero-offsets,base)");
     // A tracker whose frame is rotated by 0.3 rad about z, as the first joint's zero could be.
     let turned_base = |row: &mut Value| {
         let by = [0.15_f64.cos(), 0.0, 0.0, 0.15_f64.sin()];
@@ -133,7 +133,7 @@ fn errors_of_order_sign_and_frame_are_named() {
         let [x, y, z] = turned(by, values(&row["translation_m"]));
         row["translation_m"] = json!([x + 0.3, y + 0.1, z]);
     };
-    named(turned_base, "--free base)");
+    named(turned_base, "--free zero-offsets,base)");
 }
 
 /// `v` turned by a quaternion, w first, of unit length up to its noise.

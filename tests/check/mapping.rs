@@ -239,13 +239,14 @@ fn a_robot_file_holds_its_references_together() {
     let mapping: Vec<String> =
         mapping.iter().map(|line| line.replace("[mapping", "[reference.mapping")).collect();
     let mut declared =
-        vec!["[[reference]]", "file = \"ur5e.urdf\"", "[[reference]]", "file = \"other.urdf\""];
+        vec!["[[reference]]", "file = \"copy.urdf\"", "[[reference]]", "file = \"other.urdf\""];
     declared.extend(mapping.iter().map(String::as_str));
     robots.declare(&declared);
+    robots.scratch.write("copy.urdf", &urdf());
     let answer = congruent(&["check", "-q", &robots.robot_file]);
     assert_eq!(answer.code, 0, "{}", answer.stdout);
     assert_eq!(answer.stdout.matches("SAME ROBOT").count(), 2);
-    for name in ["ur5e.urdf", "other.urdf"] {
+    for name in ["copy.urdf", "other.urdf"] {
         assert!(answer.stdout.contains(&format!("{name}: SAME ROBOT")), "{}", answer.stdout);
     }
     // One of them changes.

@@ -207,5 +207,5 @@ fn the_table_of_the_other_description_counts_in_the_grade() {
     let fixed = text(&scratch.path().join("robot.fixed.toml"));
     let answer = congruent_json(&["check", &urdf, "--against", &fixed]).json();
     assert_eq!((&answer["grade"], &answer["verdict"]), (&"same_within_digits".into(), &"agree".into()));
-    assert!(answer["worst"]["error"]["position_m"].as_f64().unwrap() > 1e-4, "{}", answer["worst"]);
+    assert!(answer["worst"]["position_m"].as_f64().unwrap() > 1e-4, "{}", answer["worst"]);
 }

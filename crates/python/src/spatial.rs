@@ -2,7 +2,7 @@
 //! are those of crate `kinematics`.
 
 use congruent::{
-    codes::python,
+    codes,
     description::DhConvention,
     input::Diagnostic,
     kinematics::{
@@ -147,7 +147,7 @@ pub(crate) fn log_of_rotation(py: Python<'_>, matrix: Rotation) -> PyResult<Thre
 }
 
 fn wrong(py: Python<'_>, message: String, help: &str) -> PyErr {
-    refused(py, Diagnostic::error(python::SPATIAL, message).with_help(help))
+    refused(py, Diagnostic::error(codes::python::SPATIAL, message).with_help(help))
 }
 
 fn euler_set(py: Python<'_>, name: &str) -> PyResult<EulerSet> {

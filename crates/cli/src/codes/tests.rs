@@ -17,7 +17,7 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
         if path.is_dir() {
             sources(&path, found);
-        } else if path.extension().is_some_and(|it| it == "rs") && !name.ends_with("tests.rs") {
+        } else if path.extension().is_some_and(|it| it == "rs" || it == "py") && !name.ends_with("tests.rs") {
             found.push(path);
         }
     }
@@ -28,9 +28,10 @@ fn found(pattern: &str) -> BTreeMap<String, PathBuf> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut files = Vec::new();
     for entry in fs::read_dir(crates).expect("the workspace") {
-        let source = entry.expect("a crate").path().join("src");
-        if source.is_dir() {
-            sources(&source, &mut files);
+        let path = entry.expect("a crate").path();
+        // The package has messages of its own in Python.
+        for source in [path.join("src"), path.join("python/congruent")].iter().filter(|it| it.is_dir()) {
+            sources(source, &mut files);
         }
     }
     let pattern = Regex::new(pattern).expect("a pattern");
@@ -50,7 +51,8 @@ fn every_code_that_is_used_is_in_the_list_and_the_list_has_no_other() {
     let used = found(r"codes::([a-z_0-9]+::[A-Z_0-9]+)\b");
     assert!(used.len() > 200, "{} codes are found: the search has broken", used.len());
     let known: BTreeSet<String> = all().iter().map(|code| code.name.to_owned()).collect();
-    let used = used.into_iter().map(|(path, file)| (path.to_lowercase(), file));
+    let in_python = found(r#""(python::[a-z_]+)""#);
+    let used = used.into_iter().chain(in_python).map(|(path, file)| (path.to_lowercase(), file));
     let (used, missing): (Vec<_>, Vec<_>) = used.partition(|(name, _)| known.contains(name));
     assert!(
         missing.is_empty(),

@@ -272,7 +272,10 @@ fn adopt_places_of_masses(own: &RobotDescription, there: &mut RobotDescription) 
         both.is_some_and(|(moved, written)| is_same_value(moved, written))
     };
     let links = fused.iter().flat_map(|of| of.with.iter().chain([&of.link]));
-    let links: Vec<String> = links.filter(|name| !is_written(name)).cloned().collect();
+    // Nor has one a value there that has lost its mass.
+    let names = there.robot.links().iter().map(|link| &link.name);
+    let lost = names.filter(|name| mass_kg(&robot, name).is_none() && mass_kg(&there.robot, name).is_some());
+    let links: Vec<String> = links.filter(|name| !is_written(name)).chain(lost).cloned().collect();
     there.places = std::mem::take(&mut there.places).without_links(&links);
     (there.robot, there.base, there.tip) = (robot, base, tip);
     fused.iter().map(|of| format!("{} with {}", of.link, of.with.join(", "))).collect()

@@ -1,7 +1,7 @@
 //! The robot that an engine has loaded, of the numbers that `congruent.engines` has read from its arrays.
 
 use congruent::{
-    codes::{check, python},
+    codes::{self, check},
     description::{
         Inertia, Joint, JointKind, JointLimit, JointParts, Link, Robot, RobotDescription, RobotError,
         Tolerance,
@@ -69,7 +69,7 @@ pub(crate) fn loaded_robot(
     let uncoupled = file.map(|robot| model.couple_as_in(robot)).unwrap_or_default();
     let help = "check the model in the engine: its names, masses and inertias";
     let mut described = model.description().map_err(|error| {
-        refused(py, Diagnostic::error(python::ENGINE, format!("{name}: {error}")).with_help(help))
+        refused(py, Diagnostic::error(codes::python::ENGINE, format!("{name}: {error}")).with_help(help))
     })?;
     described
         .warnings
