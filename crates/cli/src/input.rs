@@ -152,8 +152,7 @@ impl ChainArguments {
         Ok(description.with_chain(self.base.as_deref(), self.tip.as_deref())?)
     }
 
-    /// Like `of`, and prints the warnings of the robot along the chain, as far as they matter for this use: poses need neither
-    /// masses nor meshes.
+    /// Like `of`, and prints the warnings of the robot along the chain, as far as they matter for this use.
     fn choose(
         &self,
         description: RobotDescription,
@@ -161,9 +160,8 @@ impl ChainArguments {
         printer: &Printer,
     ) -> Result<RobotDescription, Failure> {
         let description = self.of(description)?;
-        let is_of_use = |of: &&Diagnostic| {
-            needed != Capability::Kinematics || (of.stops.is_none() && of.code.name != MASSLESS.name)
-        };
+        // That links have no mass is the rule for a robot that is described for its poses alone.
+        let is_of_use = |of: &&Diagnostic| needed != Capability::Kinematics || of.code.name != MASSLESS.name;
         let warnings: Vec<Diagnostic> = description.warnings.iter().filter(is_of_use).cloned().collect();
         printer.warnings(None, &warnings);
         printer.detail(|| read_from(&description));
