@@ -250,7 +250,7 @@ fn every_resolved_scenario_runs_again_with_the_same_hash() {
     for entry in fs::read_dir(workspace().join("scenarios")).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "toml") {
-            let (hash, resolved) = run(&text(&path), out.path());
+            let (hash, resolved) = run(&text(&path), &out.path().join("first"));
             let (hash_again, resolved_again) = run(&text(&resolved), &out.path().join("again"));
             assert!(hash.is_string());
             assert_eq!(hash, hash_again, "{}", path.display());

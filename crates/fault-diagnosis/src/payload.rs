@@ -118,15 +118,13 @@ pub(super) fn fault(
     let mut regressor = DMatrix::zeros(tree.dof(), PARAMETERS * tree.dof());
     for residual in of_window.iter().step_by(every) {
         tree.regressor_into(&motion(residual), &mut buffer, &mut regressor)?;
-        // A jump of a setpoint leaves larger deviations than a load has effects.
-        let weights = off.iter().map(|&(joint, own)| (joint, own.weight(residual, joint)));
-        for (joint, weight) in weights.filter(|&(_, weight)| weight > 0.0) {
+        for joint in off.iter().map(|&(joint, _)| joint).filter(|&joint| !residual.is_held[joint]) {
             // Missing is needed minus reported; the drive exerts what the load needs, so the load has the opposite sign.
-            needed.push(-weight * residual.missing[joint]);
+            needed.push(-residual.missing[joint]);
             for (parameter, column) in columns.iter_mut().enumerate() {
-                let needs =
-                    with_followers(observed, joint, |row| regressor[(row, PARAMETERS * body + parameter)]);
-                column.push(weight * needs);
+                column.push(with_followers(observed, joint, |row| {
+                    regressor[(row, PARAMETERS * body + parameter)]
+                }));
             }
         }
     }

@@ -102,15 +102,6 @@ impl OffWindow {
         &all[..self.usable]
     }
 
-    /// How much a residual of a joint says: the inverse of the deviation that its motion alone may have. Nothing in steps of which the
-    /// effort is not known.
-    pub(super) fn weight(self, residual: &Residual, joint: usize) -> f64 {
-        if residual.is_held[joint] || residual.is_limited {
-            return 0.0;
-        }
-        1.0 / (self.threshold + CHANGES * residual.change[joint])
-    }
-
     /// How much of the squared deviation of a residual of a joint a fault explains that lets `expected` be missing, in units
     /// of the smallest deviation that counts as off. None in steps of which the effort is not known.
     pub(super) fn evidence(self, residual: &Residual, joint: usize, expected: f64) -> f64 {
