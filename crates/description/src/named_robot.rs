@@ -34,10 +34,10 @@ pub fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
     let help = if has_robots {
         format!("for the robots in it: {}", path.join("*/").display())
     } else if let Some(file) = robot_file_below(path).or_else(|| urdf_below(path)) {
-        let beside = urdfs_beside(&file);
-        let names =
-            if beside.len() > 1 { beside.join(", ") } else { direct_path(&file).display().to_string() };
-        format!("it has {names}: give {}", if beside.len() > 1 { "one of these files" } else { "that file" })
+        match file.parent().map(urdfs_in).unwrap_or_default() {
+            2.. if is_urdf(&file) => format!("give one of {}", file.with_file_name("*.urdf").display()),
+            _ => format!("it has {}: give that file", direct_path(&file).display()),
+        }
     } else if find_below(path, 0, &is_toml).is_some() {
         format!("for the files in it: {}", path.join("*.toml").display())
     } else {
@@ -61,14 +61,9 @@ fn urdf_below(folder: &Path) -> Option<PathBuf> {
     find_below(folder, SEARCHED_DEPTH, &is_urdf)
 }
 
-/// The URDFs in the folder of a URDF, itself among them; none for a robot file.
-fn urdfs_beside(file: &Path) -> Vec<String> {
-    let entries = file.parent().filter(|_| is_urdf(file)).and_then(|folder| fs::read_dir(folder).ok());
-    let paths = entries.into_iter().flat_map(|entries| entries.take(MOST_ENTRIES).flatten());
-    let paths = paths.map(|entry| entry.path()).filter(|path| is_urdf(path));
-    let mut names: Vec<String> = paths.map(|path| direct_path(&path).display().to_string()).collect();
-    names.sort();
-    names
+/// How many URDFs are in a folder.
+fn urdfs_in(folder: &Path) -> usize {
+    fs::read_dir(folder).into_iter().flatten().flatten().filter(|entry| is_urdf(&entry.path())).count()
 }
 
 /// A file of this name in a folder, below it, or below the folder above.

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use congruent_input::{Diagnostic, Diagnostics, display::quantity};
-use congruent_mjcf::{MjJoint, MjJointKind, MjModel, MjWritten};
+use congruent_mjcf::{MjJoint, MjJointKind, MjModel};
 
 use super::{placed::placed, tree::RobotParts};
 use crate::codes;
@@ -19,13 +19,17 @@ pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diag
         let message =
             format!("gravity is ({x}, {y}, {z}) m/s^2; forces are computed with (0, 0, -9.81) m/s^2");
         let found = Diagnostic::warning(codes::mjcf::GRAVITY, message);
-        diagnostics.push(match &gravity.place {
-            Some(place) => placed(found, place),
-            None => found,
-        });
+        diagnostics.push(placed(found, gravity.place.as_ref()));
     }
-    of_medium(&model.medium_density_kg_m3, "density", "kg/m^3", diagnostics);
-    of_medium(&model.medium_viscosity_pa_s, "viscosity", "Pa s", diagnostics);
+    let medium = [
+        (&model.medium_density_kg_m3, "density", "kg/m^3"),
+        (&model.medium_viscosity_pa_s, "viscosity", "Pa s"),
+    ];
+    for (value, what, unit) in medium.into_iter().filter(|(value, ..)| value.value != 0.0) {
+        let message =
+            format!("a medium with a {what} of {} is left out of forces", quantity(value.value, unit));
+        diagnostics.push(placed(Diagnostic::warning(codes::mjcf::MEDIUM, message), value.place.as_ref()));
+    }
     for body in model.bodies.iter().filter(|body| body.gravcomp.value != 0.0) {
         let share = body.gravcomp.value;
         let message = format!(
@@ -39,19 +43,6 @@ pub(super) fn report(model: &MjModel, parts: &RobotParts, diagnostics: &mut Diag
     for (joint, _) in model.joints.iter().zip(&parts.joint_positions).filter(|(_, at)| at.is_some()) {
         of_joint(joint, diagnostics);
     }
-}
-
-/// The forces of a medium such as water, which MuJoCo adds to each body that moves in it.
-fn of_medium(value: &MjWritten<f64>, what: &str, unit: &str, diagnostics: &mut Diagnostics) {
-    if value.value == 0.0 {
-        return;
-    }
-    let message = format!("a medium with a {what} of {} is left out of forces", quantity(value.value, unit));
-    let found = Diagnostic::warning(codes::mjcf::MEDIUM, message);
-    diagnostics.push(match &value.place {
-        Some(place) => placed(found, place),
-        None => found,
-    });
 }
 
 fn of_joint(joint: &MjJoint, diagnostics: &mut Diagnostics) {

@@ -54,12 +54,12 @@ impl MjcfPlaces {
     /// The edits of the `ref` of a joint after which it has this origin; `None` if it has none, or if another one is not enough.
     fn set_reference(&self, name: &str, origin: &Isometry3<f64>) -> Option<Vec<TextEdit>> {
         let (index, joint) = self.joint(name).filter(|_| self.has_reference(name))?;
-        let body = self.moved_body(index)?;
+        let parent_from_body = self.moved_body(index)?.parent_from_body;
         let axis = joint.axis_in_body.value;
         let is_hinge = joint.kind == MjJointKind::Hinge;
         let point = if is_hinge { joint.pos_in_body.value.coords } else { Vector3::zeros() };
         // At `ref` the body is where the file puts it, and position 0 is that much behind.
-        let written_from_zero = (body.parent_from_body * Translation3::from(point)).inverse() * origin;
+        let written_from_zero = (parent_from_body * Translation3::from(point)).inverse() * origin;
         let (shift, turn) = (written_from_zero.translation.vector, written_from_zero.rotation.scaled_axis());
         let (moved, rest) = if is_hinge { (turn, shift) } else { (shift, turn) };
         let back = moved.dot(&axis);
@@ -68,9 +68,9 @@ impl MjcfPlaces {
         }
         let reference = if is_hinge { joint.notation.written_angle(-back) } else { -back };
         let new = [NewAttribute::value("ref", numbers([reference]))];
-        let is_own = self.is_of_one_element(&joint.place)
-            && joint.reference.place.as_ref().is_none_or(|place| self.is_of_one_element(place));
-        is_own.then(|| changed_attributes(&self.files[0].text, joint.place.span.start, &new, &[]))
+        let is_own = joint.reference.place.as_ref().is_none_or(|place| self.is_of_one_element(place));
+        (is_own && self.is_of_one_element(&joint.place))
+            .then(|| changed_attributes(&self.files[0].text, joint.place.span.start, &new, &[]))
     }
 
     /// The edits after which a joint has this axis; none if it has no axis of its own in the main file, or if the joint has a `ref`.
