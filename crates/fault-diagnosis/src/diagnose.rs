@@ -287,7 +287,7 @@ impl Search<'_> {
         let fault = stuck.or_else(|| actuator::fault(&self.observed, joint, residuals, window));
         // What the actuator lacks by its two efforts is known: the friction that may fit the motion as well is a guess.
         let is_guess = |fit: &FaultFit| fit.fault.kind == FaultKind::AddedFriction;
-        Some((window, if fault.as_ref().is_none_or(is_guess) { delivered.or(fault) } else { fault }))
+        Some((window, if fault.as_ref().is_some_and(is_guess) { delivered.or(fault) } else { fault }))
     }
 
     /// A payload that explains most joints with a residual, and faults of the others beside it, whose residuals are judged
