@@ -20,12 +20,13 @@ use congruent_input::{
 ///
 /// # Examples
 /// ```
-/// use congruent::{analysis::description_summary::describe, prelude::*, text::description_text};
+/// use congruent_analysis::description_summary::describe;
+/// use congruent_text::description_text;
 ///
 /// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e");
-/// let description = load_robot(folder.as_ref())?;
+/// let description = congruent_description::load_robot(folder.as_ref())?;
 /// assert!(description_text(&describe(&description)).starts_with("  robot ur5e\n"));
-/// # Ok::<(), Findings>(())
+/// # Ok::<(), congruent_input::Findings>(())
 /// ```
 pub fn description_text(summary: &DescriptionSummary) -> String {
     let mut text = String::new();

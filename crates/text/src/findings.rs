@@ -37,9 +37,10 @@ pub fn listed_findings<'a>(
 ///
 /// # Examples
 /// ```
-/// use congruent::{input::Diagnostic, text::{TextOptions, finding_text}};
+/// use congruent_input::Diagnostic;
+/// use congruent_text::{TextOptions, finding_text};
 ///
-/// let found = Diagnostic::error(congruent::description::codes::urdf::TREE, "link \"tool\" has no parent");
+/// let found = Diagnostic::error(congruent_description::codes::urdf::TREE, "link \"tool\" has no parent");
 /// assert!(finding_text(&found, &TextOptions::default()).contains("error: link \"tool\" has no parent"));
 /// ```
 pub fn finding_text(finding: &Diagnostic, options: &TextOptions) -> String {
@@ -66,9 +67,10 @@ pub fn finding_text(finding: &Diagnostic, options: &TextOptions) -> String {
 ///
 /// # Examples
 /// ```
-/// use congruent::{input::Diagnostic, text::finding_line};
+/// use congruent_input::Diagnostic;
+/// use congruent_text::finding_line;
 ///
-/// let found = Diagnostic::warning(congruent::description::codes::urdf::TREE, "link \"tool\" has no parent");
+/// let found = Diagnostic::warning(congruent_description::codes::urdf::TREE, "link \"tool\" has no parent");
 /// assert!(finding_line(&found).ends_with(" urdf::tree: link \"tool\" has no parent"));
 /// ```
 pub fn finding_line(finding: &Diagnostic) -> String {

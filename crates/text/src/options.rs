@@ -27,7 +27,7 @@ impl TextOptions {
     ///
     /// # Examples
     /// ```
-    /// use congruent::text::TextOptions;
+    /// use congruent_text::TextOptions;
     ///
     /// let options = TextOptions { is_coloured: true, ..TextOptions::default() };
     /// assert_eq!(options.for_terminal("a\u{7}: pass\n"), "a\\u{7}: \u{1b}[32mpass\u{1b}[0m\n");

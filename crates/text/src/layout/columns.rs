@@ -12,7 +12,7 @@ const DEEP: usize = 12;
 ///
 /// # Examples
 /// ```
-/// use congruent::text::layout::fitted;
+/// use congruent_text::layout::fitted;
 ///
 /// let line = "  limits  pass  61.1 deg of margin at the joint that is nearest to its limit";
 /// assert!(fitted(line, 40).lines().all(|line| line.len() <= 40));

@@ -18,7 +18,7 @@ pub enum Colours {
 ///
 /// # Examples
 /// ```
-/// use congruent::text::layout::{Colours, for_people};
+/// use congruent_text::layout::{Colours, for_people};
 ///
 /// assert_eq!(for_people("a\u{7}b\n", Colours::Escaped), "a\\u{7}b\n");
 /// ```

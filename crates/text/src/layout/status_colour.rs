@@ -47,7 +47,7 @@ const WORDS: [(&str, u8); 31] = [
 ///
 /// # Examples
 /// ```
-/// use congruent::text::layout::with_coloured_status;
+/// use congruent_text::layout::with_coloured_status;
 ///
 /// assert_eq!(with_coloured_status("a: pass\n"), "a: \u{1b}[32mpass\u{1b}[0m\n");
 /// ```
