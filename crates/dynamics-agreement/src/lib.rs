@@ -28,7 +28,7 @@ pub use diagnosis::{DynamicsCause, EquivalenceReason, FaultySide};
 pub use differences::{CandidateAndReference, Invariants, LimitCause, LimitDifference, ParameterDifference};
 pub use model::{BodyLaw, DynamicsModel, Frames, Inertial, one_sided_armature::without_one_sided_armature};
 pub use report::{
-    ComparedModels, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PlacedCause,
-    TorqueCertificates,
+    ComparedModels, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PHYSICS,
+    PlacedCause, TorqueCertificates,
 };
 pub use torque::{AccelerationSource, IdentifiableParameters, IdentificationOptions};

@@ -7,6 +7,15 @@ use congruent_input::relative_path;
 use super::{Scenario, motions::MotionSettings};
 
 impl Scenario {
+    /// The files that the scenario names beside its robot and its meshes, as they are written.
+    pub fn named_files_mut(&mut self) -> impl Iterator<Item = &mut String> {
+        let played = self.motion.iter_mut().filter_map(|motion| match motion {
+            MotionSettings::Playback(playback) => Some(&mut playback.play_csv),
+            _ => None,
+        });
+        self.controller.torque_file.iter_mut().chain(played)
+    }
+
     /// The scenario as it reads in `folder`, an absolute path: with relative paths in the place of absolute ones, as far as there are
     /// any between two drives.
     #[must_use]
@@ -25,13 +34,8 @@ impl Scenario {
         }
         let base = base.as_ref().map_or(folder, Path::new);
         relative(&mut scenario.robot, base);
-        if let Some(torques) = &mut scenario.controller.torque_file {
-            relative(torques, base);
-        }
-        for motion in &mut scenario.motion {
-            if let MotionSettings::Playback(playback) = motion {
-                relative(&mut playback.play_csv, base);
-            }
+        for file in scenario.named_files_mut() {
+            relative(file, base);
         }
         scenario
     }

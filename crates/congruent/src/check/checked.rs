@@ -210,7 +210,7 @@ fn stated_once(
         missing.push(because(ComparedSource::Geometry, why));
     }
     let is_declared = geometry.not_asked.iter().any(|of| of.source == ComparedSource::DeclaredDynamics);
-    if !is_own_model && !is_declared && dynamics.iter().all(physics::is_of_physics) {
+    if !is_own_model && !is_declared && dynamics.iter().all(DynamicsReport::is_of_physics) {
         let has_mass = |link: &Link| link.inertia.is_some_and(|of| of.mass_kg > 0.0);
         let why = if description.robot.links().iter().any(has_mass) {
             "masses, friction and gravity are stated once: [[inertial]] in robot.toml or --against gives a second \

@@ -17,7 +17,7 @@ use super::{
     change_answer::answer_of_change,
     declared::DeclaredSource,
     dynamics_in_words::other_torques,
-    judged_by::{BY_DIGITS, allowed, beyond_rounding, is_by_digits_of_two, judged_by, tolerance_in_words},
+    judged_by::{allowed, beyond_rounding, judged_by, poses_judged_by, tolerance_in_words},
     loaded_words::in_words_of,
     mapped_answer::{after_mapping, which_joints},
     mapped_joints::ends_not_compared,
@@ -275,7 +275,7 @@ fn different_poses(check: &RobotCheck) -> Headline {
         format!("{} at {} ({a} against {b}{allowed})", beyond_rounding(worst.error), worst.link)
     };
     let pairs: Vec<String> = differ.map(of_pair).collect();
-    let judged = if is_by_digits_of_two(check) { BY_DIGITS.to_owned() } else { judged_by(report) };
+    let judged = poses_judged_by(check);
     let found = format!("by up to {}; {judged}", pairs.join(", "));
     if report.grade == Some(Grade::SameWithinDigits) {
         let advice = by_rounding_alone(check);

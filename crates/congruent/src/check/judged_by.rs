@@ -12,7 +12,12 @@ use congruent_kinematics::PoseError;
 use super::{cause_in_words::largest, robot_check::RobotCheck};
 
 /// If nobody has declared a tolerance, and table and URDF are typed.
-pub(super) const BY_DIGITS: &str = "judged by the digits written (no tolerance declared)";
+const BY_DIGITS: &str = "judged by the digits written (no tolerance declared)";
+
+/// What decides whether poses agree, of table and URDF or of two descriptions.
+pub(super) fn poses_judged_by(check: &RobotCheck) -> String {
+    if is_by_digits_of_two(check) { BY_DIGITS.to_owned() } else { judged_by(&check.geometry) }
+}
 
 /// What decides whether table and URDF agree: the tolerance if one is declared, otherwise the digits of the two, or
 /// the rounding of computers if nothing was typed.
@@ -68,7 +73,7 @@ fn is_by_digits(report: &CheckReport) -> bool {
 }
 
 /// Whether the digits of two descriptions decide: no tolerance is declared, and the other is no revision.
-pub(super) fn is_by_digits_of_two(check: &RobotCheck) -> bool {
+fn is_by_digits_of_two(check: &RobotCheck) -> bool {
     let report = &check.geometry;
     let mut pairs = report.comparisons.iter();
     let differ = pairs.any(|of| of.name == SourcePair::UrdfOther && of.verdict == Agreement::Disagree);
@@ -98,12 +103,10 @@ fn part_by_digits(report: &CheckReport) -> Option<String> {
 /// What decides, for a page that has the values of the tolerance: the digits, or a tolerance of which one part was requested.
 pub(super) fn judged_by_more(check: &RobotCheck) -> Option<String> {
     let report = &check.geometry;
-    if is_by_digits_of_two(check) {
-        return Some(BY_DIGITS.to_owned());
-    }
     let is_in_part = report.declared_tolerance.is_partial();
-    let words = judged_by(report);
-    (is_by_digits(report) || is_in_part).then(|| words.trim_start_matches("tolerance ").to_owned())
+    let words = poses_judged_by(check);
+    (is_by_digits_of_two(check) || is_by_digits(report) || is_in_part)
+        .then(|| words.trim_start_matches("tolerance ").to_owned())
 }
 
 /// What the digits of table and URDF allow, if the two are not identical and not written with all digits.

@@ -4,21 +4,13 @@
 use congruent_description::RobotDescription;
 use congruent_dynamics::{DrivenState, JointDynamics};
 use congruent_dynamics_agreement::{
-    AccelerationSource, DynamicsReport, IdentificationOptions, NamedModel, compare_with_source,
+    AccelerationSource, DynamicsReport, IdentificationOptions, NamedModel, PHYSICS, compare_with_source,
 };
 use congruent_input::{Diagnostic, display::number};
 use congruent_twin::source::SimulatedDynamics;
 
 use super::model_frames::{urdf_model, urdf_places};
 use crate::codes;
-
-/// The name of the physics in reports.
-const PHYSICS: &str = "physics";
-
-/// Whether a report is of a URDF and the physics that was built from it, which is no second description.
-pub(super) fn is_of_physics(report: &DynamicsReport) -> bool {
-    report.sides.reference == PHYSICS
-}
 
 /// Compares masses, inertias, joint terms and gravity of a URDF with those of the physics.
 pub(super) fn compared(description: &RobotDescription, seed: u64) -> Result<DynamicsReport, Diagnostic> {

@@ -13,7 +13,6 @@ use serde::Serialize;
 
 use super::{
     against::OtherDescription, change::RevisionChange, declared::DeclaredSource, loaded_words::LoadedKind,
-    physics,
 };
 
 /// The answer of `congruent check` for one robot.
@@ -85,12 +84,12 @@ impl RobotCheck {
 
     /// The comparisons of two descriptions of the dynamics.
     pub fn dynamics_of_descriptions(&self) -> impl Iterator<Item = &DynamicsReport> {
-        self.all_dynamics().filter(|report| !physics::is_of_physics(report))
+        self.all_dynamics().filter(|report| !report.is_of_physics())
     }
 
     /// The URDF against the physics that was built from it: whether that was built right.
     pub fn dynamics_of_physics(&self) -> Option<&DynamicsReport> {
-        self.all_dynamics().find(|report| physics::is_of_physics(report))
+        self.all_dynamics().find(|report| report.is_of_physics())
     }
 
     /// Whether findings of lint fail the check, by --strict.

@@ -126,7 +126,7 @@ fn moves(kind: MjJointKind) -> bool {
 }
 
 /// A point of the axis in the body; a slide has none of its own.
-fn point_of_axis(joint: &MjJoint) -> Vector3<f64> {
+pub(super) fn point_of_axis(joint: &MjJoint) -> Vector3<f64> {
     match joint.kind {
         MjJointKind::Hinge => joint.pos_in_body.value.coords,
         _ => Vector3::zeros(),

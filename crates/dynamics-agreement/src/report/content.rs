@@ -50,7 +50,15 @@ pub struct DynamicsReport {
     pub certificates: Option<TorqueCertificates>,
 }
 
+/// The name of the physics among the sides of a report.
+pub const PHYSICS: &str = "physics";
+
 impl DynamicsReport {
+    /// Whether the report is of a URDF and the physics that was built from it, which is no second description.
+    pub fn is_of_physics(&self) -> bool {
+        self.sides.reference == PHYSICS
+    }
+
     /// Whether no joint torque differs by more than the precision of the comparison.
     pub fn has_same_torques(&self) -> bool {
         !matches!(self.verdict, DynamicsVerdict::Explained | DynamicsVerdict::Unexplained)

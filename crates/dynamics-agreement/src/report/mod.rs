@@ -8,6 +8,6 @@ pub(crate) mod places;
 mod sentences;
 
 pub use content::{
-    ComparedModels, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PlacedCause,
-    TorqueCertificates,
+    ComparedModels, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PHYSICS,
+    PlacedCause, TorqueCertificates,
 };

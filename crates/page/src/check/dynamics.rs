@@ -18,7 +18,7 @@ pub(super) fn dynamics(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
         @if !robot.dynamics.is_empty() {
             section {
                 // The physics is built from the URDF: it is no second description of the dynamics.
-                @let is_own = robot.dynamics.iter().all(|report| is_of_physics(report));
+                @let is_own = robot.dynamics.iter().all(|report| report.is_of_physics());
                 h2 { @if is_own { "Self-test of the physics" } @else { "Dynamics" } }
                 @for (index, report) in robot.dynamics.iter().enumerate() {
                     @let at = match index {
@@ -90,15 +90,11 @@ fn compared(robot: &CheckedRobot<'_>, report: &DynamicsReport, at: &Pointer) -> 
 /// What was compared; the physics is no second description, but is built from the URDF.
 fn sides(report: &DynamicsReport) -> String {
     let (candidate, reference) = (&report.sides.candidate, &report.sides.reference);
-    if is_of_physics(report) {
+    if report.is_of_physics() {
         format!("the physics against {candidate}, from which it is built")
     } else {
         format!("{candidate} against {reference}")
     }
-}
-
-fn is_of_physics(report: &DynamicsReport) -> bool {
-    report.sides.reference == "physics"
 }
 
 /// A cause, the values that it corrects with their lines, and what to write.

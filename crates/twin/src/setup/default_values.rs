@@ -70,13 +70,8 @@ fn write_out_paths(scenario: &mut Scenario, folder: ScenarioFolder<'_>) {
     if scenario.folder.is_some() || scenario.obstacle.iter().any(|obstacle| obstacle.mesh.is_some()) {
         scenario.folder = Some(folder.whole(".").display().to_string());
     }
-    if let Some(torques) = &mut scenario.controller.torque_file {
-        *torques = folder.whole(torques).display().to_string();
-    }
-    for motion in &mut scenario.motion {
-        if let MotionSettings::Playback(playback) = motion {
-            playback.play_csv = folder.whole(&playback.play_csv).display().to_string();
-        }
+    for file in scenario.named_files_mut() {
+        *file = folder.whole(file).display().to_string();
     }
 }
 

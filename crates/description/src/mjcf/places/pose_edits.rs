@@ -8,6 +8,7 @@ use congruent_mjcf::{MjBody, MjJointKind};
 use nalgebra::{Isometry3, Translation3, Unit as UnitVector, Vector3};
 
 use super::{
+    super::tree::point_of_axis,
     FixedPart, MjcfPlaces,
     element::{NewAttribute, changed_attributes},
 };
@@ -57,9 +58,9 @@ impl MjcfPlaces {
         let parent_from_body = self.moved_body(index)?.parent_from_body;
         let axis = joint.axis_in_body.value;
         let is_hinge = joint.kind == MjJointKind::Hinge;
-        let point = if is_hinge { joint.pos_in_body.value.coords } else { Vector3::zeros() };
         // At `ref` the body is where the file puts it, and position 0 is that much behind.
-        let written_from_zero = (parent_from_body * Translation3::from(point)).inverse() * origin;
+        let written_from_zero =
+            (parent_from_body * Translation3::from(point_of_axis(joint))).inverse() * origin;
         let (shift, turn) = (written_from_zero.translation.vector, written_from_zero.rotation.scaled_axis());
         let (moved, rest) = if is_hinge { (turn, shift) } else { (shift, turn) };
         let back = moved.dot(&axis);
@@ -95,11 +96,7 @@ impl MjcfPlaces {
         };
         let body = self.moved_body(index).filter(|_| joint.reference.value == 0.0)?;
         // The origin of the joint is on its axis, which may be beside that of the body.
-        let point = match joint.kind {
-            MjJointKind::Hinge => joint.pos_in_body.value.coords,
-            _ => Vector3::zeros(),
-        };
-        Some((body, origin * Translation3::from(-point)))
+        Some((body, origin * Translation3::from(-point_of_axis(joint))))
     }
 }
 
