@@ -34,7 +34,7 @@ pub use drivers::driven_as_in;
 pub use find::{FoundMapping, MatchedBy, find, find_exchanged};
 pub use frames::{CommonAxes, EndInOtherFrames, ends_in_other_frames, has_other_frames, in_frames_of};
 pub use fused_links::{FusedLinks, with_masses_at_links_of};
-pub use link_names::{link_names, same_fixed_link, with_other_still_links};
+pub use link_names::{link_names, same_link, with_other_still_links};
 pub use matched::MatchedRobots;
 pub use rounded_values::{
     DigitsOfFrames, inertia_within_digits, is_rounded_value, with_values_within_digits,

@@ -56,9 +56,23 @@ pub fn with_other_still_links(robot: &Robot) -> Robot {
     })
 }
 
+/// The link of the other description that is the same as this one; the two have the same moving joints by name. Links behind moving
+/// joints are matched by the joint's name: exporters rename links more often than joints.
+pub fn same_link(link: LinkIndex, robot: &Robot, other: &Robot) -> Option<LinkIndex> {
+    let carrying = robot.parent_joint(link).map(|joint| robot.joint(joint));
+    let Some(carrying) = carrying.filter(|joint| joint.kind.is_movable()) else {
+        return same_fixed_link(link, robot, other);
+    };
+    let there = other.joint(other.find_joint(&carrying.name)?);
+    // A frame that was chosen for the joint's link agrees with any: a tip of this name behind it is where the description says.
+    let is_chosen = !there.rounding.frame.is_empty();
+    let named = other.find_link(&robot.link(link).name).filter(|_| is_chosen);
+    Some(named.filter(|named| other.body(*named) == there.child).unwrap_or(there.child))
+}
+
 /// The link of the other description that is a link of the robot behind a fixed joint: the one of its name, or at the end of a
 /// branch the one that the joint of the same name carries, if the robot has no link of that name.
-pub fn same_fixed_link(link: LinkIndex, robot: &Robot, other: &Robot) -> Option<LinkIndex> {
+fn same_fixed_link(link: LinkIndex, robot: &Robot, other: &Robot) -> Option<LinkIndex> {
     other.find_link(&robot.link(link).name).or_else(|| {
         let carrying = robot.joint(robot.parent_joint(link)?);
         let there = other.joint(other.find_joint(&carrying.name)?);

@@ -4,7 +4,7 @@
 use congruent_description::{Joint, JointIndex, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
 
-use crate::link_names::same_fixed_link;
+use crate::link_names::same_link;
 
 /// A robot and another description of it, with the poses of the links of the first at zero by both. Both have the same
 /// moving joints by name.
@@ -30,16 +30,7 @@ impl<'a> MatchedRobots<'a> {
     pub fn new([robot, other]: [&'a Robot; 2], poses: &mut dyn LinkPoses) -> Result<Self, LinkPosesError> {
         let namesake = |link| other.find_joint(&robot.joint(robot.parent_joint(link)?).name);
         let namesakes: Vec<Option<JointIndex>> = robot.link_indices().map(namesake).collect();
-        let link = |link: LinkIndex| {
-            let carrying = robot.parent_joint(link).map(|joint| robot.joint(joint));
-            // Links behind moving joints are matched by the joint's name: exporters rename links more often than
-            // joints.
-            match carrying.filter(|joint| joint.kind.is_movable()) {
-                Some(_) => Some(other.joint(namesakes[link.get()]?).child),
-                None => same_fixed_link(link, robot, other),
-            }
-        };
-        let links = robot.link_indices().map(link).collect();
+        let links = robot.link_indices().map(|link| same_link(link, robot, other)).collect();
         let mut at_zero = [(); 2].map(|()| vec![Pose::identity(); robot.links().len()]);
         let zero = RobotQ::zeros(robot.dof());
         UrdfTree::new(robot).root_from_links_into(&zero, &mut at_zero[0])?;

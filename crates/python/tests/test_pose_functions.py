@@ -145,3 +145,18 @@ def test_another_tip_and_base(ur5e: congruent.Robot) -> None:
     names = ur5e.joints[:4]
     report = congruent.check(part, poses=lambda q: part.fk(dict(zip(names, q))), joints=names)
     assert report.ok, str(report)
+
+
+def test_a_wrong_tool_at_the_link_of_the_last_joint(arm: congruent.Robot) -> None:
+    tip = {"ur5e": "wrist_3_link", "panda": "panda_link7"}[Path(arm.path).stem]
+    robot = congruent.Robot(arm.path, tip=tip)
+
+    def right(q: Any) -> Any:
+        return robot.fk(dict(zip(joints(robot), q)))
+
+    def shifted(q: Any) -> Any:
+        return right(q) @ congruent.spatial.shift_z(0.01)
+
+    assert congruent.check(robot, poses=right, joints=joints(robot)).ok
+    report = congruent.check(robot, poses=shifted, joints=joints(robot))
+    assert not report.ok and "DIFFERENT, by up to 10 mm" in report.headline, str(report)

@@ -132,7 +132,7 @@ pub(super) fn compared(
     other: &mut RobotDescription,
     options: &CheckOptions,
 ) -> Result<(OtherDescription, Option<DynamicsReport>), CheckError> {
-    let poses = PosesOfOther::new(&description.robot, &other.robot).with_tip_of([description, other]);
+    let poses = PosesOfOther::new(&description.robot, &other.robot);
     let mut against = OtherDescription::before_comparison(description, other, &poses);
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));

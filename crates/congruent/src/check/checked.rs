@@ -276,7 +276,6 @@ fn at_configurations(
     Ok(Some(match other.filter(|_| is_compared) {
         Some(other) => {
             let poses = PosesOfOther::with_mimics(&description.robot, &other.robot)
-                .with_tip_of([description, other])
                 .with_free_frames(description, &other.robot)?;
             differences.with_other(description, Box::new(poses))?
         }

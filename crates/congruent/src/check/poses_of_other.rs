@@ -2,7 +2,7 @@
 
 use congruent_description::{Link, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree, sample_configurations};
-use congruent_mapping::{MatchedRobots, same_fixed_link};
+use congruent_mapping::{MatchedRobots, same_link};
 
 /// Random positions at which links are found to move alike. Kind: choice.
 pub(super) const POSITIONS: usize = 50;
@@ -50,13 +50,10 @@ impl PosesOfOther {
     pub(super) fn new(robot: &Robot, other: &Robot) -> Self {
         let place = |link| {
             let joint = robot.parent_joint(link).map(|joint| robot.joint(joint));
-            // A link of a moving joint is found by the name of the joint, which must be the same in both; the names
-            // of links need not be.
-            let there = match joint {
-                Some(joint) if joint.kind.is_movable() => exchanged(link, robot, other)
-                    .or_else(|| other.find_joint(&joint.name).map(|there| other.joint(there).child)),
-                _ => same_fixed_link(link, robot, other),
-            };
+            let there = joint
+                .filter(|joint| joint.kind.is_movable())
+                .and_then(|_| exchanged(link, robot, other))
+                .or_else(|| same_link(link, robot, other));
             match (there, joint) {
                 (Some(there), _) => LinkCorrespondence::Other(there.get()),
                 (None, Some(joint)) => {
@@ -75,16 +72,6 @@ impl PosesOfOther {
             q: RobotQ::zeros(other.dof()),
             poses: vec![Pose::identity(); other.links().len()],
         }
-    }
-
-    /// A table, screws or the poses of a function say where the tip is, also if it is the link of the last joint, for which they say
-    /// nothing else: a frame that was chosen for it would agree with any tool.
-    pub(super) fn with_tip_of(mut self, [description, other]: [&RobotDescription; 2]) -> Self {
-        let [tip, there] = [description, other].map(|of| &of.robot.link(of.tip).name);
-        if other.own_model().is_some() && tip == there {
-            self.links[description.tip.get()] = LinkCorrespondence::Other(other.tip.get());
-        }
-        self
     }
 
     /// The links of the robot that the other description lacks: nothing of them is compared.

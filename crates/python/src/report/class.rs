@@ -10,8 +10,8 @@ pub(crate) struct PythonReport {
     /// Exit code of the command: 0 as expected, 1 a check failed, 2 bad input, 3 broken, 4 nothing was checked.
     #[pyo3(get)]
     pub(super) exit_code: u8,
-    /// How much alike the poses are: ``identical``, ``same_within_digits``, ``equal_after_mapping`` or ``different``; ``None`` for a run, or if nothing was
-    /// compared. Of several comparisons the worst. Masses and limits have no part in it: ``ok`` has.
+    /// How much alike the poses are: ``identical``, ``same_within_digits``, ``equal_after_mapping`` or ``different``; ``None`` for a
+    /// run, or if nothing was compared. Of several comparisons the worst. Masses and limits have no part in it: ``ok`` has.
     #[pyo3(get)]
     pub(super) grade: Option<String>,
     /// The answer in a line, as ``--quiet`` prints it.
