@@ -110,6 +110,7 @@ fn documents_follow_their_schemas() {
         ("check", &["check", "robots/planar_2r", "--configurations", &configurations]),
         ("describe", &["describe", "robots/panda"]),
         ("describe", &["describe", "robots/rrr_arm/rrr_arm.urdf"]),
+        ("log", &["describe", "docs/examples/log/joints.csv", "--robot", "robots/ur5e"]),
         ("acm", &["clearance", "robots/rrr_arm", "--samples", "100", "--write-srdf", "-"]),
         ("new_robot", &["new", "robot", "robots/ur5e/ur5e.urdf", "--out", &robot]),
         ("new_scenario", &["new", "scenario", "robots/planar_2r", "--to", &scenario]),

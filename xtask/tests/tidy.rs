@@ -10,6 +10,8 @@ use support::{ARROWS, all_sources, code_lines, crate_names, program_sources, rea
 const PLACES: &[(&str, &str)] = &[
     ("rapier3d_f64", "crates/simulation/src"),
     ("parry3d_f64", "crates/proximity/src/hulls/"),
+    ("mcap::", "crates/logs/src"),
+    ("ruzstd::", "crates/logs/src/mcap/"),
     ("re_chunk::", "crates/recording/src"),
     ("re_log_encoding::", "crates/recording/src"),
     ("re_log_types::", "crates/recording/src"),

@@ -35,7 +35,11 @@ const EXAMPLES: [(&str, &[&str]); 22] = [
     ("explain", &["congruent explain CGR-URDF-018", "congruent explain axis_flipped"]),
     (
         "describe",
-        &["congruent describe robots/ur5e", "congruent describe robots/ur5e/ur5e.urdf --tip flange"],
+        &[
+            "congruent describe robots/ur5e",
+            "congruent describe robots/ur5e/ur5e.urdf --tip flange",
+            "congruent describe docs/examples/log/joints.csv --robot robots/ur5e",
+        ],
     ),
     (
         "run",

@@ -50,6 +50,7 @@ congruent_input::codes! {
 /// The codes of all messages of the library, those of the crates of the workspace among them.
 pub fn all_codes() -> Vec<&'static Code> {
     let mut codes = congruent_lint_report::codes::known_codes();
+    codes.extend(congruent_logs::codes::ALL);
     codes.extend(congruent_starter::codes::ALL);
     codes.extend(ALL);
     codes

@@ -14,6 +14,7 @@ pub use congruent_fault_diagnosis as fault_diagnosis;
 pub use congruent_input as input;
 pub use congruent_kinematics as kinematics;
 pub use congruent_lint as lint_rules;
+pub use congruent_logs as logs;
 pub use congruent_mapping as mapping;
 pub use congruent_meshes as meshes;
 pub use congruent_mjcf as mjcf;

@@ -16,6 +16,7 @@ use congruent_analysis::{
 use congruent_calibration::report::CalibrationReport;
 use congruent_configurations::configurations_schema;
 use congruent_description::robot_file_schema;
+use congruent_logs::LogSurvey;
 use congruent_proximity::{DisabledPairs, DistanceReport};
 use congruent_results::report::{FaultTable, RunReport};
 use congruent_scenario::Scenario;
@@ -75,6 +76,7 @@ impl Document {
             "joints in the orders of programs, printed by `describe --orders`",
             written::<JointOrders>,
         ),
+        Self::new("log", "survey of a log, printed by `describe` of a log", written::<LogSurvey>),
         Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport<PoseStream<'static>>>),
         Self::new(
             "jacobian",

@@ -26,8 +26,8 @@ pub use diagnostic::{
 pub use edits::{ChangedLines, PastedLines, TextEdit, changed_lines, edited, line_end, lines_in_words};
 pub use files::{
     FileAccess, InputFile, Packages, Resolved, RevisionFiles, RevisionName, RosPackages, TextKind, TextLines,
-    TomlKind, absence, direct_path, folder_of, head_of, is_standard_input, not_found, portable_path,
-    portable_text, read_text, relative_path,
+    TomlKind, absence, direct_path, folder_of, head_of, is_standard_input, not_found, open_regular,
+    portable_path, portable_text, read_text, relative_path, unreadable,
 };
 pub use nearest::{known_names, nearest};
 pub use quantity::{Quantity, SiUnit};

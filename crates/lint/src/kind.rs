@@ -50,7 +50,7 @@ const TIME: &str = "time_s";
 
 /// Files that `lint` refuses by their extension: extension, what the file is, and what to do instead.
 const ELSEWHERE: [(&str, &str, &str); 6] = [
-    ("mcap", "an MCAP log, which no command reads", "write its joint states as CSV or JSON"),
+    ("mcap", "a log", "`congruent describe` surveys it"),
     ("bag", "a log of ROS, which no command reads", "write its joint states as CSV or JSON"),
     ("rrd", "a recording", "`congruent inspect` checks it"),
     ("parquet", "a trajectory", "`congruent compare` reads it"),

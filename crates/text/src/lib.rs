@@ -13,6 +13,7 @@ mod fault_table;
 mod findings;
 pub mod layout;
 mod lint;
+mod log;
 mod new_files;
 mod options;
 #[cfg(feature = "recording")]
@@ -30,6 +31,7 @@ pub use description::{description_text, joint_orders_text};
 pub use fault_table::fault_table_text;
 pub use findings::{MOST_FINDINGS, finding_line, finding_text, listed_findings};
 pub use lint::lint_text;
+pub use log::log_text;
 pub use new_files::{new_robot_text, new_scenario_text};
 pub use options::TextOptions;
 #[cfg(feature = "recording")]

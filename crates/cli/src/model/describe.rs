@@ -1,13 +1,15 @@
-//! `congruent describe`: what a robot's files say.
+//! `congruent describe`: what a robot's files say, and what is in a log.
 
 use std::path::{Path, PathBuf};
 
 use congruent::{
     analysis::description_summary::{DescriptionSummary, JointOrders, describe, joint_orders},
-    description::load_robot_with,
+    description::{RobotDescription, load_robot_with},
+    logs::{LogOptions, LogSurvey, SurveyedLog, is_log, survey_line, survey_log},
     results::report::{TestResult, TestSuite},
-    text::{description_text, joint_orders_text},
+    text::{description_text, joint_orders_text, log_text},
 };
+use serde::Serialize;
 
 use crate::{
     batch::{Batch, BatchReport},
@@ -17,15 +19,25 @@ use crate::{
     terminal::print::{Printer, text_options},
 };
 
-/// Summarises a robot's files: links, joints, and what is missing for kinematics, clearance or physics.
+/// Summarises a robot's files: links, joints, and what is missing for kinematics, clearance or physics; or a log.
 ///
 /// The tree with types, axes, limits, masses and shapes; the chain from base to tip, and other links at which it might
 /// end; what blocks kinematics, clearance or physics, and which missing data they do without.
+///
+/// Of a log, an MCAP of ROS 2, a table in CSV or a folder of rosbag2: topics with rates, gaps and repetitions, joints, missing
+/// values and frames; with --robot whether joints and units fit.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Folders with robot.toml, robot files, URDFs, MJCFs, or - for a URDF or MJCF on standard input.
+    /// Folders with robot.toml, robot files, URDFs, MJCFs, or - for a URDF or MJCF on standard input; logs: .mcap, .csv, folders
+    /// with metadata.yaml.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
+    /// Compare the joints and units of logs with this robot: a folder with robot.toml, a robot file, a URDF or an MJCF.
+    #[arg(long, value_name = "ROBOT")]
+    robot: Option<PathBuf>,
+    /// Rate of the rows of tables whose times are missing or too coarse, Hz.
+    #[arg(long, value_name = "HZ", value_parser = rate_hz)]
+    rate_hz: Option<f64>,
     /// Print the moving joints in the orders in which programs list them instead: the order of the file, depth first (MuJoCo) and
     /// breadth first (Isaac Sim, Isaac Lab), and where these differ.
     #[arg(long)]
@@ -36,17 +48,33 @@ pub(crate) struct Arguments {
     access: AccessArguments,
 }
 
-impl BatchReport for DescriptionSummary {
+/// What one input is.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Described {
+    /// A robot.
+    Robot(Box<DescriptionSummary>),
+    /// A log.
+    Log(Box<LogSurvey>),
+}
+
+impl BatchReport for Described {
     fn exit_code(&self) -> u8 {
         0
     }
 
     fn text(&self) -> String {
-        description_text(self)
+        match self {
+            Self::Robot(summary) => description_text(summary),
+            Self::Log(survey) => log_text(survey, &text_options()),
+        }
     }
 
     fn one_line(&self) -> Option<String> {
-        Some(format!("{}: {}", self.file, self.answer()))
+        Some(match self {
+            Self::Robot(summary) => format!("{}: {}", summary.file, summary.answer()),
+            Self::Log(survey) => format!("{}: {}", survey.file, survey_line(survey)),
+        })
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -81,6 +109,30 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         let orders = |path: &Path| Ok(joint_orders(&loaded(path)?));
         return batch.finish(robots.map(|path| batch.answer(path, || orders(path))).collect());
     }
-    let summary = |path: &Path| Ok(describe(&loaded(path)?));
-    batch.finish(robots.map(|path| batch.answer(path, || summary(path))).collect())
+    let robot = arguments.robot.as_deref().map(&loaded).transpose()?;
+    let described = |path: &Path| {
+        // A robot may be in a folder that rosbag2 has written to.
+        if !is_log(path) || path.join("robot.toml").is_file() {
+            return Ok(Described::Robot(Box::new(describe(&loaded(path)?))));
+        }
+        let SurveyedLog { survey, warnings } = surveyed(path, arguments, robot.as_ref())?;
+        batch.warn(path, &warnings);
+        Ok(Described::Log(Box::new(survey)))
+    };
+    batch.finish(robots.map(|path| batch.answer(path, || described(path))).collect())
+}
+
+fn surveyed(
+    path: &Path,
+    arguments: &Arguments,
+    robot: Option<&RobotDescription>,
+) -> Result<SurveyedLog, Failure> {
+    let options = LogOptions { rate_hz: arguments.rate_hz, ..LogOptions::default() };
+    Ok(survey_log(path, &options, robot.map(|description| &description.robot))?)
+}
+
+/// A rate of rows.
+fn rate_hz(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate: &f64| rate.is_finite() && *rate > 0.0);
+    rate.ok_or_else(|| "a rate is a number of rows a second above 0: --rate-hz 125".to_owned())
 }

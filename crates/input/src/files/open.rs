@@ -47,7 +47,10 @@ pub(super) fn read_regular_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>
 }
 
 /// A regular file of at most `most_bytes`. It may grow after this check, so its reader must count the bytes, too.
-fn open_regular(path: &Path, most_bytes: u64) -> Result<File, Diagnostic> {
+///
+/// # Errors
+/// It is a folder, a pipe or a device, does not exist, is too large, or may not be read.
+pub fn open_regular(path: &Path, most_bytes: u64) -> Result<File, Diagnostic> {
     let metadata = metadata(path)?;
     if !metadata.is_file() {
         return Err(not_regular(path));
@@ -160,7 +163,8 @@ pub(super) fn too_large(path: &Path, length: u64, most_bytes: u64) -> Diagnostic
     Diagnostic::error(codes::file::TOO_LARGE, message)
 }
 
-pub(super) fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
+/// Why a file cannot be read, by the reason of the system.
+pub fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
     let name = path.display();
     match error.kind() {
         io::ErrorKind::NotFound => not_found(path, ""),

@@ -1,0 +1,9 @@
+//! Messages of ROS 2 as DDS writes them: Common Data Representation (CDR).
+
+mod message;
+mod reader;
+#[cfg(test)]
+pub(crate) mod write;
+
+pub(crate) use message::{Decoded, DecodedPose, MessageKind};
+pub(crate) use reader::CdrFault;

@@ -1,0 +1,40 @@
+//! The codes of the messages of this crate, with what `congruent explain` says about them.
+
+congruent_input::codes! {
+    log {
+        FORMAT = "CGR-LOG-001", "log::format" unreadable,
+            "The log is of a format that is not read: a SQLite bag (.db3), a bag of ROS 1 (.bag), or a file that was compressed as a whole (.mcap.zstd). The help has the command that makes an MCAP of it.\n    wrong: congruent describe monday.bag\n    right: congruent describe monday.mcap";
+        NOT_MCAP = "CGR-LOG-002", "log::not_mcap" unreadable,
+            "The file is named .mcap but does not begin as one. It was damaged in its first bytes, or is another file under this name.";
+        FOLDER = "CGR-LOG-003", "log::folder" unreadable,
+            "The folder has a metadata.yaml but no file of a format that is read. Files are found by their endings, since the names in metadata.yaml are often those of before a file was renamed.";
+        COMPRESSED_MESSAGES = "CGR-LOG-004", "log::compressed_messages" unreadable,
+            "Each message was compressed on its own (compression mode `message`), which only rosbag2 reads. Chunks that are compressed as a whole are read. Convert the bag; the help has the lines.\n    wrong: compression_mode: message\n    right: compression_mode: \"\"";
+        ENCODING = "CGR-LOG-005", "log::encoding" unreadable,
+            "The joint states or poses of a topic are not encoded as CDR, as ROS 2 does, but as ROS 1 (ros1), Protobuf or JSON. Only CDR is read. Convert the log; nothing else of it has joints or poses.\n    rosbags-convert --src monday.bag --dst monday --dst-storage mcap";
+        TRUNCATED = "CGR-LOG-006", "log::truncated",
+            "The log has no end: its recorder was killed, it is still being written, or it was cut when it was copied. All that is whole is read; what was recorded behind the last whole chunk is lost.";
+        DAMAGED = "CGR-LOG-007", "log::damaged",
+            "A part of the log is damaged: its sum is wrong, it cannot be decompressed, or a length in it is impossible. No message of that part is used. The message has the place and, if the file says so, the time. Copy the log again from the recorder.";
+        MESSAGE = "CGR-LOG-008", "log::message",
+            "Messages of a type that is read cannot be decoded: they end early, or a length in them is impossible. They are counted and not used. Often the type that the log declares is not the one that was published.";
+        NOTHING_READ = "CGR-LOG-009", "log::nothing_read",
+            "The log has neither joint states nor poses nor TF. The help lists the types that it has. Record /joint_states and /tf.\n    wrong: ros2 bag record /rosout\n    right: ros2 bag record -s mcap /joint_states /tf /tf_static /robot_description";
+        JOINTS = "CGR-LOG-010", "log::joints",
+            "Names of joints in the log are not those of the robot, or joints of the robot are not in the log. The message has the common prefix if there is one, the help the nearest names.\n    wrong: left_elbow_joint in the log, elbow_joint in the URDF\n    right: the same name, or a prefix that all joints of the topic have";
+        UNIT = "CGR-LOG-011", "log::unit",
+            "Recorded positions lie beyond the limits of the robot, and would lie within them if they were degrees. Joint states of ROS are in rad and m. Correct the program that publishes them, or convert the log.\n    wrong: position: [-90.0]\n    right: position: [-1.5708]";
+        BEYOND_LIMITS = "CGR-LOG-012", "log::beyond_limits",
+            "Many recorded positions lie beyond the limits of the robot, in rad and in degrees. The robot is another one, the joints have another zero or direction, or the limits of the file are too narrow.";
+        TABLE_ENCODING = "CGR-LOG-013", "log::table_encoding" unreadable,
+            "The table is not a text of numbers: it is UTF-16, or has no row with more than one number. Save it as CSV in UTF-8.";
+        TIME = "CGR-LOG-014", "log::time" unreadable,
+            "The rows of the table have no time: no column is named as one, or that column has whole seconds or one value throughout. Then the rate of the rows must be given.\n    wrong: congruent describe q.csv\n    right: congruent describe q.csv --rate-hz 125";
+        COLUMNS = "CGR-LOG-015", "log::columns" unreadable,
+            "No column of the table is of a joint. Columns are found by the names of the joints of --robot, or by words such as position, q, velocity, effort. The help lists the columns.\n    wrong: a,b,c\n    right: time_s,elbow_position,wrist_position";
+        ROWS = "CGR-LOG-016", "log::rows",
+            "Rows of the table have another number of cells than the first one, or cells that are not numbers. Such rows are not used; such cells count as missing. The message has their number and the first line.";
+        STAMPS = "CGR-LOG-017", "log::stamps",
+            "The stamps of a topic go back by more than a second: a clock was set, a simulation or a replay was started again. What is before and after cannot be ordered by stamps. Cut the log there, or use the time of the recorder.";
+    }
+}

@@ -1,0 +1,211 @@
+//! What of a joint a column is, by the words of its name.
+
+use crate::table_reading::LoggedQuantity;
+
+/// Words that say what a column is.
+const WORDS: [(LoggedQuantity, &[&str]); 3] = [
+    (LoggedQuantity::Position, &["position", "positions", "pos", "q", "angle", "angles"]),
+    (LoggedQuantity::Velocity, &["velocity", "velocities", "vel", "qd", "dq", "qdot", "speed", "speeds"]),
+    (
+        LoggedQuantity::Effort,
+        &["effort", "efforts", "eff", "torque", "torques", "tau", "current", "currents"],
+    ),
+];
+/// Words of what is no measured value of a joint.
+const OTHERS: [&str; 24] = [
+    "target",
+    "goal",
+    "desired",
+    "command",
+    "commanded",
+    "setpoint",
+    "reference",
+    "ref",
+    "error",
+    "tcp",
+    "tool",
+    "pose",
+    "temperature",
+    "temperatures",
+    "voltage",
+    "std",
+    "x",
+    "y",
+    "z",
+    "rx",
+    "ry",
+    "rz",
+    "force",
+    "stamp",
+];
+/// Words for the state that a robot measures.
+const MEASURED: [&str; 3] = ["actual", "measured", "real"];
+/// Units that a name may end with, word by word; longer ones first.
+const UNITS: [&[&str]; 12] = [
+    &["rad", "s"],
+    &["deg", "s"],
+    &["mm", "s"],
+    &["m", "s"],
+    &["n", "m"],
+    &["rad"],
+    &["deg"],
+    &["degree"],
+    &["degrees"],
+    &["mm"],
+    &["m"],
+    &["n"],
+];
+
+/// What the name of a column says.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NamedColumn {
+    /// `None` if no word says it.
+    pub(super) quantity: Option<LoggedQuantity>,
+    /// The name without the words that say what it is.
+    pub(super) rest: String,
+    pub(super) stated_unit: Option<String>,
+}
+
+/// Reads a name; `None` if it is of something else than a joint.
+pub(super) fn named(name: &str) -> Option<NamedColumn> {
+    let mut parts = parts(name);
+    if parts.iter().any(|part| OTHERS.contains(&part.word.as_str())) {
+        return None;
+    }
+    let stated_unit = take_unit(&mut parts);
+    parts.retain(|part| !MEASURED.contains(&part.word.as_str()));
+    let found = parts.iter().enumerate().find_map(|(at, part)| Some((at, quantity(&part.word)?)));
+    if let Some((at, _)) = found {
+        // Of `q1` the number names the joint.
+        let number = digits(&parts[at].word).to_owned();
+        if number.is_empty() {
+            parts.remove(at);
+        } else {
+            parts[at] = NamePart { word: number.clone(), text: number, ..parts[at].clone() };
+        }
+    }
+    let rest = joined(&parts);
+    (!rest.is_empty()).then_some(NamedColumn {
+        quantity: found.map(|(_, quantity)| quantity),
+        rest,
+        stated_unit,
+    })
+}
+
+/// Takes the unit off the end of a name that has more words than that.
+fn take_unit(parts: &mut Vec<NamePart>) -> Option<String> {
+    let is_end = |unit: &&&[&str]| {
+        parts.len() > unit.len()
+            && parts[parts.len() - unit.len()..]
+                .iter()
+                .map(|part| part.word.as_str())
+                .eq(unit.iter().copied())
+    };
+    let unit = UNITS.iter().find(is_end)?;
+    parts.truncate(parts.len() - unit.len());
+    Some(unit.join("_"))
+}
+
+/// Whether a name that says nothing else is that of a joint.
+pub(super) fn is_name_of_joint(name: &str) -> bool {
+    let is_numbered = |word: &str| {
+        let letters = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
+        letters.len() < word.len() && ["j", "a", "axis", "joint"].contains(&letters)
+    };
+    parts(name).iter().any(|part| is_numbered(&part.word) || part.word.contains("joint"))
+}
+
+/// What a word says, with or without a number behind it.
+fn quantity(word: &str) -> Option<LoggedQuantity> {
+    let word = &word[..word.len() - digits(word).len()];
+    WORDS.iter().find(|(_, words)| words.contains(&word)).map(|(quantity, _)| *quantity)
+}
+
+/// The number at the end of a word.
+fn digits(word: &str) -> &str {
+    &word[word.trim_end_matches(|letter: char| letter.is_ascii_digit()).len()..]
+}
+
+/// A word of a name, with what separates it from the word before.
+#[derive(Clone)]
+struct NamePart {
+    before: String,
+    text: String,
+    /// In lower case.
+    word: String,
+}
+
+fn parts(name: &str) -> Vec<NamePart> {
+    let (mut found, mut before, mut text) = (Vec::new(), String::new(), String::new());
+    for letter in name.chars().chain(['_']) {
+        if letter.is_alphanumeric() {
+            text.push(letter);
+        } else {
+            if !text.is_empty() {
+                let word = text.to_lowercase();
+                found.push(NamePart {
+                    before: std::mem::take(&mut before),
+                    text: std::mem::take(&mut text),
+                    word,
+                });
+            }
+            before.push(letter);
+        }
+    }
+    found
+}
+
+fn joined(parts: &[NamePart]) -> String {
+    let mut text = String::new();
+    for part in parts {
+        if !text.is_empty() {
+            text += &part.before;
+        }
+        text += &part.text;
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(name: &str, expected: Option<(Option<LoggedQuantity>, &str)>) {
+        let found = named(name);
+        assert_eq!(found.as_ref().map(|found| (found.quantity, found.rest.as_str())), expected, "{name}");
+    }
+
+    #[test]
+    fn names_of_real_tables() {
+        check("- arm_1_joint_position", Some((Some(LoggedQuantity::Position), "arm_1_joint")));
+        check("actual_qd_0", Some((Some(LoggedQuantity::Velocity), "0")));
+        check("q1", Some((Some(LoggedQuantity::Position), "1")));
+        check("tau_7", Some((Some(LoggedQuantity::Effort), "7")));
+        check(
+            "/joint_states/elbow_joint/velocity",
+            Some((Some(LoggedQuantity::Velocity), "joint_states/elbow_joint")),
+        );
+        check("position[3]", Some((Some(LoggedQuantity::Position), "3")));
+        check("shoulder_pan_joint_rad", Some((None, "shoulder_pan_joint")));
+        check("elbow_joint.qd_rad_s", Some((Some(LoggedQuantity::Velocity), "elbow_joint")));
+        check("elbow_joint.effort_n_m", Some((Some(LoggedQuantity::Effort), "elbow_joint")));
+        check("elbow_joint.reference_q_rad", None);
+        check("target_q_0", None);
+        check("measurement_std_rx", None);
+        check("position", None);
+        check("", None);
+    }
+
+    #[test]
+    fn units_in_names() {
+        assert_eq!(named("elbow_deg").unwrap().stated_unit.as_deref(), Some("deg"));
+        assert_eq!(named("a").unwrap().stated_unit, None);
+    }
+
+    #[test]
+    fn joints_without_another_word() {
+        assert!(["joint_1", "J3", "elbow_joint", "A6", "axis2"].into_iter().all(is_name_of_joint));
+        assert!(!["temperature", "row", "id7"].into_iter().any(is_name_of_joint));
+    }
+}

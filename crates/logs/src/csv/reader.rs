@@ -1,0 +1,339 @@
+//! Reads a table row by row.
+
+use std::{
+    collections::VecDeque,
+    fs::File,
+    io::{Read, Seek, SeekFrom},
+    path::Path,
+    sync::Arc,
+};
+
+use congruent_input::{Code, Diagnostic, SourceFile, open_regular, unreadable};
+use csv::{ByteRecord, Reader};
+
+use super::{
+    bounded_rows::BoundedRows,
+    columns::{ReadColumns, find_columns},
+    dialect::Dialect,
+    number::{CellValue, cell_value},
+    time::{FoundTime, TimeColumn, find_time},
+};
+use crate::{
+    codes,
+    event::{EventTime, LogEvent, LogGap, LogReader, LogTopic, LoggedJoints, LoggedPose, TopicContent},
+    options::LogOptions,
+    table_reading::{TableReading, TableTime},
+};
+
+/// Bytes of the beginning by which a table is judged. Kind: choice; a hundred rows of sixty columns.
+const HEAD_BYTES: u64 = 128 << 10;
+/// Frame of the pose of a UR's TCP.
+const UR_FRAME: &str = "base";
+
+/// A table that is read as a log.
+pub(crate) struct TableReader {
+    source: Arc<SourceFile>,
+    reader: Reader<BoundedRows<File>>,
+    record: ByteRecord,
+    dialect: Dialect,
+    columns: ReadColumns,
+    joints: Arc<[String]>,
+    time: RowTime,
+    reading: TableReading,
+    topics: Vec<LogTopic>,
+    events: VecDeque<LogEvent>,
+    first_ns: Option<i64>,
+    /// Rows of numbers that were read.
+    rows: u32,
+    faults: RowFaults,
+    is_at_end: bool,
+}
+
+/// Where the time of a row comes from.
+#[derive(Debug, Clone, Copy)]
+enum RowTime {
+    Column(TimeColumn),
+    RateHz(f64),
+}
+
+/// Rows and cells that are not used, with the first line of each kind.
+#[derive(Debug, Default)]
+struct RowFaults {
+    width: Counted,
+    cells: Counted,
+    times: Counted,
+}
+
+/// How many, and the line of the first.
+#[derive(Debug, Default)]
+struct Counted {
+    count: usize,
+    first_line: u64,
+}
+
+impl Counted {
+    fn add(&mut self, line: u64) {
+        if self.count == 0 {
+            self.first_line = line;
+        }
+        self.count += 1;
+    }
+}
+
+impl TableReader {
+    /// Opens a table and finds out how it is written.
+    ///
+    /// # Errors
+    /// It is no table of numbers, has no column of a joint, or its rows have no time.
+    pub(crate) fn open(path: &Path, options: &LogOptions) -> Result<Self, Diagnostic> {
+        let mut file = open_regular(path, u64::MAX)?;
+        let dialect = dialect_of(&mut file, path)?;
+        let source = SourceFile { path: path.to_owned(), text: String::new(), is_foreign: false };
+        let source = Arc::new(source);
+        let time = row_time(&dialect, options).map_err(|fault| fault.in_file(&source))?;
+        let of_time = match time {
+            RowTime::Column(column) => Some(column.column),
+            RowTime::RateHz(_) => match find_time(&dialect) {
+                // A time that is not used is no joint.
+                FoundTime::Coarse(column) => Some(column),
+                FoundTime::Column(found) => Some(found.column),
+                FoundTime::None => None,
+            },
+        };
+        let columns = find_columns(&dialect, of_time, &options.joints);
+        if columns.cells.is_empty() {
+            return Err(no_columns(&columns, options).in_file(&source));
+        }
+        let reading = reading(&dialect, time, &columns);
+        let topics = topics(path, &columns);
+        let rows = BoundedRows::new(file, dialect.quoting);
+        let reader = dialect.separator.reader_builder(dialect.quoting).from_reader(rows);
+        Ok(Self {
+            source,
+            reader,
+            record: ByteRecord::new(),
+            joints: columns.joints.clone().into(),
+            dialect,
+            columns,
+            time,
+            reading,
+            topics,
+            events: VecDeque::new(),
+            first_ns: None,
+            rows: 0,
+            faults: RowFaults::default(),
+            is_at_end: false,
+        })
+    }
+
+    /// Reads a row; the faults of all rows behind the last.
+    fn step(&mut self) -> Result<(), Diagnostic> {
+        let is_row = self.reader.read_byte_record(&mut self.record);
+        let refused = |fault: csv::Error| {
+            let message = format!("the table cannot be read: {fault}");
+            Diagnostic::error(codes::log::TABLE_ENCODING, message).in_file(&self.source)
+        };
+        if !is_row.map_err(refused)? {
+            self.is_at_end = true;
+            self.report_faults();
+            return Ok(());
+        }
+        let cells = self.dialect.separator.cells(&self.record, self.dialect.encoding);
+        let line = self.record.position().map_or(0, csv::Position::line);
+        let is_first = std::mem::take(&mut self.dialect.are_names_a_row);
+        if !is_first && cells.iter().any(|cell| !cell.is_empty()) {
+            self.row(&cells, line);
+        }
+        Ok(())
+    }
+
+    fn row(&mut self, cells: &[String], line: u64) {
+        if cells.len() != self.dialect.width {
+            return self.faults.width.add(line);
+        }
+        let log_ns = match self.time {
+            RowTime::Column(column) => column.ns(cells, self.dialect.decimal),
+            RowTime::RateHz(rate_hz) => ns_of_row(self.rows, rate_hz),
+        };
+        let Some(log_ns) = log_ns else { return self.faults.times.add(line) };
+        self.rows = self.rows.saturating_add(1);
+        let first_ns = *self.first_ns.get_or_insert(log_ns);
+        // A table has one time: that of the values.
+        let time = EventTime::new(log_ns, Some(log_ns), first_ns);
+        let joints = self.joints(cells, line, time);
+        self.events.push_back(LogEvent::Joints(joints));
+        if let Some(columns) = self.columns.tcp_pose {
+            let pose = columns.map(|column| self.number(cells, column, line));
+            self.events.push_back(LogEvent::Pose(pose_of_ur(pose, time)));
+        }
+    }
+
+    fn joints(&mut self, cells: &[String], line: u64, time: EventTime) -> LoggedJoints {
+        let mut arrays = [const { Vec::new() }; 3];
+        for at in 0..self.columns.cells.len() {
+            let cell = self.columns.cells[at];
+            let array = &mut arrays[cell.quantity as usize];
+            if array.is_empty() {
+                array.resize(self.joints.len(), f64::NAN);
+            }
+            array[cell.joint] = self.number(cells, cell.column, line);
+        }
+        let [position, velocity, effort] = arrays;
+        LoggedJoints { topic: 0, time, names: Arc::clone(&self.joints), position, velocity, effort }
+    }
+
+    fn number(&mut self, cells: &[String], column: usize, line: u64) -> f64 {
+        match cell_value(&cells[column], self.dialect.decimal) {
+            CellValue::Number(number) => number,
+            CellValue::Missing => f64::NAN,
+            CellValue::NotANumber => {
+                self.faults.cells.add(line);
+                f64::NAN
+            }
+        }
+    }
+
+    fn report_faults(&mut self) {
+        let width = self.dialect.width;
+        let reported = [
+            (&self.faults.width, format!("rows have another number of cells than {width} and are left out")),
+            (&self.faults.times, "rows have no time and are left out".to_owned()),
+            (&self.faults.cells, "cells are not numbers and count as missing".to_owned()),
+        ];
+        for (counted, what) in reported.into_iter().filter(|(counted, _)| counted.count > 0) {
+            let Counted { count, first_line } = counted;
+            let message = format!("{count} {what}; the first is in line {first_line}");
+            let cause = Diagnostic::warning(codes::log::ROWS, message).in_file(&self.source);
+            self.events.push_back(LogEvent::Gap(LogGap { between_s: None, cause }));
+        }
+    }
+}
+
+impl LogReader for TableReader {
+    fn topics(&self) -> &[LogTopic] {
+        &self.topics
+    }
+
+    fn next_event(&mut self) -> Result<Option<LogEvent>, Diagnostic> {
+        while self.events.is_empty() && !self.is_at_end {
+            self.step()?;
+        }
+        Ok(self.events.pop_front())
+    }
+
+    fn table(&self) -> Option<&TableReading> {
+        Some(&self.reading)
+    }
+}
+
+/// The dialect by the whole rows of the beginning. The file is then at its beginning again.
+fn dialect_of(file: &mut File, path: &Path) -> Result<Dialect, Diagnostic> {
+    let failed = |fault| unreadable(path, &fault);
+    let mut head = Vec::new();
+    file.take(HEAD_BYTES).read_to_end(&mut head).map_err(failed)?;
+    file.seek(SeekFrom::Start(0)).map_err(failed)?;
+    let refused = |code: &'static Code, message: &str, help: &str| {
+        Diagnostic::error(code, format!("{} {message}", path.display())).with_help(help)
+    };
+    if head.is_empty() {
+        return Err(refused(congruent_input::codes::file::EMPTY, "is empty", "record it again"));
+    }
+    if head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]) {
+        let help = "save it as CSV in UTF-8; `iconv -f UTF-16 -t UTF-8 FILE` does it";
+        return Err(refused(codes::log::TABLE_ENCODING, "is UTF-16", help));
+    }
+    if head.len() as u64 == HEAD_BYTES {
+        let end = head.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+        head.truncate(end);
+    }
+    Dialect::of(&head).filter(|dialect| !dialect.rows.is_empty()).ok_or_else(|| {
+        let help = "a table has a row for each time, with numbers separated by commas, semicolons, tabulators or blanks";
+        refused(codes::log::TABLE_ENCODING, "is no table of numbers", help)
+    })
+}
+
+/// The given rate before the column of times: who gives one knows that the times are of no use.
+fn row_time(dialect: &Dialect, options: &LogOptions) -> Result<RowTime, Diagnostic> {
+    if let Some(rate_hz) = options.rate_hz {
+        return Ok(RowTime::RateHz(rate_hz));
+    }
+    let message = match find_time(dialect) {
+        FoundTime::Column(column) => return Ok(RowTime::Column(column)),
+        FoundTime::Coarse(column) => {
+            format!("most rows have the time of the row before in column \"{}\"", dialect.name(column))
+        }
+        FoundTime::None => "no column has the times of the rows".to_owned(),
+    };
+    Err(Diagnostic::error(codes::log::TIME, message).with_help("give the rate of the rows: --rate-hz 125"))
+}
+
+fn no_columns(columns: &ReadColumns, options: &LogOptions) -> Diagnostic {
+    let listed = congruent_input::display::first_of(&columns.unused, 20);
+    let hint = if options.joints.is_empty() {
+        "--robot ROBOT recognises columns by the names of its joints"
+    } else {
+        "name each as a joint of the robot"
+    };
+    Diagnostic::error(codes::log::COLUMNS, "no column is of a joint")
+        .with_help(format!("{hint}; columns: {listed}"))
+}
+
+fn reading(dialect: &Dialect, time: RowTime, columns: &ReadColumns) -> TableReading {
+    let time = match time {
+        RowTime::Column(TimeColumn { column, unit, unit_from }) => {
+            TableTime::Column { name: dialect.name(column), unit, unit_from }
+        }
+        RowTime::RateHz(rate_hz) => TableTime::RateHz(rate_hz),
+    };
+    TableReading {
+        separator: dialect.separator,
+        has_header: dialect.names.is_some(),
+        decimal: dialect.decimal,
+        encoding: dialect.encoding,
+        time,
+        preset: columns.preset,
+        columns: columns.described.clone(),
+        unused: columns.unused.clone(),
+    }
+}
+
+fn topics(path: &Path, columns: &ReadColumns) -> Vec<LogTopic> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let topic = |name: String, content| LogTopic {
+        name,
+        message_type: "rows of a table".to_owned(),
+        encoding: "csv".to_owned(),
+        content,
+    };
+    let pose = columns.tcp_pose.map(|_| topic("actual_TCP_pose".to_owned(), TopicContent::Pose));
+    [topic(name, TopicContent::Joints)].into_iter().chain(pose).collect()
+}
+
+fn ns_of_row(row: u32, rate_hz: f64) -> Option<i64> {
+    let ns = f64::from(row) / rate_hz * 1e9;
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a float in the range of i64, or the nearest end of it"
+    )]
+    ns.is_finite().then_some(ns.round() as i64)
+}
+
+/// Position in m and rotation vector in rad, as the controller of a UR gives the pose of its TCP.
+fn pose_of_ur([x, y, z, rx, ry, rz]: [f64; 6], time: EventTime) -> LoggedPose {
+    let angle = (rx * rx + ry * ry + rz * rz).sqrt();
+    // sin(angle / 2) / angle, whose limit at 0 is 1 / 2.
+    let factor = if angle > 0.0 { libm::sin(angle / 2.0) / angle } else { 0.5 };
+    LoggedPose {
+        topic: 1,
+        time,
+        is_first_of_message: true,
+        frame: UR_FRAME.to_owned(),
+        child: None,
+        child_in_frame_m: [x, y, z],
+        frame_from_child_wxyz: [libm::cos(angle / 2.0), factor * rx, factor * ry, factor * rz],
+    }
+}
+
+#[cfg(test)]
+#[path = "reader_tests.rs"]
+mod tests;

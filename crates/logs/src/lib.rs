@@ -1,0 +1,33 @@
+//! Recorded joint states and poses of robots, from MCAP and CSV, and a survey of what a log has.
+//!
+//! A log is read once, from its beginning to its end, in memory that does not grow with it: [`open_log`] gives its events,
+//! [`survey_log`] says what is in it. Nothing here compares a log with poses of a model, or puts events in order of time.
+
+mod cdr;
+pub mod codes;
+mod csv;
+mod event;
+mod mcap;
+mod open;
+mod options;
+mod survey;
+mod table_reading;
+
+pub use event::{
+    EventTime, LogEvent, LogGap, LogReader, LogTopic, LoggedDescription, LoggedJoints, LoggedPose,
+    OtherMessage, TopicContent,
+};
+pub use open::{is_log, open_log};
+pub use options::LogOptions;
+pub use survey::{
+    ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogFormat, LogSurvey,
+    LoggedJoint, MissingShares, PositionUnit, RobotInLog, RobotOfLog, SurveyWords, SurveyedLog, TopicSurvey,
+    TopicTimes, UndecodedMessages, UnknownJoint, survey_line, survey_log, survey_words,
+};
+pub use table_reading::{
+    DecimalMark, LoggedQuantity, Preset, Separator, TableColumn, TableEncoding, TableReading, TableTime,
+    TimeUnit, TimeUnitFrom,
+};
+
+#[cfg(test)]
+mod mutation_tests;

@@ -1,0 +1,197 @@
+//! Reads the files of a log in MCAP, one after the other, as one log.
+
+use std::{
+    fs::File,
+    io,
+    path::{Path, PathBuf},
+    sync::Arc,
+    vec,
+};
+
+use congruent_input::{Code, Diagnostic, SourceFile, unreadable};
+use mcap::{
+    parse_record,
+    records::{Record, op},
+};
+
+use super::{
+    chunk::Chunk,
+    framing::{Framed, Framing},
+    messages::{Messages, RecordFault},
+    summary::Summary,
+};
+use crate::{
+    codes,
+    event::{LogEvent, LogGap, LogReader, LogTopic},
+};
+
+/// A log in one or several files of MCAP.
+pub(crate) struct McapReader {
+    files: vec::IntoIter<PathBuf>,
+    file: Option<McapFile>,
+    messages: Messages,
+    /// The content of the record that is being read.
+    content: Vec<u8>,
+    chunk: Chunk,
+}
+
+/// The file that is being read.
+struct McapFile {
+    source: Arc<SourceFile>,
+    framing: Framing,
+    summary: Summary,
+}
+
+impl McapReader {
+    /// A log in these files, in this order. Each was seen to be an MCAP.
+    pub(crate) fn new(files: Vec<PathBuf>) -> Self {
+        Self {
+            files: files.into_iter(),
+            file: None,
+            messages: Messages::default(),
+            content: Vec::new(),
+            chunk: Chunk::default(),
+        }
+    }
+
+    /// Reads a record; `false` after the last of the log.
+    fn step(&mut self) -> Result<bool, Diagnostic> {
+        let Some(file) = &mut self.file else { return self.open_next() };
+        match self.chunk.next() {
+            Ok(Some(record)) => {
+                let taken = self.messages.take(record.code, record.content, &file.summary);
+                return file.report(taken, &mut self.messages).map(|()| true);
+            }
+            Ok(None) => {}
+            Err(fault) => file.damaged(&mut self.messages, None, &format!("a chunk: {fault}")),
+        }
+        let framed = file.framing.next(&mut self.content);
+        match framed.map_err(|fault| unreadable(&file.source.path, &fault))? {
+            Framed::Record(op::CHUNK) => self.open_chunk(),
+            Framed::Record(op::DATA_END | op::FOOTER) => self.file = None,
+            Framed::Record(code) if [op::SCHEMA, op::CHANNEL, op::MESSAGE].contains(&code) => {
+                let taken = self.messages.take(code, &self.content, &file.summary);
+                file.report(taken, &mut self.messages)?;
+            }
+            Framed::Record(_) => {}
+            Framed::End => {
+                gap(&mut self.messages, None, file.truncated("the log ends without an end record"));
+                self.file = None;
+            }
+            Framed::Cut(at) | Framed::NoRecord(at) if file.summary.chunk_behind(at).is_some() => {
+                file.go_on_behind(at, &mut self.messages)?;
+            }
+            Framed::Cut(at) => {
+                let cut = file.truncated(&format!("the log ends inside the record that begins at byte {at}"));
+                gap(&mut self.messages, None, cut);
+                self.file = None;
+            }
+            Framed::NoRecord(at) => {
+                let fault = format!("what begins at byte {at} is no record; nothing behind it is read");
+                file.damaged(&mut self.messages, None, &fault);
+                self.file = None;
+            }
+        }
+        Ok(true)
+    }
+
+    fn open_next(&mut self) -> Result<bool, Diagnostic> {
+        let Some(path) = self.files.next() else { return Ok(false) };
+        let opened = McapFile::open(&path).map_err(|fault| unreadable(&path, &fault))?;
+        self.messages.begin_file();
+        self.file = Some(opened);
+        Ok(true)
+    }
+
+    /// Decompresses the chunk that is the content.
+    fn open_chunk(&mut self) {
+        let Some(file) = &self.file else { return };
+        let end = file.framing.at();
+        match parse_record(op::CHUNK, &self.content) {
+            Ok(Record::Chunk { header, data }) => {
+                if let Err(fault) = self.chunk.fill(&header, &data) {
+                    let times = [header.message_start_time, header.message_end_time];
+                    let fault = format!("the chunk that ends at byte {end}: {fault}");
+                    file.damaged(&mut self.messages, Some(times), &fault);
+                }
+            }
+            Ok(_) => {}
+            Err(fault) => {
+                file.damaged(
+                    &mut self.messages,
+                    None,
+                    &format!("the chunk that ends at byte {end}: {fault}"),
+                );
+            }
+        }
+    }
+}
+
+impl LogReader for McapReader {
+    fn topics(&self) -> &[LogTopic] {
+        &self.messages.catalogue.topics
+    }
+
+    fn next_event(&mut self) -> Result<Option<LogEvent>, Diagnostic> {
+        loop {
+            if let Some(event) = self.messages.events.pop_front() {
+                return Ok(Some(event));
+            }
+            if !self.step()? {
+                return Ok(None);
+            }
+        }
+    }
+}
+
+impl McapFile {
+    fn open(path: &Path) -> io::Result<Self> {
+        let mut file = File::open(path)?;
+        let summary = Summary::read(&mut file)?;
+        let source = SourceFile { path: path.to_owned(), text: String::new(), is_foreign: false };
+        Ok(Self { source: Arc::new(source), framing: Framing::new(file)?, summary })
+    }
+
+    fn finding(&self, code: &'static Code, message: &str) -> Diagnostic {
+        Diagnostic::warning(code, message).in_file(&self.source)
+    }
+
+    fn truncated(&self, message: &str) -> Diagnostic {
+        self.finding(codes::log::TRUNCATED, message).with_help(
+            "all that is whole before it is read; `mcap recover` writes that as a file with an end",
+        )
+    }
+
+    fn damaged(&self, messages: &mut Messages, times: Option<[u64; 2]>, fault: &str) {
+        gap(messages, times, self.finding(codes::log::DAMAGED, fault));
+    }
+
+    /// A record that is damaged is a gap; one that cannot be read on principle ends the reading.
+    fn report(&self, taken: Result<(), RecordFault>, messages: &mut Messages) -> Result<(), Diagnostic> {
+        match taken {
+            Ok(()) => {}
+            Err(RecordFault::Damaged(fault)) => self.damaged(messages, None, &fault),
+            Err(RecordFault::Refused(cause)) => return Err(cause.in_file(&self.source)),
+        }
+        Ok(())
+    }
+
+    /// Goes to the next chunk that the summary knows behind a damaged place.
+    fn go_on_behind(&mut self, at: u64, messages: &mut Messages) -> Result<(), Diagnostic> {
+        let Some(next) = self.summary.chunk_behind(at).map(|chunk| chunk.chunk_start_offset) else {
+            return Ok(());
+        };
+        let fault = format!("what begins at byte {at} is no record; reading goes on at byte {next}");
+        self.damaged(messages, self.summary.times_between(at, next), &fault);
+        self.framing.go_to(next).map_err(|fault| unreadable(&self.source.path, &fault))
+    }
+}
+
+fn gap(messages: &mut Messages, times: Option<[u64; 2]>, cause: Diagnostic) {
+    let between_s = times.map(|times| times.map(|ns| messages.since_first(ns)));
+    messages.events.push_back(LogEvent::Gap(LogGap { between_s, cause }));
+}
+
+#[cfg(test)]
+#[path = "reader_tests.rs"]
+mod tests;

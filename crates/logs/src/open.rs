@@ -1,0 +1,140 @@
+//! Which files are logs, which of them are read, and how the others become one that is.
+
+use std::{
+    io::Read,
+    path::{Path, PathBuf},
+};
+
+use congruent_input::{Diagnostic, absence, codes::file, open_regular, read_text, unreadable};
+
+use crate::{
+    codes,
+    csv::TableReader,
+    event::LogReader,
+    mcap::{CONVERT_MESSAGES, McapReader, is_mcap},
+    options::LogOptions,
+};
+
+/// The file that rosbag2 writes beside those with messages.
+const METADATA: &str = "metadata.yaml";
+/// Most bytes of that file.
+const METADATA_BYTES: u64 = 16 << 20;
+/// Bytes of the beginning by which an MCAP is recognised.
+const MAGIC_BYTES: u64 = 8;
+
+/// Endings of tables.
+const TABLES: [&str; 2] = [".csv", ".tsv"];
+/// Endings of logs that are not read, with what to do.
+const NOT_READ: [(&str, &str, &str); 5] = [
+    (".mcap.zstd", "an MCAP that was compressed as a whole", "decompress it: `zstd -d FILE`"),
+    (
+        ".db3.zstd",
+        "a SQLite bag that was compressed as a whole",
+        "decompress it by `zstd -d FILE`, then convert it",
+    ),
+    (".db3", "a SQLite bag", ""),
+    (".bag", "a bag of ROS 1", "convert it: `rosbags-convert --src FILE --dst FOLDER --dst-storage mcap`"),
+    (
+        ".bag.active",
+        "a bag of ROS 1 that was not closed",
+        "`rosbag reindex FILE`, then convert it by `rosbags-convert`",
+    ),
+];
+
+/// How a bag in SQL becomes an MCAP.
+const CONVERT: &str = "write to out.yaml, and convert with `ros2 bag convert -i BAG -o out.yaml`:\n\
+     output_bags:\n- uri: converted\n  storage_id: mcap\n  all_topics: true\n  all_services: true";
+
+/// Whether a path is a log: by its ending, or a folder that rosbag2 wrote.
+pub fn is_log(path: &Path) -> bool {
+    if path.is_dir() {
+        return path.join(METADATA).is_file();
+    }
+    let is_table = TABLES.iter().any(|ending| has_ending(path, ending));
+    is_table || has_ending(path, ".mcap") || not_read(path).is_some()
+}
+
+/// Opens a log: an MCAP, a table in CSV, or a folder that rosbag2 wrote.
+///
+/// # Errors
+/// It cannot be read, or is of a format that is not; then the help says how to convert it.
+pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>, Diagnostic> {
+    if path.is_dir() {
+        return Ok(Box::new(McapReader::new(files_of_bag(path)?)));
+    }
+    if !path.exists() {
+        return Err(Diagnostic::error(file::NOT_FOUND, absence(path)));
+    }
+    if let Some(refused) = not_read(path) {
+        return Err(refused);
+    }
+    if TABLES.iter().any(|ending| has_ending(path, ending)) {
+        return Ok(Box::new(TableReader::open(path, options)?));
+    }
+    Ok(Box::new(McapReader::new(vec![checked_mcap(path)?])))
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    name.ends_with(ending)
+}
+
+/// Why a file by its name is not read; `None` if it may be.
+fn not_read(path: &Path) -> Option<Diagnostic> {
+    let (_, what, help) = NOT_READ.iter().find(|(ending, ..)| has_ending(path, ending))?;
+    let message = format!("{} is {what}, which is not read", path.display());
+    let help = if help.is_empty() { CONVERT } else { help };
+    Some(Diagnostic::error(codes::log::FORMAT, message).with_help(help))
+}
+
+/// The path of an MCAP, whose first bytes are those of one.
+fn checked_mcap(path: &Path) -> Result<PathBuf, Diagnostic> {
+    let mut head = Vec::new();
+    let file = open_regular(path, u64::MAX)?;
+    file.take(MAGIC_BYTES).read_to_end(&mut head).map_err(|fault| unreadable(path, &fault))?;
+    let name = path.display();
+    if head.is_empty() {
+        return Err(Diagnostic::error(file::EMPTY, format!("{name} is empty"))
+            .with_help("a recorder writes nothing before its first topic: record it again"));
+    }
+    if !is_mcap(&head) {
+        return Err(Diagnostic::error(codes::log::NOT_MCAP, format!("{name} does not begin as an MCAP"))
+            .with_help("`file FILE` says what it is; copy it again if it was damaged"));
+    }
+    Ok(path.to_owned())
+}
+
+/// The files of a folder that rosbag2 wrote, in the order of their numbers. What metadata.yaml says about them is not
+/// used: files are renamed, and rosbag2 itself writes it without names after a failure.
+fn files_of_bag(folder: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
+    let metadata = read_text(&folder.join(METADATA), METADATA_BYTES)?;
+    if metadata.text.lines().any(|line| line.trim().to_lowercase() == "compression_mode: message") {
+        let message = format!("{}: each message is compressed on its own", folder.display());
+        return Err(Diagnostic::error(codes::log::COMPRESSED_MESSAGES, message).with_help(CONVERT_MESSAGES));
+    }
+    let entries = std::fs::read_dir(folder).map_err(|fault| unreadable(folder, &fault))?;
+    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    files.sort_by_cached_key(|path| by_number(path));
+    let logs: Vec<&PathBuf> = files.iter().filter(|path| has_ending(path, ".mcap")).collect();
+    if !logs.is_empty() {
+        return logs.into_iter().map(|path| checked_mcap(path)).collect();
+    }
+    if let Some(refused) = files.iter().find_map(|path| not_read(path)) {
+        return Err(refused);
+    }
+    let message = format!("{} has a {METADATA}, but no file *.mcap", folder.display());
+    Err(Diagnostic::error(codes::log::FOLDER, message)
+        .with_help("give the folder with the recorded files, or the .mcap itself"))
+}
+
+/// A name without and with the number at its end: `arm_2.mcap` is before `arm_10.mcap`.
+fn by_number(path: &Path) -> (String, u64, PathBuf) {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = stem.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let number = stem[name.len()..].parse().unwrap_or_default();
+    (name.to_owned(), number, path.to_owned())
+}
+
+#[cfg(test)]
+#[path = "open_tests.rs"]
+mod tests;

@@ -1,0 +1,84 @@
+//! Paths that are logs, those that are refused, and folders with several files.
+
+use std::fs;
+
+use super::*;
+use crate::{
+    event::LogEvent,
+    mcap::write::{begun, end, joints, topics},
+};
+
+/// A folder with these files.
+fn folder(files: &[(&str, &[u8])]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    folder
+}
+
+fn refusal(path: &Path) -> Diagnostic {
+    open_log(path, &LogOptions::default()).err().unwrap()
+}
+
+/// A log with one joint state at this time.
+fn log_at(ns: u64) -> Vec<u8> {
+    [begun(), topics(), joints(ns, &["elbow"], &[0.5]), end()].concat()
+}
+
+#[test]
+fn logs_that_are_not_read_are_refused_with_what_to_do() {
+    for (name, help) in [
+        ("a.db3", "storage_id: mcap"),
+        ("a.bag", "rosbags-convert"),
+        ("a.bag.active", "rosbag reindex"),
+        ("a.MCAP.zstd", "zstd -d"),
+        ("a.db3.zstd", "zstd -d"),
+    ] {
+        let folder = folder(&[(name, b"whatever")]);
+        let path = folder.path().join(name);
+        let refused = refusal(&path);
+        assert!(is_log(&path) && refused.code == codes::log::FORMAT, "{refused}");
+        assert!(refused.help.unwrap().contains(help), "{name}");
+    }
+}
+
+#[test]
+fn what_is_no_mcap_is_refused() {
+    let folder = folder(&[("text.mcap", b"some text, longer than the first bytes"), ("empty.mcap", b"")]);
+    let refused = |name: &str| refusal(&folder.path().join(name)).code;
+    assert_eq!(refused("text.mcap"), codes::log::NOT_MCAP);
+    assert_eq!(refused("empty.mcap"), file::EMPTY);
+    assert_eq!(refused("missing.mcap"), file::NOT_FOUND);
+}
+
+#[test]
+fn files_of_a_bag_are_one_log_in_the_order_of_their_numbers() {
+    let [first, second, tenth] = [1, 2, 3].map(log_at);
+    let folder = folder(&[
+        ("bag_10.mcap", &tenth),
+        ("bag_2.mcap", &second),
+        ("bag_0.mcap", &first),
+        ("metadata.yaml", b"rosbag2_bagfile_information:\n  compression_mode: \"\"\n"),
+    ]);
+    assert!(is_log(folder.path()));
+    let mut reader = open_log(folder.path(), &LogOptions::default()).unwrap();
+    let mut times = Vec::new();
+    while let Some(event) = reader.next_event().unwrap() {
+        let LogEvent::Joints(joints) = event else { panic!("{event:?}") };
+        times.push((joints.topic, joints.time.log_ns));
+    }
+    // The channels of each file are its own, the topics those of the log.
+    assert_eq!((times, reader.topics().len()), (vec![(0, 1), (0, 2), (0, 3)], 2));
+}
+
+#[test]
+fn folders_without_a_file_that_is_read_are_refused() {
+    let metadata = ("metadata.yaml", b"compression_mode: FILE\n".as_slice());
+    let refused = |files: &[(&str, &[u8])]| refusal(folder(files).path()).code;
+    assert_eq!(refused(&[metadata]), codes::log::FOLDER);
+    assert_eq!(refused(&[metadata, ("a.db3", b"")]), codes::log::FORMAT);
+    let message = ("metadata.yaml", b"  compression_mode: MESSAGE\n".as_slice());
+    assert_eq!(refused(&[message, ("a.mcap", b"")]), codes::log::COMPRESSED_MESSAGES);
+    assert!(!is_log(folder(&[]).path()));
+}

@@ -1,0 +1,56 @@
+//! The name of the robot in a description that was recorded.
+
+use super::report::RobotInLog;
+use crate::event::{LogTopic, LoggedDescription};
+
+/// The description that was recorded last.
+#[derive(Debug, Default)]
+pub(super) struct DescriptionTrack {
+    last: Option<LoggedDescription>,
+    changes: u64,
+}
+
+impl DescriptionTrack {
+    pub(super) fn take(&mut self, description: LoggedDescription) {
+        self.changes += u64::from(self.last.as_ref().is_some_and(|last| last.text != description.text));
+        self.last = Some(description);
+    }
+
+    pub(super) fn report(self, topics: &[LogTopic]) -> Option<RobotInLog> {
+        let LoggedDescription { topic, text, .. } = self.last?;
+        Some(RobotInLog {
+            topic: topics[topic].name.clone(),
+            robot: robot_name(&text),
+            bytes: text.len(),
+            changes: self.changes,
+        })
+    }
+}
+
+/// The name that the root element gives. It is searched instead of parsed: a survey does not judge the description.
+fn robot_name(text: &str) -> Option<String> {
+    let roots = [("<robot", "name"), ("<mujoco", "model")];
+    roots.iter().find_map(|(root, key)| {
+        let element = &text[text.find(root)? + root.len()..];
+        let attributes = &element[..element.find('>')?];
+        let behind = &attributes[attributes.find(&format!(" {key}="))? + key.len() + 2..];
+        let quote = behind.chars().next().filter(|letter| ['"', '\''].contains(letter))?;
+        behind[1..].split_once(quote).map(|(name, _)| name.to_owned())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_root_elements() {
+        let name = |text| robot_name(text);
+        assert_eq!(name("<?xml version='1.0'?><robot name=\"ur5e\">").as_deref(), Some("ur5e"));
+        assert_eq!(name("<mujoco model='so_arm'><x/>").as_deref(), Some("so_arm"));
+        for text in ["", "<robot", "<robot>", "<robot name=>", "<robot name=\"a>", "\u{e9}<robot name=\u{e9}"]
+        {
+            assert_eq!(name(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! The joint states of one topic.
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    hash::{DefaultHasher, Hash, Hasher},
+    sync::Arc,
+};
+
+use congruent_robot::Robot;
+
+use super::{
+    clock::{MessageSum, float},
+    limits::{LimitsTrack, moving_names},
+    names::{NameMatch, match_name},
+    report::{JointsSurvey, LoggedJoint, MissingShares},
+};
+use crate::event::LoggedJoints;
+
+/// Most joints of a topic; further names are not followed. Kind: choice; a log with other names in each message is damaged.
+const MOST_JOINTS: usize = 1000;
+
+/// A joint of the topic so far.
+#[derive(Debug)]
+pub(super) struct JointTrack {
+    pub(super) name: String,
+    /// Messages that name it.
+    present: u64,
+    position_range: Option<[f64; 2]>,
+    largest_velocity: Option<f64>,
+    largest_effort: Option<f64>,
+    /// The joint of the robot that it is.
+    pub(super) of_robot: Option<NameMatch>,
+    pub(super) limits: Option<LimitsTrack>,
+}
+
+/// How many values there are, and how many of them are NaN.
+#[derive(Debug, Default)]
+struct NanCount {
+    values: u64,
+    nan: u64,
+}
+
+/// The joint states of a topic so far.
+#[derive(Debug, Default)]
+pub(super) struct JointsTrack {
+    pub(super) joints: Vec<JointTrack>,
+    by_name: BTreeMap<String, usize>,
+    names: Option<Arc<[String]>>,
+    /// Of the current names: their joints, and the sum of the names.
+    indices: Vec<Option<usize>>,
+    names_sum: u64,
+    messages: u64,
+    /// Messages by the number of different joints that they name.
+    by_number: BTreeMap<usize, u64>,
+    number: usize,
+    order_changes: u64,
+    wrong_lengths: u64,
+    without: [u64; 3],
+    nan: [NanCount; 3],
+}
+
+impl JointsTrack {
+    /// Takes a message.
+    pub(super) fn take(&mut self, message: &LoggedJoints, robot: Option<&Robot>) {
+        if !self.names.as_ref().is_some_and(|names| Arc::ptr_eq(names, &message.names)) {
+            self.order_changes += u64::from(self.names.is_some());
+            self.set_names(&message.names, robot);
+        }
+        self.messages += 1;
+        *self.by_number.entry(self.number).or_default() += 1;
+        self.indices.iter().flatten().for_each(|&joint| self.joints[joint].present += 1);
+        let arrays = [&message.position, &message.velocity, &message.effort];
+        for (without, array) in self.without.iter_mut().zip(arrays) {
+            *without += u64::from(array.is_empty());
+        }
+        if message.has_wrong_length() {
+            self.wrong_lengths += 1;
+            return;
+        }
+        for (count, array) in self.nan.iter_mut().zip(arrays) {
+            count.values += array.len() as u64;
+            count.nan += array.iter().filter(|value| value.is_nan()).count() as u64;
+        }
+        self.values(message);
+    }
+
+    fn set_names(&mut self, names: &Arc<[String]>, robot: Option<&Robot>) {
+        self.names = Some(Arc::clone(names));
+        let of_robot = robot.map(moving_names).unwrap_or_default();
+        self.indices = names.iter().map(|name| self.index(name, robot, &of_robot)).collect();
+        self.number = names.iter().collect::<BTreeSet<_>>().len();
+        let mut hasher = DefaultHasher::new();
+        names.hash(&mut hasher);
+        self.names_sum = hasher.finish();
+    }
+
+    fn index(&mut self, name: &str, robot: Option<&Robot>, of_robot: &[String]) -> Option<usize> {
+        if let Some(known) = self.by_name.get(name) {
+            return Some(*known);
+        }
+        if self.joints.len() == MOST_JOINTS {
+            return None;
+        }
+        let matched = match_name(name, of_robot);
+        let joint = robot
+            .zip(matched.as_ref())
+            .map(|(robot, matched)| robot.joint(robot.movable_joints()[matched.joint]));
+        self.joints.push(JointTrack {
+            name: name.to_owned(),
+            present: 0,
+            position_range: None,
+            largest_velocity: None,
+            largest_effort: None,
+            limits: joint.and_then(LimitsTrack::new),
+            of_robot: matched,
+        });
+        self.by_name.insert(name.to_owned(), self.joints.len() - 1);
+        Some(self.joints.len() - 1)
+    }
+
+    fn values(&mut self, message: &LoggedJoints) {
+        for (at, joint) in self.indices.iter().enumerate() {
+            let Some(joint) = joint.map(|joint| &mut self.joints[joint]) else { continue };
+            let value = |array: &[f64]| array.get(at).copied().filter(|value| !value.is_nan());
+            if let Some(position) = value(&message.position) {
+                let [least, largest] = joint.position_range.unwrap_or([position; 2]);
+                joint.position_range = Some([least.min(position), largest.max(position)]);
+                joint.limits.iter_mut().for_each(|limits| limits.take(position));
+            }
+            let largest = |known: Option<f64>, value: Option<f64>| match (known, value) {
+                (Some(known), Some(value)) => Some(known.max(value.abs())),
+                (known, value) => known.or(value.map(f64::abs)),
+            };
+            joint.largest_velocity = largest(joint.largest_velocity, value(&message.velocity));
+            joint.largest_effort = largest(joint.largest_effort, value(&message.effort));
+        }
+    }
+
+    /// The sum of the message that was taken last.
+    pub(super) fn sum(&self, message: &LoggedJoints) -> MessageSum {
+        let mut hasher = DefaultHasher::new();
+        for array in [&message.position, &message.velocity, &message.effort] {
+            array.len().hash(&mut hasher);
+            for value in array {
+                value.to_bits().hash(&mut hasher);
+            }
+        }
+        MessageSum { about: self.names_sum, values: hasher.finish() }
+    }
+
+    pub(super) fn report(&self) -> JointsSurvey {
+        let joint = |of: &JointTrack| LoggedJoint {
+            name: of.name.clone(),
+            missing_in: self.messages - of.present.min(self.messages),
+            position_range: of.position_range,
+            largest_velocity: of.largest_velocity,
+            largest_effort: of.largest_effort,
+        };
+        let all = self.joints.len();
+        let incomplete =
+            self.by_number.iter().filter(|(number, _)| **number < all).map(|(_, messages)| messages);
+        let share = |of: &NanCount| if of.values == 0 { 0.0 } else { float(of.nan) / float(of.values) };
+        let [position, velocity, effort] = &self.nan;
+        JointsSurvey {
+            joints: self.joints.iter().map(joint).collect(),
+            order_changes: self.order_changes,
+            incomplete: incomplete.sum(),
+            wrong_lengths: self.wrong_lengths,
+            without_positions: self.without[0],
+            without_velocities: self.without[1],
+            without_efforts: self.without[2],
+            missing_values: MissingShares {
+                position: share(position),
+                velocity: share(velocity),
+                effort: share(effort),
+            },
+        }
+    }
+}

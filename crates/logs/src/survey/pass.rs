@@ -1,0 +1,148 @@
+//! The one pass over a log.
+
+use std::{path::Path, sync::Arc};
+
+use congruent_input::{Diagnostic, Finding, Severity, SourceFile};
+use congruent_robot::Robot;
+
+use super::{
+    description::DescriptionTrack,
+    findings,
+    limits::moving_names,
+    report::{ClockKind, LogFormat, LogSurvey},
+    robot,
+    topic::TopicTrack,
+    utc::date,
+};
+use crate::{
+    event::{EventTime, LogEvent, LogReader, seconds},
+    open::open_log,
+    options::LogOptions,
+};
+
+/// Most parts that cannot be read of which each is reported.
+const MOST_GAPS: u64 = 20;
+
+/// A survey, with what it warns of as messages.
+#[derive(Debug, Clone)]
+pub struct SurveyedLog {
+    /// The survey.
+    pub survey: LogSurvey,
+    /// The warnings of the survey.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// What was seen so far.
+#[derive(Default)]
+struct Pass {
+    topics: Vec<TopicTrack>,
+    description: DescriptionTrack,
+    /// First and latest log time.
+    log_ns: Option<[i64; 2]>,
+    unreadable_parts: u64,
+    warnings: Vec<Diagnostic>,
+}
+
+/// Reads a log once and says what is in it; with a robot, how its joints and units fit.
+///
+/// # Errors
+/// The log cannot be read, or nothing of it is in an encoding that is read.
+pub fn survey_log(
+    path: &Path,
+    options: &LogOptions,
+    robot: Option<&Robot>,
+) -> Result<SurveyedLog, Diagnostic> {
+    let mut options = options.clone();
+    if let Some(robot) = robot.filter(|_| options.joints.is_empty()) {
+        options.joints = moving_names(robot);
+    }
+    let mut reader = open_log(path, &options)?;
+    let mut pass = Pass::default();
+    while let Some(event) = reader.next_event()? {
+        pass.take(event, reader.as_ref(), robot);
+    }
+    pass.finish(path, reader.as_ref(), robot)
+}
+
+impl Pass {
+    fn take(&mut self, event: LogEvent, reader: &dyn LogReader, robot: Option<&Robot>) {
+        match event {
+            LogEvent::Joints(joints) => self.topic(joints.topic, &joints.time).joints(&joints, robot),
+            LogEvent::Pose(pose) | LogEvent::StaticEdge(pose) => {
+                let content = reader.topics()[pose.topic].content;
+                self.topic(pose.topic, &pose.time).pose(&pose, content);
+            }
+            LogEvent::Description(description) => {
+                self.topic(description.topic, &description.time).time(
+                    &description.time,
+                    ClockKind::Log,
+                    None,
+                );
+                self.description.take(description);
+            }
+            LogEvent::Other(message) => self.topic(message.topic, &message.time).other(message),
+            LogEvent::Gap(gap) => {
+                self.unreadable_parts += 1;
+                if self.unreadable_parts <= MOST_GAPS {
+                    let between =
+                        gap.between_s.map(|[from_s, to_s]| format!(" (from {from_s:.3} s to {to_s:.3} s)"));
+                    let mut cause = gap.cause;
+                    cause.message += &between.unwrap_or_default();
+                    self.warnings.push(cause);
+                }
+            }
+        }
+    }
+
+    fn topic(&mut self, topic: usize, time: &EventTime) -> &mut TopicTrack {
+        let [first_ns, latest_ns] = self.log_ns.unwrap_or([time.log_ns; 2]);
+        self.log_ns = Some([first_ns, latest_ns.max(time.log_ns)]);
+        if self.topics.len() <= topic {
+            self.topics.resize_with(topic + 1, TopicTrack::default);
+        }
+        &mut self.topics[topic]
+    }
+
+    fn finish(
+        mut self,
+        path: &Path,
+        reader: &dyn LogReader,
+        robot: Option<&Robot>,
+    ) -> Result<SurveyedLog, Diagnostic> {
+        let source = Arc::new(SourceFile { path: path.to_owned(), text: String::new(), is_foreign: false });
+        let topics = reader.topics();
+        // Topics that are declared and have no message.
+        self.topics.resize_with(topics.len(), TopicTrack::default);
+        let [first_ns, latest_ns] = self.log_ns.unwrap_or_default();
+        let surveyed: Vec<_> =
+            self.topics.iter_mut().zip(topics).map(|(track, topic)| track.report(topic, first_ns)).collect();
+        let tracks = topics.iter().map(|topic| topic.name.as_str()).zip(&self.topics);
+        let joints = tracks.filter_map(|(name, track)| Some((name, track.joints.as_ref()?)));
+        let robot = robot.map(|robot| robot::compare(robot, joints));
+        let mut found: Vec<Diagnostic> = findings::nothing_read(&surveyed).into_iter().collect();
+        if let Some(refused) = found.pop_if(|finding| finding.severity == Severity::Error) {
+            return Err(refused.in_file(&source));
+        }
+        found.extend(findings::of_topics(&surveyed));
+        found.extend(robot.iter().flat_map(findings::of_robot));
+        self.warnings.extend(found.into_iter().map(|finding| finding.in_file(&source)));
+        let survey = LogSurvey {
+            file: path.display().to_string(),
+            format: if reader.table().is_some() { LogFormat::Table } else { LogFormat::Mcap },
+            begun: date(first_ns),
+            duration_s: seconds(latest_ns.saturating_sub(first_ns)),
+            messages: surveyed.iter().map(|topic| topic.messages).sum(),
+            topics: surveyed,
+            table: reader.table().cloned(),
+            description: self.description.report(topics),
+            robot,
+            unreadable_parts: self.unreadable_parts,
+            warnings: self.warnings.iter().map(Finding::from).collect(),
+        };
+        Ok(SurveyedLog { survey, warnings: self.warnings })
+    }
+}
+
+#[cfg(test)]
+#[path = "pass_tests.rs"]
+mod tests;

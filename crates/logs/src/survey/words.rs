@@ -1,0 +1,268 @@
+//! A survey in words: sentences, and the rows of a table of topics. How they are laid out is up to who prints them.
+
+use congruent_input::{
+    display::{counted, first_of, number, quantity},
+    serde_name,
+};
+
+use super::report::{
+    FramePair, JointSource, JointsSurvey, LogFormat, LogSurvey, PositionUnit, RobotInLog, RobotOfLog,
+    TopicSurvey, TopicTimes,
+};
+use crate::{
+    event::TopicContent,
+    table_reading::{TableReading, TableTime},
+};
+
+/// A survey in words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SurveyWords {
+    /// What it is, and how a table was read.
+    pub head: Vec<String>,
+    /// Name, number of messages, rate and type of each topic; empty for a table.
+    pub topics: Vec<[String; 4]>,
+    /// What is in the topics, what is irregular, and how it fits a robot.
+    pub about: Vec<String>,
+}
+
+/// The survey in words, with at most so many names in a sentence.
+pub fn survey_words(survey: &LogSurvey, most_listed: usize) -> SurveyWords {
+    let mut head = vec![format!("log {}: {}", survey.file, headline(survey))];
+    head.extend(survey.table.iter().map(|table| reading(table, most_listed)));
+    let mut about = Vec::new();
+    for topic in &survey.topics {
+        let of_topic =
+            [joints(topic, most_listed), irregular(topic, entry(survey)), frames(topic, most_listed)];
+        about.extend(of_topic.into_iter().flatten().map(|words| format!("{}: {words}", topic.name)));
+    }
+    about.extend(survey.description.as_ref().map(described));
+    about.extend(survey.robot.as_ref().map(of_robot));
+    if survey.unreadable_parts > 0 {
+        let parts = entries(survey.unreadable_parts, "part");
+        about.push(format!("{parts} cannot be read, see the warnings"));
+    }
+    let topics = match survey.format {
+        LogFormat::Mcap => survey.topics.iter().map(topic_row).collect(),
+        LogFormat::Table => Vec::new(),
+    };
+    SurveyWords { head, topics, about }
+}
+
+fn topic_row(topic: &TopicSurvey) -> [String; 4] {
+    let kind = match topic.encoding.as_str() {
+        "cdr" => topic.message_type.clone(),
+        other => format!("{} ({other})", topic.message_type),
+    };
+    [topic.name.clone(), topic.messages.to_string(), rate(topic).unwrap_or_default(), kind]
+}
+
+/// The survey in one line, for `--quiet`.
+pub fn survey_line(survey: &LogSurvey) -> String {
+    let mut parts = vec![headline(survey)];
+    let with_joints = survey.topics.iter().filter(|topic| topic.content == TopicContent::Joints);
+    parts.extend(with_joints.filter_map(|topic| {
+        let joints = topic.joints.as_ref()?.joints.len();
+        Some(format!(
+            "{} {}{}",
+            topic.name,
+            counted(joints, "joint"),
+            rate(topic).map_or(String::new(), |rate| format!(" at {rate}"))
+        ))
+    }));
+    parts.extend(survey.robot.as_ref().map(of_robot));
+    if !survey.warnings.is_empty() {
+        parts.push(counted(survey.warnings.len(), "warning"));
+    }
+    parts.join("; ")
+}
+
+/// What an entry of a log is called.
+fn entry(survey: &LogSurvey) -> &'static str {
+    match survey.format {
+        LogFormat::Mcap => "message",
+        LogFormat::Table => "row",
+    }
+}
+
+fn headline(survey: &LogSurvey) -> String {
+    let begun = survey.begun.as_ref().map_or(String::new(), |date| format!(" from {date}"));
+    let duration = format!("{}{begun}", duration(survey.duration_s));
+    match survey.format {
+        LogFormat::Mcap => {
+            let topics = counted(survey.topics.len(), "topic");
+            format!("MCAP, {duration}, {}, {topics}", entries(survey.messages, entry(survey)))
+        }
+        // Rows of a UR are joints and a pose; they are counted once.
+        LogFormat::Table => {
+            let rows = survey.topics.first().map_or(0, |topic| topic.messages);
+            format!("table, {duration}, {}", entries(rows, entry(survey)))
+        }
+    }
+}
+
+/// How a table was read.
+fn reading(table: &TableReading, most: usize) -> String {
+    let time = match &table.time {
+        TableTime::Column { name, unit, unit_from } => {
+            format!("time in \"{name}\", in {} by its {}", serde_name(unit), serde_name(unit_from))
+        }
+        TableTime::RateHz(rate_hz) => format!("{} rows a second as given", number(*rate_hz)),
+    };
+    let header = if table.has_header { "columns have names" } else { "columns have no names" };
+    let preset = table.preset.map_or(String::new(), |preset| format!("; columns of {}", serde_name(&preset)));
+    let unused = match &table.unused[..] {
+        [] => String::new(),
+        unused => format!("; not read: {}", first_of(unused, most)),
+    };
+    let (separator, decimal) = (serde_name(&table.separator), serde_name(&table.decimal));
+    format!("read as: separator {separator}, decimal {decimal}, {header}; {time}{preset}{unused}")
+}
+
+/// The mean rate; with gaps that of the nominal period, since the mean is of no part of the log.
+fn rate(topic: &TopicSurvey) -> Option<String> {
+    let times = topic.times.as_ref()?;
+    let nominal_hz = times.period_s.filter(|_| times.gaps.is_some()).map(|period_s| 1.0 / period_s);
+    Some(format!("{} Hz", number(nominal_hz.or(times.rate_hz)?)))
+}
+
+/// A duration in s, or in ms below one.
+fn duration(seconds: f64) -> String {
+    if seconds < 1.0 { format!("{} ms", number(1e3 * seconds)) } else { quantity(seconds, "s") }
+}
+
+fn joints(topic: &TopicSurvey, most: usize) -> Option<String> {
+    let of = topic.joints.as_ref()?;
+    let names: Vec<&str> = of.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let kinds = [
+        ("positions", of.without_positions),
+        ("velocities", of.without_velocities),
+        ("efforts", of.without_efforts),
+    ];
+    let kinds: Vec<&str> =
+        kinds.iter().filter(|(_, without)| *without < topic.messages).map(|(kind, _)| *kind).collect();
+    let kinds = if kinds.is_empty() { "no values".to_owned() } else { kinds.join(", ") };
+    Some(format!("{} with {kinds}: {}", counted(names.len(), "joint"), first_of(&names, most)))
+}
+
+/// What is irregular in a topic; `None` if nothing is.
+fn irregular(topic: &TopicSurvey, entry: &str) -> Option<String> {
+    let mut found: Vec<String> = topic.times.iter().flat_map(|times| irregular_times(times, entry)).collect();
+    found.extend(topic.joints.iter().flat_map(|joints| irregular_joints(joints, topic.messages, entry)));
+    if let Some(undecoded) = &topic.undecoded {
+        found.push(format!("{} cannot be decoded", entries(undecoded.count, entry)));
+    }
+    (!found.is_empty()).then(|| found.join("; "))
+}
+
+fn irregular_times(times: &TopicTimes, entry: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    if let Some(gaps) = &times.gaps {
+        let longest = format!("{} from {} on", duration(gaps.longest_s), duration(gaps.longest_from_s));
+        found.push(match gaps.count {
+            1 => format!("1 gap of {longest}"),
+            count => format!("{count} gaps of {} together, the longest {longest}", duration(gaps.total_s)),
+        });
+    }
+    if times.steps_back > 0 {
+        let largest = duration(times.largest_step_back_s);
+        found.push(format!(
+            "{} earlier than the one before, by {largest} at most",
+            entries(times.steps_back, entry)
+        ));
+    }
+    if times.repeated_messages > 0 {
+        found.push(format!("{} repeated", entries(times.repeated_messages, entry)));
+    }
+    if times.repeated_stamps > 0 {
+        found.push(format!(
+            "{} with the stamp of another and other values",
+            entries(times.repeated_stamps, entry)
+        ));
+    }
+    found
+}
+
+fn irregular_joints(joints: &JointsSurvey, all: u64, entry: &str) -> Vec<String> {
+    let counts = [
+        (joints.incomplete, "without a joint that others have"),
+        (joints.wrong_lengths, "with arrays of another length than the names"),
+        (joints.without_positions, "without positions"),
+        (joints.without_velocities, "without velocities"),
+        (joints.order_changes, "with other names or another order than the one before"),
+    ];
+    // What no message has is no irregularity; `joints` says what they have.
+    let is_irregular = |&&(count, _): &&(u64, &str)| count > 0 && count < all;
+    let mut found: Vec<String> = counts
+        .iter()
+        .filter(is_irregular)
+        .map(|(count, what)| format!("{} {what}", entries(*count, entry)))
+        .collect();
+    let shares = [
+        ("positions", joints.missing_values.position),
+        ("velocities", joints.missing_values.velocity),
+        ("efforts", joints.missing_values.effort),
+    ];
+    let missing = shares.iter().filter(|(_, share)| *share > 0.0);
+    found.extend(missing.map(|(what, share)| format!("{} of the {what} are NaN", percent(*share))));
+    found
+}
+
+/// A number of messages or rows.
+fn entries(count: u64, entry: &str) -> String {
+    format!("{count} {entry}{}", if count == 1 { "" } else { "s" })
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", number(100.0 * share))
+}
+
+fn frames(topic: &TopicSurvey, most: usize) -> Option<String> {
+    let pair = |of: &FramePair| match &of.child {
+        Some(child) => format!("{child} in {}", of.frame),
+        None => format!("in {}", of.frame),
+    };
+    let frames: Vec<String> = topic.frames.iter().map(pair).collect();
+    (!frames.is_empty()).then(|| format!("poses {}", first_of(&frames, most)))
+}
+
+fn described(description: &RobotInLog) -> String {
+    let RobotInLog { topic, robot, bytes, changes } = description;
+    let name = robot
+        .as_ref()
+        .map_or("a text without the name of a robot".to_owned(), |name| format!("robot {name}"));
+    let changes = if *changes > 0 { format!(", which changes {changes} times") } else { String::new() };
+    format!("description on {topic}: {name}, {bytes} bytes{changes}")
+}
+
+/// How the joints and units fit a robot.
+fn of_robot(found: &RobotOfLog) -> String {
+    let from = |source: &JointSource| {
+        let other = [&source.prefix, &source.suffix, &source.prefix_of_robot];
+        let words = ["prefix", "suffix", "less the prefix"];
+        let other = words.iter().zip(other).filter(|(_, text)| !text.is_empty());
+        let other: Vec<String> = other.map(|(what, text)| format!("{what} {text}")).collect();
+        let other = if other.is_empty() { String::new() } else { format!(" ({})", other.join(", ")) };
+        format!("{} on {}{other}", source.joints.len(), source.topic)
+    };
+    let sources: Vec<String> = found.sources.iter().map(from).collect();
+    let sources = if sources.is_empty() {
+        "no joint in the log".to_owned()
+    } else {
+        format!("joints: {}", sources.join(", "))
+    };
+    let missing = match found.missing.len() {
+        0 => String::new(),
+        count => format!(", {count} not in the log"),
+    };
+    let unit = match found.position_unit {
+        PositionUnit::Radian => "positions lie within the limits as rad",
+        PositionUnit::Degree => "positions are degrees",
+        PositionUnit::Neither => "positions lie beyond the limits, as rad and as degrees",
+        PositionUnit::Unknown => "no position to compare with limits",
+    };
+    format!("robot {}: {sources}{missing}; {unit}", found.robot)
+}
+
+#[cfg(test)]
+#[path = "words_tests.rs"]
+mod tests;
