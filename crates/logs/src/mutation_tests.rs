@@ -109,7 +109,7 @@ fn small_log(compression: &str, sums: Sums) -> Vec<u8> {
         places.push((bytes.len(), [0, 9]));
         bytes.extend(chunk);
     }
-    let end = end_with_summary(bytes.len(), &places);
+    let end = end_with_summary(bytes.len(), &places, &topics());
     bytes.extend(end);
     bytes
 }

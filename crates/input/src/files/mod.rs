@@ -14,7 +14,9 @@ mod text_lines;
 
 pub use access::{FileAccess, InputFile};
 pub use kind::{TextKind, TomlKind};
-pub use open::{absence, folder_of, head_of, is_standard_input, not_found, open_regular, read_text, unreadable};
+pub use open::{
+    absence, folder_of, head_of, is_standard_input, not_found, open_regular, read_text, unreadable,
+};
 pub use packages::{Packages, Resolved};
 pub use portable::{portable_path, portable_text};
 pub use relative_path::{direct_path, relative_path};

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     dialect::Dialect,
-    quantity::{NamedColumn, is_name_of_joint, named},
+    quantity::{NamedColumn, is_name_of_joint, named, word_count},
 };
 use crate::table_reading::{LoggedQuantity, Preset, TableColumn};
 
@@ -54,6 +54,8 @@ struct TakenColumn {
     name: String,
     quantity: LoggedQuantity,
     stated_unit: Option<String>,
+    /// Number of words that say neither the joint nor what of it.
+    other_words: usize,
 }
 
 /// Finds the columns of joints; none is empty. `robot` has the names of the joints of a robot, in its order.
@@ -76,25 +78,42 @@ pub(super) fn find_columns(dialect: &Dialect, time: Option<usize>, robot: &[Stri
         let keys: BTreeSet<String> = with_position.map(|of| of.key.clone()).collect();
         taken.retain(|of| keys.contains(&of.key));
     }
-    let mut once = BTreeSet::new();
-    taken.retain(|of| once.insert((of.quantity, of.key.clone())));
+    retain_plainest(&mut taken);
     collected(names, time, taken)
+}
+
+/// Of several columns of one value of a joint the one with the fewest other words: `joint_1_position`, not
+/// `gripper_joint_1_position`.
+fn retain_plainest(taken: &mut Vec<TakenColumn>) {
+    let mut plainest = BTreeMap::new();
+    for of in taken.iter() {
+        let this = (of.other_words, of.column);
+        let known = plainest.entry((of.quantity, of.key.clone())).or_insert(this);
+        *known = this.min(*known);
+    }
+    let columns: BTreeSet<usize> = plainest.into_values().map(|(_, column)| column).collect();
+    taken.retain(|of| columns.contains(&of.column));
 }
 
 /// A column whose name has the name of a joint of the robot.
 fn by_robot(column: usize, name: &str, robot: &[String]) -> Option<TakenColumn> {
-    let is_part = |joint: &&String| {
-        name.match_indices(joint.as_str()).any(|(at, found)| {
-            let is_end = |letter: Option<char>| letter.is_none_or(|letter| !letter.is_alphanumeric());
-            is_end(name[..at].chars().next_back()) && is_end(name[at + found.len()..].chars().next())
-        })
+    let is_end = |letter: Option<char>| letter.is_none_or(|letter| !letter.is_alphanumeric());
+    let around = |joint: &str| {
+        let mut places = name.match_indices(joint).map(|(at, _)| (&name[..at], &name[at + joint.len()..]));
+        places.find(|(before, behind)| is_end(before.chars().next_back()) && is_end(behind.chars().next()))
     };
-    let joint =
-        robot.iter().filter(|joint| !joint.is_empty()).filter(is_part).max_by_key(|joint| joint.len())?;
+    let joints = robot.iter().filter(|joint| !joint.is_empty());
+    let found = joints.filter_map(|joint| Some((joint, around(joint)?)));
+    let (joint, (before, behind)) = found.max_by_key(|(joint, _)| joint.len())?;
     // The words of the joint's name say nothing about the column.
-    let NamedColumn { quantity, stated_unit, .. } = named(&name.replace(joint.as_str(), "joint"))?;
-    let quantity = quantity.unwrap_or(LoggedQuantity::Position);
-    Some(TakenColumn { column, key: joint.clone(), name: joint.clone(), quantity, stated_unit })
+    let NamedColumn { quantity, rest, stated_unit } = named(&format!("{before}joint{behind}"))?;
+    // Without a word that says what it is, a column is a position if no other word is behind the joint: the words before it
+    // may be those of an arm or a topic.
+    let is_bare = || named(&format!("joint{behind}")).is_some_and(|named| named.rest == "joint");
+    let quantity = quantity.or_else(|| is_bare().then_some(LoggedQuantity::Position))?;
+    let other_words = word_count(&rest).saturating_sub(1);
+    let (key, name) = (joint.clone(), joint.clone());
+    Some(TakenColumn { column, key, name, quantity, stated_unit, other_words })
 }
 
 /// A column whose name has a word such as `position`, or is that of a joint.
@@ -103,7 +122,7 @@ fn by_words(column: usize, name: &str) -> Option<TakenColumn> {
     let quantity = quantity.or_else(|| is_name_of_joint(&rest).then_some(LoggedQuantity::Position))?;
     let has_letter = rest.contains(char::is_alphabetic);
     let joint = if has_letter { rest.clone() } else { name.to_owned() };
-    Some(TakenColumn { column, key: rest, name: joint, quantity, stated_unit })
+    Some(TakenColumn { column, key: rest, name: joint, quantity, stated_unit, other_words: 0 })
 }
 
 /// Takes off what all names have before a slash: the topic.
@@ -124,7 +143,7 @@ fn collected(names: &[String], time: Option<usize>, taken: Vec<TakenColumn>) -> 
     let mut found = ReadColumns::default();
     let mut joints: BTreeMap<String, usize> = BTreeMap::new();
     let used: BTreeSet<usize> = taken.iter().map(|of| of.column).chain(time).collect();
-    for TakenColumn { column, key, name, quantity, stated_unit } in taken {
+    for TakenColumn { column, key, name, quantity, stated_unit, .. } in taken {
         let joint = *joints.entry(key).or_insert_with(|| {
             found.joints.push(name);
             found.joints.len() - 1
@@ -149,7 +168,7 @@ fn of_ur(names: &[String], time: Option<usize>) -> Option<ReadColumns> {
     for (prefix, quantity) in UR_COLUMNS {
         for (number, joint) in UR_JOINTS.iter().enumerate() {
             let (key, name) = ((*joint).to_owned(), (*joint).to_owned());
-            let of = |column| TakenColumn { column, key, name, quantity, stated_unit: None };
+            let of = |column| TakenColumn { column, key, name, quantity, stated_unit: None, other_words: 0 };
             taken.extend(column(prefix, number).map(of));
         }
     }
@@ -221,6 +240,29 @@ mod tests {
         let header = "t,left_elbow_pos,left_elbow_vel,Goal x,elbow_target,left_wrist_z";
         let found = check(header, &["elbow", "wrist_z"], &["elbow", "wrist_z"], &["Goal x", "elbow_target"]);
         assert_eq!(found.cells.iter().filter(|cell| cell.quantity == LoggedQuantity::Velocity).count(), 1);
+    }
+
+    #[test]
+    fn of_several_columns_of_a_joint_the_plainest() {
+        let positions = |header: &str, robot: &[&str], joints: &[&str], unused: &[&str]| {
+            let found = check(header, robot, joints, unused);
+            found.cells.iter().map(|cell| cell.column).collect::<Vec<_>>()
+        };
+        let header = "t,elbow_joint_acceleration,elbow_joint_position";
+        let elbow = ["elbow_joint"];
+        assert_eq!(positions(header, &elbow, &elbow, &["elbow_joint_acceleration"]), [2]);
+        for other in ["elbow_joint_cmd", "elbow_joint_temp", "elbow_joint_brake"] {
+            assert_eq!(positions(&format!("t,{other},elbow_joint_rad"), &elbow, &elbow, &[other]), [2]);
+        }
+        let header = "t,gripper_joint_1_position,joint_1_position,joint_2_position";
+        let joints = ["joint_1", "joint_2"];
+        assert_eq!(positions(header, &joints, &joints, &["gripper_joint_1_position"]), [2, 3]);
+        assert_eq!(positions("t,left_elbow_joint", &elbow, &elbow, &[]), [1]);
+    }
+
+    #[test]
+    fn a_table_of_poses_has_no_joints() {
+        check("t,x,y,z,q_x,q_y,q_z,q_w", &[], &[], &["x", "y", "z", "q_x", "q_y", "q_z", "q_w"]);
     }
 
     #[test]

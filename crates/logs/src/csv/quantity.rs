@@ -11,32 +11,25 @@ const WORDS: [(LoggedQuantity, &[&str]); 3] = [
         &["effort", "efforts", "eff", "torque", "torques", "tau", "current", "currents"],
     ),
 ];
-/// Words of what is no measured value of a joint.
-const OTHERS: [&str; 24] = [
-    "target",
-    "goal",
-    "desired",
-    "command",
-    "commanded",
-    "setpoint",
-    "reference",
-    "ref",
-    "error",
-    "tcp",
-    "tool",
-    "pose",
-    "temperature",
-    "temperatures",
-    "voltage",
-    "std",
-    "x",
-    "y",
-    "z",
-    "rx",
-    "ry",
-    "rz",
-    "force",
-    "stamp",
+/// Words of what is no measured value of a joint, with or without a number behind them.
+const OTHERS: [&[&str]; 6] = [
+    &["target", "targets", "goal", "goals", "desired", "des", "d", "setpoint", "setpoints", "sp"],
+    &[
+        "command",
+        "commands",
+        "commanded",
+        "cmd",
+        "reference",
+        "references",
+        "ref",
+        "planned",
+        "ideal",
+        "error",
+    ],
+    &["acceleration", "accelerations", "acc", "accel", "qdd", "ddq", "jerk"],
+    &["temperature", "temperatures", "temp", "voltage", "std", "mode", "status", "id", "stamp"],
+    &["tcp", "tool", "pose", "force"],
+    &["x", "y", "z", "w", "rx", "ry", "rz", "qx", "qy", "qz", "qw"],
 ];
 /// Words for the state that a robot measures.
 const MEASURED: [&str; 3] = ["actual", "measured", "real"];
@@ -69,11 +62,16 @@ pub(super) struct NamedColumn {
 /// Reads a name; `None` if it is of something else than a joint.
 pub(super) fn named(name: &str) -> Option<NamedColumn> {
     let mut parts = parts(name);
-    if parts.iter().any(|part| OTHERS.contains(&part.word.as_str())) {
+    if parts.iter().any(|part| OTHERS.iter().any(|words| words.contains(&letters(&part.word)))) {
         return None;
     }
     let stated_unit = take_unit(&mut parts);
     parts.retain(|part| !MEASURED.contains(&part.word.as_str()));
+    // Beside another such word "current" says when, as in `current_position`.
+    let is_current = |part: &NamePart| letters(&part.word) == "current";
+    if parts.iter().any(|part| !is_current(part) && quantity(&part.word).is_some()) {
+        parts.retain(|part| !is_current(part));
+    }
     let found = parts.iter().enumerate().find_map(|(at, part)| Some((at, quantity(&part.word)?)));
     if let Some((at, _)) = found {
         // Of `q1` the number names the joint.
@@ -108,22 +106,30 @@ fn take_unit(parts: &mut Vec<NamePart>) -> Option<String> {
 
 /// Whether a name that says nothing else is that of a joint.
 pub(super) fn is_name_of_joint(name: &str) -> bool {
-    let is_numbered = |word: &str| {
-        let letters = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
-        letters.len() < word.len() && ["j", "a", "axis", "joint"].contains(&letters)
-    };
+    let is_numbered =
+        |word: &str| !digits(word).is_empty() && ["j", "a", "axis", "joint"].contains(&letters(word));
     parts(name).iter().any(|part| is_numbered(&part.word) || part.word.contains("joint"))
+}
+
+/// Number of the words of a name.
+pub(super) fn word_count(name: &str) -> usize {
+    parts(name).len()
 }
 
 /// What a word says, with or without a number behind it.
 fn quantity(word: &str) -> Option<LoggedQuantity> {
-    let word = &word[..word.len() - digits(word).len()];
+    let word = letters(word);
     WORDS.iter().find(|(_, words)| words.contains(&word)).map(|(quantity, _)| *quantity)
+}
+
+/// A word without the number at its end.
+fn letters(word: &str) -> &str {
+    word.trim_end_matches(|letter: char| letter.is_ascii_digit())
 }
 
 /// The number at the end of a word.
 fn digits(word: &str) -> &str {
-    &word[word.trim_end_matches(|letter: char| letter.is_ascii_digit()).len()..]
+    &word[letters(word).len()..]
 }
 
 /// A word of a name, with what separates it from the word before.
@@ -194,6 +200,11 @@ mod tests {
         check("target_q_0", None);
         check("measurement_std_rx", None);
         check("position", None);
+        for name in ["joint_1_acceleration", "joint_1_mode", "q_cmd_1", "q_d_0", "q_w", "qdd1", "j1_temp"] {
+            check(name, None);
+        }
+        check("current_position_1", Some((Some(LoggedQuantity::Position), "1")));
+        check("motor_current_1", Some((Some(LoggedQuantity::Effort), "motor_1")));
         check("", None);
     }
 

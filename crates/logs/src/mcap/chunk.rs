@@ -1,13 +1,11 @@
 //! Chunks: many records, compressed as one.
 
-use std::io::{Cursor, Read};
+use std::io::Read;
 
 use mcap::records::ChunkHeader;
 use ruzstd::decoding::{FrameDecoder, StreamingDecoder};
 
-use super::framing::{HEAD_BYTES, MOST_RECORD_BYTES, RecordHead};
-
-type Lz4Decoder = lz4_flex::frame::FrameDecoder<Cursor<Vec<u8>>>;
+use super::framing::{FramedRecord, MOST_RECORD_BYTES, split_record};
 
 /// The records of the chunk that is being read.
 #[derive(Default)]
@@ -16,14 +14,6 @@ pub(super) struct Chunk {
     at: usize,
     /// Kept, since its tables and its window are large.
     zstd: FrameDecoder,
-    /// Kept for its buffers, unless it failed inside a frame.
-    lz4: Option<Lz4Decoder>,
-}
-
-/// A record of a chunk: its code, and where its content is.
-pub(super) struct ChunkRecord<'a> {
-    pub(super) code: u8,
-    pub(super) content: &'a [u8],
 }
 
 impl Chunk {
@@ -86,38 +76,27 @@ impl Chunk {
         Ok(())
     }
 
+    /// All frames of lz4. Each chunk has a decoder of its own: one that met a cut frame would go on inside of it.
     fn lz4(&mut self, compressed: &[u8], most: u64) -> Result<(), String> {
-        let mut decoder = self.lz4.take().unwrap_or_else(|| Lz4Decoder::new(Cursor::default()));
-        let cursor = decoder.get_mut();
-        cursor.set_position(0);
-        cursor.get_mut().clear();
-        cursor.get_mut().extend_from_slice(compressed);
-        let read = (&mut decoder).take(most).read_to_end(&mut self.records);
-        read.map_err(|fault| fault.to_string())?;
-        // At the limit it is inside a frame.
-        self.lz4 = Some(decoder).filter(|_| (self.records.len() as u64) < most);
-        Ok(())
+        let decoder = lz4_flex::frame::FrameDecoder::new(compressed);
+        decoder.take(most).read_to_end(&mut self.records).map(|_| ()).map_err(|fault| fault.to_string())
     }
 
     /// The next record; `None` after the last.
     ///
     /// # Errors
     /// The rest is no record; nothing more is read of this chunk.
-    pub(super) fn next(&mut self) -> Result<Option<ChunkRecord<'_>>, String> {
+    pub(super) fn next(&mut self) -> Result<Option<FramedRecord<'_>>, String> {
         let rest = &self.records[self.at..];
         if rest.is_empty() {
             return Ok(None);
         }
-        let head = rest.first_chunk::<HEAD_BYTES>().map(|head| RecordHead::read(*head));
-        let length = head.map_or(usize::MAX, |head| index(head.length));
-        let content = HEAD_BYTES..HEAD_BYTES.saturating_add(length);
-        let end = content.end;
-        if let (Some(RecordHead { code, .. }), Some(content)) = (head, rest.get(content)) {
-            self.at += end;
-            return Ok(Some(ChunkRecord { code, content }));
-        }
-        self.at = self.records.len();
-        Err("a record in it is longer than the chunk".to_owned())
+        let Some((record, rest)) = split_record(rest) else {
+            self.at = self.records.len();
+            return Err("a record in it is longer than the chunk".to_owned());
+        };
+        self.at = self.records.len() - rest.len();
+        Ok(Some(record))
     }
 }
 

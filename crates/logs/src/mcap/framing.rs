@@ -33,6 +33,21 @@ impl RecordHead {
     }
 }
 
+/// A record in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct FramedRecord<'a> {
+    pub(super) code: u8,
+    pub(super) content: &'a [u8],
+}
+
+/// The first record of these bytes, and what follows it; `None` if they end inside of it.
+pub(super) fn split_record(bytes: &[u8]) -> Option<(FramedRecord<'_>, &[u8])> {
+    let (head, rest) = bytes.split_first_chunk::<HEAD_BYTES>()?;
+    let RecordHead { code, length } = RecordHead::read(*head);
+    let (content, rest) = rest.split_at_checked(usize::try_from(length).ok()?)?;
+    Some((FramedRecord { code, content }, rest))
+}
+
 /// What comes next in a file.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Framed {

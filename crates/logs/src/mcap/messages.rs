@@ -6,7 +6,10 @@ use std::{
 };
 
 use congruent_input::Diagnostic;
-use mcap::{parse_record, records::MessageHeader, records::Record};
+use mcap::{
+    parse_record,
+    records::{MessageHeader, Record, op},
+};
 
 use super::{catalogue::TopicCatalogue, summary::Summary};
 use crate::{
@@ -46,8 +49,12 @@ impl Messages {
         EventTime::new(log_ns, None, self.first_ns.unwrap_or(log_ns)).log_s
     }
 
-    /// Takes a record of a file or of a chunk.
+    /// Takes a record of a file or of a chunk; those of other kinds are passed over.
     pub(super) fn take(&mut self, code: u8, content: &[u8], summary: &Summary) -> Result<(), RecordFault> {
+        // Other records are not parsed: the parser believes the lengths that an attachment claims.
+        if ![op::SCHEMA, op::CHANNEL, op::MESSAGE].contains(&code) {
+            return Ok(());
+        }
         let record = parse_record(code, content);
         match record
             .map_err(|fault| RecordFault::Damaged(format!("a record in it cannot be read: {fault}")))?

@@ -69,11 +69,10 @@ impl McapReader {
         match framed.map_err(|fault| unreadable(&file.source.path, &fault))? {
             Framed::Record(op::CHUNK) => self.open_chunk(),
             Framed::Record(op::DATA_END | op::FOOTER) => self.file = None,
-            Framed::Record(code) if [op::SCHEMA, op::CHANNEL, op::MESSAGE].contains(&code) => {
+            Framed::Record(code) => {
                 let taken = self.messages.take(code, &self.content, &file.summary);
                 file.report(taken, &mut self.messages)?;
             }
-            Framed::Record(_) => {}
             Framed::End => {
                 gap(&mut self.messages, None, file.truncated("the log ends without an end record"));
                 self.file = None;

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::*;
 use crate::{
     event::{LoggedJoints, TopicContent},
-    mcap::write::{begun, chunk, end, end_with_summary, joint_data, joints, message, topic, topics},
+    mcap::write::{begun, chunk, end, end_with_summary, joint_data, joints, message, record, topic, topics},
 };
 
 const NAMES: [&str; 2] = ["elbow", "wrist"];
@@ -89,7 +89,7 @@ fn with_a_summary_reading_goes_on_behind_a_damaged_length() {
     let ns = |second: u64| [second * 1_000_000_000, second * 1_000_000_000 + 500_000_000];
     let chunks = [(begun().len(), ns(10)), (first.len(), ns(11)), (third, ns(12))];
     let before = [first, second, two("lz4", 12, &[])].concat();
-    let bytes = [before.clone(), end_with_summary(before.len(), &chunks)].concat();
+    let bytes = [before.clone(), end_with_summary(before.len(), &chunks, &topics())].concat();
     // No chunk declares the topics: the summary does.
     let (events, _) = read(&bytes).unwrap();
     assert_eq!(joints_of(&events).iter().map(|at| at.time.log_s).collect::<Vec<_>>(), [0.0, 0.5, 2.0, 2.5]);
@@ -119,6 +119,32 @@ fn messages_that_cannot_be_decoded_are_counted_and_compressed_ones_refused() {
     let compressed = message(1, 5, &[0x28, 0xb5, 0x2f, 0xfd, 0, 0]);
     let refused = read(&[begun(), topics(), compressed, end()].concat()).unwrap_err();
     assert_eq!(refused.code, codes::log::COMPRESSED_MESSAGES);
+}
+
+#[test]
+fn records_that_nobody_needs_are_not_parsed() {
+    // The parser takes the sum at the end of an attachment off its content, which is too short for one.
+    let attachment = record(op::ATTACHMENT, &[0; 32]);
+    let records = [topics(), attachment.clone(), joints(10, &NAMES, &[0.5, 1.5])].concat();
+    let before = [begun(), chunk("", [10, 10], &records)].concat();
+    let end = end_with_summary(before.len(), &[(begun().len(), [10, 10])], &attachment);
+    let (events, _) = read(&[before, end].concat()).unwrap();
+    assert!(matches!(&events[..], [LogEvent::Joints(_)]), "{events:?}");
+}
+
+#[test]
+fn a_cut_frame_of_lz4_costs_its_own_chunk_alone() {
+    let mut cut = chunk("lz4", [11, 11], &joints(11, &NAMES, &[0.5, 1.5]));
+    // Inside the frame: the last bytes are the end mark.
+    cut.truncate(cut.len() - 6);
+    let length = (cut.len() - 9) as u64;
+    cut[1..9].copy_from_slice(&length.to_le_bytes());
+    let compressed = 9 + 8 + 8 + 8 + 4 + 4 + 3;
+    let size = (cut.len() - compressed - 8) as u64;
+    cut[compressed..compressed + 8].copy_from_slice(&size.to_le_bytes());
+    let whole = [two("lz4", 10, &topics()), cut, two("lz4", 12, &[])].concat();
+    let (events, _) = read(&[begun(), whole, end()].concat()).unwrap();
+    assert!(joints_of(&events).len() >= 4 && gaps(&events).len() <= 1, "{events:?}");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use mcap::{
     records::{Channel, ChunkIndex, Record, SchemaHeader, op},
 };
 
-use super::framing::{HEAD_BYTES, RecordHead};
+use super::framing::{FramedRecord, HEAD_BYTES, RecordHead, split_record};
 
 /// Bytes of the footer's content.
 const FOOTER_BYTES: usize = 20;
@@ -46,21 +46,26 @@ impl Summary {
         file.seek(SeekFrom::Start(start))?;
         let mut bytes = Vec::new();
         file.take(footer - start).read_to_end(&mut bytes)?;
-        Ok(Self::parse(&bytes))
+        let mut found = Self::parse(&bytes);
+        // A damaged index would lead reading to a place behind the data.
+        found.chunks.retain(|chunk| chunk.chunk_start_offset < start);
+        Ok(found)
     }
 
     fn parse(mut rest: &[u8]) -> Self {
         let mut found = Self::default();
-        while let Some(head) = rest.first_chunk::<HEAD_BYTES>().map(|head| RecordHead::read(*head)) {
-            let length = usize::try_from(head.length).unwrap_or(usize::MAX);
-            let Some(content) = rest.get(HEAD_BYTES..HEAD_BYTES.saturating_add(length)) else { break };
-            match parse_record(head.code, content) {
+        while let Some((FramedRecord { code, content }, behind)) = split_record(rest) {
+            rest = behind;
+            // Other records are not parsed: the parser believes the lengths that an attachment claims.
+            if ![op::SCHEMA, op::CHANNEL, op::CHUNK_INDEX].contains(&code) {
+                continue;
+            }
+            match parse_record(code, content) {
                 Ok(Record::Schema { header, .. }) => found.schemas.push(header),
                 Ok(Record::Channel(channel)) => found.channels.push(channel),
                 Ok(Record::ChunkIndex(chunk)) => found.chunks.push(chunk),
                 _ => {}
             }
-            rest = &rest[HEAD_BYTES + length..];
         }
         found.chunks.sort_by_key(|chunk| chunk.chunk_start_offset);
         found

@@ -19,11 +19,11 @@ pub(crate) fn end() -> Vec<u8> {
     bytes
 }
 
-/// The end of a file whose chunks begin at these places; the summary has the topics as well.
-pub(crate) fn end_with_summary(before: usize, chunks: &[(usize, [u64; 2])]) -> Vec<u8> {
+/// The end of a file whose chunks begin at these places; the summary has these records as well.
+pub(crate) fn end_with_summary(before: usize, chunks: &[(usize, [u64; 2])], records: &[u8]) -> Vec<u8> {
     let mut bytes = record(op::DATA_END, &[0; 4]);
     let start = before + bytes.len();
-    bytes.extend(topics());
+    bytes.extend(records);
     for (at, times) in chunks {
         let mut index = Vec::new();
         for value in [times[0], times[1], *at as u64, 1] {
