@@ -34,6 +34,8 @@ congruent_input::codes! {
             "No column of the table is of a joint. Columns are found by the names of the joints of --robot, or by words such as position, q, velocity, effort. The help lists the columns.\n    wrong: a,b,c\n    right: time_s,elbow_position,wrist_position";
         ROWS = "CGR-LOG-016", "log::rows",
             "Rows of the table have another number of cells than the first one, or cells that are not numbers. Such rows are not used; such cells count as missing. The message has their number and the first line.";
+        LENGTHS = "CGR-LOG-018", "log::lengths",
+            "Arrays of joint states are neither empty nor as long as the list of names, so which value is of which joint is unknown. The values of such messages are not used. Correct the driver.\n    wrong: name: [a, b, c], position: [0.1, 0.2]\n    right: name: [a, b, c], position: [0.1, 0.2, 0.3], velocity: []";
         STAMPS = "CGR-LOG-017", "log::stamps",
             "The stamps of a topic go back by more than a second: a clock was set, a simulation or a replay was started again. What is before and after cannot be ordered by stamps. Cut the log there, or use the time of the recorder.";
     }

@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     report::{ClockKind, TopicTimes},
-    spacing::Spacing,
+    spacing::{Spaced, Spacing},
 };
 use crate::event::{EventTime, seconds};
 
@@ -38,6 +38,7 @@ struct Seen {
 pub(super) struct ClockTrack {
     clock: ClockKind,
     count: u64,
+    without_stamp: u64,
     earliest_ns: i64,
     latest_ns: i64,
     before_ns: i64,
@@ -55,13 +56,14 @@ pub(super) struct ClockTrack {
 }
 
 impl ClockTrack {
-    /// A topic with this first message: by stamps if it has one, unless log times are wanted.
+    /// A topic with this first message: by stamps from the first of them on, unless log times are wanted.
     pub(super) fn begin(first: &EventTime, wanted: ClockKind) -> Self {
         let stamp_ns = first.stamp_ns.filter(|_| wanted == ClockKind::Stamp);
         let ns = stamp_ns.unwrap_or(first.log_ns);
         Self {
             clock: if stamp_ns.is_some() { ClockKind::Stamp } else { ClockKind::Log },
             count: 0,
+            without_stamp: 0,
             earliest_ns: ns,
             latest_ns: ns,
             before_ns: ns,
@@ -79,16 +81,25 @@ impl ClockTrack {
     }
 
     /// Takes a message; without a sum it is not compared with others.
-    pub(super) fn take(&mut self, time: &EventTime, sum: Option<MessageSum>) {
-        let ns = match self.clock {
-            // A message without a stamp among others that have one.
-            ClockKind::Stamp => time.stamp_ns.unwrap_or(time.log_ns),
-            ClockKind::Log => time.log_ns,
-        };
+    pub(super) fn take(&mut self, time: &EventTime, wanted: ClockKind, sum: Option<MessageSum>) {
+        let stamp_ns = time.stamp_ns.filter(|_| wanted == ClockKind::Stamp);
+        if self.clock == ClockKind::Log && stamp_ns.is_some() {
+            // The first stamp of the topic: log times cannot be put in one order with stamps.
+            let count = self.count;
+            *self = Self { count, without_stamp: count, ..Self::begin(time, wanted) };
+        }
         self.count += 1;
-        if let (ClockKind::Stamp, Some(stamp_ns)) = (self.clock, time.stamp_ns) {
+        let ns = match (self.clock, stamp_ns) {
+            (ClockKind::Log, _) => time.log_ns,
+            (ClockKind::Stamp, Some(stamp_ns)) => stamp_ns,
+            (ClockKind::Stamp, None) => {
+                self.without_stamp += 1;
+                return;
+            }
+        };
+        if self.clock == ClockKind::Stamp {
             self.delays += 1;
-            self.delay_sum_s += seconds(time.log_ns.saturating_sub(stamp_ns));
+            self.delay_sum_s += seconds(time.log_ns.saturating_sub(ns));
         }
         let back = self.before_ns.saturating_sub(ns);
         if back > 0 {
@@ -145,17 +156,13 @@ impl ClockTrack {
     pub(super) fn finish(mut self, first_ns: i64) -> TopicTimes {
         self.drain_to(0);
         let since = |ns: i64| seconds(ns.saturating_sub(first_ns));
-        let span_s = seconds(self.latest_ns.saturating_sub(self.earliest_ns));
-        let (period_s, gaps) = self.spacing.finish(first_ns);
-        // A replay that began again goes through the same times once more.
-        let has_rate = span_s > 0.0 && self.restarts == 0;
+        let Spaced { rate_hz, period_s, gaps } = self.spacing.finish(first_ns);
         TopicTimes {
             clock: self.clock,
             from_s: since(self.earliest_ns),
             to_s: since(self.latest_ns),
-            rate_hz: has_rate
-                .then(|| float(self.count - 1) / span_s)
-                .or(period_s.map(|period_s| 1.0 / period_s)),
+            without_stamp: self.without_stamp,
+            rate_hz,
             period_s,
             gaps,
             repeated_messages: self.repeated_messages,
@@ -178,11 +185,29 @@ mod tests {
     use super::*;
 
     fn times(stamps: &[i64]) -> TopicTimes {
-        let time = |ns: i64| EventTime::new(ns + 2_000_000, Some(ns), 0);
-        let mut track = ClockTrack::begin(&time(stamps[0]), ClockKind::Stamp);
+        times_of(&stamps.iter().map(|ns| EventTime::new(ns + 2_000_000, Some(*ns), 0)).collect::<Vec<_>>())
+    }
+
+    fn times_of(times: &[EventTime]) -> TopicTimes {
+        let mut track = ClockTrack::begin(&times[0], ClockKind::Stamp);
         let sum = |at: usize| MessageSum { about: 0, values: at as u64 / 2 };
-        stamps.iter().enumerate().for_each(|(at, ns)| track.take(&time(*ns), Some(sum(at))));
+        times.iter().enumerate().for_each(|(at, time)| track.take(time, ClockKind::Stamp, Some(sum(at))));
         track.finish(0)
+    }
+
+    #[test]
+    fn messages_without_a_stamp_are_counted_and_not_ordered_with_stamps() {
+        // Stamps since the start of a simulation, log times since 1970.
+        let time = |at: i64, stamp: Option<i64>| EventTime::new(1_760_000_000_000_000_000 + at, stamp, 0);
+        for bare in [0, 50] {
+            let stamp = |at: i64| (at != bare).then_some(at * 10_000_000);
+            let found = times_of(&(0..100).map(|at| time(at, stamp(at))).collect::<Vec<_>>());
+            assert_eq!((found.clock, found.without_stamp), (ClockKind::Stamp, 1));
+            assert_eq!((found.gaps, found.restarts, found.steps_back), (None, 0, 0));
+            assert_eq!((found.from_s, found.to_s), (if bare == 0 { 0.01 } else { 0.0 }, 0.99));
+        }
+        let found = times_of(&(0..100).map(|at| time(at, None)).collect::<Vec<_>>());
+        assert_eq!((found.clock, found.without_stamp), (ClockKind::Log, 0));
     }
 
     #[test]

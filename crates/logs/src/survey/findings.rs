@@ -1,8 +1,14 @@
 //! What a survey warns of.
 
-use congruent_input::{Diagnostic, Severity, display::first_of};
+use congruent_input::{
+    Diagnostic, Severity,
+    display::{counted, first_of},
+};
 
-use super::report::{JointSource, PositionUnit, RobotOfLog, TopicSurvey};
+use super::{
+    report::{JointSource, PositionUnit, RobotOfLog, TopicSurvey},
+    words::entries,
+};
 use crate::{cdr::MessageKind, codes, event::TopicContent};
 
 /// Most names in a message.
@@ -49,13 +55,24 @@ pub(super) fn of_topics(topics: &[TopicSurvey]) -> Vec<Diagnostic> {
         }
         if let Some(undecoded) = &topic.undecoded {
             let (name, count, reason) = (&topic.name, undecoded.count, &undecoded.reason);
-            let message = format!("{count} messages of {name} cannot be decoded: {reason}");
+            let messages = entries(count, "message");
+            let message = format!("{messages} of {name} cannot be decoded: {reason}");
             found.push(Diagnostic::warning(codes::log::MESSAGE, message));
+        }
+        if let Some(joints) = topic.joints.as_ref().filter(|joints| joints.wrong_lengths > 0) {
+            let messages = entries(joints.wrong_lengths, "message");
+            let message =
+                format!("{messages} of {} with arrays of another length than the names", topic.name);
+            found.push(Diagnostic::warning(codes::log::LENGTHS, message).with_help(
+                "which value is of which joint is unknown: the values of such a message are not used",
+            ));
         }
         if let Some(times) = topic.times.as_ref().filter(|times| times.restarts > 0) {
             let message = format!(
-                "the times of {} go back by more than a second, {} times, by {:.3} s at most",
-                topic.name, times.restarts, times.largest_step_back_s
+                "the times of {} go back by more than a second, {}, by {:.3} s at most",
+                topic.name,
+                entries(times.restarts, "time"),
+                times.largest_step_back_s
             );
             found.push(Diagnostic::warning(codes::log::STAMPS, message));
         }
@@ -90,7 +107,7 @@ fn names(found: &RobotOfLog) -> Option<Diagnostic> {
             "joints of the log that are none of {robot}: {}",
             first_of(&guesses, MOST_LISTED)
         )),
-        (_, true) => finding.with_help("they are compared without it"),
+        (_, true) => finding.with_help("the robot's joints are found in spite of that"),
         (true, false) => finding,
     })
 }
@@ -107,7 +124,8 @@ fn other_names(source: &JointSource) -> Option<String> {
     let words: Vec<String> = written.map(|(text, what, more)| format!("{what} \"{text}\" {more}")).collect();
     let count = joints.len();
     (!words.is_empty()).then(|| {
-        format!("names of {count} joints on {topic} have {} than those of the robot", words.join(" and "))
+        let (joints, have) = (counted(count, "joint"), if count == 1 { "has" } else { "have" });
+        format!("the names of {joints} on {topic} {have} {} than those of the robot", words.join(" and "))
     })
 }
 

@@ -33,11 +33,11 @@ pub(super) struct JointTrack {
     pub(super) limits: Option<LimitsTrack>,
 }
 
-/// How many values there are, and how many of them are NaN.
+/// How many values there are, and how many of them are no numbers: NaN, or infinite.
 #[derive(Debug, Default)]
-struct NanCount {
+struct MissingCount {
     values: u64,
-    nan: u64,
+    missing: u64,
 }
 
 /// The joint states of a topic so far.
@@ -56,7 +56,7 @@ pub(super) struct JointsTrack {
     order_changes: u64,
     wrong_lengths: u64,
     without: [u64; 3],
-    nan: [NanCount; 3],
+    missing: [MissingCount; 3],
 }
 
 impl JointsTrack {
@@ -77,9 +77,9 @@ impl JointsTrack {
             self.wrong_lengths += 1;
             return;
         }
-        for (count, array) in self.nan.iter_mut().zip(arrays) {
+        for (count, array) in self.missing.iter_mut().zip(arrays) {
             count.values += array.len() as u64;
-            count.nan += array.iter().filter(|value| value.is_nan()).count() as u64;
+            count.missing += array.iter().filter(|value| !value.is_finite()).count() as u64;
         }
         self.values(message);
     }
@@ -121,7 +121,7 @@ impl JointsTrack {
     fn values(&mut self, message: &LoggedJoints) {
         for (at, joint) in self.indices.iter().enumerate() {
             let Some(joint) = joint.map(|joint| &mut self.joints[joint]) else { continue };
-            let value = |array: &[f64]| array.get(at).copied().filter(|value| !value.is_nan());
+            let value = |array: &[f64]| array.get(at).copied().filter(|value| value.is_finite());
             if let Some(position) = value(&message.position) {
                 let [least, largest] = joint.position_range.unwrap_or([position; 2]);
                 joint.position_range = Some([least.min(position), largest.max(position)]);
@@ -159,10 +159,12 @@ impl JointsTrack {
         let all = self.joints.len();
         let incomplete =
             self.by_number.iter().filter(|(number, _)| **number < all).map(|(_, messages)| messages);
-        let share = |of: &NanCount| if of.values == 0 { 0.0 } else { float(of.nan) / float(of.values) };
-        let [position, velocity, effort] = &self.nan;
+        let share =
+            |of: &MissingCount| if of.values == 0 { 0.0 } else { float(of.missing) / float(of.values) };
+        let [position, velocity, effort] = &self.missing;
         JointsSurvey {
             joints: self.joints.iter().map(joint).collect(),
+            messages: self.messages,
             order_changes: self.order_changes,
             incomplete: incomplete.sum(),
             wrong_lengths: self.wrong_lengths,

@@ -9,7 +9,7 @@ use super::{
     description::DescriptionTrack,
     findings,
     limits::moving_names,
-    report::{ClockKind, LogFormat, LogSurvey},
+    report::{ClockKind, LogFormat, LogSurvey, TopicSurvey},
     robot,
     topic::TopicTrack,
     utc::date,
@@ -37,10 +37,17 @@ pub struct SurveyedLog {
 struct Pass {
     topics: Vec<TopicTrack>,
     description: DescriptionTrack,
-    /// First and latest log time.
-    log_ns: Option<[i64; 2]>,
+    log: Option<LogTimes>,
     unreadable_parts: u64,
     warnings: Vec<Diagnostic>,
+}
+
+/// Log times of messages: of the first in the file, and the extreme ones. Recorders write messages of other topics later.
+#[derive(Default, Clone, Copy)]
+struct LogTimes {
+    first_ns: i64,
+    earliest_ns: i64,
+    latest_ns: i64,
 }
 
 /// Reads a log once and says what is in it; with a robot, how its joints and units fit.
@@ -95,8 +102,9 @@ impl Pass {
     }
 
     fn topic(&mut self, topic: usize, time: &EventTime) -> &mut TopicTrack {
-        let [first_ns, latest_ns] = self.log_ns.unwrap_or([time.log_ns; 2]);
-        self.log_ns = Some([first_ns, latest_ns.max(time.log_ns)]);
+        let ns = time.log_ns;
+        let log = self.log.get_or_insert(LogTimes { first_ns: ns, earliest_ns: ns, latest_ns: ns });
+        (log.earliest_ns, log.latest_ns) = (log.earliest_ns.min(ns), log.latest_ns.max(ns));
         if self.topics.len() <= topic {
             self.topics.resize_with(topic + 1, TopicTrack::default);
         }
@@ -113,7 +121,7 @@ impl Pass {
         let topics = reader.topics();
         // Topics that are declared and have no message.
         self.topics.resize_with(topics.len(), TopicTrack::default);
-        let [first_ns, latest_ns] = self.log_ns.unwrap_or_default();
+        let LogTimes { first_ns, earliest_ns, latest_ns } = self.log.unwrap_or_default();
         let surveyed: Vec<_> =
             self.topics.iter_mut().zip(topics).map(|(track, topic)| track.report(topic, first_ns)).collect();
         let tracks = topics.iter().map(|topic| topic.name.as_str()).zip(&self.topics);
@@ -126,12 +134,13 @@ impl Pass {
         found.extend(findings::of_topics(&surveyed));
         found.extend(robot.iter().flat_map(findings::of_robot));
         self.warnings.extend(found.into_iter().map(|finding| finding.in_file(&source)));
+        let format = if reader.table().is_some() { LogFormat::Table } else { LogFormat::Mcap };
         let survey = LogSurvey {
             file: path.display().to_string(),
-            format: if reader.table().is_some() { LogFormat::Table } else { LogFormat::Mcap },
-            begun: date(first_ns),
-            duration_s: seconds(latest_ns.saturating_sub(first_ns)),
-            messages: surveyed.iter().map(|topic| topic.messages).sum(),
+            format,
+            begun: date(earliest_ns),
+            duration_s: seconds(latest_ns.saturating_sub(earliest_ns)),
+            messages: messages(&surveyed, format),
             topics: surveyed,
             table: reader.table().cloned(),
             description: self.description.report(topics),
@@ -140,6 +149,15 @@ impl Pass {
             warnings: self.warnings.iter().map(Finding::from).collect(),
         };
         Ok(SurveyedLog { survey, warnings: self.warnings })
+    }
+}
+
+fn messages(topics: &[TopicSurvey], format: LogFormat) -> u64 {
+    let counts = topics.iter().map(|topic| topic.messages);
+    match format {
+        LogFormat::Mcap => counts.sum(),
+        // Rows of a UR are joints and a pose.
+        LogFormat::Table => counts.max().unwrap_or_default(),
     }
 }
 

@@ -6,6 +6,7 @@ use super::*;
 use crate::{
     codes,
     mcap::write::{begun, end, joint_data, joints, message, topic, topics},
+    survey_words,
 };
 
 fn survey(bytes: &[u8]) -> Result<SurveyedLog, Diagnostic> {
@@ -36,6 +37,40 @@ fn a_log_without_joints_and_poses_says_so() {
     assert_eq!(codes_of(&found), ["log::nothing_read"]);
     assert!(found.warnings[0].help.as_ref().unwrap().contains("sensor_msgs/msg/Image"));
     assert_eq!(codes_of(&survey(&[begun(), end()].concat()).unwrap()), ["log::nothing_read"]);
+}
+
+#[test]
+fn a_driver_that_never_sends_all_positions_is_reported() {
+    let states: Vec<u8> = (1..9).flat_map(|at| joints(at, &["a", "b"], &[0.5])).collect();
+    let found = survey(&[begun(), topics(), states, end()].concat()).unwrap();
+    assert_eq!(codes_of(&found), ["log::lengths"]);
+    let about = survey_words(&found.survey, 9).about;
+    assert_eq!(about[1], "/joint_states: 8 messages with arrays of another length than the names");
+}
+
+#[test]
+fn messages_that_cannot_be_decoded_say_nothing_about_those_that_can() {
+    let short = &joint_data(5, &["a"], &[1.0])[..20];
+    let messages = [joints(10, &["a"], &[0.0]), message(1, 11, short)];
+    let found = survey(&[begun(), topics(), messages.concat(), end()].concat()).unwrap();
+    let about = survey_words(&found.survey, 9).about;
+    let expected = ["1 joint with positions: a", "1 message that cannot be decoded"];
+    assert_eq!(about, expected.map(|words| format!("/joint_states: {words}")));
+}
+
+#[test]
+fn infinite_positions_are_missing() {
+    let states = [joints(1, &["a"], &[f64::INFINITY]), joints(2, &["a"], &[0.5])].concat();
+    let found = survey(&[begun(), topics(), states, end()].concat()).unwrap();
+    let of = found.survey.topics[0].joints.as_ref().unwrap();
+    assert_eq!((of.joints[0].position_range, of.missing_values.position), (Some([0.5, 0.5]), 0.5));
+}
+
+#[test]
+fn messages_that_are_written_late_do_not_shorten_the_log() {
+    let states = [joints(5_000_000_000, &["a"], &[0.0]), joints(3_000_000_000, &["a"], &[0.0])].concat();
+    let found = survey(&[begun(), topics(), states, end()].concat()).unwrap();
+    assert_eq!(found.survey.duration_s, 2.0);
 }
 
 #[test]

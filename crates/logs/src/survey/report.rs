@@ -18,7 +18,7 @@ pub struct LogSurvey {
     pub begun: Option<String>,
     /// From its first to its last message, by the clock of the recorder, s.
     pub duration_s: f64,
-    /// Number of messages or rows, those that are not decoded among them.
+    /// Number of messages, those that are not decoded among them; of a table the number of rows.
     pub messages: u64,
     /// Its topics, in the order in which they were met.
     pub topics: Vec<TopicSurvey>,
@@ -103,13 +103,15 @@ pub struct TopicTimes {
     pub from_s: f64,
     /// The latest, s.
     pub to_s: f64,
-    /// Mean rate, Hz; `None` if all messages have one time.
+    /// Messages without a stamp among others that have one, those that cannot be decoded among them. Nothing below is of them.
+    pub without_stamp: u64,
+    /// Mean rate outside of gaps, repeated times counted once, Hz; `None` if all messages have one time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rate_hz: Option<f64>,
-    /// The nominal period: the median of the first steps, s.
+    /// The median of the first steps, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period_s: Option<f64>,
-    /// Steps of more than five nominal periods.
+    /// Steps of more than five times the one that nine of ten of the first do not exceed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gaps: Option<GapsSurvey>,
     /// Messages that repeat one of the 64 before: the same stamp, the same values.
@@ -145,6 +147,8 @@ pub struct GapsSurvey {
 pub struct JointsSurvey {
     /// Each joint that a message names, in the order in which they were met; at most 1000.
     pub joints: Vec<LoggedJoint>,
+    /// Messages that were decoded.
+    pub messages: u64,
     /// Messages whose list of names is not that of the message before.
     pub order_changes: u64,
     /// Messages that lack a joint which others have.
@@ -157,11 +161,11 @@ pub struct JointsSurvey {
     pub without_velocities: u64,
     /// Messages without efforts.
     pub without_efforts: u64,
-    /// Shares of NaN among the values, 0 to 1.
+    /// Shares of NaN and of infinite values, 0 to 1.
     pub missing_values: MissingShares,
 }
 
-/// Shares of values that are NaN, 0 to 1; 0 if there is no value.
+/// Shares of values that are NaN or infinite, 0 to 1; 0 if there is no value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct MissingShares {
     /// Of positions.

@@ -46,7 +46,7 @@ impl TopicTrack {
 
     /// Takes the time of a message; those of a topic without stamps are log times.
     pub(super) fn time(&mut self, time: &EventTime, wanted: ClockKind, sum: Option<MessageSum>) {
-        self.clock.get_or_insert_with(|| ClockTrack::begin(time, wanted)).take(time, sum);
+        self.clock.get_or_insert_with(|| ClockTrack::begin(time, wanted)).take(time, wanted, sum);
     }
 
     pub(super) fn report(&mut self, topic: &LogTopic, first_ns: i64) -> TopicSurvey {

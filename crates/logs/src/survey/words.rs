@@ -92,11 +92,7 @@ fn headline(survey: &LogSurvey) -> String {
             let topics = counted(survey.topics.len(), "topic");
             format!("MCAP, {duration}, {}, {topics}", entries(survey.messages, entry(survey)))
         }
-        // Rows of a UR are joints and a pose; they are counted once.
-        LogFormat::Table => {
-            let rows = survey.topics.first().map_or(0, |topic| topic.messages);
-            format!("table, {duration}, {}", entries(rows, entry(survey)))
-        }
+        LogFormat::Table => format!("table, {duration}, {}", entries(survey.messages, entry(survey))),
     }
 }
 
@@ -118,16 +114,14 @@ fn reading(table: &TableReading, most: usize) -> String {
     format!("read as: separator {separator}, decimal {decimal}, {header}; {time}{preset}{unused}")
 }
 
-/// The mean rate; with gaps that of the nominal period, since the mean is of no part of the log.
+/// The mean rate outside of gaps.
 fn rate(topic: &TopicSurvey) -> Option<String> {
-    let times = topic.times.as_ref()?;
-    let nominal_hz = times.period_s.filter(|_| times.gaps.is_some()).map(|period_s| 1.0 / period_s);
-    Some(format!("{} Hz", number(nominal_hz.or(times.rate_hz)?)))
+    Some(format!("{} Hz", number(topic.times.as_ref()?.rate_hz?)))
 }
 
 /// A duration in s, or in ms below one.
 fn duration(seconds: f64) -> String {
-    if seconds < 1.0 { format!("{} ms", number(1e3 * seconds)) } else { quantity(seconds, "s") }
+    if seconds.abs() < 1.0 { format!("{} ms", number(1e3 * seconds)) } else { quantity(seconds, "s") }
 }
 
 fn joints(topic: &TopicSurvey, most: usize) -> Option<String> {
@@ -139,30 +133,44 @@ fn joints(topic: &TopicSurvey, most: usize) -> Option<String> {
         ("efforts", of.without_efforts),
     ];
     let kinds: Vec<&str> =
-        kinds.iter().filter(|(_, without)| *without < topic.messages).map(|(kind, _)| *kind).collect();
+        kinds.iter().filter(|(_, without)| *without < of.messages).map(|(kind, _)| *kind).collect();
     let kinds = if kinds.is_empty() { "no values".to_owned() } else { kinds.join(", ") };
     Some(format!("{} with {kinds}: {}", counted(names.len(), "joint"), first_of(&names, most)))
 }
 
 /// What is irregular in a topic; `None` if nothing is.
 fn irregular(topic: &TopicSurvey, entry: &str) -> Option<String> {
-    let mut found: Vec<String> = topic.times.iter().flat_map(|times| irregular_times(times, entry)).collect();
-    found.extend(topic.joints.iter().flat_map(|joints| irregular_joints(joints, topic.messages, entry)));
-    if let Some(undecoded) = &topic.undecoded {
-        found.push(format!("{} cannot be decoded", entries(undecoded.count, entry)));
+    let mut found = Vec::new();
+    if let Some(times) = &topic.times {
+        found.extend(gaps(times).filter(|_| has_period(topic.content)));
+        found.extend(irregular_times(times, entry));
     }
+    found.extend(topic.joints.iter().flat_map(|joints| irregular_joints(joints, entry)));
+    let undecoded = topic.undecoded.as_ref().map_or(0, |undecoded| undecoded.count);
+    let without_stamp = topic.times.as_ref().map_or(0, |times| times.without_stamp.saturating_sub(undecoded));
+    let counts = [(without_stamp, "without a stamp"), (undecoded, "that cannot be decoded")];
+    found.extend(counted_rows(&counts, entry));
     (!found.is_empty()).then(|| found.join("; "))
+}
+
+/// Whether messages are expected at a period: not those of events, and each broadcaster of TF has its own.
+fn has_period(content: TopicContent) -> bool {
+    matches!(content, TopicContent::Joints | TopicContent::Pose)
+}
+
+fn gaps(times: &TopicTimes) -> Option<String> {
+    let gaps = times.gaps.as_ref()?;
+    // From the first message of the topic on: stamps may count from another start than log times.
+    let from_s = gaps.longest_from_s - times.from_s;
+    let longest = format!("{} from {} on", duration(gaps.longest_s), duration(from_s));
+    Some(match gaps.count {
+        1 => format!("1 gap of {longest}"),
+        count => format!("{count} gaps of {} together, the longest {longest}", duration(gaps.total_s)),
+    })
 }
 
 fn irregular_times(times: &TopicTimes, entry: &str) -> Vec<String> {
     let mut found = Vec::new();
-    if let Some(gaps) = &times.gaps {
-        let longest = format!("{} from {} on", duration(gaps.longest_s), duration(gaps.longest_from_s));
-        found.push(match gaps.count {
-            1 => format!("1 gap of {longest}"),
-            count => format!("{count} gaps of {} together, the longest {longest}", duration(gaps.total_s)),
-        });
-    }
     if times.steps_back > 0 {
         let largest = duration(times.largest_step_back_s);
         found.push(format!(
@@ -182,34 +190,36 @@ fn irregular_times(times: &TopicTimes, entry: &str) -> Vec<String> {
     found
 }
 
-fn irregular_joints(joints: &JointsSurvey, all: u64, entry: &str) -> Vec<String> {
+fn irregular_joints(joints: &JointsSurvey, entry: &str) -> Vec<String> {
+    // What no message has is no irregularity; `joints` says what they have.
+    let of_some = |count: u64| if count < joints.messages { count } else { 0 };
     let counts = [
         (joints.incomplete, "without a joint that others have"),
         (joints.wrong_lengths, "with arrays of another length than the names"),
-        (joints.without_positions, "without positions"),
-        (joints.without_velocities, "without velocities"),
+        (of_some(joints.without_positions), "without positions"),
+        (of_some(joints.without_velocities), "without velocities"),
         (joints.order_changes, "with other names or another order than the one before"),
     ];
-    // What no message has is no irregularity; `joints` says what they have.
-    let is_irregular = |&&(count, _): &&(u64, &str)| count > 0 && count < all;
-    let mut found: Vec<String> = counts
-        .iter()
-        .filter(is_irregular)
-        .map(|(count, what)| format!("{} {what}", entries(*count, entry)))
-        .collect();
+    let mut found = counted_rows(&counts, entry);
     let shares = [
         ("positions", joints.missing_values.position),
         ("velocities", joints.missing_values.velocity),
         ("efforts", joints.missing_values.effort),
     ];
     let missing = shares.iter().filter(|(_, share)| *share > 0.0);
-    found.extend(missing.map(|(what, share)| format!("{} of the {what} are NaN", percent(*share))));
+    found.extend(missing.map(|(what, share)| format!("{} of the {what} are missing", percent(*share))));
     found
 }
 
+/// Numbers of messages or rows, each with what is irregular about them.
+fn counted_rows(counts: &[(u64, &str)], entry: &str) -> Vec<String> {
+    let some = counts.iter().filter(|(count, _)| *count > 0);
+    some.map(|(count, what)| format!("{} {what}", entries(*count, entry))).collect()
+}
+
 /// A number of messages or rows.
-fn entries(count: u64, entry: &str) -> String {
-    format!("{count} {entry}{}", if count == 1 { "" } else { "s" })
+pub(super) fn entries(count: u64, entry: &str) -> String {
+    counted(usize::try_from(count).unwrap_or(usize::MAX), entry)
 }
 
 fn percent(share: f64) -> String {
@@ -230,7 +240,10 @@ fn described(description: &RobotInLog) -> String {
     let name = robot
         .as_ref()
         .map_or("a text without the name of a robot".to_owned(), |name| format!("robot {name}"));
-    let changes = if *changes > 0 { format!(", which changes {changes} times") } else { String::new() };
+    let changes = match changes {
+        0 => String::new(),
+        changes => format!(", with {}", entries(*changes, "change")),
+    };
     format!("description on {topic}: {name}, {bytes} bytes{changes}")
 }
 

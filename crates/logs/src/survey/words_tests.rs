@@ -22,7 +22,9 @@ fn a_table_with_a_gap_a_repeated_row_and_a_missing_value() {
     let name = file.path().file_name().unwrap().to_string_lossy();
     let expected = [
         format!("{name}: 2 joints with positions: elbow, wrist"),
-        format!("{name}: 1 gap of 208 ms from 152 ms on; 1 row repeated; 48.8 % of the positions are NaN"),
+        format!(
+            "{name}: 1 gap of 208 ms from 152 ms on; 1 row repeated; 48.8 % of the positions are missing"
+        ),
     ];
     assert_eq!(words.about, expected);
     assert!(
