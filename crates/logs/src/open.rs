@@ -11,8 +11,8 @@ use crate::{
     codes,
     csv::TableReader,
     event::LogReader,
-    mcap::{CONVERT_MESSAGES, McapReader, is_mcap},
-    options::LogOptions,
+    mcap::{McapReader, is_mcap},
+    options::{CONVERT, LogOptions},
 };
 
 /// The file that rosbag2 writes beside those with messages.
@@ -40,10 +40,6 @@ const NOT_READ: [(&str, &str, &str); 5] = [
         "`rosbag reindex FILE`, then convert it by `rosbags-convert`",
     ),
 ];
-
-/// How a bag in SQL becomes an MCAP.
-const CONVERT: &str = "write to out.yaml, and convert with `ros2 bag convert -i BAG -o out.yaml`:\n\
-     output_bags:\n- uri: converted\n  storage_id: mcap\n  all_topics: true\n  all_services: true";
 
 /// Whether a path is a log: by its ending, or a folder that rosbag2 wrote.
 pub fn is_log(path: &Path) -> bool {
@@ -110,7 +106,7 @@ fn files_of_bag(folder: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
     let metadata = read_text(&folder.join(METADATA), METADATA_BYTES)?;
     if metadata.text.lines().any(|line| line.trim().to_lowercase() == "compression_mode: message") {
         let message = format!("{}: each message is compressed on its own", folder.display());
-        return Err(Diagnostic::error(codes::log::COMPRESSED_MESSAGES, message).with_help(CONVERT_MESSAGES));
+        return Err(Diagnostic::error(codes::log::COMPRESSED_MESSAGES, message).with_help(CONVERT));
     }
     let entries = std::fs::read_dir(folder).map_err(|fault| unreadable(folder, &fault))?;
     let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();

@@ -87,7 +87,7 @@ fn joint_state<'a>(reader: &mut CdrReader<'a>) -> Result<Decoded<'a>, CdrFault> 
     /// Bytes of the shortest text: its length alone.
     const LEAST_TEXT: usize = 4;
     let StampAndFrame { stamp_ns, .. } = header(reader)?;
-    let count = reader.count(LEAST_TEXT)?;
+    let count = reader.entry_count(LEAST_TEXT)?;
     let names = (0..count).map(|_| reader.text()).collect::<Result<_, _>>()?;
     let mut list = || reader.f64_list();
     Ok(Decoded::Joints { stamp_ns, names, position: list()?, velocity: list()?, effort: list()? })
@@ -107,7 +107,7 @@ fn transform<'a>(reader: &mut CdrReader<'a>) -> Result<DecodedPose<'a>, CdrFault
 fn transforms<'a>(reader: &mut CdrReader<'a>) -> Result<Vec<DecodedPose<'a>>, CdrFault> {
     /// Bytes of the shortest edge: stamp, two lengths, seven numbers.
     const LEAST_EDGE: usize = 8 + 2 * 4 + 7 * 8;
-    let count = reader.count(LEAST_EDGE)?;
+    let count = reader.entry_count(LEAST_EDGE)?;
     (0..count).map(|_| transform(reader)).collect()
 }
 

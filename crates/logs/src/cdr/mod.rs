@@ -7,3 +7,6 @@ pub(crate) mod write;
 
 pub(crate) use message::{Decoded, DecodedPose, MessageKind};
 pub(crate) use reader::CdrFault;
+
+/// What logs call this encoding.
+pub(crate) const CDR: &str = "cdr";

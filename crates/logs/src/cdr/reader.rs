@@ -24,11 +24,19 @@ pub(crate) enum CdrFault {
         /// What follows.
         bytes: usize,
     },
+    /// A list is longer than any of a robot.
+    #[error("it claims {claimed} entries, the limit is {MOST_ENTRIES}")]
+    TooMany {
+        /// The claim.
+        claimed: usize,
+    },
     /// A text is not UTF-8.
     #[error("a name in it is not UTF-8")]
     NotUtf8,
 }
 
+/// Most names of a message, and most edges of TF. Kind: choice; a chunk of zeros would be a list of millions that have no bytes.
+const MOST_ENTRIES: usize = 10_000;
 /// First bytes of a frame of zstd, which a message has that rosbag2 compressed on its own.
 const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// Bytes of the encapsulation, from which alignment is counted.
@@ -105,13 +113,19 @@ impl<'a> CdrReader<'a> {
     }
 
     /// The length of a list whose entries have at least `least_bytes`.
-    pub(crate) fn count(&mut self, least_bytes: usize) -> Result<usize, CdrFault> {
+    fn count(&mut self, least_bytes: usize) -> Result<usize, CdrFault> {
         let claimed = self.u32()?;
         let count = usize::try_from(claimed).unwrap_or(usize::MAX);
         if count.saturating_mul(least_bytes) > self.rest() {
             return Err(CdrFault::Length { claimed, bytes: self.rest() });
         }
         Ok(count)
+    }
+
+    /// The length of a list of names or edges, which take more memory than bytes in the message.
+    pub(crate) fn entry_count(&mut self, least_bytes: usize) -> Result<usize, CdrFault> {
+        let claimed = self.count(least_bytes)?;
+        if claimed > MOST_ENTRIES { Err(CdrFault::TooMany { claimed }) } else { Ok(claimed) }
     }
 
     /// A text; its length counts the 0 at its end, which some writers leave out.
@@ -150,6 +164,15 @@ mod tests {
         let claimed = CdrFault::Length { claimed: u32::MAX, bytes: 2 };
         assert_eq!(read(&bomb).f64_list().unwrap_err(), claimed);
         assert_eq!(read(&bomb).text().unwrap_err(), claimed);
+    }
+
+    #[test]
+    fn names_without_a_letter_are_limited() {
+        let claimed = MOST_ENTRIES + 1;
+        let mut names = vec![0, 1, 0, 0];
+        names.extend(u32::try_from(claimed).unwrap().to_le_bytes());
+        names.resize(names.len() + 4 * claimed, 0);
+        assert_eq!(CdrReader::new(&names).unwrap().entry_count(4), Err(CdrFault::TooMany { claimed }));
     }
 
     #[test]

@@ -5,12 +5,9 @@ use std::{collections::BTreeMap, sync::Arc};
 use mcap::records::{Channel, SchemaHeader};
 
 use crate::{
-    cdr::MessageKind,
+    cdr::{CDR, MessageKind},
     event::{LogTopic, TopicContent},
 };
-
-/// The encoding of messages that is decoded.
-pub(crate) const CDR: &str = "cdr";
 
 /// What is known of a topic beyond its names.
 #[derive(Debug, Clone)]
@@ -46,7 +43,9 @@ impl TopicCatalogue {
         if self.channels.contains_key(&channel.id) {
             return;
         }
-        let message_type = self.types.get(&channel.schema_id).cloned().unwrap_or_default();
+        let known = self.types.get(&channel.schema_id).cloned();
+        // 0 means that there is no schema. Another one that is not known was in a damaged part: the summary may have it.
+        let Some(message_type) = known.or_else(|| (channel.schema_id == 0).then(String::new)) else { return };
         let is_same = |topic: &LogTopic| {
             (&topic.name, &topic.message_type, &topic.encoding)
                 == (&channel.topic, &message_type, &channel.message_encoding)

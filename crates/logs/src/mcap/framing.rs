@@ -57,8 +57,10 @@ pub(super) enum Framed {
     End,
     /// The file ends inside the record that begins at this byte.
     Cut(u64),
-    /// What begins at this byte is no record, or one that is too long.
+    /// What begins at this byte is no record.
     NoRecord(u64),
+    /// The record that begins at this byte is longer than a record may be. It is skipped.
+    TooLong(u64),
 }
 
 /// A file that is read record by record.
@@ -109,14 +111,10 @@ impl Framing {
         if self.at > self.length {
             return Ok(Framed::Cut(start));
         }
-        if !is_needed(code) {
-            // Attachments may be larger than the memory.
-            let length = i64::try_from(length).unwrap_or(i64::MAX);
-            self.file.seek_relative(length)?;
-            return Ok(Framed::Record(code));
-        }
-        if length > MOST_RECORD_BYTES {
-            return Ok(Framed::NoRecord(start));
+        // Attachments may be larger than the memory.
+        if !is_needed(code) || length > MOST_RECORD_BYTES {
+            self.file.seek_relative(i64::try_from(length).unwrap_or(i64::MAX))?;
+            return Ok(if is_needed(code) { Framed::TooLong(start) } else { Framed::Record(code) });
         }
         (&mut self.file).take(length).read_to_end(content)?;
         // A file that shrinks while it is read.

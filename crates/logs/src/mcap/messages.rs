@@ -16,6 +16,7 @@ use crate::{
     cdr::{CdrFault, Decoded, DecodedPose},
     codes,
     event::{EventTime, LogEvent, LoggedDescription, LoggedJoints, LoggedPose, OtherMessage, TopicContent},
+    options::CONVERT,
 };
 
 /// Why a record gives no event.
@@ -33,7 +34,7 @@ pub(super) struct Messages {
     pub(super) events: VecDeque<LogEvent>,
     /// Log time of the first message of the log.
     first_ns: Option<i64>,
-    /// Channels of the file that no record declares, each reported once.
+    /// Channels of the file that no record declares, or not their types, each reported once.
     undeclared: BTreeSet<u16>,
 }
 
@@ -70,8 +71,10 @@ impl Messages {
     fn message(&mut self, header: &MessageHeader, data: &[u8], summary: &Summary) -> Result<(), RecordFault> {
         let Some(topic) = self.topic(header.channel_id, summary) else {
             let is_new = self.undeclared.insert(header.channel_id);
-            let message =
-                format!("messages of channel {}, which nothing declares, are left out", header.channel_id);
+            let message = format!(
+                "messages of channel {} are left out: what declares it or its type is not in the log",
+                header.channel_id
+            );
             return if is_new { Err(RecordFault::Damaged(message)) } else { Ok(()) };
         };
         let log_ns = signed(header.log_time);
@@ -132,13 +135,9 @@ impl Messages {
     fn compressed(&self, topic: usize) -> Diagnostic {
         let message =
             format!("each message of {} is compressed on its own", self.catalogue.topics[topic].name);
-        Diagnostic::error(codes::log::COMPRESSED_MESSAGES, message).with_help(CONVERT_MESSAGES)
+        Diagnostic::error(codes::log::COMPRESSED_MESSAGES, message).with_help(CONVERT)
     }
 }
-
-/// How a bag is converted whose messages are compressed one by one.
-pub(crate) const CONVERT_MESSAGES: &str = "write to out.yaml, and convert with `ros2 bag convert -i BAG -o out.yaml`:\n\
-     output_bags:\n- uri: converted\n  storage_id: mcap\n  all_topics: true\n  all_services: true";
 
 fn logged(pose: &DecodedPose<'_>, time: EventTime) -> LoggedPose {
     LoggedPose {

@@ -11,5 +11,4 @@ mod summary;
 pub(crate) mod write;
 
 pub(crate) use framing::is_mcap;
-pub(crate) use messages::CONVERT_MESSAGES;
 pub(crate) use reader::McapReader;

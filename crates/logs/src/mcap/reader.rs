@@ -16,7 +16,7 @@ use mcap::{
 
 use super::{
     chunk::Chunk,
-    framing::{Framed, Framing},
+    framing::{Framed, Framing, HEAD_BYTES, MOST_RECORD_BYTES},
     messages::{Messages, RecordFault},
     summary::Summary,
 };
@@ -24,6 +24,9 @@ use crate::{
     codes,
     event::{LogEvent, LogGap, LogReader, LogTopic},
 };
+
+/// Bytes of a chunk beside the name of its compression and its records: three times 8, a sum and a length of 4, and 8.
+const CHUNK_FIELD_BYTES: usize = 40;
 
 /// A log in one or several files of MCAP.
 pub(crate) struct McapReader {
@@ -67,7 +70,7 @@ impl McapReader {
         }
         let framed = file.framing.next(&mut self.content);
         match framed.map_err(|fault| unreadable(&file.source.path, &fault))? {
-            Framed::Record(op::CHUNK) => self.open_chunk(),
+            Framed::Record(op::CHUNK) => self.open_chunk()?,
             Framed::Record(op::DATA_END | op::FOOTER) => self.file = None,
             Framed::Record(code) => {
                 let taken = self.messages.take(code, &self.content, &file.summary);
@@ -77,13 +80,21 @@ impl McapReader {
                 gap(&mut self.messages, None, file.truncated("the log ends without an end record"));
                 self.file = None;
             }
-            Framed::Cut(at) | Framed::NoRecord(at) if file.summary.chunk_behind(at).is_some() => {
+            Framed::Cut(at) | Framed::NoRecord(at) | Framed::TooLong(at)
+                if file.summary.chunk_behind(at).is_some() =>
+            {
                 file.go_on_behind(at, &mut self.messages)?;
             }
             Framed::Cut(at) => {
                 let cut = file.truncated(&format!("the log ends inside the record that begins at byte {at}"));
                 gap(&mut self.messages, None, cut);
                 self.file = None;
+            }
+            Framed::TooLong(at) => {
+                let limit = MOST_RECORD_BYTES >> 20;
+                let fault =
+                    format!("the record that begins at byte {at} is longer than {limit} MiB and is left out");
+                file.damaged(&mut self.messages, None, &fault);
             }
             Framed::NoRecord(at) => {
                 let fault = format!("what begins at byte {at} is no record; nothing behind it is read");
@@ -103,26 +114,33 @@ impl McapReader {
     }
 
     /// Decompresses the chunk that is the content.
-    fn open_chunk(&mut self) {
-        let Some(file) = &self.file else { return };
+    fn open_chunk(&mut self) -> Result<(), Diagnostic> {
+        let Some(file) = &mut self.file else { return Ok(()) };
         let end = file.framing.at();
-        match parse_record(op::CHUNK, &self.content) {
-            Ok(Record::Chunk { header, data }) => {
-                if let Err(fault) = self.chunk.fill(&header, &data) {
-                    let times = [header.message_start_time, header.message_end_time];
-                    let fault = format!("the chunk that ends at byte {end}: {fault}");
-                    file.damaged(&mut self.messages, Some(times), &fault);
-                }
-            }
-            Ok(_) => {}
-            Err(fault) => {
-                file.damaged(
-                    &mut self.messages,
-                    None,
-                    &format!("the chunk that ends at byte {end}: {fault}"),
-                );
-            }
+        let start = end - (HEAD_BYTES + self.content.len()) as u64;
+        let Ok(Record::Chunk { header, data }) = parse_record(op::CHUNK, &self.content) else {
+            let next = file.summary.chunk_behind(start).map_or(end, |chunk| chunk.chunk_start_offset);
+            let fault = format!("the chunk that begins at byte {start} is shorter than it claims");
+            file.damaged(&mut self.messages, file.summary.times_between(start, next), &fault);
+            return file.go_to(next);
+        };
+        let times = Some([header.message_start_time, header.message_end_time]);
+        let length = CHUNK_FIELD_BYTES + header.compression.len() + data.len();
+        if length < self.content.len() {
+            // Its length is damaged, and would take the chunks behind it with it.
+            let next = start + (HEAD_BYTES + length) as u64;
+            let fault = format!("the chunk that begins at byte {start} is longer than what it has");
+            file.damaged(&mut self.messages, times, &fault);
+            return file.go_to(next);
         }
+        if let Err(fault) = self.chunk.fill(&header, &data) {
+            file.damaged(
+                &mut self.messages,
+                times,
+                &format!("the chunk that begins at byte {start}: {fault}"),
+            );
+        }
+        Ok(())
     }
 }
 
@@ -182,7 +200,11 @@ impl McapFile {
         };
         let fault = format!("what begins at byte {at} is no record; reading goes on at byte {next}");
         self.damaged(messages, self.summary.times_between(at, next), &fault);
-        self.framing.go_to(next).map_err(|fault| unreadable(&self.source.path, &fault))
+        self.go_to(next)
+    }
+
+    fn go_to(&mut self, at: u64) -> Result<(), Diagnostic> {
+        self.framing.go_to(at).map_err(|fault| unreadable(&self.source.path, &fault))
     }
 }
 

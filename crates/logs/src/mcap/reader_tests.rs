@@ -1,6 +1,6 @@
 //! Whole, cut and damaged files, made by bytes.
 
-use std::io::Write;
+use std::io::{Seek, Write};
 
 use super::*;
 use crate::{
@@ -95,6 +95,46 @@ fn with_a_summary_reading_goes_on_behind_a_damaged_length() {
     assert_eq!(joints_of(&events).iter().map(|at| at.time.log_s).collect::<Vec<_>>(), [0.0, 0.5, 2.0, 2.5]);
     let [gap] = gaps(&events)[..] else { panic!("{events:?}") };
     assert_eq!((gap.cause.code, gap.between_s), (codes::log::DAMAGED, Some([1.0, 1.5])));
+}
+
+#[test]
+fn a_chunk_whose_length_grew_does_not_swallow_the_next_one() {
+    let [first, mut second, third] = [two("", 10, &topics()), two("zstd", 11, &[]), two("zstd", 12, &[])];
+    let length = (second.len() - 9 + third.len()) as u64;
+    second[1..9].copy_from_slice(&length.to_le_bytes());
+    let (events, _) = read(&[begun(), first, second, third, end()].concat()).unwrap();
+    assert_eq!(joints_of(&events).iter().map(|at| at.time.log_s).collect::<Vec<_>>(), [0.0, 0.5, 2.0, 2.5]);
+    let [gap] = gaps(&events)[..] else { panic!("{events:?}") };
+    assert_eq!((gap.cause.code, gap.between_s), (codes::log::DAMAGED, Some([1.0, 1.5])));
+}
+
+#[test]
+fn a_channel_without_its_type_is_not_read_as_something_else() {
+    let all = topics();
+    // A schema is a record of its own before its channel.
+    let schema_bytes = 9 + 2 + 4 + "sensor_msgs/msg/JointState".len() + 4 + "ros2msg".len() + 4;
+    let without_schema = [&all[schema_bytes..], &joints(10, &NAMES, &[0.5, 1.5])].concat();
+    let (events, topics) = read(&[begun(), without_schema.clone(), end()].concat()).unwrap();
+    assert_eq!((gaps(&events).len(), topics.len()), (1, 1), "{topics:?}");
+    let before = [begun(), without_schema].concat();
+    let end = end_with_summary(before.len(), &[], &all);
+    let (events, _) = read(&[before, end].concat()).unwrap();
+    assert!(matches!(&events[..], [LogEvent::Joints(_)]), "{events:?}");
+}
+
+#[test]
+fn a_record_that_is_too_long_is_left_out() {
+    let long = MOST_RECORD_BYTES + 1;
+    let mut file = tempfile::NamedTempFile::with_suffix(".mcap").unwrap();
+    let head = [&begun()[..], &[op::CHUNK], &long.to_le_bytes()].concat();
+    file.write_all(&head).unwrap();
+    // The content is a hole in the file.
+    file.as_file().set_len(head.len() as u64 + long).unwrap();
+    file.seek(io::SeekFrom::End(0)).unwrap();
+    file.write_all(&[two("", 10, &topics()), end()].concat()).unwrap();
+    let mut reader = McapReader::new(vec![file.path().to_owned()]);
+    let events: Vec<LogEvent> = std::iter::from_fn(|| reader.next_event().unwrap()).collect();
+    assert_eq!((joints_of(&events).len(), gaps(&events).len()), (2, 1));
 }
 
 #[test]

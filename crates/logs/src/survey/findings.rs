@@ -9,12 +9,14 @@ use super::{
     report::{JointSource, PositionUnit, RobotOfLog, TopicSurvey},
     words::entries,
 };
-use crate::{cdr::MessageKind, codes, event::TopicContent};
+use crate::{
+    cdr::{CDR, MessageKind},
+    codes,
+    event::TopicContent,
+};
 
 /// Most names in a message.
 const MOST_LISTED: usize = 8;
-/// The encoding that is read.
-const READ: &str = "cdr";
 
 /// That nothing of a log can be used; an error if something could be in another encoding.
 pub(super) fn nothing_read(topics: &[TopicSurvey]) -> Option<Diagnostic> {
@@ -36,7 +38,7 @@ pub(super) fn nothing_read(topics: &[TopicSurvey]) -> Option<Diagnostic> {
 /// Whether a topic would be read if it were encoded as ROS 2 does.
 fn is_in_other_encoding(topic: &TopicSurvey) -> bool {
     let kind = MessageKind::of_type(&topic.message_type).filter(|kind| *kind != MessageKind::Text);
-    topic.encoding != READ && kind.is_some()
+    topic.encoding != CDR && kind.is_some()
 }
 
 fn other_encoding(topic: &TopicSurvey) -> Diagnostic {

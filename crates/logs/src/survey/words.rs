@@ -10,6 +10,7 @@ use super::report::{
     TopicSurvey, TopicTimes,
 };
 use crate::{
+    cdr::CDR,
     event::TopicContent,
     table_reading::{TableReading, TableTime},
 };
@@ -50,7 +51,7 @@ pub fn survey_words(survey: &LogSurvey, most_listed: usize) -> SurveyWords {
 
 fn topic_row(topic: &TopicSurvey) -> [String; 4] {
     let kind = match topic.encoding.as_str() {
-        "cdr" => topic.message_type.clone(),
+        CDR => topic.message_type.clone(),
         other => format!("{} ({other})", topic.message_type),
     };
     [topic.name.clone(), topic.messages.to_string(), rate(topic).unwrap_or_default(), kind]
