@@ -11,7 +11,7 @@ use congruent_robot::Robot;
 use super::{
     clock::{MessageSum, float},
     limits::{LimitsTrack, moving_names},
-    names::{NameMatch, match_name},
+    names::{NameMatch, match_names},
     report::{JointsSurvey, LoggedJoint, MissingShares},
 };
 use crate::event::LoggedJoints;
@@ -31,6 +31,20 @@ pub(super) struct JointTrack {
     /// The joint of the robot that it is.
     pub(super) of_robot: Option<NameMatch>,
     pub(super) limits: Option<LimitsTrack>,
+}
+
+impl JointTrack {
+    fn named(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            present: 0,
+            position_range: None,
+            largest_velocity: None,
+            largest_effort: None,
+            of_robot: None,
+            limits: None,
+        }
+    }
 }
 
 /// How many values there are, and how many of them are no numbers: NaN, or infinite.
@@ -86,36 +100,38 @@ impl JointsTrack {
 
     fn set_names(&mut self, names: &Arc<[String]>, robot: Option<&Robot>) {
         self.names = Some(Arc::clone(names));
-        let of_robot = robot.map(moving_names).unwrap_or_default();
-        self.indices = names.iter().map(|name| self.index(name, robot, &of_robot)).collect();
-        self.number = names.iter().collect::<BTreeSet<_>>().len();
+        let different: BTreeSet<&str> = names.iter().map(String::as_str).collect();
+        self.number = different.len();
+        self.add_joints(names, robot);
+        self.indices = names.iter().map(|name| self.by_name.get(name).copied()).collect();
         let mut hasher = DefaultHasher::new();
         names.hash(&mut hasher);
         self.names_sum = hasher.finish();
     }
 
-    fn index(&mut self, name: &str, robot: Option<&Robot>, of_robot: &[String]) -> Option<usize> {
-        if let Some(known) = self.by_name.get(name) {
-            return Some(*known);
+    /// Adds those that are not known yet.
+    fn add_joints(&mut self, names: &[String], robot: Option<&Robot>) {
+        let mut fresh: Vec<&str> = Vec::new();
+        for name in names {
+            let is_known = self.by_name.contains_key(name);
+            if !is_known && self.joints.len() < MOST_JOINTS {
+                self.by_name.insert(name.clone(), self.joints.len());
+                self.joints.push(JointTrack::named(name));
+                fresh.push(name);
+            }
         }
-        if self.joints.len() == MOST_JOINTS {
-            return None;
+        let Some(robot) = robot.filter(|_| !fresh.is_empty()) else { return };
+        let is_taken = |joint: usize| {
+            let mut of_robot = self.joints.iter().filter_map(|known| known.of_robot.as_ref());
+            of_robot.any(|of_robot| of_robot.joint == joint)
+        };
+        let matched = match_names(&fresh, &moving_names(robot), is_taken);
+        let first = self.joints.len() - fresh.len();
+        for (joint, matched) in self.joints[first..].iter_mut().zip(matched) {
+            let of_robot = matched.as_ref().map(|of| robot.joint(robot.movable_joints()[of.joint]));
+            joint.limits = of_robot.and_then(LimitsTrack::new);
+            joint.of_robot = matched;
         }
-        let matched = match_name(name, of_robot);
-        let joint = robot
-            .zip(matched.as_ref())
-            .map(|(robot, matched)| robot.joint(robot.movable_joints()[matched.joint]));
-        self.joints.push(JointTrack {
-            name: name.to_owned(),
-            present: 0,
-            position_range: None,
-            largest_velocity: None,
-            largest_effort: None,
-            limits: joint.and_then(LimitsTrack::new),
-            of_robot: matched,
-        });
-        self.by_name.insert(name.to_owned(), self.joints.len() - 1);
-        Some(self.joints.len() - 1)
     }
 
     fn values(&mut self, message: &LoggedJoints) {

@@ -41,16 +41,17 @@ pub(super) fn compare<'a>(
 
 /// The joints of a topic with this difference of their names.
 fn source<'a>(sources: &'a mut Vec<JointSource>, topic: &str, matched: &NameMatch) -> &'a mut JointSource {
+    let NameMatch { difference, .. } = matched;
     let is_same = |source: &JointSource| {
         (source.topic.as_str(), &source.prefix, &source.suffix, &source.prefix_of_robot)
-            == (topic, &matched.prefix, &matched.suffix, &matched.prefix_of_robot)
+            == (topic, &difference.prefix, &difference.suffix, &difference.prefix_of_robot)
     };
     let at = sources.iter().position(is_same).unwrap_or_else(|| {
         sources.push(JointSource {
             topic: topic.to_owned(),
-            prefix: matched.prefix.clone(),
-            suffix: matched.suffix.clone(),
-            prefix_of_robot: matched.prefix_of_robot.clone(),
+            prefix: difference.prefix.clone(),
+            suffix: difference.suffix.clone(),
+            prefix_of_robot: difference.prefix_of_robot.clone(),
             joints: Vec::new(),
         });
         sources.len() - 1
