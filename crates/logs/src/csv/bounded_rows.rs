@@ -13,17 +13,44 @@ pub(super) enum Quoting {
     Unused,
 }
 
+/// Where in a row a byte is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    RowStart,
+    CellStart,
+    Cell,
+    InQuotes,
+    Comment,
+}
+
 /// Reads what it is made of, and fails in a row that is too long.
 pub(super) struct BoundedRows<R> {
     inner: R,
     quoting: Quoting,
-    is_in_quotes: bool,
+    separator: u8,
+    place: Place,
     row_bytes: usize,
 }
 
 impl<R> BoundedRows<R> {
-    pub(super) fn new(inner: R, quoting: Quoting) -> Self {
-        Self { inner, quoting, is_in_quotes: false, row_bytes: 0 }
+    pub(super) fn new(inner: R, quoting: Quoting, separator: u8) -> Self {
+        Self { inner, quoting, separator, place: Place::RowStart, row_bytes: 0 }
+    }
+
+    /// The place behind a byte, as the parser of the table sees it: a quote has a meaning at the start of a cell alone.
+    fn behind(&self, byte: u8) -> Place {
+        match (self.place, byte) {
+            // A quote that is doubled ends the cell and begins it again.
+            (Place::InQuotes, b'"') => Place::CellStart,
+            (Place::InQuotes, _) => Place::InQuotes,
+            (_, b'\n') => Place::RowStart,
+            (Place::Comment, _) => Place::Comment,
+            (_, b'\r') => Place::RowStart,
+            (Place::RowStart, b'#') => Place::Comment,
+            (Place::RowStart | Place::CellStart, b'"') if self.quoting == Quoting::Used => Place::InQuotes,
+            (_, byte) if byte == self.separator => Place::CellStart,
+            _ => Place::Cell,
+        }
     }
 }
 
@@ -31,12 +58,8 @@ impl<R: Read> Read for BoundedRows<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.inner.read(buffer)?;
         for byte in &buffer[..count] {
-            match byte {
-                // A quote that is doubled inside of quotes closes and opens them.
-                b'"' if self.quoting == Quoting::Used => self.is_in_quotes = !self.is_in_quotes,
-                b'\n' | b'\r' if !self.is_in_quotes => self.row_bytes = 0,
-                _ => self.row_bytes += 1,
-            }
+            self.place = self.behind(*byte);
+            self.row_bytes = if self.place == Place::RowStart { 0 } else { self.row_bytes + 1 };
             if self.row_bytes > MOST_ROW_BYTES {
                 return Err(io::Error::other(format!("a row is longer than {MOST_ROW_BYTES} bytes")));
             }
@@ -50,7 +73,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str, quoting: Quoting) -> io::Result<usize> {
-        BoundedRows::new(text.as_bytes(), quoting).read_to_end(&mut Vec::new())
+        BoundedRows::new(text.as_bytes(), quoting, b',').read_to_end(&mut Vec::new())
     }
 
     #[test]
@@ -60,6 +83,9 @@ mod tests {
         let unclosed = format!("1,\"2\n{rows}");
         assert!(read(&unclosed, Quoting::Used).is_err());
         assert!(read(&unclosed, Quoting::Unused).is_ok());
+        for early in ["1,5\" drive\n", "# 5\" drive\n"] {
+            assert!(read(&format!("{early}{rows}"), Quoting::Used).is_ok(), "{early}");
+        }
         assert!(read(&"1,".repeat(MOST_ROW_BYTES), Quoting::Unused).is_err());
     }
 }

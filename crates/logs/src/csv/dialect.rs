@@ -1,5 +1,7 @@
 //! How a table is written, by its beginning: separator, names, decimal comma, encoding.
 
+use std::collections::BTreeMap;
+
 use csv::{ByteRecord, ReaderBuilder};
 
 use super::{
@@ -20,8 +22,8 @@ pub(super) struct Dialect {
     pub(super) quoting: Quoting,
     /// The names of the columns; `None` without names.
     pub(super) names: Option<Vec<String>>,
-    /// Whether the names are the first row; if not, they are in a comment before it.
-    pub(super) are_names_a_row: bool,
+    /// Number of rows before the first one of numbers: names, units, and lines about the table.
+    pub(super) rows_before: usize,
     /// Number of cells of a row.
     pub(super) width: usize,
     /// The first rows of numbers.
@@ -55,6 +57,14 @@ impl Separator {
     }
 }
 
+/// The cells of a row without an empty one behind the last column: some programs write a separator at the end of each row.
+pub(super) fn fitted(mut cells: Vec<String>, width: usize) -> Vec<String> {
+    if cells.len() == width + 1 && cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
+}
+
 /// Text of these bytes.
 fn decoded(bytes: &[u8], encoding: TableEncoding) -> String {
     let text = match encoding {
@@ -68,37 +78,44 @@ fn decoded(bytes: &[u8], encoding: TableEncoding) -> String {
 struct Candidate {
     separator: Separator,
     rows: Vec<Vec<String>>,
+    /// Rows before the first one of numbers.
+    rows_before: usize,
     width: usize,
     decimal: DecimalMark,
     /// Share of rows of the same width, times that of their cells that are numbers.
     share: f64,
 }
 
+/// Why a beginning is not one of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NoTable {
+    /// No separator gives rows with more than one number.
+    NoNumbers,
+    /// The row before the first numbers has another number of cells.
+    Header { names: usize, cells: usize },
+}
+
 impl Dialect {
-    /// The dialect of a beginning, which ends with a whole row; `None` if no separator gives two numbers in a row.
-    pub(super) fn of(head: &[u8]) -> Option<Self> {
+    /// The dialect of a beginning, which ends with a whole row.
+    pub(super) fn of(head: &[u8]) -> Result<Self, NoTable> {
         let encoding = encoding(head);
         let candidates = Separator::ALL.map(|separator| Candidate::new(separator, head, encoding));
         let is_better = |a: &Candidate, b: &Candidate| (a.share, a.width) > (b.share, b.width);
         let tables = candidates.into_iter().filter(|candidate| candidate.width > 1 && candidate.share > 0.0);
-        let best = tables.reduce(|best, other| if is_better(&other, &best) { other } else { best })?;
-        let Candidate { separator, mut rows, width, decimal, .. } = best;
-        let value = |cell: &String| cell_value(cell, decimal);
-        let has_names = rows.first()?.iter().any(|cell| value(cell) == CellValue::NotANumber);
-        let names = if has_names { Some(rows.remove(0)) } else { None };
-        let names = names.or_else(|| names_in_comment(head, separator, encoding, width));
-        let width = names.as_ref().map_or(width, Vec::len);
+        let best = tables.reduce(|best, other| if is_better(&other, &best) { other } else { best });
+        let mut best = best.ok_or(NoTable::NoNumbers)?;
+        let names = best.take_names()?;
+        let without_names = if best.is_open() { best.width - 1 } else { best.width };
+        let Candidate { separator, mut rows, rows_before, decimal, .. } = best;
+        let names = names.or_else(|| names_in_comment(head, separator, encoding, without_names));
+        let width = names.as_ref().map_or(without_names, Vec::len);
+        rows = rows.split_off(rows_before).into_iter().map(|row| fitted(row, width)).collect();
         rows.retain(|row| row.len() == width);
-        Some(Self {
-            separator,
-            encoding,
-            decimal,
-            quoting: quoting(head),
-            names,
-            are_names_a_row: has_names,
-            width,
-            rows,
-        })
+        if rows.is_empty() {
+            return Err(NoTable::NoNumbers);
+        }
+        let quoting = quoting(head);
+        Ok(Self { separator, encoding, decimal, quoting, names, rows_before, width, rows })
     }
 
     /// The name of a column, or its number from 1.
@@ -118,21 +135,75 @@ impl Candidate {
                 rows.push(cells);
             }
         }
-        let width = rows.last().map_or(0, Vec::len);
-        // The first row may have names.
-        let data = rows.get(1..).filter(|rows| !rows.is_empty()).unwrap_or(&rows);
-        let points = data.iter().flatten().any(|cell| cell.contains('.'));
-        let commas = separator != Separator::Comma && data.iter().flatten().any(|cell| cell.contains(','));
-        let decimal = if commas && !points { DecimalMark::Comma } else { DecimalMark::Point };
-        let is_number = |cell: &&String| matches!(cell_value(cell, decimal), CellValue::Number(_));
+        let decimal = decimal_mark(&rows, separator);
+        let width = usual_width(&rows);
+        let numbers = |row: &[String]| numbers(row, decimal);
+        let most = rows.iter().filter(|row| row.len() == width).map(|row| numbers(row)).max().unwrap_or(0);
+        // A line about the table has few numbers beside its texts; of a row of numbers all but the time may be missing.
+        let is_of_numbers = |row: &Vec<String>| {
+            let found = numbers(row);
+            row.len() == width && found > 0 && (texts(row, decimal) == 0 || 2 * found >= most)
+        };
+        let rows_before = rows.iter().position(is_of_numbers).unwrap_or(rows.len());
+        let data = &rows[rows_before..];
         let whole = data.iter().filter(|row| row.len() == width);
-        let (count, numbers) = whole.clone().fold((0, 0), |(count, numbers), row| {
-            (count + row.len(), numbers + row.iter().filter(is_number).count())
-        });
+        let (count, found) =
+            whole.clone().fold((0, 0), |(count, found), row| (count + row.len(), found + numbers(row)));
         let ratio = |part: usize, of: usize| if of == 0 { 0.0 } else { fraction(part, of) };
-        let share = ratio(whole.count(), data.len()) * ratio(numbers, count);
-        Self { separator, rows, width, decimal, share }
+        let share = ratio(whole.count(), data.len()) * ratio(found, count);
+        Self { separator, rows, rows_before, width, decimal, share }
     }
+
+    /// Whether each row of numbers ends with a separator: then the names may have none behind the last one.
+    fn is_open(&self) -> bool {
+        let mut data = self.rows[self.rows_before..].iter().filter(|row| row.len() == self.width);
+        data.all(|row| row.last().is_some_and(String::is_empty))
+    }
+
+    /// The row with the names of the columns: that before the numbers which has the most texts, the first of them if units follow.
+    /// Without one before them it is the first row with numbers if it has a text as well.
+    fn take_names(&mut self) -> Result<Option<Vec<String>>, NoTable> {
+        let (before, data) = self.rows.split_at(self.rows_before);
+        let texts = |row: &[String]| texts(row, self.decimal);
+        let widths = [Some(self.width), self.width.checked_sub(1).filter(|_| self.is_open())];
+        let fitting = before.iter().rev().map(|row| fitted(row.clone(), self.width));
+        let fitting = fitting.filter(|row| widths.contains(&Some(row.len())) && texts(row) > 0);
+        // The last of several equal ones: they come in reverse.
+        if let Some(names) = fitting.max_by_key(|row| texts(row)) {
+            return Ok(Some(names));
+        }
+        if let Some(header) = before.last().filter(|row| texts(row) > 1) {
+            return Err(NoTable::Header { names: header.len(), cells: self.width });
+        }
+        let first = data.first().filter(|row| self.rows_before == 0 && texts(row) > 0).cloned();
+        self.rows_before += usize::from(first.is_some());
+        Ok(first)
+    }
+}
+
+/// The number of cells that most rows have. The first row may have names, the last may be cut.
+fn usual_width(rows: &[Vec<String>]) -> usize {
+    let mut counts = BTreeMap::new();
+    let data = rows.get(1..).filter(|rows| !rows.is_empty()).unwrap_or(rows);
+    data.iter().for_each(|row| *counts.entry(row.len()).or_insert(0) += 1);
+    counts.into_iter().max_by_key(|(_, count)| *count).map_or(0, |(width, _)| width)
+}
+
+/// The mark under which more cells are numbers: a date such as 09.10.2025 is none under either.
+fn decimal_mark(rows: &[Vec<String>], separator: Separator) -> DecimalMark {
+    let count = |decimal| rows.iter().map(|row| numbers(row, decimal)).sum::<usize>();
+    let is_comma = separator != Separator::Comma && count(DecimalMark::Comma) > count(DecimalMark::Point);
+    if is_comma { DecimalMark::Comma } else { DecimalMark::Point }
+}
+
+/// How many cells of a row are numbers.
+fn numbers(row: &[String], decimal: DecimalMark) -> usize {
+    row.iter().filter(|cell| matches!(cell_value(cell, decimal), CellValue::Number(_))).count()
+}
+
+/// How many cells of a row are neither numbers nor missing.
+fn texts(row: &[String], decimal: DecimalMark) -> usize {
+    row.iter().filter(|cell| cell_value(cell, decimal) == CellValue::NotANumber).count()
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts of the beginning of a file")]
@@ -200,6 +271,44 @@ mod tests {
     }
 
     #[test]
+    fn dates_do_not_decide_the_decimal_mark() {
+        let rows = "09.10.2025;0,5;1,5\n09.10.2025;1,5;2,5\n";
+        let found = Dialect::of(format!("Datum;time_s;q1\n{rows}").as_bytes()).unwrap();
+        assert_eq!((found.decimal, found.names.unwrap().len()), (DecimalMark::Comma, 3));
+    }
+
+    #[test]
+    fn rows_that_end_with_a_separator() {
+        let names = Some(&["t", "q1"][..]);
+        for table in ["t,q1\n0,1,\n1,2,\n", "t,q1,\n0,1\n1,2\n", "t,q1\n0,1,\n1,2\n2,3,\n"] {
+            check(table, Separator::Comma, names, &["0", "1"]);
+        }
+    }
+
+    #[test]
+    fn rows_that_end_with_a_separator_without_names() {
+        check("0,1,\n1,2,\n", Separator::Comma, None, &["0", "1"]);
+        // A column whose values are missing has a name.
+        check("t,q1,q2\n0,1,\n1,2,\n", Separator::Comma, Some(&["t", "q1", "q2"]), &["0", "1", ""]);
+    }
+
+    #[test]
+    fn lines_before_the_names_and_units_behind_them() {
+        let names = Some(&["t", "q1", "q2"][..]);
+        let table = "Robot,UR5e\nRate,125,\nt,q1,q2\ns,rad,rad\n0,1,2\n1,2,3\n";
+        check(table, Separator::Comma, names, &["0", "1", "2"]);
+        assert_eq!(Dialect::of(table.as_bytes()).unwrap().rows_before, 4);
+        let refused = Dialect::of(b"t,q1,q2\n0,1,2,3\n1,2,3,4\n").unwrap_err();
+        assert_eq!(refused, NoTable::Header { names: 3, cells: 4 });
+    }
+
+    #[test]
+    fn a_last_row_that_is_cut_does_not_decide_the_width() {
+        let found = Dialect::of(b"t,q1,q2\n0,1,2\n1,2,3\n2,4\n").unwrap();
+        assert_eq!((found.width, found.rows.len()), (3, 2));
+    }
+
+    #[test]
     fn decimal_commas_and_latin_1() {
         let table = b"Winkel [\xb0];q\n1,5;2,5\n";
         let found = Dialect::of(table).unwrap();
@@ -210,7 +319,7 @@ mod tests {
     #[test]
     fn a_text_is_no_table() {
         for text in ["", "one line", "a\nb\n", "# only a comment\n"] {
-            assert_eq!(Dialect::of(text.as_bytes()), None, "{text}");
+            assert_eq!(Dialect::of(text.as_bytes()), Err(NoTable::NoNumbers), "{text}");
         }
     }
 }

@@ -8,13 +8,13 @@ use std::{
     sync::Arc,
 };
 
-use congruent_input::{Code, Diagnostic, SourceFile, open_regular, unreadable};
+use congruent_input::{Code, Diagnostic, SourceFile, display::counted, open_regular, unreadable};
 use csv::{ByteRecord, Reader};
 
 use super::{
     bounded_rows::BoundedRows,
     columns::{ReadColumns, find_columns},
-    dialect::Dialect,
+    dialect::{Dialect, NoTable, fitted},
     number::{CellValue, cell_value},
     time::{FoundTime, TimeColumn, find_time},
 };
@@ -43,7 +43,9 @@ pub(crate) struct TableReader {
     topics: Vec<LogTopic>,
     events: VecDeque<LogEvent>,
     first_ns: Option<i64>,
-    /// Rows of numbers that were read.
+    /// Rows that come before those of numbers.
+    rows_before: usize,
+    /// Rows behind them that were read.
     rows: u32,
     faults: RowFaults,
     is_at_end: bool,
@@ -95,7 +97,7 @@ impl TableReader {
             RowTime::Column(column) => Some(column.column),
             RowTime::RateHz(_) => match find_time(&dialect) {
                 // A time that is not used is no joint.
-                FoundTime::Coarse(column) => Some(column),
+                FoundTime::Coarse(column) | FoundTime::NoNumbers(column) => Some(column),
                 FoundTime::Column(found) => Some(found.column),
                 FoundTime::None => None,
             },
@@ -106,13 +108,15 @@ impl TableReader {
         }
         let reading = reading(&dialect, time, &columns);
         let topics = topics(path, &columns);
-        let rows = BoundedRows::new(file, dialect.quoting);
+        let rows = BoundedRows::new(file, dialect.quoting, dialect.separator.byte());
         let reader = dialect.separator.reader_builder(dialect.quoting).from_reader(rows);
+
         Ok(Self {
             source,
             reader,
             record: ByteRecord::new(),
             joints: columns.joints.clone().into(),
+            rows_before: dialect.rows_before,
             dialect,
             columns,
             time,
@@ -139,24 +143,30 @@ impl TableReader {
             return Ok(());
         }
         let cells = self.dialect.separator.cells(&self.record, self.dialect.encoding);
+        let cells = fitted(cells, self.dialect.width);
         let line = self.record.position().map_or(0, csv::Position::line);
-        let is_first = std::mem::take(&mut self.dialect.are_names_a_row);
-        if !is_first && cells.iter().any(|cell| !cell.is_empty()) {
-            self.row(&cells, line);
+        if cells.iter().all(String::is_empty) {
+            return Ok(());
+        }
+        match self.rows_before.checked_sub(1) {
+            Some(rest) => self.rows_before = rest,
+            None => self.row(&cells, line),
         }
         Ok(())
     }
 
     fn row(&mut self, cells: &[String], line: u64) {
+        // A row that is not used was recorded nevertheless: at a rate it takes its time.
+        let number = self.rows;
+        self.rows = self.rows.saturating_add(1);
         if cells.len() != self.dialect.width {
             return self.faults.width.add(line);
         }
         let log_ns = match self.time {
             RowTime::Column(column) => column.ns(cells, self.dialect.decimal),
-            RowTime::RateHz(rate_hz) => ns_of_row(self.rows, rate_hz),
+            RowTime::RateHz(rate_hz) => ns_of_row(number, rate_hz),
         };
         let Some(log_ns) = log_ns else { return self.faults.times.add(line) };
-        self.rows = self.rows.saturating_add(1);
         let first_ns = *self.first_ns.get_or_insert(log_ns);
         // A table has one time: that of the values.
         let time = EventTime::new(log_ns, Some(log_ns), first_ns);
@@ -196,13 +206,13 @@ impl TableReader {
     fn report_faults(&mut self) {
         let width = self.dialect.width;
         let reported = [
-            (&self.faults.width, format!("rows have another number of cells than {width} and are left out")),
-            (&self.faults.times, "rows have no time and are left out".to_owned()),
-            (&self.faults.cells, "cells are not numbers and count as missing".to_owned()),
+            (&self.faults.width, "row", format!("left out for another number of cells than {width}")),
+            (&self.faults.times, "row", "left out for want of a time".to_owned()),
+            (&self.faults.cells, "cell", "taken for missing, for want of a number".to_owned()),
         ];
-        for (counted, what) in reported.into_iter().filter(|(counted, _)| counted.count > 0) {
-            let Counted { count, first_line } = counted;
-            let message = format!("{count} {what}; the first is in line {first_line}");
+        for (found, noun, what) in reported.into_iter().filter(|(found, ..)| found.count > 0) {
+            let Counted { count, first_line } = *found;
+            let message = format!("{} {what}; the first is in line {first_line}", counted(count, noun));
             let cause = Diagnostic::warning(codes::log::ROWS, message).in_file(&self.source);
             self.events.push_back(LogEvent::Gap(LogGap { between_s: None, cause }));
         }
@@ -246,9 +256,15 @@ fn dialect_of(file: &mut File, path: &Path) -> Result<Dialect, Diagnostic> {
         let end = head.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
         head.truncate(end);
     }
-    Dialect::of(&head).filter(|dialect| !dialect.rows.is_empty()).ok_or_else(|| {
-        let help = "a table has a row for each time, with numbers separated by commas, semicolons, tabulators or blanks";
-        refused(codes::log::TABLE_ENCODING, "is no table of numbers", help)
+    Dialect::of(&head).map_err(|fault| match fault {
+        NoTable::NoNumbers => {
+            let help = "a table has a row for each time, with numbers separated by commas, semicolons, tabulators or blanks";
+            refused(codes::log::TABLE_ENCODING, "is no table of numbers", help)
+        }
+        NoTable::Header { names, cells } => {
+            let message = format!("has {} in its header and {} in its rows", counted(names, "name"), counted(cells, "cell"));
+            refused(codes::log::TABLE_ENCODING, &message, "give each column a name")
+        }
     })
 }
 
@@ -262,9 +278,14 @@ fn row_time(dialect: &Dialect, options: &LogOptions) -> Result<RowTime, Diagnost
         FoundTime::Coarse(column) => {
             format!("most rows have the time of the row before in column \"{}\"", dialect.name(column))
         }
+        FoundTime::NoNumbers(column) => {
+            let name = dialect.name(column);
+            format!("column \"{name}\" is named as a time, and its cells are not numbers")
+        }
         FoundTime::None => "no column has the times of the rows".to_owned(),
     };
-    Err(Diagnostic::error(codes::log::TIME, message).with_help("give the rate of the rows: --rate-hz 125"))
+    Err(Diagnostic::error(codes::log::TIME, message)
+        .with_help("give the rate of the rows, as --rate-hz 125, or write a column time_s"))
 }
 
 fn no_columns(columns: &ReadColumns, options: &LogOptions) -> Diagnostic {

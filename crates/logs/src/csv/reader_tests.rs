@@ -69,6 +69,26 @@ fn without_times_the_rate_is_needed() {
 }
 
 #[test]
+fn rows_that_are_not_used_take_their_time() {
+    let found = events(b"q1,q2\n0,0\n1\n2,0\n", &at_rate(1.0));
+    assert_eq!(joints(&found).iter().map(|row| row.time.log_s).collect::<Vec<_>>(), [0.0, 2.0]);
+}
+
+#[test]
+fn an_empty_row_before_the_names_is_none() {
+    let found = events(b",,\nt,q1,q2\n0,1,2\n0.1,1,2\n", &LogOptions::default());
+    assert_eq!((joints(&found).len(), found.len()), (2, 2));
+}
+
+#[test]
+fn a_header_of_another_width_is_refused_with_both() {
+    let refused = open(b"t,q1,q2\n0,1,2,3\n1,2,3,4\n", &LogOptions::default()).err().unwrap();
+    assert!(refused.message.ends_with("has 3 names in its header and 4 cells in its rows"), "{refused}");
+    let found = events(b"Arm,left\nt,q1,q2\n0,1,2,\n0.1,1,2,\n", &LogOptions::default());
+    assert_eq!(joints(&found).len(), 2);
+}
+
+#[test]
 fn the_pose_of_a_ur() {
     let names = |prefix: &str| (0..6).map(|at| format!("{prefix}{at}")).collect::<Vec<_>>().join(" ");
     let head = format!("timestamp {} {}\n", names("actual_q_"), names("actual_TCP_pose_"));

@@ -21,6 +21,8 @@ pub(super) enum FoundTime {
     Column(TimeColumn),
     /// A column that is named as one, in which most rows have the time of the row before.
     Coarse(usize),
+    /// A column that is named as one, whose cells are no numbers, as dates in ISO 8601.
+    NoNumbers(usize),
     None,
 }
 
@@ -57,25 +59,29 @@ const UNITS: [(&str, TimeUnit); 13] = [
 
 /// Finds the times of a table.
 pub(super) fn find_time(dialect: &Dialect) -> FoundTime {
-    let named = dialect.names.as_ref().and_then(|names| {
-        names.iter().enumerate().find_map(|(column, name)| Some((column, named_time(name)?)))
-    });
-    if let Some((column, NamedTime { stated })) = named {
+    let Some(names) = &dialect.names else { return first_column(dialect) };
+    let named = names.iter().enumerate().filter_map(|(column, name)| Some((column, named_time(name)?)));
+    let mut unusable = FoundTime::None;
+    for (column, NamedTime { stated }) in named {
         let values = values(dialect, column);
         let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let moving = steps.iter().filter(|step| **step > 0.0).count();
         // Times in whole seconds, or a date that a spreadsheet has rounded.
-        if steps.is_empty() || 2 * moving < steps.len() {
-            return FoundTime::Coarse(column);
+        if !steps.is_empty() && 2 * moving >= steps.len() {
+            let (unit, unit_from) =
+                stated.map_or_else(|| guessed(&values, &steps), |unit| (unit, TimeUnitFrom::Name));
+            return FoundTime::Column(TimeColumn { column, unit, unit_from });
         }
-        let (unit, unit_from) =
-            stated.map_or_else(|| guessed(&values, &steps), |unit| (unit, TimeUnitFrom::Name));
-        return FoundTime::Column(TimeColumn { column, unit, unit_from });
+        if unusable == FoundTime::None {
+            let is_text = values.is_empty();
+            unusable = if is_text { FoundTime::NoNumbers(column) } else { FoundTime::Coarse(column) };
+        }
     }
-    if dialect.names.is_some() {
-        return FoundTime::None;
-    }
-    // Without names the first column is time if it advances evenly.
+    unusable
+}
+
+/// Without names the first column is time if it advances evenly.
+fn first_column(dialect: &Dialect) -> FoundTime {
     let values = values(dialect, 0);
     let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
     if !is_even(&steps) {
@@ -115,18 +121,21 @@ fn values(dialect: &Dialect, column: usize) -> Vec<f64> {
 fn guessed(values: &[f64], steps: &[f64]) -> (TimeUnit, TimeUnitFrom) {
     /// Times since 1970 from the year 1990 to 2100, s.
     const SINCE_1970_S: [f64; 2] = [6.3e8, 4.1e9];
+    /// The longest step of a recorder that writes dates, s. Kind: choice.
+    const LONGEST_DATED_STEP_S: f64 = 60.0;
     /// The longest step of a recorder that is expected, s: 2 Hz.
     const LONGEST_STEP_S: f64 = 0.5;
     let units = [TimeUnit::Second, TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
     let first = values.first().copied().unwrap_or_default();
+    let step = median_step(steps);
+    // Microseconds since a start may look like a date in seconds, but for their steps.
     let is_date = |unit: &TimeUnit| {
-        let since_s = first * (unit.ns() / 1e9);
-        (SINCE_1970_S[0]..SINCE_1970_S[1]).contains(&since_s)
+        let in_s = unit.ns() / 1e9;
+        (SINCE_1970_S[0]..SINCE_1970_S[1]).contains(&(first * in_s)) && step * in_s <= LONGEST_DATED_STEP_S
     };
     if let Some(unit) = units.into_iter().find(is_date) {
         return (unit, TimeUnitFrom::Values);
     }
-    let step = median_step(steps);
     let is_step = |unit: &TimeUnit| step * (unit.ns() / 1e9) <= LONGEST_STEP_S;
     (units.into_iter().find(is_step).unwrap_or(TimeUnit::Nanosecond), TimeUnitFrom::Steps)
 }
@@ -145,10 +154,13 @@ fn is_even(steps: &[f64]) -> bool {
     /// Factor by which steps of a recorder differ from their median. Kind: choice; 2 to 30 ms were met at 125 Hz.
     const FACTOR: f64 = 4.0;
     let median = median_step(steps);
+    // Rows may be repeated: up to a sixth of those of a recorder that asks faster than the robot answers.
+    let forward = steps.iter().filter(|step| **step > 0.0);
+    let even = forward.clone().filter(|step| **step < median * FACTOR && **step > median / FACTOR);
     steps.len() >= LEAST_STEPS
-        && steps.iter().all(|step| *step > 0.0)
-        && steps.iter().filter(|step| **step < median * FACTOR && **step > median / FACTOR).count() * 10
-            >= steps.len() * 9
+        && steps.iter().all(|step| *step >= 0.0)
+        && forward.clone().count() * 4 >= steps.len() * 3
+        && even.count() * 10 >= forward.count() * 9
 }
 
 impl TimeColumn {
@@ -177,6 +189,12 @@ mod tests {
         use {TimeUnit::*, TimeUnitFrom::*};
         check("time_ms,q\n0,1\n8,1\n16,1\n", Some((0, Millisecond, Name)));
         check("q,t\n1,0\n1,0.008\n1,0.016\n", Some((1, Second, Steps)));
+        check("t,q\n1500000000,1\n1500008000,1\n1500016000,1\n", Some((0, Microsecond, Steps)));
+        check(
+            "timestamp,t,q\n2025-10-09T08:53:20Z,0,1\n2025-10-09T08:53:20Z,0.1,1\n",
+            Some((1, Second, Steps)),
+        );
+        check("0.000 1\n0.008 2\n0.008 2\n0.016 0\n0.024 0\n0.032 0\n", Some((0, Second, Steps)));
         check("timestamp,q\n1760000000.5,1\n1760000000.6,1\n", Some((0, Second, Values)));
         check("timestamp,q\n1760000000500000000,1\n1760000000600000000,1\n", Some((0, Nanosecond, Values)));
         check("t,q\n0,1\n8,1\n16,1\n", Some((0, Millisecond, Steps)));
@@ -191,5 +209,7 @@ mod tests {
         check("0.5 1\n0.5 2\n0.4 0\n0.1 0\n", None);
         let coarse = Dialect::of(b"t,q\n3,1\n3,1\n3,1\n4,1\n4,1\n").unwrap();
         assert_eq!(find_time(&coarse), FoundTime::Coarse(0));
+        let dates = Dialect::of(b"time,q,dq\n2025-10-09,3,1\n2025-10-10,3,1\n").unwrap();
+        assert_eq!(find_time(&dates), FoundTime::NoNumbers(0));
     }
 }
