@@ -7,7 +7,7 @@ congruent_input::codes! {
         NOT_MCAP = "CGR-LOG-002", "log::not_mcap" unreadable,
             "The file is named .mcap but does not begin as one. It was damaged in its first bytes, or is another file under this name.";
         FOLDER = "CGR-LOG-003", "log::folder" unreadable,
-            "The folder has a metadata.yaml but no file of a format that is read. Files are found by their endings, since the names in metadata.yaml are often those of before a file was renamed.";
+            "The folder has no file of a format that is read. Files are found by their endings, since the names in metadata.yaml are often those of before a file was renamed.";
         COMPRESSED_MESSAGES = "CGR-LOG-004", "log::compressed_messages" unreadable,
             "Each message was compressed on its own (compression mode `message`), which only rosbag2 reads. Chunks that are compressed as a whole are read. Convert the bag; the help has the lines.\n    wrong: compression_mode: message\n    right: compression_mode: \"\"";
         ENCODING = "CGR-LOG-005", "log::encoding" unreadable,
@@ -23,17 +23,17 @@ congruent_input::codes! {
         JOINTS = "CGR-LOG-010", "log::joints",
             "Names of joints in the log are not those of the robot, or joints of the robot are not in the log. The message has the common prefix if there is one, the help the nearest names.\n    wrong: left_elbow_joint in the log, elbow_joint in the URDF\n    right: the same name, or a prefix that all joints of the topic have";
         UNIT = "CGR-LOG-011", "log::unit",
-            "Recorded positions lie beyond the limits of the robot, and would lie within them if they were degrees. Joint states of ROS are in rad and m. Correct the program that publishes them, or convert the log.\n    wrong: position: [-90.0]\n    right: position: [-1.5708]";
+            "Recorded positions lie beyond the limits of the robot, and would lie within them if they were degrees, or millimetres of a joint that slides. Joint states of ROS are in rad and m. Correct the program that publishes them, or convert the log.\n    wrong: position: [-90.0]\n    right: position: [-1.5708]";
         BEYOND_LIMITS = "CGR-LOG-012", "log::beyond_limits",
-            "Many recorded positions lie beyond the limits of the robot, in rad and in degrees. The robot is another one, the joints have another zero or direction, or the limits of the file are too narrow.";
+            "A tenth or more of the recorded positions of a joint lie beyond its limits, and another unit does not make them fit. The robot is another one, the joints have another zero or direction, or the limits of the file are too narrow.";
         TABLE_ENCODING = "CGR-LOG-013", "log::table_encoding" unreadable,
-            "The table is not a text of numbers: it is UTF-16, or has no row with more than one number. Save it as CSV in UTF-8.";
+            "The table is not a text of numbers: it is UTF-16, has no row with more than one number, or its header has another number of names than its rows have cells. Save it as CSV in UTF-8 with a name for each column.";
         TIME = "CGR-LOG-014", "log::time" unreadable,
             "The rows of the table have no time: no column is named as one, or that column has whole seconds or one value throughout. Then the rate of the rows must be given.\n    wrong: congruent describe q.csv\n    right: congruent describe q.csv --rate-hz 125";
         COLUMNS = "CGR-LOG-015", "log::columns" unreadable,
             "No column of the table is of a joint. Columns are found by the names of the joints of --robot, or by words such as position, q, velocity, effort. The help lists the columns.\n    wrong: a,b,c\n    right: time_s,elbow_position,wrist_position";
         ROWS = "CGR-LOG-016", "log::rows",
-            "Rows of the table have another number of cells than the first one, or cells that are not numbers. Such rows are not used; such cells count as missing. The message has their number and the first line.";
+            "Rows of the table have another number of cells than its columns, or cells that are not numbers. Such rows are not used; such cells count as missing. The message has their number and the first line.";
         LENGTHS = "CGR-LOG-018", "log::lengths",
             "Arrays of joint states are neither empty nor as long as the list of names, so which value is of which joint is unknown. The values of such messages are not used. Correct the driver.\n    wrong: name: [a, b, c], position: [0.1, 0.2]\n    right: name: [a, b, c], position: [0.1, 0.2, 0.3], velocity: []";
         STAMPS = "CGR-LOG-017", "log::stamps",

@@ -7,10 +7,7 @@ use std::{
 
 use crate::{
     LogOptions,
-    cdr::{
-        MessageKind,
-        write::{ByteOrder, CdrText},
-    },
+    cdr::{MessageKind, write::transform_text},
     mcap::write::{begun, chunk, end_with_summary, joints, message, topic, topics},
     survey_log,
 };
@@ -95,7 +92,7 @@ fn small_log(compression: &str, sums: Sums) -> Vec<u8> {
     let states = |from: u64| -> Vec<u8> {
         (from..from + 5).flat_map(|at| joints(at * 1_000_000, &["elbow", "wrist"], &[0.1, 0.2])).collect()
     };
-    let edge = message(3, 3_000_000, &transform().bytes);
+    let edge = message(3, 3_000_000, &transform_text(3_000_000, "base", "tool0").bytes);
     let chunks = [
         chunk(compression, [0, 4], &[topics(), tf, states(1), edge].concat()),
         chunk(compression, [5, 9], &states(6)),
@@ -112,17 +109,6 @@ fn small_log(compression: &str, sums: Sums) -> Vec<u8> {
     let end = end_with_summary(bytes.len(), &places, &topics());
     bytes.extend(end);
     bytes
-}
-
-fn transform() -> CdrText {
-    let mut text = CdrText::new(ByteOrder::Little);
-    text.u32(1);
-    text.header(3_000_000, "base");
-    text.text("tool0");
-    for at in 0..7 {
-        text.f64(f64::from(at));
-    }
-    text
 }
 
 #[test]
@@ -154,7 +140,7 @@ fn changed_messages_are_decoded_or_refused() {
         MessageKind::Transforms,
         MessageKind::Text,
     ];
-    let whole = transform().bytes;
+    let whole = transform_text(3_000_000, "base", "tool0").bytes;
     for _ in 0..20_000 {
         let message = mutated(&whole, &mut numbers);
         for kind in kinds {

@@ -24,9 +24,11 @@ const MAGIC_BYTES: u64 = 8;
 
 /// Endings of tables.
 const TABLES: [&str; 2] = [".csv", ".tsv"];
+/// The ending of an MCAP that was compressed as a whole.
+const COMPRESSED: &str = ".mcap.zstd";
 /// Endings of logs that are not read, with what to do.
 const NOT_READ: [(&str, &str, &str); 5] = [
-    (".mcap.zstd", "an MCAP that was compressed as a whole", "decompress it: `zstd -d FILE`"),
+    (COMPRESSED, "an MCAP that was compressed as a whole", "decompress it: `zstd -d FILE`"),
     (
         ".db3.zstd",
         "a SQLite bag that was compressed as a whole",
@@ -41,10 +43,14 @@ const NOT_READ: [(&str, &str, &str); 5] = [
     ),
 ];
 
-/// Whether a path is a log: by its ending, or a folder that rosbag2 wrote.
+/// Whether a path is a log: by its ending, or a folder with files that rosbag2 wrote. One with a robot.toml is a robot, whatever
+/// has been recorded into it.
 pub fn is_log(path: &Path) -> bool {
     if path.is_dir() {
-        return path.join(METADATA).is_file();
+        let is_of_bag = |path: &PathBuf| has_ending(path, ".mcap") || not_read(path).is_some();
+        let has = |name: &str| path.join(name).is_file();
+        let files = || files_in(path).is_ok_and(|files| files.iter().any(is_of_bag));
+        return !has("robot.toml") && (has(METADATA) || files());
     }
     let is_table = TABLES.iter().any(|ending| has_ending(path, ending));
     is_table || has_ending(path, ".mcap") || not_read(path).is_some()
@@ -56,7 +62,8 @@ pub fn is_log(path: &Path) -> bool {
 /// It cannot be read, or is of a format that is not; then the help says how to convert it.
 pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>, Diagnostic> {
     if path.is_dir() {
-        return Ok(Box::new(McapReader::new(files_of_bag(path)?)));
+        let BagFiles { whole, refused } = files_of_bag(path)?;
+        return Ok(Box::new(McapReader::new(whole).with_gaps(refused)));
     }
     if !path.exists() {
         return Err(Diagnostic::error(file::NOT_FOUND, absence(path)));
@@ -100,27 +107,66 @@ fn checked_mcap(path: &Path) -> Result<PathBuf, Diagnostic> {
     Ok(path.to_owned())
 }
 
-/// The files of a folder that rosbag2 wrote, in the order of their numbers. What metadata.yaml says about them is not
-/// used: files are renamed, and rosbag2 itself writes it without names after a failure.
-fn files_of_bag(folder: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
-    let metadata = read_text(&folder.join(METADATA), METADATA_BYTES)?;
-    if metadata.text.lines().any(|line| line.trim().to_lowercase() == "compression_mode: message") {
+/// The files of a folder that rosbag2 wrote.
+struct BagFiles {
+    /// Those that are read, in the order of their numbers.
+    whole: Vec<PathBuf>,
+    /// Why others are not.
+    refused: Vec<Diagnostic>,
+}
+
+/// The files of a folder that rosbag2 wrote. What metadata.yaml says about them is not used: files are renamed, rosbag2 itself
+/// writes it without names after a failure, and not at all if it is killed.
+fn files_of_bag(folder: &Path) -> Result<BagFiles, Diagnostic> {
+    if is_compressed_by_message(folder)? {
         let message = format!("{}: each message is compressed on its own", folder.display());
         return Err(Diagnostic::error(codes::log::COMPRESSED_MESSAGES, message).with_help(CONVERT));
     }
+    let files = files_in(folder)?;
+    let (mut whole, mut refused) = (Vec::new(), Vec::new());
+    for path in &files {
+        if has_ending(path, ".mcap") {
+            match checked_mcap(path) {
+                Ok(path) => whole.push(path),
+                Err(fault) => refused.push(fault),
+            }
+        }
+        // Of files that were compressed one after the other, some may have both forms.
+        let is_there = || files.iter().any(|file| *file == path.with_extension(""));
+        if has_ending(path, COMPRESSED) && !is_there() {
+            refused.extend(not_read(path));
+        }
+    }
+    if whole.is_empty() {
+        let other = || files.iter().find_map(|path| not_read(path));
+        let message = format!("{} has no file *.mcap", folder.display());
+        let none = || {
+            Diagnostic::error(codes::log::FOLDER, message)
+                .with_help("give the folder with the recorded files, or the .mcap itself")
+        };
+        return Err(refused.into_iter().next().or_else(other).unwrap_or_else(none));
+    }
+    Ok(BagFiles { whole, refused })
+}
+
+fn is_compressed_by_message(folder: &Path) -> Result<bool, Diagnostic> {
+    let metadata = folder.join(METADATA);
+    if !metadata.exists() {
+        return Ok(false);
+    }
+    let metadata = read_text(&metadata, METADATA_BYTES)?;
+    Ok(metadata.text.lines().any(|line| line.trim().to_lowercase() == "compression_mode: message"))
+}
+
+/// The files of a folder in the order of their numbers, without hidden ones: macOS puts a file `._bag_0.mcap` beside `bag_0.mcap`.
+fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Diagnostic> {
     let entries = std::fs::read_dir(folder).map_err(|fault| unreadable(folder, &fault))?;
-    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let is_hidden =
+        |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+    let mut files: Vec<PathBuf> =
+        entries.flatten().map(|entry| entry.path()).filter(|path| !is_hidden(path)).collect();
     files.sort_by_cached_key(|path| by_number(path));
-    let logs: Vec<&PathBuf> = files.iter().filter(|path| has_ending(path, ".mcap")).collect();
-    if !logs.is_empty() {
-        return logs.into_iter().map(|path| checked_mcap(path)).collect();
-    }
-    if let Some(refused) = files.iter().find_map(|path| not_read(path)) {
-        return Err(refused);
-    }
-    let message = format!("{} has a {METADATA}, but no file *.mcap", folder.display());
-    Err(Diagnostic::error(codes::log::FOLDER, message)
-        .with_help("give the folder with the recorded files, or the .mcap itself"))
+    Ok(files)
 }
 
 /// A name without and with the number at its end: `arm_2.mcap` is before `arm_10.mcap`.

@@ -73,10 +73,35 @@ fn files_of_a_bag_are_one_log_in_the_order_of_their_numbers() {
 }
 
 #[test]
+fn a_file_that_is_not_read_costs_itself_alone() {
+    let log = log_at(1);
+    let whole = ("bag_1.mcap", log.as_slice());
+    let gaps = |other: &str| {
+        let folder = folder(&[(other, b""), whole]);
+        let mut reader = open_log(folder.path(), &LogOptions::default()).unwrap();
+        let events = std::iter::from_fn(|| reader.next_event().unwrap());
+        events.filter(|event| matches!(event, LogEvent::Gap(_))).count()
+    };
+    assert_eq!((gaps("bag_0.mcap"), gaps("bag_0.mcap.zstd")), (1, 1));
+    assert_eq!((gaps("._bag_1.mcap"), gaps("bag_1.mcap.zstd")), (0, 0));
+}
+
+#[test]
+fn a_folder_of_a_recorder_that_was_killed_is_a_log() {
+    for name in ["bag_0.mcap", "bag_0.db3", "metadata.yaml"] {
+        assert!(is_log(folder(&[(name, b"")]).path()), "{name}");
+        assert!(!is_log(folder(&[(name, b""), ("robot.toml", b"")]).path()), "{name}");
+    }
+    assert!(!is_log(folder(&[("arm.urdf", b""), ("._bag_0.mcap", b"")]).path()));
+}
+
+#[test]
 fn folders_without_a_file_that_is_read_are_refused() {
     let metadata = ("metadata.yaml", b"compression_mode: FILE\n".as_slice());
     let refused = |files: &[(&str, &[u8])]| refusal(folder(files).path()).code;
+    assert_eq!(refused(&[]), codes::log::FOLDER);
     assert_eq!(refused(&[metadata]), codes::log::FOLDER);
+    assert_eq!(refused(&[("a.mcap", b"")]), file::EMPTY);
     assert_eq!(refused(&[metadata, ("a.db3", b"")]), codes::log::FORMAT);
     let message = ("metadata.yaml", b"  compression_mode: MESSAGE\n".as_slice());
     assert_eq!(refused(&[message, ("a.mcap", b"")]), codes::log::COMPRESSED_MESSAGES);

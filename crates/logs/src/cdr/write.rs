@@ -62,3 +62,15 @@ pub(crate) fn joint_state_text(text: &mut CdrText, stamp_ns: i64, names: &[&str]
         text.text(name);
     }
 }
+
+/// A message of TF with one edge.
+pub(crate) fn transform_text(stamp_ns: i64, frame: &str, child: &str) -> CdrText {
+    let mut text = CdrText::new(ByteOrder::Little);
+    text.u32(1);
+    text.header(stamp_ns, frame);
+    text.text(child);
+    for at in 0..7 {
+        text.f64(f64::from(at));
+    }
+    text
+}

@@ -128,7 +128,7 @@ fn guessed(values: &[f64], steps: &[f64]) -> (TimeUnit, TimeUnitFrom) {
     let units = [TimeUnit::Second, TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
     let first = values.first().copied().unwrap_or_default();
     let step = median_step(steps);
-    // Microseconds since a start may look like a date in seconds, but for their steps.
+    // Microseconds since a start may look like a date in seconds; their steps are then hours.
     let is_date = |unit: &TimeUnit| {
         let in_s = unit.ns() / 1e9;
         (SINCE_1970_S[0]..SINCE_1970_S[1]).contains(&(first * in_s)) && step * in_s <= LONGEST_DATED_STEP_S

@@ -8,7 +8,7 @@ use std::{
     vec,
 };
 
-use congruent_input::{Code, Diagnostic, SourceFile, unreadable};
+use congruent_input::{Code, Diagnostic, Severity, SourceFile, unreadable};
 use mcap::{
     parse_record,
     records::{Record, op},
@@ -55,6 +55,14 @@ impl McapReader {
             content: Vec::new(),
             chunk: Chunk::default(),
         }
+    }
+
+    /// Begins with these gaps: files of the log that are not read.
+    pub(crate) fn with_gaps(mut self, causes: Vec<Diagnostic>) -> Self {
+        for cause in causes {
+            gap(&mut self.messages, None, Diagnostic { severity: Severity::Warning, ..cause });
+        }
+        self
     }
 
     /// Reads a record; `false` after the last of the log.

@@ -6,7 +6,7 @@ use congruent_input::{
 };
 
 use super::{
-    report::{JointSource, PositionUnit, RobotOfLog, TopicSurvey},
+    report::{JointLimitsSurvey, JointSource, PositionUnit, RobotOfLog, TopicSurvey},
     words::entries,
 };
 use crate::{
@@ -20,7 +20,7 @@ const MOST_LISTED: usize = 8;
 
 /// That nothing of a log can be used; an error if something could be in another encoding.
 pub(super) fn nothing_read(topics: &[TopicSurvey]) -> Option<Diagnostic> {
-    if topics.iter().any(|topic| topic.content != TopicContent::TimesAlone) {
+    if topics.iter().any(has_joints_or_poses) {
         return None;
     }
     if let Some(topic) = topics.iter().find(|topic| is_in_other_encoding(topic)) {
@@ -33,6 +33,13 @@ pub(super) fn nothing_read(topics: &[TopicSurvey]) -> Option<Diagnostic> {
         Diagnostic::warning(codes::log::NOTHING_READ, "the log has neither joint states nor poses nor TF")
             .with_help(format!("types in the log: {listed}")),
     )
+}
+
+/// Whether a topic has a message with joints or poses: one that is declared alone has none.
+fn has_joints_or_poses(topic: &TopicSurvey) -> bool {
+    let is_read = !matches!(topic.content, TopicContent::TimesAlone | TopicContent::Description);
+    let undecoded = topic.undecoded.as_ref().map_or(0, |undecoded| undecoded.count);
+    is_read && topic.messages > undecoded
 }
 
 /// Whether a topic would be read if it were encoded as ROS 2 does.
@@ -84,7 +91,7 @@ pub(super) fn of_topics(topics: &[TopicSurvey]) -> Vec<Diagnostic> {
 
 /// What is wrong with the log if it is of this robot.
 pub(super) fn of_robot(found: &RobotOfLog) -> Vec<Diagnostic> {
-    [names(found), unit(found)].into_iter().flatten().collect()
+    names(found).into_iter().chain(units(found)).chain(beyond_limits(found)).collect()
 }
 
 fn names(found: &RobotOfLog) -> Option<Diagnostic> {
@@ -131,27 +138,40 @@ fn other_names(source: &JointSource) -> Option<String> {
     })
 }
 
-fn unit(found: &RobotOfLog) -> Option<Diagnostic> {
-    let worst = found.limits.iter().max_by(|a, b| a.beyond.total_cmp(&b.beyond))?;
-    let share = |part: f64| format!("{:.0} %", 100.0 * part);
-    let (joint, beyond) = (&worst.joint, share(worst.beyond));
-    match found.position_unit {
-        PositionUnit::Degree => {
-            let message = format!(
-                "positions are degrees: as rad {beyond} of those of {joint} lie beyond its limits, as degrees {}",
-                share(worst.beyond_as_degrees.unwrap_or_default())
-            );
-            Some(
-                Diagnostic::warning(codes::log::UNIT, message)
-                    .with_help("joint states of ROS are in rad and m"),
-            )
-        }
-        PositionUnit::Neither => {
-            let message = format!(
-                "{beyond} of the positions of {joint} lie beyond its limits, and no unit makes all fit"
-            );
-            Some(Diagnostic::warning(codes::log::BEYOND_LIMITS, message))
-        }
-        PositionUnit::Radian | PositionUnit::Unknown => None,
-    }
+/// Angles in degrees and lengths in mm: that of the joint of each kind which exceeds its limits most.
+fn units(found: &RobotOfLog) -> Vec<Diagnostic> {
+    let worst = |unit: &str, si: &str, of: fn(&JointLimitsSurvey) -> Option<f64>| {
+        let joints = found.limits.iter().filter(|joint| of(joint).is_some());
+        let worst = joints.max_by(|a, b| a.beyond.total_cmp(&b.beyond))?;
+        let (beyond, converted) = (percent(worst.beyond), percent(of(worst)?));
+        let message = format!(
+            "positions are {unit}: as {si} {beyond} of those of {} lie beyond its limits, as {unit} {converted}",
+            worst.joint
+        );
+        let help = "joint states of ROS are in rad and m";
+        Some(Diagnostic::warning(codes::log::UNIT, message).with_help(help))
+    };
+    let is_in_degrees = found.position_unit == PositionUnit::Degree;
+    let degrees = is_in_degrees.then(|| worst("degrees", "rad", |joint| joint.beyond_as_degrees)).flatten();
+    let is_in_millimetres = found.limits.iter().any(JointLimitsSurvey::is_in_millimetres);
+    let millimetres =
+        is_in_millimetres.then(|| worst("mm", "m", |joint| joint.beyond_as_millimetres)).flatten();
+    degrees.into_iter().chain(millimetres).collect()
+}
+
+/// Joints whose positions fit in no unit.
+fn beyond_limits(found: &RobotOfLog) -> Option<Diagnostic> {
+    let beyond: Vec<String> = found
+        .joints_beyond_limits()
+        .map(|joint| format!("{} of those of {}", percent(joint.beyond), joint.joint))
+        .collect();
+    let message = format!(
+        "positions lie beyond the limits, and another unit does not make them fit: {}",
+        first_of(&beyond, MOST_LISTED)
+    );
+    (!beyond.is_empty()).then(|| Diagnostic::warning(codes::log::BEYOND_LIMITS, message))
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
 }

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::*;
 use crate::{
+    cdr::write::transform_text,
     codes,
     mcap::write::{begun, end, joint_data, joints, message, topic, topics},
     survey_words,
@@ -26,8 +27,12 @@ fn joint_states_in_another_encoding_alone_are_refused() {
     assert_eq!(refused.code, codes::log::ENCODING);
     // Beside a topic that is read it is a warning.
     let tf = topic(2, "/tf", "tf2_msgs/msg/TFMessage", "cdr");
-    let found = survey(&[begun(), ros1, tf, joints(1, &["a"], &[0.0]), end()].concat()).unwrap();
+    let declared = [begun(), ros1, tf, joints(1, &["a"], &[0.0])].concat();
+    let edge = transform_text(5, "base", "tool0").bytes;
+    let found = survey(&[declared.clone(), message(2, 5, &edge), end()].concat()).unwrap();
     assert_eq!((codes_of(&found), found.survey.topics[0].messages), (vec!["log::encoding"], 1));
+    // One that has no message is not read.
+    assert_eq!(survey(&[declared, end()].concat()).unwrap_err().code, codes::log::ENCODING);
 }
 
 #[test]

@@ -266,7 +266,7 @@ pub struct UnknownJoint {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PositionUnit {
-    /// They lie within the limits as written: rad.
+    /// Nine of ten of all joints together lie within the limits as written: rad.
     Radian,
     /// A tenth or more lies beyond the limits as written, and within them as degrees.
     Degree,
@@ -288,4 +288,7 @@ pub struct JointLimitsSurvey {
     /// Share beyond the limits if they are degrees; `None` if the joint slides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_as_degrees: Option<f64>,
+    /// Share beyond the limits if they are mm; `None` if the joint turns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beyond_as_millimetres: Option<f64>,
 }

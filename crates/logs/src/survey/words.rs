@@ -274,7 +274,14 @@ fn of_robot(found: &RobotOfLog) -> String {
         PositionUnit::Neither => "positions lie beyond the limits, as rad and as degrees",
         PositionUnit::Unknown => "no position to compare with limits",
     };
-    format!("robot {}: {sources}{missing}; {unit}", found.robot)
+    // What most joints do may hide one.
+    let beyond = match found.joints_beyond_limits().count() {
+        count if count > 0 && found.position_unit != PositionUnit::Neither => {
+            format!(", except of {}", counted(count, "joint"))
+        }
+        _ => String::new(),
+    };
+    format!("robot {}: {sources}{missing}; {unit}{beyond}", found.robot)
 }
 
 #[cfg(test)]
