@@ -17,7 +17,7 @@ pub use event::{
     EventTime, LogEvent, LogGap, LogReader, LogTopic, LoggedDescription, LoggedJoints, LoggedPose,
     OtherMessage, TopicContent,
 };
-pub use open::{is_log, open_log};
+pub use open::{is_log, is_table, open_log};
 pub use options::LogOptions;
 pub use survey::{
     ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogFormat, LogSurvey,

@@ -52,8 +52,12 @@ pub fn is_log(path: &Path) -> bool {
         let files = || files_in(path).is_ok_and(|files| files.iter().any(is_of_bag));
         return !has("robot.toml") && (has(METADATA) || files());
     }
-    let is_table = TABLES.iter().any(|ending| has_ending(path, ending));
-    is_table || has_ending(path, ".mcap") || not_read(path).is_some()
+    is_table(path) || has_ending(path, ".mcap") || not_read(path).is_some()
+}
+
+/// Whether a path is a log that is a table, by its ending.
+pub fn is_table(path: &Path) -> bool {
+    !path.is_dir() && TABLES.iter().any(|ending| has_ending(path, ending))
 }
 
 /// Opens a log: an MCAP, a table in CSV, or a folder that rosbag2 wrote.
@@ -71,7 +75,7 @@ pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>,
     if let Some(refused) = not_read(path) {
         return Err(refused);
     }
-    if TABLES.iter().any(|ending| has_ending(path, ending)) {
+    if is_table(path) {
         return Ok(Box::new(TableReader::open(path, options)?));
     }
     Ok(Box::new(McapReader::new(vec![checked_mcap(path)?])))

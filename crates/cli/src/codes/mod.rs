@@ -64,6 +64,10 @@ congruent::input::codes! {
         TO = "CGR-COMMAND-072", "convert::to",
             "No model to write is named, or --to names two models or two files. --out FILE.urdf and --out FILE.xml name the model by the ending of the file. A table is written in one convention, which must be chosen, since the same values are another robot in the other.\n    congruent convert arm.urdf --to dh --to arm.toml";
     }
+    describe {
+        OPTION = "CGR-COMMAND-080", "describe::option",
+            "An option of `describe` fits none of the inputs: --orders is for robots, --robot for logs, --rate-hz for tables. Leave the option out, or give the input for it.\n    wrong: congruent describe monday.mcap --rate-hz 125\n    right: congruent describe monday.csv --rate-hz 125";
+    }
     derive {
         BASE_PARAMETERS = "CGR-COMMAND-037", "derive::base_parameters",
             "The base inertial parameters cannot be computed. The message names the joint or value that stops it. Correct it in the URDF, or choose another chain with --base and --tip.\n    congruent dynamics robots/ur5e --base-parameters --base base_link --tip tool0";

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use congruent::{
     analysis::description_summary::{DescriptionSummary, JointOrders, describe, joint_orders},
     description::{RobotDescription, load_robot_with},
-    logs::{LogOptions, LogSurvey, SurveyedLog, is_log, survey_line, survey_log},
+    input::Diagnostic,
+    logs::{LogOptions, LogSurvey, SurveyedLog, is_log, is_table, survey_line, survey_log},
     results::report::{TestResult, TestSuite},
     text::{description_text, joint_orders_text, log_text},
 };
@@ -14,6 +15,7 @@ use serde::Serialize;
 use crate::{
     batch::{Batch, BatchReport},
     ci::CiArguments,
+    codes,
     failure::Failure,
     input::{AccessArguments, ChainArguments},
     terminal::print::{Printer, text_options},
@@ -29,9 +31,9 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, URDFs, MJCFs, or - for a URDF or MJCF on standard input; logs: .mcap, .csv, folders
-    /// with metadata.yaml.
-    #[arg(required = true)]
-    robots: Vec<PathBuf>,
+    /// of rosbag2.
+    #[arg(required = true, value_name = "ROBOT_OR_LOG")]
+    inputs: Vec<PathBuf>,
     /// Compare the joints and units of logs with this robot: a folder with robot.toml, a robot file, a URDF or an MJCF.
     #[arg(long, value_name = "ROBOT")]
     robot: Option<PathBuf>,
@@ -98,28 +100,55 @@ impl BatchReport for JointOrders {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let ci = CiArguments::default();
-    let batch = Batch::begin(&arguments.robots, &ci, printer)?;
+    if let Some(refused) = unfit_option(arguments) {
+        return Err(refused.into());
+    }
+    let batch = Batch::begin(&arguments.inputs, &ci, printer)?;
     let loaded = |path: &Path| {
         let description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
         batch.warn(path, &description.warnings);
         Ok::<_, Failure>(description)
     };
-    let robots = arguments.robots.iter();
+    let inputs = arguments.inputs.iter();
     if arguments.orders {
         let orders = |path: &Path| Ok(joint_orders(&loaded(path)?));
-        return batch.finish(robots.map(|path| batch.answer(path, || orders(path))).collect());
+        return batch.finish(inputs.map(|path| batch.answer(path, || orders(path))).collect());
     }
     let robot = arguments.robot.as_deref().map(&loaded).transpose()?;
     let described = |path: &Path| {
-        // A robot may be in a folder that rosbag2 has written to.
-        if !is_log(path) || path.join("robot.toml").is_file() {
+        if !is_log(path) {
             return Ok(Described::Robot(Box::new(describe(&loaded(path)?))));
         }
         let SurveyedLog { survey, warnings } = surveyed(path, arguments, robot.as_ref())?;
         batch.warn(path, &warnings);
         Ok(Described::Log(Box::new(survey)))
     };
-    batch.finish(robots.map(|path| batch.answer(path, || described(path))).collect())
+    batch.finish(inputs.map(|path| batch.answer(path, || described(path))).collect())
+}
+
+/// An option that would be ignored.
+fn unfit_option(arguments: &Arguments) -> Option<Diagnostic> {
+    let Arguments { inputs, robot, rate_hz, orders, .. } = arguments;
+    let any = |is_one: fn(&Path) -> bool| inputs.iter().find(|path| is_one(path));
+    let (log, table) = (any(is_log), any(is_table));
+    let refused = |message: String, help: &str| {
+        Some(Diagnostic::error(codes::describe::OPTION, message).with_help(help))
+    };
+    match log {
+        Some(log) if *orders => {
+            let message = format!("--orders lists the joints of robots, and {} is a log", log.display());
+            refused(message, "leave --orders out, or give the robot alone")
+        }
+        None if robot.is_some() => {
+            let message = "--robot is what logs are compared with, and no input is a log".to_owned();
+            refused(message, "give a log beside --robot, or the robot without the option")
+        }
+        _ if rate_hz.is_some() && table.is_none() => {
+            let message = "--rate-hz is the rate of the rows of tables, and no input is a table".to_owned();
+            refused(message, "leave --rate-hz out: an MCAP has the times of its messages")
+        }
+        _ => None,
+    }
 }
 
 fn surveyed(
