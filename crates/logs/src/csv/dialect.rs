@@ -185,7 +185,9 @@ impl Candidate {
 fn usual_width(rows: &[Vec<String>]) -> usize {
     let mut counts = BTreeMap::new();
     let data = rows.get(1..).filter(|rows| !rows.is_empty()).unwrap_or(rows);
-    data.iter().for_each(|row| *counts.entry(row.len()).or_insert(0) += 1);
+    for row in data {
+        *counts.entry(row.len()).or_insert(0) += 1;
+    }
     counts.into_iter().max_by_key(|(_, count)| *count).map_or(0, |(width, _)| width)
 }
 

@@ -150,7 +150,9 @@ mod tests {
                 beyond: 0,
                 beyond_in_other_unit: 0,
             };
-            positions.iter().for_each(|position| track.take(*position));
+            for position in positions {
+                track.take(*position);
+            }
             limits.add(name, &track);
         }
         RobotOfLog {

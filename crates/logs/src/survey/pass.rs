@@ -42,12 +42,11 @@ struct Pass {
     warnings: Vec<Diagnostic>,
 }
 
-/// Log times of messages: of the first in the file, and the extreme ones. Recorders write messages of other topics later.
+/// Log times of messages: of the first in the file, and the range of all. Recorders write messages of some topics later.
 #[derive(Default, Clone, Copy)]
 struct LogTimes {
     first_ns: i64,
-    earliest_ns: i64,
-    latest_ns: i64,
+    range_ns: [i64; 2],
 }
 
 /// Reads a log once and says what is in it; with a robot, how its joints and units fit.
@@ -103,8 +102,8 @@ impl Pass {
 
     fn topic(&mut self, topic: usize, time: &EventTime) -> &mut TopicTrack {
         let ns = time.log_ns;
-        let log = self.log.get_or_insert(LogTimes { first_ns: ns, earliest_ns: ns, latest_ns: ns });
-        (log.earliest_ns, log.latest_ns) = (log.earliest_ns.min(ns), log.latest_ns.max(ns));
+        let log = self.log.get_or_insert(LogTimes { first_ns: ns, range_ns: [ns; 2] });
+        log.range_ns = [log.range_ns[0].min(ns), log.range_ns[1].max(ns)];
         if self.topics.len() <= topic {
             self.topics.resize_with(topic + 1, TopicTrack::default);
         }
@@ -121,7 +120,7 @@ impl Pass {
         let topics = reader.topics();
         // Topics that are declared and have no message.
         self.topics.resize_with(topics.len(), TopicTrack::default);
-        let LogTimes { first_ns, earliest_ns, latest_ns } = self.log.unwrap_or_default();
+        let LogTimes { first_ns, range_ns: [earliest_ns, latest_ns] } = self.log.unwrap_or_default();
         let surveyed: Vec<_> =
             self.topics.iter_mut().zip(topics).map(|(track, topic)| track.report(topic, first_ns)).collect();
         let tracks = topics.iter().map(|topic| topic.name.as_str()).zip(&self.topics);

@@ -75,7 +75,7 @@ fn infinite_positions_are_missing() {
 fn messages_that_are_written_late_do_not_shorten_the_log() {
     let states = [joints(5_000_000_000, &["a"], &[0.0]), joints(3_000_000_000, &["a"], &[0.0])].concat();
     let found = survey(&[begun(), topics(), states, end()].concat()).unwrap();
-    assert_eq!(found.survey.duration_s, 2.0);
+    assert!((found.survey.duration_s - 2.0).abs() < 1e-12, "{}", found.survey.duration_s);
 }
 
 #[test]
