@@ -138,6 +138,15 @@ fn a_record_that_is_too_long_is_left_out() {
 }
 
 #[test]
+fn a_chunk_that_the_summary_has_behind_the_file_is_none() {
+    let before = [begun(), two("", 10, &topics()), vec![0; 9], two("", 11, &[])].concat();
+    let end = end_with_summary(before.len(), &[(1 << 40, [0, 1])], &topics());
+    let (events, _) = read(&[before, end].concat()).unwrap();
+    let [gap] = gaps(&events)[..] else { panic!("{events:?}") };
+    assert!(gap.cause.message.contains("nothing behind it is read"), "{gap:?}");
+}
+
+#[test]
 fn claims_of_a_chunk_are_not_believed() {
     let bomb = vec![0; 40 << 20];
     let mut chunk = chunk("zstd", [0, 1], &bomb);
@@ -175,8 +184,8 @@ fn records_that_nobody_needs_are_not_parsed() {
 #[test]
 fn a_cut_frame_of_lz4_costs_its_own_chunk_alone() {
     let mut cut = chunk("lz4", [11, 11], &joints(11, &NAMES, &[0.5, 1.5]));
-    // Inside the frame: the last bytes are the end mark.
-    cut.truncate(cut.len() - 6);
+    // The last four bytes of a frame are its end mark.
+    cut.truncate(cut.len() - 4);
     let length = (cut.len() - 9) as u64;
     cut[1..9].copy_from_slice(&length.to_le_bytes());
     let compressed = 9 + 8 + 8 + 8 + 4 + 4 + 3;

@@ -116,7 +116,7 @@ fn names(found: &RobotOfLog) -> Option<Diagnostic> {
             "joints of the log that are none of {robot}: {}",
             first_of(&guesses, MOST_LISTED)
         )),
-        (_, true) => finding.with_help("the robot's joints are found in spite of that"),
+        (_, true) => finding.with_help("the robot's joints are found nevertheless"),
         (true, false) => finding,
     })
 }

@@ -103,7 +103,7 @@ fn reading(table: &TableReading, most: usize) -> String {
         TableTime::Column { name, unit, unit_from } => {
             format!("time in \"{name}\", in {} by its {}", serde_name(unit), serde_name(unit_from))
         }
-        TableTime::RateHz(rate_hz) => format!("{} rows a second as given", number(*rate_hz)),
+        TableTime::RateHz(rate_hz) => format!("rows at {} Hz as given", number(*rate_hz)),
     };
     let header = if table.has_header { "columns have names" } else { "columns have no names" };
     let preset = table.preset.map_or(String::new(), |preset| format!("; columns of {}", serde_name(&preset)));
