@@ -106,6 +106,31 @@ fn a_period_thins_the_rows_and_keeps_the_last() {
 }
 
 #[test]
+fn a_log_has_the_positions_of_the_table_and_the_robot() {
+    use congruent::logs::{LogEvent, LogOptions, open_log};
+    let scratch = ScratchFolder::new();
+    let mut table =
+        columns(&run(&scratch, &scenario(&scratch, "table", "trajectory = \"csv\"")).join("trajectory.csv"));
+    let measured = table.remove("elbow_joint.measured_q_rad").unwrap();
+    let log = run(&scratch, &scenario(&scratch, "log", "trajectory = \"mcap\"")).join("trajectory.mcap");
+    let mut reader = open_log(&log, &LogOptions::default()).unwrap();
+    let mut rows = Vec::new();
+    while let Some(event) = reader.next_event().unwrap() {
+        let LogEvent::Joints(joints) = event else { continue };
+        if reader.topics()[joints.topic].name == "/joint_states" {
+            let elbow = joints.names.iter().position(|name| name == "elbow_joint").unwrap();
+            rows.push(joints.position[elbow]);
+        }
+    }
+    let measured: Vec<f64> = measured.iter().map(|cell| cell.parse().unwrap()).collect();
+    // Equal to the last bit: both are written from the same sample.
+    assert_eq!(rows, measured);
+    let robot = text(&workspace().join("robots/ur5e"));
+    let answer = congruent(&["check", &robot, "--against", &text(&log), "-q"]);
+    assert!(answer.code == 0 && answer.stdout.contains("SAME ROBOT"), "{}{}", answer.stdout, answer.stderr);
+}
+
+#[test]
 fn both_formats_hold_the_same_numbers() {
     use congruent::results::trajectory_file::open;
     let scratch = ScratchFolder::new();

@@ -38,5 +38,9 @@ congruent_input::codes! {
             "Arrays of joint states are neither empty nor as long as the list of names, so which value is of which joint is unknown. The values of such messages are not used. Correct the driver.\n    wrong: name: [a, b, c], position: [0.1, 0.2]\n    right: name: [a, b, c], position: [0.1, 0.2, 0.3], velocity: []";
         STAMPS = "CGR-LOG-017", "log::stamps",
             "The stamps of a topic go back by more than a second: a clock was set, a simulation or a replay was started again. What is before and after cannot be ordered by stamps. Cut the log there, or use the time of the recorder.";
+        NO_DESCRIPTION = "CGR-LOG-019", "log::no_description",
+            "The log has no description of the robot, so that there is none to compare. Nodes publish it once, at their start; a recorder that begins later gets it if it subscribes with the durability `transient_local`, as `ros2 bag record` does by itself.\n    wrong: ros2 bag record -s mcap /joint_states\n    right: ros2 bag record -s mcap /joint_states /robot_description";
+        DESCRIPTIONS = "CGR-LOG-020", "log::descriptions",
+            "The log has several descriptions of a robot: on two topics, or one that was published again with another text. On one topic the last one is compared. Of two topics nobody says which is meant: keep one.\n    wrong: topics /left/robot_description and /right/robot_description\n    right: one of the two, by `ros2 bag convert` with `topics: [/left/robot_description]`";
     }
 }

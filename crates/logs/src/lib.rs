@@ -1,7 +1,7 @@
 //! Recorded joint states and poses of robots, from MCAP and CSV, and a survey of what a log has.
 //!
 //! A log is read once, from its beginning to its end, in memory that does not grow with it: [`open_log`] gives its events,
-//! [`survey_log`] says what is in it. Nothing here compares a log with poses of a model, or puts events in order of time.
+//! [`survey_log`] says what is in it, [`recorded_description`] which robot was recorded. Nothing here compares a log with poses of a model, or puts events in order of time.
 
 mod cdr;
 pub mod codes;
@@ -10,8 +10,10 @@ mod event;
 mod mcap;
 mod open;
 mod options;
+mod recorded_description;
 mod survey;
 mod table_reading;
+mod written;
 
 pub use event::{
     EventTime, LogEvent, LogGap, LogReader, LogTopic, LoggedDescription, LoggedJoints, LoggedPose,
@@ -19,6 +21,7 @@ pub use event::{
 };
 pub use open::{is_log, is_table, open_log};
 pub use options::LogOptions;
+pub use recorded_description::{RecordedDescription, recorded_description};
 pub use survey::{
     ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogFormat, LogSurvey,
     LoggedJoint, MissingShares, PositionUnit, RobotInLog, RobotOfLog, SurveyWords, SurveyedLog, TopicSurvey,
@@ -27,6 +30,10 @@ pub use survey::{
 pub use table_reading::{
     DecimalMark, LoggedQuantity, Preset, Separator, TableColumn, TableEncoding, TableReading, TableTime,
     TimeUnit, TimeUnitFrom,
+};
+
+pub use written::{
+    DiagnosticLevel, JointTopic, LogWriteError, LogWriter, WrittenDiagnostic, WrittenEdge, WrittenJoints,
 };
 
 #[cfg(test)]

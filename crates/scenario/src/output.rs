@@ -9,15 +9,15 @@ use super::number::optional_positive;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputSettings {
-    /// Writes the state at each sample as a table, `trajectory.csv` or `trajectory.parquet`.
+    /// Writes the state at each sample as a table, `trajectory.csv` or `trajectory.parquet`, or as a log of ROS 2, `trajectory.mcap`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trajectory: Option<TrajectoryFormat>,
-    /// Time from row to row of the table, a multiple of the step; default: every step. The last sample is a row in any case.
+    /// Time from row to row, a multiple of the step; default: every step. The last sample is a row in any case.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub trajectory_period_s: Option<f64>,
 }
 
-/// The format of a table.
+/// The format of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TrajectoryFormat {
@@ -25,6 +25,8 @@ pub enum TrajectoryFormat {
     Csv,
     /// Apache Parquet, without compression.
     Parquet,
+    /// MCAP with the messages of ROS 2 that viewers know: joint states, TF, the description of the robot, and the checks as diagnostics.
+    Mcap,
 }
 
 impl OutputSettings {

@@ -15,7 +15,7 @@ congruent_input::codes! {
         SAMPLING = "CGR-SCENARIO-022", "scenario::sampling",
             "A period or a delay is not a whole number of steps. Change the value or `step_s`.\n    wrong: rate_hz = 700.0\n    right: rate_hz = 500.0";
         OUTPUT = "CGR-SCENARIO-023", "scenario::output",
-            "The period of a trajectory file does not fit the run, or a period is given without a file. A row can be written only at a step. Give a period that is a multiple of `step_s`, or add trajectory = \"csv\" or \"parquet\".\n    wrong: trajectory_period_s = 0.0015\n    right: trajectory_period_s = 0.002";
+            "The period of a trajectory file does not fit the run, or a period is given without a file. A row can be written only at a step. Give a period that is a multiple of `step_s`, or add trajectory = \"csv\", \"parquet\" or \"mcap\".\n    wrong: trajectory_period_s = 0.0015\n    right: trajectory_period_s = 0.002";
         START_LIMIT = "CGR-SCENARIO-024", "scenario::start_limit",
             "The start position of a joint is outside its limits. Change [start], or the limits in the URDF if they are wrong.\n    wrong: joints_deg = { elbow_joint = 200.0 }\n    right: joints_deg = { elbow_joint = 90.0 }";
         START_DEFAULT = "CGR-SCENARIO-025", "scenario::start_default",

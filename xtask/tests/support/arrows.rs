@@ -49,6 +49,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "tables",
             "description",
             "kinematics",
+            "logs",
             "simulation",
             "agreement",
             "scenario",
@@ -57,6 +58,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "monitors",
             "fault-diagnosis",
             "twin",
+            "writers",
         ],
     ),
     (

@@ -4,10 +4,13 @@
 use std::path::Path;
 
 use congruent_agreement::compare::{Agreement, CheckError};
-use congruent_description::{RobotDescription, codes::robot_file::INERTIAL, load_robot_with};
+use congruent_description::{
+    RobotDescription, codes::robot_file::INERTIAL, load_opened_robot, load_robot_with,
+};
 use congruent_input::{
     Diagnostic, FileAccess, Findings, RevisionName, Severity, absence, codes::file::NOT_FOUND, visible,
 };
+use congruent_logs::{RecordedDescription, is_log, recorded_description};
 
 use super::robot_check::RobotCheck;
 use crate::codes;
@@ -21,7 +24,7 @@ pub enum NamedBy {
     Caller,
 }
 
-/// The other description of a check, a path or `git:REV`; the mapping that the robot file declares for it is put into
+/// The other description of a check: a path, a log with a recorded description, or `git:REV`; the mapping that the robot file declares for it is put into
 /// `description`.
 ///
 /// # Errors
@@ -42,9 +45,20 @@ pub fn other_description(
         description.mapping = reference.mapping;
     }
     refuse_bare_revision(other, &description.path, &access)?;
+    if is_log(other) {
+        return recorded(other, &access);
+    }
     // Without a path it is the same robot in another revision.
     let revision = RevisionName::of(other).map(|name| name.beside(&description.path).to_path());
     load_robot_with(revision.as_deref().unwrap_or(other), &access)
+}
+
+/// The robot that was described while a log was recorded.
+fn recorded(log: &Path, access: &FileAccess) -> Result<RobotDescription, Findings> {
+    let RecordedDescription { source, warnings } = recorded_description(log)?;
+    let mut description = load_opened_robot(&source, access)?;
+    description.warnings.splice(0..0, warnings);
+    Ok(description)
 }
 
 /// Refuses the name of a revision that is written without `git:`, as `HEAD~1`, if there is no such file.

@@ -276,6 +276,8 @@ pub(super) fn valid_text(bytes: &[u8], lines_before: usize) -> Result<&str, NotT
 
 /// The help of messages about a text in another encoding.
 const AS_UTF8: &str = "save the file as UTF-8";
+/// The first bytes of an MCAP.
+const MCAP: &[u8] = b"\x89MCAP";
 /// Bytes among which a file that is not text has a NUL. Kind: choice.
 const BINARY_WITHIN: usize = 512;
 
@@ -304,6 +306,9 @@ fn not_utf8(rest: &[u8], line: usize) -> Diagnostic {
     let found = Diagnostic::error(codes::file::NOT_UTF8, message);
     found.with_help(if is_text {
         AS_UTF8
+    } else if rest.starts_with(MCAP) {
+        "the file is a log: `congruent describe LOG` says what is in it, and `congruent check ROBOT --against LOG` compares a \
+         robot with the description that was recorded"
     } else {
         "the file is not text: a URDF, an MJCF or a TOML file is expected"
     })

@@ -138,7 +138,7 @@ mod tests {
         };
         for order in [ByteOrder::Little, ByteOrder::Big] {
             let mut text = CdrText::new(order);
-            joint_state_text(&mut text, 3_000_000_004, &["elbow", "wrist_1"]);
+            joint_state_text(&mut text, 3_000_000_004, ["elbow", "wrist_1"].into_iter());
             text.f64_list(&[0.5, -1.0]);
             text.f64_list(&[]);
             text.f64_list(&[f64::MAX, 2.0]);

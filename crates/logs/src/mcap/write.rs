@@ -82,7 +82,7 @@ pub(crate) fn joints(ns: u64, names: &[&str], position: &[f64]) -> Vec<u8> {
 
 pub(crate) fn joint_data(stamp_ns: i64, names: &[&str], position: &[f64]) -> Vec<u8> {
     let mut text = CdrText::new(ByteOrder::Little);
-    joint_state_text(&mut text, stamp_ns, names);
+    joint_state_text(&mut text, stamp_ns, names.iter().copied());
     text.f64_list(position);
     text.f64_list(&[]);
     text.f64_list(&[]);

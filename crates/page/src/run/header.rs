@@ -15,6 +15,7 @@ const FILES: [(&str, &str); 6] = [
     ("recording.rrd", "recording for the rerun viewer"),
     ("trajectory.csv", "every sample as a table"),
     ("trajectory.parquet", "every sample as a table"),
+    ("trajectory.mcap", "every sample as a log of ROS 2"),
     ("report.json", "all values of this page"),
     ("junit.xml", "the checks as test cases"),
     ("scenario.resolved.toml", "the scenario with every default written out"),

@@ -99,15 +99,16 @@ fn execute_scenario(
 ) -> Result<Ran, RunFailure> {
     let setup = RunSetup::load_with(scenario, overrides, &access()?)?;
     let mut setup = setup.for_simulation()?;
-    // The series are read from the table of the run.
-    setup.scenario.output.trajectory.get_or_insert(TrajectoryFormat::Parquet);
-    let table = setup.scenario.output.trajectory.as_ref().map(RecordingFormat::file_name);
+    // The series are read from a table of the run, also if the scenario asks for a log.
+    let asked = *setup.scenario.output.trajectory.get_or_insert(TrajectoryFormat::Parquet);
+    let table = if asked == TrajectoryFormat::Mcap { TrajectoryFormat::Parquet } else { asked };
     let temporary = tempfile::tempdir().map_err(RunFailure::machine)?;
     // Without a folder nothing is kept, so what only people look at is not written.
     let for_people: &[&dyn RecordingFormat] = if out.is_some() { &[&RerunFormat, &PageFormat] } else { &[] };
+    let beside: &[&dyn RecordingFormat] = if table == asked { &[] } else { &[&table] };
     let options = Options {
         out: out.unwrap_or(temporary.path()).to_owned(),
-        recordings: for_people.to_vec(),
+        recordings: [beside, for_people].concat(),
         interrupt: Some(interrupt),
     };
     let (report, folder) = execute(&setup, &options, |_| {}).map_err(|error| match error {
@@ -117,7 +118,7 @@ fn execute_scenario(
         }
         error => RunFailure::machine(error),
     })?;
-    let table = table.map(|name| folder.file(name)).filter(|path| path.exists());
+    let table = Some(folder.file(table.file_name())).filter(|path| path.exists());
     let series =
         table.map_or(Ok(Series::default()), |path| read_series(&path)).map_err(RunFailure::machine)?;
     Ok(Ran { report, series, folder: out.map(|_| folder.path().to_owned()) })

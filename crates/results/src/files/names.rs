@@ -9,7 +9,7 @@ pub const REPORT: &str = "report.json";
 pub const DIGESTS: &str = "SHA256SUMS";
 
 /// All files that a run may write, except for their digests.
-pub(super) const RESULTS: [&str; 11] = [
+pub(super) const RESULTS: [&str; 13] = [
     REPORT,
     "report.html",
     "report.html.partial",
@@ -20,6 +20,8 @@ pub(super) const RESULTS: [&str; 11] = [
     "trajectory.csv.partial",
     "trajectory.parquet",
     "trajectory.parquet.partial",
+    "trajectory.mcap",
+    "trajectory.mcap.partial",
     "scenario.resolved.toml",
 ];
 

@@ -10,6 +10,7 @@ use super::{
     columns::{SampleCells, header},
     csv::CsvTable,
     parquet::ParquetTable,
+    run_log::RunLog,
     table::TableWriter,
 };
 use crate::{
@@ -30,12 +31,13 @@ impl RecordingFormat for TrajectoryFormat {
         match self {
             Self::Csv => "trajectory.csv",
             Self::Parquet => "trajectory.parquet",
+            Self::Mcap => "trajectory.mcap",
         }
     }
 
     fn if_incomplete(&self) -> IfIncomplete {
         match self {
-            Self::Csv => IfIncomplete::Keep,
+            Self::Csv | Self::Mcap => IfIncomplete::Keep,
             // It has its index at its end.
             Self::Parquet => IfIncomplete::Remove,
         }
@@ -43,15 +45,16 @@ impl RecordingFormat for TrajectoryFormat {
 
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
         let setup = run.setup();
-        let cells = SampleCells::new(&setup.description, run.names());
+        let step_s = setup.clock.step_s;
+        let stride = stride(setup.scenario.output.trajectory_period_s.unwrap_or(step_s), step_s);
         let header = header(&setup.description);
         let table: Box<dyn TableWriter> = match self {
             Self::Csv => Box::new(CsvTable::create(path, &header)?),
             Self::Parquet => Box::new(ParquetTable::create(path, &header)?),
+            Self::Mcap => return Ok(Box::new(RunLog::create(path, setup, stride)?)),
         };
-        let step_s = setup.clock.step_s;
-        let period_s = setup.scenario.output.trajectory_period_s.unwrap_or(step_s);
-        Ok(Box::new(TrajectoryRecorder { cells, table, stride: stride(period_s, step_s) }))
+        let cells = SampleCells::new(&setup.description, run.names());
+        Ok(Box::new(TrajectoryRecorder { cells, table, stride }))
     }
 }
 
@@ -63,12 +66,17 @@ impl Recording for TrajectoryRecorder {
 
 impl Recorder for TrajectoryRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
-        if !sample.step.is_multiple_of(self.stride) && !sample.is_last {
+        if !is_due(sample, self.stride) {
             return Ok(());
         }
         self.cells.write(sample, &mut *self.table);
         self.table.end_row()
     }
+}
+
+/// Whether a sample is written: each at its turn, and the last.
+pub(super) fn is_due(sample: &Sample<'_>, stride: u64) -> bool {
+    sample.step.is_multiple_of(stride) || sample.is_last
 }
 
 /// Steps from row to row; the setup has checked that it is a whole number.

@@ -16,7 +16,7 @@ pub(super) fn check(settings: &OutputSettings, place: FilePlace<'_>, step_s: f64
         let message = "trajectory_period_s is given, but no trajectory is written";
         return Err(mark(
             Diagnostic::error(codes::scenario::OUTPUT, message)
-                .with_help("add trajectory = \"csv\" or \"parquet\", or remove the period"),
+                .with_help("add trajectory = \"csv\", \"parquet\" or \"mcap\", or remove the period"),
         ));
     }
     let steps = period_s / step_s;
