@@ -48,9 +48,10 @@ const NOT_READ: [(&str, &str, &str); 5] = [
 pub fn is_log(path: &Path) -> bool {
     if path.is_dir() {
         let is_of_bag = |path: &PathBuf| has_ending(path, ".mcap") || not_read(path).is_some();
+        let is_robot = |path: &PathBuf| has_ending(path, ".urdf");
+        let is_bag = |files: Vec<PathBuf>| files.iter().any(is_of_bag) && !files.iter().any(is_robot);
         let has = |name: &str| path.join(name).is_file();
-        let files = || files_in(path).is_ok_and(|files| files.iter().any(is_of_bag));
-        return !has("robot.toml") && (has(METADATA) || files());
+        return !has("robot.toml") && (has(METADATA) || files_in(path).is_ok_and(is_bag));
     }
     is_table(path) || has_ending(path, ".mcap") || not_read(path).is_some()
 }
