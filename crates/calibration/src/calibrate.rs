@@ -9,7 +9,7 @@ use crate::{
     codes,
     computed::{Computed, measurement},
     estimation::{
-        CorrectedChain, FOLDS_UNSETTLED, FoldOptions, MOST_FOLDS, Measurement, Noise, Problem, fit,
+        CorrectedChain, FOLDS_UNSETTLED, FoldOptions, MOST_FOLDS, Measurement, Noise, Problem, align, fit,
         fit_robustly, fit_with_estimated_noise, held_out, identify, most_informative,
     },
     free,
@@ -51,8 +51,9 @@ pub fn calibrate(
     }
     let nominal = NominalChain::new(description)?;
     let parameters = free::parameters(&nominal, &options.free, &options.hold)?;
-    let chain = CorrectedChain::new(nominal.chain.clone(), parameters);
     let measurements: Vec<Measurement> = rows.iter().map(|row| measurement(&nominal, row)).collect();
+    let at_nominal = CorrectedChain::new(nominal.chain.clone(), parameters);
+    let chain = align(&at_nominal, &measurements, options.threshold);
     let problem = Problem { chain: &chain, measurements: &measurements };
     let identification = identify(&problem, options.threshold);
     let redundancy = problem.redundancy(&identification.kept);
@@ -73,7 +74,7 @@ pub fn calibrate(
     let used = if use_robust { &robust.fit } else { &least_squares };
     let folds = if used.converged { MOST_FOLDS } else { FOLDS_UNSETTLED };
     let fold_options = FoldOptions { threshold: options.threshold, most: folds };
-    let held_out = held_out(&chain, &measurements, fold_options, |problem, kept| {
+    let held_out = held_out(&at_nominal, &measurements, fold_options, |problem, kept| {
         if use_robust { robustly(problem, kept).fit.corrections } else { plain(problem, kept).corrections }
     });
     let candidates = random_configurations(&description.robot, options.seed, CANDIDATES);

@@ -79,12 +79,19 @@ fn fixed(text: &mut String, report: &CalibrationReport) {
     }
     let _ = writeln!(
         text,
-        "\n  held at nominal, not identifiable (singular value < {} of the largest)",
+        "\n  held at {}, not identifiable (singular value < {} of the largest)",
+        if report.is_held_at_nominal() { "nominal" } else { "nominal or as aligned" },
         number(report.identifiability.threshold)
     );
     let width = column_width(report.fixed.iter().map(|each| each.name.len()));
     for each in &report.fixed {
-        let _ = writeln!(text, "  {:width$}  {}", each.name, each.reason);
+        let held_at = if each.held_at == 0.0 {
+            String::new()
+        } else {
+            let (value, unit) = (each.unit.for_people(each.held_at), each.unit.name_for_people());
+            format!("at {value:+.4} {unit}; ")
+        };
+        let _ = writeln!(text, "  {:width$}  {held_at}{}", each.name, each.reason);
     }
 }
 
@@ -102,6 +109,9 @@ fn fits(text: &mut String, report: &CalibrationReport) {
         let _ = writeln!(text, "  {name:16}  {rms:>26}  {worst:>26}{noise}");
     };
     line("nominal", &report.nominal, None);
+    if let Some(aligned) = &report.aligned {
+        line("base and tool", &aligned.residuals, None);
+    }
     line("least squares", &report.least_squares.residuals, Some(&report.least_squares));
     line(&report.loss.to_string(), &report.robust.residuals, Some(&report.robust));
     if let Some(error) = &report.held_out {

@@ -29,7 +29,7 @@ const NOISE_ROUNDS: usize = 8;
 /// An estimate of the corrections, with its uncertainty and residuals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibrationFit {
-    /// One entry for each correction of the chain, rad or m; 0 for those that were not estimated.
+    /// One entry for each correction of the chain, rad or m; that of its start for those that were not estimated.
     pub corrections: Vec<f64>,
     /// Standard deviations of the same, from the noise; 0 for those that were not estimated, not a number
     /// if the noise is not known and there is no redundancy to estimate it from.
@@ -51,7 +51,7 @@ pub struct CalibrationFit {
 /// # Panics
 /// If a measurement's `q` has another length than the chain has joints.
 pub fn fit(problem: &Problem<'_>, kept: &[usize], noise: Noise) -> CalibrationFit {
-    let start = vec![0.0; problem.chain.parameters().len()];
+    let start = problem.chain.start().to_vec();
     let weighting = Weighting { noise: noise.floored(), rows: &[] };
     weighted_fit(problem, kept, start, &weighting, MOST_ITERATIONS)
 }

@@ -12,14 +12,14 @@ const NEGLIGIBLE_SHARE: f64 = 0.01;
 
 /// Which corrections the measurements identify.
 ///
-/// Singular values are those of the Jacobian at nominal in scaled units, angles and orientations
+/// Singular values are those of the Jacobian at the chain's start in scaled units, angles and orientations
 /// times the reach, divided by the root of the number of components: metres at the tip for a metre
 /// of correction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identification {
     /// Indices of the corrections that are estimated, ascending.
     pub kept: Vec<usize>,
-    /// The others, fixed (held at nominal), with what they are correlated with.
+    /// The others, fixed (held at the chain's start), with what they are correlated with.
     pub fixed: Vec<FixedParameter>,
     /// Of all corrections together, the largest first.
     pub singular_values: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct Identification {
     pub kept_ratio: f64,
 }
 
-/// A correction that is fixed (held at nominal).
+/// A correction that is fixed (held at the chain's start).
 #[derive(Debug, Clone, PartialEq)]
 pub struct FixedParameter {
     /// Index of the correction.
@@ -43,7 +43,8 @@ pub struct FixedParameter {
 /// tip), and fixes each one that would make the smallest singular value smaller than
 /// `threshold` times the largest of all.
 ///
-/// It is decided at nominal, so that it depends on the measured configurations and not on the measured poses.
+/// It is decided at the chain's start, so that it depends on the measured configurations and not on the measured poses, except by
+/// the frames that were aligned with them.
 ///
 /// [`CorrectionEntry`]: crate::estimation::CorrectionEntry
 pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
@@ -99,7 +100,7 @@ fn scaled_information(problem: &Problem<'_>) -> (DMatrix<f64>, f64) {
     let weighting = Weighting { noise, rows: &[] };
     let all: Vec<usize> = (0..parameters.len()).collect();
     let CalibrationEquations { mut information, .. } =
-        problem.normal_equations(&vec![0.0; parameters.len()], &all, &weighting);
+        problem.normal_equations(problem.chain.start(), &all, &weighting);
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
     let components = problem.component_count().max(1) as f64;
     for (row, of_row) in parameters.iter().enumerate() {

@@ -2,11 +2,13 @@
 //!
 //! Every correction is a twist that is inserted between two joints of a [`ScrewChain`], so that
 //! zero offsets, table entries, axes, base and tool are one kind of thing: exact, minimal in its
-//! own slot, and continuous even if a table's entries are not (parallel axes). [`identify`] decides which
+//! own slot, and continuous even if a table's entries are not (parallel axes). [`align`] puts base and tool where the
+//! measurements are, [`identify`] decides which
 //! of them the measurements identify, [`fit`] estimates those by least squares, [`fit_robustly`]
 //! with a loss that is robust to gross errors, [`held_out`] cross-validates, and [`most_informative`] suggests
 //! the next measurements. Nothing here draws a random number: candidates are passed in.
 
+mod align;
 mod estimate;
 mod identify;
 mod model;
@@ -16,6 +18,7 @@ mod profile;
 mod robust;
 mod validate;
 
+pub use align::align;
 pub use estimate::{CalibrationFit, fit, fit_with_estimated_noise};
 pub use identify::{FixedParameter, Identification, identify};
 pub use model::{

@@ -111,8 +111,8 @@ pub struct RobustFit {
 /// Estimates the corrections `kept` with a robust loss; the noise comes from the median row unless
 /// it is known.
 ///
-/// It starts at the half of the rows that agree best, searched for from least squares and from nominal, takes
-/// the scale there, holds it, and reweights (an MM estimate), since from plain least squares a bounded loss may
+/// It starts at the half of the rows that agree best, searched for from least squares and from the chain's start, takes
+/// the scale there, holds it, and reweights (an MM estimate) from there, or from least squares if that has the smaller cost, since from plain least squares a bounded loss may
 /// converge to the wrong rows.
 ///
 /// Source: Yohai, *High breakdown-point and high efficiency robust estimates for regression* (1987);
@@ -136,6 +136,10 @@ pub fn fit_robustly(
     // At least 1: without redundancy the factors below would divide by zero.
     let redundancy = (components - as_f64(kept.len())).max(1.0);
     let scale = noise_of(&fit, 1.0 + 5.0 / redundancy);
+    // The half may be at configurations that hardly identify a correction, far off at all others: then all rows agree better.
+    if cost(problem, loss, start, &scale) < cost(problem, loss, &fit, &scale) {
+        fit = start.clone();
+    }
     let mut weights = vec![1.0; problem.measurements.len()];
     let mut settled = false;
     let mut iterations_left = MOST_ITERATIONS_OF_ROUNDS;
@@ -184,7 +188,13 @@ pub(super) fn distance(measurement: &Measurement, residual: &PoseResidual, noise
     residual.whitened_squared(noise).sqrt() * median_norm(1) / median_norm(measurement.component_count())
 }
 
-/// Of the halves found from least squares and from nominal the one that agrees better: a row with an error
+/// Cost of all rows by a robust loss.
+fn cost(problem: &Problem<'_>, loss: Loss, fit: &CalibrationFit, scale: &Noise) -> f64 {
+    let rows = problem.measurements.iter().zip(&fit.residuals);
+    rows.map(|(measurement, residual)| loss.cost(distance(measurement, residual, scale))).sum()
+}
+
+/// Of the halves found from least squares and from the chain's start the one that agrees better: a row with an error
 /// beyond the reach moves least squares so far that no half found from it is right.
 fn start_of_agreement(
     problem: &Problem<'_>,
@@ -195,10 +205,10 @@ fn start_of_agreement(
     let noise_of = |residuals: &[PoseResidual]| {
         known_noise.unwrap_or_else(|| comparable_noise(problem, residuals)).floored()
     };
-    let nothing = vec![0.0; plain.corrections.len()];
-    // The nominal model is close to the truth for most arms, and no measured row has moved it.
-    let nominal = problem.residuals(&nothing);
-    let found = [(plain.corrections.clone(), &plain.residuals), (nothing, &nominal)].map(
+    let start = problem.chain.start().to_vec();
+    // The nominal model is close to the truth for most arms, and an outlier has moved neither it nor aligned frames.
+    let at_start = problem.residuals(&start);
+    let found = [(plain.corrections.clone(), &plain.residuals), (start, &at_start)].map(
         |(corrections, residuals)| concentrated(problem, kept, corrections, residuals, noise_of(residuals)),
     );
     let size = |fit: &CalibrationFit| {
@@ -208,13 +218,13 @@ fn start_of_agreement(
         count(Measurement::position_count) * libm::log(position_m)
             + count(Measurement::orientation_count) * libm::log(orientation_rad)
     };
-    let [from_plain, from_nominal] = found;
-    // Of two that agree alike the one from nominal, which moved less.
-    if size(&from_nominal) <= size(&from_plain) { from_nominal } else { from_plain }
+    let [from_plain, from_start] = found;
+    // Of two that agree alike the one from the start, which moved less.
+    if size(&from_start) <= size(&from_plain) { from_start } else { from_plain }
 }
 
 /// Noise of the median row, neither kind so small against the other that it alone would decide.
-fn comparable_noise(problem: &Problem<'_>, residuals: &[PoseResidual]) -> Noise {
+pub(super) fn comparable_noise(problem: &Problem<'_>, residuals: &[PoseResidual]) -> Noise {
     let Noise { position_m, orientation_rad } = median_noise(problem, residuals, 1.0);
     let reach_m = problem.reach_m();
     Noise {
@@ -230,7 +240,7 @@ fn comparable_noise(problem: &Problem<'_>, residuals: &[PoseResidual]) -> Noise 
 ///
 /// Source: Rousseeuw & Van Driessen, *Computing LTS regression for large data sets* (2006), the
 /// concentration step.
-fn concentrated(
+pub(super) fn concentrated(
     problem: &Problem<'_>,
     kept: &[usize],
     start: Vec<f64>,

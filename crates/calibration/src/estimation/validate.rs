@@ -1,6 +1,7 @@
 //! Cross-validation: the residuals of an estimate on measurements that it has not used.
 
 use super::{
+    align::align,
     identify::identify,
     model::CorrectedChain,
     problem::{Measurement, PoseResidual, Problem},
@@ -15,7 +16,7 @@ pub const FOLDS_UNSETTLED: usize = 2;
 /// How rows are held out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FoldOptions {
-    /// Threshold of [`identify`], with which the corrections are identified anew for each fold.
+    /// Threshold of [`align`] and [`identify`]: base and tool are aligned, and the corrections identified, anew for each fold.
     pub threshold: f64,
     /// Most folds.
     pub most: usize,
@@ -38,7 +39,7 @@ pub struct HeldOut {
 /// modulo the number of folds, so the result is deterministic. Rows that repeat a configuration are in its fold: otherwise the
 /// estimate would have used that configuration.
 ///
-/// `estimate` gives the corrections from a problem and the corrections that it may estimate. `None` for fewer than two
+/// `chain` starts at nominal. `estimate` gives the corrections from a problem and the corrections that it may estimate. `None` for fewer than two
 /// configurations.
 pub fn held_out(
     chain: &CorrectedChain,
@@ -61,7 +62,9 @@ pub fn held_out(
             // By configuration, modulo the folds: neighbouring rows of a sweep fall into different folds.
             rows.enumerate().partition(|(_, (_, configuration))| *configuration % folds == fold);
         let used: Vec<Measurement> = used.into_iter().map(|(_, (each, _))| each.clone()).collect();
-        let problem = Problem { chain, measurements: &used };
+        // Aligned anew, for the held-out rows would otherwise have taken part in where the frames are.
+        let chain = align(chain, &used, threshold);
+        let problem = Problem { chain: &chain, measurements: &used };
         // Identified anew on the remaining rows: what only the left-out configurations identify would otherwise
         // be estimated from noise.
         let corrections = estimate(&problem, &identify(&problem, threshold).kept);

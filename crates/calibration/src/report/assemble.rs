@@ -1,13 +1,17 @@
 //! Assembles the report from the results of a calibration.
 
+use std::collections::BTreeMap;
+
 use congruent_description::{DhRowKind, JointValues, RowKey};
 use congruent_input::{Finding, line_column};
+use nalgebra::DMatrix;
 
 use super::{
     calibration_report::{
-        CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry, CostCurve,
-        EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason, Recommendation,
-        ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
+        AlignedFrames, CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry,
+        CostCurve, EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason,
+        Recommendation, ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual,
+        SuggestedConfiguration,
     },
     interpretation::{self, Misfit},
     residual_size::{LARGE_CORRECTION, ReachScale, ResidualSize},
@@ -64,6 +68,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         recommended,
         statements: Vec::new(),
         parameters: estimates(computed),
+        aligned: aligned(computed),
         fixed: computed.identification.fixed.iter().map(|each| fixed(computed, each)).collect(),
         identifiability: Identifiability {
             threshold: computed.options.threshold,
@@ -77,12 +82,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         held_out,
         outliers: computed.outlier_rows.iter().map(|&row| row_residuals[row]).collect(),
         row_residuals,
-        covariance: computed
-            .least_squares
-            .covariance
-            .row_iter()
-            .map(|row| row.iter().copied().collect())
-            .collect(),
+        covariance: rows_of(&computed.least_squares.covariance),
         cost_curve: curve(computed),
         next: next(computed),
         warnings: computed.description.warnings.iter().map(Finding::from).collect(),
@@ -107,7 +107,7 @@ fn residuals(computed: &Computed<'_>, corrections: &[f64]) -> Vec<PoseResidual> 
     Problem { chain: &computed.chain, measurements: &computed.measurements }.residuals(corrections)
 }
 
-fn summary(residuals: &[PoseResidual]) -> ResidualSummary {
+pub(crate) fn summary(residuals: &[PoseResidual]) -> ResidualSummary {
     let sum = |of: fn(&PoseResidual) -> f64| residuals.iter().map(|each| of(each).powi(2)).sum::<f64>();
     let worst = |of: fn(&PoseResidual) -> f64| residuals.iter().map(of).fold(0.0, f64::max);
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 rows")]
@@ -320,9 +320,24 @@ fn fixed(computed: &Computed<'_>, fixed: &FixedParameter) -> ReportedFixedParame
     let own = &parameters[fixed.parameter];
     ReportedFixedParameter {
         name: own.name.clone(),
+        unit: own.unit(),
+        held_at: computed.chain.start()[fixed.parameter],
         correlated_with: terms.iter().map(|(name, factor, _)| ((*name).to_owned(), *factor)).collect(),
         reason: statements::why_fixed(own.unit(), &terms),
     }
+}
+
+fn rows_of(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+fn aligned(computed: &Computed<'_>) -> Option<AlignedFrames> {
+    let (parameters, start) = (computed.chain.parameters(), computed.chain.start());
+    let moved = parameters.iter().zip(start).filter(|(_, value)| **value != 0.0);
+    let corrections: BTreeMap<String, f64> =
+        moved.map(|(parameter, value)| (parameter.name.clone(), *value)).collect();
+    let residuals = || summary(&residuals(computed, start));
+    (!corrections.is_empty()).then(|| AlignedFrames { corrections, residuals: residuals() })
 }
 
 fn rows(computed: &Computed<'_>, nominal: &[PoseResidual]) -> Vec<RowResidual> {

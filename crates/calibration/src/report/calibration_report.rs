@@ -38,7 +38,10 @@ pub struct CalibrationReport {
     pub statements: Vec<String>,
     /// The estimated corrections, each with both estimates.
     pub parameters: Vec<EstimatedCorrection>,
-    /// The corrections that are fixed (held at nominal) since the measurements do not identify them.
+    /// Base and tool as they were aligned before the estimate, which starts there; left out if it starts at nominal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub aligned: Option<AlignedFrames>,
+    /// The corrections that are fixed since the measurements do not identify them: at nominal, or where they were aligned.
     pub fixed: Vec<ReportedFixedParameter>,
     /// The singular values by which corrections are identified or fixed.
     pub identifiability: Identifiability,
@@ -191,11 +194,25 @@ pub enum RowEntry {
     Alpha,
 }
 
-/// A correction that is fixed (held at nominal).
+/// Base and tool as they were aligned with the measurements before anything was decided about the arm.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct AlignedFrames {
+    /// The corrections of base and tool by name, m and rad.
+    pub corrections: BTreeMap<String, f64>,
+    /// Residuals with these alone.
+    #[serde(flatten)]
+    pub residuals: ResidualSummary,
+}
+
+/// A correction that is fixed: at nominal, or where base and tool were aligned.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedFixedParameter {
     /// Name of the correction.
     pub name: String,
+    /// Unit of its value.
+    pub unit: ParameterUnit,
+    /// The value at which it is held, in `unit`; 0 is nominal.
+    pub held_at: f64,
     /// The estimated corrections that together have nearly the effect of one unit of it, with their values;
     /// empty if it has no effect.
     pub correlated_with: BTreeMap<String, f64>,
@@ -295,6 +312,13 @@ pub struct SuggestedConfiguration {
     pub q: JointValues,
     /// Information gained, in bits: each bit halves the volume of the uncertainty.
     pub gain_bits: f64,
+}
+
+impl CalibrationReport {
+    /// Whether every fixed correction is held at nominal, and none where base and tool were aligned.
+    pub fn is_held_at_nominal(&self) -> bool {
+        self.fixed.iter().all(|each| each.held_at == 0.0)
+    }
 }
 
 impl std::fmt::Display for CalibratedModel {

@@ -13,7 +13,7 @@ use crate::{
     chain::{JointMotionKind, NominalChain},
     computed::measurement,
     estimation::{
-        CorrectedChain, Loss, Noise, Problem, fit, fit_robustly, fit_with_estimated_noise, identify,
+        CorrectedChain, Loss, Noise, Problem, align, fit, fit_robustly, fit_with_estimated_noise, identify,
     },
     free,
     measurements::{MeasuredRow, WrittenOrientation},
@@ -113,7 +113,12 @@ fn interpreted_fit(
     let free: Vec<String> = options.free.iter().cloned().chain(more).collect();
     let parameters = free::parameters(nominal, &free, &options.hold).ok()?;
     let measurements: Vec<_> = rows.iter().map(|row| measurement(nominal, row)).collect();
-    let chain = CorrectedChain::new(nominal.chain.clone(), parameters);
+    // Estimates that explain nothing converge slowly, so the median of some rows decides first.
+    // Spread over the file rather than the first rows, which may be at neighbouring configurations.
+    let step = measurements.len().div_ceil(SOME_ROWS).max(1);
+    let some: Vec<_> = measurements.iter().step_by(step).cloned().collect();
+    let at_nominal = CorrectedChain::new(nominal.chain.clone(), parameters);
+    let chain = align(&at_nominal, &some, options.threshold);
     let problem = Problem { chain: &chain, measurements: &measurements };
     let kept = identify(&problem, options.threshold).kept;
     // Without redundancy every interpretation has a residual of zero.
@@ -121,10 +126,6 @@ fn interpreted_fit(
         return None;
     }
     let reach_scale = ReachScale::for_problem(&problem);
-    // Estimates that explain nothing converge slowly, so the median of some rows decides first.
-    // Spread over the file rather than the first rows, which may be at neighbouring configurations.
-    let step = measurements.len().div_ceil(SOME_ROWS);
-    let some: Vec<_> = measurements.iter().step_by(step).cloned().collect();
     let alike = Noise { position_m: 1.0, orientation_rad: 1.0 / problem.reach_m() };
     let first = fit(&Problem { chain: &chain, measurements: &some }, &kept, alike);
     if reach_scale.median_residual_size(&first.residuals).is_large() {

@@ -8,7 +8,7 @@ mod residual_size;
 mod statements;
 
 pub use calibration_report::{
-    CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry, CostCurve,
+    AlignedFrames, CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry, CostCurve,
     EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason, Recommendation,
     ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
 };

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use congruent_input::display::{first_of, length, length_and_angle, number};
 
 use super::calibration_report::{
-    CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, RowResidual,
+    CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, ResidualSummary, RowResidual,
 };
 use crate::estimation::ParameterUnit;
 
@@ -54,12 +54,23 @@ pub(super) fn statements(
             insignificant.join(", ")
         ));
     }
+    if let Some(aligned) = &report.aligned {
+        let residual = |of: &ResidualSummary| length_and_angle(of.rms_m, of.rms_rad);
+        let frames = ["base", "tool"]
+            .into_iter()
+            .filter(|frame| aligned.corrections.keys().any(|name| name.split('.').next() == Some(*frame)));
+        statements.push(format!(
+            "{} aligned with the measurements first: alone that gives a residual of {}, from {} with the nominal model",
+            frames.collect::<Vec<_>>().join(" and "),
+            residual(&aligned.residuals),
+            residual(&report.nominal)
+        ));
+    }
     if !report.fixed.is_empty() {
         let names: Vec<&str> = report.fixed.iter().map(|each| each.name.as_str()).collect();
-        statements.push(format!(
-            "fixed at nominal, since these measurements do not identify them: {}",
-            names.join(", ")
-        ));
+        let at = if report.is_held_at_nominal() { "at nominal" } else { "at nominal or as aligned" };
+        statements
+            .push(format!("fixed {at}, since these measurements do not identify them: {}", names.join(", ")));
     }
     for (estimate, fit) in [("least squares", &report.least_squares), ("the robust estimate", &report.robust)]
     {

@@ -30,6 +30,8 @@ pub struct CorrectedChain {
     chain: ScrewChain,
     /// Sorted by slot, as they are applied along the chain.
     parameters: Vec<CorrectionParameter>,
+    /// One entry for each correction.
+    start: Vec<f64>,
 }
 
 impl CorrectedChain {
@@ -45,12 +47,29 @@ impl CorrectedChain {
         );
         // `linearise` visits slots in order and takes parameters as they come, without searching.
         parameters.sort_by_key(|parameter| parameter.slot);
-        Self { chain, parameters }
+        let start = vec![0.0; parameters.len()];
+        Self { chain, parameters, start }
     }
 
     /// The corrections, in the order of the vector `p`.
     pub fn parameters(&self) -> &[CorrectionParameter] {
         &self.parameters
+    }
+
+    /// The corrections at which an estimate starts, about which it is decided what is identified, and at which the others are
+    /// held: 0, the nominal chain, unless base and tool were aligned before.
+    pub fn start(&self) -> &[f64] {
+        &self.start
+    }
+
+    /// The same chain with another start.
+    ///
+    /// # Panics
+    /// If `start` has another length than there are corrections.
+    #[must_use]
+    pub fn starting_at(&self, start: Vec<f64>) -> Self {
+        assert_eq!(start.len(), self.parameters.len(), "one entry for each correction");
+        Self { start, ..self.clone() }
     }
 
     /// The chain without corrections.

@@ -40,7 +40,7 @@ impl Problem<'_> {
     }
 
     /// Degrees of freedom to verify the corrections `kept` by: measured components on which one of them has an
-    /// effect at nominal, less their number. Repetitions at one configuration count once.
+    /// effect at the chain's start, less their number. Repetitions at one configuration count once.
     ///
     /// # Examples
     /// ```
@@ -60,7 +60,7 @@ impl Problem<'_> {
     /// # Panics
     /// If a measurement's `q` has another length than the chain has joints.
     pub fn redundancy(&self, kept: &[usize]) -> usize {
-        let chain = self.chain.at(&vec![0.0; self.chain.parameters().len()]);
+        let chain = self.chain.at(self.chain.start());
         let mut twists = vec![Twist::zero(); self.chain.parameters().len()];
         let configuration_of = configurations(self.measurements);
         let mut has_effect = vec![[false; 6]; configuration_of.iter().max().map_or(0, |last| last + 1)];
