@@ -14,6 +14,7 @@ mod fused_links;
 mod joint_losses;
 mod joint_origins;
 mod mapping;
+mod measured_poses;
 mod mimics;
 mod mjcf_edits;
 mod other_frames;

@@ -108,6 +108,16 @@ fn documents_follow_their_schemas() {
         ("check", &["check", "robots/ur5e"]),
         ("check", &["check", "robots/cylindrical_rpp"]),
         ("check", &["check", "robots/planar_2r", "--configurations", &configurations]),
+        (
+            "measured_check",
+            &[
+                "check",
+                "robots/ur5e",
+                "--measurements",
+                "docs/examples/calibration/ur5e_points.csv",
+                "--tolerance=5mm",
+            ],
+        ),
         ("describe", &["describe", "robots/panda"]),
         ("describe", &["describe", "robots/rrr_arm/rrr_arm.urdf"]),
         ("log", &["describe", "docs/examples/log/joints.csv", "--robot", "robots/ur5e"]),

@@ -13,7 +13,7 @@ use congruent_analysis::{
     sensitivity::SensitivityReport,
     workspace::WorkspaceReport,
 };
-use congruent_calibration::report::CalibrationReport;
+use congruent_calibration::{MeasuredCheck, report::CalibrationReport};
 use congruent_configurations::configurations_schema;
 use congruent_description::robot_file_schema;
 use congruent_logs::LogSurvey;
@@ -65,6 +65,11 @@ impl Document {
             written::<FaultTable>,
         ),
         Self::new("check", "report of one robot, printed by `check`", written::<RobotCheck>),
+        Self::new(
+            "measured_check",
+            "comparison with measured poses, printed by `check --measurements`",
+            written::<MeasuredCheck>,
+        ),
         Self::new("lint", "findings about one file, printed by `lint`", written::<LintReport>),
         Self::new(
             "describe",

@@ -20,6 +20,7 @@ use serde::{Serialize, Serializer};
 use super::{
     errors_at::chart,
     fixed_table::{FixArgument, fix},
+    measured::{MeasuredArguments, MeasuredCall},
     split_values::split_values,
 };
 use crate::{
@@ -66,6 +67,8 @@ pub(crate) struct Arguments {
     /// ignored.
     #[arg(long)]
     changed: bool,
+    #[command(flatten)]
+    measured: MeasuredArguments,
     #[command(flatten)]
     chain: ChainArguments,
     /// Seed of the random configurations.
@@ -160,6 +163,11 @@ impl Checked {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     one_plot(arguments)?;
     split_values(&arguments.robots, &arguments.against, arguments.tolerance)?;
+    if let Some(file) = arguments.measured.file() {
+        let Arguments { robots, chain, access, ci, tolerance, .. } = arguments;
+        let call = MeasuredCall { robots, chain, access, ci, tolerance: *tolerance };
+        return arguments.measured.run(file, &call, printer);
+    }
     refuse_same(arguments.ci.outputs().chain(arguments.page.output()).chain(arguments.plot.output()))?;
     if arguments.table && arguments.configurations.is_none() {
         let error =

@@ -7,5 +7,6 @@ pub(crate) mod describe;
 mod errors_at;
 mod fixed_table;
 pub(crate) mod lint;
+mod measured;
 mod split_values;
 mod written_model;

@@ -8,9 +8,11 @@ mod check;
 mod comparison;
 #[cfg(feature = "recording")]
 mod joint_sweep;
+mod measured;
 
 pub use check::{CheckTextParts, check_text, check_text_parts, shown_pairs, tip_differences};
 pub use comparison::comparison_text;
 pub use congruent_text::*;
 #[cfg(feature = "recording")]
 pub use joint_sweep::joint_sweep_text;
+pub use measured::measured_text;
