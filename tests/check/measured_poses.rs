@@ -19,7 +19,7 @@ joint_1_deg,joint_2_deg,x_m,y_m,z_m
 180,90,-0.6,-0.4,0
 ";
 
-/// The same points seen from a frame that is turned by a quarter turn and 3 m and 2 m away: (x, y) is (3 - y, x - 2, 1).
+/// The same points in a frame that is turned by a quarter turn and 3 m and 2 m away: (x, y) is (3 - y, x - 2, 1).
 const FROM_ASIDE: &str = "\
 joint_1_deg,joint_2_deg,x_m,y_m,z_m
 0,0,3,-1,1

@@ -44,10 +44,9 @@ fn chain() -> ScrewChain {
     }
 }
 
-fn with_frames(base: bool, tool: bool) -> CorrectedChain {
+fn with_both() -> CorrectedChain {
     let chain = chain();
-    let mut parameters = if base { base_pose() } else { Vec::new() };
-    parameters.extend(if tool { tool_pose(&chain) } else { Vec::new() });
+    let parameters = [base_pose(), tool_pose(&chain)].concat();
     CorrectedChain::new(chain, parameters)
 }
 
@@ -69,6 +68,12 @@ fn measured(chain: &CorrectedChain, truth: &[f64], rows: u32) -> Vec<Measurement
     spread(rows).into_iter().map(measurement).collect()
 }
 
+fn without_orientations(measurements: &mut [Measurement]) {
+    for each in measurements {
+        each.base_from_tip = None;
+    }
+}
+
 /// The median distance of the aligned chain from the measurements.
 fn median_m(chain: &CorrectedChain, measurements: &[Measurement]) -> f64 {
     let residuals = Problem { chain, measurements }.residuals(chain.start());
@@ -86,10 +91,13 @@ fn found(chain: &CorrectedChain, measurements: &[Measurement]) {
 
 #[test]
 fn a_far_base_and_a_turned_tool_are_found() {
-    let both = with_frames(true, true);
+    let both = with_both();
     let truth = [FAR_BASE, TURNED_TOOL].concat();
     found(&both, &measured(&both, &truth, 20));
-    for (chain, truth) in [(with_frames(true, false), FAR_BASE), (with_frames(false, true), TURNED_TOOL)] {
+    for (chain, truth) in [
+        (CorrectedChain::new(chain(), base_pose()), FAR_BASE),
+        (CorrectedChain::new(chain(), tool_pose(&chain())), TURNED_TOOL),
+    ] {
         found(&chain, &measured(&chain, &truth, 20));
     }
 }
@@ -98,35 +106,35 @@ fn a_far_base_and_a_turned_tool_are_found() {
 fn a_tool_turned_by_a_third_and_a_base_on_its_side_are_found() {
     // A turn by 120 degrees has a trace of 0, and a pitch of a quarter turn no yaw of its own.
     let quarter = std::f64::consts::FRAC_PI_2;
-    let chain = with_frames(true, true);
+    let chain = with_both();
     let truth = [[3.0, 1.0, 0.5, 0.3, quarter, 0.0], [0.0, 0.0, 0.1, quarter, 0.0, quarter]].concat();
     found(&chain, &measured(&chain, &truth, 20));
 }
 
 #[test]
 fn points_alone_suffice() {
-    let chain = with_frames(true, true);
+    let chain = with_both();
     let mut measurements = measured(&chain, &[FAR_BASE, TURNED_TOOL].concat(), 20);
-    measurements.iter_mut().for_each(|each| each.base_from_tip = None);
+    without_orientations(&mut measurements);
     found(&chain, &measurements);
 }
 
 #[test]
 fn gross_errors_in_a_few_rows_do_not_move_the_frames() {
-    let chain = with_frames(true, true);
+    let chain = with_both();
     let mut measurements = measured(&chain, &[FAR_BASE, TURNED_TOOL].concat(), 30);
     measurements[3].tip_in_base_m = [Some(2800.0), Some(-31.0), Some(0.0)];
     measurements[11].tip_in_base_m = [Some(0.0); 3];
     let turned = measurements[7].base_from_tip.map(|rotation| rotation.transpose());
     measurements[20].base_from_tip = turned;
     found(&chain, &measurements);
-    measurements.iter_mut().for_each(|each| each.base_from_tip = None);
+    without_orientations(&mut measurements);
     found(&chain, &measurements);
 }
 
 #[test]
 fn frames_that_are_right_already_stay_at_nominal() {
-    let chain = with_frames(true, true);
+    let chain = with_both();
     let truth = [[1e-3; 6], [-1e-3; 6]].concat();
     let aligned = align(&chain, &measured(&chain, &truth, 20), THRESHOLD);
     assert_eq!(aligned.start(), [0.0; 12]);
@@ -134,7 +142,7 @@ fn frames_that_are_right_already_stay_at_nominal() {
 
 #[test]
 fn rows_that_determine_little_are_no_worse_than_nominal() {
-    let chain = with_frames(true, true);
+    let chain = with_both();
     let truth = [FAR_BASE, TURNED_TOOL].concat();
     for rows in [1, 2, 3] {
         let measurements = measured(&chain, &truth, rows);
@@ -196,9 +204,9 @@ fn all_corrections_of_a_tracked_ur10() {
     assert!((held_out_mm - 0.40).abs() < 0.01, "{held_out_mm} mm");
 }
 
-/// A camera that saw a target on an arm, the frames of both unknown: the rows are of a UR10e, although their folder says UR10.
+/// A camera that saw a target on an arm, the frames of both unknown: the rows are of a `UR10e`, although their folder says UR10.
 #[test]
-fn a_camera_tells_a_ur10e_from_a_ur10() {
+fn a_camera_distinguishes_a_ur10e_from_a_ur10() {
     let Some(logs) = logs() else { return };
     let mut description = load_robot(&logs.join("ur10_laser_ipa/robot")).unwrap();
     let text = std::fs::read_to_string(logs.join("ur10e_camera_pose/calibration.csv")).unwrap();

@@ -5,9 +5,10 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use super::{
     frames::{BaseAndTool, WhichFrames},
-    median_size_m, rotations,
+    rotations,
+    rows::{AlignmentRow, median_size_m},
 };
-use crate::estimation::{problem::Measurement, robust::median};
+use crate::estimation::robust::median;
 
 /// Most times that the better half of the rows is taken. Kind: bound; two or three suffice.
 const MOST_ROUNDS: usize = 8;
@@ -18,21 +19,6 @@ const FEWEST_ROWS: usize = 6;
 const FAR: f64 = 5.0;
 /// Weight of "no change" for unknowns that nothing determines, relative. Kind: conditioning.
 const PRIOR: f64 = 1e-12;
-
-/// A measured row with the pose of the nominal tip.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct AlignmentRow<'a> {
-    pub(super) base_from_tip: Pose,
-    pub(super) measured: &'a Measurement,
-}
-
-impl AlignmentRow<'_> {
-    /// The measured point, if all three of its coordinates were measured.
-    pub(super) fn point(&self) -> Option<Vector3<f64>> {
-        let [Some(x), Some(y), Some(z)] = self.measured.tip_in_base_m else { return None };
-        Some(Vector3::new(x, y, z))
-    }
-}
 
 /// The frames by the closed form that agrees best with the median row, from rows without those that disagree; `None` if
 /// no row determines anything.

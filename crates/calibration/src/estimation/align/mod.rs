@@ -8,6 +8,7 @@ mod closed_form;
 mod frames;
 mod free_frames;
 mod rotations;
+mod rows;
 
 use congruent_kinematics::{Pose, ScrewChain};
 
@@ -15,12 +16,13 @@ use super::{
     estimate::{MOST_ITERATIONS, weighted_fit},
     identify::identify,
     model::{CorrectedChain, CorrectionEntry, base_pose, tool_pose},
-    problem::{Measurement, Noise, PoseResidual, Problem, Weighting},
-    robust::{Loss, comparable_noise, concentrated, distance, median},
+    problem::{Measurement, Problem, Weighting},
+    robust::{Loss, comparable_noise, concentrated, distance},
 };
-use closed_form::{AlignmentRow, aligned_by_closed_forms};
+use closed_form::aligned_by_closed_forms;
 use frames::BaseAndTool;
 use free_frames::FreeFrames;
+use rows::{AlignmentRow, median_size_m};
 
 /// Base and tool are right enough to begin with if the median row agrees within this share of the reach, or this angle in rad.
 /// Kind: judgement: there the linearisation at nominal holds, and what is not identified stays at nominal, which is easier to
@@ -110,11 +112,4 @@ fn fitted(
         measured_from_base: of(CorrectionEntry::Base) * found.measured_from_base,
         tip_from_target: found.tip_from_target * tool_correction,
     }
-}
-
-/// The residual of the median row in metres, an angle times the reach: gross errors in fewer than half of the rows do not
-/// change it.
-fn median_size_m(residuals: &[PoseResidual], reach_m: f64) -> f64 {
-    let alike = Noise { position_m: 1.0, orientation_rad: 1.0 / reach_m };
-    median(residuals.iter().map(|each| each.whitened_squared(&alike)).collect()).sqrt()
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-use super::closed_form::AlignmentRow;
+use super::rows::AlignmentRow;
 
 /// A projection shorter than this has no direction. No unit; kind: rounding.
 const ROUNDING: f64 = 1e-9;
