@@ -42,11 +42,11 @@ congruent_input::codes! {
             "More configurations were requested than there are candidates to choose from. Ask for fewer; the help names the number of candidates.\n    wrong: --next 100000\n    right: --next 10";
     }
     measured_check {
-        TOLERANCE = "CGR-COMMAND-080", "measured_check::tolerance",
+        TOLERANCE = "CGR-COMMAND-081", "measured_check::tolerance",
             "Measured poses are compared with a model, and no tolerance says how far they may be off. Measured values never agree to the digits of a model, so there is no default. Take it from the accuracy of arm and instrument: 1 to 3 mm for an arm as it is delivered, 0.5 mm for a calibrated one.\n    wrong: congruent check robots/ur5e --measurements points.csv\n    right: congruent check robots/ur5e --measurements points.csv --tolerance 1mm";
-        ARM = "CGR-COMMAND-081", "measured_check::arm",
+        ARM = "CGR-COMMAND-082", "measured_check::arm",
             "--free names a correction of the arm, which would hide what is compared. Base and tool may be fitted, since they are often not known; congruent calibrate fits the arm.\n    wrong: --free base,dh\n    right: --free base,tool";
-        TOO_FEW = "CGR-COMMAND-082", "measured_check::too_few",
+        TOO_FEW = "CGR-COMMAND-083", "measured_check::too_few",
             "The measurements determine base and tool and no more, so any arm would agree with them. Measure at more configurations, or free less.\n    wrong: --free base,tool with two measured poses\n    right: --free base,tool with ten of them";
     }
 }

@@ -16,7 +16,9 @@ pub fn log_text(survey: &LogSurvey, options: &TextOptions) -> String {
     let mut text: String = head.iter().map(|words| paragraph(words, 2, 4)).collect();
     if !topics.is_empty() {
         let mut table = Table::headed(["topic", "messages", "rate", "type"]);
-        topics.into_iter().for_each(|row| table.row(row));
+        for row in topics {
+            table.row(row);
+        }
         text.push('\n');
         table.write(&mut text, options.columns);
         text.push('\n');

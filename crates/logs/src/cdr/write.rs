@@ -91,10 +91,13 @@ pub(crate) fn joint_state_text<'a>(
 ) {
     text.header(stamp_ns, "");
     text.count(names.len());
-    names.for_each(|name| text.text(name));
+    for name in names {
+        text.text(name);
+    }
 }
 
 /// A message of TF with one edge.
+#[cfg(test)]
 pub(crate) fn transform_text(stamp_ns: i64, frame: &str, child: &str) -> CdrText {
     let mut text = CdrText::new(ByteOrder::Little);
     text.u32(1);

@@ -197,7 +197,9 @@ impl LogWriter {
         self.text.count(all.len());
         for WrittenDiagnostic { level, name, message, hardware_id, values } in all {
             self.text.byte(*level as u8);
-            [name, message, hardware_id].into_iter().for_each(|text| self.text.text(text));
+            for text in [name, message, hardware_id] {
+                self.text.text(text);
+            }
             self.text.count(values.len());
             for (key, value) in values {
                 self.text.text(key);
@@ -225,7 +227,9 @@ impl LogWriter {
             self.text.text(child);
             let rotation = frame_from_child.rotation.coords;
             let translation = frame_from_child.translation.vector;
-            translation.iter().chain(&rotation).for_each(|value| self.text.f64(*value));
+            for value in translation.iter().chain(&rotation) {
+                self.text.f64(*value);
+            }
         }
     }
 

@@ -11,7 +11,7 @@ use super::tightest::{Tightest, tightest};
 use crate::parts::{BadgeKind, Pointer, Provenance, badge, capitalised, count, provenance, value};
 
 /// Files of the results that may be there, with what they are. The first two are written before the page.
-const FILES: [(&str, &str); 6] = [
+const FILES: [(&str, &str); 7] = [
     ("recording.rrd", "recording for the rerun viewer"),
     ("trajectory.csv", "every sample as a table"),
     ("trajectory.parquet", "every sample as a table"),
