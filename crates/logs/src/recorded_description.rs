@@ -14,7 +14,7 @@ use crate::{
 /// A description that was recorded.
 #[derive(Debug, Clone)]
 pub struct RecordedDescription {
-    /// The text, named `LOG:TOPIC`.
+    /// The text, named `LOG:robot_description`.
     pub source: Arc<SourceFile>,
     /// What of the log cannot be read, and whether the description changed.
     pub warnings: Vec<Diagnostic>,
@@ -45,7 +45,9 @@ pub fn recorded_description(path: &Path) -> Result<RecordedDescription, Diagnost
     if let Some(other) = last.iter().find(|of| of.text != found.text) {
         return Err(several(path, [name(found), name(other)]));
     }
-    let named = format!("{}:{}", path.display(), name(found));
+    // Beside the log, where paths of meshes are looked for: a name with the slashes of the topic would be in another folder.
+    let topic = name(found);
+    let named = format!("{}:{}", path.display(), topic.rsplit('/').next().unwrap_or(&topic));
     let source = SourceFile { path: named.into(), text: found.text.clone(), is_foreign: false };
     let source = Arc::new(source);
     if changes > 0 {
@@ -100,7 +102,7 @@ mod tests {
     fn the_last_description_counts_and_a_change_is_said() {
         let topic = topic(1, "/robot_description", TEXT, "cdr");
         let once = recorded(&[topic.clone(), published(1, "<robot name='a'/>")]).unwrap();
-        assert!(once.source.path.to_string_lossy().ends_with(".mcap:/robot_description"));
+        assert!(once.source.path.to_string_lossy().ends_with(".mcap:robot_description"));
         assert_eq!((&*once.source.text, once.warnings.len()), ("<robot name='a'/>", 0));
         let texts = ["<robot name='a'/>", "<robot name='b'/>"].map(|text| published(1, text));
         let changed = recorded(&[topic, texts.concat()]).unwrap();

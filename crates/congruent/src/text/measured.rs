@@ -15,7 +15,8 @@ const MOST_ROWS: usize = 8;
 /// What `congruent check --measurements` prints: the answer, the worst row with its joint positions, the fitted frames, and the rows that
 /// are furthest off.
 pub fn measured_text(check: &MeasuredCheck, robot: &Robot) -> String {
-    let mut text = format!("{}: {}\n  {}\n", check.file, measured_headline(check), check.chain);
+    let mut text =
+        format!("{}: {}\n  {}: {}\n", check.file, measured_headline(check), check.robot, check.chain);
     let _ = writeln!(text, "  the worst, measurement {} (line {}), is at", check.worst.row, check.worst.line);
     text += &wrapped(&check.worst_q.for_people(robot));
     fitted(&mut text, check);
