@@ -37,6 +37,12 @@ pub(crate) fn seconds(ns: i64) -> f64 {
     parts[0] + parts[1] / 1e9
 }
 
+/// A number of messages for a mean.
+#[expect(clippy::cast_precision_loss, reason = "no log has 2^53 messages")]
+pub(crate) fn float(count: u64) -> f64 {
+    count as f64
+}
+
 /// One message of a log, or a part of the log without any.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

@@ -6,8 +6,8 @@ use base64::{Engine, prelude::BASE64_STANDARD};
 use congruent_calibration::{
     estimation::ParameterUnit,
     report::{
-        CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, ReportedFixedParameter,
-        RowEntry, RowResidual, plot,
+        CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, RowEntry, RowResidual,
+        plot,
     },
 };
 use congruent_description::{DhRow, DhTable, Robot, RobotDescription};
@@ -127,7 +127,7 @@ fn corrections(report: &CalibrationReport) -> Markup {
         @if !report.fixed.is_empty() {
             details {
                 summary { (counted(report.fixed.len(), "correction")) " fixed at nominal" @if !report.is_held_at_nominal() { " or as aligned" } ", since the measurements do not identify them" }
-                ul { @for each in &report.fixed { li { b { (each.name) } ": " (each.reason) (held_at(each)) } } }
+                ul { @for each in &report.fixed { li { b { (each.name) } ": " (each.reason) @if let Some(at) = each.held_at_for_people() { ", " (at) } } } }
             }
         }
     }
@@ -291,14 +291,6 @@ impl Residuals {
             }
         }
     }
-}
-
-/// The value of a correction that is held where base and tool were aligned; nothing at nominal.
-fn held_at(fixed: &ReportedFixedParameter) -> String {
-    if fixed.held_at == 0.0 {
-        return String::new();
-    }
-    format!(", at {:+.4} {}", fixed.unit.for_people(fixed.held_at), fixed.unit.name_for_people())
 }
 
 fn residuals(report: &CalibrationReport) -> Markup {

@@ -85,12 +85,7 @@ fn fixed(text: &mut String, report: &CalibrationReport) {
     );
     let width = column_width(report.fixed.iter().map(|each| each.name.len()));
     for each in &report.fixed {
-        let held_at = if each.held_at == 0.0 {
-            String::new()
-        } else {
-            let (value, unit) = (each.unit.for_people(each.held_at), each.unit.name_for_people());
-            format!("at {value:+.4} {unit}; ")
-        };
+        let held_at = each.held_at_for_people().map_or_else(String::new, |at| format!("{at}; "));
         let _ = writeln!(text, "  {:width$}  {held_at}{}", each.name, each.reason);
     }
 }

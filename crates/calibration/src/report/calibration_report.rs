@@ -220,6 +220,14 @@ pub struct ReportedFixedParameter {
     pub reason: String,
 }
 
+impl ReportedFixedParameter {
+    /// The value at which it is held, with its unit; `None` at nominal.
+    pub fn held_at_for_people(&self) -> Option<String> {
+        let (value, unit) = (self.unit.for_people(self.held_at), self.unit.name_for_people());
+        (self.held_at != 0.0).then(|| format!("at {value:+.4} {unit}"))
+    }
+}
+
 /// The singular values that decide which corrections are identified.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Identifiability {

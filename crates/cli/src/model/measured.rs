@@ -53,18 +53,18 @@ pub(super) struct MeasuredCall<'a> {
 }
 
 /// The comparison of one robot.
-struct Measured {
+struct ComparedWithMeasured {
     report: MeasuredCheck,
     description: RobotDescription,
 }
 
-impl Serialize for Measured {
+impl Serialize for ComparedWithMeasured {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.report.serialize(serializer)
     }
 }
 
-impl BatchReport for Measured {
+impl BatchReport for ComparedWithMeasured {
     fn exit_code(&self) -> u8 {
         match self.report.verdict {
             MeasuredVerdict::Agree => 0,
@@ -94,7 +94,7 @@ impl MeasuredArguments {
     pub(super) fn run(&self, file: &Path, call: &MeasuredCall<'_>, printer: &Printer) -> Result<u8, Failure> {
         refuse_same(call.ci.outputs())?;
         let batch = Batch::begin(call.robots, call.ci, printer)?;
-        let answers: Vec<Answer<Measured>> = call
+        let answers: Vec<Answer<ComparedWithMeasured>> = call
             .robots
             .iter()
             .map(|path| batch.answer(path, || self.compared(path, file, call, &batch)))
@@ -108,7 +108,7 @@ impl MeasuredArguments {
         file: &Path,
         call: &MeasuredCall<'_>,
         batch: &Batch<'_>,
-    ) -> Result<Measured, Failure> {
+    ) -> Result<ComparedWithMeasured, Failure> {
         let description = call.chain.of(load_robot_with(path, &call.access.access()?)?)?;
         let tolerance = call.tolerance.unwrap_or_default();
         let (wrong, wide) = tolerance.examine(description.tolerance_scale());
@@ -129,6 +129,6 @@ impl MeasuredArguments {
         let compare = || check_measured(&description, file, &rows, &options);
         let report = waiting(batch.printer(), &format!("checking {}", visible_path(path)), compare)?;
         batch.warn(path, &description.warnings);
-        Ok(Measured { report, description })
+        Ok(ComparedWithMeasured { report, description })
     }
 }

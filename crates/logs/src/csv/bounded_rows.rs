@@ -15,7 +15,7 @@ pub(super) enum Quoting {
 
 /// Where in a row a byte is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum PlaceInRow {
     RowStart,
     CellStart,
     Cell,
@@ -28,27 +28,29 @@ pub(super) struct BoundedRows<R> {
     inner: R,
     quoting: Quoting,
     separator: u8,
-    place: Place,
+    place: PlaceInRow,
     row_bytes: usize,
 }
 
 impl<R> BoundedRows<R> {
     pub(super) fn new(inner: R, quoting: Quoting, separator: u8) -> Self {
-        Self { inner, quoting, separator, place: Place::RowStart, row_bytes: 0 }
+        Self { inner, quoting, separator, place: PlaceInRow::RowStart, row_bytes: 0 }
     }
 
     /// The place behind a byte, as the parser of the table sees it: a quote has a meaning at the start of a cell alone.
-    fn behind(&self, byte: u8) -> Place {
+    fn behind(&self, byte: u8) -> PlaceInRow {
         match (self.place, byte) {
             // A quote that is doubled ends the cell and begins it again.
-            (Place::InQuotes, b'"') => Place::CellStart,
-            (Place::InQuotes, _) => Place::InQuotes,
-            (_, b'\n') => Place::RowStart,
-            (Place::Comment, _) | (Place::RowStart, b'#') => Place::Comment,
-            (_, b'\r') => Place::RowStart,
-            (Place::RowStart | Place::CellStart, b'"') if self.quoting == Quoting::Used => Place::InQuotes,
-            (_, byte) if byte == self.separator => Place::CellStart,
-            _ => Place::Cell,
+            (PlaceInRow::InQuotes, b'"') => PlaceInRow::CellStart,
+            (PlaceInRow::InQuotes, _) => PlaceInRow::InQuotes,
+            (_, b'\n') => PlaceInRow::RowStart,
+            (PlaceInRow::Comment, _) | (PlaceInRow::RowStart, b'#') => PlaceInRow::Comment,
+            (_, b'\r') => PlaceInRow::RowStart,
+            (PlaceInRow::RowStart | PlaceInRow::CellStart, b'"') if self.quoting == Quoting::Used => {
+                PlaceInRow::InQuotes
+            }
+            (_, byte) if byte == self.separator => PlaceInRow::CellStart,
+            _ => PlaceInRow::Cell,
         }
     }
 }
@@ -58,7 +60,7 @@ impl<R: Read> Read for BoundedRows<R> {
         let count = self.inner.read(buffer)?;
         for byte in &buffer[..count] {
             self.place = self.behind(*byte);
-            self.row_bytes = if self.place == Place::RowStart { 0 } else { self.row_bytes + 1 };
+            self.row_bytes = if self.place == PlaceInRow::RowStart { 0 } else { self.row_bytes + 1 };
             if self.row_bytes > MOST_ROW_BYTES {
                 return Err(io::Error::other(format!("a row is longer than {MOST_ROW_BYTES} bytes")));
             }

@@ -21,7 +21,7 @@ pub(super) enum FoundTime {
     Column(TimeColumn),
     /// A column that is named as one, in which most rows have the time of the row before.
     Coarse(usize),
-    /// A column that is named as one, whose cells are no numbers, as dates in ISO 8601.
+    /// A column that is named as one, whose cells are not numbers, as dates in ISO 8601.
     NoNumbers(usize),
     None,
 }

@@ -9,7 +9,7 @@ use super::{
     report::{ClockKind, TopicTimes},
     spacing::{Spaced, Spacing},
 };
-use crate::event::{EventTime, seconds};
+use crate::event::{EventTime, float, seconds};
 
 /// Messages within which stamps are put in order, and among which one that repeats another is found. Kind: choice; the arrival
 /// over a network is mixed up within some ms.
@@ -173,11 +173,6 @@ impl ClockTrack {
             mean_delay_s: (self.delays > 0).then(|| self.delay_sum_s / float(self.delays)),
         }
     }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "no log has 2^53 messages")]
-pub(super) fn float(count: u64) -> f64 {
-    count as f64
 }
 
 #[cfg(test)]

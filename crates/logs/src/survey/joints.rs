@@ -9,12 +9,12 @@ use std::{
 use congruent_robot::Robot;
 
 use super::{
-    clock::{MessageSum, float},
+    clock::MessageSum,
     limits::{LimitsTrack, moving_names},
     names::{NameMatch, match_names},
     report::{JointsSurvey, LoggedJoint, MissingShares},
 };
-use crate::event::LoggedJoints;
+use crate::event::{LoggedJoints, float};
 
 /// Most joints of a topic; further names are not followed. Kind: choice; a log with other names in each message is damaged.
 const MOST_JOINTS: usize = 1000;
@@ -47,7 +47,7 @@ impl JointTrack {
     }
 }
 
-/// How many values there are, and how many of them are no numbers: NaN, or infinite.
+/// How many values there are, and how many of them are not numbers: NaN, or infinite.
 #[derive(Debug, Default)]
 struct MissingCount {
     values: u64,

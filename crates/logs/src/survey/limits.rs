@@ -2,10 +2,8 @@
 
 use congruent_robot::{Joint, Robot};
 
-use super::{
-    clock::float,
-    report::{JointLimitsSurvey, PositionUnit, RobotOfLog},
-};
+use super::report::{JointLimitsSurvey, PositionUnit, RobotOfLog};
+use crate::event::float;
 
 /// A position may exceed a limit by the digits with which it is written: rad, m. Kind: rounding; encoders step by 1e-5.
 const SLACK: f64 = 1e-3;

@@ -1,7 +1,7 @@
 //! The nominal period of times, and the gaps between them.
 
-use super::{clock::float, report::GapsSurvey};
-use crate::event::seconds;
+use super::report::GapsSurvey;
+use crate::event::{float, seconds};
 
 /// A gap is longer than so many usual steps.
 const GAP_STEPS: i64 = 5;

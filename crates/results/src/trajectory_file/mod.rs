@@ -8,6 +8,7 @@ mod csv;
 mod parquet;
 mod recorder;
 mod run_log;
+mod stride;
 mod table;
 
 pub use congruent_tables::{RowReader, TableError, Value, open, run_columns::TIME};

@@ -11,6 +11,7 @@ use super::{
     csv::CsvTable,
     parquet::ParquetTable,
     run_log::RunLog,
+    stride::Stride,
     table::TableWriter,
 };
 use crate::{
@@ -22,8 +23,7 @@ use crate::{
 struct TrajectoryRecorder {
     cells: SampleCells,
     table: Box<dyn TableWriter>,
-    /// Steps from row to row.
-    stride: u64,
+    stride: Stride,
 }
 
 impl RecordingFormat for TrajectoryFormat {
@@ -45,8 +45,7 @@ impl RecordingFormat for TrajectoryFormat {
 
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
         let setup = run.setup();
-        let step_s = setup.clock.step_s;
-        let stride = stride(setup.scenario.output.trajectory_period_s.unwrap_or(step_s), step_s);
+        let stride = Stride::of(setup);
         let header = header(&setup.description);
         let table: Box<dyn TableWriter> = match self {
             Self::Csv => Box::new(CsvTable::create(path, &header)?),
@@ -66,21 +65,10 @@ impl Recording for TrajectoryRecorder {
 
 impl Recorder for TrajectoryRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
-        if !is_due(sample, self.stride) {
+        if !self.stride.takes(sample) {
             return Ok(());
         }
         self.cells.write(sample, &mut *self.table);
         self.table.end_row()
     }
-}
-
-/// Whether a sample is written: each at its turn, and the last.
-pub(super) fn is_due(sample: &Sample<'_>, stride: u64) -> bool {
-    sample.step.is_multiple_of(stride) || sample.is_last
-}
-
-/// Steps from row to row; the setup has checked that it is a whole number.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast of floats saturates")]
-fn stride(period_s: f64, step_s: f64) -> u64 {
-    ((period_s / step_s).round() as u64).max(1)
 }

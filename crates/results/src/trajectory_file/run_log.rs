@@ -12,7 +12,7 @@ use congruent_monitors::{
 use congruent_twin::RunSetup;
 use congruent_writers::{RobotFormat, robot_text};
 
-use super::{recorder::is_due, table::failed};
+use super::{stride::Stride, table::failed};
 use crate::{
     execute::Recording,
     report::{RunReport, lines},
@@ -25,8 +25,7 @@ pub(super) struct RunLog {
     joints: Vec<String>,
     /// The links that move against the one before.
     edges: Vec<MovingEdge>,
-    /// Steps from message to message.
-    stride: u64,
+    stride: Stride,
     /// Time of the latest message.
     time_s: f64,
 }
@@ -40,7 +39,7 @@ struct MovingEdge {
 }
 
 impl RunLog {
-    pub(super) fn create(path: &Path, setup: &RunSetup, stride: u64) -> Result<Self, RecordingError> {
+    pub(super) fn create(path: &Path, setup: &RunSetup, stride: Stride) -> Result<Self, RecordingError> {
         let (description, robot) = (&setup.description, &setup.description.robot);
         let mut log = LogWriter::create(path).map_err(failed)?;
         if let Some(urdf) = urdf_of(description, path) {
@@ -79,7 +78,7 @@ fn fixed_edges(robot: &Robot) -> impl Iterator<Item = WrittenEdge<'_>> {
 
 impl Recorder for RunLog {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
-        if !is_due(sample, self.stride) {
+        if !self.stride.takes(sample) {
             return Ok(());
         }
         self.time_s = sample.time_s;

@@ -1,6 +1,6 @@
 //! Where base and tool are, before anything is decided about the corrections of the arm.
 //!
-//! A tracker stands metres away from the base of the arm and sees a target that is turned against its flange. Corrections are
+//! A tracker is metres away from the base of the arm and measures a target that is turned against its flange. Corrections are
 //! linearised, so about the nominal frames their effects, and which of them can be distinguished, would be those of another
 //! cell. Closed forms give the two frames; least squares of the two alone makes them accurate.
 
