@@ -241,15 +241,14 @@ impl LogWriter {
         qos: &str,
         ns: i64,
     ) -> Result<(), LogWriteError> {
-        let channel_id = match self.channels.get(topic) {
-            Some(&channel) => channel,
-            None => {
-                let schema = self.file.add_schema(schema.name, "ros2msg", schema.text().as_bytes())?;
-                let qos = (!qos.is_empty()).then(|| ("offered_qos_profiles".to_owned(), qos.to_owned()));
-                let channel = self.file.add_channel(schema, topic, CDR, &qos.into_iter().collect())?;
-                self.channels.insert(topic, channel);
-                channel
-            }
+        let channel_id = if let Some(&channel) = self.channels.get(topic) {
+            channel
+        } else {
+            let schema = self.file.add_schema(schema.name, "ros2msg", schema.text().as_bytes())?;
+            let qos = (!qos.is_empty()).then(|| ("offered_qos_profiles".to_owned(), qos.to_owned()));
+            let channel = self.file.add_channel(schema, topic, CDR, &qos.into_iter().collect())?;
+            self.channels.insert(topic, channel);
+            channel
         };
         let log_time = ns.unsigned_abs();
         let header = MessageHeader { channel_id, sequence: 0, log_time, publish_time: log_time };
