@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
     /// Also compare with another description of the robot (a folder with robot.toml, a robot file, a URDF or an MJCF), in
     /// geometry and, if both are the same chain within the tolerance, in dynamics. Joints with other names, directions or
     /// zeros are found, or declared by [mapping] in robot.toml. git:REV is the robot as the branch, tag or commit REV has
-    /// it, git:REV:PATH another file of it; a log (.mcap, a folder of rosbag2) is the robot_description that was recorded
+    /// it, git:REV:PATH another file of it; a log (.mcap, a folder of rosbag2) is the `robot_description` that was recorded
     /// in it. Given several times, each is compared. By default the files of [[reference]] in robot.toml.
     #[arg(long, value_name = "ROBOT")]
     against: Vec<PathBuf>,
