@@ -70,6 +70,23 @@ fn the_answer_is_the_first_line_and_that_of_quiet_and_ci() {
 }
 
 #[test]
+fn the_largest_distance_and_the_largest_angle_may_be_of_two_rows() {
+    let scratch = ScratchFolder::new();
+    // The second row is 2 mm off and not turned, the third one turned by 2 asin(0.01) and not off.
+    let rows = "joint_1_deg,joint_2_deg,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,1,0,0,1,0,0,0\n0,0,1.002,0,0,1,0,0,0\n\
+                0,0,1,0,0,0.99994999875,0,0,0.01\n";
+    let file = scratch.write("two.csv", rows);
+    let arguments = ["check", "robots/planar_2r", "--measurements", &file, "--tolerance", "1mm,2deg", "-q"];
+    let answer = congruent(&arguments);
+    assert!(
+        answer.code == 1 && answer.stdout.contains("by up to 2 mm and 1.15 deg"),
+        "{}{}",
+        answer.stdout,
+        answer.stderr
+    );
+}
+
+#[test]
 fn the_base_is_fitted_before_if_it_is_free() {
     let scratch = ScratchFolder::new();
     let file = scratch.write("aside.csv", FROM_ASIDE);

@@ -90,6 +90,8 @@ pub struct MeasuredDifference {
     pub position_m: f64,
     /// Angle between measured and modelled orientation, rad; 0 if none was measured.
     pub orientation_rad: f64,
+    /// The larger of the two over its tolerance.
+    pub excess: f64,
     /// Whether it is beyond the tolerance.
     pub is_beyond: bool,
 }
@@ -131,8 +133,7 @@ pub fn check_measured(
         .enumerate()
         .map(|(at, residual)| difference(at, rows, residual, options.tolerance))
         .collect();
-    let excess = |of: &MeasuredDifference| excess(of.position_m, of.orientation_rad, options.tolerance);
-    let worst = row_differences.iter().max_by(|a, b| excess(a).total_cmp(&excess(b)));
+    let worst = row_differences.iter().max_by(|a, b| a.excess.total_cmp(&b.excess));
     let worst =
         *worst.ok_or_else(|| Diagnostic::error(codes::measurements::NONE, "there is no measurement"))?;
     let rows_beyond = row_differences.iter().filter(|row| row.is_beyond).count();
@@ -233,8 +234,9 @@ fn difference(
     tolerance: RequestedTolerance,
 ) -> MeasuredDifference {
     let (position_m, orientation_rad) = (residual.position_m.norm(), residual.orientation_rad.norm());
-    let is_beyond = excess(position_m, orientation_rad, tolerance) > 1.0;
-    MeasuredDifference { row: at + 1, line: rows[at].line, position_m, orientation_rad, is_beyond }
+    let excess = excess(position_m, orientation_rad, tolerance);
+    let (row, line) = (at + 1, rows[at].line);
+    MeasuredDifference { row, line, position_m, orientation_rad, excess, is_beyond: excess > 1.0 }
 }
 
 /// How many times the tolerance a row is off, in position or in orientation.

@@ -22,6 +22,8 @@ const METADATA_BYTES: u64 = 16 << 20;
 /// Bytes of the beginning by which an MCAP is recognised.
 const MAGIC_BYTES: u64 = 8;
 
+/// Endings of an MCAP; the second one has that of a run which did not end.
+const MCAPS: [&str; 2] = [".mcap", ".mcap.partial"];
 /// Endings of tables.
 const TABLES: [&str; 2] = [".csv", ".tsv"];
 /// The ending of an MCAP that was compressed as a whole.
@@ -53,7 +55,7 @@ pub fn is_log(path: &Path) -> bool {
         let has = |name: &str| path.join(name).is_file();
         return !has("robot.toml") && (has(METADATA) || files_in(path).is_ok_and(is_bag));
     }
-    is_table(path) || has_ending(path, ".mcap") || not_read(path).is_some()
+    is_table(path) || MCAPS.iter().any(|ending| has_ending(path, ending)) || not_read(path).is_some()
 }
 
 /// Whether a path is a log that is a table, by its ending.

@@ -41,7 +41,7 @@ pub fn recorded_description(path: &Path) -> Result<RecordedDescription, Diagnost
         }
     }
     let name = |of: &LoggedDescription| reader.topics()[of.topic].name.clone();
-    let Some(found) = last.first() else { return Err(no_description(path)) };
+    let Some(found) = last.first() else { return Err(no_description(path, warnings.first())) };
     if let Some(other) = last.iter().find(|of| of.text != found.text) {
         return Err(several(path, [name(found), name(other)]));
     }
@@ -60,8 +60,11 @@ pub fn recorded_description(path: &Path) -> Result<RecordedDescription, Diagnost
     Ok(RecordedDescription { source, warnings })
 }
 
-fn no_description(path: &Path) -> Diagnostic {
-    let message = format!("{} has no robot_description", path.display());
+/// `damage` is the first part of the log that cannot be read: the description may have been there.
+fn no_description(path: &Path, damage: Option<&Diagnostic>) -> Diagnostic {
+    let damage =
+        damage.map_or_else(String::new, |damage| format!(" in what can be read of it: {}", damage.message));
+    let message = format!("{} has no robot_description{damage}", path.display());
     Diagnostic::error(codes::log::NO_DESCRIPTION, message).with_help(
         "record it with the joint states: `ros2 bag record -s mcap /joint_states /robot_description`; \
          `congruent describe LOG` lists the topics of a log",
@@ -119,6 +122,10 @@ mod tests {
         let topics = [topic(1, names[0], TEXT, "cdr"), topic(2, names[1], TEXT, "cdr")].concat();
         let texts = |second| [published(1, "<robot name='a'/>"), published(2, second)].concat();
         assert!(recorded(&[topics.clone(), texts("<robot name='a'/>")]).is_ok());
+        let mut cut = tempfile::NamedTempFile::with_suffix(".mcap").unwrap();
+        cut.write_all(&[begun(), topics.clone()].concat()).unwrap();
+        let refused = recorded_description(cut.path()).unwrap_err();
+        assert!(refused.message.contains("in what can be read of it"), "{}", refused.message);
         let refused = recorded(&[topics, texts("<robot name='b'/>")]).unwrap_err();
         assert!(names.iter().all(|name| refused.message.contains(name)), "{}", refused.message);
     }

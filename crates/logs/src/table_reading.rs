@@ -34,7 +34,7 @@ pub struct TableColumn {
     pub joint: String,
     /// What of the joint.
     pub quantity: LoggedQuantity,
-    /// The unit that its name states, such as `deg`; values are not converted.
+    /// The unit that its name states, such as `deg`; values are converted to rad and m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stated_unit: Option<String>,
 }

@@ -9,7 +9,8 @@ use super::headline::Headline;
 
 /// The first line of `check --measurements`: whether the model is the measured robot, how far the worst row is off, and where it is.
 pub fn measured_headline(check: &MeasuredCheck) -> Headline {
-    let worst = difference(&check.worst);
+    // The largest of each, which may be of two rows.
+    let worst = length_and_angle(check.differences.worst_m, check.differences.worst_rad);
     let rms = length_and_angle(check.differences.rms_m, check.differences.rms_rad);
     let model = match check.model {
         CalibratedModel::Dh => "DH table",
@@ -67,10 +68,6 @@ pub fn measured_suite(name: &str, check: &MeasuredCheck) -> TestSuite {
         further: Vec::new(),
     };
     TestSuite { cases: vec![case], ..TestSuite::new(name) }
-}
-
-fn difference(row: &MeasuredDifference) -> String {
-    length_and_angle(row.position_m, row.orientation_rad)
 }
 
 fn was(frames: &[&str]) -> String {

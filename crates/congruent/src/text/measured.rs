@@ -53,7 +53,7 @@ fn fitted(text: &mut String, check: &MeasuredCheck) {
 fn beyond(text: &mut String, check: &MeasuredCheck) {
     let mut rows: Vec<&MeasuredDifference> =
         check.row_differences.iter().filter(|row| row.is_beyond).collect();
-    rows.sort_by(|a, b| b.position_m.total_cmp(&a.position_m));
+    rows.sort_by(|a, b| b.excess.total_cmp(&a.excess));
     let _ = writeln!(text, "\n  beyond the tolerance, the farthest first");
     for row in rows.iter().take(MOST_ROWS) {
         let _ = writeln!(

@@ -1,6 +1,9 @@
 //! Which column of a table is which joint.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    f64::consts::PI,
+};
 
 use super::{
     dialect::Dialect,
@@ -27,11 +30,22 @@ const UR_COLUMNS: [(&str, LoggedQuantity); 3] = [
 const UR_POSE: &str = "actual_tcp_pose_";
 
 /// A column with a value of a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct JointCell {
     pub(super) column: usize,
     pub(super) joint: usize,
     pub(super) quantity: LoggedQuantity,
+    /// What one of the unit that the name of the column states is in rad, m, rad/s, m/s, N m or N.
+    pub(super) si_per_unit: f64,
+}
+
+/// What one of a unit is in the unit of SI.
+fn si_per_unit(unit: Option<&str>) -> f64 {
+    match unit {
+        Some("deg" | "degree" | "degrees" | "deg_s") => PI / 180.0,
+        Some("mm" | "mm_s") => 1e-3,
+        _ => 1.0,
+    }
 }
 
 /// The columns of a table that are read.
@@ -148,7 +162,8 @@ fn collected(names: &[String], time: Option<usize>, taken: Vec<TakenColumn>) -> 
             found.joints.push(name);
             found.joints.len() - 1
         });
-        found.cells.push(JointCell { column, joint, quantity });
+        let si_per_unit = si_per_unit(stated_unit.as_deref());
+        found.cells.push(JointCell { column, joint, quantity, si_per_unit });
         let (name, joint) = (names[column].clone(), found.joints[joint].clone());
         found.described.push(TableColumn { name, joint, quantity, stated_unit });
     }
@@ -197,8 +212,8 @@ fn by_order(dialect: &Dialect, time: Option<usize>, robot: &[String]) -> ReadCol
         let name = dialect.name(column);
         let of_joint = robot.get(joint).cloned().unwrap_or_else(|| name.clone());
         found.joints.push(of_joint.clone());
-        found.cells.push(JointCell { column, joint, quantity: LoggedQuantity::Position });
         let quantity = LoggedQuantity::Position;
+        found.cells.push(JointCell { column, joint, quantity, si_per_unit: 1.0 });
         found.described.push(TableColumn { name, joint: of_joint, quantity, stated_unit: None });
     }
     found
@@ -227,7 +242,10 @@ mod tests {
     fn joints_by_words() {
         check("t,- a_1_joint_position,- a_2_joint_position", &[], &["a_1_joint", "a_2_joint"], &[]);
         let found = check("t,q1,q2,dq1,dq2,robot_current", &[], &["q1", "q2"], &["robot_current"]);
-        assert_eq!(found.cells[3], JointCell { column: 4, joint: 1, quantity: LoggedQuantity::Velocity });
+        assert_eq!(
+            found.cells[3],
+            JointCell { column: 4, joint: 1, quantity: LoggedQuantity::Velocity, si_per_unit: 1.0 }
+        );
         let path = ["t,/js/elbow/position,/js/elbow/velocity", "t,/js/position/elbow,/js/velocity/elbow"];
         for header in path {
             check(header, &[], &["elbow"], &[]);

@@ -5,7 +5,10 @@ use crate::table_reading::LoggedQuantity;
 /// Words that say what a column is.
 const WORDS: [(LoggedQuantity, &[&str]); 3] = [
     (LoggedQuantity::Position, &["position", "positions", "pos", "q", "angle", "angles"]),
-    (LoggedQuantity::Velocity, &["velocity", "velocities", "vel", "qd", "dq", "qdot", "speed", "speeds"]),
+    (
+        LoggedQuantity::Velocity,
+        &["velocity", "velocities", "vel", "qd", "dq", "qdot", "speed", "speeds", "v"],
+    ),
     (
         LoggedQuantity::Effort,
         &["effort", "efforts", "eff", "torque", "torques", "tau", "current", "currents"],
@@ -26,8 +29,20 @@ const OTHERS: [&[&str]; 6] = [
         "ideal",
         "error",
     ],
-    &["acceleration", "accelerations", "acc", "accel", "qdd", "ddq", "jerk"],
-    &["temperature", "temperatures", "temp", "voltage", "std", "mode", "status", "id", "stamp"],
+    &["acceleration", "accelerations", "acc", "accel", "qdd", "ddq", "qddot", "ddot", "jerk"],
+    &[
+        "temperature",
+        "temperatures",
+        "temp",
+        "voltage",
+        "std",
+        "mode",
+        "status",
+        "id",
+        "stamp",
+        "offset",
+        "raw",
+    ],
     &["tcp", "tool", "pose", "force"],
     &["x", "y", "z", "w", "rx", "ry", "rz", "qx", "qy", "qz", "qw"],
 ];
@@ -72,6 +87,12 @@ pub(super) fn named(name: &str) -> Option<NamedColumn> {
     if parts.iter().any(|part| !is_current(part) && quantity(&part.word).is_some()) {
         parts.retain(|part| !is_current(part));
     }
+    // `q0_dot` is the rate of `q0`.
+    let is_rate = |part: &NamePart| part.word == "dot";
+    let has_rate = parts.iter().any(is_rate) && parts.len() > 1;
+    if has_rate {
+        parts.retain(|part| !is_rate(part));
+    }
     let found = parts.iter().enumerate().find_map(|(at, part)| Some((at, quantity(&part.word)?)));
     if let Some((at, _)) = found {
         // Of `q1` the number names the joint.
@@ -84,7 +105,7 @@ pub(super) fn named(name: &str) -> Option<NamedColumn> {
     }
     let rest = joined(&parts);
     (!rest.is_empty()).then_some(NamedColumn {
-        quantity: found.map(|(_, quantity)| quantity),
+        quantity: if has_rate { Some(LoggedQuantity::Velocity) } else { found.map(|(_, quantity)| quantity) },
         rest,
         stated_unit,
     })
@@ -200,9 +221,19 @@ mod tests {
         check("target_q_0", None);
         check("measurement_std_rx", None);
         check("position", None);
-        for name in ["joint_1_acceleration", "joint_1_mode", "q_cmd_1", "q_d_0", "q_w", "qdd1", "j1_temp"] {
+        for name in [
+            "joint_1_acceleration",
+            "joint_1_mode",
+            "q_cmd_1",
+            "q_d_0",
+            "q_w",
+            "qdd1",
+            "j1_temp",
+            "joint_1_raw",
+        ] {
             check(name, None);
         }
+        check("q0_dot", Some((Some(LoggedQuantity::Velocity), "0")));
         check("current_position_1", Some((Some(LoggedQuantity::Position), "1")));
         check("motor_current_1", Some((Some(LoggedQuantity::Effort), "motor_1")));
         check("", None);

@@ -186,7 +186,7 @@ impl TableReader {
             if array.is_empty() {
                 array.resize(self.joints.len(), f64::NAN);
             }
-            array[cell.joint] = self.number(cells, cell.column, line);
+            array[cell.joint] = self.number(cells, cell.column, line) * cell.si_per_unit;
         }
         let [position, velocity, effort] = arrays;
         LoggedJoints { topic: 0, time, names: Arc::clone(&self.joints), position, velocity, effort }

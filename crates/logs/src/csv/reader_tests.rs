@@ -39,6 +39,19 @@ fn rows_with_decimal_commas_in_milliseconds() {
 }
 
 #[test]
+fn values_in_the_units_that_names_state_are_converted() {
+    let text =
+        b"Zeit_ms,elbow_pos_deg,slide_pos_mm,elbow_vel_deg_s,wrist_pos\n0,180,250,90,1\n8,-90,-1,0,2\n";
+    let found = events(text, &LogOptions::default());
+    let found = joints(&found);
+    let row = |at: usize| found[at].position.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    let bits = |values: [f64; 3]| values.map(f64::to_bits);
+    assert_eq!(row(0), bits([180_f64.to_radians(), 0.25, 1.0]));
+    assert_eq!(row(1), bits([(-90_f64).to_radians(), -0.001, 2.0]));
+    assert_eq!(found[0].velocity[0].to_bits(), 90_f64.to_radians().to_bits());
+}
+
+#[test]
 fn rows_and_cells_that_are_not_used_are_counted() {
     let text = b"t,elbow_position,wrist_position\n0,1,2\n0.1,1\nx,1,2\n0.2,1,broken\n";
     let found = events(text, &LogOptions::default());

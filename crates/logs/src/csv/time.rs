@@ -27,8 +27,9 @@ pub(super) enum FoundTime {
 }
 
 /// Names of columns with times, without their unit.
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 13] = [
     "time",
+    "zeit",
     "t",
     "timestamp",
     "stamp",

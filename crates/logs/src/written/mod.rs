@@ -13,7 +13,10 @@ use crate::cdr::{CDR, CdrText, joint_state_text};
 /// Bytes of a chunk: a program that is killed loses the last one. Kind: choice.
 const CHUNK_BYTES: u64 = 256 << 10;
 /// What `ros2 bag play` offers of a topic that is published once: nodes that come later get it as well.
-const LATCHED: &str = "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n";
+/// All keys of a profile: readers have defaults for none of them.
+const LATCHED: &str = "- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n  deadline:\n    sec: 0\n    nsec: 0\n  \
+    lifespan:\n    sec: 0\n    nsec: 0\n  liveliness: 1\n  liveliness_lease_duration:\n    sec: 0\n    nsec: 0\n  \
+    avoid_ros_namespace_conventions: false\n";
 /// The time of the first message: to ROS a stamp of 0 is none.
 const BEGIN_NS: i64 = 1_000_000_000;
 
