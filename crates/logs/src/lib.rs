@@ -6,6 +6,7 @@
 mod cdr;
 pub mod codes;
 mod csv;
+mod descriptions;
 mod event;
 mod mcap;
 mod open;

@@ -6,7 +6,8 @@ use congruent_input::{Diagnostic, SourceFile};
 
 use crate::{
     codes,
-    event::{LogEvent, LoggedDescription},
+    descriptions::{Descriptions, LastDescription},
+    event::LogEvent,
     open::open_log,
     options::LogOptions,
 };
@@ -26,30 +27,26 @@ pub struct RecordedDescription {
 /// The log cannot be read, has no description, or different ones on several topics.
 pub fn recorded_description(path: &Path) -> Result<RecordedDescription, Diagnostic> {
     let mut reader = open_log(path, &LogOptions::default())?;
-    let (mut warnings, mut last, mut changes) = (Vec::new(), Vec::<LoggedDescription>::new(), 0);
+    let (mut warnings, mut descriptions) = (Vec::new(), Descriptions::default());
     while let Some(event) = reader.next_event()? {
         match event {
-            LogEvent::Description(found) => match last.iter_mut().find(|of| of.topic == found.topic) {
-                Some(before) => {
-                    changes += u32::from(before.text != found.text);
-                    *before = found;
-                }
-                None => last.push(found),
-            },
+            LogEvent::Description(found) => descriptions.take(found),
             LogEvent::Gap(gap) => warnings.push(gap.cause),
             _ => {}
         }
     }
-    let name = |of: &LoggedDescription| reader.topics()[of.topic].name.clone();
-    let Some(found) = last.first() else { return Err(no_description(path, warnings.first())) };
-    if let Some(other) = last.iter().find(|of| of.text != found.text) {
+    let name = |of: &LastDescription| reader.topics()[of.description.topic].name.clone();
+    let all = descriptions.all();
+    let Some(found) = all.first() else { return Err(no_description(path, warnings.first())) };
+    if let Some(other) = all.iter().find(|of| of.description.text != found.description.text) {
         return Err(several(path, [name(found), name(other)]));
     }
     // Beside the log, where paths of meshes are looked for: a name with the slashes of the topic would be in another folder.
     let topic = name(found);
     let named = format!("{}:{}", path.display(), topic.rsplit('/').next().unwrap_or(&topic));
-    let source = SourceFile { path: named.into(), text: found.text.clone(), is_foreign: false };
+    let source = SourceFile { path: named.into(), text: found.description.text.clone(), is_foreign: false };
     let source = Arc::new(source);
+    let changes: u64 = all.iter().map(|of| of.changes).sum();
     if changes > 0 {
         let times = if changes == 1 { "once".to_owned() } else { format!("{changes} times") };
         let message = format!("the description changes {times} in the log");

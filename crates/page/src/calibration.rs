@@ -126,7 +126,7 @@ fn corrections(report: &CalibrationReport) -> Markup {
         }
         @if !report.fixed.is_empty() {
             details {
-                summary { (counted(report.fixed.len(), "correction")) " fixed at nominal" @if !report.is_held_at_nominal() { " or as aligned" } ", since the measurements do not identify them" }
+                summary { (counted(report.fixed.len(), "correction")) " fixed at " (report.held_at()) ", since the measurements do not identify them" }
                 ul { @for each in &report.fixed { li { b { (each.name) } ": " (each.reason) @if let Some(at) = each.held_at_for_people() { ", " (at) } } } }
             }
         }

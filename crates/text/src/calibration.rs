@@ -80,7 +80,7 @@ fn fixed(text: &mut String, report: &CalibrationReport) {
     let _ = writeln!(
         text,
         "\n  held at {}, not identifiable (singular value < {} of the largest)",
-        if report.is_held_at_nominal() { "nominal" } else { "nominal or as aligned" },
+        report.held_at(),
         number(report.identifiability.threshold)
     );
     let width = column_width(report.fixed.iter().map(|each| each.name.len()));

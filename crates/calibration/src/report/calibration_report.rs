@@ -323,9 +323,10 @@ pub struct SuggestedConfiguration {
 }
 
 impl CalibrationReport {
-    /// Whether every fixed correction is held at nominal, and none where base and tool were aligned.
-    pub fn is_held_at_nominal(&self) -> bool {
-        self.fixed.iter().all(|each| each.held_at == 0.0)
+    /// Where the fixed corrections are held, in words.
+    pub fn held_at(&self) -> &'static str {
+        let is_nominal = self.fixed.iter().all(|each| each.held_at == 0.0);
+        if is_nominal { "nominal" } else { "nominal or as aligned" }
     }
 }
 

@@ -68,9 +68,8 @@ pub(super) fn statements(
     }
     if !report.fixed.is_empty() {
         let names: Vec<&str> = report.fixed.iter().map(|each| each.name.as_str()).collect();
-        let at = if report.is_held_at_nominal() { "at nominal" } else { "at nominal or as aligned" };
-        statements
-            .push(format!("fixed {at}, since these measurements do not identify them: {}", names.join(", ")));
+        let (at, names) = (report.held_at(), names.join(", "));
+        statements.push(format!("fixed at {at}, since these measurements do not identify them: {names}"));
     }
     for (estimate, fit) in [("least squares", &report.least_squares), ("the robust estimate", &report.robust)]
     {

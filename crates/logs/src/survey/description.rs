@@ -1,30 +1,20 @@
 //! The name of the robot in a description that was recorded.
 
 use super::report::RobotInLog;
-use crate::event::{LogTopic, LoggedDescription};
+use crate::{
+    descriptions::{Descriptions, LastDescription},
+    event::LogTopic,
+};
 
 /// The description that was recorded last.
-#[derive(Debug, Default)]
-pub(super) struct DescriptionTrack {
-    last: Option<LoggedDescription>,
-    changes: u64,
-}
-
-impl DescriptionTrack {
-    pub(super) fn take(&mut self, description: LoggedDescription) {
-        self.changes += u64::from(self.last.as_ref().is_some_and(|last| last.text != description.text));
-        self.last = Some(description);
-    }
-
-    pub(super) fn report(self, topics: &[LogTopic]) -> Option<RobotInLog> {
-        let LoggedDescription { topic, text, .. } = self.last?;
-        Some(RobotInLog {
-            topic: topics[topic].name.clone(),
-            robot: robot_name(&text),
-            bytes: text.len(),
-            changes: self.changes,
-        })
-    }
+pub(super) fn robot_in_log(found: &Descriptions, topics: &[LogTopic]) -> Option<RobotInLog> {
+    let LastDescription { description, changes } = found.all().last()?;
+    Some(RobotInLog {
+        topic: topics[description.topic].name.clone(),
+        robot: robot_name(&description.text),
+        bytes: description.text.len(),
+        changes: *changes,
+    })
 }
 
 /// The name that the root element gives. It is searched instead of parsed: a survey does not judge the description.

@@ -6,7 +6,7 @@ use congruent_input::{Diagnostic, Finding, Severity, SourceFile};
 use congruent_robot::Robot;
 
 use super::{
-    description::DescriptionTrack,
+    description::robot_in_log,
     findings,
     limits::moving_names,
     report::{ClockKind, LogFormat, LogSurvey, TopicSurvey},
@@ -15,6 +15,7 @@ use super::{
     utc::date,
 };
 use crate::{
+    descriptions::Descriptions,
     event::{EventTime, LogEvent, LogReader, seconds},
     open::open_log,
     options::LogOptions,
@@ -36,7 +37,7 @@ pub struct SurveyedLog {
 #[derive(Default)]
 struct Pass {
     topics: Vec<TopicTrack>,
-    description: DescriptionTrack,
+    descriptions: Descriptions,
     log: Option<LogTimes>,
     unreadable_parts: u64,
     warnings: Vec<Diagnostic>,
@@ -84,7 +85,7 @@ impl Pass {
                     ClockKind::Log,
                     None,
                 );
-                self.description.take(description);
+                self.descriptions.take(description);
             }
             LogEvent::Other(message) => self.topic(message.topic, &message.time).other(message),
             LogEvent::Gap(gap) => {
@@ -142,7 +143,7 @@ impl Pass {
             messages: messages(&surveyed, format),
             topics: surveyed,
             table: reader.table().cloned(),
-            description: self.description.report(topics),
+            description: robot_in_log(&self.descriptions, topics),
             robot,
             unreadable_parts: self.unreadable_parts,
             warnings: self.warnings.iter().map(Finding::from).collect(),
