@@ -1,7 +1,7 @@
 //! Recorded joint states and poses of robots, from MCAP and CSV, and a survey of what a log has.
 //!
-//! A log is read once, from its beginning to its end, in memory that does not grow with it: [`open_log`] gives its events,
-//! [`survey_log`] says what is in it, [`recorded_description`] which robot was recorded. Nothing here compares a log with poses of a model, or puts events in order of time.
+//! A log is read once, from its beginning to its end, in memory that does not grow with it: [`open_log`] gives its events, [`LogStream`] rows of all joints in the order of time,
+//! [`survey_log`] says what is in it, [`recorded_description`] which robot was recorded. Nothing here compares a log with a model.
 
 mod cdr;
 pub mod codes;
@@ -12,6 +12,7 @@ mod mcap;
 mod open;
 mod options;
 mod recorded_description;
+mod stream;
 mod survey;
 mod table_reading;
 mod written;
@@ -23,6 +24,10 @@ pub use event::{
 pub use open::{is_log, is_table, open_log};
 pub use options::LogOptions;
 pub use recorded_description::{RecordedDescription, recorded_description};
+pub use stream::{
+    JointRow, JointRowCounts, LogStream, PoseCounts, SelectedJoint, SelectedJoints, SelectedPoses,
+    StreamEvent, StreamSelection, StreamedPose,
+};
 pub use survey::{
     ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogFormat, LogSurvey,
     LoggedJoint, MissingShares, PositionUnit, RobotInLog, RobotOfLog, SurveyWords, SurveyedLog, TopicSurvey,

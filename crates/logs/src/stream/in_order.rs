@@ -1,0 +1,126 @@
+//! Puts the messages of a topic in the order of their times.
+
+use std::{
+    cmp::Ordering,
+    collections::{BinaryHeap, VecDeque},
+};
+
+/// Messages within which times are put in order. Kind: choice; the arrival over a network is mixed up within some ms.
+const WINDOW: usize = 64;
+
+/// A message at a time.
+#[derive(Debug)]
+struct Timed<T> {
+    time_s: f64,
+    /// Number of the message: of two at one time the first stays first.
+    number: u64,
+    value: T,
+}
+
+impl<T> PartialEq for Timed<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl<T> Eq for Timed<T> {}
+
+impl<T> PartialOrd for Timed<T> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<T> Ord for Timed<T> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        // The earliest is the greatest, since a heap gives its greatest.
+        other.time_s.total_cmp(&self.time_s).then(other.number.cmp(&self.number))
+    }
+}
+
+/// Messages of one topic, of which the earliest are given once enough later ones have come.
+#[derive(Debug)]
+pub(super) struct InOrder<T> {
+    heap: BinaryHeap<Timed<T>>,
+    ready: VecDeque<(f64, T)>,
+    number: u64,
+    given_s: f64,
+    /// Messages at a time that another message has, and messages that came after a later one was given.
+    pub(super) repeated: u64,
+    pub(super) late: u64,
+}
+
+impl<T> Default for InOrder<T> {
+    fn default() -> Self {
+        Self {
+            heap: BinaryHeap::with_capacity(WINDOW + 1),
+            ready: VecDeque::new(),
+            number: 0,
+            given_s: f64::NEG_INFINITY,
+            repeated: 0,
+            late: 0,
+        }
+    }
+}
+
+impl<T> InOrder<T> {
+    pub(super) fn push(&mut self, time_s: f64, value: T) {
+        self.number += 1;
+        self.heap.push(Timed { time_s, number: self.number, value });
+        self.give(WINDOW);
+    }
+
+    /// No message follows that belongs to these: gives all of them.
+    pub(super) fn flush(&mut self) {
+        self.give(0);
+    }
+
+    fn give(&mut self, kept: usize) {
+        while self.heap.len() > kept {
+            let Some(Timed { time_s, value, .. }) = self.heap.pop() else { return };
+            match time_s.total_cmp(&self.given_s) {
+                Ordering::Less => self.late += 1,
+                Ordering::Equal => self.repeated += 1,
+                Ordering::Greater => {
+                    self.given_s = time_s;
+                    self.ready.push_back((time_s, value));
+                }
+            }
+        }
+    }
+
+    /// The next message, later than all before it.
+    pub(super) fn pop(&mut self) -> Option<(f64, T)> {
+        self.ready.pop_front()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_are_given_in_order_once_each() {
+        let mut order = InOrder::default();
+        let times: Vec<i32> = (0..200).map(|at| at + if at % 7 == 0 { 5 } else { 0 }).collect();
+        for (number, &time) in times.iter().enumerate() {
+            order.push(f64::from(time), number);
+        }
+        order.flush();
+        let given: Vec<(f64, usize)> = std::iter::from_fn(|| order.pop()).collect();
+        assert!(given.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        // Of the two messages at a time, the first counts: 5 is that of number 0.
+        assert_eq!(given[4], (5.0, 0));
+        assert_eq!(order.repeated as usize + given.len(), times.len());
+        assert_eq!(order.late, 0);
+    }
+
+    #[test]
+    fn a_message_that_comes_too_late_is_counted() {
+        let mut order = InOrder::default();
+        (0..100).for_each(|at| order.push(f64::from(at), at));
+        order.push(3.5, 100);
+        order.flush();
+        assert_eq!((std::iter::from_fn(|| order.pop()).count(), order.late), (100, 1));
+    }
+}

@@ -1,0 +1,206 @@
+//! Joins the joint states of several topics, and of messages that lack some joints, to rows of all joints.
+
+use std::{collections::VecDeque, sync::Arc};
+
+use super::{
+    in_order::InOrder,
+    joint_row::{JointRow, JointRowCounts},
+    joint_series::{JointSeries, JointState},
+    selection::{SelectedJoint, SelectedJoints, StreamSelection},
+};
+use crate::event::LoggedJoints;
+
+/// How long a topic may be silent before rows no longer wait for it, s. Kind: choice; recorders write topics that are this far
+/// apart in one order.
+const WAITS_S: f64 = 2.0;
+
+/// A topic with joints that are taken.
+#[derive(Debug)]
+struct Topic {
+    selected: SelectedJoints,
+    messages: InOrder<LoggedJoints>,
+    /// The list of names of the last message, and where the joints that are taken are in it.
+    names: Option<Arc<[String]>>,
+    places: Vec<Option<usize>>,
+    reached_s: f64,
+}
+
+impl Topic {
+    /// Where the joints are in a message.
+    fn find_places(&mut self, names: &Arc<[String]>) {
+        if self.names.as_ref().is_some_and(|known| Arc::ptr_eq(known, names)) {
+            return;
+        }
+        let place = |joint: &SelectedJoint| names.iter().position(|name| *name == joint.name);
+        self.places = self.selected.joints.iter().map(place).collect();
+        self.names = Some(Arc::clone(names));
+    }
+}
+
+/// Rows in the making.
+#[derive(Debug)]
+pub(super) struct Rows {
+    topics: Vec<Topic>,
+    measured: Vec<JointSeries>,
+    setpoints: Vec<JointSeries>,
+    /// Whether a topic has the joint: rows wait for it.
+    is_measured: Vec<bool>,
+    /// Times of rows that are not given yet.
+    pending: VecDeque<f64>,
+    maximum_gap_s: f64,
+    has_ended: bool,
+    row: JointRow,
+    /// Instants that were left out since the last row.
+    left_out: u64,
+    pub(super) counts: JointRowCounts,
+}
+
+impl Rows {
+    pub(super) fn new(selection: &StreamSelection) -> Self {
+        let joints = selection.joints_of_row;
+        let series = || (0..joints).map(|_| JointSeries::default()).collect();
+        let mut is_measured = vec![false; joints];
+        let measured = selection.joints.iter().filter(|topic| !topic.is_setpoint);
+        measured.flat_map(|topic| &topic.joints).for_each(|joint| is_measured[joint.joint] = true);
+        let topic = |selected: &SelectedJoints| Topic {
+            selected: selected.clone(),
+            messages: InOrder::default(),
+            names: None,
+            places: Vec::new(),
+            reached_s: f64::NEG_INFINITY,
+        };
+        Self {
+            topics: selection.joints.iter().map(topic).collect(),
+            measured: series(),
+            setpoints: series(),
+            is_measured,
+            pending: VecDeque::new(),
+            maximum_gap_s: selection.maximum_gap_s,
+            has_ended: false,
+            row: JointRow::new(joints),
+            left_out: 0,
+            counts: JointRowCounts::default(),
+        }
+    }
+
+    /// The number of the first selection of a topic from `from` on.
+    pub(super) fn selection_of(&self, topic: &str, from: usize) -> Option<usize> {
+        (from..self.topics.len()).find(|&at| self.topics[at].selected.topic == topic)
+    }
+
+    /// Takes a message of a selection.
+    pub(super) fn take(&mut self, selection: usize, time_s: f64, message: LoggedJoints) {
+        if message.has_wrong_length() {
+            self.counts.wrong_lengths += 1;
+            return;
+        }
+        self.topics[selection].messages.push(time_s, message);
+        self.sort(selection);
+    }
+
+    /// No message follows.
+    pub(super) fn flush(&mut self) {
+        for selection in 0..self.topics.len() {
+            self.topics[selection].messages.flush();
+            self.sort(selection);
+        }
+        self.has_ended = true;
+    }
+
+    /// From messages that are in order to the series of their joints.
+    fn sort(&mut self, selection: usize) {
+        while let Some((time_s, message)) = self.topics[selection].messages.pop() {
+            let topic = &mut self.topics[selection];
+            topic.find_places(&message.names);
+            topic.reached_s = time_s;
+            let is_setpoint = topic.selected.is_setpoint;
+            let series = if is_setpoint { &mut self.setpoints } else { &mut self.measured };
+            let mut has_position = false;
+            for (joint, place) in topic.selected.joints.iter().zip(&topic.places) {
+                let Some(state) = place.and_then(|place| state(&message, place, joint.si_per_unit)) else {
+                    continue;
+                };
+                has_position = true;
+                series[joint.joint].push(time_s, state);
+            }
+            if selection == 0 {
+                self.pending.push_back(time_s);
+            }
+            self.counts.without_positions += u64::from(!has_position);
+        }
+    }
+
+    /// Makes the next row, if all joints are known by now or cannot be any more; returns whether there is one.
+    pub(super) fn advance(&mut self) -> bool {
+        while let Some(&time_s) = self.pending.front() {
+            if !self.is_decided(time_s) {
+                return false;
+            }
+            self.pending.pop_front();
+            if self.fill(time_s) {
+                self.row.left_out = std::mem::take(&mut self.left_out);
+                self.counts.rows += 1;
+                return true;
+            }
+            self.counts.incomplete += 1;
+            self.left_out += 1;
+        }
+        false
+    }
+
+    /// The row that was made last.
+    pub(super) fn row(&self) -> &JointRow {
+        &self.row
+    }
+
+    fn is_decided(&self, time_s: f64) -> bool {
+        let first_s = self.topics.first().map_or(time_s, |topic| topic.reached_s);
+        if self.has_ended || first_s - time_s > WAITS_S {
+            return true;
+        }
+        self.topics.iter().all(|topic| {
+            let series = if topic.selected.is_setpoint { &self.setpoints } else { &self.measured };
+            // A joint that messages lack is known once one has it again, or not at all beyond the gap.
+            topic.reached_s - time_s > self.maximum_gap_s
+                || topic.selected.joints.iter().all(|joint| series[joint.joint].reaches(time_s))
+        })
+    }
+
+    /// Fills the row; returns whether every joint of a topic is known.
+    fn fill(&mut self, time_s: f64) -> bool {
+        let gap_s = self.maximum_gap_s;
+        self.row.time_s = time_s;
+        let mut is_whole = true;
+        for (joint, series) in self.measured.iter_mut().enumerate() {
+            let state = series.at(time_s, gap_s);
+            is_whole &= state.is_some() || !self.is_measured[joint];
+            let JointState { q, qd, effort } = state.unwrap_or(UNKNOWN);
+            (self.row.q[joint], self.row.qd[joint], self.row.effort[joint]) = (q, qd, effort);
+        }
+        for (joint, series) in self.setpoints.iter_mut().enumerate() {
+            let JointState { q, qd, .. } = series.at(time_s, gap_s).unwrap_or(UNKNOWN);
+            (self.row.setpoint_q[joint], self.row.setpoint_qd[joint]) = (q, qd);
+        }
+        is_whole
+    }
+
+    /// What became of the messages.
+    pub(super) fn counts(&self) -> JointRowCounts {
+        let sum =
+            |of: fn(&InOrder<LoggedJoints>) -> u64| self.topics.iter().map(|topic| of(&topic.messages)).sum();
+        JointRowCounts { repeated: sum(|of| of.repeated), late: sum(|of| of.late), ..self.counts }
+    }
+}
+
+/// The state of a joint of which nothing is known.
+const UNKNOWN: JointState = JointState { q: f64::NAN, qd: f64::NAN, effort: f64::NAN };
+
+/// The state of the joint at this place of a message; `None` without a position.
+fn state(message: &LoggedJoints, place: usize, si_per_unit: f64) -> Option<JointState> {
+    let value = |array: &[f64]| array.get(place).copied().filter(|value| value.is_finite());
+    Some(JointState {
+        q: value(&message.position)? * si_per_unit,
+        qd: value(&message.velocity).map_or(f64::NAN, |qd| qd * si_per_unit),
+        effort: value(&message.effort).unwrap_or(f64::NAN),
+    })
+}
