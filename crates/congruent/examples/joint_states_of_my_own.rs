@@ -7,48 +7,40 @@ use std::{error::Error, path::Path};
 
 use congruent::{
     description::RobotQ,
-    nalgebra::Isometry3,
     prelude::*,
-    twin::source::{JointStateSource, SourceError},
+    twin::source::{Advance, JointStateSource, SourceError},
 };
 use congruent_monitors::{JointSample, JointStateView, NoRecorder};
-use congruent_scenario::{AgreementCheck, Check, SimulationSettings};
+use congruent_scenario::{AgreementCheck, Check};
 
-/// All joints swing together.
+/// All joints swing together for 5 s.
 struct Swing {
     q: RobotQ,
-    steps: u64,
+    time_s: f64,
 }
 
 impl JointStateSource for Swing {
     fn joints(&self) -> JointSample<'_> {
-        let state = JointStateView { q: &self.q, qd: &[], effort: &[] };
-        JointSample { truth: state, measured: state, setpoint: None }
+        JointSample::measured(JointStateView { q: &self.q, qd: &[], effort: &[] })
     }
 
-    fn step_count(&self) -> u64 {
-        self.steps
+    fn advance(&mut self, wanted_s: f64) -> Result<Advance, SourceError> {
+        self.time_s = wanted_s;
+        self.q.fill(0.5 * wanted_s.sin());
+        Ok(Advance::At(wanted_s))
     }
 
-    // The source knows no poses, so the links are placed by the URDF.
-    fn root_from_links_into(&self, _: &mut [Isometry3<f64>]) -> bool {
-        false
-    }
-
-    fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
-        self.q.fill(0.5 * time_s.sin());
-        self.steps += 1;
-        Ok(())
+    fn is_last(&self) -> bool {
+        self.time_s >= 5.0
     }
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/panda"));
     let description = load_robot(robot)?;
-    let source = Swing { q: RobotQ::zeros(description.robot.dof()), steps: 0 };
+    let source = Swing { q: RobotQ::zeros(description.robot.dof()), time_s: 0.0 };
     let scenario = Scenario {
         name: "swing".to_owned(),
-        simulation: SimulationSettings { duration_s: Some(5.0), ..SimulationSettings::default() },
         check: vec![Check::Agreement(AgreementCheck::default())],
         ..Scenario::default()
     };

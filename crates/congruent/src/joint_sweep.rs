@@ -15,9 +15,8 @@ use congruent_results::{
 use congruent_scenario::{AgreementCheck, Check, Scenario, SimulationSettings};
 use congruent_twin::{
     Run, RunError, RunSetup,
-    source::{JointStateSource, SourceError},
+    source::{Advance, JointStateSource, SourceError},
 };
-use nalgebra::Isometry3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -106,7 +105,7 @@ pub fn joint_sweep(description: RobotDescription, out: &std::path::Path) -> Resu
     };
     let setup = RunSetup::new(scenario, description)?;
     let folder = OutputFolder::create(out, &name, &setup.inputs)?;
-    let source = SweepSource::new(&setup.description.robot, &joints);
+    let source = SweepSource::new(&setup.description.robot, &joints, duration_s);
     let run = Run::with_source(&setup, Box::new(source))?;
     // Nothing acts on the robot, so that there is no physics that the poses could be diagnosed with.
     let causes = |run: &mut Run<'_>, outcome: &mut _| Causes::from_samples(diagnose_run(run, outcome));
@@ -182,21 +181,23 @@ struct SweepSource<'a> {
     robot: &'a Robot,
     /// Coordinate of each swept joint.
     joints: Vec<(usize, &'a SweptJoint)>,
+    duration_s: f64,
+    time_s: f64,
     q: RobotQ,
-    steps: u64,
 }
 
 impl<'a> SweepSource<'a> {
-    fn new(robot: &'a Robot, joints: &'a [SweptJoint]) -> Self {
+    fn new(robot: &'a Robot, joints: &'a [SweptJoint], duration_s: f64) -> Self {
         let coordinate =
             |joint: &SweptJoint| robot.movable_joint_names().position(|name| name == joint.joint);
         let joints = joints.iter().filter_map(|joint| Some((coordinate(joint)?, joint))).collect();
-        let mut source = Self { robot, joints, q: RobotQ::zeros(robot.dof()), steps: 0 };
+        let mut source = Self { robot, joints, duration_s, time_s: 0.0, q: RobotQ::zeros(robot.dof()) };
         source.place(0.0);
         source
     }
 
     fn place(&mut self, time_s: f64) {
+        self.time_s = time_s;
         for &(coordinate, joint) in &self.joints {
             let is_moving = (joint.from_s..joint.until_s).contains(&time_s);
             self.q[coordinate] = if is_moving { position(joint, time_s - joint.from_s) } else { joint.start };
@@ -208,22 +209,17 @@ impl<'a> SweepSource<'a> {
 
 impl JointStateSource for SweepSource<'_> {
     fn joints(&self) -> JointSample<'_> {
-        let state = JointStateView { q: &self.q, qd: &[], effort: &[] };
-        JointSample { truth: state, measured: state, setpoint: None }
+        JointSample::measured(JointStateView { q: &self.q, qd: &[], effort: &[] })
     }
 
-    fn step_count(&self) -> u64 {
-        self.steps
+    fn advance(&mut self, wanted_s: f64) -> Result<Advance, SourceError> {
+        self.place(wanted_s);
+        Ok(Advance::At(wanted_s))
     }
 
-    fn root_from_links_into(&self, _: &mut [Isometry3<f64>]) -> bool {
-        false
-    }
-
-    fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
-        self.steps += 1;
-        self.place(time_s);
-        Ok(())
+    fn is_last(&self) -> bool {
+        // Half a step: times are multiples of the step, with its rounding.
+        self.time_s > self.duration_s - STEP_S / 2.0
     }
 }
 

@@ -186,7 +186,7 @@ impl Search<'_> {
                 return Ok(());
             }
             // There is no setpoint, and no drive reports an effort.
-            ControllerKind::Passive => return Ok(()),
+            ControllerKind::Absent | ControllerKind::Passive => return Ok(()),
             _ => {}
         }
         let mut residuals = residuals(&self.observed, run.dynamics, &run.actuators)?;

@@ -19,16 +19,16 @@ const ROUNDING: f64 = 1e-6;
 pub struct RunClock {
     /// Length of a physics step.
     pub step_s: f64,
-    /// Number of steps of the whole run.
-    pub steps: u64,
+    /// Number of steps of the whole run; `None` if only its source knows where it ends.
+    pub steps: Option<u64>,
     /// Gravity, in the root link's frame, which is the world.
     pub gravity_in_world: Vector3<f64>,
 }
 
 impl RunClock {
-    /// Simulated time of the whole run.
+    /// Time of the whole run; infinite if only its source knows where it ends.
     pub fn duration_s(&self) -> f64 {
-        self.time_s(self.steps)
+        self.steps.map_or(f64::INFINITY, |steps| self.time_s(steps))
     }
 
     /// Simulated time after a number of steps.
@@ -37,21 +37,21 @@ impl RunClock {
         steps as f64 * self.step_s
     }
 
-    /// Number of steps if the run is longer by this time.
-    pub fn steps_with(&self, longer_s: f64) -> u64 {
+    /// Number of steps if the run is longer by this time, as far as it is known.
+    pub fn steps_with(&self, longer_s: f64) -> Option<u64> {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "some seconds, not negative"
         )]
         let more = (longer_s / self.step_s - ROUNDING).ceil() as u64;
-        self.steps + more
+        Some(self.steps? + more)
     }
 
-    /// Without a duration the run ends with its motions.
+    /// Without a duration the run ends with its motions; without both, with its source.
     ///
     /// # Errors
-    /// The step, the duration or the gravity is out of range.
+    /// The step or the duration is out of range.
     pub fn new(
         settings: &SimulationSettings,
         place: FilePlace<'_>,
@@ -69,9 +69,9 @@ impl RunClock {
             let error = Diagnostic::error(codes::scenario::STEP, message);
             return Err(at_step(error.with_help("0.001 suits every robot in robots/")));
         }
+        let gravity_in_world = Vector3::from(settings.gravity_m_s2);
         if duration_s <= 0.0 {
-            return Err(Diagnostic::error(codes::scenario::DURATION, "the run has no duration")
-                .with_help("give `duration_s` under [simulation], or a [[motion]]"));
+            return Ok(Self { step_s, steps: None, gravity_in_world });
         }
         if step_s > duration_s {
             let message = format!("step_s = {step_s:?} s is longer than the run of {duration_s:?} s");
@@ -108,6 +108,18 @@ impl RunClock {
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 < steps <= 1e8")]
         let steps = steps as u64;
-        Ok(Self { step_s, steps, gravity_in_world: Vector3::from(settings.gravity_m_s2) })
+        Ok(Self { step_s, steps: Some(steps), gravity_in_world })
+    }
+
+    /// Whether a simulation, which ends with its motions, would ever end.
+    ///
+    /// # Errors
+    /// There is neither a duration nor a motion.
+    pub fn examine_length(&self) -> Result<(), Diagnostic> {
+        if self.steps.is_some() {
+            return Ok(());
+        }
+        Err(Diagnostic::error(codes::scenario::DURATION, "the run has no duration")
+            .with_help("give `duration_s` under [simulation], or a [[motion]]"))
     }
 }

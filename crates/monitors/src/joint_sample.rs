@@ -30,12 +30,24 @@ pub struct SetpointView<'a> {
 /// The joints of a robot at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct JointSample<'a> {
-    /// The true state. A source that does not know it gives the measured one.
-    pub truth: JointStateView<'a>,
+    /// The true state; `None` if the source knows what was measured alone, as a log or a live robot does.
+    pub truth: Option<JointStateView<'a>>,
     /// The state that the robot's sensors give; it differs from the true one by the faults of encoders.
     pub measured: JointStateView<'a>,
     /// The commanded state; `None` if the source does not know it.
     pub setpoint: Option<SetpointView<'a>>,
+}
+
+impl<'a> JointSample<'a> {
+    /// What was measured, without the truth and a setpoint.
+    pub fn measured(state: JointStateView<'a>) -> Self {
+        Self { truth: None, measured: state, setpoint: None }
+    }
+
+    /// The state that limits are judged by: the true one, or the measured one of a source that has no other.
+    pub fn state(&self) -> JointStateView<'a> {
+        self.truth.unwrap_or(self.measured)
+    }
 }
 
 /// The forces that acted on the joints in the step that led to the present instant.

@@ -21,10 +21,13 @@ pub enum PoseChange {
 /// One instant: borrowed from the run loop, nothing is copied.
 #[derive(Debug)]
 pub struct Sample<'a> {
-    /// Number of steps so far.
+    /// Number of samples before this one.
     pub step: u64,
     /// Time of the source.
     pub time_s: f64,
+    /// Time from the sample before. `None` for the first sample, and for the first after a gap: nothing is compared or
+    /// differentiated across it.
+    pub since_s: Option<f64>,
     /// When the last motion ends, as far as it is known by now.
     pub motions_s: f64,
     /// Whether the poses are those of the sample before.

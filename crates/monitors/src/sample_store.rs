@@ -40,9 +40,10 @@ pub struct StoredSample<'a> {
 }
 
 impl SampleStore {
-    /// An empty store for a run of `steps` steps.
-    pub fn new(dof: usize, links: usize, steps: u64) -> Self {
-        let samples = usize::try_from(steps).unwrap_or(usize::MAX).saturating_add(1);
+    /// An empty store for a run of `steps` steps, if their number is known.
+    pub fn new(dof: usize, links: usize, steps: Option<u64>) -> Self {
+        let steps = steps.and_then(|steps| usize::try_from(steps).ok());
+        let samples = steps.unwrap_or(usize::MAX).saturating_add(1);
         Self::with_capacity(dof, links, CAPACITY.min(samples))
     }
 
@@ -88,7 +89,7 @@ impl SampleStore {
         }
         let commanded = sample.joints.setpoint.map_or(&[][..], |setpoint| setpoint.effort);
         // Without a source of both efforts the lists are empty, and nothing is known.
-        let both = commanded.iter().zip(sample.joints.truth.effort);
+        let both = commanded.iter().zip(sample.joints.state().effort);
         for (seen, (commanded, delivered)) in self.delivered.iter_mut().zip(both) {
             seen.observe(*commanded, *delivered, sample.step);
         }

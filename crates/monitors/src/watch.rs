@@ -65,7 +65,7 @@ impl Watch {
 
     /// Evaluates one value of `subject`, an index that `measure` turns into a name.
     pub(crate) fn observe(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
-        self.observe_at(value, subject, WatchedInstant { time_s: sample.time_s, q: sample.joints.truth.q });
+        self.observe_at(value, subject, WatchedInstant { time_s: sample.time_s, q: sample.joints.state().q });
     }
 
     /// The same of an instant by its time and configuration.

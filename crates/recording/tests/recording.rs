@@ -156,12 +156,12 @@ impl Recorder for RecorderWithCounts {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         if sample.step.is_multiple_of(10) || sample.step == 255 {
             self.errors_m.push(sample.errors[self.tip].position_m);
-            self.q = sample.joints.truth.q.to_vec();
+            self.q = sample.joints.state().q.to_vec();
             let (joints, elbow) = (&sample.joints, 2);
             let setpoint = joints.setpoint.unwrap();
             self.others = vec![
-                ("/joint/velocity/elbow_joint", joints.truth.qd[elbow]),
-                ("/joint/effort/elbow_joint", joints.truth.effort[elbow]),
+                ("/joint/velocity/elbow_joint", joints.state().qd[elbow]),
+                ("/joint/effort/elbow_joint", joints.state().effort[elbow]),
                 ("/joint/reference_position/elbow_joint", setpoint.q[elbow]),
                 ("/joint/reference_velocity/elbow_joint", setpoint.qd[elbow]),
                 ("/joint/measured_position/elbow_joint", joints.measured.q[elbow]),

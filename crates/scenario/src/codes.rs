@@ -18,6 +18,8 @@ congruent_input::codes! {
             "The `kind` of a section is unknown. The help has the known kinds.\n    wrong: kind = \"gravity\"\n    right: kind = \"gravity_compensation\"";
         NO_CONTROLLER = "CGR-SCENARIO-026", "scenario::no_controller",
             "The scenario has no controller. Without one nothing drives the joints. Add a [controller] section; the help lists the kinds.\n    wrong: no [controller]\n    right: [controller] and kind = \"gravity_compensation\"";
+        SOURCE = "CGR-SCENARIO-091", "scenario::source",
+            "The scenario takes the joint states of a log, and has a section that only a simulation needs. The log says how the joints moved: remove the section, or [source].\n    wrong: [source] and [controller]\n    right: [source] and log = \"monday.mcap\"";
         UNKNOWN_MOTION = "CGR-SCENARIO-029", "scenario::unknown_motion",
             "A motion has no target, or its target is unknown. The help lists the keys, one of which each motion needs.\n    wrong: [[motion]] with duration_s = 1.0 alone\n    right: move_joints_deg = { elbow_joint = 80.0 }, too";
         TARGET_POSITION = "CGR-SCENARIO-032", "scenario::target_position",

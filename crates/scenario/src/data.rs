@@ -12,6 +12,7 @@ use super::{
     number::{finite_array, non_negative, optional_positive, positive, share},
     output::OutputSettings,
     robot::{ControllerSettings, JointSettings, PayloadSettings, SensorSettings},
+    source::SourceSettings,
     spaces::{ObstacleSettings, ZoneSettings},
 };
 
@@ -55,7 +56,11 @@ pub struct Scenario {
     /// Joint positions at the start.
     #[serde(default)]
     pub start: StartSettings,
-    /// The controller of the twin.
+    /// A log whose joint states the run takes, in place of a simulation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<SourceSettings>,
+    /// The controller of the twin; a scenario has one, unless it has a source.
+    #[serde(default, skip_serializing_if = "ControllerSettings::is_absent")]
     pub controller: ControllerSettings,
     /// Limits of planned motions.
     #[serde(default)]
@@ -105,6 +110,7 @@ impl Default for Scenario {
             seed: 0,
             simulation: SimulationSettings::default(),
             start: StartSettings::default(),
+            source: None,
             controller: ControllerSettings::default(),
             limits: LimitSettings::default(),
             joints: JointSettings::default(),

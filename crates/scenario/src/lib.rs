@@ -18,6 +18,7 @@ mod reading;
 mod relative;
 mod robot;
 mod run_fault;
+mod source;
 mod spaces;
 mod text;
 
@@ -50,4 +51,7 @@ pub use robot::{
     PayloadInertia, PayloadSettings, SensorSettings, VelocitySensor,
 };
 pub use run_fault::{FaultQuantity, RunFault};
+pub use source::{
+    AngleUnit, JointRole, LogClock, LoggedJointSettings, LoggedPoseSettings, PoseOrigin, SourceSettings,
+};
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};

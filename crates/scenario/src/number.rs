@@ -61,6 +61,16 @@ impl Range {
     }
 }
 
+/// For `deserialize_with`: a number, not infinite and not NaN.
+pub(crate) fn finite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Range::Finite.read(deserializer)
+}
+
+/// For `deserialize_with`: the same, if it is there.
+pub(crate) fn optional_finite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    Range::Finite.read(deserializer).map(Some)
+}
+
 /// For `deserialize_with`: a number in the range of the name.
 pub(crate) fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Range::Positive.read(deserializer)

@@ -13,7 +13,8 @@ impl Scenario {
             MotionSettings::Playback(playback) => Some(&mut playback.play_csv),
             _ => None,
         });
-        self.controller.torque_file.iter_mut().chain(played)
+        let log = self.source.iter_mut().map(|source| &mut source.log);
+        self.controller.torque_file.iter_mut().chain(played).chain(log)
     }
 
     /// The scenario as it reads in `folder`, an absolute path: with relative paths in the place of absolute ones, as far as there are

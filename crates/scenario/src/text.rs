@@ -14,6 +14,13 @@ pub(crate) fn variant<'de, D: Deserializer<'de>, T: DeserializeOwned>(
     T::deserialize(String::deserialize(deserializer)?.into_deserializer())
 }
 
+/// For `deserialize_with`: the name of a variant, if it is there.
+pub(crate) fn optional_variant<'de, D: Deserializer<'de>, T: DeserializeOwned>(
+    deserializer: D,
+) -> Result<Option<T>, D::Error> {
+    variant(deserializer).map(Some)
+}
+
 /// For `deserialize_with`: an array of strings.
 pub(crate) fn strings<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
     deserializer.deserialize_seq(Strings)

@@ -37,6 +37,8 @@ pub struct Outcome {
     pub checks: Vec<CheckResult>,
     /// Number of steps that were taken.
     pub steps: u64,
+    /// Time from the first sample to the last one.
+    pub duration_s: f64,
     /// The check that ended the run early, and when; `None` if none did.
     pub stopped: Option<RunStop>,
     /// The result of each servo: its error at the end.

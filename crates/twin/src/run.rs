@@ -9,7 +9,7 @@ use std::{
 use congruent_agreement::compare::Model;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use congruent_monitors::{
-    Names, PoseChange, Recorder, RunningCheck, SameInput, Sample, SampleStore,
+    Names, PoseChange, Recorder, RunningCheck, SameInput, Sample, SampleStore, StepForces,
     verdict::{CheckResult, CheckValue},
 };
 use congruent_proximity::{Clearance, MovingBodies, PairChoice};
@@ -20,7 +20,7 @@ use crate::{
     outcome::{Outcome, RunError, braked, hex},
     same_poses::are_same,
     setup::RunSetup,
-    source::{JointStateSource, RunSource, SimulationSource, UntilEnd, longer_s},
+    source::{Advance, JointStateSource, RunSource, SimulatedRobot, SimulationSource, longer_s},
     stopping::Stopping,
 };
 
@@ -29,6 +29,12 @@ use crate::{
 pub struct Run<'a> {
     setup: &'a RunSetup,
     source: RunSource<'a>,
+    /// Number of samples after the first.
+    step: u64,
+    /// Time of the present sample.
+    time_s: f64,
+    /// Time from the sample before; `None` for the first, and after a gap.
+    since_s: Option<f64>,
     model: Model,
     /// Computes the poses of the links for a source that has joint states only.
     tree: UrdfTree,
@@ -59,7 +65,7 @@ impl std::fmt::Debug for Run<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Run")
             .field("scenario", &self.setup.scenario.name)
-            .field("steps", &self.source.step_count())
+            .field("steps", &self.step)
             .finish_non_exhaustive()
     }
 }
@@ -94,6 +100,9 @@ impl<'a> Run<'a> {
         let zones = clearance.before_zones(&setup.zones)?;
         Ok(Self {
             setup,
+            step: 0,
+            time_s: source.start_s(),
+            since_s: None,
             source,
             model: Model::new(&setup.description)?,
             tree: UrdfTree::new(robot),
@@ -142,19 +151,30 @@ impl<'a> Run<'a> {
         (&self.store, &mut self.clearance)
     }
 
-    /// Number of steps, as far as it is known by now: a motion that is made slower in the run makes the run longer.
-    fn steps(&self) -> u64 {
-        self.setup.clock.steps_with(longer_s(&*self.source))
+    /// By how much the motions end later than planned, as far as it is known by now.
+    fn longer_s(&self) -> f64 {
+        self.source.simulated().map_or(0.0, |simulated| longer_s(simulated.slowed()))
     }
 
-    /// Advances the source by one sample.
+    /// Advances the source to its next sample; returns whether there is one.
     ///
     /// # Errors
     /// [`RunError::Source`] if the source fails.
-    pub fn step(&mut self) -> Result<(), RunError> {
-        // From the number of the step, not by addition: sums of steps would drift from the times of the plan.
-        let time_s = self.setup.clock.time_s(self.source.step_count() + 1);
-        Ok(self.source.advance(time_s)?)
+    pub fn step(&mut self) -> Result<bool, RunError> {
+        let wanted_s = self.setup.clock.time_s(self.step + 1);
+        let mut is_after_gap = false;
+        loop {
+            match self.source.advance(wanted_s)? {
+                Advance::At(time_s) => {
+                    self.since_s = (!is_after_gap).then_some(time_s - self.time_s);
+                    self.time_s = time_s;
+                    self.step += 1;
+                    return Ok(true);
+                }
+                Advance::Gap { .. } => is_after_gap = true,
+                Advance::End => return Ok(false),
+            }
+        }
     }
 
     /// Poses of all links by the model and by the twin at this instant, and their differences.
@@ -167,7 +187,7 @@ impl<'a> Run<'a> {
         // Poses of the source come first: those of a simulation are its own kinematics, and comparing them is what a
         // twin is for.
         if !self.source.root_from_links_into(&mut self.root_from_links) {
-            self.tree.root_from_links_into(joints.truth.q, &mut self.by_tree)?;
+            self.tree.root_from_links_into(joints.state().q, &mut self.by_tree)?;
             for (isometry, pose) in self.root_from_links.iter_mut().zip(&self.by_tree) {
                 *isometry = pose.to_isometry();
             }
@@ -198,9 +218,8 @@ impl<'a> Run<'a> {
     ) -> Result<bool, RunError> {
         // Before the checks: they ask for distances at this instant.
         self.move_bodies();
-        let is_end = self.source.step_count() >= self.steps();
         // A stop makes the run longer or shorter, and only `ends` below knows which sample is its last.
-        let is_last = is_end && self.stopping.is_none();
+        let is_last = self.source.is_last() && self.stopping.is_none();
         let mut sample = self.sample();
         sample.is_last = is_last;
         let time_s = sample.time_s;
@@ -213,8 +232,8 @@ impl<'a> Run<'a> {
         }
         // The stop begins after the checks of its sample, so that the report names the instant of the violation.
         let ends = self.ends(checks);
-        // Bits of the true positions in a fixed byte order: equal hashes mean equal motions on any machine.
-        for q in self.source.joints().truth.q {
+        // Bits of the positions in a fixed byte order: equal hashes mean equal motions on any machine.
+        for q in self.source.joints().state().q {
             self.hash.update(q.to_le_bytes());
         }
         let (mut sample, store) = self.sample_and_store();
@@ -227,9 +246,8 @@ impl<'a> Run<'a> {
 
     /// Moves links and obstacles to where they are at this instant.
     fn move_bodies(&mut self) {
-        let time_s = self.setup.clock.time_s(self.source.step_count());
         // Bodies before links: a carried body needs the pose of its link now, and both take effect in `move_links`.
-        self.bodies.advance(time_s, |link| self.root_from_links[link.get()]);
+        self.bodies.advance(self.time_s, |link| self.root_from_links[link.get()]);
         self.bodies.move_in(&mut self.clearance);
         self.clearance.move_links(&self.root_from_links);
         self.zones.move_links(&self.root_from_links);
@@ -241,18 +259,20 @@ impl<'a> Run<'a> {
 
     /// This instant, as if more followed, and the store for the diagnosis.
     fn sample_and_store(&mut self) -> (Sample<'_>, &mut SampleStore) {
-        let step = self.source.step_count();
+        let motions_s = self.setup.trajectory.duration_s() + self.longer_s();
+        let simulated = self.source.simulated();
         let sample = Sample {
-            step,
-            time_s: self.setup.clock.time_s(step),
-            motions_s: self.setup.trajectory.duration_s() + longer_s(&*self.source),
+            step: self.step,
+            time_s: self.time_s,
+            since_s: self.since_s,
+            motions_s,
             change: self.change,
             is_last: false,
             is_stopping: self.stopping.is_some(),
             violated_checks: 0,
             joints: self.source.joints(),
-            forces: self.source.step_forces(),
-            contact_forces: self.source.contact_forces(),
+            forces: simulated.map_or(StepForces::Unknown, SimulatedRobot::step_forces),
+            contact_forces: simulated.map_or(&[], SimulatedRobot::contact_forces),
             model: self.model.latest(),
             twin: &self.root_from_links,
             values: &self.values,
@@ -267,8 +287,6 @@ impl<'a> Run<'a> {
     /// Whether the run ends here: at its end, or where the arm is at rest after a violation. The first violation of a check
     /// that stops the run begins the motion to rest.
     fn ends(&mut self, checks: &[RunningCheck<'_>]) -> bool {
-        let step = self.source.step_count();
-        let time_s = self.setup.clock.time_s(step);
         let description = &self.setup.description;
         let root_from_tip = self.root_from_links[description.tip.get()];
         let root_from_tcp = description.tip_from_tcp.map_or(root_from_tip, |tcp| root_from_tip * tcp);
@@ -276,15 +294,15 @@ impl<'a> Run<'a> {
         // Only the first violation starts a stop: a later one must not start it again from a slower state.
         if self.stopping.is_none() {
             let Some(check) = checks.iter().position(RunningCheck::stops) else {
-                return step >= self.steps();
+                return self.source.is_last();
             };
-            let q = self.source.joints().truth.q.clone();
-            let mut stopping = Stopping::new(check, step, time_s, q, tcp_in_root);
-            stopping.can_stop = self.source.begin_stop();
+            let q = self.source.joints().state().q.clone();
+            let mut stopping = Stopping::new(check, self.step, self.time_s, q, tcp_in_root);
+            stopping.can_stop = self.source.simulated_mut().is_some_and(SimulatedRobot::begin_stop);
             self.stopping = Some(stopping);
         }
         let joints = self.source.joints();
-        self.stopping.as_mut().is_none_or(|stopping| stopping.ends(time_s, &joints, tcp_in_root))
+        self.stopping.as_mut().is_none_or(|stopping| stopping.ends(self.time_s, &joints, tcp_in_root))
     }
 
     /// The loop. With the simulation computed ahead, on a thread of its own, unless a check may stop the run: then the next
@@ -296,23 +314,23 @@ impl<'a> Run<'a> {
         progress: impl FnMut(u64),
     ) -> Result<(), RunError> {
         let may_stop = checks.iter().any(RunningCheck::may_stop);
-        let ahead = if may_stop { None } else { self.source.compute_ahead(self.root_from_links.len()) };
+        let links = self.root_from_links.len();
+        let ahead = if may_stop { None } else { self.source.compute_ahead(self.time_s, links) };
         let Some((mut simulation, thread)) = ahead else { return self.go(checks, recorder, progress) };
-        let until = UntilEnd { clock: &self.setup.clock, interrupt: self.interrupt };
+        let interrupt = self.interrupt;
         let (result, simulation) = std::thread::scope(|scope| {
             let computing = scope.spawn(move || {
-                thread.compute(&mut *simulation, until);
+                thread.compute(&mut simulation, interrupt);
                 simulation
             });
             let result = EndsAhead(self).0.go(checks, recorder, progress);
             (result, computing.join().unwrap_or_else(|panic| resume_unwind(panic)))
         });
-        let reached = self.source.step_count();
         self.source = RunSource::Simulation(simulation);
         if matches!(result, Err(RunError::Recording(_))) {
             // The thread was ahead by a number of steps that differs from call to call: results are those of the sample that
             // could not be recorded.
-            self.source = RunSource::Simulation(Box::new(SimulationSource::at_step(self.setup, reached)?));
+            self.source = RunSource::Simulation(Box::new(SimulationSource::at_step(self.setup, self.step)?));
         }
         result
     }
@@ -323,15 +341,17 @@ impl<'a> Run<'a> {
         recorder: &mut dyn Recorder,
         mut progress: impl FnMut(u64),
     ) -> Result<(), RunError> {
-        // The state at time 0 is a sample as well.
+        // The state at the start is a sample as well.
         self.compare()?;
         while !self.observe(checks, recorder)? {
             if !self.goes_on() {
                 return Err(RunError::Interrupted);
             }
-            self.step()?;
+            if !self.step()? {
+                break;
+            }
             self.compare()?;
-            progress(self.source.step_count());
+            progress(self.step);
         }
         Ok(())
     }
@@ -354,9 +374,10 @@ impl<'a> Run<'a> {
     ) -> (Outcome, Result<(), RunError>) {
         // An error ends the loop, but the results so far still get into the outcome.
         let result = self.go_ahead(checks, recorder, progress);
-        let steps = self.steps();
+        let steps = self.setup.clock.steps_with(self.longer_s());
         // The error of the run itself is the cause; one of the clean-up follows from it.
-        let (servos, result) = match self.source.finish() {
+        let servos = self.source.simulated_mut().map(SimulatedRobot::finish).transpose();
+        let (servos, result) = match servos.map(Option::unwrap_or_default) {
             Ok(servos) => (servos, result),
             Err(error) => (Vec::new(), result.and(Err(error.into()))),
         };
@@ -365,17 +386,21 @@ impl<'a> Run<'a> {
             let result = &mut results[stopping.check()];
             let declared = self.setup.trajectory.declared_accelerations();
             let robot = &self.setup.description.robot;
-            let braked = braked(robot, declared, self.source.stopped_at_end_of_range());
+            let simulated = self.source.simulated();
+            let lost = simulated.map_or(&[][..], SimulatedRobot::stopped_at_end_of_range);
+            let braked = braked(robot, declared, lost);
             result.notes.push(stopping.note(steps, robot, &braked));
             stopping.report(result, &self.names.joints, braked)
         });
+        let simulated = self.source.simulated();
         let outcome = Outcome {
             stopped,
             checks: results,
-            steps: self.source.step_count(),
+            steps: self.step,
+            duration_s: self.time_s - self.source.start_s(),
             servos,
-            actuators: self.source.actuators(),
-            slowed: self.source.slowed().to_vec(),
+            actuators: simulated.map(SimulatedRobot::actuators).unwrap_or_default(),
+            slowed: simulated.map(SimulatedRobot::slowed).unwrap_or_default().to_vec(),
             trajectory_sha256: hex(&self.hash.finalize_reset()),
         };
         (outcome, result)

@@ -60,7 +60,7 @@ impl Stopping {
 
     /// Goes on to an instant; returns whether the run ends with it.
     pub(crate) fn ends(&mut self, time_s: f64, joints: &JointSample<'_>, tcp_in_root: Vector3<f64>) -> bool {
-        self.q.copy_from_slice(joints.truth.q);
+        self.q.copy_from_slice(joints.state().q);
         self.tcp_path_m += (tcp_in_root - self.tcp_in_root).norm();
         self.tcp_in_root = tcp_in_root;
         let slow = |qd: &[f64]| qd.iter().all(|qd| qd.abs() <= AT_REST);
@@ -69,9 +69,9 @@ impl Stopping {
         self.slow_since_s =
             // Without the condition on the setpoint, an arm that has not begun to brake at a turning point would
             // count.
-            (is_commanded_to_rest && slow(joints.truth.qd)).then(|| self.slow_since_s.unwrap_or(time_s));
+            (is_commanded_to_rest && slow(joints.state().qd)).then(|| self.slow_since_s.unwrap_or(time_s));
         // An arm that is placed, not driven, is at rest as soon as its setpoint is.
-        let is_still = joints.truth.qd.iter().all(|&qd| qd == 0.0);
+        let is_still = joints.state().qd.iter().all(|&qd| qd == 0.0);
         let rest_s = self.slow_since_s.filter(|since_s| is_still || time_s - since_s >= STAYS_S);
         self.is_at_rest = rest_s.is_some();
         // To the beginning of the rest, without the time that was waited to be sure.
@@ -80,9 +80,15 @@ impl Stopping {
     }
 
     /// In words, as a remark on the check.
-    pub(crate) fn note(&self, steps: u64, robot: &Robot, accelerations: &[StopAcceleration]) -> String {
+    pub(crate) fn note(
+        &self,
+        steps: Option<u64>,
+        robot: &Robot,
+        accelerations: &[StopAcceleration],
+    ) -> String {
         let (time, step) = (quantity(self.time_s, "s"), self.step);
-        let note = format!("stopped the run at {time}, after {step} of {steps} steps");
+        let of_all = steps.map_or_else(String::new, |steps| format!(" of {steps}"));
+        let note = format!("stopped the run at {time}, after {step}{of_all} steps");
         if !self.can_stop {
             return note;
         }
@@ -153,7 +159,7 @@ mod tests {
         let mut times_s = (1..=10_000).map(|step| f64::from(step) * 1e-3);
         let end_s = times_s.find(|&time_s| {
             let state = JointStateView { q: &q, qd: &[speed(time_s)], effort: &[] };
-            let joints = JointSample { truth: state, measured: state, setpoint: None };
+            let joints = JointSample::measured(state);
             stopping.ends(time_s, &joints, Vector3::zeros())
         });
         (stopping, end_s.unwrap())

@@ -72,7 +72,7 @@ fn after(setup: &RunSetup, duration_s: f64) -> SimulationSource<'_> {
 }
 
 fn errors(setup: &RunSetup, source: &SimulationSource<'_>) -> Vec<f64> {
-    source.joints().truth.q.iter().zip(&setup.start).map(|(q, wanted)| q - wanted).collect()
+    source.joints().state().q.iter().zip(&setup.start).map(|(q, wanted)| q - wanted).collect()
 }
 
 fn gravity(description: &RobotDescription, q: &RobotQ) -> Vec<f64> {
@@ -98,7 +98,7 @@ fn pd_sags_by_gravity_torque_over_its_joints_stiffness() {
         controller.stiffness = JointNumbers::from([(first.as_str(), 4000.0), ("others", 1000.0)]);
         let setup = setup(&description, still(&description, controller));
         let source = after(&setup, 12.0);
-        let tau = gravity(&description, source.joints().truth.q);
+        let tau = gravity(&description, source.joints().state().q);
         let arm = description.robot.movable_joints().iter().take(6).enumerate();
         for (row, _) in arm {
             let stiffness = if row == 1 { 4000.0 } else { 1000.0 };
@@ -172,11 +172,12 @@ fn worst_tracking(description: &RobotDescription, scenario: Scenario) -> f64 {
     let setup = setup(description, scenario);
     let mut source = SimulationSource::new(&setup).unwrap();
     let mut worst = 0.0_f64;
-    for step in 1..=setup.clock.steps {
+    for step in 1..=setup.clock.steps.unwrap() {
         source.advance(setup.clock.time_s(step)).unwrap();
         let joints = source.joints();
         let wanted = joints.setpoint.unwrap().q;
-        worst = joints.truth.q.iter().zip(wanted).map(|(q, wanted)| (q - wanted).abs()).fold(worst, f64::max);
+        worst =
+            joints.state().q.iter().zip(wanted).map(|(q, wanted)| (q - wanted).abs()).fold(worst, f64::max);
     }
     worst
 }
@@ -209,7 +210,7 @@ fn a_velocity_servo_moves_at_its_setpoint_less_what_gravity_takes() {
     scenario.joints.enforce_limits = false;
     let setup = setup(&description, scenario);
     let source = after(&setup, 0.2);
-    let (qd, tau) = (source.joints().truth.qd, gravity(&description, source.joints().truth.q));
+    let (qd, tau) = (source.joints().state().qd, gravity(&description, source.joints().state().q));
     for (qd, tau) in qd.iter().zip(tau) {
         assert!((qd + tau / 1e5).abs() < 1e-6, "{qd} for {tau} N m");
     }
@@ -230,7 +231,7 @@ fn constant_torques_and_those_of_a_file_add_up() {
     let source = after(&setup, 0.1);
     // The last step began at 0.099 s.
     let expected = [0.0, 0.0, 1.0 + 20.0 * 0.099, 0.0, 0.0, 0.25];
-    for (found, expected) in source.joints().truth.effort.iter().zip(expected) {
+    for (found, expected) in source.joints().state().effort.iter().zip(expected) {
         assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
     }
 }
@@ -257,7 +258,7 @@ fn late_error(description: &RobotDescription, delay_s: Option<f64>) -> f64 {
         let joints = source.joints();
         if step > 3000 {
             let wanted = joints.setpoint.unwrap().q;
-            let off: Vec<f64> = joints.truth.q.iter().zip(wanted).map(|(q, wanted)| q - wanted).collect();
+            let off: Vec<f64> = joints.state().q.iter().zip(wanted).map(|(q, wanted)| q - wanted).collect();
             worst = worst.max(largest(&off));
         }
     }
@@ -288,12 +289,12 @@ fn a_reading_is_off_by_at_most_half_a_count() {
     let setup = setup(&description, scenario);
     let mut source = SimulationSource::new(&setup).unwrap();
     let (mut worst, mut before) = (0.0_f64, source.joints().measured.q.to_vec());
-    for step in 1..=setup.clock.steps {
+    for step in 1..=setup.clock.steps.unwrap() {
         source.advance(setup.clock.time_s(step)).unwrap();
         let joints = source.joints();
         for (joint, before) in before.iter().enumerate().take(7) {
             let measured = joints.measured.q[joint];
-            worst = worst.max((measured - joints.truth.q[joint]).abs());
+            worst = worst.max((measured - joints.state().q[joint]).abs());
             assert!((measured / resolution_rad - (measured / resolution_rad).round()).abs() < 1e-9);
             assert!((joints.measured.qd[joint] - (measured - before) / 1e-3).abs() < 1e-9);
         }
@@ -316,10 +317,10 @@ fn noise_has_its_standard_deviation_and_follows_from_the_seed() {
             let joints = source.joints();
             assert_eq!(
                 joints.measured.q[0].to_bits(),
-                joints.truth.q[0].to_bits(),
+                joints.state().q[0].to_bits(),
                 "only the elbow is noisy"
             );
-            joints.measured.q[2] - joints.truth.q[2]
+            joints.measured.q[2] - joints.state().q[2]
         };
         (1..=4000).map(reading).collect::<Vec<f64>>()
     };
@@ -361,7 +362,7 @@ fn worst_speed(description: &RobotDescription, scenario: Scenario) -> f64 {
     let mut worst = 0.0_f64;
     for step in 1..=500 {
         source.advance(setup.clock.time_s(step)).unwrap();
-        let truth = source.joints().truth;
+        let truth = source.joints().state();
         for (row, &joint) in setup.description.robot.movable_joints().iter().take(6).enumerate() {
             let limit = setup.description.robot.joint(joint).limit.unwrap();
             let speed = truth.qd[row].abs() / limit.velocity.unwrap();
@@ -372,7 +373,7 @@ fn worst_speed(description: &RobotDescription, scenario: Scenario) -> f64 {
             assert!(!enforce_limits || truth.effort[row].abs() <= effort, "{row}: {}", truth.effort[row]);
         }
     }
-    let uses = source.actuators();
+    let uses = source.simulated().unwrap().actuators();
     let is_saturated = uses.iter().any(|joint| joint.at_velocity_limit > 0.0);
     assert_eq!(is_saturated, enforce_limits, "{uses:?}");
     worst

@@ -89,7 +89,7 @@ impl Recorder for Seen {
             let [a, b] = sample.clearance.names(pair);
             Some((format!("{a}--{b}"), sample.clearance.current_m(pair)?))
         });
-        let joints = sample.joints.truth;
+        let joints = sample.joints.state();
         self.0.push((sample.time_s, found.collect(), joints.q[0], joints.effort[0]));
         Ok(())
     }

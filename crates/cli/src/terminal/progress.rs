@@ -68,8 +68,8 @@ impl ProgressLines {
         let style = ProgressStyle::with_template("{prefix:28!} {bar:24} {percent:>3} %  {eta:>5} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
         let bar = |bars: &MultiProgress| {
-            let bar = ProgressBar::new(setup.clock.steps).with_style(style);
-            bars.add(bar.with_prefix(setup.scenario.name.clone()))
+            let bar = setup.clock.steps.map_or_else(ProgressBar::no_length, ProgressBar::new);
+            bars.add(bar.with_style(style).with_prefix(setup.scenario.name.clone()))
         };
         RunProgress(self.0.as_ref().map(bar))
     }

@@ -122,9 +122,8 @@ impl<'a> DynamicsMonitor<'a> {
 
     /// The relative difference at one joint and the joints that mimic it. Friction at rest is any torque up to its largest, so
     /// the part of the difference that it can explain does not count.
-    fn relative(&self, joint: usize, sample: &Sample<'_>, at_rest: f64) -> f64 {
-        let step_s = sample.time_s - self.before.time_s;
-        let (truth, dof) = (sample.joints.truth, self.qdd.len());
+    fn relative(&self, joint: usize, sample: &Sample<'_>, step_s: f64, at_rest: f64) -> f64 {
+        let (truth, dof) = (sample.joints.state(), self.qdd.len());
         let (mut difference, mut acting, mut alone) = (0.0, 0.0, 0.0);
         let mut held = StuckFriction::default();
         // A mimic joint has no drive: by virtual work its torque acts at its master, multiplied by the ratio.
@@ -156,13 +155,12 @@ impl<'a> DynamicsMonitor<'a> {
         others.map(brought).sum()
     }
 
-    fn compare(&mut self, sample: &Sample<'_>) {
-        let truth = sample.joints.truth;
+    fn compare(&mut self, sample: &Sample<'_>, step_s: f64) {
+        let truth = sample.joints.state();
         if self.analyse(truth.effort, truth.qd).is_none() {
             self.not_evaluated.refused += 1;
             return;
         }
-        let step_s = sample.time_s - self.before.time_s;
         let accelerations =
             truth.qd.iter().zip(&self.before.qd).map(|(after, before)| (after - before) / step_s);
         for ((difference, twin), model) in self.difference.iter_mut().zip(accelerations).zip(&self.qdd) {
@@ -172,7 +170,7 @@ impl<'a> DynamicsMonitor<'a> {
         // Coupling passes a share of the fastest joint's motion on to joints that friction holds.
         let at_rest = speeds.map(|qd| qd.abs() * CREEP_OF_FASTEST).fold(AT_REST, larger);
         for joint in (0..self.qdd.len()).filter(|&joint| self.drivers[joint].0 == joint) {
-            self.torque.observe(self.relative(joint, sample, at_rest), joint, sample);
+            self.torque.observe(self.relative(joint, sample, step_s, at_rest), joint, sample);
         }
         self.compared += 1;
     }
@@ -216,9 +214,9 @@ impl StuckFriction {
 
 impl Monitor for DynamicsMonitor<'_> {
     fn observe(&mut self, sample: &mut Sample<'_>) {
-        let truth = sample.joints.truth;
+        let truth = sample.joints.state();
         let has_all = truth.qd.len() == truth.q.len() && truth.effort.len() == truth.q.len();
-        if self.before.is_set {
+        if let Some(step_s) = sample.since_s.filter(|_| self.before.is_set) {
             match sample.forces {
                 StepForces::Declared
                     if has_all
@@ -226,7 +224,7 @@ impl Monitor for DynamicsMonitor<'_> {
                 {
                     self.not_evaluated.fast += 1;
                 }
-                StepForces::Declared if has_all => self.compare(sample),
+                StepForces::Declared if has_all => self.compare(sample, step_s),
                 StepForces::Constrained | StepForces::Contact => self.not_evaluated.constrained += 1,
                 StepForces::Declared | StepForces::Unknown => self.not_evaluated.unknown += 1,
             }

@@ -49,7 +49,7 @@ impl Monitor for EffortMonitor {
         if sample.step == 0 {
             return;
         }
-        let delivered = sample.joints.truth.effort;
+        let delivered = sample.joints.state().effort;
         let commanded = sample.joints.setpoint.map_or(&[][..], |setpoint| setpoint.effort);
         let has_both = delivered.len() == self.largest.len() && commanded.len() == self.largest.len();
         if !has_both || sample.forces == StepForces::Unknown {

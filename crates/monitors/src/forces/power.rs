@@ -93,7 +93,7 @@ impl<'a> PowerMonitor<'a> {
 
     /// Takes the state of a sample, with the payloads of a time.
     fn take(&mut self, time_s: f64, sample: &Sample<'_>) -> Option<()> {
-        let truth = sample.joints.truth;
+        let truth = sample.joints.state();
         if !self.computed.repeats(self.dynamics.revision_at(time_s), [truth.q]) {
             let (tree, buffer) = self.dynamics.at(time_s);
             let computed = tree
@@ -115,9 +115,8 @@ impl<'a> PowerMonitor<'a> {
     }
 
     /// Adds the balance of one step, in which the actuators' efforts were constant.
-    fn balance(&mut self, sample: &Sample<'_>) {
-        let (truth, before) = (sample.joints.truth, &self.before);
-        let step_s = sample.time_s - before.time_s;
+    fn balance(&mut self, sample: &Sample<'_>, step_s: f64) {
+        let (truth, before) = (sample.joints.state(), &self.before);
         // A step carries what was fixed at its beginning.
         let (tree, _) = self.dynamics.at(before.time_s);
         let (mut work_j, mut lifted_j, mut lost_j) = (0.0, 0.0, 0.0);
@@ -157,7 +156,7 @@ impl<'a> PowerMonitor<'a> {
         }
         std::mem::swap(&mut self.before.state, &mut self.now);
         self.before.time_s = now_s;
-        self.before.qd.copy_from_slice(sample.joints.truth.qd);
+        self.before.qd.copy_from_slice(sample.joints.state().qd);
         Some(())
     }
 }
@@ -175,18 +174,18 @@ fn moving_kg(robot: &Robot) -> f64 {
 
 impl Monitor for PowerMonitor<'_> {
     fn observe(&mut self, sample: &mut Sample<'_>) {
-        let truth = sample.joints.truth;
+        let truth = sample.joints.state();
         let has_all = truth.qd.len() == truth.q.len() && truth.effort.len() == truth.q.len();
-        let is_step = self.before.is_set;
+        let step_s = sample.since_s.filter(|_| self.before.is_set);
         // At the first sample there is no step before, only one to come.
-        let carried_s = if is_step { self.before.time_s } else { sample.time_s };
+        let carried_s = step_s.map_or(sample.time_s, |_| self.before.time_s);
         let state = if has_all { self.take(carried_s, sample) } else { None };
-        match (is_step, state, sample.forces) {
-            (false, ..) => {}
-            (true, Some(()), StepForces::Declared) => self.balance(sample),
-            (true, _, StepForces::Constrained | StepForces::Contact) => self.not_evaluated.constrained += 1,
-            (true, Some(()), StepForces::Unknown) => self.not_evaluated.unknown += 1,
-            (true, None, _) => self.not_evaluated.refused += 1,
+        match (step_s, state, sample.forces) {
+            (None, ..) => {}
+            (Some(step_s), Some(()), StepForces::Declared) => self.balance(sample, step_s),
+            (_, _, StepForces::Constrained | StepForces::Contact) => self.not_evaluated.constrained += 1,
+            (_, Some(()), StepForces::Unknown) => self.not_evaluated.unknown += 1,
+            (_, None, _) => self.not_evaluated.refused += 1,
         }
         self.before.is_set = state.and_then(|()| self.remember(sample)).is_some();
     }

@@ -57,7 +57,7 @@ impl CycleTimeMonitor {
 
     /// The first joint that is not at the end of the last motion, or not at rest.
     fn unfinished(&self, sample: &Sample<'_>) -> Option<usize> {
-        let (truth, setpoint) = (sample.joints.truth, sample.joints.setpoint?);
+        let (truth, setpoint) = (sample.joints.state(), sample.joints.setpoint?);
         let is_under_way = sample.time_s < sample.motions_s - self.slack_s;
         let is_there = |joint: usize| {
             let tolerance = self.tolerances[usize::from(self.kinds[joint].is_angular())];

@@ -155,7 +155,7 @@ impl LimitsMonitor {
         let Some((lower, upper)) = limits.range else { return };
         let outside = |q: f64| (lower - q).max(q - upper);
         let (coordinate, kind) = (limits.coordinate, limits.kind);
-        let q = sample.joints.truth.q[coordinate];
+        let q = sample.joints.state().q[coordinate];
         // `max` drops a NaN: a position that is not a number would count as inside the range.
         let beyond = if q.is_nan() { q } else { outside(q) };
         let [margin, tolerance] =
@@ -205,7 +205,7 @@ impl LimitsMonitor {
 
     fn observe_shares(&mut self, at: usize, sample: &Sample<'_>) {
         let limits = &mut self.coordinates[at];
-        let (truth, coordinate) = (sample.joints.truth, limits.coordinate);
+        let (truth, coordinate) = (sample.joints.state(), limits.coordinate);
         if let (Some(limit), Some(qd)) = (limits.velocity, truth.qd.get(coordinate)) {
             self.velocity.observe(qd.abs() / limit, coordinate, sample);
         }

@@ -149,7 +149,7 @@ impl TrackingMonitor {
     fn observe_rest(&mut self, since_s: f64, q: &RobotQ, sample: &Sample<'_>) {
         let bands = [&self.goal.sliding, &self.goal.turning].map(|goal| goal.as_ref().map(Watch::limit));
         let mut unsettled = None;
-        for (joint, (reference, true_q)) in q.iter().zip(sample.joints.truth.q).enumerate() {
+        for (joint, (reference, true_q)) in q.iter().zip(sample.joints.state().q).enumerate() {
             let kind = self.kinds[joint];
             let beyond = (true_q - reference) * self.rest_detector.direction[joint];
             if let Some(watch) =
@@ -184,7 +184,7 @@ impl Errors {
     }
 
     fn observe_joints(&mut self, kinds: &[JointKind], q: &RobotQ, sample: &Sample<'_>) {
-        for (joint, (reference, true_q)) in q.iter().zip(sample.joints.truth.q).enumerate() {
+        for (joint, (reference, true_q)) in q.iter().zip(sample.joints.state().q).enumerate() {
             if let Some(watch) = self.of(kinds[joint]) {
                 watch.observe((true_q - reference).abs(), joint, sample);
             }

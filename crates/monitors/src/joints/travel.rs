@@ -101,7 +101,7 @@ impl TravelShare {
 
     /// Takes the setpoint and the positions of a sample; the shares are known at the end of the run.
     pub(super) fn observe(&mut self, setpoint: &RobotQ, sample: &Sample<'_>) {
-        let positions = setpoint.iter().zip(sample.joints.truth.q.iter());
+        let positions = setpoint.iter().zip(sample.joints.state().q.iter());
         for (joint, (&commanded, &made)) in self.joints.iter_mut().zip(positions) {
             joint.take(commanded, made);
         }

@@ -99,10 +99,10 @@ impl Monitor for InvariantsMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         self.samples += 1;
         self.observe_poses(sample);
-        let [truth, measured] = [sample.joints.truth, sample.joints.measured];
-        let vectors = [&truth.q[..], truth.qd, truth.effort, &measured.q[..], measured.qd, measured.effort];
-        for joint in 0..truth.q.len() {
-            let values = vectors.iter().filter_map(|vector| vector.get(joint));
+        let states = [sample.joints.truth, Some(sample.joints.measured)];
+        for joint in 0..sample.joints.measured.q.len() {
+            let vectors = states.iter().flatten().flat_map(|state| [&state.q[..], state.qd, state.effort]);
+            let values = vectors.filter_map(|vector| vector.get(joint));
             let not_finite: f64 = values.map(|value| if value.is_finite() { 0.0 } else { 1.0 }).sum();
             self.not_finite.observe(not_finite, joint, sample);
         }

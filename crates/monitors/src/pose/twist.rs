@@ -48,7 +48,6 @@ pub(crate) struct TwistMonitor {
 
 /// The quantities of one sample that the comparison needs.
 struct Instant {
-    time_s: f64,
     /// Of the TCP, in the axes of the root.
     columns: Vec<Twist>,
     qd: Vec<f64>,
@@ -59,7 +58,6 @@ struct Instant {
 impl Instant {
     fn new(dof: usize) -> Self {
         Self {
-            time_s: 0.0,
             columns: vec![Twist::zero(); dof],
             qd: vec![0.0; dof],
             root_from_tcp: Isometry3::identity(),
@@ -116,7 +114,6 @@ impl TwistMonitor {
             column.linear += column.angular.cross(&tip_to_tcp);
         }
         now.qd.copy_from_slice(qd);
-        now.time_s = sample.time_s;
         now.root_from_tcp = sample.twin[self.tip.get()] * self.tip_from_tcp;
         now.is_set = true;
         Some(())
@@ -132,15 +129,13 @@ impl Monitor for TwistMonitor {
             return;
         }
         let (before, now) = (&self.before, &self.now);
-        if !before.is_set {
-            return;
-        }
+        let Some(step_s) = sample.since_s.filter(|_| before.is_set) else { return };
         if sample.forces.are_constrained() {
             self.constrained += 1;
             return;
         }
         // The mean of the Jacobians at both ends makes all three of second order in the step.
-        let moved = change(&before.root_from_tcp, &now.root_from_tcp, now.time_s - before.time_s);
+        let moved = change(&before.root_from_tcp, &now.root_from_tcp, step_s);
         let of_the_step = mean(before.times(&now.qd), now.times(&now.qd));
         let of_the_step_before = mean(before.times(&before.qd), now.times(&before.qd));
         let of_two_instants = mean(before.times(&before.qd), now.times(&now.qd));

@@ -107,7 +107,7 @@ impl ClearanceMonitor {
 
     /// The nearest pair at the first sample: from then on only smaller distances count.
     fn begin(&mut self, sample: &mut Sample<'_>) {
-        self.choose(sample.clearance, sample.joints.truth.q.len());
+        self.choose(sample.clearance, sample.joints.state().q.len());
         let places = &self.places;
         // Once with an infinite threshold: a run in which all pairs stay far apart has a least distance, too.
         let nearest = sample.clearance.nearest_of(f64::INFINITY, |pair, _| places[pair].is_some());

@@ -40,7 +40,7 @@ impl NearestThatChanges {
         self.has_changed = vec![false; count];
         self.first_m = vec![f64::NEG_INFINITY; count];
         pairs.for_each(|pair| self.first_m[pair] = sample.clearance.measure(pair));
-        (self.first_s, self.first_q) = (sample.time_s, sample.joints.truth.q.to_vec());
+        (self.first_s, self.first_q) = (sample.time_s, sample.joints.state().q.to_vec());
     }
 
     /// Looks at a sample in which this pair is the nearest of the run so far.

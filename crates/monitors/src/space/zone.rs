@@ -57,7 +57,7 @@ fn watch(dof: usize) -> Watch {
 impl Monitor for ZoneMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         if self.samples == 0 {
-            self.pairs = vec![watch(sample.joints.truth.q.len()); sample.zones.pairs().len()];
+            self.pairs = vec![watch(sample.joints.state().q.len()); sample.zones.pairs().len()];
             self.found.reserve(self.pairs.len());
         }
         self.samples += 1;

@@ -204,8 +204,8 @@ pub(crate) struct NearestOverTime {
 }
 
 impl NearestOverTime {
-    /// For a run of this number of steps: the distances that its checks judge.
-    pub(crate) fn new(checks: &[Check], step_s: f64, steps: u64) -> Self {
+    /// For a run of this number of steps, if it is known: the distances that its checks judge.
+    pub(crate) fn new(checks: &[Check], step_s: f64, steps: Option<u64>) -> Self {
         Self {
             stride: stride(step_s, steps),
             links_stride: steps_in(LINKS_PERIOD_S, step_s),
@@ -263,8 +263,9 @@ impl NearestOverTime {
     }
 }
 
-fn stride(step_s: f64, steps: u64) -> u64 {
+fn stride(step_s: f64, steps: Option<u64>) -> u64 {
     let at_least = steps_in(PERIOD_S, step_s);
+    let steps = steps.unwrap_or_default();
     // A multiple of the least stride: at these steps the recording has measured the distances already.
     at_least * steps.div_ceil(MOST.saturating_mul(at_least)).max(1)
 }
@@ -326,8 +327,8 @@ mod tests {
 
     #[test]
     fn no_more_than_fifty_looks_a_second_and_four_hundred_in_all() {
-        assert_eq!(stride(0.001, 4000), 20);
-        assert_eq!(stride(0.001, 600_000), 1500);
-        assert_eq!(stride(0.05, 10), 1);
+        assert_eq!(stride(0.001, Some(4000)), 20);
+        assert_eq!(stride(0.001, Some(600_000)), 1500);
+        assert_eq!(stride(0.05, Some(10)), 1);
     }
 }

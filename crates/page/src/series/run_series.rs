@@ -42,12 +42,13 @@ impl JointQuantity {
         let known = |values: &[f64]| values.get(joint).copied().unwrap_or(f64::NAN);
         let setpoint = || joints.setpoint.map_or(f64::NAN, |setpoint| setpoint.q[joint]);
         match self {
-            Self::Position => joints.truth.q[joint],
+            Self::Position => joints.state().q[joint],
             Self::Setpoint => setpoint(),
-            Self::Measured => joints.measured.q[joint],
-            Self::Velocity => known(joints.truth.qd),
-            Self::Effort => known(joints.truth.effort),
-            Self::TrackingError => setpoint() - joints.truth.q[joint],
+            // Of a source without the truth they are the position.
+            Self::Measured => joints.truth.map_or(f64::NAN, |_| joints.measured.q[joint]),
+            Self::Velocity => known(joints.state().qd),
+            Self::Effort => known(joints.state().effort),
+            Self::TrackingError => setpoint() - joints.state().q[joint],
         }
     }
 }

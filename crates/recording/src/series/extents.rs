@@ -66,14 +66,14 @@ impl Extents {
 
     /// Takes a recorded sample.
     pub(crate) fn include(&mut self, sample: &Sample<'_>) {
-        let truth = &sample.joints.truth;
+        let state = sample.joints.state();
         let (measured, commanded) =
             (sample.joints.measured.q, sample.joints.setpoint.map_or(&[][..], |setpoint| &setpoint.q[..]));
         for (index, joint) in self.joints.iter_mut().enumerate() {
-            let q = truth.q[index];
+            let q = state.q[index];
             joint.position.include(Some(q));
-            joint.velocity.include(truth.qd.get(index).copied());
-            joint.effort.include(truth.effort.get(index).copied());
+            joint.velocity.include(state.qd.get(index).copied());
+            joint.effort.include(state.effort.get(index).copied());
             joint.deviation.include(commanded.get(index).map(|commanded| q - commanded));
             // Any difference: an encoder without a fault reports the true position bit for bit.
             joint.is_misread |= (measured[index] - q).abs() > 0.0;

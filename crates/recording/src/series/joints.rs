@@ -33,10 +33,10 @@ impl JointSeries {
         let joints = &sample.joints;
         let (reference_q, reference_qd) =
             joints.setpoint.map_or((&[][..], &[][..]), |setpoint| (&setpoint.q[..], setpoint.qd));
-        let row = [joints.truth.qd, joints.truth.effort, reference_q, reference_qd, joints.measured.q];
+        let row = [joints.state().qd, joints.state().effort, reference_q, reference_qd, joints.measured.q];
         let [values @ .., deviations] = &mut self.values;
         values.iter_mut().zip(row).for_each(|(values, row)| values.extend_from_slice(row));
-        deviations.extend(joints.truth.q.iter().zip(reference_q).map(|(q, reference)| q - reference));
+        deviations.extend(joints.state().q.iter().zip(reference_q).map(|(q, reference)| q - reference));
     }
 
     /// Writes the quantities that every row has.

@@ -85,7 +85,7 @@ impl SampleBatch {
         self.model.extend(sample.model.iter().map(|pose: &Pose| RerunPose::from(&pose.to_isometry())));
         self.moving.extend(sample.bodies.poses().map(|(_, pose, _)| RerunPose::from(pose)));
         self.errors.extend_from_slice(sample.errors);
-        self.q.extend_from_slice(sample.joints.truth.q);
+        self.q.extend_from_slice(sample.joints.state().q);
         self.joints.push(sample);
         let [twin, model] = tcp;
         self.tcp.push(twin, model);

@@ -15,6 +15,7 @@ pub fn earlier_report(setup: &RunSetup, file: &[u8]) -> Option<RunReport> {
     let outcome = Outcome {
         checks: read.checks,
         steps: read.simulation.steps,
+        duration_s: read.simulation.duration_s,
         stopped: read.stopped,
         servos: read.servos,
         slowed: Vec::new(),

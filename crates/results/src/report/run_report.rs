@@ -186,7 +186,7 @@ impl RunReport {
             simulation: RunClockReport {
                 step_s: setup.clock.step_s,
                 steps: outcome.steps,
-                duration_s: setup.clock.time_s(outcome.steps),
+                duration_s: outcome.duration_s,
             },
             seed: setup.scenario.seed,
             trajectory_sha256: outcome.trajectory_sha256,

@@ -56,10 +56,10 @@ impl SampleCells {
         table.cell(TrajectoryCell::Number(sample.time_s));
         table.cell(TrajectoryCell::Count(sample.step));
         let joints = &sample.joints;
-        for at in 0..joints.truth.q.len() {
-            table.cell(TrajectoryCell::Number(joints.truth.q[at]));
-            table.cell(entry(joints.truth.qd, at));
-            table.cell(entry(joints.truth.effort, at));
+        for at in 0..joints.state().q.len() {
+            table.cell(TrajectoryCell::Number(joints.state().q[at]));
+            table.cell(entry(joints.state().qd, at));
+            table.cell(entry(joints.state().effort, at));
             table.cell(
                 joints
                     .setpoint

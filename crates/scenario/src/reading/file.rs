@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     Check, CheckKind, ControllerKind, ControllerSettings, Expectation, FilePlace, SCHEMA_VERSION, Scenario,
-    codes, place::PlaceNode,
+    SourceSettings, codes, place::PlaceNode,
 };
 
 /// Largest scenario file that is read.
@@ -52,8 +52,9 @@ struct Top {
 }
 
 /// The sections of a file below its top.
-const SECTIONS: [&str; 15] = [
+const SECTIONS: [&str; 16] = [
     "simulation",
+    "source",
     "start",
     "controller",
     "joints",
@@ -183,8 +184,10 @@ fn with_more_help(finding: Diagnostic, more: &str) -> Diagnostic {
 fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenario> {
     let simulation = one(&mut document, "simulation", findings);
     let start = one(&mut document, "start", findings);
+    let has_source = document.has("source");
+    let source = read_source(&mut document, findings);
     let controller = document.take_table("controller").map_err(Findings::from);
-    let controller = findings.keep(controller.and_then(read_controller));
+    let controller = findings.keep(controller.and_then(|section| read_controller(section, has_source)));
     let limits = one(&mut document, "limits", findings);
     let joints = one(&mut document, "joints", findings);
     let sensors = one(&mut document, "sensors", findings);
@@ -223,6 +226,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         seed: top.seed,
         simulation: simulation?,
         start: start?,
+        source: source?,
         controller: controller?,
         limits: limits?,
         joints: joints?,
@@ -286,8 +290,25 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
     check
 }
 
-fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Findings> {
+/// The log of a scenario; nothing of what only a simulation needs may be beside it.
+fn read_source(document: &mut Section<'_>, findings: &mut Diagnostics) -> Option<Option<SourceSettings>> {
+    let Some(section) = findings.keep(document.take_table("source"))? else { return Some(None) };
+    for excluded in ["controller", "motion", "fault", "sensors", "limits"] {
+        if let Some(span) = document.span_of(excluded) {
+            let message = format!("[{excluded}] is beside [source], whose log says how the joints moved");
+            let error = Diagnostic::error(codes::scenario::SOURCE, message);
+            let help = format!("remove [{excluded}], or remove [source] to simulate the robot");
+            findings.keep(Err::<(), _>(error.with_help(help).at(span)));
+        }
+    }
+    section.read_into(findings).map(Some)
+}
+
+fn read_controller(section: Option<Section<'_>>, has_source: bool) -> Result<ControllerSettings, Findings> {
     let known = ControllerKind::names();
+    if section.is_none() && has_source {
+        return Ok(ControllerSettings::absent());
+    }
     let Some(section) = section else {
         return Err(Diagnostic::error(codes::scenario::NO_CONTROLLER, "the scenario has no [controller]")
             .with_help(format!("add one with kind = {}", known.join(" | ")))

@@ -33,6 +33,11 @@ impl<'a> Section<'a> {
         self.table.get_ref().contains_key(key)
     }
 
+    /// The place of a key in the text, if the section has it.
+    pub(super) fn span_of(&self, key: &str) -> Option<std::ops::Range<usize>> {
+        self.table.get_ref().get_key_value(key).map(|(key, _)| key.span())
+    }
+
     /// The key, with its place, which was probably meant to be one of the known ones, and that one.
     pub(super) fn misspelt<'k>(&self, known: &[&'k str]) -> Option<(&Spanned<Cow<'a, str>>, &'k str)> {
         self.table

@@ -11,6 +11,8 @@ use crate::number::optional_positive;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ControllerKind {
+    /// None: the joint states are those of `[source]`. It has no name in scenarios.
+    Absent,
     /// No actuation: the joints move freely.
     Passive,
     /// Playback of the setpoints without dynamics.
@@ -44,7 +46,7 @@ pub const CONTROLLER_KINDS: [ControllerKind; 8] = [
 impl ControllerKind {
     /// Whether it drives the robot by efforts.
     pub fn has_actuators(self) -> bool {
-        !matches!(self, Self::Passive | Self::Kinematic)
+        !matches!(self, Self::Absent | Self::Passive | Self::Kinematic)
     }
 
     /// The name in scenarios.
@@ -64,7 +66,7 @@ impl ControllerKind {
 
     /// Whether a key of `[controller]` belongs to it.
     pub fn takes(self, key: &str) -> bool {
-        let has_dynamics = !matches!(self, Self::Passive | Self::Kinematic);
+        let has_dynamics = self.has_actuators();
         match key {
             "stiffness" => {
                 matches!(self, Self::Pd | Self::Pid | Self::GravityCompensation | Self::ComputedTorque)
@@ -109,6 +111,18 @@ pub struct ControllerSettings {
     /// Time from reading the sensors to the output of the torques; default: no delay.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub delay_s: Option<f64>,
+}
+
+impl ControllerSettings {
+    /// No controller, beside `[source]`.
+    pub(crate) fn absent() -> Self {
+        Self { kind: ControllerKind::Absent, ..Self::default() }
+    }
+
+    /// Whether there is none.
+    pub(crate) fn is_absent(&self) -> bool {
+        self.kind == ControllerKind::Absent
+    }
 }
 
 impl Default for ControllerSettings {

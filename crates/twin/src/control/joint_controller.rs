@@ -29,7 +29,7 @@ impl<'a> JointController<'a> {
         let controller = &setup.controller;
         let servos = || Servos::new(setup);
         let law = match controller.kind {
-            ControllerKind::Passive => Law::Passive,
+            ControllerKind::Absent | ControllerKind::Passive => Law::Passive,
             ControllerKind::Kinematic => Law::Kinematic,
             ControllerKind::Torque => Law::Torque(controller),
             ControllerKind::Velocity => Law::Servos(servos().on_velocity()),

@@ -206,6 +206,6 @@ pub(super) fn describe(
         values,
         from_s: clock.time_s(steps.start),
         // A fault without an end has `u64::MAX`.
-        until_s: (steps.end <= clock.steps).then(|| clock.time_s(steps.end)),
+        until_s: clock.steps.is_some_and(|last| steps.end <= last).then(|| clock.time_s(steps.end)),
     }
 }

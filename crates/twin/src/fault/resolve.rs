@@ -104,7 +104,7 @@ impl Resolver<'_> {
         }
         let step = |time_s: f64| nearest_step(time_s, self.clock.step_s);
         let (from, until) = (step(at_s), until_s.map_or(u64::MAX, step));
-        if from >= self.clock.steps {
+        if self.clock.steps.is_some_and(|steps| from >= steps) {
             return refused("at_s", format!("at_s = {at_s} s is rounded to the end of the run"));
         }
         // Both times may be rounded to the same sample.

@@ -69,8 +69,8 @@ pub struct RunSetup {
     pub sensors: SensorSetup,
     /// Warnings about the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
-    /// Errors for obstacles that overlap the robot at the start; they matter for a simulation only.
-    overlaps: Vec<Diagnostic>,
+    /// Errors that matter for a simulation only: obstacles that overlap the robot at the start, and a run without an end.
+    for_simulation: Vec<Diagnostic>,
     /// Lines of the scenario's own checks; the default ones follow them.
     check_lines: Vec<Option<usize>>,
 }
@@ -135,7 +135,7 @@ impl RunSetup {
         setup.warnings = warnings.into_vec();
         setup.inputs = access.files();
         // Kept apart: another source of joint states runs in spite of them.
-        setup.overlaps = in_file(std::mem::take(&mut setup.overlaps)).collect();
+        setup.for_simulation = in_file(std::mem::take(&mut setup.for_simulation)).collect();
         setup.path = Some(path.to_owned());
         setup.overrides = overrides.iter().map(ToString::to_string).collect();
         Ok(setup)
@@ -220,7 +220,7 @@ impl RunSetup {
             resistances,
             faults,
             warnings,
-            overlaps: Vec::new(),
+            for_simulation: Vec::new(),
             check_lines,
         }
         .with_overlaps(place.key("obstacle"))
@@ -229,7 +229,7 @@ impl RunSetup {
 
     /// Adds warnings about long computing times and simplified hulls.
     fn with_costs(mut self) -> Self {
-        if self.scenario.controller.kind != ControllerKind::Kinematic {
+        if self.is_driven_by_forces() {
             self.warnings.extend(long_run(self.description.robot.dof(), &self.clock));
         }
         if needs_shapes(&self.scenario) {
@@ -241,12 +241,18 @@ impl RunSetup {
     /// Finds obstacles that are too fast, and those that overlap the robot at the start; the controller `kinematic` moves it without forces.
     fn with_overlaps(mut self, places: FilePlace<'_>) -> Self {
         self.warnings.extend(jumps(&self.bodies, &self.obstacles, self.clock.step_s, places));
-        if self.scenario.controller.kind != ControllerKind::Kinematic {
+        if self.is_driven_by_forces() {
             let Self { start, obstacles, bodies, clock, .. } = &self;
             let first = FirstStep { q: start, obstacles, moving: bodies, step_s: clock.step_s };
-            self.overlaps = overlaps(first, &self.description.robot, places);
+            self.for_simulation = overlaps(first, &self.description.robot, places);
         }
+        self.for_simulation.extend(self.clock.examine_length().err());
         self
+    }
+
+    /// Whether the physics moves the robot: it is neither placed at its setpoints nor where a log says.
+    fn is_driven_by_forces(&self) -> bool {
+        !matches!(self.scenario.controller.kind, ControllerKind::Absent | ControllerKind::Kinematic)
     }
 
     /// The same if it can be simulated: another source of joint states needs no inertias, and pushes no obstacle away.
@@ -260,7 +266,7 @@ impl RunSetup {
 
     /// The errors of [`RunSetup::for_simulation`], without consuming the setup.
     pub(crate) fn examine_for_simulation(&self) -> Result<(), Findings> {
-        let mut found = self.overlaps.clone();
+        let mut found = self.for_simulation.clone();
         found.extend(self.description.check_capability(Capability::Physics).err().into_iter().flatten());
         if found.is_empty() { Ok(()) } else { Err(found.into()) }
     }

@@ -8,11 +8,14 @@ use std::sync::{
 };
 
 use congruent_description::RobotQ;
-use congruent_monitors::{ContactForce, JointSample, JointStateView, RunClock, SetpointView, StepForces};
+use congruent_monitors::{ContactForce, JointSample, JointStateView, SetpointView, StepForces};
 use congruent_motion::SlowedMotion;
 use nalgebra::Isometry3;
 
-use super::joint_states::{JointStateSource, SourceError, longer_s};
+use super::{
+    joint_states::{Advance, JointStateSource, SimulatedRobot, SourceError},
+    simulation::SimulationSource,
+};
 
 /// Samples that are passed on together: waking the other thread takes as long as a step of the physics.
 const BATCH: usize = 32;
@@ -22,7 +25,8 @@ const WAITING: usize = 8;
 /// The state of a source at one instant.
 #[derive(Debug, Default)]
 struct SourceState {
-    step_count: u64,
+    time_s: f64,
+    is_last: bool,
     truth: OwnedJoints,
     measured: OwnedJoints,
     setpoint: Option<OwnedSetpoint>,
@@ -70,9 +74,10 @@ fn copy<T: Copy>(to: &mut Vec<T>, from: &[T]) {
 }
 
 impl SourceState {
-    fn take(&mut self, source: &dyn JointStateSource, links: usize) {
+    fn take(&mut self, source: &SimulationSource<'_>, time_s: f64, links: usize) {
         let JointSample { truth, measured, setpoint } = source.joints();
-        self.step_count = source.step_count();
+        (self.time_s, self.is_last) = (time_s, source.is_last());
+        let truth = truth.unwrap_or(measured);
         self.truth.copy(truth.q, truth.qd, truth.effort);
         self.measured.copy(measured.q, measured.qd, measured.effort);
         match setpoint {
@@ -118,32 +123,21 @@ pub(crate) struct SourceThread {
     links: usize,
 }
 
-/// When the computation ends.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct UntilEnd<'a> {
-    pub(crate) clock: &'a RunClock,
-    /// Ends it early if set. The run then still takes all that was computed.
-    pub(crate) interrupt: Option<&'a AtomicBool>,
-}
-
-impl UntilEnd<'_> {
-    fn is_reached(self, source: &dyn JointStateSource) -> bool {
-        source.step_count() >= self.clock.steps_with(longer_s(source))
-            || self.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed))
-    }
-}
-
 impl SourceThread {
-    /// Computes until the end, until the source fails, or until the run wants no more.
-    pub(crate) fn compute(self, source: &mut dyn JointStateSource, until: UntilEnd<'_>) {
-        while !until.is_reached(source) {
+    /// Computes until the end, until the source fails, or until the run wants no more. `interrupt` ends it early if set: the run
+    /// then still takes all that was computed.
+    pub(crate) fn compute(self, source: &mut SimulationSource<'_>, interrupt: Option<&AtomicBool>) {
+        let ends = |source: &SimulationSource<'_>| {
+            source.is_last() || interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed))
+        };
+        while !ends(source) {
             let mut batch = self.used.try_recv().unwrap_or_else(|_| StateBatch::new());
             batch.len = 0;
-            while batch.len < BATCH && batch.failure.is_none() && !until.is_reached(source) {
-                // By the number of the step, as in the run.
-                match source.advance(until.clock.time_s(source.step_count() + 1)) {
-                    Ok(()) => {
-                        batch.states[batch.len].take(source, self.links);
+            while batch.len < BATCH && batch.failure.is_none() && !ends(source) {
+                let time_s = source.next_s();
+                match source.advance(time_s) {
+                    Ok(_) => {
+                        batch.states[batch.len].take(source, time_s, self.links);
                         batch.len += 1;
                     }
                     Err(error) => batch.failure = Some(error),
@@ -170,11 +164,15 @@ pub(crate) struct SourceAhead {
 }
 
 /// Both ends, at the present instant of a source of a robot with this number of links.
-pub(super) fn ahead_of(source: &dyn JointStateSource, links: usize) -> (SourceAhead, SourceThread) {
+pub(super) fn ahead_of(
+    source: &SimulationSource<'_>,
+    time_s: f64,
+    links: usize,
+) -> (SourceAhead, SourceThread) {
     let (to_run, batches) = sync_channel(WAITING);
     let (used, from_run) = channel();
     let mut batch = StateBatch::new();
-    batch.states[0].take(source, links);
+    batch.states[0].take(source, time_s, links);
     batch.len = 1;
     let ahead = SourceAhead { batches, used, batch, at: 0, next: None };
     (ahead, SourceThread { batches: to_run, used: from_run, links })
@@ -209,11 +207,7 @@ impl JointStateSource for SourceAhead {
             qdd,
             effort: &joints.effort,
         });
-        JointSample { truth: truth.view(), measured: measured.view(), setpoint }
-    }
-
-    fn step_count(&self) -> u64 {
-        self.now().step_count
+        JointSample { truth: Some(truth.view()), measured: measured.view(), setpoint }
     }
 
     fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {
@@ -224,23 +218,34 @@ impl JointStateSource for SourceAhead {
 
     /// # Panics
     /// If there is no next state: see [`SourceAhead::has_next`].
-    fn advance(&mut self, _time_s: f64) -> Result<(), SourceError> {
+    fn advance(&mut self, _wanted_s: f64) -> Result<Advance, SourceError> {
         assert!(self.has_next(), "the run asks whether there is a next state");
         if self.at + 1 < self.batch.len {
             self.at += 1;
-            return Ok(());
+            return Ok(Advance::At(self.now().time_s));
         }
         if let Some(next) = self.next.take_if(|next| next.len > 0) {
             let used = std::mem::replace(&mut self.batch, next);
             self.at = 0;
             // The thread may have ended: then nobody needs the memory.
             let _ = self.used.send(used);
-            return Ok(());
+            return Ok(Advance::At(self.now().time_s));
         }
         let failure = self.batch.failure.take().or_else(|| self.next.take()?.failure);
         Err(failure.expect("only a batch with a failure has no further state"))
     }
 
+    fn is_last(&self) -> bool {
+        self.now().is_last
+    }
+
+    fn simulated(&self) -> Option<&dyn SimulatedRobot> {
+        Some(self)
+    }
+}
+
+/// What the checks need of each sample; actuators and servos are those of the simulation, which comes back at the end.
+impl SimulatedRobot for SourceAhead {
     fn step_forces(&self) -> StepForces {
         self.now().forces
     }

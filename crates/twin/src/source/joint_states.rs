@@ -1,4 +1,4 @@
-//! Sources of joint states: a simulation, later a log or a live robot.
+//! Sources of joint states: a simulation, a log or a live robot.
 
 use congruent_monitors::{ContactForce, JointSample, StepForces};
 use congruent_motion::{ServoResult, SlowedMotion};
@@ -6,42 +6,79 @@ use nalgebra::Isometry3;
 
 use super::actuators::ActuatorUse;
 
-/// A source of joint states: sample after sample, each later than the one before.
+/// What follows the present instant of a source.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Advance {
+    /// The next sample, at this time, s.
+    At(f64),
+    /// The source has nothing between two times. The sample that ends the gap follows with the next call.
+    Gap {
+        /// Time of the sample before the gap.
+        from_s: f64,
+        /// Time of the sample after it.
+        to_s: f64,
+    },
+    /// No sample follows.
+    End,
+}
+
+/// A source of joint states: sample after sample, each later than the one before. The time is the source's.
 pub trait JointStateSource {
+    /// Time of the first sample, s.
+    fn start_s(&self) -> f64 {
+        0.0
+    }
+
     /// The joints at the present instant.
     fn joints(&self) -> JointSample<'_>;
 
-    /// Number of steps since the source began.
-    fn step_count(&self) -> u64;
-
     /// Writes the poses of all links at the present instant, in the root link's frame and the robot's order,
     /// and returns whether the source knows them: a log of joint states does not, and the poses are then those
-    /// of the URDF chain at the true joint positions.
-    fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool;
+    /// of the URDF chain at the joint positions.
+    fn root_from_links_into(&self, _root_from_links: &mut [Isometry3<f64>]) -> bool {
+        false
+    }
 
-    /// Advances to the next sample, which is at `time_s`.
+    /// Advances to the next sample. A source that can choose its instant takes `wanted_s`, which is one step of the run
+    /// after the sample before; a log has the time that was recorded.
     ///
     /// # Errors
     /// [`SourceError`] if there is no usable sample.
-    fn advance(&mut self, time_s: f64) -> Result<(), SourceError>;
+    fn advance(&mut self, wanted_s: f64) -> Result<Advance, SourceError>;
 
-    /// How far actuators were used so far, for a source that has them.
+    /// Whether it is known already that no sample follows. What is judged at the end of a run is judged at this sample; the
+    /// end of a source that does not know it before is found by [`Advance::End`], and judges nothing.
+    fn is_last(&self) -> bool;
+
+    /// What only a simulation knows and can do; `None` for states that were recorded or arrive.
+    fn simulated(&self) -> Option<&dyn SimulatedRobot> {
+        None
+    }
+
+    /// The same, to change it.
+    fn simulated_mut(&mut self) -> Option<&mut dyn SimulatedRobot> {
+        None
+    }
+}
+
+/// What only a simulation knows of its robot, and can do with it.
+pub trait SimulatedRobot {
+    /// The forces in the step that led to the present instant.
+    fn step_forces(&self) -> StepForces;
+
+    /// The links and obstacles that pushed each other in that step.
+    fn contact_forces(&self) -> &[ContactForce];
+
+    /// Motions that were planned in the run and take longer than the scenario says: the run is as much longer.
+    fn slowed(&self) -> &[SlowedMotion];
+
+    /// How far actuators were used so far, if the robot has them.
     fn actuators(&self) -> Vec<ActuatorUse> {
         Vec::new()
     }
 
-    /// The forces in the step that led to the present instant; only a simulation knows them.
-    fn step_forces(&self) -> StepForces {
-        StepForces::Unknown
-    }
-
-    /// The links and obstacles that pushed each other in that step; only a simulation knows them.
-    fn contact_forces(&self) -> &[ContactForce] {
-        &[]
-    }
-
     /// Brings the robot to rest from the present instant on, within its limits: the setpoint slows down and stays. Returns
-    /// whether the source can do so; one that drives nothing cannot.
+    /// whether it can.
     fn begin_stop(&mut self) -> bool {
         false
     }
@@ -52,12 +89,7 @@ pub trait JointStateSource {
         &[]
     }
 
-    /// Motions that were planned in the run and take longer than the scenario says: the run is as much longer.
-    fn slowed(&self) -> &[SlowedMotion] {
-        &[]
-    }
-
-    /// The results of the servos, for a source that drives the robot.
+    /// The results of the servos.
     ///
     /// # Errors
     /// [`SourceError`] if they cannot be computed.
@@ -67,8 +99,8 @@ pub trait JointStateSource {
 }
 
 /// By how much the motions end later than planned.
-pub(crate) fn longer_s(source: &dyn JointStateSource) -> f64 {
-    source.slowed().iter().map(|slowed| slowed.longer_s).sum()
+pub(crate) fn longer_s(slowed: &[SlowedMotion]) -> f64 {
+    slowed.iter().map(|slowed| slowed.longer_s).sum()
 }
 
 /// Why a source has no further sample.

@@ -13,10 +13,9 @@ mod simulated_poses;
 mod simulation;
 
 pub use actuators::ActuatorUse;
-pub(crate) use ahead::UntilEnd;
 pub(crate) use braking::stop_accelerations;
 pub(crate) use joint_states::longer_s;
-pub use joint_states::{JointStateSource, SourceError};
+pub use joint_states::{Advance, JointStateSource, SimulatedRobot, SourceError};
 pub(crate) use run_source::RunSource;
 pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;

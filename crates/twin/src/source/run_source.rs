@@ -18,13 +18,14 @@ pub(crate) enum RunSource<'a> {
 }
 
 impl<'a> RunSource<'a> {
-    /// Takes the states of a simulation from a thread that has yet to begin; returns both. `None` for another source.
+    /// Takes the states of a simulation, now at `time_s`, from a thread that has yet to begin; returns both. `None` for another source.
     pub(crate) fn compute_ahead(
         &mut self,
+        time_s: f64,
         links: usize,
     ) -> Option<(Box<SimulationSource<'a>>, SourceThread)> {
         let Self::Simulation(simulation) = self else { return None };
-        let (ahead, thread) = ahead_of(&**simulation, links);
+        let (ahead, thread) = ahead_of(simulation, time_s, links);
         match std::mem::replace(self, Self::Ahead(Box::new(ahead))) {
             Self::Simulation(simulation) => Some((simulation, thread)),
             Self::Given(_) | Self::Ahead(_) => None,

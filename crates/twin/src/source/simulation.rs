@@ -13,7 +13,7 @@ use super::{
     actuators::{ActuatorCounts, ActuatorUse},
     braking::{Braking, stop_accelerations},
     carried::CarriedPayloads,
-    joint_states::{JointStateSource, SourceError},
+    joint_states::{Advance, JointStateSource, SimulatedRobot, SourceError, longer_s},
     sensors::JointSensors,
 };
 use crate::{control::JointController, fault::InjectedFaults, setup::RunSetup};
@@ -96,9 +96,20 @@ impl<'a> SimulationSource<'a> {
     pub(crate) fn at_step(setup: &'a RunSetup, steps: u64) -> Result<Self, SourceError> {
         let mut source = Self::new(setup)?;
         while source.step_count() < steps {
-            source.advance(setup.clock.time_s(source.step_count() + 1))?;
+            source.advance(source.next_s())?;
         }
         Ok(source)
+    }
+
+    /// When the next step ends. From the number of the step, not by addition: sums of steps would drift from the times of
+    /// the plan.
+    pub(crate) fn next_s(&self) -> f64 {
+        self.setup.clock.time_s(self.step_count() + 1)
+    }
+
+    /// Number of steps so far.
+    pub fn step_count(&self) -> u64 {
+        self.world.step_count()
     }
 }
 
@@ -145,7 +156,7 @@ impl JointStateSource for SimulationSource<'_> {
         let measured = self.faults.measured();
         let setpoint = commanded(&self.reference, self.braking.as_ref());
         JointSample {
-            truth: JointStateView { q: self.world.q(), qd, effort },
+            truth: Some(JointStateView { q: self.world.q(), qd, effort }),
             measured: JointStateView {
                 q: measured.q,
                 qd: measured.qd,
@@ -160,10 +171,6 @@ impl JointStateSource for SimulationSource<'_> {
         }
     }
 
-    fn step_count(&self) -> u64 {
-        self.world.step_count()
-    }
-
     fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {
         self.world.root_from_links_into(root_from_links);
         // The physics does not know of a tool at another pose: only what is seen of it is moved.
@@ -171,24 +178,7 @@ impl JointStateSource for SimulationSource<'_> {
         true
     }
 
-    fn step_forces(&self) -> StepForces {
-        // From the least to the most that is known of the forces.
-        if self.world.was_placed() {
-            StepForces::Unknown
-        } else if self.world.contact_acts() {
-            StepForces::Contact
-        } else if self.world.constraints_may_act() {
-            StepForces::Constrained
-        } else {
-            StepForces::Declared
-        }
-    }
-
-    fn contact_forces(&self) -> &[ContactForce] {
-        &self.contact_forces
-    }
-
-    fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
+    fn advance(&mut self, time_s: f64) -> Result<Advance, SourceError> {
         // Obstacles first: the step moves them to their poses at its end.
         self.move_bodies(time_s);
         match &mut self.braking {
@@ -217,7 +207,40 @@ impl JointStateSource for SimulationSource<'_> {
         // Faults by the new step, then the reading: a fault acts from the first sample at its time on.
         self.faults.advance(self.world.step_count(), &mut self.world).map_err(SourceError::new)?;
         measure(&mut self.faults, &mut self.sensors);
-        Ok(())
+        Ok(Advance::At(time_s))
+    }
+
+    fn is_last(&self) -> bool {
+        // A stop ends when the arm is at rest, which may be later or earlier than the motions would.
+        let last = self.setup.clock.steps_with(longer_s(self.reference.slowed()));
+        self.braking.is_none() && last.is_some_and(|last| self.step_count() >= last)
+    }
+
+    fn simulated(&self) -> Option<&dyn SimulatedRobot> {
+        Some(self)
+    }
+
+    fn simulated_mut(&mut self) -> Option<&mut dyn SimulatedRobot> {
+        Some(self)
+    }
+}
+
+impl SimulatedRobot for SimulationSource<'_> {
+    fn step_forces(&self) -> StepForces {
+        // From the least to the most that is known of the forces.
+        if self.world.was_placed() {
+            StepForces::Unknown
+        } else if self.world.contact_acts() {
+            StepForces::Contact
+        } else if self.world.constraints_may_act() {
+            StepForces::Constrained
+        } else {
+            StepForces::Declared
+        }
+    }
+
+    fn contact_forces(&self) -> &[ContactForce] {
+        &self.contact_forces
     }
 
     fn actuators(&self) -> Vec<ActuatorUse> {

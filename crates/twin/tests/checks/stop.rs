@@ -7,7 +7,7 @@ use congruent_monitors::{
 use congruent_scenario::{Between, Check, LimitsCheck, MotionSettings, OnViolation, PlaybackMotion};
 use congruent_twin::{
     Outcome, RunSetup,
-    source::{JointStateSource, SimulationSource, SourceError},
+    source::{Advance, JointStateSource, SimulationSource, SourceError},
 };
 use nalgebra::Isometry3;
 
@@ -126,15 +126,15 @@ impl JointStateSource for Log<'_> {
         self.0.joints()
     }
 
-    fn step_count(&self) -> u64 {
-        self.0.step_count()
+    fn is_last(&self) -> bool {
+        self.0.is_last()
     }
 
     fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {
         self.0.root_from_links_into(root_from_links)
     }
 
-    fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
+    fn advance(&mut self, time_s: f64) -> Result<Advance, SourceError> {
         self.0.advance(time_s)
     }
 }

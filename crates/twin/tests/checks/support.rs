@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use congruent_description::{RobotDescription, RobotQ, parse_robot};
 use congruent_input::SourceFile;
 use congruent_monitors::{
-    ContactForce, JointSample, JointStateView, NoRecorder, StepForces,
+    JointSample, JointStateView, NoRecorder,
     verdict::{CheckResult, Measure, Status},
 };
 use congruent_scenario::{
@@ -16,7 +16,7 @@ use congruent_scenario::{
 };
 use congruent_twin::{
     Outcome, Run, RunSetup,
-    source::{JointStateSource, SimulationSource, SourceError},
+    source::{Advance, JointStateSource, SimulatedRobot, SimulationSource, SourceError},
 };
 use nalgebra::Isometry3;
 
@@ -198,7 +198,7 @@ impl<'a> Distorted<'a> {
             time_s: 0.0,
             measured_q: joints.measured.q.clone(),
             measured_qd: joints.measured.qd.to_vec(),
-            true_q: joints.truth.q.clone(),
+            true_q: joints.state().q.clone(),
             root_from_links: vec![Isometry3::identity(); 16],
         };
         Self { physics, said, distort }
@@ -209,7 +209,7 @@ impl JointStateSource for Distorted<'_> {
     fn joints(&self) -> JointSample<'_> {
         let joints = self.physics.joints();
         JointSample {
-            truth: JointStateView { q: &self.said.true_q, ..joints.truth },
+            truth: Some(JointStateView { q: &self.said.true_q, ..joints.state() }),
             measured: JointStateView {
                 q: &self.said.measured_q,
                 qd: &self.said.measured_qd,
@@ -217,10 +217,6 @@ impl JointStateSource for Distorted<'_> {
             },
             setpoint: joints.setpoint,
         }
-    }
-
-    fn step_count(&self) -> u64 {
-        self.physics.step_count()
     }
 
     fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {
@@ -231,23 +227,23 @@ impl JointStateSource for Distorted<'_> {
         true
     }
 
-    fn step_forces(&self) -> StepForces {
-        self.physics.step_forces()
+    fn is_last(&self) -> bool {
+        self.physics.is_last()
     }
 
-    fn contact_forces(&self) -> &[ContactForce] {
-        self.physics.contact_forces()
+    fn simulated(&self) -> Option<&dyn SimulatedRobot> {
+        self.physics.simulated()
     }
 
-    fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
+    fn advance(&mut self, time_s: f64) -> Result<Advance, SourceError> {
         self.physics.advance(time_s)?;
         let joints = self.physics.joints();
         self.said.time_s = time_s;
         self.said.measured_q.copy_from_slice(joints.measured.q);
         self.said.measured_qd = joints.measured.qd.to_vec();
-        self.said.true_q.copy_from_slice(joints.truth.q);
+        self.said.true_q.copy_from_slice(joints.state().q);
         self.physics.root_from_links_into(&mut self.said.root_from_links[..5]);
         (self.distort)(&mut self.said);
-        Ok(())
+        Ok(Advance::At(time_s))
     }
 }

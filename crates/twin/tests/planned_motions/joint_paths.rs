@@ -211,7 +211,7 @@ fn motions_after_a_servo_start_where_it_ended() {
     let setup = planned(vec![MotionSettings::Servo(drive), MotionSettings::Line(far)]);
     let mut reference = ReferenceGenerator::new(&setup.trajectory, &setup.description).unwrap();
     let mut failed = None;
-    for step in 1..=setup.clock.steps {
+    for step in 1..=setup.clock.steps.unwrap() {
         let measured = reference.q().clone();
         if let Err(error) = reference.advance(setup.clock.time_s(step), &measured) {
             failed = Some((step, error.to_string()));

@@ -75,7 +75,7 @@ fn instants(setup: &RunSetup) -> Vec<Instant> {
     let tree = UrdfTree::new(&description.robot);
     let tip_from_tcp = description.tip_from_tcp.unwrap_or_else(Isometry3::identity);
     let mut found = Vec::new();
-    for step in 0..=setup.clock.steps {
+    for step in 0..=setup.clock.steps.unwrap() {
         let time_s = setup.clock.time_s(step);
         // A perfect arm: it is where it is commanded to be.
         let measured = reference.q().clone();

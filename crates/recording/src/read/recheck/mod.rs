@@ -18,7 +18,7 @@ use congruent_results::{comparison::Scalars, report::RunReport};
 use congruent_scenario::CheckKind;
 use congruent_twin::{RunError, RunSetup};
 
-use self::replay::Replay;
+use self::{replay::Replay, states::steps};
 use super::{
     evidence::{Evidence, LimitedQuantity, TimedValue, merged},
     rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity},
@@ -73,23 +73,20 @@ const BETWEEN_SAMPLES: f64 = 0.05;
 pub fn recheck(
     summary: &RecordingSummary,
     scalars: &Scalars,
-    mut setup: RunSetup,
+    setup: RunSetup,
 ) -> Result<Recheck, RecheckError> {
     let report = summary.run.as_ref().ok_or(RecheckError::NoReport)?;
     // Checks are matched by their position below: another list would compare the values of different checks.
     is_of_scenario(report, &setup)?;
     is_of_robot(report, scalars, &setup)?;
-    let steps = report.simulation.steps;
-    // A motion that was slowed down in the run made it longer; one that ended early has no last step.
-    setup.clock.steps = if is_early(report) { setup.clock.steps.max(steps + 1) } else { steps };
     let left_out = left_out(report);
-    let replay = Replay::evaluate(scalars, &setup, &left_out)?;
+    let replay = Replay::evaluate(scalars, &setup, !is_early(report), &left_out)?;
     let checks = setup.checks();
     let lines = checks.iter().map(|check| check.line).collect();
     let are_default = checks.iter().map(|check| check.is_default).collect();
     let is_broken = report.error.is_some();
     let mut context = Context { scalars, setup: &setup, lines, are_default, replay, is_broken, gap_s: 0.0 };
-    // After the context is made, since the gap follows from the steps that its replay has found.
+    // After the context is made, since the gap follows from the instants that its replay has found.
     context.gap_s = context.longest_gap_s();
     let mut disagreements = Vec::new();
     let recorded = report.checks.iter().enumerate();
@@ -101,7 +98,7 @@ pub fn recheck(
     Ok(Recheck {
         scenario: setup.path.as_ref().map(|path| path.display().to_string()),
         same_limits,
-        instants: context.replay.steps.len(),
+        instants: context.replay.times_s.len(),
         gap_s: context.gap_s,
         step_s: setup.clock.step_s,
         expected: setup.scenario.expect.clone(),
@@ -179,8 +176,10 @@ struct Context<'a> {
 impl Context<'_> {
     /// The longest time between two recorded samples.
     fn longest_gap_s(&self) -> f64 {
-        let gaps = self.replay.steps.windows(2).map(|pair| pair[1] - pair[0]);
-        self.setup.clock.time_s(gaps.max().unwrap_or(0))
+        let gaps = self.replay.times_s.windows(2).map(|pair| pair[1] - pair[0]);
+        // In whole steps: a difference of two times has their rounding.
+        let clock = &self.setup.clock;
+        clock.time_s(steps(gaps.fold(0.0, f64::max), clock.step_s))
     }
 
     /// How much worse than in the run a value at recorded instants may be: rounding, and for a time the gap between
@@ -353,7 +352,7 @@ impl Context<'_> {
     fn is_recorded(&self, time_s: f64) -> bool {
         let step_s = self.setup.clock.step_s;
         // Half a step: recorded times are rounded to nanoseconds, and the next sample is at least a step away.
-        self.replay.steps.iter().any(|&step| (self.setup.clock.time_s(step) - time_s).abs() < step_s / 2.0)
+        self.replay.times_s.iter().any(|&at_s| (at_s - time_s).abs() < step_s / 2.0)
     }
 
     /// The verdict of these results, by what the scenario expects.

@@ -1,7 +1,7 @@
 //! The checks of a scenario on the joint states that a recording holds, and on its errors of the links.
 
 use congruent_input::{Quantity, SiUnit};
-use congruent_monitors::{Recorders, verdict::Bound};
+use congruent_monitors::{NoRecorder, verdict::Bound};
 use congruent_results::comparison::Scalars;
 use congruent_scenario::{CheckKind, OnViolation};
 use congruent_twin::{Run, RunError, RunSetup};
@@ -15,8 +15,8 @@ use crate::{
 /// What the checks find at the recorded instants.
 #[derive(Debug, Default)]
 pub(super) struct Replay {
-    /// Steps of the recorded instants; empty if the joint positions are not recorded.
-    pub(super) steps: Vec<u64>,
+    /// Times of the recorded instants; empty if the joint positions are not recorded.
+    pub(super) times_s: Vec<f64>,
     /// What each check of the scenario finds; nothing if it cannot be evaluated at recorded instants.
     pub(super) found: Vec<Vec<Evidence>>,
     /// The limits of the scenario.
@@ -59,19 +59,21 @@ fn needs_states_alone(kind: CheckKind) -> bool {
 }
 
 impl Replay {
-    /// Lets the checks of the scenario see the recorded states; `left_out` are not to be evaluated.
+    /// Lets the checks of the scenario see the recorded states, up to the end of the run if they are whole; `left_out` are not to
+    /// be evaluated.
     ///
     /// # Errors
     /// [`RunError`] if the robot has no model or a shape no hull.
     pub(super) fn evaluate(
         scalars: &Scalars,
         setup: &RunSetup,
+        is_whole: bool,
         left_out: &[CheckKind],
     ) -> Result<Self, RunError> {
         let found = vec![Vec::new(); setup.scenario.check.len()];
         let mut replay = Self { found, limits: ScenarioLimits::from_setup(setup), ..Self::default() };
-        if let Some(states) = RecordedStates::new(scalars, &setup.description, setup.clock.step_s) {
-            replay.steps = states.steps();
+        if let Some(states) = RecordedStates::new(scalars, setup, is_whole) {
+            replay.times_s = states.times_s();
             replay.run(states, setup, left_out)?;
         }
         // Errors of links are recorded as scalars with all digits; poses of links have those of the viewer and
@@ -96,14 +98,8 @@ impl Replay {
             check.on_violation = OnViolation::Continue;
         }
         let mut run = Run::with_source(setup, Box::new(states))?;
-        for instant in 0..self.steps.len() {
-            // A new run is at the first instant already.
-            if instant > 0 {
-                run.step()?;
-            }
-            run.compare()?;
-            run.observe(&mut checks, &mut Recorders::default())?;
-        }
+        let (_, result) = run.finish(&mut checks, &mut NoRecorder, |_| ());
+        result?;
         // A run lets all its checks observe; results that need every step, or the end of the run, are not taken
         // over.
         for (found, check) in self.found.iter_mut().zip(&checks) {

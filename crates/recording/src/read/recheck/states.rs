@@ -1,10 +1,13 @@
 //! The joint states of a recording, as a source for a run: the same checks see them again.
 
-use congruent_description::{LinkIndex, Robot, RobotDescription, RobotQ};
+use congruent_description::{LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{Pose, UrdfTree};
 use congruent_monitors::{JointSample, JointStateView, SetpointView};
 use congruent_results::comparison::Scalars;
-use congruent_twin::source::{JointStateSource, SourceError};
+use congruent_twin::{
+    RunSetup,
+    source::{Advance, JointStateSource, SourceError},
+};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use crate::{rrd::paths, series::joints::COORDINATES};
@@ -12,7 +15,8 @@ use crate::{rrd::paths, series::joints::COORDINATES};
 /// All joints at one recorded instant.
 #[derive(Debug, Clone)]
 struct RecordedInstant {
-    step: u64,
+    /// The time of the step, without the rounding of the recording to nanoseconds.
+    time_s: f64,
     truth: RobotQ,
     /// Empty if it is not recorded; likewise the efforts.
     qd: Vec<f64>,
@@ -27,6 +31,8 @@ struct RecordedInstant {
 pub(super) struct RecordedStates {
     instants: Vec<RecordedInstant>,
     at: usize,
+    /// Whether the last instant is the end of the run.
+    is_whole: bool,
     tree: UrdfTree,
     /// The poses of the links at this instant, by the URDF.
     poses: Vec<Pose>,
@@ -39,8 +45,9 @@ pub(super) struct RecordedStates {
 }
 
 impl RecordedStates {
-    /// All states; `None` if the recording does not have the position of every joint at every one of them.
-    pub(super) fn new(scalars: &Scalars, description: &RobotDescription, step_s: f64) -> Option<Self> {
+    /// All states, up to the end of the run if they are whole; `None` if the recording does not have the position of every joint at every one of them.
+    pub(super) fn new(scalars: &Scalars, setup: &RunSetup, is_whole: bool) -> Option<Self> {
+        let description = &setup.description;
         let robot = &description.robot;
         let values = |quantity: &str| -> Option<Vec<&Vec<(f64, f64)>>> {
             let path = |joint: &str| paths::joint_value(quantity, joint).to_string();
@@ -72,7 +79,7 @@ impl RecordedStates {
                 .collect(),
         );
         let instant = |(at, truth): (usize, Vec<f64>)| RecordedInstant {
-            step: steps(times[at], step_s),
+            time_s: setup.clock.time_s(steps(times[at], setup.clock.step_s)),
             qd: row(&qd, at).unwrap_or_default(),
             effort: row(&effort, at).unwrap_or_default(),
             measured: row(&measured, at).unwrap_or_else(|| truth.clone()).into(),
@@ -84,6 +91,7 @@ impl RecordedStates {
         let mut states = Self {
             instants,
             at: 0,
+            is_whole,
             tree: UrdfTree::new(robot),
             poses: vec![Pose::identity(); robot.links().len()],
             tip: description.tip,
@@ -106,9 +114,9 @@ impl RecordedStates {
         }
     }
 
-    /// The steps of the instants.
-    pub(super) fn steps(&self) -> Vec<u64> {
-        self.instants.iter().map(|instant| instant.step).collect()
+    /// The times of the instants.
+    pub(super) fn times_s(&self) -> Vec<f64> {
+        self.instants.iter().map(|instant| instant.time_s).collect()
     }
 }
 
@@ -147,11 +155,7 @@ impl JointStateSource for RecordedStates {
         let measured = JointStateView { q: &instant.measured, qd: &[], effort: &[] };
         let setpoint = |(q, qd)| SetpointView { q, qd, qdd: &self.no_accelerations, effort: &[] };
         let setpoint = instant.setpoint.as_ref().map(|(q, qd)| (q, &qd[..])).map(setpoint);
-        JointSample { truth, measured, setpoint }
-    }
-
-    fn step_count(&self) -> u64 {
-        self.instants[self.at].step
+        JointSample { truth: Some(truth), measured, setpoint }
     }
 
     // The recorded poses of links have the digits of the viewer, those of the URDF and of the TCP have all.
@@ -171,10 +175,20 @@ impl JointStateSource for RecordedStates {
         true
     }
 
-    fn advance(&mut self, _: f64) -> Result<(), SourceError> {
-        // Beyond the last instant the last one is repeated, instead of an index out of range.
-        self.at = (self.at + 1).min(self.instants.len() - 1);
+    fn start_s(&self) -> f64 {
+        self.instants[0].time_s
+    }
+
+    fn advance(&mut self, _: f64) -> Result<Advance, SourceError> {
+        if self.at + 1 == self.instants.len() {
+            return Ok(Advance::End);
+        }
+        self.at += 1;
         self.place();
-        Ok(())
+        Ok(Advance::At(self.instants[self.at].time_s))
+    }
+
+    fn is_last(&self) -> bool {
+        self.is_whole && self.at + 1 == self.instants.len()
     }
 }

@@ -91,7 +91,8 @@ fn strange_keys<'a>(
     kind: ControllerKind,
     place: FilePlace<'a>,
 ) -> impl Iterator<Item = Diagnostic> + 'a {
-    let is_playback = matches!(kind, ControllerKind::Passive | ControllerKind::Kinematic);
+    let is_playback =
+        matches!(kind, ControllerKind::Absent | ControllerKind::Passive | ControllerKind::Kinematic);
     let given = [
         // Both controllers without actuators have always ignored gains.
         ("stiffness", !is_playback && !settings.stiffness.is_zero()),
