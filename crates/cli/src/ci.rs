@@ -26,7 +26,7 @@ const CLONES: [&str; 3] = ["GITHUB_WORKSPACE", "CI_PROJECT_DIR", "WORKSPACE"];
 const HEAD_BYTES: u64 = 4096;
 
 /// Files and lines for CI.
-#[derive(Debug, Default, clap::Args)]
+#[derive(Debug, Default, Clone, clap::Args)]
 pub(crate) struct CiArguments {
     /// Also write one JUnit file: a suite for each input, a case for each check of it, and an error for each input
     /// that could not start. Its times are those of the machine.

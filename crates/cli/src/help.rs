@@ -11,7 +11,7 @@ use congruent::{input::nearest, text::layout::paragraph};
 /// The groups of commands, in the order of the help.
 const GROUPS: [(&str, &[&str]); 6] = [
     ("Check", &["check", "lint", "describe", "explain"]),
-    ("Run", &["run", "new"]),
+    ("Run", &["run", "replay", "new"]),
     ("Look", &["view", "inspect", "compare"]),
     (
         "Compute",
@@ -22,7 +22,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
 ];
 
 /// Two examples or more of each command, by its name, in the root of the project.
-const EXAMPLES: [(&str, &[&str]); 22] = [
+const EXAMPLES: [(&str, &[&str]); 23] = [
     (
         "check",
         &[
@@ -47,6 +47,13 @@ const EXAMPLES: [(&str, &[&str]); 22] = [
             "congruent run scenarios/ur5e_pick.toml",
             "congruent run scenarios/ur5e_pick.toml --set simulation.step_s=0.002 --out fine",
             "congruent run --faults scenarios/ur5e_pick.toml",
+        ],
+    ),
+    (
+        "replay",
+        &[
+            "congruent replay robots/ur5e docs/examples/log/joints.csv",
+            "congruent replay robots/ur5e docs/examples/log/joints.csv --out monday --junit replay.xml",
         ],
     ),
     (

@@ -45,7 +45,7 @@ pub(crate) struct RobotArgument {
 }
 
 /// Which files may be opened that other files name.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub(crate) struct AccessArguments {
     /// Open only files of the project, for files of strangers: the project is the nearest folder at or above the given file with
     /// package.xml or .git, or else the folder above its own, or the current folder if that is higher. Without it the URDF, SRDF,

@@ -77,6 +77,7 @@ enum Command {
     Explain(explain::Arguments),
     Describe(model::describe::Arguments),
     Run(run::Arguments),
+    Replay(run::replay::Arguments),
     New(new::Arguments),
     #[cfg(feature = "recording")]
     View(recording::view::Arguments),
@@ -195,6 +196,7 @@ fn not_parsed(error: &clap::Error) -> u8 {
 fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
     match command {
         Command::Run(arguments) => run::run(&arguments, printer),
+        Command::Replay(arguments) => run::replay::run(&arguments, printer),
         Command::Check(arguments) => model::check::run(&arguments, printer),
         Command::Lint(arguments) => model::lint::run(&arguments, printer),
         Command::Explain(arguments) => explain::run(&arguments.code, printer),

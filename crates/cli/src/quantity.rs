@@ -175,6 +175,12 @@ fn all_with_unit(parts: &[&str]) -> Result<(), String> {
     Err(format!("only some values have a unit: write {}", all.join(",")))
 }
 
+/// A rate of rows.
+pub(crate) fn rate_hz(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate: &f64| rate.is_finite() && *rate > 0.0);
+    rate.ok_or_else(|| "a rate is a number of rows a second above 0: --rate-hz 125".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};

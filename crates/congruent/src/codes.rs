@@ -27,6 +27,10 @@ congruent_input::codes! {
         CANNOT_RUN = "CGR-COMMAND-010", "run::cannot_run",
             "The scenario cannot be run: its robot cannot be simulated, or a motion cannot be planned. The message names the value; correct it there. `congruent check ROBOT` shows what the robot lacks.\n    congruent check robots/ur5e";
     }
+    replay {
+        POSES = "CGR-COMMAND-087", "replay::poses",
+            "The log has no topic of this name with poses. `congruent describe LOG` lists its topics.\n    wrong: --measured-pose /tracker\n    right: --measured-pose /tracker/pose";
+    }
     python {
         ARRAY = "CGR-PYTHON-001", "python::array",
             "An array that Python code gives has a wrong shape, or a value that is not a finite number. Positions are (joints,) for one configuration and (n, joints) for many, in the order of `robot.joints`, or a dictionary by the names of joints.\n    robot.fk({\"elbow_joint\": 0.1})";

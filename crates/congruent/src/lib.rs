@@ -37,6 +37,7 @@ mod check;
 pub mod codes;
 #[cfg(feature = "recording")]
 mod joint_sweep;
+pub mod replay;
 mod run_comparison;
 pub mod schema;
 pub mod text;

@@ -76,6 +76,16 @@ pub enum Quantity {
     EnergyError,
     /// Difference of delivered and commanded effort, relative to the commanded one.
     EffortError,
+    /// Share of the instants of a log at which every joint is known.
+    UsedShare,
+    /// Longest time between two samples of a log, s.
+    LongestGap,
+    /// Difference from 1 of the factor between reported velocities and the change of the positions.
+    VelocityFactorError,
+    /// Jump of the zero of an angular joint, rad.
+    JumpOfAngle,
+    /// Jump of the zero of a prismatic joint, m.
+    JumpOfShift,
     /// A constant error of an encoder, rad or m.
     Offset,
     /// An error of an encoder that grows with time, rad/s or m/s.

@@ -2,7 +2,7 @@
 
 use congruent_description::{JointKind, RobotDescription};
 
-use crate::{RunClock, RunDynamics, RunPayload};
+use crate::{ComparedPoses, RunClock, RunDynamics, RunPayload};
 
 /// The inputs of checks before the first sample of a run.
 #[derive(Debug)]
@@ -13,6 +13,8 @@ pub struct CheckContext<'a> {
     pub clock: &'a RunClock,
     /// Bodies that links carry for a time.
     pub payloads: &'a [RunPayload],
+    /// The poses that the source has of the robot.
+    pub poses: &'a [ComparedPoses],
     /// The declared dynamics, with the payloads.
     pub dynamics: RunDynamics<'a>,
 }

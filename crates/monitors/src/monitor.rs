@@ -2,6 +2,7 @@
 
 use super::names::Names;
 use crate::{
+    pose_sample::PoseSample,
     sample::Sample,
     verdict::{Contact, InstantValue, Measure, Moment},
 };
@@ -10,6 +11,10 @@ use crate::{
 pub trait Monitor: Send {
     /// Evaluates the values of one sample.
     fn observe(&mut self, sample: &mut Sample<'_>);
+
+    /// Evaluates a pose that the source has of the robot, at its own instant up to that of the sample which follows. Only checks of
+    /// such poses do something with it.
+    fn observe_pose(&mut self, _pose: &PoseSample<'_>) {}
 
     /// The results so far.
     fn finish(&self, names: &Names) -> Observed;

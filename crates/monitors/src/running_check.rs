@@ -22,6 +22,10 @@ use super::{
         AgreementMonitor, GoalMonitor, InvariantsMonitor, TwistMonitor, default_rotation, examine_goal,
         twist_limits,
     },
+    recorded::{
+        FACTOR, PoseMonitor, RecordingMonitor, StepMonitor, USED_SHARE, VelocityMonitor, default_jumps,
+        default_limits,
+    },
     space::{ClearanceMonitor, ContactMonitor, ZoneMonitor, examine_minimum, examine_pairs},
 };
 use crate::verdict::{CheckResult, InstantValue, Measure, Status};
@@ -84,8 +88,12 @@ impl<'a> RunningCheck<'a> {
             | Check::Dynamics(_)
             | Check::Effort(_)
             | Check::Invariants(_)
+            | Check::Pose(_)
             | Check::Power(_)
+            | Check::Recording(_)
+            | Check::Step(_)
             | Check::Twist(_)
+            | Check::Velocity(_)
             | Check::Zone(_) => Ok(()),
         }
     }
@@ -106,9 +114,13 @@ impl<'a> RunningCheck<'a> {
             Check::Goal(check) => Box::new(GoalMonitor::new(check, description)),
             Check::Invariants(check) => Box::new(InvariantsMonitor::new(check, context)),
             Check::Limits(check) => Box::new(LimitsMonitor::new(check, context)),
+            Check::Pose(check) => Box::new(PoseMonitor::new(check, context)),
             Check::Power(check) => Box::new(PowerMonitor::new(check, context)),
+            Check::Recording(check) => Box::new(RecordingMonitor::new(check, context)),
+            Check::Step(check) => Box::new(StepMonitor::new(check, context)),
             Check::Tracking(check) => Box::new(TrackingMonitor::new(check, context)),
             Check::Twist(check) => Box::new(TwistMonitor::new(check, context)),
+            Check::Velocity(check) => Box::new(VelocityMonitor::new(check, context)),
             Check::Zone(_) => Box::new(ZoneMonitor::new(description)),
         };
         Self { kind: check.kind(), line, is_default: false, on_violation: check.on_violation(), monitor }
@@ -202,6 +214,22 @@ pub fn write_out_limits(check: &mut Check, description: &RobotDescription, step_
             fill(&mut check.tolerance_m, check.tolerance_mm, AT_THE_LIMIT);
             check.velocity_share.get_or_insert(LARGEST_VELOCITY_SHARE);
             check.effort_share.get_or_insert(LARGEST_EFFORT_SHARE);
+        }
+        Check::Pose(check) => {
+            let [position_m, orientation_rad] = default_limits();
+            fill(&mut check.position_m, check.position_mm, position_m);
+            fill(&mut check.orientation_rad, check.orientation_deg, orientation_rad);
+        }
+        Check::Recording(check) => {
+            check.used_share.get_or_insert(USED_SHARE);
+        }
+        Check::Step(check) => {
+            let [angle_rad, shift_m] = default_jumps();
+            fill(&mut check.angle_rad, check.angle_deg, angle_rad);
+            fill(&mut check.shift_m, check.shift_mm, shift_m);
+        }
+        Check::Velocity(check) => {
+            check.factor.get_or_insert(FACTOR);
         }
         Check::Power(check) => {
             check.relative.get_or_insert(POWER_RELATIVE_PER_S * step_s);

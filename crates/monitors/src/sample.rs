@@ -28,6 +28,8 @@ pub struct Sample<'a> {
     /// Time from the sample before. `None` for the first sample, and for the first after a gap: nothing is compared or
     /// differentiated across it.
     pub since_s: Option<f64>,
+    /// Instants since the sample before that the source has left out, since a joint was not known.
+    pub left_out: u64,
     /// When the last motion ends, as far as it is known by now.
     pub motions_s: f64,
     /// Whether the poses are those of the sample before.

@@ -99,6 +99,12 @@ impl Watch {
         (at_s == time_s).then_some(InstantValue { quantity, unit, bound, limit, value, subject })
     }
 
+    /// A value of an instant, that of `subject`.
+    pub(crate) fn instant(&self, value: f64, subject: usize) -> InstantValue {
+        let Self { quantity, unit, bound, limit, .. } = *self;
+        InstantValue { quantity, unit, bound, limit, value, subject }
+    }
+
     /// The watched quantity, as measures name it.
     pub(crate) fn quantity(&self) -> Quantity {
         self.quantity

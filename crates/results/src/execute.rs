@@ -142,11 +142,25 @@ pub fn execute(
     options: &Options<'_>,
     progress: impl FnMut(u64),
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
+    execute_with(setup, options, Run::new, explain, progress)
+}
+
+/// The same with a source of the caller's, which `begin` puts into a run. `explain` finds the causes of failed checks.
+///
+/// # Errors
+/// As [`execute`].
+pub fn execute_with<'a>(
+    setup: &'a RunSetup,
+    options: &Options<'a>,
+    begin: impl FnOnce(&'a RunSetup) -> Result<Run<'a>, RunError>,
+    explain: impl FnOnce(&mut Run<'_>, &mut Outcome) -> Causes,
+    progress: impl FnMut(u64),
+) -> Result<(RunReport, OutputFolder), ExecuteError> {
     let folder = OutputFolder::create(&options.out, &setup.scenario.name, &setup.inputs)?;
     folder.write(RESOLVED, resolved(setup, &folder).to_toml().as_bytes())?;
     let cannot_run =
         |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
-    let run = Run::new(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
+    let run = begin(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
     let formats: Vec<_> = formats(setup, options).collect();
     let RecordedRun { report, settled, .. } = record(run, &formats, &folder, explain, progress);
     match write_results(settled, &folder, &report).and_then(|()| folder.write_digests()) {

@@ -9,6 +9,6 @@ pub mod report;
 pub mod trajectory_file;
 
 pub use execute::{
-    ExecuteError, IfIncomplete, Options, RecordedRun, Recording, RecordingFormat, execute, finished,
-    missing_files, record,
+    ExecuteError, IfIncomplete, Options, RecordedRun, Recording, RecordingFormat, execute, execute_with,
+    finished, missing_files, record,
 };

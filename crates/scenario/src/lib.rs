@@ -19,14 +19,15 @@ mod relative;
 mod robot;
 mod run_fault;
 mod source;
+mod source_text;
 mod spaces;
 mod text;
 
 pub use bodies::{GraspSettings, PathPoseSettings};
 pub use checks::{
     AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, CycleTimeCheck, DynamicsCheck,
-    EffortCheck, GoalCheck, InvariantsCheck, LimitsCheck, OnViolation, PowerCheck, TrackingCheck, TwistCheck,
-    UnitKeys, ZoneCheck,
+    EffortCheck, GoalCheck, InvariantsCheck, LimitsCheck, OnViolation, PoseCheck, PowerCheck, RecordingCheck,
+    StepCheck, TrackingCheck, TwistCheck, UnitKeys, VelocityCheck, ZoneCheck,
 };
 pub use data::{Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
 pub use faults::{

@@ -61,6 +61,11 @@ impl Range {
     }
 }
 
+/// For `deserialize_with`: a share, if it is there.
+pub(crate) fn optional_share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    Range::Share.read(deserializer).map(Some)
+}
+
 /// For `deserialize_with`: a number, not infinite and not NaN.
 pub(crate) fn finite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Range::Finite.read(deserializer)

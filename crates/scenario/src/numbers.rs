@@ -20,6 +20,16 @@ pub fn check(scenario: &Scenario) -> Vec<Diagnostic> {
     numbers.one("simulation.contact_restitution", simulation.contact_restitution, Range::Share);
     numbers.check_optional("controller.rate_hz", scenario.controller.rate_hz, Range::Positive);
     numbers.check_optional("controller.delay_s", scenario.controller.delay_s, Range::Positive);
+    if let Some(source) = &scenario.source {
+        numbers.check_optional("source.rate_hz", source.rate_hz, Range::Positive);
+        numbers.check_optional("source.from_s", source.from_s, Range::Finite);
+        numbers.check_optional("source.until_s", source.until_s, Range::Finite);
+        numbers.check_optional("source.maximum_gap_s", source.maximum_gap_s, Range::Positive);
+        for pose in &source.pose {
+            numbers.one("source.pose.offset_s", pose.offset_s, Range::Finite);
+            numbers.one("source.pose.drift", pose.drift, Range::Finite);
+        }
+    }
     for payload in &scenario.payload {
         numbers.one("payload.mass_kg", payload.mass_kg, Range::Positive);
         numbers.one("payload.from_s", payload.from_s, Range::NonNegative);
@@ -130,11 +140,21 @@ impl Numbers {
                 self.check_optional("check.settling_s", check.settling_s, Range::NonNegative);
                 self.check_optional("check.travel_share", check.travel_share, Range::Positive);
             }
-            Check::Agreement(_) | Check::Clearance(_) | Check::Goal(_) | Check::Twist(_) | Check::Zone(_) => {
+            Check::Recording(check) => {
+                self.check_optional("check.used_share", check.used_share, Range::Share);
+                self.check_optional("check.longest_gap_s", check.longest_gap_s, Range::Positive);
             }
+            Check::Velocity(check) => self.check_optional("check.factor", check.factor, Range::Positive),
+            Check::Agreement(_)
+            | Check::Clearance(_)
+            | Check::Goal(_)
+            | Check::Pose(_)
+            | Check::Step(_)
+            | Check::Twist(_)
+            | Check::Zone(_) => {}
         }
         let range = match check {
-            Check::Agreement(_) | Check::Goal(_) => Range::Positive,
+            Check::Agreement(_) | Check::Goal(_) | Check::Pose(_) | Check::Step(_) => Range::Positive,
             _ => Range::NonNegative,
         };
         for keys in check.unit_keys() {

@@ -125,7 +125,14 @@ fn keys_and_purpose(check: &Check) -> (Vec<(&'static str, String)>, &'static str
         Check::Dynamics(_) => (Vec::new(), "the twin moves as forward dynamics says"),
         Check::Effort(_) => (Vec::new(), "the actuators deliver what they are commanded to"),
         Check::Power(_) => (Vec::new(), "the actuators' work is where it should be"),
-        Check::CycleTime(_) | Check::Goal(_) | Check::Zone(_) => (Vec::new(), ""),
+        // Of a log, a given time, a target or a zone, which a new scenario has not.
+        Check::CycleTime(_)
+        | Check::Goal(_)
+        | Check::Pose(_)
+        | Check::Recording(_)
+        | Check::Step(_)
+        | Check::Velocity(_)
+        | Check::Zone(_) => (Vec::new(), ""),
     }
 }
 

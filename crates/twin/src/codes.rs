@@ -12,6 +12,16 @@ congruent_input::codes! {
             "No link of the robot has this name or matches this pattern. The help has the known names.\n    wrong: links = [\"forearm\"]\n    right: links = [\"forearm_link\"]";
         JOINT_LEFT_OUT = "CGR-SCENARIO-015", "scenario::joint_left_out",
             "A list must name every joint, but a joint is missing. Add the joint, or `others = ...` for all joints that are not named.\n    wrong: stiffness = { elbow_joint = 2000.0 }\n    right: stiffness = { elbow_joint = 2000.0, others = 1000.0 }";
+        LOGGED_JOINTS = "CGR-SCENARIO-092", "scenario::logged_joints",
+            "The joints of the log are not those of the robot, or more than one topic has them. Name the topics under [[source.joints]], with `prefix`, `suffix` or `names` where names differ; the help has what the log has.\n    wrong: [source] alone, for a log with /joint_states and /joint_commands\n    right: [[source.joints]] and topic = \"/joint_states\"";
+        LOGGED_UNIT = "CGR-SCENARIO-093", "scenario::logged_unit",
+            "The recorded positions lie beyond the limits of the joints unless they are degrees. Messages of ROS are in radians, and some drivers write degrees. Say which unit it is.\n    wrong: [[source.joints]] without `position`\n    right: position = \"deg\"";
+        LOGGED_TOPIC = "CGR-SCENARIO-094", "scenario::logged_topic",
+            "The log has no topic of this name and content. `congruent describe LOG` lists its topics.\n    wrong: topic = \"/joint_state\"\n    right: topic = \"/joint_states\"";
+        LOGGED_FRAMES = "CGR-SCENARIO-095", "scenario::logged_frames",
+            "It is not known between which frames of the robot a pose of the log is. Give `frame` and `child` as the log has them, and `from_link` and `link`, the links of the robot that carry them.\n    wrong: [[source.pose]] for a tracker whose frame is \"world\"\n    right: from_link = \"base_link\", link_from_frame = { xyz_m = [1.2, 0.1, 0.0] }";
+        LOGGED_NOTHING = "CGR-SCENARIO-096", "scenario::logged_nothing",
+            "No instant of the log has a position of every joint that is taken from it. Topics that never overlap in time, and joints that are always NaN, leave nothing to judge. `congruent describe LOG --robot ROBOT` shows which.\n    wrong: joints of two topics that were recorded one after the other\n    right: [[source.joints]] for the topic that has them all";
         SAMPLING = "CGR-SCENARIO-022", "scenario::sampling",
             "A period or a delay is not a whole number of steps. Change the value or `step_s`.\n    wrong: rate_hz = 700.0\n    right: rate_hz = 500.0";
         OUTPUT = "CGR-SCENARIO-023", "scenario::output",

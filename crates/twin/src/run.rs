@@ -9,7 +9,7 @@ use std::{
 use congruent_agreement::compare::Model;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use congruent_monitors::{
-    Names, PoseChange, Recorder, RunningCheck, SameInput, Sample, SampleStore, StepForces,
+    Names, PoseChange, PoseSample, Recorder, RunningCheck, SameInput, Sample, SampleStore, StepForces,
     verdict::{CheckResult, CheckValue},
 };
 use congruent_proximity::{Clearance, MovingBodies, PairChoice};
@@ -20,7 +20,10 @@ use crate::{
     outcome::{Outcome, RunError, braked, hex},
     same_poses::are_same,
     setup::RunSetup,
-    source::{Advance, JointStateSource, RunSource, SimulatedRobot, SimulationSource, longer_s},
+    source::{
+        Advance, JointStateSource, RecordedSource, RunSource, SimulatedRobot, SimulationSource, SourcePose,
+        longer_s,
+    },
     stopping::Stopping,
 };
 
@@ -31,11 +34,15 @@ pub struct Run<'a> {
     source: RunSource<'a>,
     /// Number of samples after the first.
     step: u64,
+    /// Time of the first sample.
+    start_s: f64,
     /// Time of the present sample.
     time_s: f64,
     /// Time from the sample before; `None` for the first, and after a gap.
     since_s: Option<f64>,
     model: Model,
+    /// Of the instants of poses, if the source has some: that of the samples keeps its latest poses.
+    model_of_poses: Option<Model>,
     /// Computes the poses of the links for a source that has joint states only.
     tree: UrdfTree,
     clearance: Clearance,
@@ -71,11 +78,15 @@ impl std::fmt::Debug for Run<'_> {
 }
 
 impl<'a> Run<'a> {
-    /// A run of the simulation that the scenario describes.
+    /// A run of the log that the scenario names, or else of the simulation that it describes.
     ///
     /// # Errors
-    /// [`RunError`] if the robot cannot be simulated.
+    /// [`RunError`] if the robot cannot be simulated, or the log cannot be read.
     pub fn new(setup: &'a RunSetup) -> Result<Self, RunError> {
+        if let Some(recorded) = &setup.recorded {
+            let source = RecordedSource::new(recorded, &setup.description.robot, &setup.start)?;
+            return Self::with_source(setup, Box::new(source));
+        }
         Self::new_with(setup, RunSource::Simulation(Box::new(SimulationSource::new(setup)?)))
     }
 
@@ -101,10 +112,14 @@ impl<'a> Run<'a> {
         Ok(Self {
             setup,
             step: 0,
+            start_s: source.start_s(),
             time_s: source.start_s(),
             since_s: None,
             source,
             model: Model::new(&setup.description)?,
+            model_of_poses: (!setup.poses().is_empty())
+                .then(|| Model::new(&setup.description))
+                .transpose()?,
             tree: UrdfTree::new(robot),
             names: Names::new(robot, &clearance, &zones),
             clearance,
@@ -134,6 +149,11 @@ impl<'a> Run<'a> {
     /// The checked scenario of this run.
     pub fn setup(&self) -> &'a RunSetup {
         self.setup
+    }
+
+    /// Whether the joint states are those of a simulation.
+    pub fn is_simulated(&self) -> bool {
+        self.source.simulated().is_some()
     }
 
     /// Names for the numbers of samples.
@@ -216,6 +236,7 @@ impl<'a> Run<'a> {
         checks: &mut [RunningCheck<'_>],
         recorder: &mut dyn Recorder,
     ) -> Result<bool, RunError> {
+        self.observe_poses(checks)?;
         // Before the checks: they ask for distances at this instant.
         self.move_bodies();
         // A stop makes the run longer or shorter, and only `ends` below knows which sample is its last.
@@ -244,6 +265,17 @@ impl<'a> Run<'a> {
         Ok(ends)
     }
 
+    /// Passes the poses up to this instant to all checks.
+    fn observe_poses(&mut self, checks: &mut [RunningCheck<'_>]) -> Result<(), KinematicsError> {
+        let Some(model) = &mut self.model_of_poses else { return Ok(()) };
+        while let Some(SourcePose { of, time_s, frame_from_target, q }) = self.source.next_pose() {
+            let root_from_links = model.root_from_links(q)?;
+            let pose = PoseSample { of, time_s, frame_from_target, q, root_from_links };
+            checks.iter_mut().for_each(|check| check.monitor.observe_pose(&pose));
+        }
+        Ok(())
+    }
+
     /// Moves links and obstacles to where they are at this instant.
     fn move_bodies(&mut self) {
         // Bodies before links: a carried body needs the pose of its link now, and both take effect in `move_links`.
@@ -265,6 +297,7 @@ impl<'a> Run<'a> {
             step: self.step,
             time_s: self.time_s,
             since_s: self.since_s,
+            left_out: self.source.left_out(),
             motions_s,
             change: self.change,
             is_last: false,
@@ -397,7 +430,7 @@ impl<'a> Run<'a> {
             stopped,
             checks: results,
             steps: self.step,
-            duration_s: self.time_s - self.source.start_s(),
+            duration_s: self.time_s - self.start_s,
             servos,
             actuators: simulated.map(SimulatedRobot::actuators).unwrap_or_default(),
             slowed: simulated.map(SimulatedRobot::slowed).unwrap_or_default().to_vec(),

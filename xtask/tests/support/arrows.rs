@@ -31,6 +31,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
         &[
             "input",
             "tables",
+            "logs",
             "description",
             "kinematics",
             "dynamics",

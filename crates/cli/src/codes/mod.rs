@@ -35,6 +35,8 @@ congruent::input::codes! {
             "Two scenarios would write their results to the same folder, and one would overwrite the results of the other. Give the scenarios different names.\n    wrong: name = \"pick\"\n    right: name = \"place\"";
         VIEW = "CGR-COMMAND-013", "run::view",
             "--view shows one run, but several scenarios are given. Give one scenario, or leave --view out.\n    wrong: congruent run pick.toml place.toml --view\n    right: congruent run pick.toml --view";
+        LOG = "CGR-COMMAND-086", "run::log",
+            "The file is no log. `replay` takes an MCAP, a table in CSV, or the folder that rosbag2 wrote. Other logs are converted first, as bags of ROS 1 by `rosbags-convert`.\n    congruent replay robots/ur5e monday.mcap";
     }
     output {
         REFUSED = "CGR-COMMAND-014", "output::refused",

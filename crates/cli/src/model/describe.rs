@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "ROBOT")]
     robot: Option<PathBuf>,
     /// Rate of the rows of tables whose times are missing or too coarse, Hz.
-    #[arg(long, value_name = "HZ", value_parser = rate_hz)]
+    #[arg(long, value_name = "HZ", value_parser = crate::quantity::rate_hz)]
     rate_hz: Option<f64>,
     /// Print the moving joints in the orders in which programs list them instead: the order of the file, depth first (MuJoCo) and
     /// breadth first (Isaac Sim, Isaac Lab), and where these differ.
@@ -158,10 +158,4 @@ fn surveyed(
 ) -> Result<SurveyedLog, Failure> {
     let options = LogOptions { rate_hz: arguments.rate_hz, ..LogOptions::default() };
     Ok(survey_log(path, &options, robot.map(|description| &description.robot))?)
-}
-
-/// A rate of rows.
-fn rate_hz(text: &str) -> Result<f64, String> {
-    let rate = text.parse().ok().filter(|rate: &f64| rate.is_finite() && *rate > 0.0);
-    rate.ok_or_else(|| "a rate is a number of rows a second above 0: --rate-hz 125".to_owned())
 }

@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
 }
 
 /// What is shown of scenarios that inject faults.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Default, clap::Args)]
 pub(super) struct FaultArguments {
     /// Write no results; show which checks detect which injected fault, after what time, and what the diagnosis finds.
     ///
@@ -64,8 +64,8 @@ pub(super) struct FaultArguments {
 }
 
 /// Whether a recording is written, and whether it is shown.
-#[derive(Debug, clap::Args)]
-struct RecordingArguments {
+#[derive(Debug, Default, Clone, clap::Args)]
+pub(crate) struct RecordingArguments {
     /// Write no recording (recording.rrd).
     #[arg(long)]
     no_recording: bool,
@@ -84,6 +84,28 @@ fn parse_override(text: &str) -> Result<Override, String> {
 }
 
 impl Arguments {
+    /// The call that runs the scenario of a log.
+    pub(super) fn for_replay(
+        scenario: PathBuf,
+        out: PathBuf,
+        recording: &RecordingArguments,
+        ci: &CiArguments,
+        access: &AccessArguments,
+    ) -> Self {
+        Self {
+            scenarios: vec![scenario],
+            out,
+            resume: false,
+            jobs: None,
+            overrides: Vec::new(),
+            seed: None,
+            faults: FaultArguments::default(),
+            recording: recording.clone(),
+            ci: ci.clone(),
+            access: access.clone(),
+        }
+    }
+
     /// Number of threads for this number of scenarios.
     pub(super) fn threads(&self, scenarios: usize) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);

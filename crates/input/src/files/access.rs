@@ -3,6 +3,8 @@
 use std::{
     collections::BTreeMap,
     fmt::Display,
+    fs,
+    io::{self, Read},
     path::{Path, PathBuf},
     sync::{Arc, Mutex},
 };
@@ -13,7 +15,7 @@ use sha2::{Digest, Sha256};
 
 use super::{
     kind::TextKind,
-    open::{decode_text, folder_of, read_named_bytes, read_regular_bytes},
+    open::{decode_text, folder_of, read_named_bytes, read_regular_bytes, unreadable},
     portable::portable_path,
     project::{normalised, project_folder},
     ros_packages::RosPackages,
@@ -221,6 +223,28 @@ impl FileAccess {
         Ok(bytes)
     }
 
+    /// Notes a recorded log, which is read by others since it may be longer than memory: a file, or the files of a folder.
+    ///
+    /// # Errors
+    /// It may not be opened or cannot be read.
+    pub fn note_log(&self, path: &Path) -> Result<(), Diagnostic> {
+        self.check(path)?;
+        let unreadable = |error: io::Error| unreadable(path, &error);
+        let mut files = vec![path.to_owned()];
+        if path.is_dir() {
+            let entries = fs::read_dir(path).map_err(unreadable)?;
+            files = entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect();
+            files.sort();
+        }
+        for path in files {
+            // A missing log is reported by its reader, which knows what else may be meant.
+            let Ok(file) = fs::File::open(&path) else { continue };
+            let sha256 = streamed_sha256(file).map_err(unreadable)?;
+            self.note_sha256(&path.display(), &path, sha256);
+        }
+        Ok(())
+    }
+
     /// The bytes of a mesh, which was found in a folder that may be opened.
     ///
     /// # Errors
@@ -299,10 +323,25 @@ impl FileAccess {
     }
 
     fn note(&self, name: &dyn Display, path: &Path, bytes: &[u8]) {
-        let sha256 = format!("{:x}", Sha256::digest(bytes));
+        self.note_sha256(name, path, format!("{:x}", Sha256::digest(bytes)));
+    }
+
+    fn note_sha256(&self, name: &dyn Display, path: &Path, sha256: String) {
         // An address, as `package://`, is no absolute path.
         let file = portable_path(Path::new(&name.to_string())).display().to_string();
         self.add(&[InputFile { file, sha256, path: path.to_owned() }]);
+    }
+}
+
+/// The hash of a file that may be longer than memory.
+fn streamed_sha256(mut file: fs::File) -> io::Result<String> {
+    const PART_BYTES: usize = 1 << 20;
+    let (mut hash, mut part) = (Sha256::new(), vec![0; PART_BYTES]);
+    loop {
+        match file.read(&mut part)? {
+            0 => return Ok(format!("{:x}", hash.finalize())),
+            bytes => hash.update(&part[..bytes]),
+        }
     }
 }
 

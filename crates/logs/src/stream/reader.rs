@@ -1,6 +1,6 @@
 //! Reads a log from its beginning to its end, and gives the rows and poses that are taken.
 
-use std::path::Path;
+use std::{collections::VecDeque, path::Path};
 
 use congruent_input::Diagnostic;
 
@@ -53,7 +53,8 @@ pub struct LogStream {
     selection: StreamSelection,
     rows: Rows,
     poses: Vec<PoseStream>,
-    ready: Option<StreamedPose>,
+    /// Poses that are given next: several selections may have the same one, with other offsets.
+    ready: VecDeque<StreamedPose>,
     /// Is added to the times of the log.
     shift_s: f64,
     /// Of each topic, by its index.
@@ -79,7 +80,7 @@ impl LogStream {
             reader: open_log(path, options)?,
             rows: Rows::new(&selection),
             poses: selection.poses.iter().cloned().map(PoseStream::new).collect(),
-            ready: None,
+            ready: VecDeque::new(),
             shift_s: -selection.origin_s,
             clocks: Vec::new(),
             latest_s: f64::NEG_INFINITY,
@@ -95,7 +96,7 @@ impl LogStream {
     pub fn next_event(&mut self) -> Result<Option<StreamEvent>, Diagnostic> {
         let [from_s, until_s] = self.selection.between_s;
         loop {
-            if let Some(pose) = self.ready.take() {
+            if let Some(pose) = self.ready.pop_front() {
                 return Ok(Some(StreamEvent::Pose(pose)));
             }
             if self.rows.advance() {
@@ -133,10 +134,14 @@ impl LogStream {
             LogEvent::Pose(pose) => {
                 let topic = pose.topic;
                 let name = &self.reader.topics()[topic].name;
-                let Some(at) = self.poses.iter().position(|stream| stream.is_of(name, &pose)) else { return };
-                if let Some(time_s) = self.time(topic, &pose.time) {
-                    self.ready = self.poses[at].take(at, time_s, &pose);
+                if !self.poses.iter().any(|stream| stream.is_of(name, &pose)) {
+                    return;
                 }
+                let Some(time_s) = self.time(topic, &pose.time) else { return };
+                let name = &self.reader.topics()[topic].name;
+                let streams =
+                    self.poses.iter_mut().enumerate().filter(|(_, stream)| stream.is_of(name, &pose));
+                self.ready.extend(streams.filter_map(|(at, stream)| stream.take(at, time_s, &pose)));
             }
             LogEvent::Gap(_) => self.rows.counts.unreadable_parts += 1,
             LogEvent::StaticEdge(_) | LogEvent::Description(_) | LogEvent::Other(_) => {}

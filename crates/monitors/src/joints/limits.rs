@@ -206,10 +206,13 @@ impl LimitsMonitor {
     fn observe_shares(&mut self, at: usize, sample: &Sample<'_>) {
         let limits = &mut self.coordinates[at];
         let (truth, coordinate) = (sample.joints.state(), limits.coordinate);
-        if let (Some(limit), Some(qd)) = (limits.velocity, truth.qd.get(coordinate)) {
+        // A source without the truth has NaN where it measured nothing.
+        let is_known = |value: &&f64| sample.joints.truth.is_some() || !value.is_nan();
+        if let (Some(limit), Some(qd)) = (limits.velocity, truth.qd.get(coordinate).filter(is_known)) {
             self.velocity.observe(qd.abs() / limit, coordinate, sample);
         }
-        if let (Some(limit), Some(effort)) = (limits.effort, truth.effort.get(coordinate)) {
+        let effort = truth.effort.get(coordinate).filter(is_known);
+        if let (Some(limit), Some(effort)) = (limits.effort, effort) {
             let share = effort.abs() / limit;
             // A robot that was placed, or has taken no step, has exerted no effort: a share of 0 would make the check pass
             // without a measured value.

@@ -36,7 +36,8 @@ impl Causes {
 
 /// What the samples of a finished run show to be wrong with the twin, if a check failed.
 pub fn diagnose_run(run: &mut Run<'_>, outcome: &Outcome) -> Option<RunDiagnosis> {
-    if outcome.checks.iter().all(|check| check.status != Status::Fail) {
+    // The faults that are known by their traces are those of a simulation: a log has no second source to compare with.
+    if !run.is_simulated() || outcome.checks.iter().all(|check| check.status != Status::Fail) {
         return None;
     }
     let setup = run.setup();

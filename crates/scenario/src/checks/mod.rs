@@ -4,6 +4,7 @@ mod forces;
 mod joints;
 mod on_violation;
 mod pose;
+mod recorded;
 mod space;
 mod unit_keys;
 
@@ -15,6 +16,7 @@ pub use forces::{DynamicsCheck, EffortCheck, PowerCheck};
 pub use joints::{CycleTimeCheck, LimitsCheck, TrackingCheck};
 pub use on_violation::OnViolation;
 pub use pose::{AgreementCheck, GoalCheck, InvariantsCheck, TwistCheck};
+pub use recorded::{PoseCheck, RecordingCheck, StepCheck, VelocityCheck};
 pub use space::{ClearanceCheck, ContactCheck, ZoneCheck};
 pub use unit_keys::UnitKeys;
 pub(crate) use unit_keys::in_two_units;
@@ -41,12 +43,20 @@ pub enum Check {
     Invariants(InvariantsCheck),
     /// Position, velocity and effort of each joint within their limits.
     Limits(LimitsCheck),
+    /// Recorded poses against those of the model.
+    Pose(PoseCheck),
     /// Work of the actuators against the change of energy.
     Power(PowerCheck),
+    /// How much of a log could be used.
+    Recording(RecordingCheck),
+    /// A jump of one joint's zero, as recorded poses show it.
+    Step(StepCheck),
     /// The twin against its setpoint.
     Tracking(TrackingCheck),
     /// Velocity of the TCP by the Jacobian against the change of its pose.
     Twist(TwistCheck),
+    /// Reported velocities against the change of the reported positions.
+    Velocity(VelocityCheck),
     /// Links stay out of the zones that are forbidden to them.
     Zone(ZoneCheck),
 }
@@ -73,19 +83,27 @@ pub enum CheckKind {
     Invariants,
     /// See [`Check::Limits`].
     Limits,
+    /// See [`Check::Pose`].
+    Pose,
     /// See [`Check::Power`].
     Power,
+    /// See [`Check::Recording`].
+    Recording,
+    /// See [`Check::Step`].
+    Step,
     /// See [`Check::Tracking`].
     Tracking,
     /// See [`Check::Twist`].
     Twist,
+    /// See [`Check::Velocity`].
+    Velocity,
     /// See [`Check::Zone`].
     Zone,
 }
 
 impl CheckKind {
     /// Every kind, in alphabetical order.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 17] = [
         Self::Agreement,
         Self::Clearance,
         Self::Contact,
@@ -95,9 +113,13 @@ impl CheckKind {
         Self::Goal,
         Self::Invariants,
         Self::Limits,
+        Self::Pose,
         Self::Power,
+        Self::Recording,
+        Self::Step,
         Self::Tracking,
         Self::Twist,
+        Self::Velocity,
         Self::Zone,
     ];
 
@@ -126,9 +148,13 @@ impl Check {
             Self::Goal(_) => CheckKind::Goal,
             Self::Invariants(_) => CheckKind::Invariants,
             Self::Limits(_) => CheckKind::Limits,
+            Self::Pose(_) => CheckKind::Pose,
             Self::Power(_) => CheckKind::Power,
+            Self::Recording(_) => CheckKind::Recording,
+            Self::Step(_) => CheckKind::Step,
             Self::Tracking(_) => CheckKind::Tracking,
             Self::Twist(_) => CheckKind::Twist,
+            Self::Velocity(_) => CheckKind::Velocity,
             Self::Zone(_) => CheckKind::Zone,
         }
     }
@@ -145,9 +171,13 @@ impl Check {
             Self::Goal(check) => check.on_violation,
             Self::Invariants(check) => check.on_violation,
             Self::Limits(check) => check.on_violation,
+            Self::Pose(check) => check.on_violation,
             Self::Power(check) => check.on_violation,
+            Self::Recording(check) => check.on_violation,
+            Self::Step(check) => check.on_violation,
             Self::Tracking(check) => check.on_violation,
             Self::Twist(check) => check.on_violation,
+            Self::Velocity(check) => check.on_violation,
             Self::Zone(check) => check.on_violation,
         }
     }
@@ -163,9 +193,15 @@ impl Check {
             Self::Limits(check) => check.unit_keys().into(),
             Self::Tracking(check) => check.unit_keys().into(),
             Self::Twist(check) => check.unit_keys().into(),
-            Self::Dynamics(_) | Self::Effort(_) | Self::Invariants(_) | Self::Power(_) | Self::Zone(_) => {
-                Vec::new()
-            }
+            Self::Pose(check) => check.unit_keys().into(),
+            Self::Step(check) => check.unit_keys().into(),
+            Self::Dynamics(_)
+            | Self::Effort(_)
+            | Self::Invariants(_)
+            | Self::Power(_)
+            | Self::Recording(_)
+            | Self::Velocity(_)
+            | Self::Zone(_) => Vec::new(),
         }
     }
 }

@@ -281,9 +281,13 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
         CheckKind::Goal => section.read_into(&mut found).map(Check::Goal),
         CheckKind::Invariants => section.read_into(&mut found).map(Check::Invariants),
         CheckKind::Limits => section.read_into(&mut found).map(Check::Limits),
+        CheckKind::Pose => section.read_into(&mut found).map(Check::Pose),
         CheckKind::Power => section.read_into(&mut found).map(Check::Power),
+        CheckKind::Recording => section.read_into(&mut found).map(Check::Recording),
+        CheckKind::Step => section.read_into(&mut found).map(Check::Step),
         CheckKind::Tracking => section.read_into(&mut found).map(Check::Tracking),
         CheckKind::Twist => section.read_into(&mut found).map(Check::Twist),
+        CheckKind::Velocity => section.read_into(&mut found).map(Check::Velocity),
         CheckKind::Zone => section.read_into(&mut found).map(Check::Zone),
     };
     findings.extend(named_too(found.into_vec(), "of every check: kind"));

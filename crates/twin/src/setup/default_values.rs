@@ -20,6 +20,7 @@ pub(super) fn write_out(
     // A robot that was made in code may have a path that does not exist.
     let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
     scenario.robot = whole.unwrap_or_else(|_| path.clone()).display().to_string();
+    // The log has its own length.
     scenario.simulation.duration_s = clock.steps.map(|steps| clock.time_s(steps));
     scenario.start = written_start(&description.robot, start);
     for motion in &mut scenario.motion {

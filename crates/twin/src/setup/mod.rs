@@ -5,6 +5,7 @@ mod checks;
 mod cost;
 mod default_values;
 mod output;
+mod recorded;
 mod run_setup;
 mod start;
 mod surroundings;
@@ -12,5 +13,6 @@ mod written_at;
 
 pub(crate) use actuation::ControlPeriod;
 pub use actuation::{ControllerSetup, SensorSetup, TorqueTable};
+pub use recorded::RecordedSetup;
 pub use run_setup::RunSetup;
 pub(crate) use surroundings::LARGEST_M;

@@ -6,7 +6,8 @@ use congruent_description::{Obstacle, RobotDescription, RobotQ, load_robot_with}
 use congruent_dynamics::JointResistance;
 use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile};
 use congruent_monitors::{
-    ActuatorLimits, CheckContext, RunClock, RunDynamics, RunPayload, RunningCheck, taken_too_late,
+    ActuatorLimits, CheckContext, ComparedPoses, RunClock, RunDynamics, RunPayload, RunningCheck,
+    taken_too_late,
 };
 use congruent_motion::{MotionInput, Trajectory, codes::scenario::TARGET_LIMIT, motion_limits};
 use congruent_proximity::{MovingBody, ObstacleMobility, Zone, simplified_hulls};
@@ -20,6 +21,7 @@ use super::{
     cost::long_run,
     default_values::write_out,
     output,
+    recorded::RecordedSetup,
     start::{inside_limits, start},
     surroundings::{FirstStep, Surroundings, jumps, mobility},
     written_at::WrittenAt,
@@ -67,6 +69,8 @@ pub struct RunSetup {
     pub faults: Vec<PlannedFault>,
     /// Resolution and noise of the encoders.
     pub sensors: SensorSetup,
+    /// The log whose joint states the run takes, in place of a simulation.
+    pub recorded: Option<RecordedSetup>,
     /// Warnings about the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     /// Errors that matter for a simulation only: obstacles that overlap the robot at the start, and a run without an end.
@@ -174,10 +178,20 @@ impl RunSetup {
         let trajectory = found.keep(trajectory);
         // Without a plan the duration as written stands in, so that the clock is checked in the same call.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
-        let clock = place.key("simulation");
-        let clock = found.keep(RunClock::new(&scenario.simulation, clock, motions_s, &mut warnings));
+        let recorded = scenario.source.as_ref().and_then(|source| {
+            let settings = (source, &scenario.simulation);
+            RecordedSetup::new(settings, written, &description, &mut found, &mut warnings)
+        });
+        let clock = match &scenario.source {
+            Some(_) => recorded.as_ref().map(|recorded| recorded.clock.clone()),
+            None => {
+                let place = place.key("simulation");
+                found.keep(RunClock::new(&scenario.simulation, place, motions_s, &mut warnings))
+            }
+        };
         warnings.extend(clock.iter().flat_map(|clock| taken_too_late(&scenario, place, clock.duration_s())));
-        found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
+        let step_s = clock.as_ref().map_or(scenario.simulation.step_s, |clock| clock.step_s);
+        found.keep(output::check(&scenario.output, place.key("output"), step_s));
         let actuation = found.keep(Actuation::new(&scenario, place, folder, &description));
         let Surroundings { obstacles, moving, payloads: held } =
             Surroundings::new(&scenario, written, &description, trajectory.as_ref(), &mut found);
@@ -219,6 +233,7 @@ impl RunSetup {
             sensors,
             resistances,
             faults,
+            recorded,
             warnings,
             for_simulation: Vec::new(),
             check_lines,
@@ -246,7 +261,9 @@ impl RunSetup {
             let first = FirstStep { q: start, obstacles, moving: bodies, step_s: clock.step_s };
             self.for_simulation = overlaps(first, &self.description.robot, places);
         }
-        self.for_simulation.extend(self.clock.examine_length().err());
+        if self.recorded.is_none() {
+            self.for_simulation.extend(self.clock.examine_length().err());
+        }
         self
     }
 
@@ -267,6 +284,9 @@ impl RunSetup {
     /// The errors of [`RunSetup::for_simulation`], without consuming the setup.
     pub(crate) fn examine_for_simulation(&self) -> Result<(), Findings> {
         let mut found = self.for_simulation.clone();
+        if self.recorded.is_some() {
+            return if found.is_empty() { Ok(()) } else { Err(found.into()) };
+        }
         found.extend(self.description.check_capability(Capability::Physics).err().into_iter().flatten());
         if found.is_empty() { Ok(()) } else { Err(found.into()) }
     }
@@ -277,6 +297,7 @@ impl RunSetup {
             description: &self.description,
             clock: &self.clock,
             payloads: &self.payloads,
+            poses: self.poses(),
             dynamics: self.declared_dynamics(),
         };
         let running = |(at, check)| match self.check_lines.get(at) {
@@ -284,6 +305,11 @@ impl RunSetup {
             None => RunningCheck::by_default(check, &context),
         };
         self.scenario.check.iter().enumerate().map(running).collect()
+    }
+
+    /// The poses of the log that are compared with those of the model.
+    pub fn poses(&self) -> &[ComparedPoses] {
+        self.recorded.as_ref().map_or(&[], |recorded| &recorded.poses)
     }
 
     /// How each obstacle moves.

@@ -1,5 +1,6 @@
 //! Sources of joint states: a simulation, a log or a live robot.
 
+use congruent_description::RobotQ;
 use congruent_monitors::{ContactForce, JointSample, StepForces};
 use congruent_motion::{ServoResult, SlowedMotion};
 use nalgebra::Isometry3;
@@ -20,6 +21,19 @@ pub enum Advance {
     },
     /// No sample follows.
     End,
+}
+
+/// A pose that a source has of the robot, at its own instant.
+#[derive(Debug, Clone, Copy)]
+pub struct SourcePose<'a> {
+    /// Number of the poses in the setup.
+    pub of: usize,
+    /// Its instant, s.
+    pub time_s: f64,
+    /// The pose of the target in its frame.
+    pub frame_from_target: Isometry3<f64>,
+    /// The joint positions at that instant, rad or m.
+    pub q: &'a RobotQ,
 }
 
 /// A source of joint states: sample after sample, each later than the one before. The time is the source's.
@@ -49,6 +63,16 @@ pub trait JointStateSource {
     /// Whether it is known already that no sample follows. What is judged at the end of a run is judged at this sample; the
     /// end of a source that does not know it before is found by [`Advance::End`], and judges nothing.
     fn is_last(&self) -> bool;
+
+    /// Instants that the source has left out since the sample before, since a joint was not known at them.
+    fn left_out(&self) -> u64 {
+        0
+    }
+
+    /// The next pose that the source has of the robot, up to the present instant; `None` after the last.
+    fn next_pose(&mut self) -> Option<SourcePose<'_>> {
+        None
+    }
 
     /// What only a simulation knows and can do; `None` for states that were recorded or arrive.
     fn simulated(&self) -> Option<&dyn SimulatedRobot> {

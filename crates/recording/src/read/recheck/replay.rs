@@ -53,7 +53,11 @@ fn needs_states_alone(kind: CheckKind) -> bool {
         | CheckKind::Dynamics
         | CheckKind::Effort
         | CheckKind::Invariants
+        | CheckKind::Pose
         | CheckKind::Power
+        | CheckKind::Recording
+        | CheckKind::Step
+        | CheckKind::Velocity
         | CheckKind::Twist => false,
     }
 }

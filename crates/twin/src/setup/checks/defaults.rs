@@ -1,7 +1,10 @@
 //! The checks that a run has by default, if the scenario has no check of that kind.
 
 use congruent_description::{Joint, Robot};
-use congruent_scenario::{Check, CheckKind, EffortCheck, LimitsCheck, Scenario, TrackingCheck};
+use congruent_scenario::{
+    Check, CheckKind, EffortCheck, LimitsCheck, PoseCheck, PoseOrigin, RecordingCheck, Scenario, StepCheck,
+    TrackingCheck, VelocityCheck,
+};
 
 /// Largest error of a turning joint at any instant. The scenarios of this project reach 0.43 deg under stiff servos and
 /// 4.2 deg under soft ones; an arm that falls, or that a setpoint turns by 180 deg in 5 ms, exceeds it at once.
@@ -36,7 +39,23 @@ pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Ve
     let limits = is_limited.then(|| Check::Limits(LimitsCheck::default()));
     let is_driven = scenario.controller.kind.has_actuators();
     let effort = (is_driven && !has(CheckKind::Effort)).then(|| Check::Effort(EffortCheck::default()));
-    tracking.into_iter().chain(limits).chain(effort).collect()
+    let mut checks: Vec<Check> = tracking.into_iter().chain(limits).chain(effort).collect();
+    if let Some(source) = &scenario.source {
+        let has_measured = source.pose.iter().any(|pose| pose.origin == PoseOrigin::Measured);
+        let of_log = [
+            (true, Check::Recording(RecordingCheck::default())),
+            (true, Check::Velocity(VelocityCheck::default())),
+            (!source.pose.is_empty(), Check::Pose(PoseCheck::default())),
+            (has_measured, Check::Step(StepCheck::default())),
+        ];
+        checks.extend(
+            of_log
+                .into_iter()
+                .filter(|(is_wanted, check)| *is_wanted && !has(check.kind()))
+                .map(|(_, check)| check),
+        );
+    }
+    checks
 }
 
 /// Whether a check limits how far the arm may be from its setpoint, on the path, at the end or in its travel.

@@ -108,6 +108,8 @@ fn is_tolerance(check: &Check, keys: &UnitKeys) -> bool {
         | Check::Contact(_)
         | Check::CycleTime(_)
         | Check::Goal(_)
+        | Check::Pose(_)
+        | Check::Step(_)
         | Check::Tracking(_) => true,
         // The others of these keys are margins.
         Check::Limits(_) => keys.keys[0].starts_with("tolerance"),
@@ -117,7 +119,9 @@ fn is_tolerance(check: &Check, keys: &UnitKeys) -> bool {
         | Check::Effort(_)
         | Check::Invariants(_)
         | Check::Power(_)
+        | Check::Recording(_)
         | Check::Twist(_)
+        | Check::Velocity(_)
         | Check::Zone(_) => false,
     }
 }

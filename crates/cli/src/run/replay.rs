@@ -1,0 +1,186 @@
+//! `congruent replay`: a log of the real robot through the checks of a run.
+
+use std::path::{Path, PathBuf};
+
+use congruent::{
+    Headline, NamedBy,
+    agreement::compare::{Agreement, CheckOptions},
+    check_against,
+    description::{RobotDescription, load_robot_with},
+    input::{Diagnostic, FileAccess, Findings},
+    logs::is_log,
+    other_description,
+    replay::{ReplayDraft, ReplayRequest, in_folder, replay_draft, replay_text},
+    results::files::write_whole,
+    scenario::{LogClock, PoseOrigin},
+};
+
+use crate::{
+    ci::CiArguments,
+    codes,
+    failure::{FAILED, Failure, unwritable, worse},
+    input::AccessArguments,
+    invocation,
+    run::arguments::RecordingArguments,
+    terminal::{print::Printer, progress::waiting},
+};
+
+/// Judges a log of the real robot: writes a scenario that takes its joint states and poses, and runs it.
+///
+/// The log is an MCAP, a table in CSV, or a folder that rosbag2 wrote. A robot_description in it is compared with the robot first.
+/// Joints are found by their names; poses by the names of their topics and frames. Poses in frames that the robot does not have
+/// are fitted to the log: then their constant error cannot be seen. The scenario is written beside the results; `congruent run`
+/// runs it again. Exit code 1 if a check fails or the recorded description is another robot.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// A folder with robot.toml, a robot file, a URDF or an MJCF.
+    robot: PathBuf,
+    /// The log: an MCAP, a table in CSV, or a folder that rosbag2 wrote.
+    log: PathBuf,
+    /// Folder for the scenario and for its results.
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+    /// The topic with the measured joint states, if several have the same joints.
+    #[arg(long, value_name = "TOPIC")]
+    joints: Option<String>,
+    /// The topic with the commanded joint states, which the measured ones are compared with.
+    #[arg(long, value_name = "TOPIC")]
+    setpoint: Option<String>,
+    /// The positions of joints that turn are degrees.
+    #[arg(long)]
+    degrees: bool,
+    /// Poses of this topic were measured, by a tracker or a camera. May be given several times.
+    #[arg(long, value_name = "TOPIC")]
+    measured_pose: Vec<String>,
+    /// Poses of this topic were computed by the robot's controller. May be given several times.
+    #[arg(long, value_name = "TOPIC")]
+    controller_pose: Vec<String>,
+    /// Poses of this topic were computed from the joint states by a URDF. May be given several times.
+    #[arg(long, value_name = "TOPIC")]
+    derived_pose: Vec<String>,
+    /// The time of a message: the stamp of its sender, or when the recorder had it. By default the stamp, where there is one.
+    #[arg(long, value_enum)]
+    clock: Option<Clock>,
+    /// Rate of the rows of a table without times, Hz.
+    #[arg(long, value_name = "HZ", value_parser = crate::quantity::rate_hz)]
+    rate_hz: Option<f64>,
+    #[command(flatten)]
+    recording: RecordingArguments,
+    #[command(flatten)]
+    ci: CiArguments,
+    #[command(flatten)]
+    access: AccessArguments,
+}
+
+/// The clock of the messages.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum Clock {
+    /// The stamps of the senders.
+    Stamp,
+    /// The times of the recorder.
+    Log,
+}
+
+impl Arguments {
+    fn request(&self) -> ReplayRequest {
+        let kinds = [
+            (&self.measured_pose, PoseOrigin::Measured),
+            (&self.controller_pose, PoseOrigin::Controller),
+            (&self.derived_pose, PoseOrigin::Derived),
+        ];
+        let poses = kinds
+            .into_iter()
+            .flat_map(|(topics, origin)| topics.iter().map(move |topic| (topic.clone(), origin)));
+        ReplayRequest {
+            clock: self.clock.map(|clock| match clock {
+                Clock::Stamp => LogClock::Stamp,
+                Clock::Log => LogClock::Log,
+            }),
+            rate_hz: self.rate_hz,
+            degrees: self.degrees,
+            joints: self.joints.clone(),
+            setpoint: self.setpoint.clone(),
+            poses: poses.collect(),
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let Arguments { log, out, .. } = arguments;
+    if log.exists() && !is_log(log) {
+        let message = format!("{} is no log", log.display());
+        return Err(Diagnostic::error(codes::run::LOG, message)
+            .with_help("a log is an .mcap, a .csv or .tsv, or the folder of a bag")
+            .into());
+    }
+    let access = arguments.access.access()?;
+    let mut description = load_robot_with(&arguments.robot, &access)?;
+    let draft =
+        waiting(printer, "reading the log", || replay_draft(&description, log, &arguments.request()))?;
+    let recorded = recorded_robot(&mut description, log, &draft, &access);
+    let lines: Vec<String> =
+        recorded.iter().map(|of| of.line.clone()).chain(draft.taken.iter().cloned()).collect();
+    printer.notes(lines.iter().map(String::as_str));
+    let scenario = written(&draft, out)?;
+    let call = super::Arguments::for_replay(
+        scenario,
+        out.clone(),
+        &arguments.recording,
+        &arguments.ci,
+        &arguments.access,
+    );
+    let exit_code = super::run(&call, printer)?;
+    let is_other = recorded.is_some_and(|recorded| recorded.is_other);
+    Ok(if is_other { worse(exit_code, FAILED) } else { exit_code })
+}
+
+/// What the description that was recorded with the joints says of the robot.
+struct RecordedRobot {
+    line: String,
+    is_other: bool,
+}
+
+/// Compares the description in the log with the robot; `None` if there is none, or both cannot be compared.
+fn recorded_robot(
+    description: &mut RobotDescription,
+    log: &Path,
+    draft: &ReplayDraft,
+    access: &FileAccess,
+) -> Option<RecordedRobot> {
+    let topic = &draft.survey.description.as_ref()?.topic;
+    let mut compared = || -> Result<(Headline, bool), String> {
+        let refused = |findings: Findings| findings.into_first().message;
+        let other = other_description(description, log, NamedBy::Caller, access.clone()).map_err(refused)?;
+        let checked = check_against(description, &other, &CheckOptions::default())
+            .map_err(|error| error.to_string())?;
+        Ok((checked.headline(), checked.geometry.verdict == Agreement::Disagree))
+    };
+    Some(match compared() {
+        Ok((headline, is_other)) => RecordedRobot { line: format!("{topic}: {headline}"), is_other },
+        Err(why) => {
+            RecordedRobot { line: format!("{topic}: not compared with the robot: {why}"), is_other: false }
+        }
+    })
+}
+
+/// Writes the scenario into the folder of the results, and returns its path. One that `replay` wrote is replaced.
+fn written(draft: &ReplayDraft, out: &Path) -> Result<PathBuf, Failure> {
+    let command = invocation::command();
+    std::fs::create_dir_all(out).map_err(|error| {
+        let message = format!("cannot create {}: {error}", out.display());
+        Failure::Machine(message)
+    })?;
+    let scenario = in_folder(&draft.scenario, out)?;
+    let path = out.join(format!("{}.toml", scenario.name));
+    let is_ours = |text: &str| text.starts_with("# Written by `congruent replay");
+    let is_other = path.exists() && !std::fs::read_to_string(&path).is_ok_and(|text| is_ours(&text));
+    if is_other {
+        let message = format!("{} exists, and was not written by `congruent replay`", path.display());
+        return Err(Diagnostic::error(codes::output::REFUSED, message)
+            .with_help("give another folder with --out")
+            .into());
+    }
+    let text = replay_text(&scenario, &draft.taken, &command);
+    write_whole(&path, text.as_bytes()).map_err(|error| unwritable(&error, "--out"))?;
+    Ok(path)
+}

@@ -1,0 +1,92 @@
+//! How much of the log could be used: instants at which every joint is known, and the longest time without a sample.
+
+use congruent_input::{Quantity, SiUnit, display::quantity};
+use congruent_scenario::RecordingCheck;
+
+use crate::{
+    CheckContext, Names,
+    monitor::{Monitor, Observed},
+    sample::Sample,
+    verdict::Bound,
+    watch::Watch,
+};
+
+/// Default for the smallest share of instants that are used. Kind: judgement; a log of which a tenth is missing is not one of the
+/// whole motion.
+pub(crate) const USED_SHARE: f64 = 0.9;
+
+pub(crate) struct RecordingMonitor {
+    share: Watch,
+    longest: Watch,
+    samples: u64,
+    left_out: u64,
+    gaps: u64,
+    gap_s: f64,
+    before_s: f64,
+}
+
+impl RecordingMonitor {
+    pub(crate) fn new(check: &RecordingCheck, context: &CheckContext<'_>) -> Self {
+        let watch = |quantity, unit, bound, limit| Watch::new(quantity, unit, bound, limit, context.dof());
+        let used = check.used_share.unwrap_or(USED_SHARE);
+        let longest_s = check.longest_gap_s.unwrap_or(f64::INFINITY);
+        Self {
+            share: watch(Quantity::UsedShare, SiUnit::Ratio, Bound::AtLeast, used),
+            longest: watch(Quantity::LongestGap, SiUnit::Second, Bound::AtMost, longest_s),
+            samples: 0,
+            left_out: 0,
+            gaps: 0,
+            gap_s: 0.0,
+            before_s: f64::NAN,
+        }
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.left_out > 0 {
+            let all = self.samples + self.left_out;
+            notes.push(format!("{} of {all} instants left out: a joint is not known at them", self.left_out));
+        }
+        if self.gaps > 0 {
+            let gaps = if self.gaps == 1 { "gap" } else { "gaps" };
+            let total = quantity(self.gap_s, "s");
+            notes.push(format!("{} {gaps} of {total} in all: nothing is judged in them", self.gaps));
+        }
+        notes
+    }
+}
+
+impl Monitor for RecordingMonitor {
+    fn observe(&mut self, sample: &mut Sample<'_>) {
+        self.samples += 1;
+        self.left_out += sample.left_out;
+        if sample.since_s.is_none() && !self.before_s.is_nan() {
+            let gap_s = sample.time_s - self.before_s;
+            self.gaps += 1;
+            self.gap_s += gap_s;
+            self.longest.observe(gap_s, 0, sample);
+        }
+        self.before_s = sample.time_s;
+        if sample.is_last {
+            #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 samples")]
+            let share = self.samples as f64 / (self.samples + self.left_out) as f64;
+            self.share.observe(share, 0, sample);
+        }
+    }
+
+    fn finish(&self, names: &Names) -> Observed {
+        let name = |_| "the log".to_owned();
+        let longest = Some(&self.longest).filter(|watch| watch.limit().is_finite());
+        let watches = std::iter::once(&self.share).chain(longest);
+        Observed {
+            samples: self.samples,
+            measures: watches.map(|watch| watch.measure(&names.joints, name)).collect(),
+            notes: self.notes(),
+            ..Observed::default()
+        }
+    }
+
+    fn has_failed(&self) -> bool {
+        self.share.is_violated() || self.longest.is_violated()
+    }
+}

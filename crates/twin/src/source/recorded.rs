@@ -1,0 +1,262 @@
+//! A log as a source of joint states: its rows one after another, and its poses at their own instants.
+
+use std::collections::VecDeque;
+
+use congruent_description::{Robot, RobotQ};
+use congruent_logs::{LogStream, StreamEvent, StreamedPose};
+use congruent_monitors::{JointSample, JointStateView, SetpointView};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+
+use super::joint_states::{Advance, JointStateSource, SourceError, SourcePose};
+use crate::{codes::scenario, setup::RecordedSetup};
+
+/// How long rows are kept for poses that come later in the log, s.
+const KEPT_S: f64 = 3.0;
+/// Most rows that are kept: those of 3 s at 4 kHz.
+const MOST_KEPT: usize = 12_000;
+
+/// The joints at one instant of the log.
+#[derive(Debug, Clone)]
+struct RecordedJoints {
+    time_s: f64,
+    q: RobotQ,
+    qd: Vec<f64>,
+    effort: Vec<f64>,
+    setpoint_q: RobotQ,
+    setpoint_qd: Vec<f64>,
+    left_out: u64,
+}
+
+/// A log, instant after instant.
+pub struct RecordedSource<'a> {
+    setup: &'a RecordedSetup,
+    robot: &'a Robot,
+    /// Positions of joints that the log does not have.
+    start: &'a RobotQ,
+    stream: LogStream,
+    /// Joints that some topic has.
+    is_recorded: Vec<bool>,
+    now: RecordedJoints,
+    next: RecordedJoints,
+    has_next: bool,
+    is_gap_told: bool,
+    /// Positions of the last rows, the latest at the end.
+    kept: VecDeque<(f64, RobotQ)>,
+    /// Poses that are later than the rows so far, in the order of their times.
+    waiting: VecDeque<StreamedPose>,
+    pose_q: RobotQ,
+    no_accelerations: Vec<f64>,
+}
+
+impl std::fmt::Debug for RecordedSource<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("RecordedSource").field("time_s", &self.now.time_s).finish_non_exhaustive()
+    }
+}
+
+impl<'a> RecordedSource<'a> {
+    /// The log at its first row.
+    ///
+    /// # Errors
+    /// The log cannot be read, or has no row.
+    pub fn new(setup: &'a RecordedSetup, robot: &'a Robot, start: &'a RobotQ) -> Result<Self, SourceError> {
+        let stream = LogStream::open(&setup.path, &setup.options, setup.selection.clone());
+        let dof = robot.dof();
+        let joints = RecordedJoints {
+            time_s: 0.0,
+            q: start.clone(),
+            qd: vec![f64::NAN; dof],
+            effort: vec![f64::NAN; dof],
+            setpoint_q: start.clone(),
+            setpoint_qd: vec![f64::NAN; dof],
+            left_out: 0,
+        };
+        let measured = setup.selection.joints.iter().filter(|topic| !topic.is_setpoint);
+        let mut is_recorded = vec![false; dof];
+        measured.flat_map(|topic| &topic.joints).for_each(|joint| is_recorded[joint.joint] = true);
+        let mut source = Self {
+            setup,
+            robot,
+            start,
+            stream: stream.map_err(SourceError::new)?,
+            is_recorded,
+            now: joints.clone(),
+            next: joints,
+            has_next: true,
+            is_gap_told: false,
+            kept: VecDeque::new(),
+            waiting: VecDeque::new(),
+            pose_q: start.clone(),
+            no_accelerations: vec![0.0; dof],
+        };
+        source.read()?;
+        if !source.has_next {
+            return Err(SourceError::new(source.nothing()));
+        }
+        source.take_next()?;
+        Ok(source)
+    }
+
+    fn nothing(&self) -> congruent_input::Diagnostic {
+        let counts = self.stream.joint_counts();
+        let message = format!(
+            "{}: no instant has a position of every joint that is taken; {} were left out",
+            self.setup.path.display(),
+            counts.incomplete
+        );
+        congruent_input::Diagnostic::error(scenario::LOGGED_NOTHING, message).with_help(
+            "`congruent describe LOG --robot ROBOT` shows the topics, their times and their joints",
+        )
+    }
+
+    /// Reads on to the next row; poses on the way wait.
+    fn read(&mut self) -> Result<(), SourceError> {
+        loop {
+            match self.stream.next_event().map_err(SourceError::new)? {
+                Some(StreamEvent::Row) => {
+                    self.fill_next();
+                    return Ok(());
+                }
+                Some(StreamEvent::Pose(pose)) => {
+                    let later = self.waiting.iter().rev().take_while(|of| of.time_s > pose.time_s).count();
+                    self.waiting.insert(self.waiting.len() - later, pose);
+                }
+                None => {
+                    self.has_next = false;
+                    return Ok(());
+                }
+            }
+        }
+    }
+
+    fn fill_next(&mut self) {
+        let (row, next) = (self.stream.row(), &mut self.next);
+        (next.time_s, next.left_out) = (row.time_s, row.left_out);
+        next.qd.copy_from_slice(&row.qd);
+        next.effort.copy_from_slice(&row.effort);
+        next.setpoint_qd.copy_from_slice(&row.setpoint_qd);
+        for (q, recorded, start) in
+            [(&mut next.q, &row.q, true), (&mut next.setpoint_q, &row.setpoint_q, false)]
+        {
+            let held = |at: usize| if start { self.start[at] } else { f64::NAN };
+            let known = |at: usize, value: f64| if value.is_nan() { held(at) } else { value };
+            q.iter_mut().enumerate().for_each(|(at, q)| *q = known(at, recorded[at]));
+        }
+        // A follower that the log does not have is where its master puts it.
+        self.robot.apply_mimic(&mut next.q);
+        let measured = next.q.iter_mut().zip(&row.q).zip(&self.is_recorded);
+        measured
+            .filter(|((_, recorded), is_recorded)| **is_recorded && !recorded.is_nan())
+            .for_each(|((q, recorded), _)| *q = *recorded);
+    }
+
+    /// Goes on to the row that was read.
+    fn take_next(&mut self) -> Result<(), SourceError> {
+        std::mem::swap(&mut self.now, &mut self.next);
+        self.is_gap_told = false;
+        if !self.waits_for_poses() {
+            return self.read();
+        }
+        let oldest_s = self.now.time_s - KEPT_S;
+        let is_old = |(time_s, _): &(f64, RobotQ)| *time_s < oldest_s;
+        let reused = if self.kept.front().is_some_and(is_old) || self.kept.len() == MOST_KEPT {
+            self.kept.pop_front()
+        } else {
+            None
+        };
+        let mut q = reused.map_or_else(|| self.now.q.clone(), |(_, q)| q);
+        q.copy_from_slice(&self.now.q);
+        self.kept.push_back((self.now.time_s, q));
+        self.read()
+    }
+
+    fn waits_for_poses(&self) -> bool {
+        !self.setup.poses.is_empty()
+    }
+
+    /// The positions at an instant between two rows that are kept; `None` if it is in a gap, or before them.
+    fn interpolate(&mut self, time_s: f64) -> Option<()> {
+        let after = self.kept.partition_point(|(at_s, _)| *at_s < time_s);
+        let (after_s, after_q) = self.kept.get(after)?;
+        #[expect(clippy::float_cmp, reason = "the time of one row")]
+        if *after_s == time_s {
+            self.pose_q.copy_from_slice(after_q);
+            return Some(());
+        }
+        let (before_s, before_q) = self.kept.get(after.checked_sub(1)?)?;
+        let gap_s = after_s - before_s;
+        if gap_s > self.setup.selection.maximum_gap_s {
+            return None;
+        }
+        let share = (time_s - before_s) / gap_s;
+        let pairs = before_q.iter().zip(after_q.iter());
+        self.pose_q
+            .iter_mut()
+            .zip(pairs)
+            .for_each(|(q, (before, after))| *q = before + share * (after - before));
+        Some(())
+    }
+}
+
+impl JointStateSource for RecordedSource<'_> {
+    fn start_s(&self) -> f64 {
+        self.now.time_s
+    }
+
+    fn joints(&self) -> JointSample<'_> {
+        let RecordedJoints { q, qd, effort, setpoint_q, setpoint_qd, .. } = &self.now;
+        let known = |values: &'_ Vec<f64>| values.iter().any(|value| !value.is_nan());
+        let has_setpoint =
+            setpoint_q.iter().zip(&self.is_recorded).all(|(q, is_recorded)| !is_recorded || !q.is_nan())
+                && setpoint_q.iter().any(|q| !q.is_nan());
+        let setpoint = has_setpoint.then_some(SetpointView {
+            q: setpoint_q,
+            qd: setpoint_qd,
+            qdd: &self.no_accelerations,
+            effort: &[],
+        });
+        let (qd, effort) =
+            (if known(qd) { &qd[..] } else { &[] }, if known(effort) { &effort[..] } else { &[] });
+        JointSample { truth: None, measured: JointStateView { q, qd, effort }, setpoint }
+    }
+
+    fn left_out(&self) -> u64 {
+        self.now.left_out
+    }
+
+    fn advance(&mut self, _wanted_s: f64) -> Result<Advance, SourceError> {
+        if !self.has_next {
+            return Ok(Advance::End);
+        }
+        let (from_s, to_s) = (self.now.time_s, self.next.time_s);
+        if to_s - from_s > self.setup.selection.maximum_gap_s && !self.is_gap_told {
+            self.is_gap_told = true;
+            return Ok(Advance::Gap { from_s, to_s });
+        }
+        self.take_next()?;
+        Ok(Advance::At(to_s))
+    }
+
+    fn is_last(&self) -> bool {
+        !self.has_next
+    }
+
+    fn next_pose(&mut self) -> Option<SourcePose<'_>> {
+        loop {
+            let pose = *self.waiting.front().filter(|pose| pose.time_s <= self.now.time_s)?;
+            self.waiting.pop_front();
+            if self.interpolate(pose.time_s).is_none() {
+                continue;
+            }
+            let [x, y, z] = pose.target_in_frame_m;
+            let [w, i, j, k] = pose.frame_from_target_wxyz;
+            let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k));
+            return Some(SourcePose {
+                of: pose.selection,
+                time_s: pose.time_s,
+                frame_from_target: Isometry3::from_parts(Translation3::new(x, y, z), rotation),
+                q: &self.pose_q,
+            });
+        }
+    }
+}
