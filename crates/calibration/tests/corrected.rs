@@ -123,8 +123,8 @@ fn is_exact(nominal: &RobotDescription, report: &CalibrationReport, corrected: &
         let expected = estimated.pose(&q);
         worst = worst.larger(PoseError::between(&by_tree(description, &q), &expected));
         let in_chain = q.chain_positions(&estimated.coordinates);
-        worst = worst
-            .larger(PoseError::between(&corrected.chain.base_from_tip(&in_chain).unwrap(), &expected));
+        worst =
+            worst.larger(PoseError::between(&corrected.chain.base_from_tip(&in_chain).unwrap(), &expected));
         if let Some(table) = &description.dh {
             let tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
             let dh = DhChain::new(table, &description.robot).base_from_tcp(&q, &tcp).unwrap();
@@ -200,8 +200,7 @@ fn a_urdf_without_a_table_is_corrected_by_its_axes() {
 #[test]
 fn a_zero_turns_the_link_of_its_joint_and_what_hangs_on_it() {
     let nominal = robot("ur5e");
-    let truth =
-        Truth::new(&nominal, |name| if name == "wrist_3_joint.zero" { 0.01 } else { 0.0 });
+    let truth = Truth::new(&nominal, |name| if name == "wrist_3_joint.zero" { 0.01 } else { 0.0 });
     let (_, corrected) = calibrated(&nominal, &truth, "zero-offsets");
     let q = RobotQ::zeros(6);
     let home = |description: &RobotDescription, link: &str| {

@@ -59,10 +59,12 @@ pub fn corrected_robot(
     let nominal = NominalChain::new(description)?;
     let parameters = free::parameters(&nominal, &options.free, &options.hold)?;
     let chain = CorrectedChain::new(nominal.chain.clone(), parameters);
-    let values: Vec<f64> =
-        chain.parameters().iter().map(|each| values.get(each.name.as_str()).copied().unwrap_or(0.0)).collect();
-    let corrections: Vec<table::Valued<'_>> =
-        chain.parameters().iter().zip(values.iter().copied()).collect();
+    let values: Vec<f64> = chain
+        .parameters()
+        .iter()
+        .map(|each| values.get(each.name.as_str()).copied().unwrap_or(0.0))
+        .collect();
+    let corrections: Vec<table::Valued<'_>> = chain.parameters().iter().zip(values.iter().copied()).collect();
     let moved = Displacements::new(&chain, &values);
     let tree = corrected_tree(description, &nominal, &moved)?;
     let base_name = &description.robot.link(description.base).name;
@@ -79,7 +81,11 @@ pub fn corrected_robot(
     let beyond_the_table = nominal.table.as_ref().map(|_| table::beyond_the_table(&corrections));
     let mut corrected = RobotDescription {
         dh: None,
-        tip_from_tcp: if has_other_tool { Some(tip_from_tcp.to_isometry()) } else { description.tip_from_tcp },
+        tip_from_tcp: if has_other_tool {
+            Some(tip_from_tcp.to_isometry())
+        } else {
+            description.tip_from_tcp
+        },
         ..in_robot(description, robot, &base)
     };
     if let (Some((nominal, _)), Some([])) = (&nominal.table, beyond_the_table.as_deref()) {

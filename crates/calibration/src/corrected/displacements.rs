@@ -13,15 +13,15 @@ use crate::estimation::{CorrectedChain, CorrectionEntry, CorrectionParameter};
 /// | `slots` | n + 1 | of each slot all of the arm, `zeros` among them: slot 0 is before the first joint, k behind joint k |
 /// | `tool` | SE(3) | behind everything |
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Displacements {
-    pub(super) base: Pose,
-    pub(super) zeros: Vec<Pose>,
-    pub(super) slots: Vec<Pose>,
-    pub(super) tool: Pose,
+pub(crate) struct Displacements {
+    pub(crate) base: Pose,
+    pub(crate) zeros: Vec<Pose>,
+    pub(crate) slots: Vec<Pose>,
+    pub(crate) tool: Pose,
 }
 
 impl Displacements {
-    pub(super) fn new(chain: &CorrectedChain, values: &[f64]) -> Self {
+    pub(crate) fn new(chain: &CorrectedChain, values: &[f64]) -> Self {
         let joints = chain.nominal().joint_count();
         let mut all = Self {
             base: Pose::identity(),
@@ -47,7 +47,7 @@ impl Displacements {
     /// The corrected chain: screws at zero in the frame in which the rows were measured.
     ///
     /// Source: Lynch & Park, *Modern Robotics* (2017), eq. 4.14 with `E exp([S] q) E^-1 = exp([Ad(E) S] q)`.
-    pub(super) fn screws(&self, nominal: &ScrewChain) -> ScrewChain {
+    pub(crate) fn screws(&self, nominal: &ScrewChain) -> ScrewChain {
         let mut before = self.base * self.slots[0];
         let mut twists_in_base = Vec::with_capacity(nominal.joint_count());
         for (twist, slot) in nominal.twists_in_base.iter().zip(&self.slots[1..]) {

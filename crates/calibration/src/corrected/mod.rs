@@ -10,3 +10,4 @@ mod table;
 mod tree;
 
 pub use corrected_robot::{CorrectedRobot, corrected_robot};
+pub(crate) use displacements::Displacements;

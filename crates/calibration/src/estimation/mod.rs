@@ -29,7 +29,7 @@ pub use plan::{Suggestion, most_informative};
 pub use problem::{Measurement, Noise, PoseResidual, Problem, configurations};
 pub use profile::{CostPoint, cost_curve};
 pub use robust::{Loss, RobustFit, fit_robustly};
-pub use validate::{FOLDS_UNSETTLED, FoldOptions, HeldOut, MOST_FOLDS, held_out};
+pub use validate::{FEWEST_CONFIGURATIONS, FOLDS_UNSETTLED, FoldOptions, HeldOut, MOST_FOLDS, held_out};
 
 #[cfg(doc)]
 use congruent_kinematics::ScrewChain;

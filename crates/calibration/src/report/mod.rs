@@ -2,13 +2,17 @@
 
 pub(crate) mod assemble;
 mod calibration_report;
+mod frames;
 mod interpretation;
 pub mod plot;
 mod residual_size;
 mod statements;
+mod written_robot;
 
 pub use calibration_report::{
     AlignedFrames, CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry, CostCurve,
     EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason, Recommendation,
     ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
 };
+pub use frames::EstimatedFrames;
+pub use written_robot::{WrittenModel, WrittenRobot};
