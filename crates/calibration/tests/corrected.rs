@@ -144,7 +144,7 @@ fn entries_of_a_table_stay_entries_of_a_table() {
         let truth = Truth::new(&nominal, some(&[".theta", ".d", ".a", ".alpha"]));
         let (report, corrected) = calibrated(&nominal, &truth, "dh");
         is_exact(&nominal, &report, &corrected);
-        let has_beta = report.parameters.iter().any(|each| each.name.ends_with(".beta"));
+        let has_beta = report.parameters.iter().any(|each| each.name.split('.').nth(1) == Some("beta"));
         assert_eq!(corrected.description.dh.is_some(), !has_beta, "{name}");
     }
 }
@@ -183,6 +183,31 @@ fn base_and_tool_have_places_of_their_own() {
     assert_eq!(description.robot.root(), nominal.robot.root());
     assert_eq!(description.robot.link(description.tip).name, "panda_link8");
     assert_eq!(description.robot.links().len(), nominal.robot.links().len() + 1);
+}
+
+#[test]
+fn after_an_alignment_the_frames_are_estimated_and_the_arm_stays_nominal() {
+    let nominal = robot("ur5e");
+    let frames = |name: &str| match name {
+        "base.x" => 3.0,
+        "base.yaw" => 1.0,
+        "tool.z" => 0.2,
+        "tool.yaw" => 0.5,
+        _ => 0.0,
+    };
+    let truth = Truth::new(&nominal, frames);
+    let (report, corrected) = calibrated(&nominal, &truth, "all");
+    let fixed: Vec<&str> = report.fixed.iter().map(|each| each.name.as_str()).collect();
+    // The first and the last zero have the effect of a yaw of base and tool.
+    for name in ["shoulder_pan_joint.theta", "wrist_3_joint.theta"] {
+        assert!(fixed.contains(&name), "{fixed:?}");
+    }
+    assert!(fixed.iter().all(|name| !name.starts_with("base.") && !name.starts_with("tool.")), "{fixed:?}");
+    assert!(report.fixed.iter().all(|each| each.held_at == 0.0), "{:?}", report.fixed);
+    let base = report.frames.as_ref().unwrap().measured_from_base.unwrap();
+    let yaw_rad = base.rpy_rad()[2];
+    assert!((base.translation_m[0] - 3.0).abs() < 1e-9 && (yaw_rad - 1.0).abs() < 1e-9, "{base:?}");
+    is_exact(&nominal, &report, &corrected);
 }
 
 #[test]

@@ -8,14 +8,13 @@ use congruent_kinematics::{KinematicsError, Pose, PoseError, ScrewChain, SerialD
 use nalgebra::Isometry3;
 
 use super::{
-    displacements::Displacements,
     table,
     tree::{corrected_tree, is_unchanged, with_measuring_frame},
 };
 use crate::{
     chain::NominalChain,
     codes,
-    estimation::CorrectedChain,
+    estimation::{CorrectedChain, Displacements},
     free,
     options::CalibrationOptions,
     report::{CalibrationReport, Recommendation},

@@ -1,7 +1,8 @@
 //! The frame of a joint, moved as little as possible so that its axis is a given screw.
 
+use congruent_description::Joint;
 use congruent_kinematics::{Pose, Twist};
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion};
 
 /// How far the direction of a twist may be from length 1. Kind: rounding of the identification of screws, worst seen 1e-14; a joint
 /// that moves less than its variable says is off by far more.
@@ -12,16 +13,12 @@ const UNIT: f64 = 1e-9;
 ///
 /// A URDF that is written with few digits is off the screws of its table by their rounding, which would remain as an error of the
 /// corrected robot.
-pub(super) fn joint_on_screw(
-    base_from_joint: &Pose,
-    axis_in_joint: &Vector3<f64>,
-    is_angular: bool,
-    twist_in_base: &Twist,
-) -> Option<Pose> {
+pub(super) fn joint_on_screw(base_from_joint: &Pose, joint: &Joint, twist_in_base: &Twist) -> Option<Pose> {
+    let is_angular = joint.kind.is_angular();
     let written = if is_angular { twist_in_base.angular } else { twist_in_base.linear };
     let is_unit = (written.norm() - 1.0).abs() <= UNIT;
     let is_of_its_kind = is_angular || twist_in_base.angular.norm() <= UNIT;
-    let axis = base_from_joint.rotation * axis_in_joint;
+    let axis = base_from_joint.rotation * joint.axis_in_joint.into_inner();
     let along = axis.dot(&written);
     if !(is_unit && is_of_its_kind && along > 0.0) {
         return None;
@@ -42,12 +39,18 @@ pub(super) fn joint_on_screw(
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Matrix3;
+    use congruent_description::{JointKind, JointParts};
+    use nalgebra::{Isometry3, Matrix3, Vector3};
 
     use super::*;
 
     /// Rounding of a few products within 1 m, m and rad.
     const ROUNDING: f64 = 1e-15;
+
+    /// A joint about or along the z axis of its frame.
+    fn joint(kind: JointKind) -> Joint {
+        JointParts::new("joint", kind, "link", "next", Isometry3::identity()).joint
+    }
 
     #[test]
     fn an_axis_that_is_off_by_little_comes_to_lie_on_the_screw() {
@@ -56,7 +59,7 @@ mod tests {
         let base_from_joint = Twist { angular: Vector3::x(), linear: Vector3::zeros() }.exp(tilt)
             * Pose::from_parts(Matrix3::identity(), Vector3::new(0.3, 1e-4, 0.7));
         let screw = Twist::turn(Vector3::z(), &Vector3::new(0.3, 0.0, 0.0));
-        let placed = joint_on_screw(&base_from_joint, &Vector3::z(), true, &screw).unwrap();
+        let placed = joint_on_screw(&base_from_joint, &joint(JointKind::Revolute), &screw).unwrap();
         let axis = placed.rotation * Vector3::z();
         assert!((axis - Vector3::z()).norm() < ROUNDING, "{axis}");
         let moment = -axis.cross(&placed.translation);
@@ -68,13 +71,12 @@ mod tests {
     #[test]
     fn a_joint_cannot_move_the_other_way_or_less_than_its_variable() {
         let here = Pose::identity();
-        let placed =
-            |twist: Twist, is_angular| joint_on_screw(&here, &Vector3::z(), is_angular, &twist).is_some();
+        let placed = |twist: Twist, kind| joint_on_screw(&here, &joint(kind), &twist).is_some();
         let turn = |by: f64| Twist { angular: by * Vector3::z(), linear: Vector3::zeros() };
-        assert!(placed(turn(1.0), true));
-        assert!(!placed(turn(-1.0), true));
-        assert!(!placed(turn(0.5), true));
-        assert!(!placed(turn(1.0), false));
-        assert!(placed(Twist::shift(Vector3::z()), false));
+        assert!(placed(turn(1.0), JointKind::Revolute));
+        assert!(!placed(turn(-1.0), JointKind::Revolute));
+        assert!(!placed(turn(0.5), JointKind::Continuous));
+        assert!(!placed(turn(1.0), JointKind::Prismatic));
+        assert!(placed(Twist::shift(Vector3::z()), JointKind::Prismatic));
     }
 }

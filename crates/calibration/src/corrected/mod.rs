@@ -4,10 +4,8 @@
 //! `S_k' = Ad(E_0 ... E_{k-1}) S_k` and `M' = E_0 ... E_n M`. Nothing is approximated here.
 
 mod corrected_robot;
-mod displacements;
 mod joint_on_screw;
 mod table;
 mod tree;
 
 pub use corrected_robot::{CorrectedRobot, corrected_robot};
-pub(crate) use displacements::Displacements;

@@ -20,6 +20,7 @@ pub(super) fn beyond_the_table(corrections: &[Valued<'_>]) -> Vec<String> {
 /// The table with its entries corrected; base and tool are no part of its rows.
 pub(super) fn corrected(table: &DhTable, corrections: &[Valued<'_>]) -> DhTable {
     let mut corrected = table.clone();
+    corrected.source = table.source.as_ref().map(|source| format!("{source}; corrected by calibration"));
     for (parameter, value) in corrections {
         let Some(row) = parameter.joint.map(|joint| &mut corrected.rows[joint]) else { continue };
         let entry = match (parameter.entry, row.kind) {

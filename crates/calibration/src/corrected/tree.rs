@@ -7,8 +7,8 @@ use congruent_input::Diagnostic;
 use congruent_kinematics::{Pose, ScrewTree};
 use nalgebra::Isometry3;
 
-use super::{displacements::Displacements, joint_on_screw::joint_on_screw};
-use crate::{chain::NominalChain, codes};
+use super::joint_on_screw::joint_on_screw;
+use crate::{chain::NominalChain, codes, estimation::Displacements};
 
 /// A pose that is nearer to the written one is that one: the file then keeps its digits. Kind: rounding of a dozen products within
 /// 2 m, m and rad; `check` compares with 1e-12.
@@ -53,9 +53,9 @@ pub(super) fn corrected_tree(
             continue;
         };
         let base_from_joint = base_from_root * *homes.home(joint.child);
-        let (axis, twist) = (&joint.axis_in_joint, &nominal.chain.twists_in_base[at]);
-        let placed = joint_on_screw(&base_from_joint, axis, joint.kind.is_angular(), twist)
-            .ok_or_else(|| other_motion(&joint.name))?;
+        let twist = &nominal.chain.twists_in_base[at];
+        let placed =
+            joint_on_screw(&base_from_joint, joint, twist).ok_or_else(|| other_motion(&joint.name))?;
         // The zero commutes with the joint: before it, the link of the joint turns with it.
         let corrected = before * moved.zeros[at] * placed;
         origins.insert(index, here.inverse() * corrected);
@@ -95,7 +95,7 @@ fn with_origins(robot: &Robot, origins: &BTreeMap<JointIndex, Pose>) -> Robot {
     })
 }
 
-/// Whether a pose is the written one but for rounding.
+/// Whether a pose is the written one up to rounding.
 pub(super) fn is_unchanged(pose: &Pose, written: &Isometry3<f64>) -> bool {
     let written = Pose::from(*written);
     pose.distance_m(&written) < UNCHANGED && pose.angle_rad(&written) < UNCHANGED

@@ -7,7 +7,7 @@ use congruent_input::Finding;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{frames::EstimatedFrames, written_robot::WrittenRobot};
+use super::{calibrated_files::CalibratedFiles, frames::EstimatedFrames};
 use crate::estimation::{Loss, ParameterUnit};
 
 /// The answer of `congruent calibrate`. Metres and radians throughout.
@@ -74,7 +74,7 @@ pub struct CalibrationReport {
     pub next: Vec<SuggestedConfiguration>,
     /// The files of the calibrated robot; left out if none were written.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub written: Option<WrittenRobot>,
+    pub written: Option<CalibratedFiles>,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,

@@ -4,7 +4,7 @@ use congruent_kinematics::{Pose, ReportedPose};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::{computed::Computed, corrected::Displacements};
+use crate::{computed::Computed, estimation::Displacements};
 
 /// Base and tool with the recommended estimate. The other corrections are right together with these.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

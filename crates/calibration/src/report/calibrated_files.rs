@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// The files of a calibrated robot, and where the corrections are in them.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct WrittenRobot {
+pub struct CalibratedFiles {
     /// The robot file, as it was named.
     pub robot_file: String,
     /// The URDF, as it was named.

@@ -2,7 +2,10 @@
 
 use congruent_kinematics::{Pose, ScrewChain};
 
-use crate::estimation::{CorrectedChain, CorrectionEntry, CorrectionParameter};
+use super::{
+    corrected_chain::CorrectedChain,
+    correction_parameter::{CorrectionEntry, CorrectionParameter},
+};
 
 /// What the corrections do to the chain, in link `base` at zero.
 ///
