@@ -3,3 +3,4 @@
 mod estimates;
 mod input;
 mod verdicts;
+mod written_robot;

@@ -40,6 +40,10 @@ congruent_input::codes! {
             "--free names neither a group of corrections nor a single correction. The help has the most similar name and the known ones.\n    wrong: --free zero-offset\n    right: --free zero-offsets";
         NEXT = "CGR-COMMAND-024", "calibrate::next",
             "More configurations were requested than there are candidates to choose from. Ask for fewer; the help names the number of candidates.\n    wrong: --next 100000\n    right: --next 10";
+        OTHER_MOTION = "CGR-COMMAND-091", "calibrate::other_motion",
+            "A calibrated robot is to be written, and a joint of the URDF turns or slides in another direction than the table says, or less than its variable. No origin of the joint makes the two the same. Correct the sign or the kind of the row first.\n    wrong: sign = -1 for a joint that turns as its variable says\n    right: sign = 1";
+        UNPROVED = "CGR-COMMAND-092", "calibrate::unproved",
+            "The files of a calibrated robot were read again, and the robot in them is not the calibrated one, so they were removed. This is a fault of Congruent: please report it with the robot and the measurements.\n    congruent calibrate robots/ur5e measured.csv --format json";
     }
     measured_check {
         TOLERANCE = "CGR-COMMAND-081", "measured_check::tolerance",

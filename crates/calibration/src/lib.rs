@@ -2,12 +2,13 @@
 //! measurements do not identify.
 //!
 //! [`measurements`] reads files, [`estimation`] fits, [`report`] evaluates the estimates and describes them in sentences.
-//! [`check_measured`] compares without fitting the arm.
+//! [`corrected_robot`] is the robot with the recommended corrections, [`check_measured`] compares without fitting the arm.
 
 mod calibrate;
 mod chain;
 pub mod codes;
 mod computed;
+mod corrected;
 pub mod estimation;
 mod free;
 mod measured_check;
@@ -16,6 +17,7 @@ mod options;
 pub mod report;
 
 pub use calibrate::{calibrate, needed_coordinates};
+pub use corrected::{CorrectedRobot, corrected_robot};
 pub use estimation::{Loss, Noise};
 pub use free::GROUPS;
 pub use measured_check::{

@@ -12,8 +12,8 @@ use crate::{
     codes,
     computed::measurement,
     estimation::{
-        CorrectedChain, CorrectionEntry, Loss, Measurement, ParameterUnit, PoseResidual, Problem, align,
-        fit_robustly, fit_with_estimated_noise, identify,
+        CorrectedChain, Loss, Measurement, ParameterUnit, PoseResidual, Problem, align, fit_robustly,
+        fit_with_estimated_noise, identify,
     },
     free,
     measurements::MeasuredRow,
@@ -191,8 +191,7 @@ fn of_frames(
 ) -> Result<CorrectedChain, Diagnostic> {
     let parameters =
         if options.free.is_empty() { Vec::new() } else { free::parameters(nominal, &options.free, &[])? };
-    let is_of_frame = |entry: CorrectionEntry| matches!(entry, CorrectionEntry::Base | CorrectionEntry::Tool);
-    if let Some(of_arm) = parameters.iter().find(|parameter| !is_of_frame(parameter.entry)) {
+    if let Some(of_arm) = parameters.iter().find(|parameter| !parameter.entry.is_of_frame()) {
         let message = format!("--free {} would fit the arm, which is to be compared", of_arm.name);
         return Err(Diagnostic::error(codes::measured_check::ARM, message)
             .with_help("free base and tool alone; `congruent calibrate` fits the arm to the measurements"));

@@ -2,7 +2,10 @@
 
 use std::fmt::Write;
 
-use super::layout::{column_width, wrapped};
+use super::{
+    calibrated_robot::{frames_text, written_text},
+    layout::{column_width, wrapped},
+};
 use congruent_calibration::{
     estimation::ParameterUnit,
     report::{CalibrationReport, FitSummary, Recommendation, ResidualSummary},
@@ -24,10 +27,12 @@ pub fn calibration_text(report: &CalibrationReport, robot: &Robot) -> String {
         let _ = writeln!(text, "  {statement}");
     }
     estimates(&mut text, report);
+    frames_text(&mut text, report);
     fixed(&mut text, report);
     fits(&mut text, report);
     outliers(&mut text, report);
     next(&mut text, report, robot);
+    written_text(&mut text, report);
     text
 }
 

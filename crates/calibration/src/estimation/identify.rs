@@ -40,7 +40,7 @@ pub struct FixedParameter {
 }
 
 /// Admits the corrections one after another, the most physical first ([`CorrectionEntry`]'s order, then base to
-/// tip), and fixes each one that would make the smallest singular value smaller than
+/// tip; after an alignment base and tool before the arm), and fixes each one that would make the smallest singular value smaller than
 /// `threshold` times the largest of all.
 ///
 /// It is decided at the chain's start, so that it depends on the measured configurations and not on the measured poses, except by
@@ -53,8 +53,11 @@ pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
     let singular_values = singular_values(&information);
     let largest = singular_values.first().copied().unwrap_or(0.0);
     let mut order: Vec<usize> = (0..parameters.len()).collect();
+    // About frames that lie elsewhere, a correction of the arm that has the effect of a frame would be a value to write that is right
+    // only together with that frame: the frame takes it.
+    let have_moved = problem.chain.start().iter().any(|value| *value != 0.0);
     // A stable sort: within one kind of entry the order stays base to tip.
-    order.sort_by_key(|&at| parameters[at].entry);
+    order.sort_by_key(|&at| (have_moved && !parameters[at].entry.is_of_frame(), parameters[at].entry));
     let (mut kept, mut fixed, mut kept_ratio) = (Vec::new(), Vec::new(), 1.0);
     // Greedy, because the result must be explainable: of two corrections that cannot be distinguished the more
     // physical one is estimated, whatever the singular vectors are.

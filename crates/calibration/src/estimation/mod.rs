@@ -21,6 +21,7 @@ mod validate;
 pub use align::align;
 pub use estimate::{CalibrationFit, fit, fit_with_estimated_noise};
 pub use identify::{FixedParameter, Identification, identify};
+pub(crate) use model::Displacements;
 pub use model::{
     CorrectedChain, CorrectionEntry, CorrectionParameter, ParameterUnit, base_pose, dh_entries, joint_axes,
     tool_pose, zero_offsets,
@@ -29,7 +30,7 @@ pub use plan::{Suggestion, most_informative};
 pub use problem::{Measurement, Noise, PoseResidual, Problem, configurations};
 pub use profile::{CostPoint, cost_curve};
 pub use robust::{Loss, RobustFit, fit_robustly};
-pub use validate::{FOLDS_UNSETTLED, FoldOptions, HeldOut, MOST_FOLDS, held_out};
+pub use validate::{FEWEST_CONFIGURATIONS, FOLDS_UNSETTLED, FoldOptions, HeldOut, MOST_FOLDS, held_out};
 
 #[cfg(doc)]
 use congruent_kinematics::ScrewChain;

@@ -13,6 +13,10 @@ pub const MOST_FOLDS: usize = 10;
 /// Folds for an estimate that has not converged on all rows: enough to say that it explains none of the others.
 pub const FOLDS_UNSETTLED: usize = 2;
 
+/// Fewest configurations of which some can be held out. Kind: judgement: without one of two or three, the others determine other
+/// corrections than all together, so what they predict says nothing about the estimate.
+pub const FEWEST_CONFIGURATIONS: usize = 4;
+
 /// How rows are held out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FoldOptions {
@@ -39,8 +43,8 @@ pub struct HeldOut {
 /// modulo the number of folds, so the result is deterministic. Rows that repeat a configuration are in its fold: otherwise the
 /// estimate would have used that configuration.
 ///
-/// `chain` starts at nominal. `estimate` gives the corrections from a problem and the corrections that it may estimate. `None` for fewer than two
-/// configurations.
+/// `chain` starts at nominal. `estimate` gives the corrections from a problem and the corrections that it may estimate. `None` for fewer than
+/// [`FEWEST_CONFIGURATIONS`].
 pub fn held_out(
     chain: &CorrectedChain,
     measurements: &[Measurement],
@@ -49,7 +53,7 @@ pub fn held_out(
 ) -> Option<HeldOut> {
     let configuration_of = configurations(measurements);
     let count = configuration_of.iter().max().map_or(0, |last| last + 1);
-    if count < 2 {
+    if count < FEWEST_CONFIGURATIONS {
         return None;
     }
     let folds = count.min(most);

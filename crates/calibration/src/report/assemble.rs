@@ -13,6 +13,7 @@ use super::{
         Recommendation, ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual,
         SuggestedConfiguration,
     },
+    frames::frames,
     interpretation::{self, Misfit},
     residual_size::{LARGE_CORRECTION, ReachScale, ResidualSize},
     statements,
@@ -21,7 +22,7 @@ use crate::{
     computed::Computed,
     estimation::{
         CalibrationFit, CorrectionEntry, CorrectionParameter, FixedParameter, Measurement, Noise,
-        ParameterUnit, PoseResidual, Problem, Suggestion, cost_curve,
+        ParameterUnit, PoseResidual, Problem, Suggestion, configurations, cost_curve,
     },
     measurements::MeasuredRow,
 };
@@ -61,6 +62,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         model: if computed.nominal.table.is_some() { CalibratedModel::Dh } else { CalibratedModel::Urdf },
         measured_frame: measured_frame.to_owned(),
         rows: computed.rows.len(),
+        configurations: configurations(&computed.measurements).iter().max().map_or(0, |last| last + 1),
         components: computed.measurements.iter().map(Measurement::component_count).sum(),
         redundancy: computed.redundancy,
         verdict,
@@ -69,6 +71,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         statements: Vec::new(),
         parameters: estimates(computed),
         aligned: aligned(computed),
+        frames: frames(computed),
         fixed: computed.identification.fixed.iter().map(|each| fixed(computed, each)).collect(),
         identifiability: Identifiability {
             threshold: computed.options.threshold,
@@ -85,6 +88,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         covariance: rows_of(&computed.least_squares.covariance),
         cost_curve: curve(computed),
         next: next(computed),
+        written: None,
         warnings: computed.description.warnings.iter().map(Finding::from).collect(),
     };
     report.statements = statements::statements(&report, largest(computed, &report.parameters));

@@ -7,6 +7,7 @@ use congruent_input::Finding;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::{calibrated_files::CalibratedFiles, frames::EstimatedFrames};
 use crate::estimation::{Loss, ParameterUnit};
 
 /// The answer of `congruent calibrate`. Metres and radians throughout.
@@ -22,6 +23,8 @@ pub struct CalibrationReport {
     pub measured_frame: String,
     /// Number of measured rows.
     pub rows: usize,
+    /// Number of different configurations among them.
+    pub configurations: usize,
     /// Number of measured components.
     pub components: usize,
     /// Degrees of freedom to verify the corrections by: measured components on which an estimated correction
@@ -41,6 +44,9 @@ pub struct CalibrationReport {
     /// Base and tool as they were aligned before the estimate, which starts there; left out if it starts at nominal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub aligned: Option<AlignedFrames>,
+    /// Base and tool with the recommended estimate; left out if neither is displaced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames: Option<EstimatedFrames>,
     /// The corrections that are fixed since the measurements do not identify them: at nominal, or where they were aligned.
     pub fixed: Vec<ReportedFixedParameter>,
     /// The singular values by which corrections are identified or fixed.
@@ -53,7 +59,7 @@ pub struct CalibrationReport {
     pub robust: FitSummary,
     /// The loss of the robust estimate.
     pub loss: Loss,
-    /// Residuals of held-out rows with the recommended estimate; `null` for a single configuration.
+    /// Residuals of held-out rows with the recommended estimate; `null` for fewer than four configurations.
     pub held_out: Option<HeldOutSummary>,
     /// Outliers: rows that the recommended estimate does not fit.
     pub outliers: Vec<RowResidual>,
@@ -66,6 +72,9 @@ pub struct CalibrationReport {
     pub cost_curve: Option<CostCurve>,
     /// The most informative configurations to measure next, the best first.
     pub next: Vec<SuggestedConfiguration>,
+    /// The files of the calibrated robot; left out if none were written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written: Option<CalibratedFiles>,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
@@ -114,7 +123,7 @@ pub enum CalibrationVerdict {
     /// The corrections explain the measurements only with a length error above a tenth of the reach, too large for an assembly
     /// error; base and tool may be anywhere.
     TooLarge,
-    /// There is no redundancy, or all rows are at one configuration: the estimate cannot be verified.
+    /// There is no redundancy, or there are too few configurations to hold some out: the estimate cannot be verified.
     Unverifiable,
     /// No free correction can be identified.
     NothingIdentified,

@@ -1,14 +1,18 @@
 //! The report of a calibration: estimates, what is fixed, residuals, suggested measurements, sentences, plot.
 
 pub(crate) mod assemble;
+mod calibrated_files;
 mod calibration_report;
+mod frames;
 mod interpretation;
 pub mod plot;
 mod residual_size;
 mod statements;
 
+pub use calibrated_files::{CalibratedFiles, WrittenModel};
 pub use calibration_report::{
     AlignedFrames, CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry, CostCurve,
     EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason, Recommendation,
     ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
 };
+pub use frames::EstimatedFrames;

@@ -1,8 +1,6 @@
 //! Residuals and corrections relative to the size of the arm: which are too large for measurement noise.
 
-use crate::estimation::{
-    CorrectedChain, CorrectionEntry, CorrectionParameter, ParameterUnit, PoseResidual, Problem,
-};
+use crate::estimation::{CorrectedChain, CorrectionParameter, ParameterUnit, PoseResidual, Problem};
 
 /// A residual above this share of the reach, or above this angle in rad, is too large for measurement noise. Kind: judgement: a
 /// ruler reads to 1 %, a wrong unit, axis or frame gives tens of per cent.
@@ -41,13 +39,11 @@ impl ReachScale {
     /// The largest correction of the arm, as a share of the reach or as an angle in rad; base and tool do not count, since they
     /// may be anywhere.
     pub(super) fn correction_size(self, chain: &CorrectedChain, corrections: &[f64]) -> f64 {
-        let size =
-            |(parameter, correction): (&CorrectionParameter, &f64)| match (parameter.entry, parameter.unit())
-            {
-                (CorrectionEntry::Base | CorrectionEntry::Tool, _) => 0.0,
-                (_, ParameterUnit::Angle) => correction.abs(),
-                (_, ParameterUnit::Length) => correction.abs() / self.reach_m,
-            };
+        let size = |(parameter, correction): (&CorrectionParameter, &f64)| match parameter.unit() {
+            _ if parameter.entry.is_of_frame() => 0.0,
+            ParameterUnit::Angle => correction.abs(),
+            ParameterUnit::Length => correction.abs() / self.reach_m,
+        };
         chain.parameters().iter().zip(corrections).map(size).fold(0.0, f64::max)
     }
 
@@ -55,8 +51,7 @@ impl ReachScale {
     pub(super) fn too_large(self, chain: &CorrectedChain, corrections: &[f64]) -> Option<usize> {
         let is_length = |&at: &usize| {
             let parameter = &chain.parameters()[at];
-            let is_of_arm = !matches!(parameter.entry, CorrectionEntry::Base | CorrectionEntry::Tool);
-            is_of_arm && parameter.unit() == ParameterUnit::Length
+            !parameter.entry.is_of_frame() && parameter.unit() == ParameterUnit::Length
         };
         let largest = (0..corrections.len())
             .filter(is_length)

@@ -7,7 +7,7 @@ use congruent_input::display::{first_of, length, length_and_angle, number};
 use super::calibration_report::{
     CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, ResidualSummary, RowResidual,
 };
-use crate::estimation::ParameterUnit;
+use crate::estimation::{FEWEST_CONFIGURATIONS, ParameterUnit};
 
 /// Most terms of a relation that are listed.
 const MOST_TERMS: usize = 4;
@@ -160,9 +160,16 @@ fn too_large(largest: Option<(&EstimatedCorrection, f64)>) -> String {
 }
 
 fn unverifiable(report: &CalibrationReport) -> String {
-    if report.redundancy > 0 {
+    if report.configurations == 1 && report.redundancy > 0 {
         return "all measurements are at one configuration: the corrections cannot be verified at others"
             .to_owned();
+    }
+    if report.redundancy > 0 {
+        return format!(
+            "the measurements are at {} configurations, too few to hold some out and verify the corrections there: measure at \
+             {FEWEST_CONFIGURATIONS} or more",
+            report.configurations
+        );
     }
     format!(
         "the measurements are too few to verify {} corrections (repetitions at one configuration count once): \

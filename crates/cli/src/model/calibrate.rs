@@ -13,7 +13,7 @@ use congruent::{
     },
     input::{Diagnostic, FileAccess, InputFile, is_standard_input},
     page::{CalibrationSource, calibration_page},
-    text::calibration_text,
+    text::{calibration_text, layout::visible_path},
 };
 
 use crate::{
@@ -21,6 +21,7 @@ use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, files_of, named, seed},
     invocation,
+    model::calibrated_robot::{Calibrated, OutArguments},
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{print::Printer, progress::waiting},
     tolerance::ToleranceArgument,
@@ -68,6 +69,8 @@ pub(crate) struct Arguments {
     plot: PlotArgument,
     #[command(flatten)]
     page: PageArgument,
+    #[command(flatten)]
+    out: OutArguments,
     /// Seed of the random configurations of which the most informative are chosen.
     #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
@@ -83,15 +86,45 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     arguments.plot.is_none_of(&inputs)?;
     arguments.page.is_none_of(&inputs)?;
     refuse_same(arguments.plot.output().into_iter().chain(arguments.page.output()))?;
-    let report = waiting(printer, "calibrating", || calibrate(&description, &rows, &options))?;
-    printer.result(&report, |report| calibration_text(report, &description.robot))?;
+    arguments.out.may_be_written(&description, &inputs)?;
+    let mut report = waiting(printer, "calibrating", || calibrate(&description, &rows, &options))?;
+    let read = read_file(&arguments.measurements);
+    let calibrated = Calibrated {
+        description: &description,
+        options: &options,
+        report: &report,
+        measurements: read.as_ref(),
+        inputs: &inputs,
+    };
+    // The estimate is printed also where its robot cannot be written.
+    let (written, refused) = match arguments.out.write(&calibrated, printer) {
+        Ok(written) => (written, None),
+        Err(refused) => (None, Some(refused)),
+    };
+    report.written = written;
+    let unwritten = arguments.out.folder().filter(|_| report.written.is_none() && refused.is_none());
+    printer.result(&report, |report| {
+        let not_written = unwritten.map_or_else(String::new, |folder| {
+            format!("\n  nothing is written to {}: no corrections are recommended\n", visible_path(folder))
+        });
+        calibration_text(report, &description.robot) + &not_written
+    })?;
+    if let Some(refused) = refused {
+        return Err(refused);
+    }
     let plotted = arguments.plot.write(|| plot::svg(&report), &inputs);
     let page = || {
-        let (command, measurements) = (invocation::command(), read_file(&arguments.measurements));
+        let (command, measurements) = (invocation::command(), read.clone());
         calibration_page(&report, &description, &CalibrationSource { command, measurements })
     };
     arguments.page.write(page, &inputs).and(plotted)?;
-    Ok(match report.verdict {
+    let code = exit_code(report.verdict);
+    // A robot that was to be written is not there.
+    Ok(if unwritten.is_some() && code == 0 { FAILED } else { code })
+}
+
+fn exit_code(verdict: CalibrationVerdict) -> u8 {
+    match verdict {
         CalibrationVerdict::Explained
         | CalibrationVerdict::UnexplainedRows
         | CalibrationVerdict::NoImprovement => 0,
@@ -100,7 +133,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         | CalibrationVerdict::TooLarge
         | CalibrationVerdict::NoiseExceeded => FAILED,
         CalibrationVerdict::Unverifiable | CalibrationVerdict::NothingIdentified => NOTHING,
-    })
+    }
 }
 
 /// The file with its digest; standard input has been read and is none.

@@ -1,6 +1,7 @@
 //! Commands about models: compared, calibrated and converted.
 
 pub(crate) mod calibrate;
+mod calibrated_robot;
 pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod describe;

@@ -139,7 +139,9 @@ fn metadata(path: &Path) -> Result<Metadata, Diagnostic> {
 
 fn read_at_most(from: impl Read, path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
     let mut bytes = Vec::new();
-    from.take(most_bytes + 1).read_to_end(&mut bytes).map_err(|error| unreadable(path, &error))?;
+    from.take(most_bytes.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(|error| unreadable(path, &error))?;
     let length = bytes.len() as u64;
     if length > most_bytes { Err(too_large(path, length, most_bytes)) } else { Ok(bytes) }
 }
@@ -333,6 +335,14 @@ mod tests {
         check(b"a\nb\0", Err("NUL byte at line 2: the file is not text"));
         check(b"a\n\nb\xE9c", Err("byte 0xE9 at line 3 is not UTF-8"));
         check(b"a\0\nb\xE9c", Err("NUL byte at line 1: the file is not text"));
+    }
+
+    #[test]
+    fn without_a_limit_all_is_read() {
+        let read = |most_bytes| read_at_most(&b"abc"[..], Path::new("a"), most_bytes);
+        assert_eq!(read(u64::MAX).unwrap(), b"abc");
+        assert_eq!(read(3).unwrap(), b"abc");
+        assert!(read(2).is_err());
     }
 
     #[cfg(unix)]

@@ -41,7 +41,7 @@ impl TextLines {
     pub fn open(path: &Path, most_bytes: u64) -> Result<Self, Diagnostic> {
         Ok(Self {
             path: path.to_owned(),
-            from: BufReader::new(open_named(path, most_bytes)?).take(most_bytes + 1),
+            from: BufReader::new(open_named(path, most_bytes)?).take(most_bytes.saturating_add(1)),
             most_bytes,
             is_endless: false,
             is_put_back: false,

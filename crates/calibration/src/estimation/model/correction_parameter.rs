@@ -36,6 +36,13 @@ pub enum CorrectionEntry {
     Base,
 }
 
+impl CorrectionEntry {
+    /// Whether it is of base or tool, and not of the arm.
+    pub fn is_of_frame(self) -> bool {
+        matches!(self, Self::Base | Self::Tool)
+    }
+}
+
 /// A twist with less rotation per unit counts as a pure translation. Unit: rad per unit; kind: rounding; an identified sliding
 /// joint rotates by less than 1e-15.
 const ROTATES_ABOVE: f64 = 1e-9;
