@@ -28,6 +28,8 @@ congruent_input::codes! {
             "The scenario cannot be run: its robot cannot be simulated, or a motion cannot be planned. The message names the value; correct it there. `congruent check ROBOT` shows what the robot lacks.\n    congruent check robots/ur5e";
     }
     replay {
+        READ = "CGR-COMMAND-088", "replay::read",
+            "The log ends in the middle of what is read of it, or has no instant with all joints of the robot. `congruent describe LOG --robot ROBOT` shows what is there.\n    congruent describe monday.mcap --robot robots/ur5e";
         POSES = "CGR-COMMAND-087", "replay::poses",
             "The log has no topic of this name with poses. `congruent describe LOG` lists its topics.\n    wrong: --measured-pose /tracker\n    right: --measured-pose /tracker/pose";
     }

@@ -1,5 +1,8 @@
 //! From a robot and a log to a scenario that judges the log: `congruent replay`.
 
+mod fitted;
+mod paired;
+mod pose_clock;
 mod poses;
 mod written;
 
@@ -12,8 +15,8 @@ use congruent_scenario::{
     AgreementCheck, AngleUnit, Check, LogClock, LoggedJointSettings, PoseOrigin, Scenario, SourceSettings,
 };
 
-use self::poses::chosen_poses;
 pub use self::written::replay_text;
+use self::{fitted::fit, poses::chosen_poses};
 
 /// What a person says of a log beside its name.
 #[derive(Debug, Clone, Default)]
@@ -43,6 +46,12 @@ pub struct ReplayDraft {
     pub survey: LogSurvey,
 }
 
+/// A robot, and the scenario of a log without its poses.
+struct Replayed<'a> {
+    description: &'a RobotDescription,
+    scenario: &'a Scenario,
+}
+
 /// The scenario of a log for a robot: the joints and poses that the log has of it, and the checks that these allow.
 ///
 /// # Errors
@@ -59,14 +68,18 @@ pub fn replay_draft(
     let mut source = SourceSettings::new(log.display().to_string());
     (source.clock, source.rate_hz) = (request.clock, request.rate_hz);
     source.joints = joints(request, &survey, &mut taken);
-    source.pose = chosen_poses(description, request, &survey, &mut taken)?;
-    let scenario = Scenario {
+    let mut poses = chosen_poses(description, request, &survey, &mut taken)?;
+    let mut scenario = Scenario {
         name: name_of(log),
         robot: description.path.display().to_string(),
         source: Some(source),
         check: vec![Check::Agreement(AgreementCheck::default())],
         ..Scenario::default()
     };
+    fit(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?;
+    if let Some(source) = &mut scenario.source {
+        source.pose = poses;
+    }
     Ok(ReplayDraft { scenario, taken, survey })
 }
 

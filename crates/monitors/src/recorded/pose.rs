@@ -113,8 +113,6 @@ impl Monitor for PoseMonitor<'_> {
         let name = |of: usize| self.poses[of].name.clone();
         let with_orientation = self.poses.iter().any(|poses| !poses.position_only);
         let watches = [Some(&self.position), with_orientation.then_some(&self.orientation)];
-        let notes =
-            self.poses.iter().zip(&self.compared).map(|(poses, &compared)| self.note(poses, compared));
         Observed {
             samples: self.compared.iter().sum(),
             measures: watches.into_iter().flatten().map(|watch| watch.measure(&names.joints, name)).collect(),
