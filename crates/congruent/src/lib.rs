@@ -39,6 +39,7 @@ pub mod codes;
 mod joint_sweep;
 pub mod replay;
 mod run_comparison;
+mod run_scenario;
 pub mod schema;
 pub mod text;
 mod with_physics;
@@ -55,6 +56,7 @@ pub use congruent_lint_report::{
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
+pub use run_scenario::run_scenario;
 pub use with_physics::{forward, joint_dynamics};
 
 /// What most programs need.

@@ -53,6 +53,7 @@ pub use robot::{
 };
 pub use run_fault::{FaultQuantity, RunFault};
 pub use source::{
-    AngleUnit, JointRole, LogClock, LoggedJointSettings, LoggedPoseSettings, PoseOrigin, SourceSettings,
+    AngleUnit, JointRole, LogClock, LoggedEffort, LoggedJointSettings, LoggedPoseSettings, PoseOrigin,
+    SourceSettings,
 };
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};

@@ -30,8 +30,8 @@ pub struct SourceSettings {
     /// The run ends with the last sample up to this time; default: with the last of all.
     #[serde(default, deserialize_with = "optional_finite", skip_serializing_if = "Option::is_none")]
     pub until_s: Option<f64>,
-    /// Nothing is interpolated or differentiated across a longer time without samples; default: five periods of the slowest topic
-    /// of joints, and at least 20 ms.
+    /// Nothing is interpolated or differentiated across a longer time without samples; default: five periods of the topic, and at
+    /// least 20 ms.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub maximum_gap_s: Option<f64>,
     /// The topics with joint states; default: the topics with the joints of the robot, if no joint is on two of them.
@@ -70,6 +70,9 @@ pub struct LoggedJointSettings {
     /// Names of joints of the robot with those of the log, for names that have more than a prefix or suffix.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub names: BTreeMap<String, String>,
+    /// What its efforts are. They are compared with the limits of the robot only if they are torques.
+    #[serde(default, deserialize_with = "variant", skip_serializing_if = "is_default")]
+    pub effort: LoggedEffort,
     /// The unit of the positions of joints that turn; velocities are in the same unit per second.
     #[serde(default, deserialize_with = "variant", skip_serializing_if = "is_default")]
     pub position: AngleUnit,
@@ -84,6 +87,17 @@ pub enum JointRole {
     Measured,
     /// What the joints were commanded to do.
     Setpoint,
+}
+
+/// What recorded efforts are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LoggedEffort {
+    /// Nobody says: drivers write torques, currents in A, and torques without gravity under one name.
+    #[default]
+    Unknown,
+    /// Torques and forces at the joints, N m and N.
+    Torque,
 }
 
 /// A unit of angles.

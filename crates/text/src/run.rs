@@ -14,12 +14,11 @@ pub fn run_text(report: &RunReport) -> String {
     let mut text = String::new();
     let _ = writeln!(
         text,
-        "{}: {} ({}, {} in {} steps)",
+        "{}: {} ({}, {})",
         report.scenario,
         verdict_line(report.verdict, &report.sentence()),
         report.robot,
-        quantity(report.simulation.duration_s, "s"),
-        report.simulation.steps
+        length_of(report)
     );
     if let Some(error) = &report.error {
         let _ = writeln!(text, "  {error}");
@@ -47,6 +46,16 @@ pub fn run_text(report: &RunReport) -> String {
         let _ = writeln!(text, "  {:10} {:7} {sentence}", "diagnosis", "");
     }
     text
+}
+
+/// How long the run was, or what it took of a log.
+fn length_of(report: &RunReport) -> String {
+    let duration = quantity(report.simulation.duration_s, "s");
+    let steps = report.simulation.steps;
+    match &report.source {
+        Some(source) => format!("{duration} of {} in {} samples", source.log, steps + 1),
+        None => format!("{duration} in {steps} steps"),
+    }
 }
 
 fn checked(text: &mut String, check: &CheckResult) {

@@ -6,11 +6,12 @@ use congruent::{
     input::{Diagnostic, display::listed},
     monitors::verdict::Status,
     results::{
-        ExecuteError, Options, execute,
+        ExecuteError, Options,
         files::FolderError,
         missing_files,
         report::{Reason, RunReport, TestCase, TestResult, TestSuite, lines},
     },
+    run_scenario,
     text::run_text,
     twin::RunSetup,
 };
@@ -88,7 +89,7 @@ pub(crate) fn run_one(
     progress: &ProgressLines,
 ) -> Result<RunAnswer, Failure> {
     let progress = progress.start_run(setup);
-    match execute(setup, options, |steps| progress.steps(steps)) {
+    match run_scenario(setup, options, |steps| progress.steps(steps)) {
         Ok((report, folder)) => {
             let missing = missing_files(setup, options, &folder);
             Ok(RunAnswer { report, results: Ok(folder.path().to_owned()), missing, is_kept: false })

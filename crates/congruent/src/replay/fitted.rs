@@ -69,7 +69,7 @@ impl PoseFit<'_> {
         let link = |name: &str| {
             robot.link_indices().find(|&link| robot.link(link).name == name.trim_start_matches('/'))
         };
-        let frame = pose.frame.as_deref().and_then(link);
+        let frame = pose.from_link.as_deref().or(pose.frame.as_deref()).and_then(link);
         let child = pose.child.as_deref().and_then(link);
         if self.pairs.is_empty() {
             return Some(format!(

@@ -2,6 +2,7 @@
 
 mod fitted;
 mod paired;
+mod pose_cause;
 mod pose_clock;
 mod poses;
 mod written;
@@ -15,8 +16,8 @@ use congruent_scenario::{
     AgreementCheck, AngleUnit, Check, LogClock, LoggedJointSettings, PoseOrigin, Scenario, SourceSettings,
 };
 
-pub use self::written::replay_text;
 use self::{fitted::fit, poses::chosen_poses};
+pub use self::{pose_cause::explain_recorded, written::replay_text};
 
 /// What a person says of a log beside its name.
 #[derive(Debug, Clone, Default)]
@@ -127,9 +128,11 @@ fn joints(request: &ReplayRequest, survey: &LogSurvey, taken: &mut Vec<String>) 
         LoggedJointSettings { topic: of.topic.clone(), ..LoggedJointSettings::default() } == *of
     };
     let is_clear = !sources.is_empty() && request.joints.is_none() && measured.iter().all(is_plain);
-    // What the log says by itself is found again at each run, as for the next log of the same robot.
-    let in_degrees = survey.robot.as_ref().is_some_and(|of| of.position_unit == PositionUnit::Degree);
-    if is_clear && !in_degrees && measured.len() == sources.len() { Vec::new() } else { measured }
+    // What the log says by itself is found again at each run, as for the next log of the same robot; degrees that nobody has
+    // stated are refused there.
+    let is_unstated =
+        !request.degrees && survey.robot.as_ref().is_some_and(|of| of.position_unit == PositionUnit::Degree);
+    if is_unstated || is_clear && measured.len() == sources.len() { Vec::new() } else { measured }
 }
 
 /// A topic of which the survey knows no joint of the robot: the run says what is wrong with it.

@@ -43,8 +43,7 @@ pub(super) fn pairs(
     let mut scenario = Scenario { check: Vec::new(), ..replayed.scenario.clone() };
     let Some(source) = &mut scenario.source else { return Ok(Vec::new()) };
     let at = |pose: &LoggedPoseSettings, offset_s: f64| LoggedPoseSettings {
-        offset_s,
-        drift: 0.0,
+        offset_s: pose.offset_s + offset_s,
         ..pose.clone()
     };
     source.pose = poses.iter().flat_map(|pose| OFFSETS_S.map(|offset_s| at(pose, offset_s))).collect();

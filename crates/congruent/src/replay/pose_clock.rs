@@ -92,6 +92,11 @@ fn count(number: usize) -> f64 {
 }
 
 impl PositionsOverOffsets {
+    /// The distance without an offset.
+    pub(super) fn distance_m(&self) -> f64 {
+        (self.recorded - self.by_model[OFFSETS_S.len() / 2]).norm()
+    }
+
     /// The position by the model at an offset, by the parabola through the three nearest.
     fn at(&self, offset_s: f64) -> Vector3<f64> {
         let after = OFFSETS_S.partition_point(|known| *known < offset_s);

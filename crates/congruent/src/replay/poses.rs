@@ -106,7 +106,19 @@ fn origin(
 }
 
 fn is_link(description: &RobotDescription, name: &str) -> bool {
-    description.robot.links().iter().any(|link| link.name == name.trim_start_matches('/'))
+    link_of(description, name).is_some()
+}
+
+/// The link that a frame is: one of its name, without the namespace before it.
+fn link_of<'a>(description: &'a RobotDescription, frame: &str) -> Option<&'a str> {
+    let links = || description.robot.links().iter().map(|link| link.name.as_str());
+    let last = frame.rsplit('/').next().unwrap_or(frame);
+    links().find(|link| *link == frame).or_else(|| links().find(|link| *link == last))
+}
+
+/// The link, if a frame has another name.
+fn renamed(description: &RobotDescription, frame: &str) -> Option<String> {
+    link_of(description, frame).filter(|link| *link != frame).map(str::to_owned)
 }
 
 fn settings(
@@ -122,9 +134,13 @@ fn settings(
         origin,
         frame: Some(pair.frame.clone()),
         child: pair.child.clone(),
-        from_link: None,
+        from_link: renamed(description, &pair.frame),
         link_from_frame: PoseSettings::default(),
-        link: is_flange.then(|| "tool0".to_owned()),
+        link: if is_flange {
+            Some("tool0".to_owned())
+        } else {
+            pair.child.as_deref().and_then(|child| renamed(description, child))
+        },
         link_from_target: None,
         frames_are_fitted: false,
         offset_s: 0.0,

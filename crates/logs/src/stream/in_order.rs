@@ -7,6 +7,8 @@ use std::{
 
 /// Messages within which times are put in order. Kind: choice; the arrival over a network is mixed up within some ms.
 const WINDOW: usize = 64;
+/// Time within which they are, s: the messages of a slow topic are not held back for long. Kind: choice, likewise.
+const SPAN_S: f64 = 0.25;
 
 /// A message at a time.
 #[derive(Debug)]
@@ -44,6 +46,7 @@ pub(super) struct InOrder<T> {
     heap: BinaryHeap<Timed<T>>,
     ready: VecDeque<(f64, T)>,
     number: u64,
+    newest_s: f64,
     given_s: f64,
     /// Messages at a time that another message has, and messages that came after a later one was given.
     pub(super) repeated: u64,
@@ -56,6 +59,7 @@ impl<T> Default for InOrder<T> {
             heap: BinaryHeap::with_capacity(WINDOW + 1),
             ready: VecDeque::new(),
             number: 0,
+            newest_s: f64::NEG_INFINITY,
             given_s: f64::NEG_INFINITY,
             repeated: 0,
             late: 0,
@@ -66,25 +70,33 @@ impl<T> Default for InOrder<T> {
 impl<T> InOrder<T> {
     pub(super) fn push(&mut self, time_s: f64, value: T) {
         self.number += 1;
+        self.newest_s = self.newest_s.max(time_s);
         self.heap.push(Timed { time_s, number: self.number, value });
-        self.give(WINDOW);
+        while self.heap.len() > WINDOW || self.span_s() > SPAN_S {
+            self.give_first();
+        }
     }
 
     /// No message follows that belongs to these: gives all of them.
     pub(super) fn flush(&mut self) {
-        self.give(0);
+        while !self.heap.is_empty() {
+            self.give_first();
+        }
     }
 
-    fn give(&mut self, kept: usize) {
-        while self.heap.len() > kept {
-            let Some(Timed { time_s, value, .. }) = self.heap.pop() else { return };
-            match time_s.total_cmp(&self.given_s) {
-                Ordering::Less => self.late += 1,
-                Ordering::Equal => self.repeated += 1,
-                Ordering::Greater => {
-                    self.given_s = time_s;
-                    self.ready.push_back((time_s, value));
-                }
+    /// Time between the earliest and the latest message.
+    fn span_s(&self) -> f64 {
+        self.heap.peek().map_or(0.0, |first| self.newest_s - first.time_s)
+    }
+
+    fn give_first(&mut self) {
+        let Some(Timed { time_s, value, .. }) = self.heap.pop() else { return };
+        match time_s.total_cmp(&self.given_s) {
+            Ordering::Less => self.late += 1,
+            Ordering::Equal => self.repeated += 1,
+            Ordering::Greater => {
+                self.given_s = time_s;
+                self.ready.push_back((time_s, value));
             }
         }
     }
@@ -104,13 +116,13 @@ mod tests {
         let mut order = InOrder::default();
         let times: Vec<i32> = (0..200).map(|at| at + if at % 7 == 0 { 5 } else { 0 }).collect();
         for (number, &time) in times.iter().enumerate() {
-            order.push(f64::from(time), number);
+            order.push(f64::from(time) * 1e-3, number);
         }
         order.flush();
         let given: Vec<(f64, usize)> = std::iter::from_fn(|| order.pop()).collect();
         assert!(given.windows(2).all(|pair| pair[0].0 < pair[1].0));
         // Of the two messages at a time, the first counts: 5 is that of number 0.
-        assert_eq!(given[4], (5.0, 0));
+        assert_eq!(given[4], (5.0 * 1e-3, 0));
         assert_eq!(order.repeated as usize + given.len(), times.len());
         assert_eq!(order.late, 0);
     }
@@ -118,8 +130,8 @@ mod tests {
     #[test]
     fn a_message_that_comes_too_late_is_counted() {
         let mut order = InOrder::default();
-        (0..100).for_each(|at| order.push(f64::from(at), at));
-        order.push(3.5, 100);
+        (0..100).for_each(|at| order.push(f64::from(at) * 1e-3, at));
+        order.push(3.5e-3, 100);
         order.flush();
         assert_eq!((std::iter::from_fn(|| order.pop()).count(), order.late), (100, 1));
     }

@@ -182,7 +182,9 @@ impl LogStream {
         clock.last_s = time_s;
         if clock.part > part {
             self.rows.counts.restarts += 1;
-            let begin_s = self.latest_s + BETWEEN_PARTS_S + self.selection.maximum_gap_s;
+            let begin_s = self.latest_s
+                + BETWEEN_PARTS_S
+                + self.selection.joints.iter().map(|topic| topic.maximum_gap_s).fold(0.0, f64::max);
             self.shift_s = if begin_s.is_finite() { begin_s - time_s } else { self.shift_s };
         }
         (clock.part >= part).then_some(time_s + self.shift_s)

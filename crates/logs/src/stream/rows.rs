@@ -45,9 +45,10 @@ pub(super) struct Rows {
     setpoints: Vec<JointSeries>,
     /// Whether a topic has the joint: rows wait for it.
     is_measured: Vec<bool>,
+    /// For each joint the longest time across which it is interpolated, as measured and as commanded.
+    gaps_s: [Vec<f64>; 2],
     /// Times of rows that are not given yet.
     pending: VecDeque<f64>,
-    maximum_gap_s: f64,
     has_ended: bool,
     row: JointRow,
     /// Instants that were left out since the last row.
@@ -62,6 +63,11 @@ impl Rows {
         let mut is_measured = vec![false; joints];
         let measured = selection.joints.iter().filter(|topic| !topic.is_setpoint);
         measured.flat_map(|topic| &topic.joints).for_each(|joint| is_measured[joint.joint] = true);
+        let mut gaps_s = [vec![0.0; joints], vec![0.0; joints]];
+        for topic in &selection.joints {
+            let gaps_s = &mut gaps_s[usize::from(topic.is_setpoint)];
+            topic.joints.iter().for_each(|joint| gaps_s[joint.joint] = topic.maximum_gap_s);
+        }
         let topic = |selected: &SelectedJoints| Topic {
             selected: selected.clone(),
             messages: InOrder::default(),
@@ -74,8 +80,8 @@ impl Rows {
             measured: series(),
             setpoints: series(),
             is_measured,
+            gaps_s,
             pending: VecDeque::new(),
-            maximum_gap_s: selection.maximum_gap_s,
             has_ended: false,
             row: JointRow::new(joints),
             left_out: 0,
@@ -117,9 +123,13 @@ impl Rows {
             let series = if is_setpoint { &mut self.setpoints } else { &mut self.measured };
             let mut has_position = false;
             for (joint, place) in topic.selected.joints.iter().zip(&topic.places) {
-                let Some(state) = place.and_then(|place| state(&message, place, joint.si_per_unit)) else {
+                let Some(mut state) = place.and_then(|place| state(&message, place, joint.si_per_unit))
+                else {
                     continue;
                 };
+                if !topic.selected.takes_effort {
+                    state.effort = f64::NAN;
+                }
                 has_position = true;
                 series[joint.joint].push(time_s, state);
             }
@@ -161,24 +171,23 @@ impl Rows {
         self.topics.iter().all(|topic| {
             let series = if topic.selected.is_setpoint { &self.setpoints } else { &self.measured };
             // A joint that messages lack is known once one has it again, or not at all beyond the gap.
-            topic.reached_s - time_s > self.maximum_gap_s
+            topic.reached_s - time_s > topic.selected.maximum_gap_s
                 || topic.selected.joints.iter().all(|joint| series[joint.joint].reaches(time_s))
         })
     }
 
     /// Fills the row; returns whether every joint of a topic is known.
     fn fill(&mut self, time_s: f64) -> bool {
-        let gap_s = self.maximum_gap_s;
         self.row.time_s = time_s;
         let mut is_whole = true;
         for (joint, series) in self.measured.iter_mut().enumerate() {
-            let state = series.at(time_s, gap_s);
+            let state = series.at(time_s, self.gaps_s[0][joint]);
             is_whole &= state.is_some() || !self.is_measured[joint];
             let JointState { q, qd, effort } = state.unwrap_or(UNKNOWN);
             (self.row.q[joint], self.row.qd[joint], self.row.effort[joint]) = (q, qd, effort);
         }
         for (joint, series) in self.setpoints.iter_mut().enumerate() {
-            let JointState { q, qd, .. } = series.at(time_s, gap_s).unwrap_or(UNKNOWN);
+            let JointState { q, qd, .. } = series.at(time_s, self.gaps_s[1][joint]).unwrap_or(UNKNOWN);
             (self.row.setpoint_q[joint], self.row.setpoint_qd[joint]) = (q, qd);
         }
         is_whole

@@ -15,8 +15,6 @@ pub struct StreamSelection {
     pub joints: Vec<SelectedJoints>,
     /// The topics with poses.
     pub poses: Vec<SelectedPoses>,
-    /// Nothing is interpolated across a longer time.
-    pub maximum_gap_s: f64,
     /// Rows at these times are taken, s from the origin.
     pub between_s: [f64; 2],
 }
@@ -28,8 +26,19 @@ pub struct SelectedJoints {
     pub topic: String,
     /// Whether its states are commanded, not measured.
     pub is_setpoint: bool,
+    /// Nothing is interpolated across a longer time without messages.
+    pub maximum_gap_s: f64,
+    /// Whether its efforts are taken.
+    pub takes_effort: bool,
     /// The joints that are taken.
     pub joints: Vec<SelectedJoint>,
+}
+
+impl StreamSelection {
+    /// The longest time between two rows that is no gap: that of the topic whose times they have.
+    pub fn maximum_gap_s(&self) -> f64 {
+        self.joints.first().map_or(f64::INFINITY, |topic| topic.maximum_gap_s)
+    }
 }
 
 /// A joint of a topic.

@@ -49,11 +49,13 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
             dl.facts {
                 dt { "robot" } dd { (report.robot) }
                 @if let Some(file) = &report.scenario_file { dt { "scenario file" } dd { code { (file) } } }
-                dt { "simulated" }
+                @if let Some(source) = &report.source { dt { "log" } dd { code { (source.log) } } }
+                dt { (if report.source.is_some() { "recorded" } else { "simulated" }) }
                 dd {
                     (value(&at.key("duration_s"), clock.duration_s, &quantity(clock.duration_s, "s"))) " in "
                     (count(&at.key("steps"), clock.steps)) " steps of "
                     (value(&at.key("step_s"), clock.step_s, &quantity(clock.step_s, "s")))
+                    @if report.source.is_some() { " as a rule" }
                 }
                 dt { "seed" } dd { (count(&Pointer::root().key("seed"), report.seed)) }
                 @if let Some(stop) = &report.stopped {

@@ -9,7 +9,7 @@ use congruent::{
     input::{Diagnostic, Findings},
     page::PageFormat,
     recording::RerunFormat,
-    results::{ExecuteError, Options, RecordingFormat, execute, report::RunReport},
+    results::{ExecuteError, Options, RecordingFormat, report::RunReport},
     scenario::{Override, TrajectoryFormat},
     text::{TextOptions, run_text},
     twin::RunSetup,
@@ -111,13 +111,14 @@ fn execute_scenario(
         recordings: [beside, for_people].concat(),
         interrupt: Some(interrupt),
     };
-    let (report, folder) = execute(&setup, &options, |_| {}).map_err(|error| match error {
-        error @ ExecuteError::CannotRun { .. } => {
-            let finding = Diagnostic::error(congruent::codes::run::CANNOT_RUN, error.to_string());
-            RunFailure::Input(finding.into())
-        }
-        error => RunFailure::machine(error),
-    })?;
+    let (report, folder) =
+        congruent::run_scenario(&setup, &options, |_| {}).map_err(|error| match error {
+            error @ ExecuteError::CannotRun { .. } => {
+                let finding = Diagnostic::error(congruent::codes::run::CANNOT_RUN, error.to_string());
+                RunFailure::Input(finding.into())
+            }
+            error => RunFailure::machine(error),
+        })?;
     let table = Some(folder.file(table.file_name())).filter(|path| path.exists());
     let series =
         table.map_or(Ok(Series::default()), |path| read_series(&path)).map_err(RunFailure::machine)?;

@@ -9,6 +9,7 @@ mod junit;
 mod portable;
 mod run_report;
 mod sentence;
+mod source_report;
 mod step_summary;
 mod suite;
 mod test_suite;
@@ -24,6 +25,7 @@ pub use sentence::{
     is_not_reached, joint_limit_words, limit_words, lines, margin_words, not_finite_words, quantity_words,
     sentence_at, share_in_full, value_and_margin,
 };
+pub use source_report::{ReportedJointTopic, ReportedPoses, SourceReport};
 pub use step_summary::step_summary;
 pub use suite::{CasePlace, ChangeSince, Clock, Reason, TestCase, TestResult, TestSuite};
 pub use test_suite::{judged, planned_suite};

@@ -13,6 +13,7 @@ use serde::{Deserialize, Deserializer, Serialize, de::IgnoredAny};
 use super::{
     causes::Causes,
     portable::{portable, portable_diagnosis, portable_finding},
+    source_report::SourceReport,
     verdict_sentence::verdict_sentence,
 };
 
@@ -62,7 +63,10 @@ pub struct RunReport {
     pub diagnosis: Option<RunDiagnosis>,
     /// Why the run failed; `None` if it did not.
     pub error: Option<String>,
-    /// Step, number of steps and duration.
+    /// The log whose joint states the run took; left out for a simulation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<SourceReport>,
+    /// Step, number of steps and duration; of a log the period, number and time of its samples.
     pub simulation: RunClockReport,
     /// Seed of everything random.
     pub seed: u64,
@@ -183,6 +187,7 @@ impl RunReport {
             faults: setup.faults.iter().map(|fault| fault.described().clone()).collect(),
             diagnosis: causes.samples,
             error: error.map(ToString::to_string),
+            source: SourceReport::of(setup),
             simulation: RunClockReport {
                 step_s: setup.clock.step_s,
                 steps: outcome.steps,

@@ -173,7 +173,12 @@ impl RunSetup {
         let robot = &description.robot;
         found.keep(check_head(&scenario, place));
         let start = found.keep(start(&scenario.start, place.key("start"), robot));
-        let start = inside_limits(start, robot, &mut warnings);
+        let mut of_start = Vec::new();
+        let start = inside_limits(start, robot, &mut of_start);
+        // Of a log it is where joints stay that the log does not have.
+        if scenario.source.is_none() {
+            warnings.append(&mut of_start);
+        }
         let trajectory = trajectory(&scenario, written, &description, &start, &mut warnings);
         let trajectory = found.keep(trajectory);
         // Without a plan the duration as written stands in, so that the clock is checked in the same call.

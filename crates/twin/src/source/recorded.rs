@@ -185,7 +185,7 @@ impl<'a> RecordedSource<'a> {
         }
         let (before_s, before_q) = self.kept.get(after.checked_sub(1)?)?;
         let gap_s = after_s - before_s;
-        if gap_s > self.setup.selection.maximum_gap_s {
+        if gap_s > self.setup.selection.maximum_gap_s() {
             return None;
         }
         let share = (time_s - before_s) / gap_s;
@@ -229,7 +229,7 @@ impl JointStateSource for RecordedSource<'_> {
             return Ok(Advance::End);
         }
         let (from_s, to_s) = (self.now.time_s, self.next.time_s);
-        if to_s - from_s > self.setup.selection.maximum_gap_s && !self.is_gap_told {
+        if to_s - from_s > self.setup.selection.maximum_gap_s() && !self.is_gap_told {
             self.is_gap_told = true;
             return Ok(Advance::Gap { from_s, to_s });
         }

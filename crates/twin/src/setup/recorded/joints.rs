@@ -7,7 +7,9 @@ use congruent_input::{Diagnostic, Findings, known_names};
 use congruent_logs::{
     JointSource, LogSurvey, PositionUnit, SelectedJoint, SelectedJoints, TopicContent, TopicSurvey,
 };
-use congruent_scenario::{AngleUnit, FilePlace, JointRole, LoggedJointSettings, SourceSettings};
+use congruent_scenario::{
+    AngleUnit, FilePlace, JointRole, LoggedEffort, LoggedJointSettings, SourceSettings,
+};
 
 use super::item;
 use crate::codes::scenario;
@@ -66,7 +68,10 @@ fn all(place: FilePlace<'_>, survey: &LogSurvey, robot: &Robot) -> Result<Vec<Se
         let message =
             "the positions are beyond the limits of the joints as radians, and within them as degrees";
         let topics = sources.iter().map(|source| written(source, Some("deg"))).collect::<Vec<_>>();
-        let help = format!("if they are degrees, write\n{}", topics.join("\n"));
+        let help = format!(
+            "if they are degrees, `replay` takes --degrees, and a scenario has\n{}",
+            topics.join("\n")
+        );
         return Err(place
             .key("log")
             .mark(Diagnostic::error(scenario::LOGGED_UNIT, message).with_help(help))
@@ -75,6 +80,8 @@ fn all(place: FilePlace<'_>, survey: &LogSurvey, robot: &Robot) -> Result<Vec<Se
     let selected = |source: &&JointSource| SelectedJoints {
         topic: source.topic.clone(),
         is_setpoint: false,
+        maximum_gap_s: 0.0,
+        takes_effort: false,
         joints: source.joints.iter().filter_map(|joint| selected_joint(source, joint, robot)).collect(),
     };
     Ok(sources.iter().map(selected).collect())
@@ -232,7 +239,14 @@ fn joints_of(
         return Err(place.key("topic").mark(error.with_help(help)).into());
     }
     let is_setpoint = settings.role == JointRole::Setpoint;
-    Ok(SelectedJoints { topic: settings.topic.clone(), is_setpoint, joints })
+    let takes_effort = settings.effort == LoggedEffort::Torque;
+    Ok(SelectedJoints {
+        topic: settings.topic.clone(),
+        is_setpoint,
+        maximum_gap_s: 0.0,
+        takes_effort,
+        joints,
+    })
 }
 
 /// The topic of this name.

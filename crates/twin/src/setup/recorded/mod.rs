@@ -6,7 +6,7 @@ mod poses;
 use std::path::PathBuf;
 
 use congruent_description::RobotDescription;
-use congruent_input::{Diagnostic, Diagnostics};
+use congruent_input::{Diagnostic, Diagnostics, direct_path};
 use congruent_logs::{ClockKind, LogOptions, LogSurvey, StreamSelection, TopicSurvey, survey_log};
 use congruent_monitors::{ComparedPoses, RunClock};
 use congruent_scenario::{FilePlace, LogClock, SimulationSettings, SourceSettings};
@@ -17,7 +17,7 @@ use super::written_at::WrittenAt;
 
 /// Gaps across which nothing is interpolated are at least this long, s. Kind: choice; a sample that is late by a period is none.
 const SHORTEST_GAP_S: f64 = 0.02;
-/// Periods of the slowest topic that make a gap.
+/// Periods of a topic that make a gap.
 const PERIODS_OF_A_GAP: f64 = 5.0;
 /// Stamps that are farther from the times of the recorder than this are on another clock, as that of a simulation: they count from
 /// the first sample on.
@@ -54,23 +54,25 @@ impl RecordedSetup {
         warnings: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
         let place = place.key("source");
-        let path = folder.path.join(&settings.log);
+        let path = direct_path(&folder.path.join(&settings.log));
         found.keep(folder.access.note_log(&path).map_err(|error| place.key("log").mark(error)))?;
         let joints = description.robot.movable_joint_names().map(str::to_owned).collect();
         let options = LogOptions { rate_hz: settings.rate_hz, joints };
         let surveyed = survey_log(&path, &options, Some(&description.robot));
         let surveyed = found.keep(surveyed.map_err(|error| place.key("log").mark(error)))?;
         let survey = surveyed.survey;
-        let chosen = found.keep(joints::choose(settings, place, &survey, &description.robot))?;
+        let mut chosen = found.keep(joints::choose(settings, place, &survey, &description.robot))?;
+        for topic in &mut chosen.topics {
+            topic.maximum_gap_s =
+                settings.maximum_gap_s.unwrap_or_else(|| maximum_gap_s(&survey, &topic.topic));
+        }
         let clock = clock_of(settings, &survey, &chosen);
         let compared = found.keep(poses(settings, place, &survey, description))?;
         warnings.extend(surveyed.warnings);
-        let maximum_gap_s = settings.maximum_gap_s.unwrap_or_else(|| maximum_gap_s(&survey, &chosen));
         let selection = StreamSelection {
             clock,
             origin_s: origin_s(&survey, &chosen, clock),
             joints_of_row: description.robot.dof(),
-            maximum_gap_s,
             between_s: [
                 settings.from_s.unwrap_or(f64::NEG_INFINITY),
                 settings.until_s.unwrap_or(f64::INFINITY),
@@ -125,9 +127,10 @@ fn period_s(topic: &TopicSurvey) -> Option<f64> {
     topic.times.as_ref()?.period_s.filter(|period_s| *period_s > 0.0)
 }
 
-/// Five periods of the slowest topic of joints.
-fn maximum_gap_s(survey: &LogSurvey, chosen: &ChosenJoints) -> f64 {
-    let of_joints = |topic: &&TopicSurvey| chosen.topics.iter().any(|of| of.topic == topic.name);
-    let periods = survey.topics.iter().filter(of_joints).filter_map(period_s);
-    periods.map(|period_s| PERIODS_OF_A_GAP * period_s).fold(SHORTEST_GAP_S, f64::max)
+/// Five periods of a topic.
+fn maximum_gap_s(survey: &LogSurvey, topic: &str) -> f64 {
+    let topic = survey.topics.iter().find(|of| of.name == topic);
+    topic
+        .and_then(period_s)
+        .map_or(SHORTEST_GAP_S, |period_s| (PERIODS_OF_A_GAP * period_s).max(SHORTEST_GAP_S))
 }
