@@ -90,7 +90,7 @@ impl PoseFit<'_> {
                 ", in frame {:?} that was fitted to the log with the target",
                 pose.frame.clone().unwrap_or_default()
             ),
-            (false, true) => ", of the flange: that of the TCP is farther away".to_owned(),
+            (false, true) => ", if they are those of the tip: those of the TCP are farther away".to_owned(),
             (false, false) => String::new(),
         };
         let clock = if found.offset_s == 0.0 {

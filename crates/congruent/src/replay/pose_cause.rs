@@ -38,7 +38,8 @@ pub fn explain_recorded(run: &mut Run<'_>, outcome: &mut Outcome) -> Causes {
         .find(|check| check.check == CheckKind::Pose && check.status == Status::Fail);
     if let (Some(check), Some(_)) = (failed, &setup.recorded) {
         let limit_m = check.measures.first().map_or(f64::INFINITY, |measure| measure.limit);
-        check.notes.extend(causes(setup, limit_m));
+        // Before the other remarks: it is what to do.
+        check.notes.splice(0..0, causes(setup, limit_m));
     }
     explain(run, outcome)
 }
@@ -93,14 +94,14 @@ impl Explained<'_> {
         if clock.rms_m <= LEFT * before_m {
             let offset = quantity(clock.offset_s, "s");
             return Some(format!(
-                "{name}: the clock: with offset_s = {offset} the distance is {after} (rms) instead of {before}"
+                "cause ({name}, distance {before} rms): the clock: with offset_s = {offset} it is {after}"
             ));
         }
         let found = self.of_frames(&rows, before_m).or_else(|| self.of_arm(&rows, before_m));
         Some(match found {
-            Some(cause) => format!("{name}: {cause} (rms before: {before})"),
+            Some(cause) => format!("cause ({name}, distance {before} rms): {cause}"),
             None => format!(
-                "{name}: neither the clock, nor base, tool or a joint's zero, nor the table explains the distance of {before} (rms)"
+                "no cause found ({name}, distance {before} rms): neither the clock nor base, tool, a joint's zero or the table explains it"
             ),
         })
     }
@@ -153,7 +154,7 @@ impl Explained<'_> {
             let report = self.fitted(rows, &[group])?;
             let left_m = report.least_squares.residuals.rms_m;
             let values = values(&report, "");
-            (left_m <= LEFT * before_m).then(|| format!("{what}: {values} leave {}", length(left_m)))
+            (left_m <= LEFT * before_m).then(|| format!("{what}: with {values} it is {}", length(left_m)))
         };
         frame("tool", "the tool").or_else(|| frame("base", "the base"))
     }
@@ -169,7 +170,7 @@ impl Explained<'_> {
         if let Some((left_m, values)) =
             alone.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|of| of.0 <= LEFT * before_m)
         {
-            return Some(format!("the zero of one joint: {values} leaves {}", length(left_m)));
+            return Some(format!("the zero of one joint: with {values} it is {}", length(left_m)));
         }
         for (free, what) in [
             (&["base", "tool"][..], "base and tool together"),
