@@ -7,6 +7,7 @@ mod faults;
 mod interruptions;
 #[cfg(feature = "recording")]
 mod recordings;
+mod replay;
 mod resuming;
 mod safety;
 mod same_everywhere;

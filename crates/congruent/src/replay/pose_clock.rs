@@ -9,8 +9,9 @@ use super::paired::OFFSETS_S;
 
 /// Fewest poses for which a clock is estimated.
 const FEWEST: usize = 30;
-/// The estimate counts if the distance becomes smaller than this share of what it was.
-const SHARE: f64 = 0.8;
+/// The estimate counts if the distance becomes smaller than this share of what it was: errors of the arm, which an offset explains in
+/// part, are no clock.
+const SHARE: f64 = 0.5;
 /// Offsets that are smaller are none, s: the jitter of stamps.
 const SMALLEST_S: f64 = 1e-3;
 const ITERATIONS: usize = 20;

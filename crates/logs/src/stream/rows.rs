@@ -213,3 +213,7 @@ fn state(message: &LoggedJoints, place: usize, si_per_unit: f64) -> Option<Joint
         effort: value(&message.effort).unwrap_or(f64::NAN),
     })
 }
+
+#[cfg(test)]
+#[path = "rows_tests.rs"]
+mod tests;

@@ -79,7 +79,11 @@ impl RecordedStates {
                 .collect(),
         );
         let instant = |(at, truth): (usize, Vec<f64>)| RecordedInstant {
-            time_s: setup.clock.time_s(steps(times[at], setup.clock.step_s)),
+            // The times of a log are as they were recorded, in any distance.
+            time_s: match setup.recorded {
+                Some(_) => times[at],
+                None => setup.clock.time_s(steps(times[at], setup.clock.step_s)),
+            },
             qd: row(&qd, at).unwrap_or_default(),
             effort: row(&effort, at).unwrap_or_default(),
             measured: row(&measured, at).unwrap_or_else(|| truth.clone()).into(),
