@@ -20,6 +20,7 @@ mod options;
 #[cfg(feature = "recording")]
 mod recording;
 mod run;
+mod same_point;
 
 pub use arm::{
     clearance_text_parts, disabled_pairs_text, forward_text_parts, inverse_text, jacobian_text_parts,
@@ -39,3 +40,4 @@ pub use options::TextOptions;
 #[cfg(feature = "recording")]
 pub use recording::{disagreement_sentence, rechecked_text, recording_text};
 pub use run::run_text;
+pub use same_point::same_point_text;

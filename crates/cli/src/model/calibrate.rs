@@ -21,7 +21,10 @@ use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, files_of, named, seed},
     invocation,
-    model::calibrated_robot::{Calibrated, OutArguments},
+    model::{
+        calibrated_robot::{Calibrated, OutArguments},
+        same_point::SamePointArguments,
+    },
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{print::Printer, progress::waiting},
     tolerance::ToleranceArgument,
@@ -43,7 +46,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
     /// CSV or JSON file of joint positions and measured poses or points, or - for standard input.
-    measurements: PathBuf,
+    #[arg(required_unless_present = "same_point")]
+    measurements: Option<PathBuf>,
+    #[command(flatten)]
+    same_point: SamePointArguments,
     /// Corrections that are estimated: zero-offsets, dh, axes, base, tool, all, or single corrections such as
     /// elbow_joint.zero, elbow_joint.a, base.yaw; may be given several times.
     #[arg(long, value_delimiter = ',', default_value = "zero-offsets")]
@@ -78,17 +84,21 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
+    let measurements = match &arguments.measurements {
+        Some(measurements) if !arguments.same_point.is_given() => measurements,
+        _ => return arguments.same_point.run(&description, &arguments.options(&[])?, printer),
+    };
     let needed = needed_coordinates(&description)?;
-    let rows = read_measurements(&arguments.measurements, &description.robot, &needed)?;
+    let rows = read_measurements(measurements, &description.robot, &needed)?;
     let options = arguments.options(&rows)?;
     let mut inputs = files_of(&description);
-    inputs.push(arguments.measurements.clone());
+    inputs.push(measurements.clone());
     arguments.plot.is_none_of(&inputs)?;
     arguments.page.is_none_of(&inputs)?;
     refuse_same(arguments.plot.output().into_iter().chain(arguments.page.output()))?;
     arguments.out.may_be_written(&description, &inputs)?;
     let mut report = waiting(printer, "calibrating", || calibrate(&description, &rows, &options))?;
-    let read = read_file(&arguments.measurements);
+    let read = read_file(measurements);
     let calibrated = Calibrated {
         description: &description,
         options: &options,
