@@ -1,8 +1,9 @@
 //! `calibrate --same-point`: two holes that a UR5e with known zeros has touched, by a program of their own, to 0.05 mm.
 
 use crate::support::{
-    command::{congruent, congruent_json},
+    command::{congruent, congruent_json, text},
     golden::number,
+    scratch_folder::ScratchFolder,
 };
 
 const HOLES: [&str; 2] =
@@ -32,8 +33,29 @@ fn touched_holes_give_the_zeros_that_they_were_made_with() {
     }
     // Three coordinates with 0.05 mm each are 0.08 mm in the mean.
     assert!(number(&report["held_out"]["mean_m"]) < 1e-4, "{}", report["held_out"]);
-    let text = congruent(&[&["calibrate", "robots/ur5e", "--same-point"], &HOLES[..]].concat()).stdout;
-    assert!(text.contains("corrected, held out") && text.contains("ur5e_hole_2.csv"), "{text}");
+    let printed = congruent(&[&["calibrate", "robots/ur5e", "--same-point"], &HOLES[..]].concat()).stdout;
+    assert!(printed.contains("corrected, held out") && printed.contains("ur5e_hole_2.csv"), "{printed}");
+}
+
+#[test]
+fn the_written_robot_needs_no_further_correction() {
+    let scratch = ScratchFolder::new();
+    let out = text(&scratch.path().join("calibrated"));
+    let robot = format!("{out}/robot.toml");
+    let written =
+        congruent(&[&["calibrate", "robots/ur5e", "--out", &out, "--same-point"], &HOLES[..]].concat());
+    assert_eq!(written.code, 0, "{}{}", written.stdout, written.stderr);
+    assert!(written.stdout.contains("robot.toml: the corrected table"), "{}", written.stdout);
+    assert_eq!(congruent(&["check", &robot]).code, 0);
+    let again = congruent_json(&[&["calibrate", &robot, "--same-point"], &HOLES[..]].concat()).json();
+    for each in again["parameters"].as_array().unwrap() {
+        assert!(number(&each["correction"]).abs() < 1e-9, "{each}");
+    }
+    // The same rows again: no better than themselves, so there is nothing to write.
+    let other = text(&scratch.path().join("other"));
+    let nothing = congruent(&[&["calibrate", &robot, "--out", &other, "--same-point"], &HOLES[..]].concat());
+    assert_eq!(nothing.code, 1, "{}{}", nothing.stdout, nothing.stderr);
+    assert!(nothing.stdout.contains("nothing is written to"), "{}", nothing.stdout);
 }
 
 #[test]

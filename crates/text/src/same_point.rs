@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::layout::column_width;
+use super::{calibrated_robot::written_text, layout::column_width};
 use congruent_calibration::same_point::{SamePointReport, SamePointSpread};
 use congruent_input::display::{counted, length};
 
@@ -26,6 +26,7 @@ pub fn same_point_text(report: &SamePointReport) -> String {
     corrections(&mut text, report);
     spreads(&mut text, report);
     points(&mut text, report);
+    written_text(&mut text, report.written.as_ref(), &report.chain);
     text
 }
 

@@ -98,6 +98,7 @@ pub fn calibrate_same_point(
         noise_m: fit.noise_m,
         converged: fit.converged,
         points: touched(&points, files, &fit.corrections),
+        written: None,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     };
     report.statements = statements(&report, held_out.as_ref().map(|(_, nominal)| nominal), fit.steps);

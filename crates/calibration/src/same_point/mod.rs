@@ -5,9 +5,11 @@
 //! held). Source: Ikits & Hollerbach, *Kinematic calibration using a plane constraint* (1997), with a point for the plane.
 
 mod calibrate;
+mod corrected;
 mod points;
 mod report;
 mod undetermined;
 
 pub use calibrate::{SamePointFile, SamePointOptions, calibrate_same_point};
+pub use corrected::same_point_robot;
 pub use report::{SamePointCorrection, SamePointReport, SamePointSpread, SamePointVerdict, TouchedPoint};

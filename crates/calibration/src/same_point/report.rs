@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::{
     estimation::ParameterUnit,
-    report::{CalibratedModel, ReportedFixedParameter},
+    report::{CalibratedFiles, CalibratedModel, ReportedFixedParameter},
 };
 
 /// The answer of `congruent calibrate --same-point`. Metres and radians throughout.
@@ -46,6 +46,9 @@ pub struct SamePointReport {
     pub converged: bool,
     /// Each file with its point.
     pub points: Vec<TouchedPoint>,
+    /// The files of the calibrated robot; left out if none were written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written: Option<CalibratedFiles>,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,

@@ -7,15 +7,18 @@ use congruent::{
         CalibrationOptions,
         same_point::{
             SamePointFile, SamePointOptions, SamePointReport, SamePointVerdict, calibrate_same_point,
+            same_point_robot,
         },
     },
     configurations::read_configurations,
     description::RobotDescription,
-    text::same_point_text,
+    text::{same_point_robot_comments, same_point_text},
 };
 
 use crate::{
-    failure::{Failure, NOTHING},
+    failure::{FAILED, Failure, NOTHING},
+    input::files_of,
+    model::calibrated_robot::{Calibrated, OutArguments},
     terminal::{print::Printer, progress::waiting},
 };
 
@@ -29,7 +32,7 @@ pub(super) struct SamePointArguments {
         long,
         value_name = "FILE",
         num_args = 1..,
-        conflicts_with_all = ["measurements", "loss", "noise", "next", "plot", "html", "out"]
+        conflicts_with_all = ["measurements", "loss", "noise", "next", "plot", "html"]
     )]
     same_point: Vec<PathBuf>,
 }
@@ -45,12 +48,17 @@ impl SamePointArguments {
         &self,
         description: &RobotDescription,
         options: &CalibrationOptions,
+        out: &OutArguments,
         printer: &Printer,
     ) -> Result<u8, Failure> {
-        let mut files = Vec::with_capacity(self.same_point.len());
+        let mut inputs = files_of(description);
+        inputs.extend(self.same_point.iter().cloned());
+        out.may_be_written(description, &inputs)?;
+        let (mut files, mut read_files) = (Vec::new(), Vec::new());
         for path in &self.same_point {
             let read = read_configurations(path, &description.robot)?;
             printer.warnings(None, read.warning.as_slice());
+            read_files.extend(read.input);
             files.push(SamePointFile { path: path.clone(), rows: read.entries });
         }
         let options = SamePointOptions {
@@ -60,9 +68,29 @@ impl SamePointArguments {
             seed: options.seed,
         };
         let estimate = || calibrate_same_point(description, &files, &options);
-        let report: SamePointReport = waiting(printer, "calibrating", estimate)?;
-        printer.result(&report, same_point_text)?;
+        let mut report: SamePointReport = waiting(printer, "calibrating", estimate)?;
+        let calibrated = Calibrated {
+            description,
+            corrected: &|| same_point_robot(description, &options, &report),
+            comments: &|left_out| same_point_robot_comments(&report, &read_files, left_out),
+            inputs: &inputs,
+        };
+        // The estimate is printed also where its robot cannot be written.
+        let (written, refused) = match out.write(&calibrated, printer) {
+            Ok(written) => (written, None),
+            Err(refused) => (None, Some(refused)),
+        };
+        report.written = written;
+        let is_unwritten = out.folder().is_some() && report.written.is_none() && refused.is_none();
+        printer.result(&report, |report| {
+            let text = same_point_text(report);
+            if is_unwritten { text + &out.nothing_written() } else { text }
+        })?;
+        if let Some(refused) = refused {
+            return Err(refused);
+        }
         Ok(match report.verdict {
+            SamePointVerdict::NoImprovement if is_unwritten => FAILED,
             SamePointVerdict::Explained | SamePointVerdict::NoImprovement => 0,
             SamePointVerdict::Unverifiable | SamePointVerdict::NothingIdentified => NOTHING,
         })
