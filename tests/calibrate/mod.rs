@@ -2,5 +2,6 @@
 
 mod estimates;
 mod input;
+mod same_point;
 mod verdicts;
 mod written_robot;

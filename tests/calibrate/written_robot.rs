@@ -139,6 +139,16 @@ fn base_and_tool_are_a_link_and_the_key_tcp() {
         assert!((number(&base["translation_m"][at]) - expected).abs() < ROUNDING, "{base}");
     }
     arm.is_the_arm(&OPTIONS);
+    // For people the two frames are beside the corrections.
+    let answer = congruent(&[&["calibrate", "robots/panda", &arm.file], &OPTIONS[..]].concat()).stdout;
+    let frames = answer.split("frames with which the corrections of the arm are right").nth(1).unwrap();
+    assert!(
+        frames.contains(
+            "panda_link0 in the frame of the measurements  xyz_mm = [3000.0000, -2000.0000, 1000.0000]"
+        ),
+        "{answer}"
+    );
+    assert!(frames.contains("measured frame in panda_link8  xyz_mm = ["), "{answer}");
 }
 
 #[test]

@@ -118,6 +118,10 @@ fn documents_follow_their_schemas() {
                 "--tolerance=5mm",
             ],
         ),
+        (
+            "same_point",
+            &["calibrate", "robots/ur5e", "--same-point", "docs/examples/calibration/ur5e_hole_1.csv"],
+        ),
         ("describe", &["describe", "robots/panda"]),
         ("describe", &["describe", "robots/rrr_arm/rrr_arm.urdf"]),
         ("log", &["describe", "docs/examples/log/joints.csv", "--robot", "robots/ur5e"]),

@@ -42,6 +42,8 @@ congruent_input::codes! {
             "More configurations were requested than there are candidates to choose from. Ask for fewer; the help names the number of candidates.\n    wrong: --next 100000\n    right: --next 10";
         OTHER_MOTION = "CGR-COMMAND-091", "calibrate::other_motion",
             "A calibrated robot is to be written, and a joint of the URDF turns or slides in another direction than the table says, or less than its variable. No origin of the joint makes the two the same. Correct the sign or the kind of the row first.\n    wrong: sign = -1 for a joint that turns as its variable says\n    right: sign = 1";
+        SAME_POINT = "CGR-COMMAND-093", "calibrate::same_point",
+            "A file of --same-point has too few configurations: of those at one point some are held out, and the others must still determine the point. Touch the point in more configurations that differ much.\n    wrong: three lines\n    right: thirty lines";
         UNPROVED = "CGR-COMMAND-092", "calibrate::unproved",
             "The files of a calibrated robot were read again, and the robot in them is not the calibrated one, so they were removed. This is a fault of Congruent: please report it with the robot and the measurements.\n    congruent calibrate robots/ur5e measured.csv --format json";
     }

@@ -15,6 +15,7 @@ mod measured_check;
 pub mod measurements;
 mod options;
 pub mod report;
+pub mod same_point;
 
 pub use calibrate::{calibrate, needed_coordinates};
 pub use corrected::{CorrectedRobot, corrected_robot};

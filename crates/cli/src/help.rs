@@ -145,6 +145,8 @@ const EXAMPLES: [(&str, &[&str]); 23] = [
         &[
             "congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv",
             "congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv --noise 0.1mm",
+            "congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv --out calibrated",
+            "congruent calibrate robots/ur5e --same-point docs/examples/calibration/ur5e_hole_1.csv",
         ],
     ),
     ("schema", &["congruent schema robot", "congruent schema scenario > scenario.json"]),

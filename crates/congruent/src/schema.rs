@@ -13,7 +13,7 @@ use congruent_analysis::{
     sensitivity::SensitivityReport,
     workspace::WorkspaceReport,
 };
-use congruent_calibration::{MeasuredCheck, report::CalibrationReport};
+use congruent_calibration::{MeasuredCheck, report::CalibrationReport, same_point::SamePointReport};
 use congruent_configurations::configurations_schema;
 use congruent_description::robot_file_schema;
 use congruent_logs::LogSurvey;
@@ -104,6 +104,11 @@ impl Document {
         Self::new("clearance", "distances, printed by `clearance`", written::<DistanceReport>),
         Self::new("acm", "pairs to disable, printed by `clearance --write-srdf`", written::<DisabledPairs>),
         Self::new("calibrate", "corrections, printed by `calibrate`", written::<CalibrationReport>),
+        Self::new(
+            "same_point",
+            "corrections from touched points, printed by `calibrate --same-point`",
+            written::<SamePointReport>,
+        ),
         Self::new(
             "convert",
             "model and proof, printed by `convert` and `derive`",

@@ -5,9 +5,11 @@ use std::fmt::Write;
 use congruent_calibration::report::{
     CalibratedFiles, CalibrationReport, EstimatedFrames, Recommendation, WrittenModel,
 };
+use congruent_calibration::same_point::{SamePointReport, SamePointSpread};
+use congruent_description::ReportedChain;
 use congruent_input::{
     InputFile,
-    display::{counted, length_and_angle},
+    display::{counted, length, length_and_angle},
     visible,
 };
 use congruent_kinematics::ReportedPose;
@@ -20,10 +22,7 @@ pub fn calibrated_robot_comments(
     left_out: &[String],
 ) -> String {
     let mut text = String::new();
-    let source = measurements.map_or_else(
-        || "standard input".to_owned(),
-        |file| format!("{} (SHA-256 {})", visible(&file.file), file.sha256),
-    );
+    let source = measurements.map_or_else(|| "standard input".to_owned(), with_digest);
     let rows = counted(report.rows, "measurement");
     let _ = writeln!(text, "# Robot \"{}\", corrected by `congruent calibrate`", visible(&report.robot));
     let _ = writeln!(text, "# from {rows} of {} in {source}.", visible(&report.measured_frame));
@@ -59,10 +58,50 @@ pub fn calibrated_robot_comments(
         let (value, unit) = (each.unit.for_people(each.held_at), each.unit.name_for_people());
         let _ = writeln!(text, "#   {} {value:+.4} {unit}, not identified", visible(&each.name));
     }
+    not_taken_over(&mut text, left_out);
+    text
+}
+
+/// The same of a calibration by touched points.
+pub fn same_point_robot_comments(
+    report: &SamePointReport,
+    files: &[InputFile],
+    left_out: &[String],
+) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "# Robot \"{}\", corrected by `congruent calibrate --same-point`\n# from {} with {} at one point in each of:",
+        visible(&report.robot),
+        counted(report.rows, "configuration"),
+        visible(&report.tool_frame)
+    );
+    for file in files {
+        let _ = writeln!(text, "#   {}", with_digest(file));
+    }
+    let spread =
+        |of: &SamePointSpread| format!("{} in the mean, {} at most", length(of.mean_m), length(of.worst_m));
+    let _ = writeln!(text, "# Distance from the points: {};", spread(&report.corrected));
+    if let Some(held_out) = &report.held_out {
+        let _ = writeln!(text, "# {} of held-out rows;", spread(held_out));
+    }
+    let _ = writeln!(text, "# {} with the nominal model.\n# Corrections:", spread(&report.nominal));
+    for each in &report.parameters {
+        let (value, unit) = (each.unit.for_people(each.correction), each.unit.name_for_people());
+        let _ = writeln!(text, "#   {} {value:+.4} {unit}", visible(&each.name));
+    }
+    not_taken_over(&mut text, left_out);
+    text
+}
+
+fn with_digest(file: &InputFile) -> String {
+    format!("{} (SHA-256 {})", visible(&file.file), file.sha256)
+}
+
+fn not_taken_over(text: &mut String, left_out: &[String]) {
     if !left_out.is_empty() {
         let _ = writeln!(text, "# Not taken over from the nominal robot file: {}.", left_out.join(", "));
     }
-    text
 }
 
 /// Base and tool with which the corrections of the arm are right.
@@ -87,8 +126,8 @@ fn pose_in_words(pose: &ReportedPose) -> String {
 }
 
 /// The files that were written, and where the corrections are in them.
-pub(crate) fn written_text(text: &mut String, report: &CalibrationReport) {
-    let Some(written) = &report.written else { return };
+pub(crate) fn written_text(text: &mut String, written: Option<&CalibratedFiles>, chain: &ReportedChain) {
+    let Some(written) = written else { return };
     let CalibratedFiles { robot_file, urdf, beyond_the_table, .. } = written;
     let model = match written.model {
         WrittenModel::Dh => "the corrected table",
@@ -107,14 +146,11 @@ pub(crate) fn written_text(text: &mut String, report: &CalibrationReport) {
     let _ = writeln!(text, "  written to {urdf}: the tree with corrected origins of its joints");
     let _ = writeln!(text, "  both differ from the calibrated chain by {error}");
     if let Some(base) = &written.base_link {
-        let _ = writeln!(
-            text,
-            "  base: link \"{base}\", the frame of the measurements, fixed to {}",
-            report.chain.base
-        );
+        let _ =
+            writeln!(text, "  base: link \"{base}\", the frame of the measurements, fixed to {}", chain.base);
     }
     if written.has_corrected_tcp {
-        let _ = writeln!(text, "  tool: key tcp of the robot file, in {}", report.chain.tip);
+        let _ = writeln!(text, "  tool: key tcp of the robot file, in {}", chain.tip);
     }
     if !written.left_out.is_empty() {
         let _ = writeln!(text, "  not taken over from the robot file: {}", written.left_out.join(", "));

@@ -32,7 +32,7 @@ pub fn calibration_text(report: &CalibrationReport, robot: &Robot) -> String {
     fits(&mut text, report);
     outliers(&mut text, report);
     next(&mut text, report, robot);
-    written_text(&mut text, report);
+    written_text(&mut text, report.written.as_ref(), &report.chain);
     text
 }
 

@@ -20,13 +20,14 @@ mod options;
 #[cfg(feature = "recording")]
 mod recording;
 mod run;
+mod same_point;
 
 pub use arm::{
     clearance_text_parts, disabled_pairs_text, forward_text_parts, inverse_text, jacobian_text_parts,
     joint_dynamics_text_parts, manipulability_text_parts, sensitivity_text, workspace_text,
 };
 pub use base_parameters::base_parameters_text;
-pub use calibrated_robot::calibrated_robot_comments;
+pub use calibrated_robot::{calibrated_robot_comments, same_point_robot_comments};
 pub use calibration::calibration_text;
 pub use conversion::{conversion_comments, conversion_remarks, conversion_text};
 pub use description::{description_text, joint_orders_text};
@@ -39,3 +40,4 @@ pub use options::TextOptions;
 #[cfg(feature = "recording")]
 pub use recording::{disagreement_sentence, rechecked_text, recording_text};
 pub use run::run_text;
+pub use same_point::same_point_text;

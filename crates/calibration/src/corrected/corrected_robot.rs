@@ -55,8 +55,17 @@ pub fn corrected_robot(
     report: &CalibrationReport,
 ) -> Result<Option<CorrectedRobot>, Diagnostic> {
     let Some(values) = recommended(report) else { return Ok(None) };
+    robot_with(description, [&options.free, &options.hold], &values).map(Some)
+}
+
+/// The robot with these corrections by name, which are among those that are free and not held; the others are 0.
+pub(crate) fn robot_with(
+    description: &RobotDescription,
+    [free, hold]: [&[String]; 2],
+    values: &BTreeMap<&str, f64>,
+) -> Result<CorrectedRobot, Diagnostic> {
     let nominal = NominalChain::new(description)?;
-    let parameters = free::parameters(&nominal, &options.free, &options.hold)?;
+    let parameters = free::parameters(&nominal, free, hold)?;
     let chain = CorrectedChain::new(nominal.chain.clone(), parameters);
     let values: Vec<f64> = chain
         .parameters()
@@ -91,14 +100,14 @@ pub fn corrected_robot(
         let rows = table::corrected(nominal, &corrections);
         corrected.dh = Some(in_tree(rows, description, &corrected, &moved.base, &base_from_tip));
     }
-    Ok(Some(CorrectedRobot {
+    Ok(CorrectedRobot {
         description: corrected,
         chain_to_tip: ScrewChain { base_from_tip_at_zero: base_from_tip, ..screws.clone() },
         chain: screws,
         beyond_the_table: beyond_the_table.unwrap_or_default(),
         measured_from_base,
         has_other_tool,
-    }))
+    })
 }
 
 /// The corrections of the recommended estimate, and those that are held, by name.

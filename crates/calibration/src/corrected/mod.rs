@@ -8,4 +8,5 @@ mod joint_on_screw;
 mod table;
 mod tree;
 
+pub(crate) use corrected_robot::robot_with;
 pub use corrected_robot::{CorrectedRobot, corrected_robot};

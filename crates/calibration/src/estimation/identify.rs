@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::{
-    model::{CorrectionParameter, ParameterUnit},
+    model::{CorrectedChain, CorrectionParameter, ParameterUnit},
     problem::{CalibrationEquations, Noise, Problem, Weighting},
 };
 
@@ -49,15 +49,48 @@ pub struct FixedParameter {
 /// [`CorrectionEntry`]: crate::estimation::CorrectionEntry
 pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
     let parameters = problem.chain.parameters();
-    let (information, reach_m) = scaled_information(problem);
-    let singular_values = singular_values(&information);
-    let largest = singular_values.first().copied().unwrap_or(0.0);
     let mut order: Vec<usize> = (0..parameters.len()).collect();
     // About frames that lie elsewhere, a correction of the arm that has the effect of a frame would be a value to write that is right
     // only together with that frame: the frame takes it.
     let have_moved = problem.chain.start().iter().any(|value| *value != 0.0);
     // A stable sort: within one kind of entry the order stays base to tip.
     order.sort_by_key(|&at| (have_moved && !parameters[at].entry.is_of_frame(), parameters[at].entry));
+    let reach_m = problem.reach_m();
+    let noise = Noise { position_m: 1.0, orientation_rad: 1.0 / reach_m };
+    let all: Vec<usize> = (0..parameters.len()).collect();
+    let CalibrationEquations { information, .. } =
+        problem.normal_equations(problem.chain.start(), &all, &Weighting { noise, rows: &[] });
+    let components = problem.component_count();
+    identify_by_information(
+        problem.chain,
+        order,
+        MeasuredInformation { information, components, reach_m },
+        threshold,
+    )
+}
+
+/// What measurements say about all corrections of a chain together.
+#[derive(Debug, Clone)]
+pub(crate) struct MeasuredInformation {
+    /// `J^T J` in m and rad; orientations are lengths at the reach.
+    pub(crate) information: DMatrix<f64>,
+    /// Number of measured components.
+    pub(crate) components: usize,
+    /// The reach of the arm.
+    pub(crate) reach_m: f64,
+}
+
+/// [`identify`] from the information alone, in an order of preference.
+pub(crate) fn identify_by_information(
+    chain: &CorrectedChain,
+    order: Vec<usize>,
+    measured: MeasuredInformation,
+    threshold: f64,
+) -> Identification {
+    let (parameters, reach_m) = (chain.parameters(), measured.reach_m);
+    let information = scaled_information(parameters, measured);
+    let singular_values = singular_values(&information);
+    let largest = singular_values.first().copied().unwrap_or(0.0);
     let (mut kept, mut fixed, mut kept_ratio) = (Vec::new(), Vec::new(), 1.0);
     // Greedy, because the result must be explainable: of two corrections that cannot be distinguished the more
     // physical one is estimated, whatever the singular vectors are.
@@ -95,17 +128,13 @@ fn scale(parameter: &CorrectionParameter, reach_m: f64) -> f64 {
     }
 }
 
-/// The mean information of a component, in scaled units; and the reach.
-fn scaled_information(problem: &Problem<'_>) -> (DMatrix<f64>, f64) {
-    let parameters = problem.chain.parameters();
-    let reach_m = problem.reach_m();
-    let noise = Noise { position_m: 1.0, orientation_rad: 1.0 / reach_m };
-    let weighting = Weighting { noise, rows: &[] };
-    let all: Vec<usize> = (0..parameters.len()).collect();
-    let CalibrationEquations { mut information, .. } =
-        problem.normal_equations(problem.chain.start(), &all, &weighting);
+/// The mean information of a component, in scaled units.
+fn scaled_information(
+    parameters: &[CorrectionParameter],
+    MeasuredInformation { mut information, components, reach_m }: MeasuredInformation,
+) -> DMatrix<f64> {
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
-    let components = problem.component_count().max(1) as f64;
+    let components = components.max(1) as f64;
     for (row, of_row) in parameters.iter().enumerate() {
         for (column, of_column) in parameters.iter().enumerate() {
             // J^T J / components, so that the singular values do not grow with the number of measurements and one
@@ -113,7 +142,7 @@ fn scaled_information(problem: &Problem<'_>) -> (DMatrix<f64>, f64) {
             information[(row, column)] /= components * scale(of_row, reach_m) * scale(of_column, reach_m);
         }
     }
-    (information, reach_m)
+    information
 }
 
 fn select(information: &DMatrix<f64>, kept: &[usize]) -> DMatrix<f64> {

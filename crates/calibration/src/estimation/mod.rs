@@ -21,6 +21,7 @@ mod validate;
 pub use align::align;
 pub use estimate::{CalibrationFit, fit, fit_with_estimated_noise};
 pub use identify::{FixedParameter, Identification, identify};
+pub(crate) use identify::{MeasuredInformation, identify_by_information};
 pub(crate) use model::Displacements;
 pub use model::{
     CorrectedChain, CorrectionEntry, CorrectionParameter, ParameterUnit, base_pose, dh_entries, joint_axes,

@@ -10,9 +10,9 @@ use super::{
     calibration_report::{
         AlignedFrames, CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry,
         CostCurve, EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason,
-        Recommendation, ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual,
-        SuggestedConfiguration,
+        Recommendation, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
     },
+    fixed::reported_fixed,
     frames::frames,
     interpretation::{self, Misfit},
     residual_size::{LARGE_CORRECTION, ReachScale, ResidualSize},
@@ -21,8 +21,8 @@ use super::{
 use crate::{
     computed::Computed,
     estimation::{
-        CalibrationFit, CorrectionEntry, CorrectionParameter, FixedParameter, Measurement, Noise,
-        ParameterUnit, PoseResidual, Problem, Suggestion, configurations, cost_curve,
+        CalibrationFit, CorrectionEntry, CorrectionParameter, Measurement, Noise, PoseResidual, Problem,
+        Suggestion, configurations, cost_curve,
     },
     measurements::MeasuredRow,
 };
@@ -43,18 +43,6 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let (corrected_size, nominal_size) = residual_sizes(computed, &nominal);
     let verdict = explanation(computed, held_out.as_ref(), &corrected_size, &nominal_size);
     let (verdict, likely_reason) = reinterpreted(computed, verdict, &corrected_size);
-    let recommended = match verdict {
-        CalibrationVerdict::Explained
-        | CalibrationVerdict::UnexplainedRows
-        | CalibrationVerdict::NoiseExceeded => {
-            if computed.is_robust_best() {
-                Recommendation::Robust
-            } else {
-                Recommendation::LeastSquares
-            }
-        }
-        _ => Recommendation::Nominal,
-    };
     let row_residuals = rows(computed, &nominal);
     let mut report = CalibrationReport {
         robot: computed.description.name.clone(),
@@ -67,12 +55,17 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         redundancy: computed.redundancy,
         verdict,
         likely_reason,
-        recommended,
+        recommended: recommendation(computed, verdict),
         statements: Vec::new(),
         parameters: estimates(computed),
         aligned: aligned(computed),
         frames: frames(computed),
-        fixed: computed.identification.fixed.iter().map(|each| fixed(computed, each)).collect(),
+        fixed: computed
+            .identification
+            .fixed
+            .iter()
+            .map(|each| reported_fixed(&computed.chain, each))
+            .collect(),
         identifiability: Identifiability {
             threshold: computed.options.threshold,
             singular_values: computed.identification.singular_values.clone(),
@@ -93,6 +86,22 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     };
     report.statements = statements::statements(&report, largest(computed, &report.parameters));
     report
+}
+
+/// Which estimate to use.
+fn recommendation(computed: &Computed<'_>, verdict: CalibrationVerdict) -> Recommendation {
+    match verdict {
+        CalibrationVerdict::Explained
+        | CalibrationVerdict::UnexplainedRows
+        | CalibrationVerdict::NoiseExceeded => {
+            if computed.is_robust_best() {
+                Recommendation::Robust
+            } else {
+                Recommendation::LeastSquares
+            }
+        }
+        _ => Recommendation::Nominal,
+    }
 }
 
 /// The length whose correction is too large for an assembly error, with its correction, m.
@@ -312,23 +321,6 @@ fn in_table(
     });
     let line = written.unwrap_or(row.line);
     Some(CorrectedTableEntry { entry, nominal, corrected: nominal + sign * correction, line })
-}
-
-fn fixed(computed: &Computed<'_>, fixed: &FixedParameter) -> ReportedFixedParameter {
-    let parameters = computed.chain.parameters();
-    let terms: Vec<(&str, f64, ParameterUnit)> = fixed
-        .correlated_with
-        .iter()
-        .map(|&(at, factor)| (parameters[at].name.as_str(), factor, parameters[at].unit()))
-        .collect();
-    let own = &parameters[fixed.parameter];
-    ReportedFixedParameter {
-        name: own.name.clone(),
-        unit: own.unit(),
-        held_at: computed.chain.start()[fixed.parameter],
-        correlated_with: terms.iter().map(|(name, factor, _)| ((*name).to_owned(), *factor)).collect(),
-        reason: statements::why_fixed(own.unit(), &terms),
-    }
 }
 
 fn rows_of(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {

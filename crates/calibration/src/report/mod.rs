@@ -3,6 +3,7 @@
 pub(crate) mod assemble;
 mod calibrated_files;
 mod calibration_report;
+mod fixed;
 mod frames;
 mod interpretation;
 pub mod plot;
@@ -15,4 +16,5 @@ pub use calibration_report::{
     EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason, Recommendation,
     ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
 };
+pub(crate) use fixed::reported_fixed;
 pub use frames::EstimatedFrames;

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use congruent::{
     calibration::{
-        CalibrationOptions, Loss, Noise, calibrate,
+        CalibrationOptions, Loss, Noise, calibrate, corrected_robot,
         measurements::{MeasuredRow, read_measurements},
         needed_coordinates,
         report::{CalibrationVerdict, plot},
     },
     input::{Diagnostic, FileAccess, InputFile, is_standard_input},
     page::{CalibrationSource, calibration_page},
-    text::{calibration_text, layout::visible_path},
+    text::{calibrated_robot_comments, calibration_text},
 };
 
 use crate::{
@@ -21,7 +21,10 @@ use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, files_of, named, seed},
     invocation,
-    model::calibrated_robot::{Calibrated, OutArguments},
+    model::{
+        calibrated_robot::{Calibrated, OutArguments},
+        same_point::SamePointArguments,
+    },
     output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{print::Printer, progress::waiting},
     tolerance::ToleranceArgument,
@@ -43,7 +46,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
     /// CSV or JSON file of joint positions and measured poses or points, or - for standard input.
-    measurements: PathBuf,
+    #[arg(required_unless_present = "same_point")]
+    measurements: Option<PathBuf>,
+    #[command(flatten)]
+    same_point: SamePointArguments,
     /// Corrections that are estimated: zero-offsets, dh, axes, base, tool, all, or single corrections such as
     /// elbow_joint.zero, elbow_joint.a, base.yaw; may be given several times.
     #[arg(long, value_delimiter = ',', default_value = "zero-offsets")]
@@ -78,22 +84,28 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
+    let measurements = match &arguments.measurements {
+        Some(measurements) if !arguments.same_point.is_given() => measurements,
+        _ => {
+            let options = arguments.options(&[])?;
+            return arguments.same_point.run(&description, &options, &arguments.out, printer);
+        }
+    };
     let needed = needed_coordinates(&description)?;
-    let rows = read_measurements(&arguments.measurements, &description.robot, &needed)?;
+    let rows = read_measurements(measurements, &description.robot, &needed)?;
     let options = arguments.options(&rows)?;
     let mut inputs = files_of(&description);
-    inputs.push(arguments.measurements.clone());
+    inputs.push(measurements.clone());
     arguments.plot.is_none_of(&inputs)?;
     arguments.page.is_none_of(&inputs)?;
     refuse_same(arguments.plot.output().into_iter().chain(arguments.page.output()))?;
     arguments.out.may_be_written(&description, &inputs)?;
     let mut report = waiting(printer, "calibrating", || calibrate(&description, &rows, &options))?;
-    let read = read_file(&arguments.measurements);
+    let read = read_file(measurements);
     let calibrated = Calibrated {
         description: &description,
-        options: &options,
-        report: &report,
-        measurements: read.as_ref(),
+        corrected: &|| corrected_robot(&description, &options, &report),
+        comments: &|left_out| calibrated_robot_comments(&report, read.as_ref(), left_out),
         inputs: &inputs,
     };
     // The estimate is printed also where its robot cannot be written.
@@ -102,12 +114,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         Err(refused) => (None, Some(refused)),
     };
     report.written = written;
-    let unwritten = arguments.out.folder().filter(|_| report.written.is_none() && refused.is_none());
+    let is_unwritten = arguments.out.folder().is_some() && report.written.is_none() && refused.is_none();
     printer.result(&report, |report| {
-        let not_written = unwritten.map_or_else(String::new, |folder| {
-            format!("\n  nothing is written to {}: no corrections are recommended\n", visible_path(folder))
-        });
-        calibration_text(report, &description.robot) + &not_written
+        let text = calibration_text(report, &description.robot);
+        if is_unwritten { text + &arguments.out.nothing_written() } else { text }
     })?;
     if let Some(refused) = refused {
         return Err(refused);
@@ -120,7 +130,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     arguments.page.write(page, &inputs).and(plotted)?;
     let code = exit_code(report.verdict);
     // A robot that was to be written is not there.
-    Ok(if unwritten.is_some() && code == 0 { FAILED } else { code })
+    Ok(if is_unwritten && code == 0 { FAILED } else { code })
 }
 
 fn exit_code(verdict: CalibrationVerdict) -> u8 {

@@ -8,13 +8,13 @@ use congruent::{
         RoundedAxes, convert_robot,
     },
     calibration::{
-        CalibrationOptions, CorrectedRobot, corrected_robot,
-        report::{CalibratedFiles, CalibrationReport, WrittenModel},
+        CorrectedRobot,
+        report::{CalibratedFiles, WrittenModel},
     },
     description::{Places, RobotDescription, load_robot_with},
-    input::{Diagnostic, FileAccess, InputFile, is_standard_input},
+    input::{Diagnostic, FileAccess, is_standard_input},
     kinematics::PoseError,
-    text::calibrated_robot_comments,
+    text::layout::visible_path,
     writers::{dh_section, own_robot_file_text, poe_section, robot_file_text},
 };
 
@@ -49,10 +49,10 @@ pub(super) struct OutArguments {
 /// A calibration whose robot is written.
 pub(super) struct Calibrated<'a> {
     pub(super) description: &'a RobotDescription,
-    pub(super) options: &'a CalibrationOptions,
-    pub(super) report: &'a CalibrationReport,
-    /// The file of the measurements with its digest; `None` if they came from standard input.
-    pub(super) measurements: Option<&'a InputFile>,
+    /// The corrected robot; `None` if no correction is recommended.
+    pub(super) corrected: &'a dyn Fn() -> Result<Option<CorrectedRobot>, Diagnostic>,
+    /// The comments of its robot file, with what is not taken over from the nominal one.
+    pub(super) comments: &'a dyn Fn(&[String]) -> String,
     /// The files that were read, which are not replaced.
     pub(super) inputs: &'a [PathBuf],
 }
@@ -75,6 +75,13 @@ impl OutArguments {
             .try_for_each(|name| self.target(&folder.join(name)).may_be_written(inputs))
     }
 
+    /// What is said where a robot was to be written and none is recommended.
+    pub(super) fn nothing_written(&self) -> String {
+        self.folder().map_or_else(String::new, |folder| {
+            format!("\n  nothing is written to {}: no corrections are recommended\n", visible_path(folder))
+        })
+    }
+
     /// Writes both files; `None` if there is no folder, or no correction is recommended. What was there before a refusal is there
     /// again.
     pub(super) fn write(
@@ -83,8 +90,7 @@ impl OutArguments {
         printer: &Printer,
     ) -> Result<Option<CalibratedFiles>, Failure> {
         let Some(folder) = self.folder() else { return Ok(None) };
-        let Calibrated { description, options, report, .. } = *calibrated;
-        let Some(corrected) = corrected_robot(description, options, report)? else { return Ok(None) };
+        let Some(corrected) = (calibrated.corrected)()? else { return Ok(None) };
         let made = Folders::make(folder)?;
         let written = self.write_into(folder, &corrected, calibrated, printer);
         written.map(Some).inspect_err(|_| made.remove())
@@ -105,8 +111,7 @@ impl OutArguments {
         printer.warnings(None, &converted.findings);
         let model = if corrected.description.dh.is_some() { WrittenModel::Dh } else { WrittenModel::Poe };
         let left_out = left_out(description, model);
-        let comments = calibrated_robot_comments(calibrated.report, calibrated.measurements, &left_out);
-        let toml = comments + &robot_file(corrected, &place, &urdf_name(description));
+        let toml = (calibrated.comments)(&left_out) + &robot_file(corrected, &place, &urdf_name(description));
         let tree = converted.urdf.unwrap_or_default();
         // The robot file is written while the URDF may still be taken back: neither is left without the other.
         let proof = self.target(&urdf).write(&tree, inputs, |urdf| {

@@ -9,5 +9,6 @@ mod errors_at;
 mod fixed_table;
 pub(crate) mod lint;
 mod measured;
+mod same_point;
 mod split_values;
 mod written_model;
