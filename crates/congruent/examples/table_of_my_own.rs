@@ -26,7 +26,7 @@ const GAP_S: f64 = 0.5;
 struct TableSource {
     rows: Vec<(f64, RobotQ)>,
     at: usize,
-    is_gap_told: bool,
+    is_gap_given: bool,
 }
 
 impl JointStateSource for TableSource {
@@ -36,10 +36,10 @@ impl JointStateSource for TableSource {
 
     fn advance(&mut self, _: f64) -> Result<Advance, SourceError> {
         let (from_s, to_s) = (self.rows[self.at].0, self.rows[self.at + 1].0);
-        if to_s - from_s > GAP_S && !std::mem::replace(&mut self.is_gap_told, true) {
+        if to_s - from_s > GAP_S && !std::mem::replace(&mut self.is_gap_given, true) {
             return Ok(Advance::Gap { from_s, to_s });
         }
-        (self.at, self.is_gap_told) = (self.at + 1, false);
+        (self.at, self.is_gap_given) = (self.at + 1, false);
         Ok(Advance::At(to_s))
     }
 
@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         vec![Check::Agreement(AgreementCheck::default()), Check::Recording(RecordingCheck::default())];
     let scenario = Scenario { name: "my_table".to_owned(), check, ..Scenario::default() };
     let setup = RunSetup::new(scenario, load_robot(robot)?)?;
-    let begin = |setup| Run::with_source(setup, Box::new(TableSource { rows, at: 0, is_gap_told: false }));
+    let begin = |setup| Run::with_source(setup, Box::new(TableSource { rows, at: 0, is_gap_given: false }));
     let options = Options { out: "out".into(), recordings: vec![&PageFormat], interrupt: None };
     let (report, folder) = execute_with(&setup, &options, begin, explain, |_| ())?;
     println!("{}: {}", report.sentence(), folder.file("report.html").display());

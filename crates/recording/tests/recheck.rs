@@ -45,7 +45,7 @@ impl Bench {
     }
 
     fn recheck(&self) -> Recheck {
-        recheck(&self.summary, &self.scalars, self.setup(&[])).unwrap()
+        recheck(&self.summary, &self.scalars, &self.setup(&[])).unwrap()
     }
 }
 
@@ -105,7 +105,7 @@ fn a_link_error_and_a_worst_value_that_were_changed_are_found() {
         let (time_s, value) = &mut scalars.get_mut(path).unwrap()[50];
         *value = 0.25;
         let time_s = *time_s;
-        let found = recheck(&bench.summary, &scalars, bench.setup(&[])).unwrap();
+        let found = recheck(&bench.summary, &scalars, &bench.setup(&[])).unwrap();
         let first = &found.disagreements[0];
         assert_eq!(
             (first.check.word(), first.quantity.map(Quantity::name)),
@@ -129,7 +129,7 @@ fn a_report_that_was_changed_is_found() {
         measure.worst.as_mut().unwrap().value = 0.5;
         measure.first_violation = None;
     }
-    let found = recheck(&summary, &bench.scalars, bench.setup(&[])).unwrap();
+    let found = recheck(&summary, &bench.scalars, &bench.setup(&[])).unwrap();
     let first = &found.disagreements[0];
     assert_eq!((first.check.word(), first.quantity.map(Quantity::name)), ("clearance", Some("distance")));
     assert!(first.value.unwrap() < 0.02 && first.time_s.unwrap() > 1.0);
@@ -140,25 +140,25 @@ fn a_report_that_was_changed_is_found() {
 fn other_limits_give_another_verdict_and_other_checks_none() {
     let bench = Bench::of("ur5e_pick.toml", &[]);
     // 33.8 mm are left.
-    let found = recheck(&bench.summary, &bench.scalars, bench.setup(&["check.2.minimum_m=0.05"])).unwrap();
+    let found = recheck(&bench.summary, &bench.scalars, &bench.setup(&["check.2.minimum_m=0.05"])).unwrap();
     assert!(!found.same_limits && !found.same_verdict && found.disagreements.is_empty());
     assert_eq!((found.checks[1].status, found.exit_code()), (Status::Fail, 1));
     // What is known by the report alone has the limits of the scenario, too.
     for (at, limit) in
         [(3, "check.4.relative=1e-9"), (4, "check.5.relative=1e-9"), (5, "check.6.linear_m_s=1e-12")]
     {
-        let found = recheck(&bench.summary, &bench.scalars, bench.setup(&[limit])).unwrap();
+        let found = recheck(&bench.summary, &bench.scalars, &bench.setup(&[limit])).unwrap();
         assert!(!found.same_limits, "{limit}");
         assert_eq!((found.checks[at].status, found.exit_code()), (Status::Fail, 1), "{limit}");
     }
     let mut summary = bench.summary.clone();
     summary.run.as_mut().unwrap().links[3].link = "of_another_robot".into();
-    let error = recheck(&summary, &bench.scalars, bench.setup(&[])).unwrap_err();
+    let error = recheck(&summary, &bench.scalars, &bench.setup(&[])).unwrap_err();
     assert!(error.to_string().contains("which has other links or joints"), "{error}");
     let mut scalars = bench.scalars.clone();
     let positions = scalars.remove("/joint/position/elbow_joint").unwrap();
     scalars.insert("/joint/position/joint_of_another_robot".to_owned(), positions);
-    let error = recheck(&bench.summary, &scalars, bench.setup(&[])).unwrap_err();
+    let error = recheck(&bench.summary, &scalars, &bench.setup(&[])).unwrap_err();
     assert!(error.to_string().contains("which has other links or joints"), "{error}");
     let other = RunSetup::load(&repository().join("scenarios/ur5e_weld.toml"), &[]).unwrap();
     let error = recheck(&bench.summary, &bench.scalars, other).unwrap_err();

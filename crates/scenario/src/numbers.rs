@@ -3,7 +3,8 @@
 use congruent_input::Diagnostic;
 
 use crate::{
-    ArcMotion, Check, LineMotion, MotionSettings, ObstacleSettings, Range, Scenario, ZoneSettings, codes,
+    ArcMotion, Check, LineMotion, MotionSettings, ObstacleSettings, Range, Scenario, SourceSettings,
+    ZoneSettings, codes,
 };
 
 /// All numbers that are out of range.
@@ -20,16 +21,7 @@ pub fn check(scenario: &Scenario) -> Vec<Diagnostic> {
     numbers.one("simulation.contact_restitution", simulation.contact_restitution, Range::Share);
     numbers.check_optional("controller.rate_hz", scenario.controller.rate_hz, Range::Positive);
     numbers.check_optional("controller.delay_s", scenario.controller.delay_s, Range::Positive);
-    if let Some(source) = &scenario.source {
-        numbers.check_optional("source.rate_hz", source.rate_hz, Range::Positive);
-        numbers.check_optional("source.from_s", source.from_s, Range::Finite);
-        numbers.check_optional("source.until_s", source.until_s, Range::Finite);
-        numbers.check_optional("source.maximum_gap_s", source.maximum_gap_s, Range::Positive);
-        for pose in &source.pose {
-            numbers.one("source.pose.offset_s", pose.offset_s, Range::Finite);
-            numbers.one("source.pose.drift", pose.drift, Range::Finite);
-        }
-    }
+    scenario.source.iter().for_each(|source| numbers.source(source));
     for payload in &scenario.payload {
         numbers.one("payload.mass_kg", payload.mass_kg, Range::Positive);
         numbers.one("payload.from_s", payload.from_s, Range::NonNegative);
@@ -85,6 +77,17 @@ impl Numbers {
     fn check_optional(&mut self, key: &str, value: Option<f64>, range: Range) {
         if let Some(value) = value {
             self.one(key, value, range);
+        }
+    }
+
+    fn source(&mut self, source: &SourceSettings) {
+        self.check_optional("source.rate_hz", source.rate_hz, Range::Positive);
+        self.check_optional("source.from_s", source.from_s, Range::Finite);
+        self.check_optional("source.until_s", source.until_s, Range::Finite);
+        self.check_optional("source.maximum_gap_s", source.maximum_gap_s, Range::Positive);
+        for pose in &source.pose {
+            self.one("source.pose.offset_s", pose.offset_s, Range::Finite);
+            self.one("source.pose.drift", pose.drift, Range::Finite);
         }
     }
 

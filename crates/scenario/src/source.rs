@@ -161,7 +161,7 @@ pub enum PoseOrigin {
     Derived,
     /// Computed by the robot's controller: they show its calibration, its tool and its clock, but no error of an encoder.
     Controller,
-    /// Measured by a tracker or a camera: the only witness of the arm itself.
+    /// Measured by a tracker or a camera: the only source that sees the arm itself.
     Measured,
 }
 

@@ -137,7 +137,7 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
     }
     let setup = setup?;
     batch.warn(path, &setup.warnings);
-    let result = recheck(&summary, &scalars, setup)
+    let result = recheck(&summary, &scalars, &setup)
         .map_err(|error| Diagnostic::error(codes::inspect::CHECK, error.to_string()))?;
     take(&mut summary, result);
     Ok(summary)

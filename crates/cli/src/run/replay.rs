@@ -27,7 +27,7 @@ use crate::{
 
 /// Judges a log of the real robot: writes a scenario that takes its joint states and poses, and runs it.
 ///
-/// The log is an MCAP, a table in CSV, or a folder that rosbag2 wrote. A robot_description in it is compared with the robot first.
+/// The log is an MCAP, a table in CSV, or a folder that rosbag2 wrote. A `robot_description` in it is compared with the robot first.
 /// Joints are found by their names; poses by the names of their topics and frames. Poses in frames that the robot does not have
 /// are fitted to the log: then their constant error cannot be seen. The scenario is written beside the results; `congruent run`
 /// runs it again. Exit code 1 if a check fails or the recorded description is another robot.
@@ -60,7 +60,7 @@ pub(crate) struct Arguments {
     derived_pose: Vec<String>,
     /// The time of a message: the stamp of its sender, or when the recorder had it. By default the stamp, where there is one.
     #[arg(long, value_enum)]
-    clock: Option<Clock>,
+    clock: Option<StampChoice>,
     /// Rate of the rows of a table without times, Hz.
     #[arg(long, value_name = "HZ", value_parser = crate::quantity::rate_hz)]
     rate_hz: Option<f64>,
@@ -74,7 +74,7 @@ pub(crate) struct Arguments {
 
 /// The clock of the messages.
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum Clock {
+enum StampChoice {
     /// The stamps of the senders.
     Stamp,
     /// The times of the recorder.
@@ -93,8 +93,8 @@ impl Arguments {
             .flat_map(|(topics, origin)| topics.iter().map(move |topic| (topic.clone(), origin)));
         ReplayRequest {
             clock: self.clock.map(|clock| match clock {
-                Clock::Stamp => LogClock::Stamp,
-                Clock::Log => LogClock::Log,
+                StampChoice::Stamp => LogClock::Stamp,
+                StampChoice::Log => LogClock::Log,
             }),
             rate_hz: self.rate_hz,
             degrees: self.degrees,

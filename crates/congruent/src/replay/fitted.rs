@@ -15,9 +15,9 @@ use congruent_scenario::{LoggedPoseSettings, PoseOrigin, PoseSettings};
 use nalgebra::Isometry3;
 
 use super::{
-    Replayed,
     paired::{OFFSETS_S, PairedPose, pairs},
     pose_clock::{PoseClock, PositionsOverOffsets, pose_clock},
+    replayed::Replayed,
 };
 
 /// Rounds of frames and clock, each with the other's result.
@@ -177,12 +177,12 @@ impl PoseFit<'_> {
         let mut clock = PoseClock::default();
         pose.position_only = self.has_one_rotation();
         for _ in 0..ROUNDS {
-            let rows: Vec<MeasuredRow> = self
-                .pairs
-                .iter()
-                .enumerate()
-                .map(|(at, pair)| row(at, pair, &clock, pose.position_only))
-                .collect();
+            let rows = self.pairs.iter().enumerate().map(|(at, pair)| row(at, pair, &clock));
+            let measured = |row: MeasuredRow| MeasuredRow {
+                orientation: row.orientation.filter(|_| !pose.position_only),
+                ..row
+            };
+            let rows: Vec<MeasuredRow> = rows.map(measured).collect();
             let options = CalibrationOptions {
                 free: vec!["base".to_owned(), "tool".to_owned()],
                 suggestions: 0,
@@ -225,7 +225,7 @@ impl PoseFit<'_> {
 }
 
 /// A row of measurements at the time of the joints.
-fn row(at: usize, pair: &PairedPose, clock: &PoseClock, is_point: bool) -> MeasuredRow {
+fn row(at: usize, pair: &PairedPose, clock: &PoseClock) -> MeasuredRow {
     let offset_s = clock.offset_s + clock.drift * pair.time_s;
     let after = OFFSETS_S.partition_point(|known| *known < offset_s).clamp(1, OFFSETS_S.len() - 1);
     let share = (offset_s - OFFSETS_S[after - 1]) / (OFFSETS_S[after] - OFFSETS_S[after - 1]);
@@ -237,7 +237,7 @@ fn row(at: usize, pair: &PairedPose, clock: &PoseClock, is_point: bool) -> Measu
         line: at + 1,
         q,
         tip_in_base_m: [0, 1, 2].map(|axis| Some(pair.frame_from_target.translation.vector[axis])),
-        orientation: (!is_point).then_some(WrittenOrientation::QuaternionWxyz(wxyz)),
+        orientation: Some(WrittenOrientation::QuaternionWxyz(wxyz)),
     }
 }
 

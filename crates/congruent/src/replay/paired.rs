@@ -11,7 +11,7 @@ use congruent_twin::{
 };
 use nalgebra::Isometry3;
 
-use super::Replayed;
+use super::replayed::Replayed;
 
 /// Offsets of the clock of the poses at which joint positions are kept, s: one every 25 ms.
 pub(super) const OFFSETS_S: [f64; 9] = [-0.1, -0.075, -0.05, -0.025, 0.0, 0.025, 0.05, 0.075, 0.1];

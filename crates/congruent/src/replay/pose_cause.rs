@@ -1,6 +1,6 @@
 //! Why recorded poses are not where the model puts them: the clock, the tool, the base, the zero of a joint, or the geometry.
 //!
-//! Each is fitted alone to the poses, in the order from what is changed most easily; the first that leaves a fifth of the
+//! Each is fitted alone to the poses, in the order from what is changed most easily; the first that omits four fifths of the
 //! distance is the cause. A constant in the frame of the tool is the tool, a constant in that of the base the base, and what is
 //! proportional to the velocity a clock.
 
@@ -19,12 +19,12 @@ use congruent_twin::{Outcome, Run, RunSetup};
 use nalgebra::Isometry3;
 
 use super::{
-    Replayed,
     paired::{OFFSETS_S, PairedPose, pairs},
     pose_clock::{PositionsOverOffsets, pose_clock},
+    replayed::Replayed,
 };
 
-/// A cause leaves at most this share of the distance.
+/// With the cause, at most this share of the distance remains.
 const LEFT: f64 = 0.2;
 /// Fewest poses of which a cause is named.
 const FEWEST: usize = 10;

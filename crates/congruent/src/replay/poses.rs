@@ -5,7 +5,7 @@ use congruent_input::{Diagnostic, Findings, known_names};
 use congruent_logs::{FramePair, LogSurvey, TopicContent, TopicSurvey};
 use congruent_scenario::{LoggedPoseSettings, PoseOrigin, PoseSettings};
 
-use super::{ReplayRequest, rate};
+use super::{request::ReplayRequest, survey_words::rate};
 use crate::codes;
 
 /// Parts of names of topics and frames that a robot's driver publishes: computed by its controller.
@@ -26,7 +26,7 @@ const OF_INSTRUMENTS: [&str; 12] = [
     "leica",
 ];
 
-/// The poses that the request names, and those whose origin their names tell; TF between links of the robot.
+/// The poses that the request names, and those whose names say their origin; TF between links of the robot.
 ///
 /// # Errors
 /// The request names a topic that the log has not.

@@ -4,14 +4,14 @@ use std::collections::VecDeque;
 
 /// The state of a joint at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct JointState {
+pub(super) struct SeriesPoint {
     pub(super) q: f64,
     /// NaN if it is not known; likewise the effort.
     pub(super) qd: f64,
     pub(super) effort: f64,
 }
 
-impl JointState {
+impl SeriesPoint {
     fn between(&self, other: &Self, share: f64) -> Self {
         let mean = |a: f64, b: f64| a + share * (b - a);
         Self {
@@ -24,12 +24,12 @@ impl JointState {
 
 /// States of a joint in the order of their times.
 #[derive(Debug, Default)]
-pub(super) struct JointSeries {
-    points: VecDeque<(f64, JointState)>,
+pub(super) struct JointTrace {
+    points: VecDeque<(f64, SeriesPoint)>,
 }
 
-impl JointSeries {
-    pub(super) fn push(&mut self, time_s: f64, state: JointState) {
+impl JointTrace {
+    pub(super) fn push(&mut self, time_s: f64, state: SeriesPoint) {
         self.points.push_back((time_s, state));
     }
 
@@ -40,7 +40,7 @@ impl JointSeries {
 
     /// The state at a time, that of a message or between two that are at most `maximum_gap_s` apart. Forgets what is before it:
     /// times that are asked for increase.
-    pub(super) fn at(&mut self, time_s: f64, maximum_gap_s: f64) -> Option<JointState> {
+    pub(super) fn at(&mut self, time_s: f64, maximum_gap_s: f64) -> Option<SeriesPoint> {
         while self.points.get(1).is_some_and(|&(next_s, _)| next_s <= time_s) {
             self.points.pop_front();
         }
@@ -61,13 +61,13 @@ mod tests {
 
     #[test]
     fn a_state_is_that_of_a_message_or_between_two_that_are_near() {
-        let state = |q: f64| JointState { q, qd: 2.0, effort: f64::NAN };
-        let mut series = JointSeries::default();
+        let state = |q: f64| SeriesPoint { q, qd: 2.0, effort: f64::NAN };
+        let mut series = JointTrace::default();
         for (time_s, q) in [(0.0, 1.0), (0.1, 2.0), (0.5, 6.0), (0.6, 7.0)] {
             series.push(time_s, state(q));
         }
         assert!(series.reaches(0.6) && !series.reaches(0.61));
-        let q = |series: &mut JointSeries, time_s: f64| series.at(time_s, 0.2).map(|state| state.q);
+        let q = |series: &mut JointTrace, time_s: f64| series.at(time_s, 0.2).map(|state| state.q);
         assert_eq!(q(&mut series, -0.1), None);
         assert_eq!(q(&mut series, 0.0), Some(1.0));
         assert!((q(&mut series, 0.025).unwrap() - 1.25).abs() < 1e-12);

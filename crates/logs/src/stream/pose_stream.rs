@@ -29,13 +29,13 @@ pub struct PoseCounts {
 
 /// The poses of one selection so far.
 #[derive(Debug)]
-pub(super) struct PoseStream {
+pub(super) struct PoseSeries {
     selection: SelectedPoses,
     before_s: f64,
     pub(super) counts: PoseCounts,
 }
 
-impl PoseStream {
+impl PoseSeries {
     pub(super) fn new(selection: SelectedPoses) -> Self {
         Self { selection, before_s: f64::NAN, counts: PoseCounts::default() }
     }

@@ -6,8 +6,8 @@ use congruent_input::Diagnostic;
 
 use super::{
     joint_row::{JointRow, JointRowCounts},
-    pose_stream::{PoseCounts, PoseStream, StreamedPose},
-    rows::Rows,
+    pose_stream::{PoseCounts, PoseSeries, StreamedPose},
+    rows::RowMaker,
     selection::StreamSelection,
 };
 use crate::{
@@ -51,8 +51,8 @@ impl Default for TopicClock {
 pub struct LogStream {
     reader: Box<dyn LogReader>,
     selection: StreamSelection,
-    rows: Rows,
-    poses: Vec<PoseStream>,
+    rows: RowMaker,
+    poses: Vec<PoseSeries>,
     /// Poses that are given next: several selections may have the same one, with other offsets.
     ready: VecDeque<StreamedPose>,
     /// Is added to the times of the log.
@@ -78,8 +78,8 @@ impl LogStream {
     pub fn open(path: &Path, options: &LogOptions, selection: StreamSelection) -> Result<Self, Diagnostic> {
         Ok(Self {
             reader: open_log(path, options)?,
-            rows: Rows::new(&selection),
-            poses: selection.poses.iter().cloned().map(PoseStream::new).collect(),
+            rows: RowMaker::new(&selection),
+            poses: selection.poses.iter().cloned().map(PoseSeries::new).collect(),
             ready: VecDeque::new(),
             shift_s: -selection.origin_s,
             clocks: Vec::new(),
@@ -113,12 +113,11 @@ impl LogStream {
             if self.has_ended {
                 return Ok(None);
             }
-            match self.reader.next_event()? {
-                Some(event) => self.take(event),
-                None => {
-                    self.rows.flush();
-                    self.has_ended = true;
-                }
+            if let Some(event) = self.reader.next_event()? {
+                self.take(event);
+            } else {
+                self.rows.flush();
+                self.has_ended = true;
             }
         }
     }

@@ -5,7 +5,7 @@ use std::{collections::VecDeque, sync::Arc};
 use super::{
     in_order::InOrder,
     joint_row::{JointRow, JointRowCounts},
-    joint_series::{JointSeries, JointState},
+    joint_series::{JointTrace, SeriesPoint},
     selection::{SelectedJoint, SelectedJoints, StreamSelection},
 };
 use crate::event::LoggedJoints;
@@ -37,12 +37,12 @@ impl Topic {
     }
 }
 
-/// Rows in the making.
+/// RowMaker in the making.
 #[derive(Debug)]
-pub(super) struct Rows {
+pub(super) struct RowMaker {
     topics: Vec<Topic>,
-    measured: Vec<JointSeries>,
-    setpoints: Vec<JointSeries>,
+    measured: Vec<JointTrace>,
+    setpoints: Vec<JointTrace>,
     /// Whether a topic has the joint: rows wait for it.
     is_measured: Vec<bool>,
     /// For each joint the longest time across which it is interpolated, as measured and as commanded.
@@ -56,10 +56,10 @@ pub(super) struct Rows {
     pub(super) counts: JointRowCounts,
 }
 
-impl Rows {
+impl RowMaker {
     pub(super) fn new(selection: &StreamSelection) -> Self {
         let joints = selection.joints_of_row;
-        let series = || (0..joints).map(|_| JointSeries::default()).collect();
+        let series = || (0..joints).map(|_| JointTrace::default()).collect();
         let mut is_measured = vec![false; joints];
         let measured = selection.joints.iter().filter(|topic| !topic.is_setpoint);
         measured.flat_map(|topic| &topic.joints).for_each(|joint| is_measured[joint.joint] = true);
@@ -183,11 +183,11 @@ impl Rows {
         for (joint, series) in self.measured.iter_mut().enumerate() {
             let state = series.at(time_s, self.gaps_s[0][joint]);
             is_whole &= state.is_some() || !self.is_measured[joint];
-            let JointState { q, qd, effort } = state.unwrap_or(UNKNOWN);
+            let SeriesPoint { q, qd, effort } = state.unwrap_or(UNKNOWN);
             (self.row.q[joint], self.row.qd[joint], self.row.effort[joint]) = (q, qd, effort);
         }
         for (joint, series) in self.setpoints.iter_mut().enumerate() {
-            let JointState { q, qd, .. } = series.at(time_s, self.gaps_s[1][joint]).unwrap_or(UNKNOWN);
+            let SeriesPoint { q, qd, .. } = series.at(time_s, self.gaps_s[1][joint]).unwrap_or(UNKNOWN);
             (self.row.setpoint_q[joint], self.row.setpoint_qd[joint]) = (q, qd);
         }
         is_whole
@@ -202,12 +202,12 @@ impl Rows {
 }
 
 /// The state of a joint of which nothing is known.
-const UNKNOWN: JointState = JointState { q: f64::NAN, qd: f64::NAN, effort: f64::NAN };
+const UNKNOWN: SeriesPoint = SeriesPoint { q: f64::NAN, qd: f64::NAN, effort: f64::NAN };
 
 /// The state of the joint at this place of a message; `None` without a position.
-fn state(message: &LoggedJoints, place: usize, si_per_unit: f64) -> Option<JointState> {
+fn state(message: &LoggedJoints, place: usize, si_per_unit: f64) -> Option<SeriesPoint> {
     let value = |array: &[f64]| array.get(place).copied().filter(|value| value.is_finite());
-    Some(JointState {
+    Some(SeriesPoint {
         q: value(&message.position)? * si_per_unit,
         qd: value(&message.velocity).map_or(f64::NAN, |qd| qd * si_per_unit),
         effort: value(&message.effort).unwrap_or(f64::NAN),

@@ -1,3 +1,5 @@
+//! RowMaker of joints on several topics, and of messages that lack some.
+
 use super::*;
 
 fn topic(name: &str, is_setpoint: bool, maximum_gap_s: f64, joints: &[(&str, usize)]) -> SelectedJoints {
@@ -15,8 +17,8 @@ fn topic(name: &str, is_setpoint: bool, maximum_gap_s: f64, joints: &[(&str, usi
     }
 }
 
-fn rows(joints: Vec<SelectedJoints>) -> Rows {
-    Rows::new(&StreamSelection {
+fn rows(joints: Vec<SelectedJoints>) -> RowMaker {
+    RowMaker::new(&StreamSelection {
         clock: crate::survey::ClockKind::Log,
         origin_s: 0.0,
         joints_of_row: 3,
@@ -38,9 +40,9 @@ fn message(names: &[&str], position: &[f64]) -> LoggedJoints {
 }
 
 /// Times and positions of all rows.
-fn all(rows: &mut Rows) -> Vec<(f64, Vec<f64>)> {
+fn all(rows: &mut RowMaker) -> Vec<(f64, Vec<f64>)> {
     rows.flush();
-    let next = |rows: &mut Rows| rows.advance().then(|| (rows.row().time_s, rows.row().q.clone()));
+    let next = |rows: &mut RowMaker| rows.advance().then(|| (rows.row().time_s, rows.row().q.clone()));
     std::iter::from_fn(|| next(rows)).collect()
 }
 

@@ -51,7 +51,7 @@ struct PoseErrorAt {
     q: Vec<f64>,
 }
 
-/// A jump that stands out.
+/// A jump beyond the scatter.
 #[derive(Debug, Clone)]
 struct Jump {
     joint: usize,
@@ -81,7 +81,7 @@ pub(crate) struct StepMonitor<'a> {
     /// The last errors of each selection.
     errors: Vec<VecDeque<PoseErrorAt>>,
     scatter: Vec<Scatter>,
-    /// The largest jump of those that follow each other, while one stands out: an instant beside the jump shows a part of it.
+    /// The largest jump of those that follow each other, while there is one: an instant beside the jump shows a part of it.
     candidate: Option<Jump>,
     angle: Watch,
     shift: Watch,
@@ -183,7 +183,7 @@ impl<'a> StepMonitor<'a> {
         watch.observe_at(size, joint, WatchedInstant { time_s: at.time_s, q: &at.q });
     }
 
-    /// What is too small to be told from the scatter of the poses.
+    /// What is too small to be distinguished from the scatter of the poses.
     fn level(&self, names: &Names) -> Option<String> {
         let angular = self
             .scatter
@@ -194,7 +194,7 @@ impl<'a> StepMonitor<'a> {
         let (joint, (scatter, _)) = angular.max_by(|a, b| a.1.0.rms().total_cmp(&b.1.0.rms()))?;
         let level = quantity((SCATTERS * scatter.rms()).to_degrees(), "deg");
         Some(format!(
-            "jumps below {level} cannot be told from the scatter of the poses ({})",
+            "jumps below {level} cannot be distinguished from the scatter of the poses ({})",
             names.joints[joint]
         ))
     }

@@ -48,7 +48,7 @@ struct ReportedVelocity {
 
 /// The samples of the block in the making, of all joints.
 #[derive(Debug)]
-struct Block {
+struct VelocityBlock {
     from_s: f64,
     q: Vec<f64>,
     sum_qd: Vec<f64>,
@@ -57,7 +57,7 @@ struct Block {
 
 pub(crate) struct VelocityMonitor {
     sums: Vec<LagSums>,
-    block: Option<Block>,
+    block: Option<VelocityBlock>,
     /// Velocities of all joints in the last blocks, the latest first.
     computed: VecDeque<Vec<f64>>,
     block_s: f64,
@@ -122,7 +122,7 @@ impl VelocityMonitor {
         let q = &sample.joints.measured.q;
         self.computed.clear();
         let sum_qd = vec![0.0; q.len()];
-        self.block = Some(Block { from_s: sample.time_s, q: q.to_vec(), sum_qd, samples: 0.0 });
+        self.block = Some(VelocityBlock { from_s: sample.time_s, q: q.to_vec(), sum_qd, samples: 0.0 });
     }
 
     #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 blocks")]

@@ -184,10 +184,9 @@ fn with_more_help(finding: Diagnostic, more: &str) -> Diagnostic {
 fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenario> {
     let simulation = one(&mut document, "simulation", findings);
     let start = one(&mut document, "start", findings);
-    let has_source = document.has("source");
-    let source = read_source(&mut document, findings);
-    let controller = document.take_table("controller").map_err(Findings::from);
-    let controller = findings.keep(controller.and_then(|section| read_controller(section, has_source)));
+    let controller = driven_by(&mut document, findings);
+    let source = read_source(&mut document);
+    let source = findings.keep(source);
     let limits = one(&mut document, "limits", findings);
     let joints = one(&mut document, "joints", findings);
     let sensors = one(&mut document, "sensors", findings);
@@ -295,24 +294,35 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
 }
 
 /// The log of a scenario; nothing of what only a simulation needs may be beside it.
-fn read_source(document: &mut Section<'_>, findings: &mut Diagnostics) -> Option<Option<SourceSettings>> {
-    let Some(section) = findings.keep(document.take_table("source"))? else { return Some(None) };
-    for excluded in ["controller", "motion", "fault", "sensors", "limits"] {
-        if let Some(span) = document.span_of(excluded) {
+fn read_source(document: &mut Section<'_>) -> Result<Option<SourceSettings>, Findings> {
+    let Some(section) = document.take_table("source")? else { return Ok(None) };
+    let mut findings = Diagnostics::default();
+    for excluded in ["controller", "motion", "fault"] {
+        if let Some(span) = document.take_span_of(excluded) {
             let message = format!("[{excluded}] is beside [source], whose log says how the joints moved");
             let error = Diagnostic::error(codes::scenario::SOURCE, message);
             let help = format!("remove [{excluded}], or remove [source] to simulate the robot");
             findings.keep(Err::<(), _>(error.with_help(help).at(span)));
         }
     }
-    section.read_into(findings).map(Some)
+    match section.read_into(&mut findings) {
+        Some(source) if !findings.has_error() => Ok(Some(source)),
+        _ => Err(findings.into()),
+    }
 }
 
-fn read_controller(section: Option<Section<'_>>, has_source: bool) -> Result<ControllerSettings, Findings> {
-    let known = ControllerKind::names();
-    if section.is_none() && has_source {
-        return Ok(ControllerSettings::absent());
+/// The controller; none beside `[source]`.
+fn driven_by(document: &mut Section<'_>, findings: &mut Diagnostics) -> Option<ControllerSettings> {
+    if document.has("source") {
+        // One that is there all the same is refused with the source.
+        return Some(ControllerSettings::absent());
     }
+    let controller = document.take_table("controller").map_err(Findings::from);
+    findings.keep(controller.and_then(read_controller))
+}
+
+fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Findings> {
+    let known = ControllerKind::names();
     let Some(section) = section else {
         return Err(Diagnostic::error(codes::scenario::NO_CONTROLLER, "the scenario has no [controller]")
             .with_help(format!("add one with kind = {}", known.join(" | ")))

@@ -33,9 +33,9 @@ impl<'a> Section<'a> {
         self.table.get_ref().contains_key(key)
     }
 
-    /// The place of a key in the text, if the section has it.
-    pub(super) fn span_of(&self, key: &str) -> Option<std::ops::Range<usize>> {
-        self.table.get_ref().get_key_value(key).map(|(key, _)| key.span())
+    /// Takes a key out of this section, and gives its place in the text.
+    pub(super) fn take_span_of(&mut self, key: &str) -> Option<std::ops::Range<usize>> {
+        self.table.get_mut().remove_entry(key).map(|(key, _)| key.span())
     }
 
     /// The key, with its place, which was probably meant to be one of the known ones, and that one.

@@ -270,7 +270,9 @@ impl<'a> Run<'a> {
         while let Some(SourcePose { of, time_s, frame_from_target, q }) = self.source.next_pose() {
             let root_from_links = model.root_from_links(q)?;
             let pose = PoseSample { of, time_s, frame_from_target, q, root_from_links };
-            checks.iter_mut().for_each(|check| check.monitor.observe_pose(&pose));
+            for check in checks.iter_mut() {
+                check.monitor.observe_pose(&pose);
+            }
         }
         Ok(())
     }

@@ -9,6 +9,7 @@ mod recorded;
 mod run_setup;
 mod start;
 mod surroundings;
+mod timing;
 mod written_at;
 
 pub(crate) use actuation::ControlPeriod;

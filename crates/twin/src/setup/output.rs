@@ -1,7 +1,8 @@
 //! `[output]` against the clock.
 
 use congruent_input::Diagnostic;
-use congruent_scenario::{FilePlace, OutputSettings};
+use congruent_monitors::RunClock;
+use congruent_scenario::{FilePlace, Scenario};
 
 use crate::codes;
 
@@ -9,7 +10,13 @@ use crate::codes;
 const BESIDE_A_MULTIPLE: f64 = 1e-6;
 
 /// Whether the settings fit each other and the step.
-pub(super) fn check(settings: &OutputSettings, place: FilePlace<'_>, step_s: f64) -> Result<(), Diagnostic> {
+pub(super) fn check(
+    scenario: &Scenario,
+    place: FilePlace<'_>,
+    clock: Option<&RunClock>,
+) -> Result<(), Diagnostic> {
+    let settings = &scenario.output;
+    let step_s = clock.map_or(scenario.simulation.step_s, |clock| clock.step_s);
     let Some(period_s) = settings.trajectory_period_s else { return Ok(()) };
     let mark = |error: Diagnostic| place.key("trajectory_period_s").mark(error);
     if settings.trajectory.is_none() {

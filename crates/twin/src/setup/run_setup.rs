@@ -7,7 +7,6 @@ use congruent_dynamics::JointResistance;
 use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile};
 use congruent_monitors::{
     ActuatorLimits, CheckContext, ComparedPoses, RunClock, RunDynamics, RunPayload, RunningCheck,
-    taken_too_late,
 };
 use congruent_motion::{MotionInput, Trajectory, codes::scenario::TARGET_LIMIT, motion_limits};
 use congruent_proximity::{MovingBody, ObstacleMobility, Zone, simplified_hulls};
@@ -20,10 +19,10 @@ use super::{
     checks::{default_checks, examine_checks, needs_shapes},
     cost::long_run,
     default_values::write_out,
-    output,
     recorded::RecordedSetup,
     start::{inside_limits, start},
     surroundings::{FirstStep, Surroundings, jumps, mobility},
+    timing::RunTiming,
     written_at::WrittenAt,
 };
 use crate::{
@@ -173,30 +172,13 @@ impl RunSetup {
         let robot = &description.robot;
         found.keep(check_head(&scenario, place));
         let start = found.keep(start(&scenario.start, place.key("start"), robot));
-        let mut of_start = Vec::new();
-        let start = inside_limits(start, robot, &mut of_start);
-        // Of a log it is where joints stay that the log does not have.
-        if scenario.source.is_none() {
-            warnings.append(&mut of_start);
-        }
-        let trajectory = trajectory(&scenario, written, &description, &start, &mut warnings);
-        let trajectory = found.keep(trajectory);
+        let start = inside_limits(start, &scenario, robot, &mut warnings);
+        let trajectory = found.keep(trajectory(&scenario, written, &description, &start, &mut warnings));
         // Without a plan the duration as written stands in, so that the clock is checked in the same call.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
-        let recorded = scenario.source.as_ref().and_then(|source| {
-            let settings = (source, &scenario.simulation);
-            RecordedSetup::new(settings, written, &description, &mut found, &mut warnings)
-        });
-        let clock = match &scenario.source {
-            Some(_) => recorded.as_ref().map(|recorded| recorded.clock.clone()),
-            None => {
-                let place = place.key("simulation");
-                found.keep(RunClock::new(&scenario.simulation, place, motions_s, &mut warnings))
-            }
-        };
-        warnings.extend(clock.iter().flat_map(|clock| taken_too_late(&scenario, place, clock.duration_s())));
-        let step_s = clock.as_ref().map_or(scenario.simulation.step_s, |clock| clock.step_s);
-        found.keep(output::check(&scenario.output, place.key("output"), step_s));
+        let RunTiming { clock, recorded, warnings: of_timing } =
+            RunTiming::new(&scenario, written, &description, motions_s, &mut found);
+        warnings.extend(of_timing);
         let actuation = found.keep(Actuation::new(&scenario, place, folder, &description));
         let Surroundings { obstacles, moving, payloads: held } =
             Surroundings::new(&scenario, written, &description, trajectory.as_ref(), &mut found);
@@ -204,8 +186,9 @@ impl RunSetup {
         let zones = found.keep(zones(&scenario.zone, place.key("zone"), robot));
         warnings.extend(examine_checks(&scenario, place, &description, &mobility, &mut found));
         let faults = clock.as_ref().and_then(|clock| {
-            let (faults, place) = (&scenario.fault, place.key("fault"));
-            found.keep(resolve(faults, place, &description, clock, scenario.controller.kind))
+            let faults =
+                resolve(&scenario.fault, place.key("fault"), &description, clock, scenario.controller.kind);
+            found.keep(faults)
         });
         let (Some(trajectory), Some(clock), Some(actuation), Some(obstacles), Some(zones), Some(faults)) =
             (trajectory, clock, actuation, obstacles, zones, faults)

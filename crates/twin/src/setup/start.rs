@@ -4,7 +4,7 @@ use congruent_description::{Robot, RobotQ};
 use congruent_input::{Diagnostic, Findings, display::limit_number};
 use congruent_kinematics::move_inside_limits;
 use congruent_motion::JointTargets;
-use congruent_scenario::{FilePlace, StartSettings};
+use congruent_scenario::{FilePlace, Scenario, StartSettings};
 
 use crate::codes;
 
@@ -30,11 +30,15 @@ pub(super) fn start(
 /// The start that is written, or zero, inside the limits of the joints.
 pub(super) fn inside_limits(
     written: Option<RobotQ>,
+    scenario: &Scenario,
     robot: &Robot,
     warnings: &mut Vec<Diagnostic>,
 ) -> RobotQ {
     let mut start = written.unwrap_or_else(|| RobotQ::zeros(robot.dof()));
-    warnings.extend(start_warnings(&start, robot));
+    // Beside a log it is where joints stay that the log does not have.
+    if scenario.source.is_none() {
+        warnings.extend(start_warnings(&start, robot));
+    }
     move_inside_limits(&mut start, robot);
     start
 }

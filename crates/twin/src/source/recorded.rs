@@ -39,7 +39,7 @@ pub struct RecordedSource<'a> {
     now: RecordedJoints,
     next: RecordedJoints,
     has_next: bool,
-    is_gap_told: bool,
+    is_gap_given: bool,
     /// Positions of the last rows, the latest at the end.
     kept: VecDeque<(f64, RobotQ)>,
     /// Poses that are later than the rows so far, in the order of their times.
@@ -83,7 +83,7 @@ impl<'a> RecordedSource<'a> {
             now: joints.clone(),
             next: joints,
             has_next: true,
-            is_gap_told: false,
+            is_gap_given: false,
             kept: VecDeque::new(),
             waiting: VecDeque::new(),
             pose_q: start.clone(),
@@ -109,7 +109,7 @@ impl<'a> RecordedSource<'a> {
         )
     }
 
-    /// Reads on to the next row; poses on the way wait.
+    /// Reads on to the next row; poses between wait.
     fn read(&mut self) -> Result<(), SourceError> {
         loop {
             match self.stream.next_event().map_err(SourceError::new)? {
@@ -153,7 +153,7 @@ impl<'a> RecordedSource<'a> {
     /// Goes on to the row that was read.
     fn take_next(&mut self) -> Result<(), SourceError> {
         std::mem::swap(&mut self.now, &mut self.next);
-        self.is_gap_told = false;
+        self.is_gap_given = false;
         if !self.waits_for_poses() {
             return self.read();
         }
@@ -229,8 +229,8 @@ impl JointStateSource for RecordedSource<'_> {
             return Ok(Advance::End);
         }
         let (from_s, to_s) = (self.now.time_s, self.next.time_s);
-        if to_s - from_s > self.setup.selection.maximum_gap_s() && !self.is_gap_told {
-            self.is_gap_told = true;
+        if to_s - from_s > self.setup.selection.maximum_gap_s() && !self.is_gap_given {
+            self.is_gap_given = true;
             return Ok(Advance::Gap { from_s, to_s });
         }
         self.take_next()?;

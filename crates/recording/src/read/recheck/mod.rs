@@ -18,7 +18,10 @@ use congruent_results::{comparison::Scalars, report::RunReport};
 use congruent_scenario::CheckKind;
 use congruent_twin::{RunError, RunSetup};
 
-use self::{replay::Replay, states::steps};
+use self::{
+    replay::Replay,
+    states::{RecordedUntil, steps},
+};
 use super::{
     evidence::{Evidence, LimitedQuantity, TimedValue, merged},
     rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity},
@@ -73,19 +76,20 @@ const BETWEEN_SAMPLES: f64 = 0.05;
 pub fn recheck(
     summary: &RecordingSummary,
     scalars: &Scalars,
-    setup: RunSetup,
+    setup: &RunSetup,
 ) -> Result<Recheck, RecheckError> {
     let report = summary.run.as_ref().ok_or(RecheckError::NoReport)?;
     // Checks are matched by their position below: another list would compare the values of different checks.
-    is_of_scenario(report, &setup)?;
-    is_of_robot(report, scalars, &setup)?;
+    is_of_scenario(report, setup)?;
+    is_of_robot(report, scalars, setup)?;
     let left_out = left_out(report);
-    let replay = Replay::evaluate(scalars, &setup, !is_early(report), &left_out)?;
+    let until = if is_early(report) { RecordedUntil::Early } else { RecordedUntil::End };
+    let replay = Replay::evaluate(scalars, setup, until, &left_out)?;
     let checks = setup.checks();
     let lines = checks.iter().map(|check| check.line).collect();
     let are_default = checks.iter().map(|check| check.is_default).collect();
     let is_broken = report.error.is_some();
-    let mut context = Context { scalars, setup: &setup, lines, are_default, replay, is_broken, gap_s: 0.0 };
+    let mut context = Context { scalars, setup, lines, are_default, replay, is_broken, gap_s: 0.0 };
     // After the context is made, since the gap follows from the instants that its replay has found.
     context.gap_s = context.longest_gap_s();
     let mut disagreements = Vec::new();
@@ -107,7 +111,7 @@ pub fn recheck(
         recorded_verdict: serde_name(&report.verdict).to_owned(),
         checks,
         disagreements,
-        samples: instants::problems(scalars, report, &setup),
+        samples: instants::problems(scalars, report, setup),
     })
 }
 

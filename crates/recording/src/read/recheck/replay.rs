@@ -6,7 +6,7 @@ use congruent_results::comparison::Scalars;
 use congruent_scenario::{CheckKind, OnViolation};
 use congruent_twin::{Run, RunError, RunSetup};
 
-use super::states::RecordedStates;
+use super::states::{RecordedStates, RecordedUntil};
 use crate::{
     read::evidence::{Evidence, LimitedQuantity, merged},
     rrd::paths,
@@ -63,7 +63,7 @@ fn needs_states_alone(kind: CheckKind) -> bool {
 }
 
 impl Replay {
-    /// Lets the checks of the scenario see the recorded states, up to the end of the run if they are whole; `left_out` are not to
+    /// Lets the checks of the scenario see the recorded states, up to where the recording goes; `left_out` are not to
     /// be evaluated.
     ///
     /// # Errors
@@ -71,12 +71,12 @@ impl Replay {
     pub(super) fn evaluate(
         scalars: &Scalars,
         setup: &RunSetup,
-        is_whole: bool,
+        until: RecordedUntil,
         left_out: &[CheckKind],
     ) -> Result<Self, RunError> {
         let found = vec![Vec::new(); setup.scenario.check.len()];
         let mut replay = Self { found, limits: ScenarioLimits::from_setup(setup), ..Self::default() };
-        if let Some(states) = RecordedStates::new(scalars, setup, is_whole) {
+        if let Some(states) = RecordedStates::new(scalars, setup, until) {
             replay.times_s = states.times_s();
             replay.run(states, setup, left_out)?;
         }

@@ -12,6 +12,15 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use crate::{rrd::paths, series::joints::COORDINATES};
 
+/// How far a recording goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum RecordedUntil {
+    /// To the end of the run.
+    End,
+    /// The run ended before its time.
+    Early,
+}
+
 /// All joints at one recorded instant.
 #[derive(Debug, Clone)]
 struct RecordedInstant {
@@ -45,8 +54,8 @@ pub(super) struct RecordedStates {
 }
 
 impl RecordedStates {
-    /// All states, up to the end of the run if they are whole; `None` if the recording does not have the position of every joint at every one of them.
-    pub(super) fn new(scalars: &Scalars, setup: &RunSetup, is_whole: bool) -> Option<Self> {
+    /// All states, up to where the recording goes; `None` if the recording does not have the position of every joint at every one of them.
+    pub(super) fn new(scalars: &Scalars, setup: &RunSetup, until: RecordedUntil) -> Option<Self> {
         let description = &setup.description;
         let robot = &description.robot;
         let values = |quantity: &str| -> Option<Vec<&Vec<(f64, f64)>>> {
@@ -95,7 +104,7 @@ impl RecordedStates {
         let mut states = Self {
             instants,
             at: 0,
-            is_whole,
+            is_whole: until == RecordedUntil::End,
             tree: UrdfTree::new(robot),
             poses: vec![Pose::identity(); robot.links().len()],
             tip: description.tip,

@@ -1,6 +1,6 @@
 //! Which topics and joints of a log are the joints of the robot.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, fmt::Write};
 
 use congruent_description::{JointKind, Robot};
 use congruent_input::{Diagnostic, Findings, known_names};
@@ -11,7 +11,6 @@ use congruent_scenario::{
     AngleUnit, FilePlace, JointRole, LoggedEffort, LoggedJointSettings, SourceSettings,
 };
 
-use super::item;
 use crate::codes::scenario;
 
 /// The joints that are taken from a log.
@@ -140,7 +139,7 @@ fn written(source: &JointSource, position: Option<&str>) -> String {
     ];
     for (key, value) in parts {
         if let Some(value) = value.filter(|value| !value.is_empty()) {
-            text += &format!("\n{key} = {value:?}");
+            let _ = write!(text, "\n{key} = {value:?}");
         }
     }
     text
@@ -181,7 +180,7 @@ fn named(
     let mut selected: Vec<SelectedJoints> = Vec::new();
     let mut taken: BTreeMap<(bool, usize), &str> = BTreeMap::new();
     for (at, settings) in settings.joints.iter().enumerate() {
-        let place = item(place, "joints", at);
+        let place = place.key("joints").item(at);
         let topic = topic_of(&settings.topic, place, survey, TopicContent::Joints)?;
         let of_topic = joints_of(settings, place, topic, robot)?;
         for joint in &of_topic.joints {

@@ -7,7 +7,7 @@ use congruent_monitors::ComparedPoses;
 use congruent_scenario::{FilePlace, LoggedPoseSettings, SourceSettings};
 use nalgebra::Isometry3;
 
-use super::{item, joints::topic_of};
+use super::joints::topic_of;
 use crate::codes::scenario;
 
 /// The poses that a scenario names, with their frames in the robot.
@@ -21,7 +21,7 @@ pub(super) fn poses(
     description: &RobotDescription,
 ) -> Result<Vec<(SelectedPoses, ComparedPoses)>, Findings> {
     let pose = |(at, settings): (usize, &LoggedPoseSettings)| {
-        let place = item(place, "pose", at);
+        let place = place.key("pose").item(at);
         let topic = topic_of(&settings.topic, place, survey, TopicContent::Pose)?;
         let pair = frames(settings, place, topic)?;
         compared(settings, place, pair, description)
@@ -62,34 +62,22 @@ fn compared(
     pair: FramePair,
     description: &RobotDescription,
 ) -> Result<(SelectedPoses, ComparedPoses), Diagnostic> {
-    let robot = &description.robot;
-    let link_named = |name: &str| robot.link_indices().find(|&link| robot.link(link).name == name);
-    let stated = |key: &'static str, name: &String| {
-        link_named(name).ok_or_else(|| {
-            let message = format!("the robot has no link \"{name}\"");
-            let names: Vec<&str> = robot.links().iter().map(|link| link.name.as_str()).collect();
-            let error = Diagnostic::error(scenario::UNKNOWN_LINK, message);
-            place.key(key).mark(error.with_help(known_names(name, "links", names)))
-        })
-    };
-    let bare = |name: &str| name.trim_start_matches('/').to_owned();
+    let frames = RobotFrames { place, description };
     let from_link = match &settings.from_link {
-        Some(name) => stated("from_link", name)?,
-        None => link_named(&bare(&pair.frame)).ok_or_else(|| unknown_frame(place, &pair.frame))?,
+        Some(name) => frames.stated("from_link", name)?,
+        None => frames.find(&pair.frame).ok_or_else(|| unknown_frame(place, &pair.frame))?,
     };
-    let transform =
-        |key: &'static str, pose: &congruent_scenario::PoseSettings| pose.isometry(place.key(key));
-    let (link, link_from_target) = target(settings, &pair, description, &stated, &transform)?;
+    let (link, link_from_target) = frames.target(settings, &pair)?;
     let name = match &pair.child {
         Some(child) => format!("{} {} -> {child}", settings.topic, pair.frame),
         None => settings.topic.clone(),
     };
-    let frames = ComparedPoses {
+    let compared = ComparedPoses {
         name,
         topic: settings.topic.clone(),
         origin: settings.origin,
         from_link,
-        link_from_frame: transform("link_from_frame", &settings.link_from_frame)?,
+        link_from_frame: settings.link_from_frame.isometry(place.key("link_from_frame"))?,
         link,
         link_from_target,
         frames_are_fitted: settings.frames_are_fitted,
@@ -102,28 +90,49 @@ fn compared(
         offset_s: settings.offset_s,
         drift: settings.drift,
     };
-    Ok((selected, frames))
+    Ok((selected, compared))
 }
 
-/// The link that carries the target, and the target in it: what is stated, or the link of the child's name, or the TCP.
-fn target(
-    settings: &LoggedPoseSettings,
-    pair: &FramePair,
-    description: &RobotDescription,
-    stated: &dyn Fn(&'static str, &String) -> Result<LinkIndex, Diagnostic>,
-    transform: &dyn Fn(&'static str, &congruent_scenario::PoseSettings) -> Result<Isometry3<f64>, Diagnostic>,
-) -> Result<(LinkIndex, Isometry3<f64>), Diagnostic> {
-    let robot = &description.robot;
-    let own =
-        settings.link_from_target.as_ref().map(|pose| transform("link_from_target", pose)).transpose()?;
-    let of_child = pair.child.as_deref().map(|name| name.trim_start_matches('/'));
-    let child = robot.link_indices().find(|&link| Some(robot.link(link).name.as_str()) == of_child);
-    match (&settings.link, child) {
-        (Some(name), _) => Ok((stated("link", name)?, own.unwrap_or_else(Isometry3::identity))),
-        (None, Some(link)) => Ok((link, own.unwrap_or_else(Isometry3::identity))),
-        (None, None) => {
-            let tcp = description.tip_from_tcp.unwrap_or_else(Isometry3::identity);
-            Ok((description.tip, own.unwrap_or(tcp)))
+/// The frames of a robot, for the poses at a place in the scenario.
+struct RobotFrames<'a> {
+    place: FilePlace<'a>,
+    description: &'a RobotDescription,
+}
+
+impl RobotFrames<'_> {
+    /// The link of a frame's name.
+    fn find(&self, frame: &str) -> Option<LinkIndex> {
+        let (robot, bare) = (&self.description.robot, frame.trim_start_matches('/'));
+        robot.link_indices().find(|&link| robot.link(link).name == bare)
+    }
+
+    /// The link that the scenario names under a key.
+    fn stated(&self, key: &'static str, name: &str) -> Result<LinkIndex, Diagnostic> {
+        self.find(name).ok_or_else(|| {
+            let message = format!("the robot has no link \"{name}\"");
+            let links = self.description.robot.links().iter();
+            let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
+            let error = Diagnostic::error(scenario::UNKNOWN_LINK, message);
+            self.place.key(key).mark(error.with_help(known_names(name, "links", names)))
+        })
+    }
+
+    /// The link that carries the target, and the target in it: what is stated, or the link of the child's name, or the TCP.
+    fn target(
+        &self,
+        settings: &LoggedPoseSettings,
+        pair: &FramePair,
+    ) -> Result<(LinkIndex, Isometry3<f64>), Diagnostic> {
+        let place = self.place.key("link_from_target");
+        let own = settings.link_from_target.as_ref().map(|pose| pose.isometry(place)).transpose()?;
+        let child = pair.child.as_deref().and_then(|child| self.find(child));
+        match (&settings.link, child) {
+            (Some(name), _) => Ok((self.stated("link", name)?, own.unwrap_or_else(Isometry3::identity))),
+            (None, Some(link)) => Ok((link, own.unwrap_or_else(Isometry3::identity))),
+            (None, None) => {
+                let tcp = self.description.tip_from_tcp.unwrap_or_else(Isometry3::identity);
+                Ok((self.description.tip, own.unwrap_or(tcp)))
+            }
         }
     }
 }
