@@ -161,7 +161,7 @@ fn other_limits_give_another_verdict_and_other_checks_none() {
     let error = recheck(&bench.summary, &scalars, &bench.setup(&[])).unwrap_err();
     assert!(error.to_string().contains("which has other links or joints"), "{error}");
     let other = RunSetup::load(&repository().join("scenarios/ur5e_weld.toml"), &[]).unwrap();
-    let error = recheck(&bench.summary, &bench.scalars, other).unwrap_err();
+    let error = recheck(&bench.summary, &bench.scalars, &other).unwrap_err();
     assert!(error.to_string().contains("another scenario"), "{error}");
 }
 

@@ -26,7 +26,7 @@ struct Stages {
 
 fn run(setup: &RunSetup, checks: &mut [RunningCheck<'_>], recorder: &mut dyn Recorder, stages: Stages) {
     let mut run = Run::new(setup).expect("the scenario runs");
-    for _ in 0..setup.clock.steps.unwrap() {
+    for _ in 0..setup.clock.steps.unwrap_or_default() {
         run.step().expect("the physics holds");
         if stages.compare {
             run.compare().expect("model and robot fit");

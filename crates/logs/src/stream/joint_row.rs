@@ -38,7 +38,7 @@ impl JointRow {
 /// How many messages became rows, and what became of the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct JointRowCounts {
-    /// RowMaker that were given.
+    /// Rows that were given.
     pub rows: u64,
     /// Instants at which a joint was not known, not even between two messages.
     pub incomplete: u64,

@@ -37,7 +37,7 @@ impl Topic {
     }
 }
 
-/// RowMaker in the making.
+/// Rows in the making.
 #[derive(Debug)]
 pub(super) struct RowMaker {
     topics: Vec<Topic>,

@@ -1,8 +1,8 @@
-//! RowMaker of joints on several topics, and of messages that lack some.
+//! Rows of joints on several topics, and of messages that lack some.
 
 use super::*;
 
-fn topic(name: &str, is_setpoint: bool, maximum_gap_s: f64, joints: &[(&str, usize)]) -> SelectedJoints {
+fn topic(name: &str, maximum_gap_s: f64, joints: &[(&str, usize)]) -> SelectedJoints {
     let joint = |(name, joint): &(&str, usize)| SelectedJoint {
         name: (*name).to_owned(),
         joint: *joint,
@@ -10,7 +10,7 @@ fn topic(name: &str, is_setpoint: bool, maximum_gap_s: f64, joints: &[(&str, usi
     };
     SelectedJoints {
         topic: name.to_owned(),
-        is_setpoint,
+        is_setpoint: false,
         maximum_gap_s,
         takes_effort: true,
         joints: joints.iter().map(joint).collect(),
@@ -48,7 +48,7 @@ fn all(rows: &mut RowMaker) -> Vec<(f64, Vec<f64>)> {
 
 #[test]
 fn a_joint_that_messages_lack_is_interpolated_and_unknown_in_a_gap() {
-    let mut rows = rows(vec![topic("a", false, 0.05, &[("one", 0), ("two", 1)])]);
+    let mut rows = rows(vec![topic("a", 0.05, &[("one", 0), ("two", 1)])]);
     for step in 0..20_u32 {
         let time_s = f64::from(step) * 0.01;
         // The second joint is missing in every other message, is NaN once, and is not there between 0.1 and 0.18 s.
@@ -68,8 +68,8 @@ fn a_joint_that_messages_lack_is_interpolated_and_unknown_in_a_gap() {
 
 #[test]
 fn joints_on_two_topics_have_the_times_of_the_first() {
-    let fast = topic("fast", false, 0.02, &[("one", 0), ("two", 1)]);
-    let mut rows = rows(vec![fast, topic("slow", false, 0.2, &[("three", 2)])]);
+    let fast = topic("fast", 0.02, &[("one", 0), ("two", 1)]);
+    let mut rows = rows(vec![fast, topic("slow", 0.2, &[("three", 2)])]);
     for step in 0..100_u32 {
         let time_s = f64::from(step) * 0.004;
         rows.take(0, time_s, message(&["one", "two"], &[time_s, -time_s]));
@@ -85,7 +85,7 @@ fn joints_on_two_topics_have_the_times_of_the_first() {
 
 #[test]
 fn rows_do_not_wait_for_a_topic_that_is_silent() {
-    let mut rows = rows(vec![topic("a", false, 0.05, &[("one", 0)]), topic("b", false, 0.05, &[("two", 1)])]);
+    let mut rows = rows(vec![topic("a", 0.05, &[("one", 0)]), topic("b", 0.05, &[("two", 1)])]);
     rows.take(1, 0.0, message(&["two"], &[1.0]));
     let mut given = 0;
     for step in 0..1000_u32 {

@@ -15,7 +15,7 @@ pub struct StreamSelection {
     pub joints: Vec<SelectedJoints>,
     /// The topics with poses.
     pub poses: Vec<SelectedPoses>,
-    /// RowMaker at these times are taken, s from the origin.
+    /// Rows at these times are taken, s from the origin.
     pub between_s: [f64; 2],
 }
 
