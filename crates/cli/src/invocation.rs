@@ -33,8 +33,14 @@ fn shown(word: &str) -> String {
     }
 }
 
+/// Of a path that is there, or whose folder is: other words that begin with a slash are topics.
 fn portable(word: &str) -> String {
-    portable_path(Path::new(word)).display().to_string()
+    let path = Path::new(word);
+    let in_folder = path.parent().is_some_and(|folder| folder.parent().is_some() && folder.exists());
+    if path.is_absolute() && !path.exists() && !in_folder {
+        return word.to_owned();
+    }
+    portable_path(path).display().to_string()
 }
 
 #[cfg(test)]
@@ -43,6 +49,7 @@ mod tests {
 
     #[test]
     fn a_command_is_quoted_and_names_no_absolute_path() {
+        assert_eq!(shown("/tool/pose"), "/tool/pose");
         let words = [
             "/usr/bin/congruent",
             "check",

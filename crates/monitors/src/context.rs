@@ -13,6 +13,8 @@ pub struct CheckContext<'a> {
     pub clock: &'a RunClock,
     /// Bodies that links carry for a time.
     pub payloads: &'a [RunPayload],
+    /// Joints that the source does not have: they stay at their start, and are not judged.
+    pub held: &'a [String],
     /// The poses that the source has of the robot.
     pub poses: &'a [ComparedPoses],
     /// The declared dynamics, with the payloads.

@@ -26,6 +26,8 @@ pub struct ComparedPoses {
     pub frames_are_fitted: bool,
     /// Whether only the position of the target is known.
     pub position_only: bool,
+    /// What was added to their times, s.
+    pub offset_s: f64,
 }
 
 impl ComparedPoses {

@@ -40,6 +40,9 @@ pub(crate) struct Arguments {
     /// Folder for the scenario and for its results.
     #[arg(long, default_value = "out")]
     out: PathBuf,
+    /// Replace the scenario file of an earlier call, also if it was changed.
+    #[arg(long)]
+    force: bool,
     /// The topic with the measured joint states, if several have the same joints.
     #[arg(long, value_name = "TOPIC")]
     joints: Option<String>,
@@ -82,6 +85,33 @@ enum StampChoice {
 }
 
 impl Arguments {
+    /// Writes the scenario into the folder of the results, and returns its path.
+    fn written(&self, draft: &ReplayDraft) -> Result<PathBuf, Failure> {
+        let Self { out, force, .. } = self;
+        let command = invocation::command();
+        std::fs::create_dir_all(out).map_err(|error| {
+            let message = format!("cannot create {}: {error}", out.display());
+            Failure::Machine(message)
+        })?;
+        let scenario = in_folder(&draft.scenario, out)?;
+        let path = out.join(format!("{}.toml", scenario.name));
+        let text = replay_text(&scenario, &draft.taken, &command);
+        let content =
+            |text: &str| text.lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>().join("\n");
+        let is_other = std::fs::read_to_string(&path).is_ok_and(|there| content(&there) != content(&text));
+        if path.exists() && is_other && !*force {
+            let message = format!(
+                "{} exists with other content, perhaps a check that somebody has added",
+                path.display()
+            );
+            return Err(Diagnostic::error(codes::output::REFUSED, message)
+            .with_help("give another folder with --out, or replace it with --force; `congruent run` runs it as it is")
+            .into());
+        }
+        write_whole(&path, text.as_bytes()).map_err(|error| unwritable(&error, "--out"))?;
+        Ok(path)
+    }
+
     fn request(&self) -> ReplayRequest {
         let kinds = [
             (&self.measured_pose, PoseOrigin::Measured),
@@ -121,7 +151,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let lines: Vec<String> =
         recorded.iter().map(|of| of.line.clone()).chain(draft.taken.iter().cloned()).collect();
     printer.notes(lines.iter().map(String::as_str));
-    let scenario = written(&draft, out)?;
+    let scenario = arguments.written(&draft)?;
     let call = super::Arguments::for_replay(
         scenario,
         out.clone(),
@@ -130,8 +160,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         &arguments.access,
     );
     let exit_code = super::run(&call, printer)?;
-    let is_other = recorded.is_some_and(|recorded| recorded.is_other);
-    Ok(if is_other { worse(exit_code, FAILED) } else { exit_code })
+    let Some(recorded) = recorded.filter(|recorded| recorded.is_other) else { return Ok(exit_code) };
+    // Also with --quiet: the verdict of the run does not have it.
+    printer.hint(&format!("the log was recorded with another robot: {}", recorded.line));
+    Ok(worse(exit_code, FAILED))
 }
 
 /// What the description that was recorded with the joints says of the robot.
@@ -161,26 +193,4 @@ fn recorded_robot(
             RecordedRobot { line: format!("{topic}: not compared with the robot: {why}"), is_other: false }
         }
     })
-}
-
-/// Writes the scenario into the folder of the results, and returns its path. One that `replay` wrote is replaced.
-fn written(draft: &ReplayDraft, out: &Path) -> Result<PathBuf, Failure> {
-    let command = invocation::command();
-    std::fs::create_dir_all(out).map_err(|error| {
-        let message = format!("cannot create {}: {error}", out.display());
-        Failure::Machine(message)
-    })?;
-    let scenario = in_folder(&draft.scenario, out)?;
-    let path = out.join(format!("{}.toml", scenario.name));
-    let is_ours = |text: &str| text.starts_with("# Written by `congruent replay");
-    let is_other = path.exists() && !std::fs::read_to_string(&path).is_ok_and(|text| is_ours(&text));
-    if is_other {
-        let message = format!("{} exists, and was not written by `congruent replay`", path.display());
-        return Err(Diagnostic::error(codes::output::REFUSED, message)
-            .with_help("give another folder with --out")
-            .into());
-    }
-    let text = replay_text(&scenario, &draft.taken, &command);
-    write_whole(&path, text.as_bytes()).map_err(|error| unwritable(&error, "--out"))?;
-    Ok(path)
 }

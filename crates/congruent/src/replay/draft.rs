@@ -4,12 +4,16 @@ use std::path::{Path, PathBuf};
 
 use congruent_description::RobotDescription;
 use congruent_input::{Diagnostic, Findings};
-use congruent_logs::{JointSource, LogOptions, LogSurvey, PositionUnit, survey_log};
-use congruent_scenario::{AgreementCheck, AngleUnit, Check, LoggedJointSettings, Scenario, SourceSettings};
+use congruent_logs::{JointSource, LogOptions, LogSurvey, PositionUnit, RobotOfLog, survey_log};
+use congruent_scenario::{
+    AgreementCheck, AngleUnit, Check, JointRole, LimitsCheck, LoggedJointSettings, LoggedPoseSettings,
+    PoseCheck, PoseOrigin, RecordingCheck, Scenario, SourceSettings, StepCheck, VelocityCheck,
+};
 
 use super::{
     fitted::fit, poses::chosen_poses, replayed::Replayed, request::ReplayRequest, survey_words::rate,
 };
+use crate::codes;
 
 /// A scenario for a log, and what of the log it takes.
 #[derive(Debug, Clone)]
@@ -43,65 +47,117 @@ pub fn replay_draft(
         name: name_of(log),
         robot: description.path.display().to_string(),
         source: Some(source),
-        check: vec![Check::Agreement(AgreementCheck::default())],
         ..Scenario::default()
     };
     fit(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?;
+    let is_left_out = |(topic, _): &&(String, _)| !poses.iter().any(|pose| pose.topic == *topic);
+    if let Some((topic, _)) = request.poses.iter().find(is_left_out) {
+        // It was asked for: to judge the rest would look like an answer.
+        let why = taken.iter().find(|line| line.contains(topic.as_str())).cloned().unwrap_or_default();
+        let error = Diagnostic::error(codes::replay::POSES, format!("poses of {topic} cannot be compared"));
+        return Err(error.with_help(why).into());
+    }
+    scenario.check = checks(description, &survey, &poses);
     if let Some(source) = &mut scenario.source {
         source.pose = poses;
     }
     Ok(ReplayDraft { scenario, taken, survey })
 }
 
+/// The checks that robot and log allow, each with its default limits: in the scenario one can change them.
+fn checks(description: &RobotDescription, survey: &LogSurvey, poses: &[LoggedPoseSettings]) -> Vec<Check> {
+    let joints = || description.robot.movable_joints().iter().map(|&joint| description.robot.joint(joint));
+    let has_velocities = survey.topics.iter().filter_map(|topic| topic.joints.as_ref());
+    let has_velocities = has_velocities.into_iter().any(|joints| joints.without_velocities < joints.messages);
+    let is_measured = poses.iter().any(|pose| pose.origin == PoseOrigin::Measured);
+    let all = [
+        (true, Check::Recording(RecordingCheck::default())),
+        // Without a table the model is the URDF, and there is nothing to compare it with.
+        (description.dh.is_some(), Check::Agreement(AgreementCheck::default())),
+        (joints().any(|joint| joint.limit.is_some()), Check::Limits(LimitsCheck::default())),
+        (has_velocities, Check::Velocity(VelocityCheck::default())),
+        (!poses.is_empty(), Check::Pose(PoseCheck::default())),
+        (is_measured, Check::Step(StepCheck::default())),
+    ];
+    all.into_iter().filter(|(is_allowed, _)| *is_allowed).map(|(_, check)| check).collect()
+}
+
+/// Parts of names of topics that are commanded.
+const OF_SETPOINTS: [&str; 6] = ["desired", "command", "reference", "setpoint", "target", "goal"];
+
 /// The topics of joints, as far as the log alone does not say which.
 fn joints(request: &ReplayRequest, survey: &LogSurvey, taken: &mut Vec<String>) -> Vec<LoggedJointSettings> {
     let sources: Vec<&JointSource> = survey.robot.iter().flat_map(|of| &of.sources).collect();
     let of_topic = |topic: &str| sources.iter().find(|source| source.topic == topic).copied();
     let position = if request.degrees { AngleUnit::Deg } else { AngleUnit::Rad };
-    let settings = |source: &JointSource| LoggedJointSettings {
+    let settings =
+        |topic: &str| of_topic(topic).map_or_else(|| named(topic, position), |of| of_source(of, position));
+    let setpoint = request.setpoint.clone().or_else(|| commanded(request, &sources));
+    let mut chosen: Vec<LoggedJointSettings> = match &request.joints {
+        Some(topic) => vec![settings(topic)],
+        None => {
+            let measured = sources.iter().filter(|source| setpoint.as_ref() != Some(&source.topic));
+            measured.map(|source| of_source(source, position)).collect()
+        }
+    };
+    for source in &chosen {
+        let joints = of_topic(&source.topic).map_or(0, |of| of.joints.len());
+        let rate = rate(survey, &source.topic);
+        taken.push(format!("joint states: {} ({joints} joints of the robot){rate}", source.topic));
+    }
+    if let Some(topic) = &setpoint {
+        chosen.push(LoggedJointSettings { role: JointRole::Setpoint, ..settings(topic) });
+        taken.push(format!("setpoints: {topic}{}", rate(survey, topic)));
+    }
+    taken.extend(survey.robot.iter().flat_map(not_matched));
+    let is_plain = |of: &LoggedJointSettings| {
+        LoggedJointSettings { topic: of.topic.clone(), ..LoggedJointSettings::default() } == *of
+    };
+    let is_clear = request.joints.is_none() && !sources.is_empty() && chosen.iter().all(is_plain);
+    // What the log says by itself is found again at each run, as for the next log of the same robot; degrees that nobody has
+    // stated are refused there.
+    let is_in_degrees = survey.robot.as_ref().is_some_and(|of| of.position_unit == PositionUnit::Degree);
+    let is_unstated = !request.degrees && is_in_degrees;
+    if is_unstated || is_clear && chosen.len() == sources.len() { Vec::new() } else { chosen }
+}
+
+/// The topic that by its name is commanded, if it has joints that another one has.
+fn commanded(request: &ReplayRequest, sources: &[&JointSource]) -> Option<String> {
+    let is_commanded = |source: &JointSource| {
+        let topic = source.topic.to_lowercase();
+        OF_SETPOINTS.iter().any(|part| topic.contains(part))
+    };
+    let is_wanted = |source: &JointSource| request.joints.as_ref() != Some(&source.topic);
+    let found = sources.iter().find(|source| is_commanded(source) && is_wanted(source))?;
+    let has_another = sources.iter().any(|other| {
+        other.topic != found.topic && other.joints.iter().any(|joint| found.joints.contains(joint))
+    });
+    has_another.then(|| found.topic.clone())
+}
+
+/// Joints of the robot that the log does not have, and joints beside them that are none of the robot.
+fn not_matched(of: &RobotOfLog) -> impl Iterator<Item = String> {
+    const MOST: usize = 8;
+    let missing = (!of.missing.is_empty())
+        .then(|| format!("not in the log, so taken to be at their start: {}", of.missing.join(", ")));
+    let is_taken = |topic: &String| of.sources.iter().any(|source| source.topic == *topic);
+    let unknown: Vec<&str> =
+        of.unknown.iter().filter(|joint| is_taken(&joint.topic)).map(|joint| joint.name.as_str()).collect();
+    let more = if unknown.len() > MOST { ", ..." } else { "" };
+    let unknown = (!unknown.is_empty())
+        .then(|| format!("none of the robot: {}{more}", unknown[..unknown.len().min(MOST)].join(", ")));
+    missing.into_iter().chain(unknown)
+}
+
+fn of_source(source: &JointSource, position: AngleUnit) -> LoggedJointSettings {
+    LoggedJointSettings {
         topic: source.topic.clone(),
         prefix: source.prefix.clone(),
         suffix: source.suffix.clone(),
         names: renamed(source),
         position,
         ..LoggedJointSettings::default()
-    };
-    let mut measured: Vec<LoggedJointSettings> = match &request.joints {
-        Some(topic) => vec![of_topic(topic).map_or_else(|| named(topic, position), settings)],
-        None => sources
-            .iter()
-            .filter(|source| request.setpoint.as_ref().is_none_or(|topic| *topic != source.topic))
-            .map(|source| settings(source))
-            .collect(),
-    };
-    for source in &measured {
-        let joints = of_topic(&source.topic).map_or(0, |of| of.joints.len());
-        taken.push(format!(
-            "joint states: {} ({joints} joints of the robot){}",
-            source.topic,
-            rate(survey, &source.topic)
-        ));
     }
-    if let Some(topic) = &request.setpoint {
-        let of = of_topic(topic).map_or_else(|| named(topic, position), settings);
-        measured.push(LoggedJointSettings { role: congruent_scenario::JointRole::Setpoint, ..of });
-        taken.push(format!("setpoints: {topic}{}", rate(survey, topic)));
-    }
-    let robot = survey.robot.iter();
-    taken.extend(
-        robot
-            .filter(|of| !of.missing.is_empty())
-            .map(|of| format!("not in the log, so at their start: {}", of.missing.join(", "))),
-    );
-    let is_plain = |of: &LoggedJointSettings| {
-        LoggedJointSettings { topic: of.topic.clone(), ..LoggedJointSettings::default() } == *of
-    };
-    let is_clear = !sources.is_empty() && request.joints.is_none() && measured.iter().all(is_plain);
-    // What the log says by itself is found again at each run, as for the next log of the same robot; degrees that nobody has
-    // stated are refused there.
-    let is_unstated =
-        !request.degrees && survey.robot.as_ref().is_some_and(|of| of.position_unit == PositionUnit::Degree);
-    if is_unstated || is_clear && measured.len() == sources.len() { Vec::new() } else { measured }
 }
 
 /// A topic of which the survey knows no joint of the robot: the run says what is wrong with it.

@@ -4,7 +4,7 @@ mod draft;
 mod fitted;
 mod paired;
 mod pose_cause;
-mod pose_clock;
+mod pose_fit;
 mod poses;
 mod replayed;
 mod request;

@@ -1,210 +1,258 @@
-//! Why recorded poses are not where the model puts them: the clock, the tool, the base, the zero of a joint, or the geometry.
+//! Why recorded poses are not where the model puts them: the unit, the clock, the tool, the base, the zero of a joint, or the
+//! geometry.
 //!
-//! Each is fitted alone to the poses, in the order from what is changed most easily; the first that omits four fifths of the
-//! distance is the cause. A constant in the frame of the tool is the tool, a constant in that of the base the base, and what is
-//! proportional to the velocity a clock.
+//! Each is fitted to the poses, in the order from what is changed most easily; the first that omits four fifths of the distance is the
+//! cause. A constant in the frame of the tool is the tool, a constant in that of the base the base, and what is proportional to the
+//! velocity a clock. If the frames were fitted to the log, they are fitted again with each of the others.
 
 use congruent_agreement::compare::Model;
 use congruent_calibration::{
     CalibrationOptions, calibrate,
-    measurements::{MeasuredRow, WrittenOrientation},
-    report::CalibrationReport,
+    estimation::ParameterUnit,
+    measurements::MeasuredRow,
+    report::{CalibrationReport, EstimatedCorrection},
 };
-use congruent_description::RobotDescription;
+use congruent_description::{LinkIndex, RobotDescription};
 use congruent_input::display::{angle, length, quantity};
-use congruent_monitors::{ComparedPoses, verdict::Status};
+use congruent_monitors::{
+    ComparedPoses,
+    verdict::{CheckResult, Status},
+};
 use congruent_results::report::{Causes, explain};
 use congruent_scenario::{CheckKind, PoseOrigin};
 use congruent_twin::{Outcome, Run, RunSetup};
 use nalgebra::Isometry3;
 
 use super::{
+    fitted::{orientation, over_offsets},
     paired::{OFFSETS_S, PairedPose, pairs},
-    pose_clock::{PositionsOverOffsets, pose_clock},
+    pose_fit::{PoseClock, PoseOverOffsets, PosesToFit, largest_offset_s},
     replayed::Replayed,
 };
 
 /// With the cause, at most this share of the distance remains.
 const LEFT: f64 = 0.2;
+/// Another one explains it as well if no more than so many times the distance remains.
+const AS_WELL: f64 = 1.5;
 /// Fewest poses of which a cause is named.
 const FEWEST: usize = 10;
+/// Rows of a calibration, evenly from the poses: many fits are made.
+const MOST_ROWS: usize = 100;
+/// Millimetres in a metre, and how near a ratio must be to it.
+const MILLIMETRES: f64 = 1e3;
+const NEAR: f64 = 0.05;
 
 /// Causes of failed checks of a run, those of recorded poses among them, which become notes of their check.
 pub fn explain_recorded(run: &mut Run<'_>, outcome: &mut Outcome) -> Causes {
     let setup = run.setup();
-    let failed = outcome
-        .checks
-        .iter_mut()
-        .find(|check| check.check == CheckKind::Pose && check.status == Status::Fail);
-    if let (Some(check), Some(_)) = (failed, &setup.recorded) {
-        let limit_m = check.measures.first().map_or(f64::INFINITY, |measure| measure.limit);
+    let is_failed = |check: &&mut CheckResult| check.check == CheckKind::Pose && check.status == Status::Fail;
+    if let (Some(check), Some(_)) = (outcome.checks.iter_mut().find(is_failed), &setup.recorded) {
+        let violated = check.measures.iter().filter(|measure| measure.first_violation.is_some());
+        let moments = violated.flat_map(|measure| [&measure.first_violation, &measure.worst]);
+        let beyond: Vec<String> = moments.flatten().map(|moment| moment.subject.clone()).collect();
+        let causes = causes(setup, &beyond);
         // Before the other remarks: it is what to do.
-        check.notes.splice(0..0, causes(setup, limit_m));
+        check.notes.splice(0..0, causes);
     }
     explain(run, outcome)
 }
 
-/// A sentence for each of the poses that are beyond the limit.
-fn causes(setup: &RunSetup, limit_m: f64) -> Vec<String> {
+/// A sentence for each of the poses that are beyond a limit.
+fn causes(setup: &RunSetup, beyond: &[String]) -> Vec<String> {
     let Some((source, recorded)) = setup.scenario.source.as_ref().zip(setup.recorded.as_ref()) else {
         return Vec::new();
     };
     let replayed = Replayed { description: &setup.description, scenario: &setup.scenario };
     let Ok(pairs) = pairs(&replayed, &source.pose) else { return Vec::new() };
-    let each = recorded.poses.iter().zip(&pairs);
     let cause = |(compared, pairs): (&ComparedPoses, &Vec<PairedPose>)| {
-        let explained = Explained { description: &setup.description, compared, pairs };
+        let explained = ExplainedPoses { description: &setup.description, compared, pairs };
         // A pose that is computed by another URDF differs by that URDF: `check --against` names the difference.
-        (compared.origin != PoseOrigin::Derived).then(|| explained.cause(limit_m)).flatten()
+        let is_asked = compared.origin != PoseOrigin::Derived && beyond.contains(&compared.name);
+        is_asked.then(|| explained.cause()).flatten()
     };
-    each.filter_map(cause).collect()
+    let held = (!recorded.held.is_empty())
+        .then(|| format!("not in the log, so taken to be at their start: {}", recorded.held.join(", ")));
+    held.into_iter().chain(recorded.poses.iter().zip(&pairs).filter_map(cause)).collect()
 }
 
 /// The poses of one target.
-struct Explained<'a> {
+struct ExplainedPoses<'a> {
     description: &'a RobotDescription,
     compared: &'a ComparedPoses,
     pairs: &'a [PairedPose],
 }
 
-/// A pose with what the model says of it.
-struct ModelledPose {
-    positions: PositionsOverOffsets,
-    row: MeasuredRow,
+/// What remains with some corrections.
+struct RemainingError {
+    rms_m: f64,
+    /// Distances and angles, an angle times the reach of a wrist, m.
+    size_m: f64,
+    words: String,
 }
 
-impl Explained<'_> {
-    fn cause(&self, limit_m: f64) -> Option<String> {
-        let poses = self.modelled();
+impl ExplainedPoses<'_> {
+    fn cause(&self) -> Option<String> {
+        let poses = over_offsets(self.description, self.compared, self.pairs);
         if poses.len() < FEWEST {
             return None;
         }
-        let largest_m = poses.iter().map(|pose| pose.positions.distance_m()).fold(0.0, f64::max);
-        if largest_m <= limit_m {
-            return None;
-        }
-        let positions: Vec<PositionsOverOffsets> = poses.iter().map(|pose| pose.positions.clone()).collect();
-        let squares = positions.iter().map(|at| at.distance_m() * at.distance_m()).sum::<f64>();
-        #[expect(clippy::cast_precision_loss, reason = "some hundred")]
-        let before_m = (squares / positions.len() as f64).sqrt();
-        let clock = pose_clock(&positions);
-        let rows: Vec<MeasuredRow> = poses.into_iter().map(|pose| pose.row).collect();
         let name = &self.compared.name;
-        let [before, after] = [before_m, clock.rms_m].map(length);
-        if clock.rms_m <= LEFT * before_m {
-            let offset = quantity(clock.offset_s, "s");
-            return Some(format!(
-                "cause ({name}, distance {before} rms): the clock: with offset_s = {offset} it is {after}"
-            ));
+        if let Some(unit) = of_unit(&poses) {
+            return Some(format!("cause ({name}): {unit}"));
         }
-        let found = self.of_frames(&rows, before_m).or_else(|| self.of_arm(&rows, before_m));
+        let rows = self.rows();
+        let before = self.remaining(&rows, &[])?;
+        let distance = length(before.rms_m);
+        if let Some(clock) = self.of_clock(&poses, before.rms_m) {
+            return Some(format!("cause ({name}, distance {distance} rms): {clock}"));
+        }
+        let found = self.of_frames(&rows, &before).or_else(|| self.of_arm(&rows, &before));
         Some(match found {
-            Some(cause) => format!("cause ({name}, distance {before} rms): {cause}"),
+            Some(cause) => format!("cause ({name}, distance {distance} rms): {cause}"),
             None => format!(
-                "no cause found ({name}, distance {before} rms): neither the clock nor base, tool, a joint's zero or the table explains it"
+                "no cause found ({name}, distance {distance} rms): neither a clock within {}, nor the frames, the zero of a joint or the \
+                 geometry explains it",
+                quantity(largest_offset_s(), "s")
             ),
         })
     }
 
-    fn modelled(&self) -> Vec<ModelledPose> {
+    /// Measured poses of the tool centre point in the base.
+    fn rows(&self) -> Vec<MeasuredRow> {
         let Ok(mut model) = Model::new(self.description) else { return Vec::new() };
         let tip_from_tcp = self.description.tip_from_tcp.unwrap_or_else(Isometry3::identity);
-        let middle = OFFSETS_S.len() / 2;
-        let mut modelled = Vec::with_capacity(self.pairs.len());
-        for (at, pair) in self.pairs.iter().enumerate() {
-            let mut by_model = Vec::with_capacity(OFFSETS_S.len());
-            for q in &pair.q {
-                let Ok(poses) = model.root_from_links(q) else { break };
-                by_model.push(self.compared.frame_from_target(poses).translation.vector);
-            }
-            let Ok(poses) = model.root_from_links(&pair.q[middle]) else { continue };
-            let root_from = |link: congruent_description::LinkIndex| poses[link.get()].to_isometry();
+        let every = self.pairs.len().div_ceil(MOST_ROWS).max(1);
+        let row = |(at, pair): (usize, &PairedPose)| {
+            let q = &pair.q[OFFSETS_S.len() / 2];
+            let poses = model.root_from_links(q).ok()?;
+            let root_from = |link: LinkIndex| poses[link.get()].to_isometry();
             let root_from_frame = root_from(self.compared.from_link) * self.compared.link_from_frame;
             let root_from_target = root_from(self.compared.link) * self.compared.link_from_target;
             let target_from_tcp = root_from_target.inverse() * root_from(self.description.tip) * tip_from_tcp;
-            let base_from_tcp = root_from(self.description.base).inverse()
-                * root_from_frame
-                * pair.frame_from_target
-                * target_from_tcp;
-            if by_model.len() == OFFSETS_S.len() {
-                let recorded = pair.frame_from_target.translation.vector;
-                modelled.push(ModelledPose {
-                    positions: PositionsOverOffsets { time_s: pair.time_s, by_model, recorded },
-                    row: self.row(at, pair, &base_from_tcp),
-                });
-            }
-        }
-        modelled
-    }
-
-    fn row(&self, at: usize, pair: &PairedPose, base_from_tcp: &Isometry3<f64>) -> MeasuredRow {
-        let rotation = base_from_tcp.rotation.quaternion();
-        let wxyz = [rotation.w, rotation.i, rotation.j, rotation.k];
-        MeasuredRow {
-            line: at + 1,
-            q: pair.q[OFFSETS_S.len() / 2].clone(),
-            tip_in_base_m: [0, 1, 2].map(|axis| Some(base_from_tcp.translation.vector[axis])),
-            orientation: (!self.compared.position_only).then_some(WrittenOrientation::QuaternionWxyz(wxyz)),
-        }
-    }
-
-    /// The tool, or the base.
-    fn of_frames(&self, rows: &[MeasuredRow], before_m: f64) -> Option<String> {
-        let frame = |group: &str, what: &str| {
-            let report = self.fitted(rows, &[group])?;
-            let left_m = report.least_squares.residuals.rms_m;
-            let values = values(&report, "");
-            (left_m <= LEFT * before_m).then(|| format!("{what}: with {values} it is {}", length(left_m)))
+            let base_from_root = root_from(self.description.base).inverse();
+            let base_from_tcp = base_from_root * root_from_frame * pair.frame_from_target * target_from_tcp;
+            Some(MeasuredRow {
+                line: at + 1,
+                q: q.clone(),
+                tip_in_base_m: [0, 1, 2].map(|axis| Some(base_from_tcp.translation.vector[axis])),
+                orientation: (!self.compared.position_only).then(|| orientation(&base_from_tcp)),
+            })
         };
-        frame("tool", "the tool").or_else(|| frame("base", "the base"))
+        self.pairs.iter().enumerate().step_by(every).filter_map(row).collect()
+    }
+
+    fn of_clock(&self, poses: &[PoseOverOffsets], before_m: f64) -> Option<String> {
+        let clock = PosesToFit { poses, with_rotations: !self.compared.position_only }.fit().clock;
+        let mean = |clock: &PoseClock| poses.iter().map(|at| at.distance_m(clock).powi(2)).sum::<f64>();
+        let left_m = before_m * (mean(&clock) / mean(&PoseClock::default())).sqrt();
+        let offset = quantity(self.compared.offset_s + clock.offset_s, "s");
+        (clock.offset_s != 0.0 && left_m <= LEFT * before_m)
+            .then(|| format!("the clock: with offset_s = {offset} it is {}", length(left_m)))
+    }
+
+    /// The tool or the base, unless they were fitted already.
+    fn of_frames(&self, rows: &[MeasuredRow], before: &RemainingError) -> Option<String> {
+        if self.compared.frames_are_fitted {
+            return None;
+        }
+        let frames = [("the tool", "tool"), ("the base", "base")];
+        let mut found: Vec<(&str, RemainingError)> = frames
+            .into_iter()
+            .filter_map(|(what, group)| Some((what, self.remaining(rows, &[group])?)))
+            .collect();
+        found.retain(|(_, left)| left.size_m <= LEFT * before.size_m);
+        let (what, left) = found.first()?;
+        let zero = self.of_zero(rows);
+        let other = zero.filter(|zero| zero.size_m <= AS_WELL * left.size_m);
+        let other = other.map_or_else(String::new, |zero| {
+            format!("; the zero of one joint explains it as well: {}", zero.words)
+        });
+        Some(format!("{what}: with {} it is {}{other}", left.words, length(left.rms_m)))
     }
 
     /// The zero of one joint, both frames, or the table.
-    fn of_arm(&self, rows: &[MeasuredRow], before_m: f64) -> Option<String> {
-        let zeros = self.fitted(rows, &["zero-offsets"])?;
-        let names: Vec<&str> = zeros.parameters.iter().map(|of| of.name.as_str()).collect();
-        let alone = names.into_iter().filter_map(|name| {
-            let report = self.fitted(rows, &[name])?;
-            Some((report.least_squares.residuals.rms_m, values(&report, "")))
-        });
-        if let Some((left_m, values)) =
-            alone.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|of| of.0 <= LEFT * before_m)
-        {
-            return Some(format!("the zero of one joint: with {values} it is {}", length(left_m)));
+    fn of_arm(&self, rows: &[MeasuredRow], before: &RemainingError) -> Option<String> {
+        let all = self.remaining(rows, &["all"]);
+        if let Some(zero) = self.of_zero(rows).filter(|zero| zero.size_m <= LEFT * before.size_m) {
+            let rest = all.filter(|all| all.size_m < LEFT * zero.size_m);
+            let rest = rest.map_or_else(String::new, |all| {
+                format!("; with the whole geometry it is {}", length(all.rms_m))
+            });
+            return Some(format!(
+                "the zero of one joint: with {} it is {}{rest}",
+                zero.words,
+                length(zero.rms_m)
+            ));
         }
-        for (free, what) in [
-            (&["base", "tool"][..], "base and tool together"),
-            (&["all"][..], "the geometry of the arm, with base and tool"),
-        ] {
-            let left_m = self.fitted(rows, free)?.least_squares.residuals.rms_m;
-            if left_m <= LEFT * before_m {
-                let left = length(left_m);
+        if !self.compared.frames_are_fitted {
+            let frames =
+                self.remaining(rows, &["base", "tool"]).filter(|left| left.size_m <= LEFT * before.size_m);
+            if let Some(left) = frames {
                 return Some(format!(
-                    "{what}: corrections leave {left}; `calibrate` on still poses names them"
+                    "base and tool together: with {} it is {}",
+                    left.words,
+                    length(left.rms_m)
                 ));
             }
         }
-        None
+        let all = all.filter(|all| all.size_m <= LEFT * before.size_m)?;
+        let left = length(all.rms_m);
+        Some(format!(
+            "the geometry of the arm, with base and tool: with corrections it is {left}; `calibrate` names them from still poses"
+        ))
     }
 
+    /// The joint whose zero alone explains most.
+    fn of_zero(&self, rows: &[MeasuredRow]) -> Option<RemainingError> {
+        let zeros = self.fitted(rows, &["zero-offsets"])?;
+        let fixed = zeros.fixed.iter().map(|of| of.name.as_str());
+        let names: Vec<&str> = zeros.parameters.iter().map(|of| of.name.as_str()).chain(fixed).collect();
+        let alone = names
+            .into_iter()
+            .filter(|name| !is_of_frame(name))
+            .filter_map(|name| self.remaining(rows, &[name]));
+        alone.min_by(|a, b| a.size_m.total_cmp(&b.size_m))
+    }
+
+    /// The fit with these corrections free, and the frames if they were fitted to the log.
     fn fitted(&self, rows: &[MeasuredRow], free: &[&str]) -> Option<CalibrationReport> {
-        let free = free.iter().map(|&word| word.to_owned()).collect();
+        let frames: &[&str] = if self.compared.frames_are_fitted { &["base", "tool"] } else { &[] };
+        let free: Vec<String> = free.iter().chain(frames).map(|&word| word.to_owned()).collect();
+        let free = if free.is_empty() { vec!["tool".to_owned()] } else { free };
         let options = CalibrationOptions { free, suggestions: 0, ..CalibrationOptions::default() };
         calibrate(self.description, rows, &options).ok()
     }
+
+    /// What remains with these corrections; of none, what is there.
+    fn remaining(&self, rows: &[MeasuredRow], free: &[&str]) -> Option<RemainingError> {
+        const LENGTH_M: f64 = 0.3;
+        let report = self.fitted(rows, free)?;
+        let is_nominal = free.is_empty() && !self.compared.frames_are_fitted;
+        let of = if is_nominal { report.nominal } else { report.least_squares.residuals };
+        let size_m = of.rms_m.hypot(LENGTH_M * of.rms_rad);
+        let matter = report.parameters.iter().filter(|of| of.significant);
+        let matter = matter.filter(|of| !(self.compared.frames_are_fitted && is_of_frame(&of.name)));
+        let words: Vec<String> = matter.map(value_words).collect();
+        Some(RemainingError { rms_m: of.rms_m, size_m, words: words.join(", ") })
+    }
 }
 
-/// The corrections that matter, for a sentence.
-fn values(report: &CalibrationReport, empty: &str) -> String {
-    let matter = report.parameters.iter().filter(|of| of.significant);
-    let one = |of: &congruent_calibration::report::EstimatedCorrection| {
-        let value = if of.unit == congruent_calibration::estimation::ParameterUnit::Angle {
-            angle(of.correction)
-        } else {
-            length(of.correction)
-        };
-        format!("{} {value}", of.name)
-    };
-    let listed: Vec<String> = matter.map(one).collect();
-    if listed.is_empty() { empty.to_owned() } else { listed.join(", ") }
+fn is_of_frame(name: &str) -> bool {
+    name.starts_with("base.") || name.starts_with("tool.")
+}
+
+fn value_words(of: &EstimatedCorrection) -> String {
+    let value = if of.unit == ParameterUnit::Angle { angle(of.correction) } else { length(of.correction) };
+    format!("{} {value}", of.name)
+}
+
+/// Whether the recorded positions are in millimetres.
+fn of_unit(poses: &[PoseOverOffsets]) -> Option<String> {
+    let sum = |of: &dyn Fn(&PoseOverOffsets) -> f64| poses.iter().map(of).sum::<f64>();
+    let recorded = sum(&|pose| pose.recorded.translation.vector.norm());
+    let modelled = sum(&|pose| pose.by_model[OFFSETS_S.len() / 2].translation.vector.norm());
+    let is_millimetre = (recorded / modelled / MILLIMETRES - 1.0).abs() < NEAR;
+    is_millimetre.then(|| {
+        "the unit: the positions are a thousand times as far as by the model, so they are in mm".to_owned()
+    })
 }

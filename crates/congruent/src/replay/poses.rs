@@ -44,9 +44,14 @@ pub(super) fn chosen_poses(
         if !topics.iter().any(|topic| topic.name == *name) {
             let message = format!("the log has no topic \"{name}\" with poses");
             let names: Vec<&str> = topics.iter().map(|topic| topic.name.as_str()).collect();
-            return Err(Diagnostic::error(codes::replay::POSES, message)
-                .with_help(known_names(name, "topics", names))
-                .into());
+            let help = if names.is_empty() {
+                "none of its topics has poses that can be read: geometry_msgs PoseStamped, PoseWithCovarianceStamped, \
+                 TransformStamped, or TF"
+                    .to_owned()
+            } else {
+                known_names(name, "topics", names)
+            };
+            return Err(Diagnostic::error(codes::replay::POSES, message).with_help(help).into());
         }
     }
     let mut chosen = Vec::new();

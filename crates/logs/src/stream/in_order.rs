@@ -8,7 +8,7 @@ use std::{
 /// Messages within which times are put in order. Kind: choice; the arrival over a network is mixed up within some ms.
 const WINDOW: usize = 64;
 /// Time within which they are, s: the messages of a slow topic are not held back for long. Kind: choice, likewise.
-const SPAN_S: f64 = 0.25;
+pub(super) const SPAN_S: f64 = 0.25;
 
 /// A message at a time.
 #[derive(Debug)]

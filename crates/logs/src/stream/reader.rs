@@ -5,6 +5,7 @@ use std::{collections::VecDeque, path::Path};
 use congruent_input::Diagnostic;
 
 use super::{
+    in_order::SPAN_S,
     joint_row::{JointRow, JointRowCounts},
     pose_stream::{PoseCounts, PoseSeries, StreamedPose},
     rows::RowMaker,
@@ -17,8 +18,9 @@ use crate::{
     survey::ClockKind,
 };
 
-/// A step back of a clock by more than this is a restart: a clock was set, or a replay began again.
-const RESTART_S: f64 = 1.0;
+/// A step back of a clock by more than this is a restart: a clock was set, or a replay began again. Within it messages are put in
+/// order.
+const RESTART_S: f64 = SPAN_S;
 /// Time between the last row before a restart and the first one after it. Kind: choice; longer than any gap across which something
 /// is interpolated.
 const BETWEEN_PARTS_S: f64 = 1.0;

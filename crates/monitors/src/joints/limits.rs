@@ -3,7 +3,7 @@
 //! A joint that rests on its stop, because it was commanded there or sags onto it, is a little beyond its limit: a stop
 //! yields. A joint that is driven beyond differs: its setpoint is outside, or it continues to move outwards.
 
-use congruent_description::{JointKind, RobotDescription, SPEED_MARGIN};
+use congruent_description::{Joint, JointKind, RobotDescription, SPEED_MARGIN};
 use congruent_input::{Diagnostic, Quantity, SiUnit, display::quantity};
 use congruent_scenario::{FilePlace, LimitsCheck};
 
@@ -113,7 +113,7 @@ impl LimitsMonitor {
         // With a margin, a value that holds is negative: inside the range.
         let [angle, shift] = [0, 1].map(|kind| tolerances[kind] - margins[kind]);
         Self {
-            coordinates: coordinates(context.description),
+            coordinates: coordinates(context.description, context.held),
             margins,
             tolerances,
             beyond: ByKind {
@@ -315,11 +315,16 @@ impl Monitor for LimitsMonitor {
 }
 
 /// The limits of all coordinates. A limit of zero counts as none: some descriptions write it for an unknown limit.
-fn coordinates(description: &RobotDescription) -> Vec<CoordinateLimits> {
+fn coordinates(description: &RobotDescription, held: &[String]) -> Vec<CoordinateLimits> {
     let robot = &description.robot;
     let stated = |limit: Option<f64>| limit.filter(|&limit| limit > 0.0);
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-    let limits = joints.enumerate().map(|(coordinate, joint)| CoordinateLimits {
+    let is_held = |joint: &Joint| {
+        let master = joint.mimic.map(|mimic| &robot.joint(mimic.master).name);
+        held.contains(&joint.name) || master.is_some_and(|master| held.contains(master))
+    };
+    let judged = joints.enumerate().filter(|(_, joint)| !is_held(joint));
+    let limits = judged.map(|(coordinate, joint)| CoordinateLimits {
         coordinate,
         kind: joint.kind,
         range: joint.position_range(),

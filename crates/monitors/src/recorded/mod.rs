@@ -2,6 +2,7 @@
 
 mod pose;
 mod recording;
+mod scatter;
 mod step;
 mod velocity;
 

@@ -1,6 +1,6 @@
 //! Recorded poses against those of the model at the joint positions of the same instant.
 
-use congruent_input::{Quantity, SiUnit};
+use congruent_input::{Quantity, SiUnit, display::quantity};
 use congruent_kinematics::{Pose, PoseError};
 use congruent_scenario::{PoseCheck, PoseOrigin};
 
@@ -86,7 +86,12 @@ fn shows(poses: &ComparedPoses) -> String {
     } else {
         ""
     };
-    format!("{shows}{fitted}")
+    let clock = if poses.offset_s == 0.0 {
+        String::new()
+    } else {
+        format!("; {} are added to their times", quantity(poses.offset_s * 1e3, "ms"))
+    };
+    format!("{shows}{fitted}{clock}")
 }
 
 impl Monitor for PoseMonitor<'_> {

@@ -23,6 +23,9 @@ pub(crate) struct RecordingMonitor {
     gaps: u64,
     gap_s: f64,
     before_s: f64,
+    begin_s: f64,
+    /// The period of the samples, as a rule.
+    period_s: f64,
 }
 
 impl RecordingMonitor {
@@ -38,7 +41,18 @@ impl RecordingMonitor {
             gaps: 0,
             gap_s: 0.0,
             before_s: f64::NAN,
+            begin_s: f64::NAN,
+            period_s: context.clock.step_s,
         }
+    }
+
+    /// The share of the time in which samples are: without gaps, and without instants that were left out elsewhere.
+    fn used_share(&self) -> f64 {
+        let all_s = self.before_s - self.begin_s;
+        #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 samples")]
+        let left_out = self.left_out as f64 / (self.samples + self.left_out) as f64;
+        let in_gaps = if all_s > 0.0 { (self.gap_s - self.period_s).max(0.0) / all_s } else { 0.0 };
+        1.0 - left_out.max(in_gaps)
     }
 
     fn notes(&self) -> Vec<String> {
@@ -60,17 +74,19 @@ impl Monitor for RecordingMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         self.samples += 1;
         self.left_out += sample.left_out;
-        if sample.since_s.is_none() && !self.before_s.is_nan() {
-            let gap_s = sample.time_s - self.before_s;
-            self.gaps += 1;
-            self.gap_s += gap_s;
-            self.longest.observe(gap_s, 0, sample);
+        if self.before_s.is_nan() {
+            self.begin_s = sample.time_s;
+        } else {
+            let since_s = sample.time_s - self.before_s;
+            self.longest.observe(since_s, 0, sample);
+            if sample.since_s.is_none() {
+                self.gaps += 1;
+                self.gap_s += since_s;
+            }
         }
         self.before_s = sample.time_s;
         if sample.is_last {
-            #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 samples")]
-            let share = self.samples as f64 / (self.samples + self.left_out) as f64;
-            self.share.observe(share, 0, sample);
+            self.share.observe(self.used_share(), 0, sample);
         }
     }
 

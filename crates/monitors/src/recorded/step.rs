@@ -1,17 +1,19 @@
 //! A jump of one joint's zero while the run goes on: an encoder that lost counts, a coupling that slipped.
 //!
-//! Of the errors of measured poses, the mean of some after an instant minus that of as many before it is explained by one column of
-//! the Jacobian. Errors of the geometry cancel, since the arm hardly moves in between. Only poses that were measured can show it:
-//! a controller computes its own from the same encoders.
+//! Of the errors of measured poses, the mean of some after an instant minus that of as many before it, less what the errors change
+//! anyhow, is explained by one column of the Jacobian. Errors of geometry and frames, which change slowly as the arm moves, cancel.
+//! It counts if it is far beyond the scatter of the errors, which is estimated by its median: jumps do not change that. Only poses
+//! that were measured can show it: a controller computes its own from the same encoders.
 
 use std::collections::VecDeque;
 
 use congruent_description::JointKind;
-use congruent_input::{Quantity, SiUnit, display::quantity};
+use congruent_input::{Quantity, SiUnit, display::angle};
 use congruent_kinematics::{JacobianKind, Twist, UrdfTree};
 use congruent_scenario::{PoseOrigin, StepCheck};
 use nalgebra::{Vector3, Vector6};
 
+use super::scatter::Scatter;
 use crate::{
     CheckContext, ComparedPoses, Names, PoseSample,
     monitor::{Monitor, Observed},
@@ -20,19 +22,21 @@ use crate::{
     watch::{Watch, WatchedInstant},
 };
 
-/// Default limits: 0.05 deg and 0.5 mm. Kind: judgement; a tenth of what an arm loses by a tooth of its gears.
-const ANGLE_RAD: f64 = 8.7e-4;
-const SHIFT_M: f64 = 5e-4;
-/// Poses on either side of an instant.
-const SIDE: usize = 4;
+/// Default limits: 0.1 deg and 1 mm. Kind: judgement; a fifth of what an arm loses by a tooth of its gears, and what trackers show
+/// within a fraction of a second.
+const ANGLE_RAD: f64 = 1.745_329_251_994_329_5e-3;
+const SHIFT_M: f64 = 1e-3;
+/// Poses of one mean; there are two means on either side of an instant.
+const BLOCK: usize = 4;
 /// Poses that are farther apart than this are not those of one instant, s.
-const FARTHEST_S: f64 = 0.5;
-/// A jump counts if it is larger than so many times the scatter of apparent jumps. Kind: statistics; one in 1e8 for normal errors.
-const SCATTERS: f64 = 6.0;
-/// Apparent jumps by which the scatter is known.
-const FEWEST: u64 = 30;
-/// Share of the change that a joint must explain.
+const FARTHEST_S: f64 = 1.0;
+/// A jump is so many times the standard deviation of what the scatter alone would show. Kind: statistics; one in 1e10 for normal
+/// errors, of which there are some correlated thousands.
+const SIGMAS: f64 = 7.0;
+/// Share of what is beyond the scatter that a joint must explain, as squares.
 const EXPLAINED: f64 = 0.8;
+/// A joint that moves the target by less is not seen, m/rad or m/m.
+const SMALLEST_COLUMN: f64 = 0.02;
 /// A length that makes rotations and positions one number, m: the reach of a wrist.
 const LENGTH_M: f64 = 0.3;
 
@@ -59,18 +63,22 @@ struct Jump {
     at: PoseErrorAt,
 }
 
-/// The apparent jumps of one joint so far.
-#[derive(Debug, Clone, Copy, Default)]
-struct Scatter {
-    count: u64,
-    squares: f64,
+/// The errors of one selection of poses.
+#[derive(Debug, Clone, Default)]
+struct ErrorTrack {
+    last: VecDeque<PoseErrorAt>,
+    /// Of the change of the errors: of its position, of its rotation.
+    scatter: [Scatter; 2],
+    /// The largest jump of those that follow each other: an instant beside the jump shows a part of it.
+    candidate: Option<Jump>,
 }
 
-impl Scatter {
-    #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 poses")]
-    fn rms(&self) -> f64 {
-        (self.squares / self.count.max(1) as f64).sqrt()
-    }
+/// What of a joint could be seen.
+#[derive(Debug, Clone, Copy, Default)]
+struct SeenJoint {
+    /// Sum and number of the smallest jumps that would count.
+    level: f64,
+    count: u64,
 }
 
 pub(crate) struct StepMonitor<'a> {
@@ -78,11 +86,8 @@ pub(crate) struct StepMonitor<'a> {
     tree: UrdfTree,
     kinds: Vec<JointKind>,
     twists: Vec<Twist>,
-    /// The last errors of each selection.
-    errors: Vec<VecDeque<PoseErrorAt>>,
-    scatter: Vec<Scatter>,
-    /// The largest jump of those that follow each other, while there is one: an instant beside the jump shows a part of it.
-    candidate: Option<Jump>,
+    tracks: Vec<ErrorTrack>,
+    seen: Vec<SeenJoint>,
     angle: Watch,
     shift: Watch,
     compared: u64,
@@ -98,9 +103,8 @@ impl<'a> StepMonitor<'a> {
             tree: UrdfTree::new(&context.description.robot),
             kinds: context.joint_kinds(),
             twists: vec![Twist::zero(); dof],
-            errors: vec![VecDeque::with_capacity(2 * SIDE + 1); context.poses.len()],
-            scatter: vec![Scatter::default(); dof],
-            candidate: None,
+            tracks: vec![ErrorTrack::default(); context.poses.len()],
+            seen: vec![SeenJoint::default(); dof],
             angle: watch(Quantity::JumpOfAngle, SiUnit::Radian, angle_rad.unwrap_or(ANGLE_RAD)),
             shift: watch(Quantity::JumpOfShift, SiUnit::Metre, shift_m.unwrap_or(SHIFT_M)),
             compared: 0,
@@ -115,16 +119,16 @@ impl<'a> StepMonitor<'a> {
         let weight = if compared.position_only { 0.0 } else { LENGTH_M };
         let shift = recorded.translation.vector - by_model.translation.vector;
         let turn: Vector3<f64> = (recorded.rotation * by_model.rotation.inverse()).scaled_axis();
-        let root_from_tip =
-            self.tree.jacobian_into(pose.q, compared.link, JacobianKind::Geometric, &mut self.twists).ok()?;
-        let frame_from_root = (pose.root_from_links[compared.from_link.get()].to_isometry()
-            * compared.link_from_frame)
-            .inverse();
-        let arm = root_from_tip.rotation * compared.link_from_target.translation.vector;
+        let geometric = JacobianKind::Geometric;
+        let root_from_link =
+            self.tree.jacobian_into(pose.q, compared.link, geometric, &mut self.twists).ok()?;
+        let root_from_frame =
+            pose.root_from_links[compared.from_link.get()].to_isometry() * compared.link_from_frame;
+        let to_frame = root_from_frame.rotation.inverse();
+        let arm = root_from_link.rotation * compared.link_from_target.translation.vector;
         let column = |twist: &Twist| {
-            let linear = frame_from_root.rotation * (twist.linear + twist.angular.cross(&arm));
-            let angular = frame_from_root.rotation * twist.angular;
-            stacked(&linear, &(weight * angular))
+            let linear = to_frame * (twist.linear + twist.angular.cross(&arm));
+            stacked(&linear, &(weight * (to_frame * twist.angular)))
         };
         Some(PoseErrorAt {
             time_s: pose.time_s,
@@ -134,69 +138,119 @@ impl<'a> StepMonitor<'a> {
         })
     }
 
-    /// Judges the instant in the middle of the last errors.
+    /// Judges the instant in the middle of the last errors of a selection.
     fn judge(&mut self, of: usize) {
-        let errors = &self.errors[of];
-        let (first, last) = (&errors[0], &errors[2 * SIDE - 1]);
-        if errors.len() < 2 * SIDE || last.time_s - first.time_s > FARTHEST_S {
+        let track = &mut self.tracks[of];
+        let errors = &track.last;
+        if errors[4 * BLOCK - 1].time_s - errors[0].time_s > FARTHEST_S {
             return;
         }
         #[expect(clippy::cast_precision_loss, reason = "a small number")]
-        let mean = |from: usize| {
-            errors.iter().skip(from).take(SIDE).map(|at| at.error).sum::<Vector6<f64>>() / SIDE as f64
+        let mean = |block: usize| {
+            let of_block = errors.iter().skip(block * BLOCK).take(BLOCK);
+            of_block.map(|at| at.error).sum::<Vector6<f64>>() / BLOCK as f64
         };
-        let change = mean(SIDE) - mean(0);
-        let at = &errors[SIDE];
+        // Without what would go on as it did: the difference of the outer means is three times that of a line.
+        let change = (mean(2) - mean(1)) * 1.5 - (mean(3) - mean(0)) * 0.5;
+        let at = errors[2 * BLOCK].clone();
+        let [position, rotation] = &mut track.scatter;
+        let sigmas = [position.sigma(), rotation.sigma()];
+        let parts = |from: usize| change.iter().skip(from).take(3).copied().collect::<Vec<f64>>();
+        parts(0).into_iter().for_each(|part| position.take(part));
+        parts(3).into_iter().for_each(|part| rotation.take(part));
+        let [Some(of_position), of_rotation] = sigmas else { return };
         self.compared += 1;
-        let best = at.columns.iter().enumerate().filter_map(|(joint, column)| {
-            let size = column.norm_squared();
-            let jump = column.dot(&change) / size;
-            let left = (change - column * jump).norm();
-            (size > 0.0).then_some((joint, jump, left))
-        });
-        let Some((joint, jump, left)) = best.min_by(|a, b| a.2.total_cmp(&b.2)) else { return };
-        let is_explained = left <= (1.0 - EXPLAINED) * change.norm();
-        let scatter = &mut self.scatter[joint];
-        let is_known = scatter.count >= FEWEST;
-        if is_explained && is_known && jump.abs() > SCATTERS * scatter.rms() {
-            let is_larger = self.candidate.as_ref().is_none_or(|known| jump.abs() > known.size);
-            if is_larger {
-                self.candidate = Some(Jump { joint, size: jump.abs(), at: at.clone() });
+        // Without rotations their rows are 0, and have no scatter.
+        let weights =
+            [1.0 / of_position, of_rotation.filter(|sigma| *sigma > 0.0).map_or(0.0, |sigma| 1.0 / sigma)];
+        let found = self.best_joint(&at, &change, weights);
+        let track = &mut self.tracks[of];
+        if let Some(jump) = found {
+            if track.candidate.as_ref().is_none_or(|known| jump.size > known.size) {
+                track.candidate = Some(jump);
             }
             return;
         }
-        // Up to its largest part, what belongs to a jump is no scatter.
-        if !is_known || jump.abs() <= SCATTERS * scatter.rms() {
-            scatter.count += 1;
-            scatter.squares += jump * jump;
-        }
-        let instant = WatchedInstant { time_s: at.time_s, q: &at.q };
-        let watch = if self.kinds[joint].is_angular() { &mut self.angle } else { &mut self.shift };
-        watch.observe_at(0.0, joint, instant);
-        self.end_jump();
+        let passed = track.candidate.take();
+        self.nothing_at(&at);
+        self.take_jump(passed);
     }
 
-    /// Takes the jump that has passed.
-    fn end_jump(&mut self) {
-        let Some(Jump { joint, size, at }) = self.candidate.take() else { return };
+    /// The joint whose jump explains a change that is beyond the scatter.
+    fn best_joint(&mut self, at: &PoseErrorAt, change: &Vector6<f64>, weights: [f64; 2]) -> Option<Jump> {
+        let weighted =
+            |vector: &Vector6<f64>| Vector6::from_fn(|row, _| vector[row] * weights[usize::from(row >= 3)]);
+        let white = weighted(change);
+        let mut best: Option<(f64, usize, f64)> = None;
+        for (joint, column) in at.columns.iter().enumerate() {
+            if column.norm() < SMALLEST_COLUMN {
+                continue;
+            }
+            let column = weighted(column);
+            let size = column.norm();
+            let seen = &mut self.seen[joint];
+            (seen.level, seen.count) = (seen.level + SIGMAS / size, seen.count + 1);
+            let explained = column.dot(&white) / size;
+            if best.is_none_or(|(known, ..)| explained.abs() > known) {
+                best = Some((explained.abs(), joint, (explained / size).abs()));
+            }
+        }
+        let (explained, joint, size) = best?;
+        // Six components scatter by one each: what is beyond that must be the joint's.
+        let beyond = (white.norm_squared() - 6.0).max(0.0);
+        let is_jump = explained > SIGMAS && explained * explained >= EXPLAINED * beyond;
+        is_jump.then(|| Jump { joint, size, at: at.clone() })
+    }
+
+    /// An instant without a jump, so that the check has a value.
+    fn nothing_at(&mut self, at: &PoseErrorAt) {
+        let angular = self.kinds.iter().position(|kind| kind.is_angular());
+        let (watch, joint) = match angular {
+            Some(joint) => (&mut self.angle, joint),
+            None => (&mut self.shift, 0),
+        };
+        watch.observe_at(0.0, joint, WatchedInstant { time_s: at.time_s, q: &at.q });
+    }
+
+    fn take_jump(&mut self, jump: Option<Jump>) {
+        let Some(Jump { joint, size, at }) = jump else { return };
         let watch = if self.kinds[joint].is_angular() { &mut self.angle } else { &mut self.shift };
         watch.observe_at(size, joint, WatchedInstant { time_s: at.time_s, q: &at.q });
     }
 
-    /// What is too small to be distinguished from the scatter of the poses.
-    fn level(&self, names: &Names) -> Option<String> {
-        let angular = self
-            .scatter
-            .iter()
-            .zip(&self.kinds)
-            .enumerate()
-            .filter(|(_, (scatter, kind))| kind.is_angular() && scatter.count >= FEWEST);
-        let (joint, (scatter, _)) = angular.max_by(|a, b| a.1.0.rms().total_cmp(&b.1.0.rms()))?;
-        let level = quantity((SCATTERS * scatter.rms()).to_degrees(), "deg");
-        Some(format!(
-            "jumps below {level} cannot be distinguished from the scatter of the poses ({})",
-            names.joints[joint]
-        ))
+    /// For each joint the smallest jump that would be seen, on average; `None` for one that moves no target.
+    fn levels(&self) -> impl Iterator<Item = Option<f64>> + '_ {
+        #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 poses")]
+        self.seen.iter().map(|seen| (seen.count > 0).then(|| seen.level / seen.count as f64))
+    }
+
+    fn limit(&self, joint: usize) -> f64 {
+        if self.kinds[joint].is_angular() { self.angle.limit() } else { self.shift.limit() }
+    }
+
+    /// Which jumps the poses cannot show.
+    fn notes(&self, names: &Names) -> Vec<String> {
+        if self.poses.iter().all(|poses| poses.origin != PoseOrigin::Measured) {
+            return vec![
+                "a jump of an encoder cannot be seen without measured poses: others are computed from the encoders"
+                    .to_owned(),
+            ];
+        }
+        let unseen = self.levels().enumerate().filter_map(|(joint, level)| {
+            let name = &names.joints[joint];
+            let level = level.filter(|&level| level > self.limit(joint))?;
+            let level = if self.kinds[joint].is_angular() {
+                angle(level)
+            } else {
+                congruent_input::display::length(level)
+            };
+            Some(format!("{name} {level}"))
+        });
+        let unseen: Vec<String> = unseen.collect();
+        if unseen.is_empty() {
+            return Vec::new();
+        }
+        vec![format!("the scatter of the poses hides jumps below: {}", unseen.join(", "))]
     }
 }
 
@@ -207,7 +261,10 @@ fn stacked(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
 impl Monitor for StepMonitor<'_> {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         if sample.is_last {
-            self.end_jump();
+            for of in 0..self.tracks.len() {
+                let jump = self.tracks[of].candidate.take();
+                self.take_jump(jump);
+            }
         }
     }
 
@@ -216,32 +273,29 @@ impl Monitor for StepMonitor<'_> {
             return;
         }
         let Some(error) = self.error(pose) else { return };
-        let errors = &mut self.errors[pose.of];
-        if errors.len() == 2 * SIDE {
-            errors.pop_front();
+        let last = &mut self.tracks[pose.of].last;
+        if last.len() == 4 * BLOCK {
+            last.pop_front();
         }
-        errors.push_back(error);
-        if errors.len() == 2 * SIDE {
+        last.push_back(error);
+        if last.len() == 4 * BLOCK {
             self.judge(pose.of);
         }
     }
 
     fn finish(&self, names: &Names) -> Observed {
         let name = |joint: usize| names.joints[joint].clone();
-        let watches = [(&self.angle, true), (&self.shift, false)];
-        let has = |angular: bool| self.kinds.iter().any(|kind| kind.is_angular() == angular);
-        let measures = watches.into_iter().filter(|(_, angular)| has(*angular));
-        let mut notes = Vec::new();
-        if self.poses.iter().all(|poses| poses.origin != PoseOrigin::Measured) {
-            notes.push("a jump of an encoder cannot be seen without measured poses: others are computed from the encoders".to_owned());
+        let watches = [&self.angle, &self.shift].into_iter().filter(|watch| watch.worst().is_some());
+        let mut measures: Vec<_> = watches.map(|watch| watch.measure(&names.joints, name)).collect();
+        if measures.is_empty() {
+            measures.push(self.angle.measure(&names.joints, name));
         }
-        notes.extend(self.level(names));
-        Observed {
-            samples: self.compared,
-            measures: measures.map(|(watch, _)| watch.measure(&names.joints, name)).collect(),
-            notes,
-            ..Observed::default()
-        }
+        // A joint of which a jump at the limit would not be seen is not judged; if all are such, nothing was.
+        let is_seen =
+            |(joint, level): (usize, Option<f64>)| level.is_some_and(|level| level <= self.limit(joint));
+        let is_judged = self.levels().enumerate().any(is_seen) || self.has_failed();
+        let (samples, not_evaluated) = if is_judged { (self.compared, 0) } else { (0, self.compared) };
+        Observed { samples, not_evaluated, measures, notes: self.notes(names), ..Observed::default() }
     }
 
     fn has_failed(&self) -> bool {

@@ -20,8 +20,12 @@ use crate::{
 pub(crate) const FACTOR: f64 = 0.2;
 /// Shortest block, s: positions of six digits differ too little from one sample to the next.
 const BLOCK_S: f64 = 0.02;
-/// Blocks by which reported velocities are late at most: 0.5 s.
+/// Rounding of times, s.
+const ROUNDING_S: f64 = 1e-6;
+/// Blocks by which reported velocities are late at most, 0.5 s, and early.
 const MOST_LAG: usize = 25;
+const MOST_LEAD: usize = 5;
+const LAGS: usize = MOST_LEAD + MOST_LAG;
 /// A joint of which the root mean square of the velocity over all blocks is smaller is not judged, rad/s or m/s. Kind: judgement;
 /// noise of encoders is below it.
 const SLOWEST: f64 = 0.01;
@@ -32,9 +36,9 @@ const FEWEST: u64 = 50;
 #[derive(Debug, Clone, Default)]
 struct LagSums {
     /// Of the products of reported and computed velocities, and of the squares of either.
-    product: [f64; MOST_LAG],
-    computed: [f64; MOST_LAG],
-    reported: [f64; MOST_LAG],
+    product: [f64; LAGS],
+    computed: [f64; LAGS],
+    reported: [f64; LAGS],
     blocks: u64,
     squares: f64,
 }
@@ -51,15 +55,16 @@ struct ReportedVelocity {
 struct VelocityBlock {
     from_s: f64,
     q: Vec<f64>,
-    sum_qd: Vec<f64>,
-    samples: f64,
+    /// Integral of the reported velocities, and those of the sample before.
+    travel: Vec<f64>,
+    before_qd: Vec<f64>,
 }
 
 pub(crate) struct VelocityMonitor {
     sums: Vec<LagSums>,
     block: Option<VelocityBlock>,
-    /// Velocities of all joints in the last blocks, the latest first.
-    computed: VecDeque<Vec<f64>>,
+    /// Velocities of all joints in the last blocks, computed and reported, the latest first.
+    last: VecDeque<[Vec<f64>; 2]>,
     block_s: f64,
     blocks: u64,
     has_velocities: bool,
@@ -74,7 +79,7 @@ impl VelocityMonitor {
         Self {
             sums: vec![LagSums::default(); dof],
             block: None,
-            computed: VecDeque::with_capacity(MOST_LAG + 1),
+            last: VecDeque::with_capacity(MOST_LAG + 1),
             block_s: 0.0,
             blocks: 0,
             has_velocities: false,
@@ -90,39 +95,27 @@ impl VelocityMonitor {
         let length_s = sample.time_s - block.from_s;
         self.blocks += 1;
         self.block_s += length_s;
-        let mut computed = if self.computed.len() == MOST_LAG {
-            self.computed.pop_back().unwrap_or_default()
-        } else {
-            Vec::with_capacity(block.q.len())
-        };
+        let reused = if self.last.len() == MOST_LAG { self.last.pop_back() } else { None };
+        let [mut computed, mut reported] = reused.unwrap_or_default();
         computed.clear();
         computed.extend(measured.q.iter().zip(&block.q).map(|(q, before)| (q - before) / length_s));
-        self.computed.push_front(computed);
+        reported.clear();
+        reported.extend(block.travel.iter().map(|travel| travel / length_s));
+        self.last.push_front([computed, reported]);
         for (joint, sums) in self.sums.iter_mut().enumerate() {
-            let reported = block.sum_qd[joint] / block.samples;
-            if !reported.is_finite() {
-                continue;
-            }
-            self.has_velocities = true;
-            sums.blocks += 1;
-            sums.squares += self.computed[0][joint] * self.computed[0][joint];
-            for (lag, computed) in self.computed.iter().enumerate() {
-                sums.product[lag] += reported * computed[joint];
-                sums.computed[lag] += computed[joint] * computed[joint];
-                sums.reported[lag] += reported * reported;
-            }
+            self.has_velocities |= sums.take(joint, &self.last);
         }
         block.from_s = sample.time_s;
         block.q.copy_from_slice(measured.q);
-        block.sum_qd.fill(0.0);
-        block.samples = 0.0;
+        block.travel.fill(0.0);
     }
 
     fn begin_block(&mut self, sample: &Sample<'_>) {
-        let q = &sample.joints.measured.q;
-        self.computed.clear();
-        let sum_qd = vec![0.0; q.len()];
-        self.block = Some(VelocityBlock { from_s: sample.time_s, q: q.to_vec(), sum_qd, samples: 0.0 });
+        let measured = sample.joints.measured;
+        self.last.clear();
+        let travel = vec![0.0; measured.q.len()];
+        let (q, before_qd) = (measured.q.to_vec(), measured.qd.to_vec());
+        self.block = Some(VelocityBlock { from_s: sample.time_s, q, travel, before_qd });
     }
 
     #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 blocks")]
@@ -141,6 +134,31 @@ impl VelocityMonitor {
 }
 
 impl LagSums {
+    /// Takes the last block of a joint with those before it; returns whether its velocity is reported.
+    fn take(&mut self, joint: usize, last: &VecDeque<[Vec<f64>; 2]>) -> bool {
+        let [computed, reported] = [0, 1].map(|kind| last[0][kind][joint]);
+        if !reported.is_finite() {
+            return false;
+        }
+        self.blocks += 1;
+        self.squares += computed * computed;
+        for (lag, [before_computed, before_reported]) in last.iter().enumerate() {
+            self.add(MOST_LEAD + lag, reported, before_computed[joint]);
+            if (1..=MOST_LEAD).contains(&lag) {
+                self.add(MOST_LEAD - lag, before_reported[joint], computed);
+            }
+        }
+        true
+    }
+
+    fn add(&mut self, lag: usize, reported: f64, computed: f64) {
+        if let Some(product) = self.product.get_mut(lag).filter(|_| reported.is_finite()) {
+            *product += reported * computed;
+            self.computed[lag] += computed * computed;
+            self.reported[lag] += reported * reported;
+        }
+    }
+
     /// The factor at the lag at which both agree best.
     #[expect(clippy::cast_precision_loss, reason = "a small number")]
     fn best(&self, block_s: f64) -> ReportedVelocity {
@@ -148,11 +166,13 @@ impl LagSums {
             let size = (self.computed[lag] * self.reported[lag]).sqrt();
             if size > 0.0 { self.product[lag].abs() / size } else { 0.0 }
         };
-        let best = (0..MOST_LAG).max_by(|&a, &b| agreement(a).total_cmp(&agreement(b))).unwrap_or_default();
+        // Without a lag, unless another one is better.
+        let best = (0..LAGS).max_by(|&a, &b| agreement(a).total_cmp(&agreement(b))).unwrap_or(MOST_LEAD);
+        let best = if agreement(best) > agreement(MOST_LEAD) { best } else { MOST_LEAD };
         // Between the blocks by the parabola through the best and its neighbours.
         let shift = match best {
             0 => 0.0,
-            _ if best + 1 == MOST_LAG => 0.0,
+            _ if best + 1 == LAGS => 0.0,
             _ => {
                 let [before, at, after] = [best - 1, best, best + 1].map(agreement);
                 let bend = before - 2.0 * at + after;
@@ -160,7 +180,10 @@ impl LagSums {
             }
         };
         let factor = self.product[best] / self.computed[best];
-        ReportedVelocity { factor, lag_s: (best as f64 + shift) * block_s }
+        if self.reported[MOST_LEAD] == 0.0 {
+            return ReportedVelocity { factor: 0.0, lag_s: 0.0 };
+        }
+        ReportedVelocity { factor, lag_s: (best as f64 - MOST_LEAD as f64 + shift) * block_s }
     }
 }
 
@@ -170,10 +193,14 @@ impl Monitor for VelocityMonitor {
             self.begin_block(sample);
         }
         let qd = sample.joints.measured.qd;
-        if let Some(block) = self.block.as_mut().filter(|block| block.sum_qd.len() == qd.len()) {
-            block.sum_qd.iter_mut().zip(qd).for_each(|(sum, qd)| *sum += qd);
-            block.samples += 1.0;
-            if sample.time_s - block.from_s >= BLOCK_S {
+        if let Some(block) = self.block.as_mut().filter(|block| block.before_qd.len() == qd.len()) {
+            let since_s = sample.since_s.unwrap_or_default();
+            for ((travel, before), qd) in block.travel.iter_mut().zip(&mut block.before_qd).zip(qd) {
+                *travel += 0.5 * (*before + qd) * since_s;
+                *before = *qd;
+            }
+            // Times have their rounding: blocks of equal samples are to be equally long.
+            if sample.time_s - block.from_s >= BLOCK_S - ROUNDING_S {
                 self.end_block(sample);
             }
         }
@@ -186,12 +213,17 @@ impl Monitor for VelocityMonitor {
         let name = |joint: usize| names.joints[joint].clone();
         let late = |(joint, found): (usize, &Option<ReportedVelocity>)| {
             let ReportedVelocity { factor, lag_s } = (*found)?;
-            let late =
-                if lag_s >= BLOCK_S { format!(", {} late", quantity(lag_s, "s")) } else { String::new() };
+            if factor == 0.0 {
+                return Some(format!("{}: all reported velocities are 0", name(joint)));
+            }
+            let late = match lag_s {
+                lag_s if lag_s.abs() < BLOCK_S / 2.0 => String::new(),
+                lag_s if lag_s > 0.0 => format!(", {} late", quantity(lag_s, "s")),
+                lag_s => format!(", {} early", quantity(-lag_s, "s")),
+            };
             let is_noted = !late.is_empty() || (factor - 1.0).abs() > self.factor.limit();
-            is_noted.then(|| {
-                format!("{}: {} times the change of its position{late}", name(joint), quantity(factor, ""))
-            })
+            let times = quantity(factor, "");
+            is_noted.then(|| format!("{}: {times} times the change of its position{late}", name(joint)))
         };
         let mut notes: Vec<String> = self.found.iter().enumerate().filter_map(late).collect();
         if !self.has_velocities {

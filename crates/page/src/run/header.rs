@@ -2,9 +2,12 @@
 
 use std::{fmt::Write, path::Path};
 
-use congruent_input::display::{counted, listed, quantity};
+use congruent_input::{
+    display::{counted, listed, quantity},
+    serde_name,
+};
 use congruent_monitors::verdict::{Status, Verdict};
-use congruent_results::report::{RunReport, lines, quantity_words, verdict_word};
+use congruent_results::report::{RunReport, SourceReport, lines, quantity_words, verdict_word};
 use maud::{Markup, html};
 
 use super::tightest::{Tightest, tightest};
@@ -41,7 +44,7 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
     let is_there = |name: &str| LATER.contains(&name) || folder.join(name).exists();
     html! {
         header {
-            p.kind { "Run of a scenario" }
+            p.kind { (if report.source.is_some() { "Log of a robot" } else { "Run of a scenario" }) }
             h1 { (report.scenario) }
             p.verdict { (badge(outcome, word)) " " span.sentence { (sentence(report)) "." } }
             @if let Some(error) = &report.error { p.error { (error) } }
@@ -49,7 +52,7 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
             dl.facts {
                 dt { "robot" } dd { (report.robot) }
                 @if let Some(file) = &report.scenario_file { dt { "scenario file" } dd { code { (file) } } }
-                @if let Some(source) = &report.source { dt { "log" } dd { code { (source.log) } } }
+                @if let Some(source) = &report.source { (log(source)) }
                 dt { (if report.source.is_some() { "recorded" } else { "simulated" }) }
                 dd {
                     (value(&at.key("duration_s"), clock.duration_s, &quantity(clock.duration_s, "s"))) " in "
@@ -57,7 +60,9 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
                     (value(&at.key("step_s"), clock.step_s, &quantity(clock.step_s, "s")))
                     @if report.source.is_some() { " as a rule" }
                 }
-                dt { "seed" } dd { (count(&Pointer::root().key("seed"), report.seed)) }
+                @if report.source.is_none() {
+                    dt { "seed" } dd { (count(&Pointer::root().key("seed"), report.seed)) }
+                }
                 @if let Some(stop) = &report.stopped {
                     dt { "stopped" }
                     dd {
@@ -72,6 +77,27 @@ pub(super) fn header(report: &RunReport, folder: &Path) -> Markup {
                 }
             }
         }
+    }
+}
+
+/// What was taken of a log, and how its poses were corrected before they were compared.
+fn log(source: &SourceReport) -> Markup {
+    let topics = source.joints.iter().map(|topic| {
+        let what = if topic.is_setpoint { "commanded" } else { "measured" };
+        format!("{} ({what}, {} joints)", topic.topic, topic.joints.len())
+    });
+    let poses = source.poses.iter().map(|poses| {
+        let fitted = if poses.frames_are_fitted { ", frames fitted to the log" } else { "" };
+        let offset = quantity(poses.offset_s * 1e3, "ms");
+        let clock =
+            if poses.offset_s == 0.0 { String::new() } else { format!(", times corrected by {offset}") };
+        format!("{} ({}{fitted}{clock})", poses.name, serde_name(&poses.origin))
+    });
+    html! {
+        dt { "log" } dd { code { (source.log) } }
+        dt { "joint states" } dd { (topics.collect::<Vec<_>>().join("; ")) }
+        @if !source.held.is_empty() { dt { "not in the log" } dd { (source.held.join(", ")) } }
+        @if !source.poses.is_empty() { dt { "poses" } dd { (poses.collect::<Vec<_>>().join("; ")) } }
     }
 }
 

@@ -37,7 +37,7 @@ pub struct PoseCheck {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RecordingCheck {
-    /// Smallest share of the instants at which every joint is known; default: 0.9.
+    /// Smallest share of the log in which every joint is known; default: 0.9.
     #[serde(default, deserialize_with = "optional_share", skip_serializing_if = "Option::is_none")]
     pub used_share: Option<f64>,
     /// Longest time between two samples; default: none.
@@ -52,13 +52,13 @@ pub struct RecordingCheck {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StepCheck {
-    /// Largest jump of a joint that turns, in radians or in degrees; default: 0.05 deg.
+    /// Largest jump of a joint that turns, in radians or in degrees; default: 0.1 deg.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub angle_rad: Option<f64>,
     /// The same in degrees.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub angle_deg: Option<f64>,
-    /// Largest jump of a joint that slides, in metres or in millimetres; default: 0.5 mm.
+    /// Largest jump of a joint that slides, in metres or in millimetres; default: 1 mm.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub shift_m: Option<f64>,
     /// The same in millimetres.

@@ -285,6 +285,7 @@ impl RunSetup {
             description: &self.description,
             clock: &self.clock,
             payloads: &self.payloads,
+            held: self.recorded.as_ref().map_or(&[], |recorded| &recorded.held),
             poses: self.poses(),
             dynamics: self.declared_dynamics(),
         };

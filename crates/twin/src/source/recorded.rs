@@ -133,6 +133,9 @@ impl<'a> RecordedSource<'a> {
         let (row, next) = (self.stream.row(), &mut self.next);
         (next.time_s, next.left_out) = (row.time_s, row.left_out);
         next.qd.copy_from_slice(&row.qd);
+        // Joints that the log does not have stay where they are.
+        let held = next.qd.iter_mut().zip(&self.is_recorded).filter(|(_, is_recorded)| !**is_recorded);
+        held.for_each(|(qd, _)| *qd = 0.0);
         next.effort.copy_from_slice(&row.effort);
         next.setpoint_qd.copy_from_slice(&row.setpoint_qd);
         for (q, recorded, start) in
@@ -205,7 +208,10 @@ impl JointStateSource for RecordedSource<'_> {
 
     fn joints(&self) -> JointSample<'_> {
         let RecordedJoints { q, qd, effort, setpoint_q, setpoint_qd, .. } = &self.now;
-        let known = |values: &'_ Vec<f64>| values.iter().any(|value| !value.is_nan());
+        let known = |values: &'_ Vec<f64>| {
+            let recorded = values.iter().zip(&self.is_recorded).filter(|(_, is_recorded)| **is_recorded);
+            recorded.into_iter().any(|(value, _)| !value.is_nan())
+        };
         let has_setpoint =
             setpoint_q.iter().zip(&self.is_recorded).all(|(q, is_recorded)| !is_recorded || !q.is_nan())
                 && setpoint_q.iter().any(|q| !q.is_nan());

@@ -2,8 +2,8 @@
 
 use congruent_description::{Joint, Robot};
 use congruent_scenario::{
-    Check, CheckKind, EffortCheck, LimitsCheck, PoseCheck, PoseOrigin, RecordingCheck, Scenario, StepCheck,
-    TrackingCheck, VelocityCheck,
+    Check, CheckKind, EffortCheck, JointRole, LimitsCheck, PoseCheck, PoseOrigin, RecordingCheck, Scenario,
+    SourceSettings, StepCheck, TrackingCheck, VelocityCheck,
 };
 
 /// Largest error of a turning joint at any instant. The scenarios of this project reach 0.43 deg under stiff servos and
@@ -26,7 +26,10 @@ pub(in crate::setup) fn default_checks(scenario: &Scenario, robot: &Robot) -> Ve
     let slides = joints().any(|joint| !joint.kind.is_angular());
     // Without motions the arm has nothing to follow; a scenario that drops an arm is legitimate.
     let is_followed = scenario.check.iter().any(limits_following);
-    let follows = !scenario.motion.is_empty() && (turns || slides) && !is_followed;
+    let has_setpoint =
+        |source: &SourceSettings| source.joints.iter().any(|topic| topic.role == JointRole::Setpoint);
+    let is_commanded = !scenario.motion.is_empty() || scenario.source.as_ref().is_some_and(has_setpoint);
+    let follows = is_commanded && (turns || slides) && !is_followed;
     let tracking = follows.then(|| {
         Check::Tracking(TrackingCheck {
             path_deg: turns.then_some(PATH_DEG),

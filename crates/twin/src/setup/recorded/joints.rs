@@ -108,12 +108,12 @@ fn on_two_topics(sources: &[&JointSource], joint: &str) -> Diagnostic {
     let names: Vec<String> =
         having.iter().map(|source| format!("{}{}", source.topic, around(source))).collect();
     let message = format!(
-        "joint \"{joint}\" is in {}: which of them the robot did is not known",
+        "joint \"{joint}\" is in {}: which of them was measured is not known",
         names.join(" and in ")
     );
     let written: Vec<String> = having.iter().map(|source| written(source, None)).collect();
     let help = format!(
-        "write the one that was measured, and add role = \"setpoint\" to one that was commanded:\n{}",
+        "`replay` takes --joints TOPIC, and --setpoint TOPIC for commanded ones; a scenario has, with role = \"setpoint\" for those:\n{}",
         written.join("\nor\n")
     );
     Diagnostic::error(scenario::LOGGED_JOINTS, message).with_help(help)
@@ -152,7 +152,7 @@ fn no_joint(survey: &LogSurvey, robot: &Robot) -> Diagnostic {
     let help = if named.is_empty() {
         let topics: Vec<String> =
             survey.topics.iter().map(|topic| format!("{} ({})", topic.name, topic.message_type)).collect();
-        format!("it has {}; joint states are of type sensor_msgs/msg/JointState", listed(&topics))
+        format!("it has {}, and no joint states that can be read", listed(&topics))
     } else {
         let own: Vec<&str> = robot.movable_joint_names().collect();
         format!("it has the joints {}; the robot has {}", listed(&named), listed(&own))
@@ -268,7 +268,7 @@ pub(super) fn topic_of<'s>(
         let names: Vec<&str> = known().map(|topic| topic.name.as_str()).collect();
         let error = Diagnostic::error(scenario::LOGGED_TOPIC, message);
         let help = if names.is_empty() {
-            format!("it has no topic with {what}")
+            format!("none of its topics has {what} that can be read")
         } else {
             known_names(name, "topics", names)
         };

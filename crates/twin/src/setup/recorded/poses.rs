@@ -82,6 +82,7 @@ fn compared(
         link_from_target,
         frames_are_fitted: settings.frames_are_fitted,
         position_only: settings.position_only,
+        offset_s: settings.offset_s,
     };
     let selected = SelectedPoses {
         topic: settings.topic.clone(),

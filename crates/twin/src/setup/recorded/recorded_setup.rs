@@ -6,14 +6,14 @@ use congruent_description::RobotDescription;
 use congruent_input::{Diagnostic, Diagnostics, direct_path};
 use congruent_logs::{ClockKind, LogOptions, LogSurvey, StreamSelection, TopicSurvey, survey_log};
 use congruent_monitors::{ComparedPoses, RunClock};
-use congruent_scenario::{LogClock, Scenario, SourceSettings};
+use congruent_scenario::{FilePlace, LogClock, Scenario, SourceSettings};
 use nalgebra::Vector3;
 
 use super::{
     joints::{ChosenJoints, choose},
     poses::poses,
 };
-use crate::setup::written_at::WrittenAt;
+use crate::{codes::scenario, setup::written_at::WrittenAt};
 
 /// Gaps across which nothing is interpolated are at least this long, s. Kind: choice; a sample that is late by a period is none.
 const SHORTEST_GAP_S: f64 = 0.02;
@@ -62,7 +62,13 @@ impl RecordedSetup {
         let surveyed = survey_log(&path, &options, Some(&description.robot));
         let surveyed = found.keep(surveyed.map_err(|error| place.key("log").mark(error)))?;
         let survey = surveyed.survey;
-        let mut chosen = found.keep(choose(settings, place, &survey, &description.robot))?;
+        found.keep(in_order(settings, place));
+        let chosen = choose(settings, place, &survey, &description.robot);
+        if chosen.is_err() {
+            // What is wrong with the log is often why it has no joint.
+            found.extend(surveyed.warnings.iter().cloned());
+        }
+        let mut chosen = found.keep(chosen)?;
         for topic in &mut chosen.topics {
             topic.maximum_gap_s =
                 settings.maximum_gap_s.unwrap_or_else(|| maximum_gap_s(&survey, &topic.topic));
@@ -96,6 +102,16 @@ impl RecordedSetup {
             held: chosen.held,
         })
     }
+}
+
+/// Whether the part of the log that is taken begins before it ends.
+fn in_order(settings: &SourceSettings, place: FilePlace<'_>) -> Result<(), Diagnostic> {
+    let (Some(from_s), Some(until_s)) = (settings.from_s, settings.until_s) else { return Ok(()) };
+    if from_s < until_s {
+        return Ok(());
+    }
+    let message = format!("from_s = {from_s} is not before until_s = {until_s}");
+    Err(place.key("until_s").mark(Diagnostic::error(scenario::LOGGED_NOTHING, message)))
 }
 
 /// Stamps, if the topic of the first joints has them and no other clock is wanted.
