@@ -93,12 +93,11 @@ fn joints(request: &ReplayRequest, survey: &LogSurvey, taken: &mut Vec<String>) 
     let settings =
         |topic: &str| of_topic(topic).map_or_else(|| named(topic, position), |of| of_source(of, position));
     let setpoint = request.setpoint.clone().or_else(|| commanded(request, &sources));
-    let mut chosen: Vec<LoggedJointSettings> = match &request.joints {
-        Some(topic) => vec![settings(topic)],
-        None => {
-            let measured = sources.iter().filter(|source| setpoint.as_ref() != Some(&source.topic));
-            measured.map(|source| of_source(source, position)).collect()
-        }
+    let mut chosen: Vec<LoggedJointSettings> = if let Some(topic) = &request.joints {
+        vec![settings(topic)]
+    } else {
+        let measured = sources.iter().filter(|source| setpoint.as_ref() != Some(&source.topic));
+        measured.map(|source| of_source(source, position)).collect()
     };
     for source in &chosen {
         let joints = of_topic(&source.topic).map_or(0, |of| of.joints.len());

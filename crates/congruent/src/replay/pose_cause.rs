@@ -229,7 +229,7 @@ impl ExplainedPoses<'_> {
         let report = self.fitted(rows, free)?;
         let is_nominal = free.is_empty() && !self.compared.frames_are_fitted;
         let of = if is_nominal { report.nominal } else { report.least_squares.residuals };
-        let size_m = of.rms_m.hypot(LENGTH_M * of.rms_rad);
+        let size_m = libm::hypot(of.rms_m, LENGTH_M * of.rms_rad);
         let matter = report.parameters.iter().filter(|of| of.significant);
         let matter = matter.filter(|of| !(self.compared.frames_are_fitted && is_of_frame(&of.name)));
         let words: Vec<String> = matter.map(value_words).collect();

@@ -155,9 +155,9 @@ impl<'a> StepMonitor<'a> {
         let at = errors[2 * BLOCK].clone();
         let [position, rotation] = &mut track.scatter;
         let sigmas = [position.sigma(), rotation.sigma()];
-        let parts = |from: usize| change.iter().skip(from).take(3).copied().collect::<Vec<f64>>();
-        parts(0).into_iter().for_each(|part| position.take(part));
-        parts(3).into_iter().for_each(|part| rotation.take(part));
+        for (row, part) in change.iter().enumerate() {
+            if row < 3 { position.take(*part) } else { rotation.take(*part) }
+        }
         let [Some(of_position), of_rotation] = sigmas else { return };
         self.compared += 1;
         // Without rotations their rows are 0, and have no scatter.

@@ -118,6 +118,21 @@ impl VelocityMonitor {
         self.block = Some(VelocityBlock { from_s: sample.time_s, q, travel, before_qd });
     }
 
+    /// Adds the time since the sample before to the block.
+    fn go_on(&mut self, sample: &Sample<'_>) {
+        let (Some(block), Some(since_s)) = (&mut self.block, sample.since_s) else { return };
+        for ((travel, before), qd) in
+            block.travel.iter_mut().zip(&mut block.before_qd).zip(sample.joints.measured.qd)
+        {
+            *travel += 0.5 * (*before + qd) * since_s;
+            *before = *qd;
+        }
+        // Times have their rounding: blocks of equal samples are to be equally long.
+        if sample.time_s - block.from_s >= BLOCK_S - ROUNDING_S {
+            self.end_block(sample);
+        }
+    }
+
     #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 blocks")]
     fn judge(&mut self, sample: &Sample<'_>) {
         let block_s = self.block_s / self.blocks.max(1) as f64;
@@ -189,20 +204,14 @@ impl LagSums {
 
 impl Monitor for VelocityMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
-        if sample.since_s.is_none() {
+        let measured = sample.joints.measured;
+        if measured.qd.len() != measured.q.len() {
+            // Velocities that begin later in the log begin a block there.
+            self.block = None;
+        } else if sample.since_s.is_none() || self.block.is_none() {
             self.begin_block(sample);
-        }
-        let qd = sample.joints.measured.qd;
-        if let Some(block) = self.block.as_mut().filter(|block| block.before_qd.len() == qd.len()) {
-            let since_s = sample.since_s.unwrap_or_default();
-            for ((travel, before), qd) in block.travel.iter_mut().zip(&mut block.before_qd).zip(qd) {
-                *travel += 0.5 * (*before + qd) * since_s;
-                *before = *qd;
-            }
-            // Times have their rounding: blocks of equal samples are to be equally long.
-            if sample.time_s - block.from_s >= BLOCK_S - ROUNDING_S {
-                self.end_block(sample);
-            }
+        } else {
+            self.go_on(sample);
         }
         if sample.is_last {
             self.judge(sample);
