@@ -9,6 +9,7 @@ mod csv;
 mod descriptions;
 mod event;
 mod mcap;
+mod messages;
 mod open;
 mod options;
 mod recorded_description;

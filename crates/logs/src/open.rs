@@ -70,7 +70,7 @@ pub fn is_table(path: &Path) -> bool {
 pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>, Diagnostic> {
     if path.is_dir() {
         let BagFiles { whole, refused } = files_of_bag(path)?;
-        return Ok(Box::new(McapReader::new(whole).with_gaps(refused)));
+        return Ok(Box::new(McapReader::new(whole, refused)));
     }
     if !path.exists() {
         return Err(Diagnostic::error(file::NOT_FOUND, absence(path)));
@@ -81,7 +81,7 @@ pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>,
     if is_table(path) {
         return Ok(Box::new(TableReader::open(path, options)?));
     }
-    Ok(Box::new(McapReader::new(vec![checked_mcap(path)?])))
+    Ok(Box::new(McapReader::new(vec![checked_mcap(path)?], Vec::new())))
 }
 
 fn has_ending(path: &Path, ending: &str) -> bool {
