@@ -177,12 +177,20 @@ fn bags_of_rosbag2() {
         assert!(survey.messages >= messages, "{bag}: {}", survey.messages);
         assert_eq!(codes(&survey), ["log::nothing_read"]);
     }
-    for folder in ["sqlite3_talker", "sqlite3_cdr_test", "resources_empty_bag"] {
-        let refused = survey_of(&bags.join(folder), None).unwrap_err();
-        assert_eq!(refused.code.name, "log::format");
-        assert!(refused.help.unwrap().contains("ros2 bag convert"));
-    }
     let refused = survey_of(&logs.join("synthetic/x1_ur5e_file_zstd"), None).unwrap_err();
     assert_eq!(refused.code.name, "log::format");
     assert!(refused.help.unwrap().contains("zstd -d"));
+}
+
+/// The test of a program with the feature `db3` is in `db3.rs`.
+#[cfg(not(feature = "db3"))]
+#[test]
+fn bags_in_sqlite_are_refused_without_their_feature() {
+    let Some(logs) = logs() else { return };
+    for folder in ["sqlite3_talker", "sqlite3_cdr_test", "resources_empty_bag"] {
+        let refused = survey_of(&logs.join("rosbag2_samples").join(folder), None).unwrap_err();
+        assert_eq!(refused.code.name, "log::format");
+        let help = refused.help.unwrap();
+        assert!(help.contains("--features db3") && help.contains("ros2 bag convert"), "{help}");
+    }
 }

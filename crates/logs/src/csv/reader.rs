@@ -20,7 +20,9 @@ use super::{
 };
 use crate::{
     codes,
-    event::{EventTime, LogEvent, LogGap, LogReader, LogTopic, LoggedJoints, LoggedPose, TopicContent},
+    event::{
+        EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedJoints, LoggedPose, TopicContent,
+    },
     options::LogOptions,
     table_reading::{TableReading, TableTime},
 };
@@ -220,6 +222,10 @@ impl TableReader {
 }
 
 impl LogReader for TableReader {
+    fn format(&self) -> LogFormat {
+        LogFormat::Table
+    }
+
     fn topics(&self) -> &[LogTopic] {
         &self.topics
     }

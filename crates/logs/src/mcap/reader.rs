@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     codes,
-    event::{LogEvent, LogReader, LogTopic},
+    event::{LogEvent, LogFormat, LogReader, LogTopic},
 };
 
 /// Bytes of a chunk beside the name of its compression and its records: three times 8, a sum and a length of 4, and 8.
@@ -145,6 +145,10 @@ impl McapReader {
 }
 
 impl LogReader for McapReader {
+    fn format(&self) -> LogFormat {
+        LogFormat::Mcap
+    }
+
     fn topics(&self) -> &[LogTopic] {
         self.records.events.topics()
     }

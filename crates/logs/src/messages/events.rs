@@ -43,6 +43,12 @@ impl MessageEvents {
         self.topics.index(name, message_type, encoding)
     }
 
+    /// Whether more than the times of a topic is read.
+    #[cfg(feature = "db3")]
+    pub(crate) fn is_decoded(&self, topic: usize) -> bool {
+        self.topics.states[topic].kind.is_some()
+    }
+
     /// The next event that waits.
     pub(crate) fn next(&mut self) -> Option<LogEvent> {
         self.waiting.pop_front()

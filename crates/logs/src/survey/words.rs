@@ -6,12 +6,12 @@ use congruent_input::{
 };
 
 use super::report::{
-    FramePair, JointSource, JointsSurvey, LogFormat, LogSurvey, PositionUnit, RobotInLog, RobotOfLog,
-    TopicSurvey, TopicTimes,
+    FramePair, JointSource, JointsSurvey, LogSurvey, PositionUnit, RobotInLog, RobotOfLog, TopicSurvey,
+    TopicTimes,
 };
 use crate::{
     cdr::CDR,
-    event::TopicContent,
+    event::{LogFormat, TopicContent},
     table_reading::{TableReading, TableTime},
 };
 
@@ -43,7 +43,7 @@ pub fn survey_words(survey: &LogSurvey, most_listed: usize) -> SurveyWords {
         about.push(format!("{parts} cannot be read, see the warnings"));
     }
     let topics = match survey.format {
-        LogFormat::Mcap => survey.topics.iter().map(topic_row).collect(),
+        LogFormat::Mcap | LogFormat::Db3 => survey.topics.iter().map(topic_row).collect(),
         LogFormat::Table => Vec::new(),
     };
     SurveyWords { head, topics, about }
@@ -80,7 +80,7 @@ pub fn survey_line(survey: &LogSurvey) -> String {
 /// What an entry of a log is called.
 fn entry(survey: &LogSurvey) -> &'static str {
     match survey.format {
-        LogFormat::Mcap => "message",
+        LogFormat::Mcap | LogFormat::Db3 => "message",
         LogFormat::Table => "row",
     }
 }
@@ -88,12 +88,15 @@ fn entry(survey: &LogSurvey) -> &'static str {
 fn headline(survey: &LogSurvey) -> String {
     let begun = survey.begun.as_ref().map_or(String::new(), |date| format!(" from {date}"));
     let duration = format!("{}{begun}", duration(survey.duration_s));
+    let counted_entries = entries(survey.messages, entry(survey));
+    let of_bag = |format: &str| {
+        let topics = counted(survey.topics.len(), "topic");
+        format!("{format}, {duration}, {counted_entries}, {topics}")
+    };
     match survey.format {
-        LogFormat::Mcap => {
-            let topics = counted(survey.topics.len(), "topic");
-            format!("MCAP, {duration}, {}, {topics}", entries(survey.messages, entry(survey)))
-        }
-        LogFormat::Table => format!("table, {duration}, {}", entries(survey.messages, entry(survey))),
+        LogFormat::Mcap => of_bag("MCAP"),
+        LogFormat::Db3 => of_bag("SQLite bag"),
+        LogFormat::Table => format!("table, {duration}, {counted_entries}"),
     }
 }
 
