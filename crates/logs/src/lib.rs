@@ -16,6 +16,7 @@ mod options;
 mod recorded_description;
 mod stream;
 mod survey;
+mod table;
 mod table_reading;
 mod written;
 
@@ -36,8 +37,8 @@ pub use survey::{
     UndecodedMessages, UnknownJoint, survey_line, survey_log, survey_words,
 };
 pub use table_reading::{
-    DecimalMark, LoggedQuantity, Preset, Separator, TableColumn, TableEncoding, TableReading, TableTime,
-    TimeUnit, TimeUnitFrom,
+    DecimalMark, LoggedQuantity, Preset, Separator, TableColumn, TableEncoding, TableReading, TableText,
+    TableTime, TimeUnit, TimeUnitFrom,
 };
 
 pub use written::{

@@ -8,12 +8,11 @@ use std::{
 use congruent_input::{Diagnostic, absence, codes::file, open_regular, read_text, unreadable};
 
 use crate::{
-    codes,
-    csv::TableReader,
-    db3,
+    codes, csv, db3,
     event::LogReader,
     mcap::{McapReader, is_mcap},
     options::{CONVERT, LogOptions},
+    table::TableReader,
 };
 
 /// The file that rosbag2 writes beside those with messages.
@@ -76,7 +75,7 @@ pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>,
         return Err(refused);
     }
     if is_table(path) {
-        return Ok(Box::new(TableReader::open(path, options)?));
+        return Ok(Box::new(TableReader::new(path, csv::open(path)?, options)?));
     }
     if is_one_of(path, &[DB3]) {
         return db3::open(&[path.to_owned()], Vec::new());

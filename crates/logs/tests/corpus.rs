@@ -148,7 +148,7 @@ fn tiago_as_an_mcap_and_as_tables() {
     };
     assert_eq!(ranges(rows), ranges(states));
     let reading = table.table.unwrap();
-    assert_eq!(reading.encoding, TableEncoding::Utf8);
+    assert_eq!(reading.text.unwrap().encoding, TableEncoding::Utf8);
     assert!(matches!(reading.time, TableTime::Column { unit: TimeUnit::Second, .. }), "{:?}", reading.time);
     let speeds = survey_of(&folder.join("tiago_velocity.csv"), None).unwrap().survey;
     let joints = joints(&speeds.topics[0]);
@@ -164,7 +164,7 @@ fn a_table_with_decimal_commas_by_the_names_of_a_robot() {
     let options = LogOptions { rate_hz: Some(1.0), ..LogOptions::default() };
     let survey = survey_log(&path, &options, Some(&robot("ur5e"))).unwrap().survey;
     let reading = survey.table.unwrap();
-    assert!(reading.decimal == DecimalMark::Comma && reading.columns.len() == 6, "{reading:?}");
+    assert!(reading.text.unwrap().decimal == DecimalMark::Comma && reading.columns.len() == 6, "{reading:?}");
     assert_eq!(survey.robot.unwrap().missing.len(), 0);
 }
 

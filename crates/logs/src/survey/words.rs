@@ -114,8 +114,11 @@ fn reading(table: &TableReading, most: usize) -> String {
         [] => String::new(),
         unused => format!("; not read: {}", first_of(unused, most)),
     };
-    let (separator, decimal) = (serde_name(&table.separator), serde_name(&table.decimal));
-    format!("read as: separator {separator}, decimal {decimal}, {header}; {time}{preset}{unused}")
+    let text = table.text.map_or(String::new(), |text| {
+        let (separator, decimal) = (serde_name(&text.separator), serde_name(&text.decimal));
+        format!("separator {separator}, decimal {decimal}, ")
+    });
+    format!("read as: {text}{header}; {time}{preset}{unused}")
 }
 
 /// The mean rate outside of gaps.
