@@ -165,6 +165,11 @@ pub enum LogFormat {
     Db3,
     /// A table in CSV.
     Table,
+    /// A table in Parquet.
+    Parquet,
+    /// A dataset of LeRobot: episodes in Parquet, each with times of its own.
+    #[serde(rename = "lerobot")]
+    LeRobot,
 }
 
 /// A topic of a log.

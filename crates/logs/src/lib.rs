@@ -1,4 +1,4 @@
-//! Recorded joint states and poses of robots, from MCAP, SQLite bags and CSV, and a survey of what a log has.
+//! Recorded joint states and poses of robots, from MCAP, SQLite bags, CSV, Parquet and datasets of LeRobot, and a survey of what a log has.
 //!
 //! A log is read once, from its beginning to its end, in memory that does not grow with it: [`open_log`] gives its events, [`LogStream`] rows of all joints in the order of time,
 //! [`survey_log`] says what is in it, [`recorded_description`] which robot was recorded. Nothing here compares a log with a model.
@@ -13,6 +13,7 @@ mod mcap;
 mod messages;
 mod open;
 mod options;
+mod parquet;
 mod recorded_description;
 mod stream;
 mod survey;

@@ -12,6 +12,7 @@ use crate::{
     event::LogReader,
     mcap::{McapReader, is_mcap},
     options::{CONVERT, LogOptions},
+    parquet,
     table::TableReader,
 };
 
@@ -25,7 +26,9 @@ const MAGIC_BYTES: u64 = 8;
 /// Endings of an MCAP; the second one has that of a run which did not end.
 const MCAPS: [&str; 2] = [".mcap", ".mcap.partial"];
 /// Endings of tables.
-const TABLES: [&str; 2] = [".csv", ".tsv"];
+const TABLES: [&str; 3] = [".csv", ".tsv", PARQUET];
+/// The ending of a table that is no text.
+const PARQUET: &str = ".parquet";
 /// The ending of a bag in SQLite.
 const DB3: &str = ".db3";
 /// Endings of files of a bag that were compressed as a whole.
@@ -50,7 +53,8 @@ pub fn is_log(path: &Path) -> bool {
         let is_robot = |path: &PathBuf| is_one_of(path, &[".urdf"]);
         let is_bag = |files: Vec<PathBuf>| files.iter().any(is_of_bag) && !files.iter().any(is_robot);
         let has = |name: &str| path.join(name).is_file();
-        return !has("robot.toml") && (has(METADATA) || files_in(path).is_ok_and(is_bag));
+        return !has("robot.toml")
+            && (has(METADATA) || parquet::is_dataset(path) || files_in(path).is_ok_and(is_bag));
     }
     is_table(path) || is_one_of(path, &MCAPS) || is_one_of(path, &[DB3]) || not_read(path).is_some()
 }
@@ -60,11 +64,15 @@ pub fn is_table(path: &Path) -> bool {
     !path.is_dir() && is_one_of(path, &TABLES)
 }
 
-/// Opens a log: an MCAP, a SQLite bag (with the feature `db3`), a table in CSV, or a folder that rosbag2 wrote.
+/// Opens a log: an MCAP, a SQLite bag (with the feature `db3`), a table in CSV or Parquet, or a folder that rosbag2 or
+/// LeRobot wrote.
 ///
 /// # Errors
 /// It cannot be read, or is of a format that is not; then the help says how to convert it.
 pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>, Diagnostic> {
+    if parquet::is_dataset(path) {
+        return Ok(Box::new(TableReader::new(path, parquet::open(path)?, options)?));
+    }
     if path.is_dir() {
         return open_folder(path);
     }
@@ -75,7 +83,8 @@ pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>,
         return Err(refused);
     }
     if is_table(path) {
-        return Ok(Box::new(TableReader::new(path, csv::open(path)?, options)?));
+        let table = if is_one_of(path, &[PARQUET]) { parquet::open(path)? } else { csv::open(path)? };
+        return Ok(Box::new(TableReader::new(path, table, options)?));
     }
     if is_one_of(path, &[DB3]) {
         return db3::open(&[path.to_owned()], Vec::new());

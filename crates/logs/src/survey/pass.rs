@@ -131,7 +131,7 @@ impl Pass {
         if let Some(refused) = found.pop_if(|finding| finding.severity == Severity::Error) {
             return Err(refused.in_file(&source));
         }
-        found.extend(findings::of_topics(&surveyed));
+        found.extend(findings::of_topics(&surveyed, reader.format()));
         found.extend(robot.iter().flat_map(findings::of_robot));
         self.warnings.extend(found.into_iter().map(|finding| finding.in_file(&source)));
         let format = reader.format();
@@ -157,7 +157,7 @@ fn messages(topics: &[TopicSurvey], format: LogFormat) -> u64 {
     match format {
         LogFormat::Mcap | LogFormat::Db3 => counts.sum(),
         // Rows of a UR are joints and a pose.
-        LogFormat::Table => counts.max().unwrap_or_default(),
+        LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => counts.max().unwrap_or_default(),
     }
 }
 

@@ -44,7 +44,7 @@ pub fn survey_words(survey: &LogSurvey, most_listed: usize) -> SurveyWords {
     }
     let topics = match survey.format {
         LogFormat::Mcap | LogFormat::Db3 => survey.topics.iter().map(topic_row).collect(),
-        LogFormat::Table => Vec::new(),
+        LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => Vec::new(),
     };
     SurveyWords { head, topics, about }
 }
@@ -81,7 +81,7 @@ pub fn survey_line(survey: &LogSurvey) -> String {
 fn entry(survey: &LogSurvey) -> &'static str {
     match survey.format {
         LogFormat::Mcap | LogFormat::Db3 => "message",
-        LogFormat::Table => "row",
+        LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => "row",
     }
 }
 
@@ -97,6 +97,12 @@ fn headline(survey: &LogSurvey) -> String {
         LogFormat::Mcap => of_bag("MCAP"),
         LogFormat::Db3 => of_bag("SQLite bag"),
         LogFormat::Table => format!("table, {duration}, {counted_entries}"),
+        LogFormat::Parquet => format!("table in Parquet, {duration}, {counted_entries}"),
+        LogFormat::LeRobot => {
+            let times = survey.topics.first().and_then(|topic| topic.times.as_ref());
+            let episodes = times.map_or(0, |times| times.restarts + 1);
+            format!("dataset of LeRobot, {}, {counted_entries}", entries(episodes, "episode"))
+        }
     }
 }
 

@@ -43,6 +43,11 @@ pub(crate) trait RowSource {
     /// # Errors
     /// The rest cannot be read.
     fn next_row(&mut self) -> Result<Option<TableRow>, Diagnostic>;
+
+    /// What was passed over since the last call.
+    fn take_gaps(&mut self) -> Vec<Diagnostic> {
+        Vec::new()
+    }
 }
 
 /// A table of which the beginning was read.

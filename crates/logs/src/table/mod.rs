@@ -10,4 +10,5 @@ mod time;
 
 pub(crate) use head::{OpenTable, RowSource, TableHead, TableRow};
 pub(crate) use number::{CellValue, cell_value};
+pub(crate) use quantity::says_quantity;
 pub(crate) use reader::TableReader;

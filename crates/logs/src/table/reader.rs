@@ -96,7 +96,7 @@ impl TableReader {
         }
         Ok(Self {
             reading: reading(&head, text, time, &columns),
-            topics: topics(path, &columns),
+            topics: topics(path, format, &columns),
             source,
             format,
             table: rows,
@@ -115,7 +115,10 @@ impl TableReader {
 
     /// Reads a row; the faults of all rows behind the last.
     fn step(&mut self) -> Result<(), Diagnostic> {
-        if let Some(TableRow { cells, line }) = self.table.next_row()? {
+        let row = self.table.next_row()?;
+        let gap = |cause| LogEvent::Gap(LogGap { between_s: None, cause });
+        self.events.extend(self.table.take_gaps().into_iter().map(gap));
+        if let Some(TableRow { cells, line }) = row {
             self.row(&cells, line);
         } else {
             self.is_at_end = true;
@@ -174,6 +177,7 @@ impl TableReader {
 
     fn report_faults(&mut self) {
         let width = self.width;
+        let place = if self.reading.text.is_some() { "line" } else { "row" };
         let reported = [
             (&self.faults.width, "row", format!("left out for another number of cells than {width}")),
             (&self.faults.times, "row", "left out for want of a time".to_owned()),
@@ -181,7 +185,7 @@ impl TableReader {
         ];
         for (found, noun, what) in reported.into_iter().filter(|(found, ..)| found.count > 0) {
             let Counted { count, first_line } = *found;
-            let message = format!("{} {what}; the first is in line {first_line}", counted(count, noun));
+            let message = format!("{} {what}; the first is in {place} {first_line}", counted(count, noun));
             let cause = Diagnostic::warning(codes::log::ROWS, message).in_file(&self.source);
             self.events.push_back(LogEvent::Gap(LogGap { between_s: None, cause }));
         }
@@ -257,12 +261,13 @@ fn reading(head: &TableHead, text: Option<TableText>, time: RowTime, columns: &R
     }
 }
 
-fn topics(path: &Path, columns: &ReadColumns) -> Vec<LogTopic> {
+fn topics(path: &Path, format: LogFormat, columns: &ReadColumns) -> Vec<LogTopic> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let encoding = if format == LogFormat::Table { "csv" } else { "parquet" };
     let topic = |name: String, content| LogTopic {
         name,
         message_type: "rows of a table".to_owned(),
-        encoding: "csv".to_owned(),
+        encoding: encoding.to_owned(),
         content,
     };
     let pose = columns.tcp_pose.map(|_| topic("actual_TCP_pose".to_owned(), TopicContent::Pose));
