@@ -43,7 +43,7 @@ congruent_input::codes! {
         DESCRIPTIONS = "CGR-LOG-020", "log::descriptions",
             "The log has several descriptions of a robot: on two topics, or one that was published again with another text. On one topic the last one is compared. Of two topics nobody says which is meant: keep one.\n    wrong: topics /left/robot_description and /right/robot_description\n    right: one of the two, by `ros2 bag convert` with `topics: [/left/robot_description]`";
         DATABASE = "CGR-LOG-021", "log::database" unreadable,
-            "The file is named .db3 and is no database of SQLite, or has not the tables `topics` and `messages` that rosbag2 writes, or messages are in a file -wal beside it that cannot be read there. It was damaged in its first bytes, is a database of another program, or is in a folder that is read-only.";
+            "The file is named .db3 and is no database of SQLite, or has not the tables `topics` and `messages` that rosbag2 writes, or a file -wal or -journal beside it must be taken in first. It was damaged in its first bytes, is a database of another program, is in a folder that is read-only, or its recorder died while it wrote.";
         PARQUET = "CGR-LOG-022", "log::parquet" unreadable,
             "The file is no Parquet that is read: it has no end, is damaged, or is compressed by another method than snappy, which is read without a decoder in C; or a dataset of LeRobot has no file with rows. Write it again by pyarrow.\n    wrong: pq.write_table(table, \"log.parquet\", compression=\"zstd\")\n    right: pq.write_table(table, \"log.parquet\", compression=\"snappy\")";
         MOTOR_UNITS = "CGR-LOG-023", "log::motor_units",

@@ -7,8 +7,14 @@ use std::{
     path::{Path, absolute},
 };
 
-/// Endings of the files in which SQLite keeps what is not yet in the database.
-const PENDING: [&str; 2] = ["-wal", "-journal"];
+/// What SQLite keeps beside a database of which a part is not yet in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pending {
+    /// Messages that were written and are not yet in the database.
+    Log,
+    /// What a change has replaced that did not end, since the recorder died.
+    Journal,
+}
 
 /// The address of a database that is only read.
 ///
@@ -32,18 +38,20 @@ pub(super) fn read_only_address(path: &Path) -> io::Result<String> {
         }
     }
     address.push_str("?mode=ro");
-    if !has_pending(path) {
+    if pending(path).is_none() {
         address.push_str("&immutable=1");
     }
     Ok(address)
 }
 
-/// Whether messages are beside the database that are not yet in it.
-pub(super) fn has_pending(path: &Path) -> bool {
+/// What is beside the database.
+pub(super) fn pending(path: &Path) -> Option<Pending> {
     let is_there = |ending: &str| {
         let mut beside = OsString::from(path);
         beside.push(ending);
         Path::new(&beside).metadata().is_ok_and(|file| file.len() > 0)
     };
-    PENDING.into_iter().any(is_there)
+    [("-wal", Pending::Log), ("-journal", Pending::Journal)]
+        .into_iter()
+        .find_map(|(ending, pending)| is_there(ending).then_some(pending))
 }

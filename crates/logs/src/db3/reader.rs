@@ -11,7 +11,7 @@ use std::{
 use congruent_input::{Diagnostic, SourceFile, codes::file, open_regular, unreadable};
 
 use super::{
-    address::has_pending,
+    address::{Pending, pending},
     database::{BlockEnd, Database, MessagePlace, Order, WrittenMessage},
 };
 use crate::{
@@ -251,10 +251,10 @@ fn opened(path: &Path) -> Result<Database, Diagnostic> {
             .with_help("`file FILE` says what it is; copy it again if it was damaged"));
     }
     Database::open(path).map_err(|fault| {
-        let help = if has_pending(path) {
-            "messages are in the file beside it that ends in -wal or -journal: copy both into a folder in which you may write"
-        } else {
-            "`sqlite3 FILE .schema` lists its tables: those of a bag are topics and messages"
+        let help = match pending(path) {
+            Some(Pending::Log) => "messages are in the file -wal beside it: copy both into a folder in which you may write",
+            Some(Pending::Journal) => "the recorder died while it wrote; `sqlite3 BAG.db3 .schema` on a copy of both files, -journal too, takes back what was half written",
+            None => "`sqlite3 BAG.db3 .schema` lists its tables: those of a bag are topics and messages",
         };
         Diagnostic::error(codes::log::DATABASE, format!("{name} cannot be read as a bag: {fault}"))
             .with_help(help)

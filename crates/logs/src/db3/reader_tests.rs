@@ -145,6 +145,21 @@ fn messages_that_are_still_in_the_log_of_sqlite_are_read() {
 }
 
 #[test]
+fn a_change_that_did_not_end_is_taken_back_by_the_user() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bag.db3");
+    let bag = states(&path, 3000);
+    // A transaction that is longer than the memory of SQLite goes into the database, and what it replaces into the journal.
+    bag.execute_batch("pragma cache_size = 5; begin; update messages set timestamp = timestamp + 1").unwrap();
+    let copy = folder.path().join("copy.db3");
+    fs::copy(&path, &copy).unwrap();
+    fs::copy(folder.path().join("bag.db3-journal"), folder.path().join("copy.db3-journal")).unwrap();
+    let refused = read(&copy).unwrap_err();
+    assert_eq!(refused.code, codes::log::DATABASE);
+    assert!(refused.help.unwrap().contains("-journal too"), "{}", refused.message);
+}
+
+#[test]
 fn a_damaged_page_costs_its_own_messages_alone() {
     let mut bag = Changed::new(3000);
     let pages = bag.pages(13);
