@@ -13,4 +13,6 @@ mod safety;
 mod same_everywhere;
 mod scenarios;
 mod servo;
+#[cfg(feature = "db3")]
+mod sqlite_bags;
 mod trajectories;

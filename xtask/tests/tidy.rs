@@ -11,6 +11,7 @@ const PLACES: &[(&str, &str)] = &[
     ("rapier3d_f64", "crates/simulation/src"),
     ("parry3d_f64", "crates/proximity/src/hulls/"),
     ("mcap::", "crates/logs/src"),
+    ("rusqlite", "crates/logs/src/db3/"),
     ("ruzstd::", "crates/logs/src/mcap/"),
     ("re_chunk::", "crates/recording/src"),
     ("re_log_encoding::", "crates/recording/src"),

@@ -3,7 +3,7 @@
 congruent_input::codes! {
     log {
         FORMAT = "CGR-LOG-001", "log::format" unreadable,
-            "The log is of a format that is not read: a SQLite bag (.db3), a bag of ROS 1 (.bag), or a file that was compressed as a whole (.mcap.zstd). The help has the command that makes an MCAP of it.\n    wrong: congruent describe monday.bag\n    right: congruent describe monday.mcap";
+            "The log is of a format that is not read: a bag of ROS 1 (.bag), a file that was compressed as a whole (.mcap.zstd), or, in a program that was built without the feature `db3`, a SQLite bag (.db3). The help has the command that makes an MCAP of it.\n    wrong: congruent describe monday.bag\n    right: congruent describe monday.mcap";
         NOT_MCAP = "CGR-LOG-002", "log::not_mcap" unreadable,
             "The file is named .mcap but does not begin as one. It was damaged in its first bytes, or is another file under this name.";
         FOLDER = "CGR-LOG-003", "log::folder" unreadable,
@@ -15,7 +15,7 @@ congruent_input::codes! {
         TRUNCATED = "CGR-LOG-006", "log::truncated",
             "The log has no end: its recorder was killed, it is still being written, or it was cut when it was copied. All that is whole is read; what was recorded behind the last whole chunk is lost.";
         DAMAGED = "CGR-LOG-007", "log::damaged",
-            "A part of the log is damaged: its sum is wrong, it cannot be decompressed, or a length in it is impossible. No message of that part is used. The message has the place and, if the file says so, the time. Copy the log again from the recorder.";
+            "A part of the log is damaged: its sum is wrong, it cannot be decompressed, a page of a database is not what it should be, or a length in it is impossible. No message of that part is used. The message has the place and, if the file says so, the time. Copy the log again from the recorder.";
         MESSAGE = "CGR-LOG-008", "log::message",
             "Messages of a type that is read cannot be decoded: they end early, or a length in them is impossible. They are counted and not used. Often the type that the log declares is not the one that was published.";
         NOTHING_READ = "CGR-LOG-009", "log::nothing_read",
@@ -42,5 +42,11 @@ congruent_input::codes! {
             "The log has no description of the robot, so that there is none to compare. Nodes publish it once, at their start; a recorder that begins later gets it if it subscribes with the durability `transient_local`, as `ros2 bag record` does by itself.\n    wrong: ros2 bag record -s mcap /joint_states\n    right: ros2 bag record -s mcap /joint_states /robot_description";
         DESCRIPTIONS = "CGR-LOG-020", "log::descriptions",
             "The log has several descriptions of a robot: on two topics, or one that was published again with another text. On one topic the last one is compared. Of two topics nobody says which is meant: keep one.\n    wrong: topics /left/robot_description and /right/robot_description\n    right: one of the two, by `ros2 bag convert` with `topics: [/left/robot_description]`";
+        DATABASE = "CGR-LOG-021", "log::database" unreadable,
+            "The file is named .db3 and is no database of SQLite, or has not the tables `topics` and `messages` that rosbag2 writes, or a file -wal or -journal beside it must be taken in first. It was damaged in its first bytes, is a database of another program, is in a folder that is read-only, or its recorder died while it wrote.";
+        PARQUET = "CGR-LOG-022", "log::parquet" unreadable,
+            "The file is no Parquet that is read: it has no end, is damaged, or is compressed by another method than snappy, which is read without a decoder in C; or a dataset of LeRobot has no file with rows. Write it again by pyarrow.\n    wrong: pq.write_table(table, \"log.parquet\", compression=\"zstd\")\n    right: pq.write_table(table, \"log.parquet\", compression=\"snappy\")";
+        MOTOR_UNITS = "CGR-LOG-023", "log::motor_units",
+            "Positions of a dataset of LeRobot are values of the motor bus: -100 to 100 of the range that was calibrated, 0 to 100 for a gripper, degrees, or rad. The dataset does not say which; the calibration file of the arm does. Nothing is converted: compared with a robot, values of another unit lie beyond its limits.\n    wrong: shoulder_pan.pos from -98.2 to 99.1\n    right: shoulder_pan_position from -1.9 to 1.9, in rad";
     }
 }

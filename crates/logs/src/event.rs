@@ -155,6 +155,23 @@ pub enum TopicContent {
     TimesAlone,
 }
 
+/// The format of a log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LogFormat {
+    /// One or several files of MCAP.
+    Mcap,
+    /// One or several databases of SQLite, of a bag of rosbag2.
+    Db3,
+    /// A table in CSV.
+    Table,
+    /// A table in Parquet.
+    Parquet,
+    /// A dataset of LeRobot: episodes in Parquet, each with times of its own.
+    #[serde(rename = "lerobot")]
+    LeRobot,
+}
+
 /// A topic of a log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LogTopic {
@@ -178,6 +195,9 @@ pub trait LogReader {
     /// # Errors
     /// The rest cannot be read at all.
     fn next_event(&mut self) -> Result<Option<LogEvent>, Diagnostic>;
+
+    /// Its format.
+    fn format(&self) -> LogFormat;
 
     /// How a table is read; `None` for another format.
     fn table(&self) -> Option<&TableReading> {

@@ -1,4 +1,4 @@
-//! Recorded joint states and poses of robots, from MCAP and CSV, and a survey of what a log has.
+//! Recorded joint states and poses of robots, from MCAP, SQLite bags, CSV, Parquet and datasets of LeRobot, and a survey of what a log has.
 //!
 //! A log is read once, from its beginning to its end, in memory that does not grow with it: [`open_log`] gives its events, [`LogStream`] rows of all joints in the order of time,
 //! [`survey_log`] says what is in it, [`recorded_description`] which robot was recorded. Nothing here compares a log with a model.
@@ -6,19 +6,23 @@
 mod cdr;
 pub mod codes;
 mod csv;
+mod db3;
 mod descriptions;
 mod event;
 mod mcap;
+mod messages;
 mod open;
 mod options;
+mod parquet;
 mod recorded_description;
 mod stream;
 mod survey;
+mod table;
 mod table_reading;
 mod written;
 
 pub use event::{
-    EventTime, LogEvent, LogGap, LogReader, LogTopic, LoggedDescription, LoggedJoints, LoggedPose,
+    EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedDescription, LoggedJoints, LoggedPose,
     OtherMessage, TopicContent,
 };
 pub use open::{is_log, is_table, open_log};
@@ -29,13 +33,13 @@ pub use stream::{
     StreamEvent, StreamSelection, StreamedPose,
 };
 pub use survey::{
-    ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogFormat, LogSurvey,
-    LoggedJoint, MissingShares, PositionUnit, RobotInLog, RobotOfLog, SurveyWords, SurveyedLog, TopicSurvey,
-    TopicTimes, UndecodedMessages, UnknownJoint, survey_line, survey_log, survey_words,
+    ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogSurvey, LoggedJoint,
+    MissingShares, PositionUnit, RobotInLog, RobotOfLog, SurveyWords, SurveyedLog, TopicSurvey, TopicTimes,
+    UndecodedMessages, UnknownJoint, survey_line, survey_log, survey_words,
 };
 pub use table_reading::{
-    DecimalMark, LoggedQuantity, Preset, Separator, TableColumn, TableEncoding, TableReading, TableTime,
-    TimeUnit, TimeUnitFrom,
+    DecimalMark, LoggedQuantity, Preset, Separator, TableColumn, TableEncoding, TableReading, TableText,
+    TableTime, TimeUnit, TimeUnitFrom,
 };
 
 pub use written::{

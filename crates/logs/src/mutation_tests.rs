@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Numbers that are the same on every machine (xorshift, Marsaglia 2003).
-struct Numbers(u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
     fn below(&mut self, limit: usize) -> usize {
@@ -25,7 +25,7 @@ impl Numbers {
 }
 
 /// Changes one to four places.
-fn mutated(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
+pub(crate) fn mutated(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..=numbers.below(4) {
         let at = numbers.below(bytes.len());

@@ -8,11 +8,12 @@ use std::{
 use congruent_input::{Diagnostic, absence, codes::file, open_regular, read_text, unreadable};
 
 use crate::{
-    codes,
-    csv::TableReader,
+    codes, csv, db3,
     event::LogReader,
     mcap::{McapReader, is_mcap},
     options::{CONVERT, LogOptions},
+    parquet,
+    table::TableReader,
 };
 
 /// The file that rosbag2 writes beside those with messages.
@@ -25,18 +26,17 @@ const MAGIC_BYTES: u64 = 8;
 /// Endings of an MCAP; the second one has that of a run which did not end.
 const MCAPS: [&str; 2] = [".mcap", ".mcap.partial"];
 /// Endings of tables.
-const TABLES: [&str; 2] = [".csv", ".tsv"];
-/// The ending of an MCAP that was compressed as a whole.
-const COMPRESSED: &str = ".mcap.zstd";
+const TABLES: [&str; 3] = [".csv", ".tsv", PARQUET];
+/// The ending of a table that is no text.
+const PARQUET: &str = ".parquet";
+/// The ending of a bag in SQLite.
+const DB3: &str = ".db3";
+/// Endings of files of a bag that were compressed as a whole.
+const COMPRESSED: [&str; 2] = [".mcap.zstd", ".db3.zstd"];
 /// Endings of logs that are not read, with what to do.
-const NOT_READ: [(&str, &str, &str); 5] = [
-    (COMPRESSED, "an MCAP that was compressed as a whole", "decompress it: `zstd -d FILE`"),
-    (
-        ".db3.zstd",
-        "a SQLite bag that was compressed as a whole",
-        "decompress it by `zstd -d FILE`, then convert it",
-    ),
-    (".db3", "a SQLite bag", ""),
+const NOT_READ: [(&str, &str, &str); 4] = [
+    (COMPRESSED[0], "an MCAP that was compressed as a whole", "decompress it: `zstd -d FILE`"),
+    (COMPRESSED[1], "a SQLite bag that was compressed as a whole", "decompress it: `zstd -d FILE`"),
     (".bag", "a bag of ROS 1", "convert it: `rosbags-convert --src FILE --dst FOLDER --dst-storage mcap`"),
     (
         ".bag.active",
@@ -49,28 +49,32 @@ const NOT_READ: [(&str, &str, &str); 5] = [
 /// has been recorded into it.
 pub fn is_log(path: &Path) -> bool {
     if path.is_dir() {
-        let is_of_bag = |path: &PathBuf| has_ending(path, ".mcap") || not_read(path).is_some();
-        let is_robot = |path: &PathBuf| has_ending(path, ".urdf");
+        let is_of_bag = |path: &PathBuf| is_one_of(path, &[MCAPS[0], DB3]) || not_read(path).is_some();
+        let is_robot = |path: &PathBuf| is_one_of(path, &[".urdf"]);
         let is_bag = |files: Vec<PathBuf>| files.iter().any(is_of_bag) && !files.iter().any(is_robot);
         let has = |name: &str| path.join(name).is_file();
-        return !has("robot.toml") && (has(METADATA) || files_in(path).is_ok_and(is_bag));
+        return !has("robot.toml")
+            && (has(METADATA) || parquet::is_dataset(path) || files_in(path).is_ok_and(is_bag));
     }
-    is_table(path) || MCAPS.iter().any(|ending| has_ending(path, ending)) || not_read(path).is_some()
+    is_table(path) || is_one_of(path, &MCAPS) || is_one_of(path, &[DB3]) || not_read(path).is_some()
 }
 
 /// Whether a path is a log that is a table, by its ending.
 pub fn is_table(path: &Path) -> bool {
-    !path.is_dir() && TABLES.iter().any(|ending| has_ending(path, ending))
+    !path.is_dir() && is_one_of(path, &TABLES)
 }
 
-/// Opens a log: an MCAP, a table in CSV, or a folder that rosbag2 wrote.
+/// Opens a log: an MCAP, a SQLite bag (with the feature `db3`), a table in CSV or Parquet, or a folder that rosbag2 or
+/// LeRobot wrote.
 ///
 /// # Errors
 /// It cannot be read, or is of a format that is not; then the help says how to convert it.
 pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>, Diagnostic> {
+    if parquet::is_dataset(path) {
+        return Ok(Box::new(TableReader::new(path, parquet::open(path)?, options)?));
+    }
     if path.is_dir() {
-        let BagFiles { whole, refused } = files_of_bag(path)?;
-        return Ok(Box::new(McapReader::new(whole).with_gaps(refused)));
+        return open_folder(path);
     }
     if !path.exists() {
         return Err(Diagnostic::error(file::NOT_FOUND, absence(path)));
@@ -79,22 +83,25 @@ pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>,
         return Err(refused);
     }
     if is_table(path) {
-        return Ok(Box::new(TableReader::open(path, options)?));
+        let table = if is_one_of(path, &[PARQUET]) { parquet::open(path)? } else { csv::open(path)? };
+        return Ok(Box::new(TableReader::new(path, table, options)?));
     }
-    Ok(Box::new(McapReader::new(vec![checked_mcap(path)?])))
+    if is_one_of(path, &[DB3]) {
+        return db3::open(&[path.to_owned()], Vec::new());
+    }
+    Ok(Box::new(McapReader::new(vec![checked_mcap(path)?], Vec::new())))
 }
 
-fn has_ending(path: &Path, ending: &str) -> bool {
+fn is_one_of(path: &Path, endings: &[&str]) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    name.ends_with(ending)
+    endings.iter().any(|ending| name.ends_with(ending))
 }
 
 /// Why a file by its name is not read; `None` if it may be.
 fn not_read(path: &Path) -> Option<Diagnostic> {
-    let (_, what, help) = NOT_READ.iter().find(|(ending, ..)| has_ending(path, ending))?;
+    let (_, what, help) = NOT_READ.iter().find(|(ending, ..)| is_one_of(path, &[ending]))?;
     let message = format!("{} is {what}, which is not read", path.display());
-    let help = if help.is_empty() { CONVERT } else { help };
-    Some(Diagnostic::error(codes::log::FORMAT, message).with_help(help))
+    Some(Diagnostic::error(codes::log::FORMAT, message).with_help(*help))
 }
 
 /// The path of an MCAP, whose first bytes are those of one.
@@ -114,46 +121,44 @@ fn checked_mcap(path: &Path) -> Result<PathBuf, Diagnostic> {
     Ok(path.to_owned())
 }
 
-/// The files of a folder that rosbag2 wrote.
-struct BagFiles {
-    /// Those that are read, in the order of their numbers.
-    whole: Vec<PathBuf>,
-    /// Why others are not.
-    refused: Vec<Diagnostic>,
-}
-
-/// The files of a folder that rosbag2 wrote. What metadata.yaml says about them is not used: files are renamed, rosbag2 itself
-/// writes it without names after a failure, and not at all if it is killed.
-fn files_of_bag(folder: &Path) -> Result<BagFiles, Diagnostic> {
+/// Opens the files of a folder that rosbag2 wrote, in the order of their numbers. What metadata.yaml says about them is not used: files
+/// are renamed, rosbag2 itself writes it without names after a failure, and not at all if it is killed.
+fn open_folder(folder: &Path) -> Result<Box<dyn LogReader>, Diagnostic> {
     if is_compressed_by_message(folder)? {
         let message = format!("{}: each message is compressed on its own", folder.display());
         return Err(Diagnostic::error(codes::log::COMPRESSED_MESSAGES, message).with_help(CONVERT));
     }
     let files = files_in(folder)?;
-    let (mut whole, mut refused) = (Vec::new(), Vec::new());
-    for path in &files {
-        if has_ending(path, ".mcap") {
-            match checked_mcap(path) {
-                Ok(path) => whole.push(path),
-                Err(fault) => refused.push(fault),
-            }
-        }
-        // Of files that were compressed one after the other, some may have both forms.
-        let is_there = || files.iter().any(|file| *file == path.with_extension(""));
-        if has_ending(path, COMPRESSED) && !is_there() {
-            refused.extend(not_read(path));
+    // Of files that were compressed one after the other, some may have both forms.
+    let is_compressed =
+        |path: &&PathBuf| is_one_of(path, &COMPRESSED) && !files.contains(&path.with_extension(""));
+    let mut refused: Vec<Diagnostic> =
+        files.iter().filter(is_compressed).filter_map(|path| not_read(path)).collect();
+    let named = |ending: &str| -> Vec<PathBuf> {
+        files.iter().filter(|path| is_one_of(path, &[ending])).cloned().collect()
+    };
+    let (mcaps, databases) = (named(MCAPS[0]), named(DB3));
+    // A bag that was converted in its own folder has both: they are the same log.
+    if mcaps.is_empty() && !databases.is_empty() {
+        return db3::open(&databases, refused);
+    }
+    let mut whole = Vec::new();
+    for path in mcaps {
+        match checked_mcap(&path) {
+            Ok(path) => whole.push(path),
+            Err(fault) => refused.push(fault),
         }
     }
     if whole.is_empty() {
         let other = || files.iter().find_map(|path| not_read(path));
-        let message = format!("{} has no file *.mcap", folder.display());
+        let message = format!("{} has no file *.mcap or *.db3", folder.display());
         let none = || {
             Diagnostic::error(codes::log::FOLDER, message)
                 .with_help("give the folder with the recorded files, or the .mcap itself")
         };
         return Err(refused.into_iter().next().or_else(other).unwrap_or_else(none));
     }
-    Ok(BagFiles { whole, refused })
+    Ok(Box::new(McapReader::new(whole, refused)))
 }
 
 fn is_compressed_by_message(folder: &Path) -> Result<bool, Diagnostic> {

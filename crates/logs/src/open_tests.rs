@@ -29,7 +29,6 @@ fn log_at(ns: u64) -> Vec<u8> {
 #[test]
 fn logs_that_are_not_read_are_refused_with_what_to_do() {
     for (name, help) in [
-        ("a.db3", "storage_id: mcap"),
         ("a.bag", "rosbags-convert"),
         ("a.bag.active", "rosbag reindex"),
         ("a.MCAP.zstd", "zstd -d"),
@@ -102,7 +101,7 @@ fn folders_without_a_file_that_is_read_are_refused() {
     assert_eq!(refused(&[]), codes::log::FOLDER);
     assert_eq!(refused(&[metadata]), codes::log::FOLDER);
     assert_eq!(refused(&[("a.mcap", b"")]), file::EMPTY);
-    assert_eq!(refused(&[metadata, ("a.db3", b"")]), codes::log::FORMAT);
+    assert_eq!(refused(&[metadata, ("a.db3.zstd", b"")]), codes::log::FORMAT);
     let message = ("metadata.yaml", b"  compression_mode: MESSAGE\n".as_slice());
     assert_eq!(refused(&[message, ("a.mcap", b"")]), codes::log::COMPRESSED_MESSAGES);
     assert!(!is_log(folder(&[]).path()));

@@ -6,14 +6,11 @@ use serde::Serialize;
 /// How a table was read: what was guessed from its beginning.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TableReading {
-    /// What separates cells.
-    pub separator: Separator,
-    /// Whether the first row has names.
+    /// How a text is written; nothing of a Parquet.
+    #[serde(flatten)]
+    pub text: Option<TableText>,
+    /// Whether its columns have names.
     pub has_header: bool,
-    /// What separates whole numbers and fractions.
-    pub decimal: DecimalMark,
-    /// The encoding of its text.
-    pub encoding: TableEncoding,
     /// Where the times of the rows come from.
     pub time: TableTime,
     /// The known program whose columns it has; `None` if columns were recognised one by one.
@@ -23,6 +20,17 @@ pub struct TableReading {
     pub columns: Vec<TableColumn>,
     /// Names of the columns that are not.
     pub unused: Vec<String>,
+}
+
+/// How the text of a table is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct TableText {
+    /// What separates cells.
+    pub separator: Separator,
+    /// What separates whole numbers and fractions.
+    pub decimal: DecimalMark,
+    /// The encoding of its text.
+    pub encoding: TableEncoding,
 }
 
 /// A column that is read.

@@ -148,7 +148,7 @@ fn tiago_as_an_mcap_and_as_tables() {
     };
     assert_eq!(ranges(rows), ranges(states));
     let reading = table.table.unwrap();
-    assert_eq!(reading.encoding, TableEncoding::Utf8);
+    assert_eq!(reading.text.unwrap().encoding, TableEncoding::Utf8);
     assert!(matches!(reading.time, TableTime::Column { unit: TimeUnit::Second, .. }), "{:?}", reading.time);
     let speeds = survey_of(&folder.join("tiago_velocity.csv"), None).unwrap().survey;
     let joints = joints(&speeds.topics[0]);
@@ -164,7 +164,7 @@ fn a_table_with_decimal_commas_by_the_names_of_a_robot() {
     let options = LogOptions { rate_hz: Some(1.0), ..LogOptions::default() };
     let survey = survey_log(&path, &options, Some(&robot("ur5e"))).unwrap().survey;
     let reading = survey.table.unwrap();
-    assert!(reading.decimal == DecimalMark::Comma && reading.columns.len() == 6, "{reading:?}");
+    assert!(reading.text.unwrap().decimal == DecimalMark::Comma && reading.columns.len() == 6, "{reading:?}");
     assert_eq!(survey.robot.unwrap().missing.len(), 0);
 }
 
@@ -177,12 +177,20 @@ fn bags_of_rosbag2() {
         assert!(survey.messages >= messages, "{bag}: {}", survey.messages);
         assert_eq!(codes(&survey), ["log::nothing_read"]);
     }
-    for folder in ["sqlite3_talker", "sqlite3_cdr_test", "resources_empty_bag"] {
-        let refused = survey_of(&bags.join(folder), None).unwrap_err();
-        assert_eq!(refused.code.name, "log::format");
-        assert!(refused.help.unwrap().contains("ros2 bag convert"));
-    }
     let refused = survey_of(&logs.join("synthetic/x1_ur5e_file_zstd"), None).unwrap_err();
     assert_eq!(refused.code.name, "log::format");
     assert!(refused.help.unwrap().contains("zstd -d"));
+}
+
+/// The test of a program with the feature `db3` is in `db3.rs`.
+#[cfg(not(feature = "db3"))]
+#[test]
+fn bags_in_sqlite_are_refused_without_their_feature() {
+    let Some(logs) = logs() else { return };
+    for folder in ["sqlite3_talker", "sqlite3_cdr_test", "resources_empty_bag"] {
+        let refused = survey_of(&logs.join("rosbag2_samples").join(folder), None).unwrap_err();
+        assert_eq!(refused.code.name, "log::format");
+        let help = refused.help.unwrap();
+        assert!(help.contains("--features db3") && help.contains("ros2 bag convert"), "{help}");
+    }
 }

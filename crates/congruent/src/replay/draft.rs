@@ -38,7 +38,10 @@ pub fn replay_draft(
     let names = description.robot.movable_joint_names().map(str::to_owned).collect();
     let options = LogOptions { rate_hz: request.rate_hz, joints: names };
     let survey = survey_log(log, &options, Some(&description.robot))?.survey;
-    let mut taken = Vec::new();
+    // The unit of a dataset is a guess that everything behind it depends on.
+    let of_unit =
+        survey.warnings.iter().filter(|warning| warning.code == congruent_logs::codes::log::MOTOR_UNITS.name);
+    let mut taken: Vec<String> = of_unit.map(|warning| warning.message.clone()).collect();
     let mut source = SourceSettings::new(log.display().to_string());
     (source.clock, source.rate_hz) = (request.clock, request.rate_hz);
     source.joints = joints(request, &survey, &mut taken);

@@ -4,30 +4,23 @@ use std::collections::BTreeMap;
 
 use csv::{ByteRecord, ReaderBuilder};
 
-use super::{
-    bounded_rows::Quoting,
-    number::{CellValue, cell_value},
+use super::bounded_rows::Quoting;
+use crate::{
+    table::{CellValue, TableHead, cell_value},
+    table_reading::{DecimalMark, Separator, TableEncoding, TableText},
 };
-use crate::table_reading::{DecimalMark, Separator, TableEncoding};
 
 /// Rows by which a table is judged. Kind: choice; enough that a first row with missing values decides nothing.
 const MOST_ROWS: usize = 200;
 
 /// How a table is written, with its first rows.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Dialect {
-    pub(super) separator: Separator,
-    pub(super) encoding: TableEncoding,
-    pub(super) decimal: DecimalMark,
+pub(crate) struct Dialect {
+    pub(super) text: TableText,
     pub(super) quoting: Quoting,
-    /// The names of the columns; `None` without names.
-    pub(super) names: Option<Vec<String>>,
     /// Number of rows before the first one of numbers: names, units, and lines about the table.
     pub(super) rows_before: usize,
-    /// Number of cells of a row.
-    pub(super) width: usize,
-    /// The first rows of numbers.
-    pub(super) rows: Vec<Vec<String>>,
+    pub(crate) head: TableHead,
 }
 
 impl Separator {
@@ -88,7 +81,7 @@ struct Candidate {
 
 /// Why a beginning is not one of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum NoTable {
+pub(crate) enum NoTable {
     /// No separator gives rows with more than one number.
     NoNumbers,
     /// The row before the first numbers has another number of cells.
@@ -97,7 +90,7 @@ pub(super) enum NoTable {
 
 impl Dialect {
     /// The dialect of a beginning, which ends with a whole row.
-    pub(super) fn of(head: &[u8]) -> Result<Self, NoTable> {
+    pub(crate) fn of(head: &[u8]) -> Result<Self, NoTable> {
         let encoding = encoding(head);
         let candidates = Separator::ALL.map(|separator| Candidate::new(separator, head, encoding));
         let is_better = |a: &Candidate, b: &Candidate| (a.share, a.width) > (b.share, b.width);
@@ -115,13 +108,8 @@ impl Dialect {
             return Err(NoTable::NoNumbers);
         }
         let quoting = quoting(head);
-        Ok(Self { separator, encoding, decimal, quoting, names, rows_before, width, rows })
-    }
-
-    /// The name of a column, or its number from 1.
-    pub(super) fn name(&self, column: usize) -> String {
-        let name = self.names.as_ref().and_then(|names| names.get(column));
-        name.cloned().unwrap_or_else(|| format!("column {}", column + 1))
+        let text = TableText { separator, decimal, encoding };
+        Ok(Self { text, quoting, rows_before, head: TableHead { names, width, rows, decimal } })
     }
 }
 
@@ -256,9 +244,9 @@ mod tests {
     fn check(head: &str, separator: Separator, names: Option<&[&str]>, first: &[&str]) {
         let found = Dialect::of(head.as_bytes()).unwrap();
         let found_names: Option<Vec<&str>> =
-            found.names.as_ref().map(|names| names.iter().map(String::as_str).collect());
-        assert_eq!((found.separator, found_names.as_deref()), (separator, names));
-        assert_eq!(found.rows[0], first);
+            found.head.names.as_ref().map(|names| names.iter().map(String::as_str).collect());
+        assert_eq!((found.text.separator, found_names.as_deref()), (separator, names));
+        assert_eq!(found.head.rows[0], first);
     }
 
     #[test]
@@ -276,7 +264,7 @@ mod tests {
     fn dates_do_not_decide_the_decimal_mark() {
         let rows = "09.10.2025;0,5;1,5\n09.10.2025;1,5;2,5\n";
         let found = Dialect::of(format!("Datum;time_s;q1\n{rows}").as_bytes()).unwrap();
-        assert_eq!((found.decimal, found.names.unwrap().len()), (DecimalMark::Comma, 3));
+        assert_eq!((found.head.decimal, found.head.names.unwrap().len()), (DecimalMark::Comma, 3));
     }
 
     #[test]
@@ -307,15 +295,15 @@ mod tests {
     #[test]
     fn a_last_row_that_is_cut_does_not_decide_the_width() {
         let found = Dialect::of(b"t,q1,q2\n0,1,2\n1,2,3\n2,4\n").unwrap();
-        assert_eq!((found.width, found.rows.len()), (3, 2));
+        assert_eq!((found.head.width, found.head.rows.len()), (3, 2));
     }
 
     #[test]
     fn decimal_commas_and_latin_1() {
         let table = b"Winkel [\xb0];q\n1,5;2,5\n";
         let found = Dialect::of(table).unwrap();
-        assert_eq!((found.encoding, found.decimal), (TableEncoding::Latin1, DecimalMark::Comma));
-        assert_eq!(found.names.unwrap()[0], "Winkel [\u{b0}]");
+        assert_eq!((found.text.encoding, found.head.decimal), (TableEncoding::Latin1, DecimalMark::Comma));
+        assert_eq!(found.head.names.unwrap()[0], "Winkel [\u{b0}]");
     }
 
     #[test]

@@ -1,12 +1,9 @@
-//! Logs as tables of numbers: CSV and its relatives. How a table is written, which column is which joint and in which unit its
-//! times are is found by its beginning, and said in `TableReading`.
+//! Tables as text: CSV and its relatives. How a text is written is found by its beginning.
 
 mod bounded_rows;
-mod columns;
 mod dialect;
-mod number;
-mod quantity;
-mod reader;
-mod time;
+mod rows;
 
-pub(crate) use reader::TableReader;
+#[cfg(test)]
+pub(crate) use dialect::Dialect;
+pub(crate) use rows::open;

@@ -1,11 +1,11 @@
 //! Logs in MCAP. A file is read record by record, one chunk in memory; the summary at its end is used where it is there, and
 //! never needed.
 
-mod catalogue;
+mod channels;
 mod chunk;
 mod framing;
-mod messages;
 mod reader;
+mod records;
 mod summary;
 #[cfg(test)]
 pub(crate) mod write;

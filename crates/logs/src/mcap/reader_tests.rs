@@ -4,7 +4,7 @@ use std::io::{Seek, Write};
 
 use super::*;
 use crate::{
-    event::{LoggedJoints, TopicContent},
+    event::{LogGap, LoggedJoints, TopicContent},
     mcap::write::{begun, chunk, end, end_with_summary, joint_data, joints, message, record, topic, topics},
 };
 
@@ -13,7 +13,7 @@ const NAMES: [&str; 2] = ["elbow", "wrist"];
 fn read(bytes: &[u8]) -> Result<(Vec<LogEvent>, Vec<LogTopic>), Diagnostic> {
     let mut file = tempfile::NamedTempFile::with_suffix(".mcap").unwrap();
     file.write_all(bytes).unwrap();
-    let mut reader = McapReader::new(vec![file.path().to_owned()]);
+    let mut reader = McapReader::new(vec![file.path().to_owned()], Vec::new());
     let mut events = Vec::new();
     while let Some(event) = reader.next_event()? {
         events.push(event);
@@ -132,7 +132,7 @@ fn a_record_that_is_too_long_is_left_out() {
     file.as_file().set_len(head.len() as u64 + long).unwrap();
     file.seek(io::SeekFrom::End(0)).unwrap();
     file.write_all(&[two("", 10, &topics()), end()].concat()).unwrap();
-    let mut reader = McapReader::new(vec![file.path().to_owned()]);
+    let mut reader = McapReader::new(vec![file.path().to_owned()], Vec::new());
     let events: Vec<LogEvent> = std::iter::from_fn(|| reader.next_event().unwrap()).collect();
     assert_eq!((joints_of(&events).len(), gaps(&events).len()), (2, 1));
 }

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     cdr::{CDR, MessageKind},
     codes,
-    event::TopicContent,
+    event::{LogFormat, TopicContent},
 };
 
 /// Most names in a message.
@@ -56,7 +56,7 @@ fn other_encoding(topic: &TopicSurvey) -> Diagnostic {
 }
 
 /// What is wrong with single topics.
-pub(super) fn of_topics(topics: &[TopicSurvey]) -> Vec<Diagnostic> {
+pub(super) fn of_topics(topics: &[TopicSurvey], format: LogFormat) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for topic in topics {
         if is_in_other_encoding(topic) {
@@ -76,6 +76,11 @@ pub(super) fn of_topics(topics: &[TopicSurvey]) -> Vec<Diagnostic> {
                 "which value is of which joint is unknown: the values of such a message are not used",
             ));
         }
+        if format == LogFormat::LeRobot {
+            found.extend(motor_units(topic));
+            // The times of each episode begin at 0.
+            continue;
+        }
         if let Some(times) = topic.times.as_ref().filter(|times| times.restarts > 0) {
             let message = format!(
                 "the times of {} go back by more than a second, {}, by {:.3} s at most",
@@ -87,6 +92,25 @@ pub(super) fn of_topics(topics: &[TopicSurvey]) -> Vec<Diagnostic> {
         }
     }
     found
+}
+
+/// What is to be known of the unit of the positions of a dataset, which has no field for it.
+fn motor_units(topic: &TopicSurvey) -> Option<Diagnostic> {
+    /// Angles that joints of arms do not reach, rad: two turns.
+    const MOST_RAD: f64 = 4.0 * std::f64::consts::PI;
+    let ranges = topic.joints.as_ref()?.joints.iter().filter_map(|joint| joint.position_range);
+    let most = ranges.flatten().map(f64::abs).fold(0.0, f64::max);
+    let message = if most > MOST_RAD {
+        format!(
+            "positions of {} reach {most:.1}: they are in the unit of the motor bus (-100 to 100 or 0 to 100 of the calibrated range, or degrees), not rad",
+            topic.name
+        )
+    } else {
+        format!("positions of {} are read as rad: the dataset does not say their unit", topic.name)
+    };
+    Some(Diagnostic::warning(codes::log::MOTOR_UNITS, message).with_help(
+        "rad = sign * unit_rad * value + offset_rad for each joint, by the calibration file of the arm: write it into a table with time_s and JOINT_position",
+    ))
 }
 
 /// What is wrong with the log if it is of this robot.

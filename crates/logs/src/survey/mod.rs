@@ -17,8 +17,8 @@ mod words;
 
 pub use pass::{SurveyedLog, survey_log};
 pub use report::{
-    ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogFormat, LogSurvey,
-    LoggedJoint, MissingShares, PositionUnit, RobotInLog, RobotOfLog, TopicSurvey, TopicTimes,
-    UndecodedMessages, UnknownJoint,
+    ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogSurvey, LoggedJoint,
+    MissingShares, PositionUnit, RobotInLog, RobotOfLog, TopicSurvey, TopicTimes, UndecodedMessages,
+    UnknownJoint,
 };
 pub use words::{SurveyWords, survey_line, survey_words};

@@ -9,14 +9,14 @@ use super::{
     description::robot_in_log,
     findings,
     limits::moving_names,
-    report::{ClockKind, LogFormat, LogSurvey, TopicSurvey},
+    report::{ClockKind, LogSurvey, TopicSurvey},
     robot,
     topic::TopicTrack,
     utc::date,
 };
 use crate::{
     descriptions::Descriptions,
-    event::{EventTime, LogEvent, LogReader, seconds},
+    event::{EventTime, LogEvent, LogFormat, LogReader, seconds},
     open::open_log,
     options::LogOptions,
 };
@@ -131,10 +131,10 @@ impl Pass {
         if let Some(refused) = found.pop_if(|finding| finding.severity == Severity::Error) {
             return Err(refused.in_file(&source));
         }
-        found.extend(findings::of_topics(&surveyed));
+        found.extend(findings::of_topics(&surveyed, reader.format()));
         found.extend(robot.iter().flat_map(findings::of_robot));
         self.warnings.extend(found.into_iter().map(|finding| finding.in_file(&source)));
-        let format = if reader.table().is_some() { LogFormat::Table } else { LogFormat::Mcap };
+        let format = reader.format();
         let survey = LogSurvey {
             file: path.display().to_string(),
             format,
@@ -155,9 +155,9 @@ impl Pass {
 fn messages(topics: &[TopicSurvey], format: LogFormat) -> u64 {
     let counts = topics.iter().map(|topic| topic.messages);
     match format {
-        LogFormat::Mcap => counts.sum(),
+        LogFormat::Mcap | LogFormat::Db3 => counts.sum(),
         // Rows of a UR are joints and a pose.
-        LogFormat::Table => counts.max().unwrap_or_default(),
+        LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => counts.max().unwrap_or_default(),
     }
 }
 

@@ -4,7 +4,10 @@ use congruent_input::Finding;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::{event::TopicContent, table_reading::TableReading};
+use crate::{
+    event::{LogFormat, TopicContent},
+    table_reading::TableReading,
+};
 
 /// What is in a log. Times are s from the log time of its first message on.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -35,16 +38,6 @@ pub struct LogSurvey {
     pub unreadable_parts: u64,
     /// What is wrong or suspicious.
     pub warnings: Vec<Finding>,
-}
-
-/// The format of a log.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LogFormat {
-    /// One or several files of MCAP.
-    Mcap,
-    /// A table in CSV.
-    Table,
 }
 
 /// A topic of a log.

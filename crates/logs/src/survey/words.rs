@@ -6,12 +6,12 @@ use congruent_input::{
 };
 
 use super::report::{
-    FramePair, JointSource, JointsSurvey, LogFormat, LogSurvey, PositionUnit, RobotInLog, RobotOfLog,
-    TopicSurvey, TopicTimes,
+    FramePair, JointSource, JointsSurvey, LogSurvey, PositionUnit, RobotInLog, RobotOfLog, TopicSurvey,
+    TopicTimes,
 };
 use crate::{
     cdr::CDR,
-    event::TopicContent,
+    event::{LogFormat, TopicContent},
     table_reading::{TableReading, TableTime},
 };
 
@@ -43,8 +43,8 @@ pub fn survey_words(survey: &LogSurvey, most_listed: usize) -> SurveyWords {
         about.push(format!("{parts} cannot be read, see the warnings"));
     }
     let topics = match survey.format {
-        LogFormat::Mcap => survey.topics.iter().map(topic_row).collect(),
-        LogFormat::Table => Vec::new(),
+        LogFormat::Mcap | LogFormat::Db3 => survey.topics.iter().map(topic_row).collect(),
+        LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => Vec::new(),
     };
     SurveyWords { head, topics, about }
 }
@@ -80,20 +80,29 @@ pub fn survey_line(survey: &LogSurvey) -> String {
 /// What an entry of a log is called.
 fn entry(survey: &LogSurvey) -> &'static str {
     match survey.format {
-        LogFormat::Mcap => "message",
-        LogFormat::Table => "row",
+        LogFormat::Mcap | LogFormat::Db3 => "message",
+        LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => "row",
     }
 }
 
 fn headline(survey: &LogSurvey) -> String {
     let begun = survey.begun.as_ref().map_or(String::new(), |date| format!(" from {date}"));
     let duration = format!("{}{begun}", duration(survey.duration_s));
+    let counted_entries = entries(survey.messages, entry(survey));
+    let of_bag = |format: &str| {
+        let topics = counted(survey.topics.len(), "topic");
+        format!("{format}, {duration}, {counted_entries}, {topics}")
+    };
     match survey.format {
-        LogFormat::Mcap => {
-            let topics = counted(survey.topics.len(), "topic");
-            format!("MCAP, {duration}, {}, {topics}", entries(survey.messages, entry(survey)))
+        LogFormat::Mcap => of_bag("MCAP"),
+        LogFormat::Db3 => of_bag("SQLite bag"),
+        LogFormat::Table => format!("table, {duration}, {counted_entries}"),
+        LogFormat::Parquet => format!("table in Parquet, {duration}, {counted_entries}"),
+        LogFormat::LeRobot => {
+            let times = survey.topics.first().and_then(|topic| topic.times.as_ref());
+            let episodes = times.map_or(0, |times| times.restarts + 1);
+            format!("dataset of LeRobot, {}, {counted_entries}", entries(episodes, "episode"))
         }
-        LogFormat::Table => format!("table, {duration}, {}", entries(survey.messages, entry(survey))),
     }
 }
 
@@ -111,8 +120,11 @@ fn reading(table: &TableReading, most: usize) -> String {
         [] => String::new(),
         unused => format!("; not read: {}", first_of(unused, most)),
     };
-    let (separator, decimal) = (serde_name(&table.separator), serde_name(&table.decimal));
-    format!("read as: separator {separator}, decimal {decimal}, {header}; {time}{preset}{unused}")
+    let text = table.text.map_or(String::new(), |text| {
+        let (separator, decimal) = (serde_name(&text.separator), serde_name(&text.decimal));
+        format!("separator {separator}, decimal {decimal}, ")
+    });
+    format!("read as: {text}{header}; {time}{preset}{unused}")
 }
 
 /// The mean rate outside of gaps.

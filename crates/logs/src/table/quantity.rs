@@ -111,6 +111,11 @@ pub(super) fn named(name: &str) -> Option<NamedColumn> {
     })
 }
 
+/// Whether a name says which quantity of a joint its column has.
+pub(crate) fn says_quantity(name: &str) -> bool {
+    named(name).is_some_and(|column| column.quantity.is_some())
+}
+
 /// Takes the unit off the end of a name that has more words than that.
 fn take_unit(parts: &mut Vec<NamePart>) -> Option<String> {
     let is_end = |unit: &&&[&str]| {

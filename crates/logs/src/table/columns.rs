@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    dialect::Dialect,
+    head::TableHead,
     quantity::{NamedColumn, is_name_of_joint, named, word_count},
 };
 use crate::table_reading::{LoggedQuantity, Preset, TableColumn};
@@ -73,8 +73,8 @@ struct TakenColumn {
 }
 
 /// Finds the columns of joints; none is empty. `robot` has the names of the joints of a robot, in its order.
-pub(super) fn find_columns(dialect: &Dialect, time: Option<usize>, robot: &[String]) -> ReadColumns {
-    let Some(names) = &dialect.names else { return by_order(dialect, time, robot) };
+pub(super) fn find_columns(head: &TableHead, time: Option<usize>, robot: &[String]) -> ReadColumns {
+    let Some(names) = &head.names else { return by_order(head, time, robot) };
     if let Some(columns) = of_ur(names, time) {
         return columns;
     }
@@ -199,17 +199,17 @@ fn of_ur(names: &[String], time: Option<usize>) -> Option<ReadColumns> {
 }
 
 /// Columns without names are positions: of the robot's joints in their order, if it has as many or more.
-fn by_order(dialect: &Dialect, time: Option<usize>, robot: &[String]) -> ReadColumns {
-    let columns: Vec<usize> = (0..dialect.width).filter(|column| Some(*column) != time).collect();
+fn by_order(head: &TableHead, time: Option<usize>, robot: &[String]) -> ReadColumns {
+    let columns: Vec<usize> = (0..head.width).filter(|column| Some(*column) != time).collect();
     if !robot.is_empty() && columns.len() > robot.len() {
         return ReadColumns {
-            unused: columns.iter().map(|column| dialect.name(*column)).collect(),
+            unused: columns.iter().map(|column| head.name(*column)).collect(),
             ..ReadColumns::default()
         };
     }
     let mut found = ReadColumns::default();
     for (joint, column) in columns.into_iter().enumerate() {
-        let name = dialect.name(column);
+        let name = head.name(column);
         let of_joint = robot.get(joint).cloned().unwrap_or_else(|| name.clone());
         found.joints.push(of_joint.clone());
         let quantity = LoggedQuantity::Position;
@@ -222,6 +222,7 @@ fn by_order(dialect: &Dialect, time: Option<usize>, robot: &[String]) -> ReadCol
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::csv::Dialect;
 
     #[track_caller]
     fn check(header: &str, robot: &[&str], joints: &[&str], unused: &[&str]) -> ReadColumns {
@@ -229,7 +230,7 @@ mod tests {
         let rows = format!("{0}\n{0}\n", vec!["0"; width].join(","));
         let dialect = Dialect::of(format!("{header}\n{rows}").as_bytes()).unwrap();
         let robot: Vec<String> = robot.iter().map(|&name| name.to_owned()).collect();
-        let found = find_columns(&dialect, Some(0), &robot);
+        let found = find_columns(&dialect.head, Some(0), &robot);
         assert_eq!((&found.joints[..], &found.unused[..]), (&owned(joints)[..], &owned(unused)[..]));
         found
     }
@@ -296,7 +297,7 @@ mod tests {
     #[test]
     fn without_names_the_order_of_the_robot() {
         let dialect = Dialect::of(b"0 1\n0 1\n").unwrap();
-        let found = |robot: &[&str]| find_columns(&dialect, None, &owned(robot)).joints;
+        let found = |robot: &[&str]| find_columns(&dialect.head, None, &owned(robot)).joints;
         assert_eq!(found(&["a", "b", "finger"]), ["a", "b"]);
         assert_eq!(found(&[]), ["column 1", "column 2"]);
         assert!(found(&["a"]).is_empty());

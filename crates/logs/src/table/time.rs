@@ -1,7 +1,7 @@
 //! Which column of a table has the times of its rows, and in which unit.
 
 use super::{
-    dialect::Dialect,
+    head::TableHead,
     number::time_ns,
     number::{CellValue, cell_value},
 };
@@ -59,12 +59,12 @@ const UNITS: [(&str, TimeUnit); 13] = [
 ];
 
 /// Finds the times of a table.
-pub(super) fn find_time(dialect: &Dialect) -> FoundTime {
-    let Some(names) = &dialect.names else { return first_column(dialect) };
+pub(super) fn find_time(head: &TableHead) -> FoundTime {
+    let Some(names) = &head.names else { return first_column(head) };
     let named = names.iter().enumerate().filter_map(|(column, name)| Some((column, named_time(name)?)));
     let mut unusable = FoundTime::None;
     for (column, NamedTime { stated }) in named {
-        let values = values(dialect, column);
+        let values = values(head, column);
         let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let moving = steps.iter().filter(|step| **step > 0.0).count();
         // Times in whole seconds, or a date that a spreadsheet has rounded.
@@ -82,8 +82,8 @@ pub(super) fn find_time(dialect: &Dialect) -> FoundTime {
 }
 
 /// Without names the first column is time if it advances evenly.
-fn first_column(dialect: &Dialect) -> FoundTime {
-    let values = values(dialect, 0);
+fn first_column(head: &TableHead) -> FoundTime {
+    let values = values(head, 0);
     let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
     if !is_even(&steps) {
         return FoundTime::None;
@@ -110,12 +110,12 @@ fn named_time(name: &str) -> Option<NamedTime> {
     is_time.then_some(NamedTime { stated })
 }
 
-fn values(dialect: &Dialect, column: usize) -> Vec<f64> {
-    let number = |row: &Vec<String>| match cell_value(row.get(column)?, dialect.decimal) {
+fn values(head: &TableHead, column: usize) -> Vec<f64> {
+    let number = |row: &Vec<String>| match cell_value(row.get(column)?, head.decimal) {
         CellValue::Number(number) if number.is_finite() => Some(number),
         _ => None,
     };
-    dialect.rows.iter().filter_map(number).collect()
+    head.rows.iter().filter_map(number).collect()
 }
 
 /// The unit of times by their values, or by their steps.
@@ -174,10 +174,11 @@ impl TimeColumn {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::csv::Dialect;
 
     #[track_caller]
     fn check(table: &str, expected: Option<(usize, TimeUnit, TimeUnitFrom)>) {
-        let found = find_time(&Dialect::of(table.as_bytes()).unwrap());
+        let found = find_time(&Dialect::of(table.as_bytes()).unwrap().head);
         let found = match found {
             FoundTime::Column(TimeColumn { column, unit, unit_from }) => Some((column, unit, unit_from)),
             _ => None,
@@ -209,8 +210,8 @@ mod tests {
         check("a,b\n0,1\n1,2\n", None);
         check("0.5 1\n0.5 2\n0.4 0\n0.1 0\n", None);
         let coarse = Dialect::of(b"t,q\n3,1\n3,1\n3,1\n4,1\n4,1\n").unwrap();
-        assert_eq!(find_time(&coarse), FoundTime::Coarse(0));
+        assert_eq!(find_time(&coarse.head), FoundTime::Coarse(0));
         let dates = Dialect::of(b"time,q,dq\n2025-10-09,3,1\n2025-10-10,3,1\n").unwrap();
-        assert_eq!(find_time(&dates), FoundTime::NoNumbers(0));
+        assert_eq!(find_time(&dates.head), FoundTime::NoNumbers(0));
     }
 }

@@ -1,41 +1,34 @@
 //! Reads a table row by row.
 
-use std::{
-    collections::VecDeque,
-    fs::File,
-    io::{Read, Seek, SeekFrom},
-    path::Path,
-    sync::Arc,
-};
+use std::{collections::VecDeque, path::Path, sync::Arc};
 
-use congruent_input::{Code, Diagnostic, SourceFile, display::counted, open_regular, unreadable};
-use csv::{ByteRecord, Reader};
+use congruent_input::{Diagnostic, SourceFile, display::counted};
 
 use super::{
-    bounded_rows::BoundedRows,
     columns::{ReadColumns, find_columns},
-    dialect::{Dialect, NoTable, fitted},
+    head::{OpenTable, RowSource, TableHead, TableRow},
     number::{CellValue, cell_value},
     time::{FoundTime, TimeColumn, find_time},
 };
 use crate::{
     codes,
-    event::{EventTime, LogEvent, LogGap, LogReader, LogTopic, LoggedJoints, LoggedPose, TopicContent},
+    event::{
+        EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedJoints, LoggedPose, TopicContent,
+    },
     options::LogOptions,
-    table_reading::{TableReading, TableTime},
+    table_reading::{DecimalMark, TableReading, TableText, TableTime},
 };
 
-/// Bytes of the beginning by which a table is judged. Kind: choice; a hundred rows of sixty columns.
-const HEAD_BYTES: u64 = 128 << 10;
 /// Frame of the pose of a UR's TCP.
 const UR_FRAME: &str = "base";
 
 /// A table that is read as a log.
 pub(crate) struct TableReader {
     source: Arc<SourceFile>,
-    reader: Reader<BoundedRows<File>>,
-    record: ByteRecord,
-    dialect: Dialect,
+    format: LogFormat,
+    table: Box<dyn RowSource>,
+    width: usize,
+    decimal: DecimalMark,
     columns: ReadColumns,
     joints: Arc<[String]>,
     time: RowTime,
@@ -43,9 +36,7 @@ pub(crate) struct TableReader {
     topics: Vec<LogTopic>,
     events: VecDeque<LogEvent>,
     first_ns: Option<i64>,
-    /// Rows that come before those of numbers.
-    rows_before: usize,
-    /// Rows behind them that were read.
+    /// Rows that were read.
     rows: u32,
     faults: RowFaults,
     is_at_end: bool,
@@ -83,45 +74,37 @@ impl Counted {
 }
 
 impl TableReader {
-    /// Opens a table and finds out how it is written.
+    /// A table as a log.
     ///
     /// # Errors
-    /// It is no table of numbers, has no column of a joint, or its rows have no time.
-    pub(crate) fn open(path: &Path, options: &LogOptions) -> Result<Self, Diagnostic> {
-        let mut file = open_regular(path, u64::MAX)?;
-        let dialect = dialect_of(&mut file, path)?;
-        let source = SourceFile { path: path.to_owned(), text: String::new(), is_foreign: false };
-        let source = Arc::new(source);
-        let time = row_time(&dialect, options).map_err(|fault| fault.in_file(&source))?;
+    /// It has no column of a joint, or its rows have no time.
+    pub(crate) fn new(path: &Path, table: OpenTable, options: &LogOptions) -> Result<Self, Diagnostic> {
+        let OpenTable { source, head, rows, format, text } = table;
+        let time = row_time(&head, options).map_err(|fault| fault.in_file(&source))?;
         let of_time = match time {
             RowTime::Column(column) => Some(column.column),
-            RowTime::RateHz(_) => match find_time(&dialect) {
+            RowTime::RateHz(_) => match find_time(&head) {
                 // A time that is not used is no joint.
                 FoundTime::Coarse(column) | FoundTime::NoNumbers(column) => Some(column),
                 FoundTime::Column(found) => Some(found.column),
                 FoundTime::None => None,
             },
         };
-        let columns = find_columns(&dialect, of_time, &options.joints);
+        let columns = find_columns(&head, of_time, &options.joints);
         if columns.cells.is_empty() {
             return Err(no_columns(&columns, options).in_file(&source));
         }
-        let reading = reading(&dialect, time, &columns);
-        let topics = topics(path, &columns);
-        let rows = BoundedRows::new(file, dialect.quoting, dialect.separator.byte());
-        let reader = dialect.separator.reader_builder(dialect.quoting).from_reader(rows);
-
         Ok(Self {
+            reading: reading(&head, text, time, &columns),
+            topics: topics(path, format, &columns),
             source,
-            reader,
-            record: ByteRecord::new(),
+            format,
+            table: rows,
+            width: head.width,
+            decimal: head.decimal,
             joints: columns.joints.clone().into(),
-            rows_before: dialect.rows_before,
-            dialect,
             columns,
             time,
-            reading,
-            topics,
             events: VecDeque::new(),
             first_ns: None,
             rows: 0,
@@ -132,25 +115,14 @@ impl TableReader {
 
     /// Reads a row; the faults of all rows behind the last.
     fn step(&mut self) -> Result<(), Diagnostic> {
-        let is_row = self.reader.read_byte_record(&mut self.record);
-        let refused = |fault: csv::Error| {
-            let message = format!("the table cannot be read: {fault}");
-            Diagnostic::error(codes::log::TABLE_ENCODING, message).in_file(&self.source)
-        };
-        if !is_row.map_err(refused)? {
+        let row = self.table.next_row()?;
+        let gap = |cause| LogEvent::Gap(LogGap { between_s: None, cause });
+        self.events.extend(self.table.take_gaps().into_iter().map(gap));
+        if let Some(TableRow { cells, line }) = row {
+            self.row(&cells, line);
+        } else {
             self.is_at_end = true;
             self.report_faults();
-            return Ok(());
-        }
-        let cells = self.dialect.separator.cells(&self.record, self.dialect.encoding);
-        let cells = fitted(cells, self.dialect.width);
-        let line = self.record.position().map_or(0, csv::Position::line);
-        if cells.iter().all(String::is_empty) {
-            return Ok(());
-        }
-        match self.rows_before.checked_sub(1) {
-            Some(rest) => self.rows_before = rest,
-            None => self.row(&cells, line),
         }
         Ok(())
     }
@@ -159,11 +131,11 @@ impl TableReader {
         // A row that is not used was recorded nevertheless: at a rate it takes its time.
         let number = self.rows;
         self.rows = self.rows.saturating_add(1);
-        if cells.len() != self.dialect.width {
+        if cells.len() != self.width {
             return self.faults.width.add(line);
         }
         let log_ns = match self.time {
-            RowTime::Column(column) => column.ns(cells, self.dialect.decimal),
+            RowTime::Column(column) => column.ns(cells, self.decimal),
             RowTime::RateHz(rate_hz) => ns_of_row(number, rate_hz),
         };
         let Some(log_ns) = log_ns else { return self.faults.times.add(line) };
@@ -193,7 +165,7 @@ impl TableReader {
     }
 
     fn number(&mut self, cells: &[String], column: usize, line: u64) -> f64 {
-        match cell_value(&cells[column], self.dialect.decimal) {
+        match cell_value(&cells[column], self.decimal) {
             CellValue::Number(number) => number,
             CellValue::Missing => f64::NAN,
             CellValue::NotANumber => {
@@ -204,7 +176,8 @@ impl TableReader {
     }
 
     fn report_faults(&mut self) {
-        let width = self.dialect.width;
+        let width = self.width;
+        let place = if self.reading.text.is_some() { "line" } else { "row" };
         let reported = [
             (&self.faults.width, "row", format!("left out for another number of cells than {width}")),
             (&self.faults.times, "row", "left out for want of a time".to_owned()),
@@ -212,7 +185,7 @@ impl TableReader {
         ];
         for (found, noun, what) in reported.into_iter().filter(|(found, ..)| found.count > 0) {
             let Counted { count, first_line } = *found;
-            let message = format!("{} {what}; the first is in line {first_line}", counted(count, noun));
+            let message = format!("{} {what}; the first is in {place} {first_line}", counted(count, noun));
             let cause = Diagnostic::warning(codes::log::ROWS, message).in_file(&self.source);
             self.events.push_back(LogEvent::Gap(LogGap { between_s: None, cause }));
         }
@@ -220,6 +193,10 @@ impl TableReader {
 }
 
 impl LogReader for TableReader {
+    fn format(&self) -> LogFormat {
+        self.format
+    }
+
     fn topics(&self) -> &[LogTopic] {
         &self.topics
     }
@@ -236,50 +213,18 @@ impl LogReader for TableReader {
     }
 }
 
-/// The dialect by the whole rows of the beginning. The file is then at its beginning again.
-fn dialect_of(file: &mut File, path: &Path) -> Result<Dialect, Diagnostic> {
-    let failed = |fault| unreadable(path, &fault);
-    let mut head = Vec::new();
-    file.take(HEAD_BYTES).read_to_end(&mut head).map_err(failed)?;
-    file.seek(SeekFrom::Start(0)).map_err(failed)?;
-    let refused = |code: &'static Code, message: &str, help: &str| {
-        Diagnostic::error(code, format!("{} {message}", path.display())).with_help(help)
-    };
-    if head.is_empty() {
-        return Err(refused(congruent_input::codes::file::EMPTY, "is empty", "record it again"));
-    }
-    if head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]) {
-        let help = "save it as CSV in UTF-8; `iconv -f UTF-16 -t UTF-8 FILE` does it";
-        return Err(refused(codes::log::TABLE_ENCODING, "is UTF-16", help));
-    }
-    if head.len() as u64 == HEAD_BYTES {
-        let end = head.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-        head.truncate(end);
-    }
-    Dialect::of(&head).map_err(|fault| match fault {
-        NoTable::NoNumbers => {
-            let help = "a table has a row for each time, with numbers separated by commas, semicolons, tabulators or blanks";
-            refused(codes::log::TABLE_ENCODING, "is no table of numbers", help)
-        }
-        NoTable::Header { names, cells } => {
-            let message = format!("has {} in its header and {} in its rows", counted(names, "name"), counted(cells, "cell"));
-            refused(codes::log::TABLE_ENCODING, &message, "give each column a name")
-        }
-    })
-}
-
 /// The given rate before the column of times: who gives one knows that the times are of no use.
-fn row_time(dialect: &Dialect, options: &LogOptions) -> Result<RowTime, Diagnostic> {
+fn row_time(head: &TableHead, options: &LogOptions) -> Result<RowTime, Diagnostic> {
     if let Some(rate_hz) = options.rate_hz {
         return Ok(RowTime::RateHz(rate_hz));
     }
-    let message = match find_time(dialect) {
+    let message = match find_time(head) {
         FoundTime::Column(column) => return Ok(RowTime::Column(column)),
         FoundTime::Coarse(column) => {
-            format!("most rows have the time of the row before in column \"{}\"", dialect.name(column))
+            format!("most rows have the time of the row before in column \"{}\"", head.name(column))
         }
         FoundTime::NoNumbers(column) => {
-            let name = dialect.name(column);
+            let name = head.name(column);
             format!("column \"{name}\" is named as a time, and its cells are not numbers")
         }
         FoundTime::None => "no column has the times of the rows".to_owned(),
@@ -299,18 +244,16 @@ fn no_columns(columns: &ReadColumns, options: &LogOptions) -> Diagnostic {
         .with_help(format!("{hint}; columns: {listed}"))
 }
 
-fn reading(dialect: &Dialect, time: RowTime, columns: &ReadColumns) -> TableReading {
+fn reading(head: &TableHead, text: Option<TableText>, time: RowTime, columns: &ReadColumns) -> TableReading {
     let time = match time {
         RowTime::Column(TimeColumn { column, unit, unit_from }) => {
-            TableTime::Column { name: dialect.name(column), unit, unit_from }
+            TableTime::Column { name: head.name(column), unit, unit_from }
         }
         RowTime::RateHz(rate_hz) => TableTime::RateHz(rate_hz),
     };
     TableReading {
-        separator: dialect.separator,
-        has_header: dialect.names.is_some(),
-        decimal: dialect.decimal,
-        encoding: dialect.encoding,
+        text,
+        has_header: head.names.is_some(),
         time,
         preset: columns.preset,
         columns: columns.described.clone(),
@@ -318,12 +261,13 @@ fn reading(dialect: &Dialect, time: RowTime, columns: &ReadColumns) -> TableRead
     }
 }
 
-fn topics(path: &Path, columns: &ReadColumns) -> Vec<LogTopic> {
+fn topics(path: &Path, format: LogFormat, columns: &ReadColumns) -> Vec<LogTopic> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let encoding = if format == LogFormat::Table { "csv" } else { "parquet" };
     let topic = |name: String, content| LogTopic {
         name,
         message_type: "rows of a table".to_owned(),
-        encoding: "csv".to_owned(),
+        encoding: encoding.to_owned(),
         content,
     };
     let pose = columns.tcp_pose.map(|_| topic("actual_TCP_pose".to_owned(), TopicContent::Pose));

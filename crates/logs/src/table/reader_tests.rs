@@ -3,11 +3,13 @@
 use std::io::Write;
 
 use super::*;
+use crate::csv;
 
 fn open(text: &[u8], options: &LogOptions) -> Result<(TableReader, tempfile::NamedTempFile), Diagnostic> {
     let mut file = tempfile::NamedTempFile::with_suffix(".csv").unwrap();
     file.write_all(text).unwrap();
-    TableReader::open(file.path(), options).map(|reader| (reader, file))
+    let table = csv::open(file.path())?;
+    TableReader::new(file.path(), table, options).map(|reader| (reader, file))
 }
 
 #[track_caller]

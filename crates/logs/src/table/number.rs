@@ -7,7 +7,7 @@ const MISSING: [&str; 6] = ["null", "none", "n/a", "na", "nil", "-"];
 
 /// How a cell reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum CellValue {
+pub(crate) enum CellValue {
     Number(f64),
     /// Empty, or a word for it.
     Missing,
@@ -15,7 +15,7 @@ pub(super) enum CellValue {
 }
 
 /// Reads a cell.
-pub(super) fn cell_value(cell: &str, decimal: DecimalMark) -> CellValue {
+pub(crate) fn cell_value(cell: &str, decimal: DecimalMark) -> CellValue {
     let cell = cell.trim().trim_matches('"');
     let parsed = if decimal == DecimalMark::Comma && cell.contains(',') {
         cell.replacen(',', ".", 1).parse()
