@@ -13,10 +13,12 @@ use nalgebra::Isometry3;
 
 use super::replayed::Replayed;
 
-/// Offsets of the clock of the poses at which joint positions are kept, s: one every 50 ms. Kind: choice; between three of them the
-/// path of an arm is a parabola within some um.
-pub(super) const OFFSETS_S: [f64; 13] =
-    [-0.3, -0.25, -0.2, -0.15, -0.1, -0.05, 0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
+/// Offsets of the clock of the poses at which joint positions are kept, s: one every 25 ms. Kind: choice; between three of them the
+/// path of a fast arm is a parabola within some um.
+pub(super) const OFFSETS_S: [f64; 25] = [
+    -0.3, -0.275, -0.25, -0.225, -0.2, -0.175, -0.15, -0.125, -0.1, -0.075, -0.05, -0.025, 0.0, 0.025, 0.05,
+    0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3,
+];
 /// Poses that are kept of each topic, evenly over the log.
 const MOST_PAIRS: f64 = 400.0;
 

@@ -84,6 +84,11 @@ impl<T> InOrder<T> {
         }
     }
 
+    /// The latest time that was seen.
+    pub(super) fn newest_s(&self) -> f64 {
+        self.newest_s
+    }
+
     /// Time between the earliest and the latest message.
     fn span_s(&self) -> f64 {
         self.heap.peek().map_or(0.0, |first| self.newest_s - first.time_s)

@@ -3,7 +3,7 @@
 use std::{collections::VecDeque, sync::Arc};
 
 use super::{
-    in_order::InOrder,
+    in_order::{InOrder, SPAN_S},
     joint_row::{JointRow, JointRowCounts},
     joint_series::{JointTrace, SeriesPoint},
     selection::{SelectedJoint, SelectedJoints, StreamSelection},
@@ -142,6 +142,7 @@ impl RowMaker {
 
     /// Makes the next row, if all joints are known by now or cannot be any more; returns whether there is one.
     pub(super) fn advance(&mut self) -> bool {
+        self.give_what_waits();
         while let Some(&time_s) = self.pending.front() {
             if !self.is_decided(time_s) {
                 return false;
@@ -156,6 +157,17 @@ impl RowMaker {
             self.left_out += 1;
         }
         false
+    }
+
+    /// Gives the last messages of topics that have become silent: no later one will come between them.
+    fn give_what_waits(&mut self) {
+        let Some(first_s) = self.topics.first().map(|topic| topic.reached_s) else { return };
+        for selection in 0..self.topics.len() {
+            if first_s - self.topics[selection].messages.newest_s() > 2.0 * SPAN_S {
+                self.topics[selection].messages.flush();
+                self.sort(selection);
+            }
+        }
     }
 
     /// The row that was made last.
