@@ -198,7 +198,7 @@ fn another_tool_is_the_cause() {
     assert_eq!(answer.code, 1, "{}", answer.stdout);
     assert!((worst(&report, "pose").0 - 0.012).abs() < 1e-6);
     let note = check(&report, "pose")["notes"][0].as_str().unwrap();
-    assert!(note.contains("the tool: with tool.z") && note.contains("12 mm"), "{note}");
+    assert!(note.contains("the tool, with the correction tool.z 12 mm"), "{note}");
 }
 
 #[test]

@@ -9,9 +9,16 @@ thread_local! {
     static WORDS: RefCell<Vec<String>> = const { RefCell::new(Vec::new()) };
 }
 
+/// Options with a topic, which begins with a slash as a path does.
+const OF_TOPICS: [&str; 5] =
+    ["--joints", "--setpoint", "--measured-pose", "--controller-pose", "--derived-pose"];
+
 /// Keeps the words of a call, the first of which is the program.
 pub(crate) fn note(words: &[OsString]) {
-    let words = words.iter().skip(1).map(|word| shown(&word.to_string_lossy())).collect();
+    let words: Vec<String> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+    let is_topic = |at: usize| OF_TOPICS.contains(&words[at - 1].as_str());
+    let words = (1..words.len()).map(|at| if is_topic(at) { words[at].clone() } else { shown(&words[at]) });
+    let words = words.collect();
     WORDS.with(|kept| *kept.borrow_mut() = words);
 }
 
@@ -33,14 +40,8 @@ fn shown(word: &str) -> String {
     }
 }
 
-/// Of a path that is there, or whose folder is: other words that begin with a slash are topics.
 fn portable(word: &str) -> String {
-    let path = Path::new(word);
-    let in_folder = path.parent().is_some_and(|folder| folder.parent().is_some() && folder.exists());
-    if path.is_absolute() && !path.exists() && !in_folder {
-        return word.to_owned();
-    }
-    portable_path(path).display().to_string()
+    portable_path(Path::new(word)).display().to_string()
 }
 
 #[cfg(test)]
@@ -49,7 +50,6 @@ mod tests {
 
     #[test]
     fn a_command_is_quoted_and_names_no_absolute_path() {
-        assert_eq!(shown("/tool/pose"), "/tool/pose");
         let words = [
             "/usr/bin/congruent",
             "check",
@@ -57,10 +57,16 @@ mod tests {
             "--html=/elsewhere/x.html",
             "--tolerance",
             "1mm",
+            "--setpoint",
+            "/arm/reference",
         ];
         note(&words.map(OsString::from));
         let shown = command();
         assert!(shown.starts_with("congruent check 'my robot.toml' --html="), "{shown}");
-        assert!(shown.ends_with("elsewhere/x.html --tolerance 1mm") && !shown.contains("=/"), "{shown}");
+        assert!(
+            shown.ends_with("elsewhere/x.html --tolerance 1mm --setpoint /arm/reference")
+                && !shown.contains("=/"),
+            "{shown}"
+        );
     }
 }

@@ -10,7 +10,7 @@ use congruent::{
     input::{Diagnostic, FileAccess, Findings},
     logs::is_log,
     other_description,
-    replay::{ReplayDraft, ReplayRequest, in_folder, replay_draft, replay_text},
+    replay::{LEFT_OUT, ReplayDraft, ReplayRequest, in_folder, replay_draft, replay_text},
     results::files::write_whole,
     scenario::{LogClock, PoseOrigin},
 };
@@ -29,7 +29,7 @@ use crate::{
 ///
 /// The log is an MCAP, a table in CSV, or a folder that rosbag2 wrote. A `robot_description` in it is compared with the robot first.
 /// Joints are found by their names; poses by the names of their topics and frames. Poses in frames that the robot does not have
-/// are fitted to the log: then their constant error cannot be seen. The scenario is written beside the results; `congruent run`
+/// are fitted to the log, so that a constant error of base or tool is not found. The scenario is written beside the results; `congruent run`
 /// runs it again. Exit code 1 if a check fails or the recorded description is another robot.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     /// Folder for the scenario and for its results.
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// Replace the scenario file of an earlier call, also if it was changed.
+    /// Replace the scenario file of an earlier call, even if you have edited it.
     #[arg(long)]
     force: bool,
     /// The topic with the measured joint states, if several have the same joints.
@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     /// The topic with the commanded joint states, which the measured ones are compared with.
     #[arg(long, value_name = "TOPIC")]
     setpoint: Option<String>,
-    /// The positions of joints that turn are degrees.
+    /// Positions and velocities of joints that turn are in degrees.
     #[arg(long)]
     degrees: bool,
     /// Poses of this topic were measured, by a tracker or a camera. May be given several times.
@@ -160,9 +160,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         &arguments.access,
     );
     let exit_code = super::run(&call, printer)?;
+    // Also with --quiet, and behind the verdict, which does not have them.
+    for line in draft.taken.iter().filter(|line| line.starts_with(LEFT_OUT)) {
+        printer.hint(&format!("not judged: {}", line.trim_start_matches(LEFT_OUT)));
+    }
     let Some(recorded) = recorded.filter(|recorded| recorded.is_other) else { return Ok(exit_code) };
-    // Also with --quiet: the verdict of the run does not have it.
-    printer.hint(&format!("the log was recorded with another robot: {}", recorded.line));
+    printer.hint(&format!("FAIL: the robot_description in the log is not this robot: {}", recorded.line));
     Ok(worse(exit_code, FAILED))
 }
 

@@ -19,6 +19,7 @@ use super::{
     paired::{OFFSETS_S, PairedPose, pairs},
     pose_fit::{FittedPoses, PoseClock, PoseOverOffsets, PosesToFit},
     replayed::Replayed,
+    survey_words::LEFT_OUT,
 };
 
 /// A target that turns by more while its recorded rotation stays is a point without a rotation, rad.
@@ -48,7 +49,7 @@ pub(super) fn fit(
         let pairs = pairs.next().unwrap_or_default();
         let fitted = PoseFit { description: replayed.description, pairs: &pairs }.fill(pose);
         let is_compared = fitted.is_ok();
-        taken.push(fitted.unwrap_or_else(|why| format!("left out: {}: {why}", pose.topic)));
+        taken.push(fitted.unwrap_or_else(|why| format!("{LEFT_OUT}poses of {}: {why}", pose.topic)));
         is_compared
     });
     Ok(())
@@ -265,7 +266,7 @@ fn clock_words(found: &FittedPoses) -> String {
         format!(" and {} ppm", quantity(clock.drift * 1e6, ""))
     };
     format!(
-        "; {offset} (standard deviation {sigma}){drift} are added to its times, which are on another clock than the joints"
+        "; its times are corrected by {offset} (standard deviation {sigma}){drift}: another clock than that of the joints"
     )
 }
 

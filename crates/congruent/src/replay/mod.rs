@@ -14,4 +14,5 @@ mod written;
 pub use draft::{ReplayDraft, in_folder, replay_draft};
 pub use pose_cause::explain_recorded;
 pub use request::ReplayRequest;
+pub use survey_words::LEFT_OUT;
 pub use written::replay_text;

@@ -46,19 +46,28 @@ const NEAR: f64 = 0.05;
 pub fn explain_recorded(run: &mut Run<'_>, outcome: &mut Outcome) -> Causes {
     let setup = run.setup();
     let is_failed = |check: &&mut CheckResult| check.check == CheckKind::Pose && check.status == Status::Fail;
+    let jump = jump(&outcome.checks);
     if let (Some(check), Some(_)) = (outcome.checks.iter_mut().find(is_failed), &setup.recorded) {
         let violated = check.measures.iter().filter(|measure| measure.first_violation.is_some());
         let moments = violated.flat_map(|measure| [&measure.first_violation, &measure.worst]);
         let beyond: Vec<String> = moments.flatten().map(|moment| moment.subject.clone()).collect();
-        let causes = causes(setup, &beyond);
+        let causes = causes(setup, &beyond, jump.as_deref());
         // Before the other remarks: it is what to do.
         check.notes.splice(0..0, causes);
     }
     explain(run, outcome)
 }
 
+/// The jump of a joint that the check of jumps has found, which no constant error explains.
+fn jump(checks: &[CheckResult]) -> Option<String> {
+    let is_jump = |check: &&CheckResult| check.check == CheckKind::Step && check.status == Status::Fail;
+    let measures = &checks.iter().find(is_jump)?.measures;
+    let worst = measures.iter().find(|measure| measure.first_violation.is_some())?.worst.as_ref()?;
+    Some(format!("{} jumped at {}, see the check step", worst.subject, quantity(worst.time_s, "s")))
+}
+
 /// A sentence for each of the poses that are beyond a limit.
-fn causes(setup: &RunSetup, beyond: &[String]) -> Vec<String> {
+fn causes(setup: &RunSetup, beyond: &[String], jump: Option<&str>) -> Vec<String> {
     let Some((source, recorded)) = setup.scenario.source.as_ref().zip(setup.recorded.as_ref()) else {
         return Vec::new();
     };
@@ -68,7 +77,7 @@ fn causes(setup: &RunSetup, beyond: &[String]) -> Vec<String> {
         let explained = ExplainedPoses { description: &setup.description, compared, pairs };
         // A pose that is computed by another URDF differs by that URDF: `check --against` names the difference.
         let is_asked = compared.origin != PoseOrigin::Derived && beyond.contains(&compared.name);
-        is_asked.then(|| explained.cause()).flatten()
+        is_asked.then(|| explained.cause(jump)).flatten()
     };
     let held = (!recorded.held.is_empty())
         .then(|| format!("not in the log, so taken to be at their start: {}", recorded.held.join(", ")));
@@ -82,6 +91,20 @@ struct ExplainedPoses<'a> {
     pairs: &'a [PairedPose],
 }
 
+/// A cause in words, and what remains with its correction.
+struct Cause {
+    what: String,
+    left_m: f64,
+    /// What follows the distance that remains.
+    rest: String,
+}
+
+impl Cause {
+    fn new(what: String, left_m: f64) -> Self {
+        Self { what, left_m, rest: String::new() }
+    }
+}
+
 /// What remains with some corrections.
 struct RemainingError {
     rms_m: f64,
@@ -91,7 +114,7 @@ struct RemainingError {
 }
 
 impl ExplainedPoses<'_> {
-    fn cause(&self) -> Option<String> {
+    fn cause(&self, jump: Option<&str>) -> Option<String> {
         let poses = over_offsets(self.description, self.compared, self.pairs);
         if poses.len() < FEWEST {
             return None;
@@ -102,16 +125,20 @@ impl ExplainedPoses<'_> {
         }
         let rows = self.rows();
         let before = self.remaining(&rows, &[])?;
+        let found = self
+            .of_clock(&poses, before.rms_m)
+            .or_else(|| self.of_frames(&rows, &before))
+            .or_else(|| self.of_arm(&rows, &before));
         let distance = length(before.rms_m);
-        if let Some(clock) = self.of_clock(&poses, before.rms_m) {
-            return Some(format!("cause ({name}, distance {distance} rms): {clock}"));
-        }
-        let found = self.of_frames(&rows, &before).or_else(|| self.of_arm(&rows, &before));
-        Some(match found {
-            Some(cause) => format!("cause ({name}, distance {distance} rms): {cause}"),
-            None => format!(
-                "no cause found ({name}, distance {distance} rms): neither a clock within {}, nor the frames, the zero of a joint or the \
-                 geometry explains it",
+        Some(match (found, jump) {
+            (Some(Cause { what, left_m, rest }), _) => {
+                let left = length(left_m);
+                format!("cause ({name}): {what}; the distance falls from {distance} to {left} (rms){rest}")
+            }
+            (None, Some(jump)) => format!("likely cause ({name}, distance {distance} rms): {jump}"),
+            (None, None) => format!(
+                "no single cause found ({name}, distance {distance} rms): neither a clock within {}, the frames, the zero of one joint, nor \
+                 the geometry",
                 quantity(largest_offset_s(), "s")
             ),
         })
@@ -141,65 +168,58 @@ impl ExplainedPoses<'_> {
         self.pairs.iter().enumerate().step_by(every).filter_map(row).collect()
     }
 
-    fn of_clock(&self, poses: &[PoseOverOffsets], before_m: f64) -> Option<String> {
+    fn of_clock(&self, poses: &[PoseOverOffsets], before_m: f64) -> Option<Cause> {
         let clock = PosesToFit { poses, with_rotations: !self.compared.position_only }.fit().clock;
         let mean = |clock: &PoseClock| poses.iter().map(|at| at.distance_m(clock).powi(2)).sum::<f64>();
         let left_m = before_m * (mean(&clock) / mean(&PoseClock::default())).sqrt();
         let offset = quantity(self.compared.offset_s + clock.offset_s, "s");
         (clock.offset_s != 0.0 && left_m <= LEFT * before_m)
-            .then(|| format!("the clock: with offset_s = {offset} it is {}", length(left_m)))
+            .then(|| Cause::new(format!("the clock: write offset_s = {offset}"), left_m))
     }
 
     /// The tool or the base, unless they were fitted already.
-    fn of_frames(&self, rows: &[MeasuredRow], before: &RemainingError) -> Option<String> {
+    fn of_frames(&self, rows: &[MeasuredRow], before: &RemainingError) -> Option<Cause> {
         if self.compared.frames_are_fitted {
             return None;
         }
         let frames = [("the tool", "tool"), ("the base", "base")];
-        let mut found: Vec<(&str, RemainingError)> = frames
-            .into_iter()
-            .filter_map(|(what, group)| Some((what, self.remaining(rows, &[group])?)))
-            .collect();
-        found.retain(|(_, left)| left.size_m <= LEFT * before.size_m);
-        let (what, left) = found.first()?;
-        let zero = self.of_zero(rows);
-        let other = zero.filter(|zero| zero.size_m <= AS_WELL * left.size_m);
-        let other = other.map_or_else(String::new, |zero| {
-            format!("; the zero of one joint explains it as well: {}", zero.words)
-        });
-        Some(format!("{what}: with {} it is {}{other}", left.words, length(left.rms_m)))
+        let fitted = |(what, group): (&'static str, &str)| Some((what, self.remaining(rows, &[group])?));
+        let is_enough = |(_, left): &(&str, RemainingError)| left.size_m <= LEFT * before.size_m;
+        let (what, left) = frames.into_iter().filter_map(fitted).find(is_enough)?;
+        let zero = self.of_zero(rows).filter(|zero| zero.size_m <= AS_WELL * left.size_m);
+        let words = match zero {
+            Some(zero) => format!(
+                "either {what}, with the correction {}, or the zero of one joint, {}, which this log does not distinguish",
+                left.words, zero.words
+            ),
+            None => format!("{what}, with the correction {}", left.words),
+        };
+        Some(Cause::new(words, left.rms_m))
     }
 
     /// The zero of one joint, both frames, or the table.
-    fn of_arm(&self, rows: &[MeasuredRow], before: &RemainingError) -> Option<String> {
+    fn of_arm(&self, rows: &[MeasuredRow], before: &RemainingError) -> Option<Cause> {
+        let is_enough = |left: &RemainingError| left.size_m <= LEFT * before.size_m;
         let all = self.remaining(rows, &["all"]);
-        if let Some(zero) = self.of_zero(rows).filter(|zero| zero.size_m <= LEFT * before.size_m) {
+        if let Some(zero) = self.of_zero(rows).filter(is_enough) {
             let rest = all.filter(|all| all.size_m < LEFT * zero.size_m);
-            let rest = rest.map_or_else(String::new, |all| {
-                format!("; with the whole geometry it is {}", length(all.rms_m))
-            });
-            return Some(format!(
-                "the zero of one joint: with {} it is {}{rest}",
-                zero.words,
-                length(zero.rms_m)
+            let rest = rest.map(|all| format!(", with the whole geometry to {}", length(all.rms_m)));
+            let cause =
+                Cause::new(format!("the zero of one joint, with the correction {}", zero.words), zero.rms_m);
+            return Some(Cause { rest: rest.unwrap_or_default(), ..cause });
+        }
+        if !self.compared.frames_are_fitted
+            && let Some(left) = self.remaining(rows, &["base", "tool"]).filter(is_enough)
+        {
+            return Some(Cause::new(
+                format!("base and tool together, with the corrections {}", left.words),
+                left.rms_m,
             ));
         }
-        if !self.compared.frames_are_fitted {
-            let frames =
-                self.remaining(rows, &["base", "tool"]).filter(|left| left.size_m <= LEFT * before.size_m);
-            if let Some(left) = frames {
-                return Some(format!(
-                    "base and tool together: with {} it is {}",
-                    left.words,
-                    length(left.rms_m)
-                ));
-            }
-        }
-        let all = all.filter(|all| all.size_m <= LEFT * before.size_m)?;
-        let left = length(all.rms_m);
-        Some(format!(
-            "the geometry of the arm, with base and tool: with corrections it is {left}; `calibrate` names them from still poses"
-        ))
+        let all = all.filter(is_enough)?;
+        let what =
+            "the geometry of the arm, with base and tool; `calibrate` names the corrections from still poses";
+        Some(Cause::new(what.to_owned(), all.rms_m))
     }
 
     /// The joint whose zero alone explains most.

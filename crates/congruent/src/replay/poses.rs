@@ -5,7 +5,10 @@ use congruent_input::{Diagnostic, Findings, known_names};
 use congruent_logs::{FramePair, LogSurvey, TopicContent, TopicSurvey};
 use congruent_scenario::{LoggedPoseSettings, PoseOrigin, PoseSettings};
 
-use super::{request::ReplayRequest, survey_words::rate};
+use super::{
+    request::ReplayRequest,
+    survey_words::{LEFT_OUT, rate},
+};
 use crate::codes;
 
 /// Parts of names of topics and frames that a robot's driver publishes: computed by its controller.
@@ -62,7 +65,7 @@ pub(super) fn chosen_poses(
             match origin(stated, topic, pair, description) {
                 Some(origin) => of_topic.push(settings(topic, pair, origin, description)),
                 None if topic.content == TopicContent::Pose => taken.push(format!(
-                    "left out: poses of {}, whose origin is not known (--measured-pose {0}, or --controller-pose {0})",
+                    "{LEFT_OUT}poses of {}: say where they come from by --measured-pose {0} or --controller-pose {0}",
                     topic.name
                 )),
                 None => {}

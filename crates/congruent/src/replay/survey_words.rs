@@ -2,6 +2,9 @@
 
 use congruent_logs::LogSurvey;
 
+/// How a line begins that says what is not judged, and why.
+pub const LEFT_OUT: &str = "left out: ";
+
 /// The rate of a topic, for a line.
 pub(super) fn rate(survey: &LogSurvey, topic: &str) -> String {
     let topic = survey.topics.iter().find(|of| of.name == topic);

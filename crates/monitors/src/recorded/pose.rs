@@ -82,14 +82,17 @@ fn shows(poses: &ComparedPoses) -> String {
         PoseOrigin::Measured => "measured",
     };
     let fitted = if poses.frames_are_fitted {
-        "; their frames were fitted to the log: no constant error of base or tool can be seen"
+        "; base and target were fitted to this log, so a constant error of either is not found"
     } else {
         ""
     };
     let clock = if poses.offset_s == 0.0 {
         String::new()
     } else {
-        format!("; {} are added to their times", quantity(poses.offset_s * 1e3, "ms"))
+        format!(
+            "; their times were corrected by {}, since their clock is another one than that of the joints",
+            quantity(poses.offset_s * 1e3, "ms")
+        )
     };
     format!("{shows}{fitted}{clock}")
 }

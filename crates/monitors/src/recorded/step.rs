@@ -250,7 +250,10 @@ impl<'a> StepMonitor<'a> {
         if unseen.is_empty() {
             return Vec::new();
         }
-        vec![format!("the scatter of the poses hides jumps below: {}", unseen.join(", "))]
+        vec![format!(
+            "the smallest jumps that the scatter of the poses shows are above the limit: {}",
+            unseen.join(", ")
+        )]
     }
 }
 

@@ -8,7 +8,7 @@ use congruent_monitors::{JointSample, JointStateView, SetpointView};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::joint_states::{Advance, JointStateSource, SourceError, SourcePose};
-use crate::{codes::scenario, setup::RecordedSetup};
+use crate::{codes, setup::RecordedSetup};
 
 /// How long rows are kept for poses that come later in the log, s.
 const KEPT_S: f64 = 3.0;
@@ -104,7 +104,7 @@ impl<'a> RecordedSource<'a> {
             self.setup.path.display(),
             counts.incomplete
         );
-        congruent_input::Diagnostic::error(scenario::LOGGED_NOTHING, message).with_help(
+        congruent_input::Diagnostic::error(codes::scenario::LOGGED_NOTHING, message).with_help(
             "`congruent describe LOG --robot ROBOT` shows the topics, their times and their joints",
         )
     }

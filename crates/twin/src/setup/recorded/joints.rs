@@ -11,7 +11,7 @@ use congruent_scenario::{
     AngleUnit, FilePlace, JointRole, LoggedEffort, LoggedJointSettings, SourceSettings,
 };
 
-use crate::codes::scenario;
+use crate::codes;
 
 /// The joints that are taken from a log.
 #[derive(Debug)]
@@ -42,7 +42,9 @@ pub(super) fn choose(
     if measured.first().is_none_or(|topic| topic.is_setpoint) {
         let message = "the log gives setpoints only: there are no measured joint states to judge";
         let help = "give a [[source.joints]] with role = \"measured\"";
-        return Err(place.mark(Diagnostic::error(scenario::LOGGED_JOINTS, message).with_help(help)).into());
+        return Err(place
+            .mark(Diagnostic::error(codes::scenario::LOGGED_JOINTS, message).with_help(help))
+            .into());
     }
     let is_taken = |joint: usize| {
         let mut of_measured = measured.iter().filter(|topic| !topic.is_setpoint);
@@ -73,7 +75,7 @@ fn all(place: FilePlace<'_>, survey: &LogSurvey, robot: &Robot) -> Result<Vec<Se
         );
         return Err(place
             .key("log")
-            .mark(Diagnostic::error(scenario::LOGGED_UNIT, message).with_help(help))
+            .mark(Diagnostic::error(codes::scenario::LOGGED_UNIT, message).with_help(help))
             .into());
     }
     let selected = |source: &&JointSource| SelectedJoints {
@@ -116,7 +118,7 @@ fn on_two_topics(sources: &[&JointSource], joint: &str) -> Diagnostic {
         "`replay` takes --joints TOPIC, and --setpoint TOPIC for commanded ones; a scenario has, with role = \"setpoint\" for those:\n{}",
         written.join("\nor\n")
     );
-    Diagnostic::error(scenario::LOGGED_JOINTS, message).with_help(help)
+    Diagnostic::error(codes::scenario::LOGGED_JOINTS, message).with_help(help)
 }
 
 /// How the names of a source differ from those of the robot, for a message.
@@ -157,7 +159,7 @@ fn no_joint(survey: &LogSurvey, robot: &Robot) -> Diagnostic {
         let own: Vec<&str> = robot.movable_joint_names().collect();
         format!("it has the joints {}; the robot has {}", listed(&named), listed(&own))
     };
-    Diagnostic::error(scenario::LOGGED_JOINTS, message).with_help(help)
+    Diagnostic::error(codes::scenario::LOGGED_JOINTS, message).with_help(help)
 }
 
 /// Some names for a message.
@@ -187,7 +189,7 @@ fn named(
             if let Some(before) = taken.insert((of_topic.is_setpoint, joint.joint), &settings.topic) {
                 let name = robot.movable_joint_names().nth(joint.joint).unwrap_or_default();
                 let message = format!("joint \"{name}\" is taken from {before} and from {}", settings.topic);
-                let error = Diagnostic::error(scenario::LOGGED_JOINTS, message);
+                let error = Diagnostic::error(codes::scenario::LOGGED_JOINTS, message);
                 let help = "remove one of them, or give it role = \"setpoint\"";
                 return Err(place.mark(error.with_help(help)).into());
             }
@@ -209,7 +211,7 @@ fn joints_of(
         topic.joints.iter().flat_map(|of| of.joints.iter().map(|joint| joint.name.as_str())).collect();
     if let Some(unknown) = settings.names.keys().find(|name| !own.contains(&name.as_str())) {
         let message = format!("the robot has no moving joint \"{unknown}\"");
-        let error = Diagnostic::error(scenario::LOGGED_JOINTS, message);
+        let error = Diagnostic::error(codes::scenario::LOGGED_JOINTS, message);
         return Err(place.key("names").mark(error.with_help(known_names(unknown, "joints", own))).into());
     }
     let mut joints = Vec::new();
@@ -220,7 +222,7 @@ fn joints_of(
         if !logged.contains(&in_log.as_str()) {
             if stated.is_some() {
                 let message = format!("{} has no joint \"{in_log}\"", settings.topic);
-                let error = Diagnostic::error(scenario::LOGGED_JOINTS, message);
+                let error = Diagnostic::error(codes::scenario::LOGGED_JOINTS, message);
                 let help = known_names(&in_log, "joints of the topic", logged);
                 return Err(place.key("names").mark(error.with_help(help)).into());
             }
@@ -233,7 +235,7 @@ fn joints_of(
     }
     if joints.is_empty() {
         let message = format!("{} has no joint of robot \"{}\" by these names", settings.topic, robot.name());
-        let error = Diagnostic::error(scenario::LOGGED_JOINTS, message);
+        let error = Diagnostic::error(codes::scenario::LOGGED_JOINTS, message);
         let help = format!("it has {}; give `prefix`, `suffix` or `names`", listed(&logged));
         return Err(place.key("topic").mark(error.with_help(help)).into());
     }
@@ -266,7 +268,7 @@ pub(super) fn topic_of<'s>(
         let what = if content == TopicContent::Joints { "joint states" } else { "poses" };
         let message = format!("the log has no topic \"{name}\" with {what}");
         let names: Vec<&str> = known().map(|topic| topic.name.as_str()).collect();
-        let error = Diagnostic::error(scenario::LOGGED_TOPIC, message);
+        let error = Diagnostic::error(codes::scenario::LOGGED_TOPIC, message);
         let help = if names.is_empty() {
             format!("none of its topics has {what} that can be read")
         } else {

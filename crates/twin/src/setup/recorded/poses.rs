@@ -8,7 +8,7 @@ use congruent_scenario::{FilePlace, LoggedPoseSettings, SourceSettings};
 use nalgebra::Isometry3;
 
 use super::joints::topic_of;
-use crate::codes::scenario;
+use crate::codes;
 
 /// The poses that a scenario names, with their frames in the robot.
 ///
@@ -46,7 +46,7 @@ fn frames(
     };
     let all: Vec<String> = topic.frames.iter().map(words).collect();
     let refused = |message: String| {
-        let error = Diagnostic::error(scenario::LOGGED_FRAMES, message);
+        let error = Diagnostic::error(codes::scenario::LOGGED_FRAMES, message);
         Err(place.mark(error.with_help(format!("the topic has {}", all.join("; ")))))
     };
     match found.as_slice() {
@@ -113,7 +113,7 @@ impl RobotFrames<'_> {
             let message = format!("the robot has no link \"{name}\"");
             let links = self.description.robot.links().iter();
             let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
-            let error = Diagnostic::error(scenario::UNKNOWN_LINK, message);
+            let error = Diagnostic::error(codes::scenario::UNKNOWN_LINK, message);
             self.place.key(key).mark(error.with_help(known_names(name, "links", names)))
         })
     }
@@ -140,7 +140,7 @@ impl RobotFrames<'_> {
 
 fn unknown_frame(place: FilePlace<'_>, frame: &str) -> Diagnostic {
     let message = format!("the poses are in frame \"{frame}\", which is no link of the robot");
-    place.mark(Diagnostic::error(scenario::LOGGED_FRAMES, message).with_help(
+    place.mark(Diagnostic::error(codes::scenario::LOGGED_FRAMES, message).with_help(
         "give `from_link`, and `link_from_frame` if the frame is not that of the link; `congruent replay` fits it to the log",
     ))
 }

@@ -13,7 +13,7 @@ use super::{
     joints::{ChosenJoints, choose},
     poses::poses,
 };
-use crate::{codes::scenario, setup::written_at::WrittenAt};
+use crate::{codes, setup::written_at::WrittenAt};
 
 /// Gaps across which nothing is interpolated are at least this long, s. Kind: choice; a sample that is late by a period is none.
 const SHORTEST_GAP_S: f64 = 0.02;
@@ -111,7 +111,7 @@ fn in_order(settings: &SourceSettings, place: FilePlace<'_>) -> Result<(), Diagn
         return Ok(());
     }
     let message = format!("from_s = {from_s} is not before until_s = {until_s}");
-    Err(place.key("until_s").mark(Diagnostic::error(scenario::LOGGED_NOTHING, message)))
+    Err(place.key("until_s").mark(Diagnostic::error(codes::scenario::LOGGED_NOTHING, message)))
 }
 
 /// Stamps, if the topic of the first joints has them and no other clock is wanted.
