@@ -18,6 +18,15 @@ pub enum PoseChange {
     AsBefore,
 }
 
+/// What is between two samples that do not follow each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interruption {
+    /// A time without samples.
+    Gap,
+    /// Another part of what was recorded begins: its time from the sample before means nothing.
+    NewPart,
+}
+
 /// One instant: borrowed from the run loop, nothing is copied.
 #[derive(Debug)]
 pub struct Sample<'a> {
@@ -30,6 +39,8 @@ pub struct Sample<'a> {
     pub since_s: Option<f64>,
     /// Instants since the sample before that the source has left out, since a joint was not known.
     pub left_out: u64,
+    /// What is between the sample before and this one; `None` for the first, and for one that follows.
+    pub interruption: Option<Interruption>,
     /// When the last motion ends, as far as it is known by now.
     pub motions_s: f64,
     /// Whether the poses are those of the sample before.

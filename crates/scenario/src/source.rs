@@ -11,7 +11,7 @@ use super::{
     text::{optional_variant, variant},
 };
 
-/// `[source]`: a log of the real robot, whose joint states the run takes. It excludes [controller], [[motion]], [[fault]] and the
+/// `[source]`: a log of the real robot, whose joint states the run takes. It excludes `[controller]`, `[[motion]]`, `[[fault]]` and the
 /// length of a simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -16,7 +16,7 @@ use crate::{
     chain::NominalChain,
     codes,
     estimation::{
-        CorrectedChain, FixedParameter, Identification, MOST_FOLDS, MeasuredInformation,
+        CorrectedChain, FixedParameter, Identification, MOST_FOLDS, MeasuredInformation, ParameterUnit,
         identify_by_information,
     },
     free,
@@ -29,6 +29,11 @@ const CANDIDATES: usize = 60;
 const SIGNIFICANT_SIGMAS: f64 = 2.0;
 /// Fewest rows of a file: without one of a fold, the others must still have a mean to be compared with.
 const FEWEST_ROWS: usize = 4;
+
+/// A length of the arm that would change by more than this share of the reach is no assembly error. Kind: judgement.
+const LARGEST_LENGTH: f64 = 0.1;
+/// Tool points that are farther from each other, on average, than this share of the reach have not touched one point. Kind: judgement.
+const LARGEST_SPREAD: f64 = 0.01;
 
 /// Options of a calibration by points.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,13 +86,14 @@ pub fn calibrate_same_point(
     let start = chain.start();
     let spread = |p: &[f64]| SamePointSpread::of_distances(points.distances(p).as_slice().concat().iter());
     let fixed = |each: &FixedParameter| reported_fixed(&chain, each);
+    let implausible = implausible(&points, &identification, &fit);
     let mut report = SamePointReport {
         robot: description.name.clone(),
         chain: description.reported_chain(),
         model,
         tool_frame: if description.tip_from_tcp.is_some() { "tcp".to_owned() } else { tip.clone() },
         rows: points.rows(),
-        verdict: verdict(&identification, held_out.as_ref()),
+        verdict: verdict(&identification, held_out.as_ref(), implausible.as_ref()),
         statements: Vec::new(),
         parameters: corrections(&chain, &identification, &fit),
         fixed: identification.fixed.iter().map(fixed).collect(),
@@ -101,7 +107,8 @@ pub fn calibrate_same_point(
         written: None,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     };
-    report.statements = statements(&report, held_out.as_ref().map(|(_, nominal)| nominal), fit.steps);
+    report.statements =
+        statements(&report, held_out.as_ref().map(|(_, nominal)| nominal), implausible.as_ref());
     Ok(report)
 }
 
@@ -168,15 +175,47 @@ fn held_out(
     Some((SamePointSpread::of_distances(corrected.iter()), SamePointSpread::of_distances(nominal.iter())))
 }
 
+/// Why an estimate is not one of an arm; `None` if it may be. An arm that is shrunk to a point touches every point.
+fn implausible(points: &Points<'_>, identification: &Identification, fit: &PointFit) -> Option<String> {
+    let chain = points.chain;
+    let start = points.tips(chain.start());
+    let reach_m = start.iter().flatten().map(Vector3::norm).fold(0.0, f64::max);
+    if !fit.converged {
+        return Some(format!("least squares did not converge in {} steps", fit.steps));
+    }
+    let unknown = |&&at: &&usize| !fit.standard_deviations[at].is_finite();
+    if let Some(&at) = identification.kept.iter().find(unknown) {
+        return Some(format!("the points do not determine {}", chain.parameters()[at].name));
+    }
+    let is_length = |at: usize| {
+        let parameter = &chain.parameters()[at];
+        parameter.unit() == ParameterUnit::Length && !parameter.name.starts_with("tool.")
+    };
+    let too_long = |&&at: &&usize| is_length(at) && fit.corrections[at].abs() > LARGEST_LENGTH * reach_m;
+    if let Some(&at) = identification.kept.iter().find(too_long) {
+        let (name, value) = (&chain.parameters()[at].name, length(fit.corrections[at].abs()));
+        return Some(format!("{name} would change by {value}, more than a tenth of the reach"));
+    }
+    let corrected =
+        SamePointSpread::of_distances(points.distances(&fit.corrections).as_slice().concat().iter());
+    let largest_m = LARGEST_SPREAD * reach_m;
+    (corrected.mean_m > largest_m).then(|| {
+        let [spread, largest] = [corrected.mean_m, largest_m].map(length);
+        format!("the tool points are still {spread} from each other, more than {largest}, a hundredth of the reach")
+    })
+}
+
 fn verdict(
     identification: &Identification,
     held_out: Option<&(SamePointSpread, SamePointSpread)>,
+    implausible: Option<&String>,
 ) -> SamePointVerdict {
     match held_out {
         _ if identification.kept.is_empty() => SamePointVerdict::NothingIdentified,
         None => SamePointVerdict::Unverifiable,
-        Some((corrected, nominal)) if corrected.mean_m < nominal.mean_m => SamePointVerdict::Explained,
-        Some(_) => SamePointVerdict::NoImprovement,
+        Some((corrected, nominal)) if corrected.mean_m >= nominal.mean_m => SamePointVerdict::NoImprovement,
+        Some(_) if implausible.is_some() => SamePointVerdict::Unexplained,
+        Some(_) => SamePointVerdict::Explained,
     }
 }
 
@@ -216,7 +255,11 @@ fn touched(points: &Points<'_>, files: &[SamePointFile], p: &[f64]) -> Vec<Touch
     files.iter().enumerate().map(point).collect()
 }
 
-fn statements(report: &SamePointReport, nominal: Option<&SamePointSpread>, steps: usize) -> Vec<String> {
+fn statements(
+    report: &SamePointReport,
+    nominal: Option<&SamePointSpread>,
+    implausible: Option<&String>,
+) -> Vec<String> {
     let words =
         |of: &SamePointSpread| format!("{} in the mean, {} at most", length(of.mean_m), length(of.worst_m));
     let spreads = match (&report.held_out, nominal) {
@@ -229,6 +272,7 @@ fn statements(report: &SamePointReport, nominal: Option<&SamePointSpread>, steps
     };
     let first = match report.verdict {
         SamePointVerdict::Explained => "the corrections bring the tool points of each file together",
+        SamePointVerdict::Unexplained => "the corrections do NOT explain the points: keep the nominal model",
         SamePointVerdict::NoImprovement => "the corrections are no better than the nominal model: keep it",
         SamePointVerdict::Unverifiable => "the rows are too few to verify the corrections",
         SamePointVerdict::NothingIdentified => {
@@ -241,8 +285,6 @@ fn statements(report: &SamePointReport, nominal: Option<&SamePointSpread>, steps
             "a point says nothing about the size of the arm: {length} is held, and the other lengths are in its scale"
         ));
     }
-    if !report.converged {
-        statements.push(format!("least squares did not converge in {steps} steps"));
-    }
+    statements.extend(implausible.cloned());
     statements
 }

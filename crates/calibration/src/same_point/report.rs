@@ -71,6 +71,8 @@ pub enum SamePointVerdict {
     Explained,
     /// It is not.
     NoImprovement,
+    /// It is, but the corrections are none that an arm has, or the points are still far from each other.
+    Unexplained,
     /// The rows are too few to hold some out.
     Unverifiable,
     /// No free correction can be identified.

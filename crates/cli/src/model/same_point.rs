@@ -91,6 +91,7 @@ impl SamePointArguments {
         }
         Ok(match report.verdict {
             SamePointVerdict::NoImprovement if is_unwritten => FAILED,
+            SamePointVerdict::Unexplained => FAILED,
             SamePointVerdict::Explained | SamePointVerdict::NoImprovement => 0,
             SamePointVerdict::Unverifiable | SamePointVerdict::NothingIdentified => NOTHING,
         })

@@ -21,6 +21,8 @@ use crate::{
 /// A step back of a clock by more than this is a restart: a clock was set, or a replay began again. Within it messages are put in
 /// order.
 const RESTART_S: f64 = SPAN_S;
+/// Rounding of times, s.
+const ROUNDING_S: f64 = 1e-9;
 /// Time between the last row before a restart and the first one after it. Kind: choice; longer than any gap across which something
 /// is interpolated.
 const BETWEEN_PARTS_S: f64 = 1.0;
@@ -63,6 +65,9 @@ pub struct LogStream {
     clocks: Vec<TopicClock>,
     /// The latest time of a message with joint states.
     latest_s: f64,
+    /// When the parts behind the first begin that no row has reached yet.
+    parts_s: VecDeque<f64>,
+    begins_part: bool,
     has_ended: bool,
 }
 
@@ -86,6 +91,8 @@ impl LogStream {
             shift_s: -selection.origin_s,
             clocks: Vec::new(),
             latest_s: f64::NEG_INFINITY,
+            parts_s: VecDeque::new(),
+            begins_part: false,
             has_ended: false,
             selection,
         })
@@ -103,6 +110,10 @@ impl LogStream {
             }
             if self.rows.advance() {
                 let row_s = self.rows.row().time_s;
+                self.begins_part = self.parts_s.front().is_some_and(|part_s| *part_s <= row_s + ROUNDING_S);
+                if self.begins_part {
+                    self.parts_s.pop_front();
+                }
                 if row_s > until_s {
                     self.has_ended = true;
                     return Ok(None);
@@ -122,6 +133,11 @@ impl LogStream {
                 self.has_ended = true;
             }
         }
+    }
+
+    /// Whether that row begins a part behind which a clock went back: its time from the row before means nothing.
+    pub fn begins_part(&self) -> bool {
+        self.begins_part
     }
 
     /// The row of the last [`StreamEvent::Row`].
@@ -186,7 +202,10 @@ impl LogStream {
             let begin_s = self.latest_s
                 + BETWEEN_PARTS_S
                 + self.selection.joints.iter().map(|topic| topic.maximum_gap_s).fold(0.0, f64::max);
-            self.shift_s = if begin_s.is_finite() { begin_s - time_s } else { self.shift_s };
+            if begin_s.is_finite() {
+                self.shift_s = begin_s - time_s;
+                self.parts_s.push_back(begin_s);
+            }
         }
         (clock.part >= part).then_some(time_s + self.shift_s)
     }

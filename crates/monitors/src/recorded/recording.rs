@@ -6,7 +6,7 @@ use congruent_scenario::RecordingCheck;
 use crate::{
     CheckContext, Names,
     monitor::{Monitor, Observed},
-    sample::Sample,
+    sample::{Interruption, Sample},
     verdict::Bound,
     watch::Watch,
 };
@@ -24,6 +24,9 @@ pub(crate) struct RecordingMonitor {
     gap_s: f64,
     before_s: f64,
     begin_s: f64,
+    /// Parts behind the first, and the time between parts, which nobody has recorded.
+    parts: u64,
+    between_parts_s: f64,
     /// The period of the samples, as a rule.
     period_s: f64,
 }
@@ -42,13 +45,15 @@ impl RecordingMonitor {
             gap_s: 0.0,
             before_s: f64::NAN,
             begin_s: f64::NAN,
+            parts: 0,
+            between_parts_s: 0.0,
             period_s: context.clock.step_s,
         }
     }
 
     /// The share of the time in which samples are: without gaps, and without instants that were left out elsewhere.
     fn used_share(&self) -> f64 {
-        let all_s = self.before_s - self.begin_s;
+        let all_s = self.before_s - self.begin_s - self.between_parts_s;
         #[expect(clippy::cast_precision_loss, reason = "no log has 2^52 samples")]
         let left_out = self.left_out as f64 / (self.samples + self.left_out) as f64;
         let in_gaps = if all_s > 0.0 { (self.gap_s - self.period_s).max(0.0) / all_s } else { 0.0 };
@@ -60,6 +65,12 @@ impl RecordingMonitor {
         if self.left_out > 0 {
             let all = self.samples + self.left_out;
             notes.push(format!("{} of {all} instants left out: a joint is not known at them", self.left_out));
+        }
+        if self.parts > 0 {
+            let parts = self.parts + 1;
+            notes.push(format!(
+                "{parts} parts, between which the clock goes back: each follows the one before by a second"
+            ));
         }
         if self.gaps > 0 {
             let gaps = if self.gaps == 1 { "gap" } else { "gaps" };
@@ -76,10 +87,13 @@ impl Monitor for RecordingMonitor {
         self.left_out += sample.left_out;
         if self.before_s.is_nan() {
             self.begin_s = sample.time_s;
+        } else if sample.interruption == Some(Interruption::NewPart) {
+            self.parts += 1;
+            self.between_parts_s += sample.time_s - self.before_s;
         } else {
             let since_s = sample.time_s - self.before_s;
             self.longest.observe(since_s, 0, sample);
-            if sample.since_s.is_none() {
+            if sample.interruption == Some(Interruption::Gap) {
                 self.gaps += 1;
                 self.gap_s += since_s;
             }

@@ -8,7 +8,8 @@ use std::sync::atomic::AtomicBool;
 use congruent_agreement::compare::Model;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use congruent_monitors::{
-    Names, PoseChange, PoseSample, Recorder, RunningCheck, SameInput, Sample, SampleStore, StepForces,
+    Interruption, Names, PoseChange, PoseSample, Recorder, RunningCheck, SameInput, Sample, SampleStore,
+    StepForces,
     verdict::{CheckResult, CheckValue},
 };
 use congruent_proximity::{Clearance, MovingBodies, PairChoice};
@@ -264,6 +265,14 @@ impl<'a> Run<'a> {
         Ok(ends)
     }
 
+    /// What is between the sample before and the present one.
+    fn interruption(&self) -> Option<Interruption> {
+        if self.step == 0 || self.since_s.is_some() {
+            return None;
+        }
+        Some(if self.source.begins_part() { Interruption::NewPart } else { Interruption::Gap })
+    }
+
     /// Passes the poses up to this instant to all checks.
     fn observe_poses(&mut self, checks: &mut [RunningCheck<'_>]) -> Result<(), KinematicsError> {
         let Some(model) = &mut self.model_of_poses else { return Ok(()) };
@@ -299,6 +308,7 @@ impl<'a> Run<'a> {
             time_s: self.time_s,
             since_s: self.since_s,
             left_out: self.source.left_out(),
+            interruption: self.interruption(),
             motions_s,
             change: self.change,
             is_last: false,

@@ -69,6 +69,11 @@ pub trait JointStateSource {
         0
     }
 
+    /// Whether the present sample begins another part of what was recorded: its time from the sample before means nothing.
+    fn begins_part(&self) -> bool {
+        false
+    }
+
     /// The next pose that the source has of the robot, up to the present instant; `None` after the last.
     fn next_pose(&mut self) -> Option<SourcePose<'_>> {
         None

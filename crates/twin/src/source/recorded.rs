@@ -25,6 +25,7 @@ struct RecordedJoints {
     setpoint_q: RobotQ,
     setpoint_qd: Vec<f64>,
     left_out: u64,
+    begins_part: bool,
 }
 
 /// A log, instant after instant.
@@ -70,6 +71,7 @@ impl<'a> RecordedSource<'a> {
             setpoint_q: start.clone(),
             setpoint_qd: vec![f64::NAN; dof],
             left_out: 0,
+            begins_part: false,
         };
         let measured = setup.selection.joints.iter().filter(|topic| !topic.is_setpoint);
         let mut is_recorded = vec![false; dof];
@@ -132,6 +134,7 @@ impl<'a> RecordedSource<'a> {
     fn fill_next(&mut self) {
         let (row, next) = (self.stream.row(), &mut self.next);
         (next.time_s, next.left_out) = (row.time_s, row.left_out);
+        next.begins_part = self.stream.begins_part();
         next.qd.copy_from_slice(&row.qd);
         // Joints that the log does not have stay where they are.
         let held = next.qd.iter_mut().zip(&self.is_recorded).filter(|(_, is_recorded)| !**is_recorded);
@@ -228,6 +231,10 @@ impl JointStateSource for RecordedSource<'_> {
 
     fn left_out(&self) -> u64 {
         self.now.left_out
+    }
+
+    fn begins_part(&self) -> bool {
+        self.now.begins_part
     }
 
     fn advance(&mut self, _wanted_s: f64) -> Result<Advance, SourceError> {
