@@ -36,7 +36,7 @@ congruent::input::codes! {
         VIEW = "CGR-COMMAND-013", "run::view",
             "--view shows one run, but several scenarios are given. Give one scenario, or leave --view out.\n    wrong: congruent run pick.toml place.toml --view\n    right: congruent run pick.toml --view";
         LOG = "CGR-COMMAND-086", "run::log",
-            "The file is no log. `replay` takes an MCAP, a table in CSV, or the folder that rosbag2 wrote. Other logs are converted first, as bags of ROS 1 by `rosbags-convert`.\n    congruent replay robots/ur5e monday.mcap";
+            "The file is no log. `replay` takes an MCAP, a folder that rosbag2 wrote, a table in CSV or Parquet, or a dataset of LeRobot. Other logs are converted first, as bags of ROS 1 by `rosbags-convert`.\n    congruent replay robots/ur5e monday.mcap";
     }
     output {
         REFUSED = "CGR-COMMAND-014", "output::refused",

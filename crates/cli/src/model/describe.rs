@@ -26,12 +26,12 @@ use crate::{
 /// The tree with types, axes, limits, masses and shapes; the chain from base to tip, and other links at which it might
 /// end; what blocks kinematics, clearance or physics, and which missing data they do without.
 ///
-/// Of a log, an MCAP of ROS 2, a table in CSV or a folder of rosbag2: topics with rates, gaps and repetitions, joints, missing
-/// values and frames; with --robot whether joints and units fit.
+/// Of a log (MCAP, folder of rosbag2, table in CSV or Parquet, dataset of LeRobot): topics with rates, gaps
+/// and repetitions, joints, missing values and frames; with --robot whether joints and units fit.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Folders with robot.toml, robot files, URDFs, MJCFs, or - for a URDF or MJCF on standard input; logs: .mcap, .csv, folders
-    /// of rosbag2.
+    /// Folders with robot.toml, robot files, URDFs, MJCFs, or - for a URDF or MJCF on standard input; logs: .mcap, .csv,
+    /// .parquet, folders of rosbag2 or LeRobot.
     #[arg(required = true, value_name = "ROBOT_OR_LOG")]
     inputs: Vec<PathBuf>,
     /// Compare the joints and units of logs with this robot: a folder with robot.toml, a robot file, a URDF or an MJCF.

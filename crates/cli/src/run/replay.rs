@@ -27,15 +27,16 @@ use crate::{
 
 /// Judges a log of the real robot: writes a scenario that takes its joint states and poses, and runs it.
 ///
-/// The log is an MCAP, a table in CSV, or a folder that rosbag2 wrote. A `robot_description` in it is compared with the robot first.
-/// Joints are found by their names; poses by the names of their topics and frames. Poses in frames that the robot does not have
-/// are fitted to the log, so that a constant error of base or tool is not found. The scenario is written beside the results; `congruent run`
-/// runs it again. Exit code 1 if a check fails or the recorded description is another robot.
+/// The log is an MCAP, a folder that rosbag2 wrote, a table in CSV or Parquet, or a dataset of LeRobot. A
+/// `robot_description` in it is compared with the robot first. Joints are found by their names; poses by the names of
+/// their topics and frames. Poses in frames that the robot does not have are fitted to the log, so that a constant
+/// error of base or tool is not found. The scenario is written beside the results; `congruent run` runs it again. Exit
+/// code 1 if a check fails or the recorded description is another robot.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// A folder with robot.toml, a robot file, a URDF or an MJCF.
     robot: PathBuf,
-    /// The log: an MCAP, a table in CSV, or a folder that rosbag2 wrote.
+    /// The log: an MCAP, a folder that rosbag2 wrote, a table in CSV or Parquet, or a dataset of LeRobot.
     log: PathBuf,
     /// Folder for the scenario and for its results.
     #[arg(long, default_value = "out")]
