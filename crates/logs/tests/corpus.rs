@@ -6,7 +6,9 @@
     reason = "a skipped test says so; a helper that fails fails its test"
 )]
 
-use std::path::{Path, PathBuf};
+mod support;
+
+use std::path::Path;
 
 use congruent_description::{Robot, load_robot};
 use congruent_input::Diagnostic;
@@ -14,18 +16,7 @@ use congruent_logs::{
     DecimalMark, JointsSurvey, LogOptions, LogSurvey, PositionUnit, SurveyedLog, TableEncoding, TableTime,
     TimeUnit, TopicSurvey, survey_log,
 };
-
-/// The folder of logs of the corpus; `None` if the tests that need it are skipped.
-fn logs() -> Option<PathBuf> {
-    let Some(corpus) = std::env::var_os("CONGRUENT_CORPUS") else {
-        eprintln!("skipped: CONGRUENT_CORPUS is not set");
-        return None;
-    };
-    // A relative path is from the root of the workspace, where the gate runs.
-    let logs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(corpus).join("logs");
-    assert!(logs.is_dir(), "CONGRUENT_CORPUS: {} is no folder", logs.display());
-    Some(logs)
-}
+use support::logs;
 
 fn robot(name: &str) -> Robot {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots").join(name);

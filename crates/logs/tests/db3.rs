@@ -7,21 +7,13 @@
     reason = "a skipped test says so; a helper that fails fails its test"
 )]
 
-use std::path::{Path, PathBuf};
+mod support;
+
+use std::path::Path;
 
 use congruent_description::load_robot;
 use congruent_logs::{LogFormat, LogOptions, LogSurvey, survey_log};
-
-/// The folder of logs of the corpus; `None` if the tests that need it are skipped.
-fn logs() -> Option<PathBuf> {
-    let Some(corpus) = std::env::var_os("CONGRUENT_CORPUS") else {
-        eprintln!("skipped: CONGRUENT_CORPUS is not set");
-        return None;
-    };
-    let logs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(corpus).join("logs");
-    assert!(logs.is_dir(), "CONGRUENT_CORPUS: {} is no folder", logs.display());
-    Some(logs)
-}
+use support::logs;
 
 fn surveyed(folder: &str, robot: Option<&str>) -> Option<LogSurvey> {
     let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
