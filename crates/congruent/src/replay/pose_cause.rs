@@ -170,8 +170,8 @@ impl ExplainedPoses<'_> {
 
     fn of_clock(&self, poses: &[PoseOverOffsets], before_m: f64) -> Option<Cause> {
         let clock = PosesToFit { poses, with_rotations: !self.compared.position_only }.fit().clock;
-        let mean = |clock: &PoseClock| poses.iter().map(|at| at.distance_m(clock).powi(2)).sum::<f64>();
-        let left_m = before_m * (mean(&clock) / mean(&PoseClock::default())).sqrt();
+        let squares = |clock: &PoseClock| poses.iter().map(|at| at.distance_m(clock).powi(2)).sum::<f64>();
+        let left_m = before_m * (squares(&clock) / squares(&PoseClock::default())).sqrt();
         let offset = quantity(self.compared.offset_s + clock.offset_s, "s");
         (clock.offset_s != 0.0 && left_m <= LEFT * before_m)
             .then(|| Cause::new(format!("the clock: write offset_s = {offset}"), left_m))

@@ -4,6 +4,7 @@
 //! recorded = frame model(t + a + b t) target. A clock alone would take over a part of a wrong frame, and the other way round.
 //! Levenberg-Marquardt with central differences.
 
+use congruent_kinematics::least_squares::{Damping, damped_step};
 use nalgebra::{DMatrix, DVector, Isometry3, Translation3, UnitQuaternion, Vector3, Vector6};
 
 use super::paired::OFFSETS_S;
@@ -107,7 +108,8 @@ impl PosesToFit<'_> {
         let Estimate { values, sigmas, .. } = estimate;
         let clock = PoseClock { offset_s: values[OFFSET], drift: values[DRIFT], sigma_s: sigmas[0] };
         let (frame, target) = (displacement(&values[..6]), displacement(&values[6..12]));
-        let squares: f64 = self.poses.iter().map(|pose| shift(pose, values).norm_squared()).sum();
+        let shift = |pose| residual(pose, values).fixed_rows::<3>(0).norm_squared();
+        let squares: f64 = self.poses.iter().map(shift).sum();
         FittedPoses { clock, frame, target, rms_m: (squares / count(self.poses.len())).sqrt() }
     }
 
@@ -137,10 +139,8 @@ impl PosesToFit<'_> {
             let jacobian = self.jacobian(&values, free);
             normal = jacobian.tr_mul(&jacobian);
             let right = jacobian.tr_mul(&residuals);
-            let mut damped = normal.clone();
-            let scale = normal.diagonal().max();
-            (0..free.len()).for_each(|at| damped[(at, at)] += damping * scale);
-            let Some(step) = damped.lu().solve(&right) else { break };
+            let absolute = damping * normal.diagonal().max();
+            let Some(step) = damped_step(&normal, &right, Damping { relative: 0.0, absolute }) else { break };
             let mut next = values;
             free.iter().zip(step.iter()).for_each(|(&at, step)| next[at] -= step);
             let there = self.residuals(&next);
@@ -200,10 +200,6 @@ fn displacement(values: &[f64]) -> Isometry3<f64> {
 fn modelled(pose: &PoseOverOffsets, values: &[f64; PARAMETERS]) -> Isometry3<f64> {
     let at = pose.at(values[OFFSET] + values[DRIFT] * pose.time_s);
     displacement(&values[..6]) * at * displacement(&values[6..12])
-}
-
-fn shift(pose: &PoseOverOffsets, values: &[f64; PARAMETERS]) -> Vector3<f64> {
-    modelled(pose, values).translation.vector - pose.recorded.translation.vector
 }
 
 fn residual(pose: &PoseOverOffsets, values: &[f64; PARAMETERS]) -> Vector6<f64> {
