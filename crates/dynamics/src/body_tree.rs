@@ -178,6 +178,19 @@ impl BodyTree {
         self.bodies.len()
     }
 
+    /// The joints that follow no other, among the moving ones.
+    pub fn driven_joints(&self) -> &[usize] {
+        &self.independent
+    }
+
+    /// Whether the body of a moving joint moves with another moving joint, or is the one that this joint carries.
+    ///
+    /// # Panics
+    /// If there is no such joint.
+    pub fn carries(&self, joint: usize, body: usize) -> bool {
+        (joint..self.bodies[joint].subtree_end).contains(&body)
+    }
+
     /// The link that a moving joint carries, in whose frame the inertia of its body is given.
     ///
     /// # Panics

@@ -125,8 +125,12 @@ impl BodyTree {
         Ok(())
     }
 
-    /// Which of the independent joints moves a joint, and by which ratio.
-    pub(crate) fn driver(&self, joint: usize) -> (usize, f64) {
+    /// Which of the driven joints ([`BodyTree::driven_joints`]) moves a joint, and by which ratio: itself with the ratio 1, unless it
+    /// follows another.
+    ///
+    /// # Panics
+    /// If there is no such joint.
+    pub fn driver(&self, joint: usize) -> (usize, f64) {
         let (master, ratio) = self.mimics[joint].map_or((joint, 1.0), |mimic| (mimic.master, mimic.ratio));
         let row = self.independent.iter().position(|&independent| independent == master);
         (row.expect("a mimicked joint is independent"), ratio)

@@ -14,6 +14,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
     ("kinematics", &["input", "description"]),
     ("dynamics", &["description", "kinematics"]),
     ("dynamics-agreement", &["input", "description", "kinematics", "dynamics"]),
+    ("identification", &["description", "kinematics", "dynamics"]),
     ("simulation", &["description"]),
     ("pose-bound", &["description", "kinematics"]),
     ("mapping", &["input", "description", "kinematics"]),

@@ -1,0 +1,351 @@
+//! The parameters that explain recorded efforts best.
+
+use congruent_dynamics::{PARAMETERS, SpatialInertia};
+use congruent_kinematics::least_squares::BalancedCholesky;
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+use crate::{
+    equations::{BLOCKS, JointEquations, RecordedEquations},
+    pseudo_inertia::{Parameters, is_body, metric},
+    solve::{Bounds, Quadratic},
+    told_apart::dependent,
+    unknowns::{FreeParameters, JointTerm, PayloadPlace},
+};
+
+/// What an estimate leaves of the effort of a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointNoise {
+    /// Root mean square, N m or N.
+    pub rms: f64,
+    /// Rows that it is of.
+    pub rows: usize,
+    /// How many rows count as one, since what is left of an instant resembles what is left of the next one.
+    pub alike: f64,
+}
+
+impl JointNoise {
+    fn weight(&self) -> f64 {
+        1.0 / (self.rms * self.rms * self.alike)
+    }
+}
+
+/// An estimate of the free parameters.
+#[derive(Debug, Clone)]
+pub struct Estimate {
+    /// All unknowns: the free ones as estimated, the others as the description has them.
+    pub(crate) x: DVector<f64>,
+    /// The free unknowns.
+    pub(crate) free: Vec<usize>,
+    /// Covariance of the free unknowns.
+    pub(crate) covariance: DMatrix<f64>,
+    /// Unknowns that would be free, and what they cannot be told apart from.
+    pub(crate) held: Vec<(usize, Vec<usize>)>,
+    /// Combinations of the free inertial parameters that the recording says more of than was known before, and how many there are.
+    pub(crate) known_combinations: [usize; 2],
+    /// What is left, of each driven joint.
+    pub noise: Vec<JointNoise>,
+}
+
+impl Estimate {
+    /// Standard error of an unknown; `None` if it was not free.
+    pub(crate) fn standard_error(&self, unknown: usize) -> Option<f64> {
+        let at = self.free.iter().position(|of| *of == unknown)?;
+        Some(self.covariance[(at, at)].max(0.0).sqrt())
+    }
+
+    /// Covariance of ten inertial parameters; `None` if they were not free.
+    pub(crate) fn covariance_of(&self, first: usize) -> Option<DMatrix<f64>> {
+        let at = self.free.iter().position(|of| *of == first)?;
+        Some(self.covariance.view((at, at), (PARAMETERS, PARAMETERS)).into_owned())
+    }
+}
+
+/// The noise is estimated from what is left, and weighs the joints in the next estimate. Kind: choice; the third changes it by less
+/// than a percent.
+const ROUNDS: usize = 4;
+/// What is thought to be left at first, as part of the effort: so little that what was known before has no weight, or it would stay
+/// what it was and be the noise. No unit; kind: choice.
+const AT_FIRST: f64 = 1e-4;
+/// What is left is at least this part of the effort: rounding in the sums of squares. No unit; kind: rounding.
+const LEAST_LEFT: f64 = 1e-7;
+/// A payload is thought to be a ball of this mass and radius, times ten: what nothing in the recording says stays near none. kg and m;
+/// kind: choice.
+const PAYLOAD_KG: f64 = 1.0;
+const PAYLOAD_RADIUS_M: f64 = 0.1;
+const PAYLOAD_IS_KNOWN: f64 = 0.01;
+
+/// The estimate from some of the blocks. `None` if no joint has rows.
+pub(crate) fn estimate(
+    equations: &RecordedEquations,
+    free: &FreeParameters,
+    is_taken: impl Fn(usize) -> bool + Copy,
+) -> Option<Estimate> {
+    let sums: Vec<(DMatrix<f64>, usize)> = equations.joints.iter().map(|joint| joint.sum(is_taken)).collect();
+    let problem = Problem::new(equations, free, &sums)?;
+    let effort = |(sum, rows): &(DMatrix<f64>, usize), joint: &JointEquations| {
+        let at = joint.effort_column();
+        (sum[(at, at)] / float(*rows).max(1.0)).sqrt()
+    };
+    let mut noise: Vec<JointNoise> = sums
+        .iter()
+        .zip(&equations.joints)
+        .map(|(sum, joint)| JointNoise {
+            rms: (AT_FIRST * effort(sum, joint)).max(f64::MIN_POSITIVE),
+            rows: sum.1,
+            alike: 1.0,
+        })
+        .collect();
+    let mut change = DVector::zeros(problem.free.len());
+    let mut sum = problem.sum(&sums, &noise);
+    for _ in 0..ROUNDS {
+        sum = problem.sum(&sums, &noise);
+        change = sum.smallest(&problem.bounds)?;
+        let x = problem.x(&change);
+        for (row, joint) in equations.joints.iter().enumerate() {
+            let least = LEAST_LEFT * effort(&sums[row], joint);
+            noise[row] = problem.noise(row, &x, &sums[row], least, is_taken);
+        }
+    }
+    let covariance = BalancedCholesky::new(sum.information.clone())?.inverse();
+    let known_combinations = problem.known_combinations(&sum);
+    Some(Estimate { x: problem.x(&change), free: problem.free, covariance, held: problem.held, known_combinations, noise })
+}
+
+struct Problem<'a> {
+    equations: &'a RecordedEquations,
+    /// The free unknowns, those of each body together.
+    free: Vec<usize>,
+    held: Vec<(usize, Vec<usize>)>,
+    /// What was known before, of the changes of the free unknowns.
+    prior: DMatrix<f64>,
+    /// Free inertial parameters, which come first.
+    inertial: usize,
+    bounds: Bounds,
+}
+
+impl<'a> Problem<'a> {
+    fn new(
+        equations: &'a RecordedEquations,
+        parameters: &FreeParameters,
+        sums: &[(DMatrix<f64>, usize)],
+    ) -> Option<Self> {
+        let layout = &equations.layout;
+        let mut free = Vec::new();
+        let mut bounds = Bounds::default();
+        let mut metrics = Vec::new();
+        for (body, parts) in bodies(equations, parameters) {
+            bounds.bodies.push((free.len(), parts.added_to));
+            bounds.begin.push(parts.begin);
+            metrics.push(parts.metric);
+            free.extend(layout.body(body));
+        }
+        let inertial = free.len();
+        let (terms, held) = free_terms(equations, parameters, sums);
+        for (unknown, term) in terms {
+            if term.is_positive() {
+                bounds.least.push((free.len(), -equations.nominal[unknown]));
+            }
+            free.push(unknown);
+        }
+        let mut prior = DMatrix::zeros(free.len(), free.len());
+        for ((first, _), metric) in bounds.bodies.iter().zip(metrics) {
+            prior.fixed_view_mut::<PARAMETERS, PARAMETERS>(*first, *first).copy_from(&metric);
+        }
+        (!free.is_empty()).then_some(Self { equations, free, held, prior, inertial, bounds })
+    }
+
+    /// All unknowns after a change of the free ones.
+    fn x(&self, change: &DVector<f64>) -> DVector<f64> {
+        let mut x = self.equations.nominal.clone();
+        self.free.iter().zip(change.iter()).for_each(|(at, change)| x[*at] += change);
+        x
+    }
+
+    /// The sum of squares in changes of the free unknowns, joints by their noise.
+    fn sum(&self, sums: &[(DMatrix<f64>, usize)], noise: &[JointNoise]) -> Quadratic {
+        let mut information = self.prior.clone();
+        let mut right_side = DVector::zeros(self.free.len());
+        let mut place = vec![None; self.equations.layout.len()];
+        self.free.iter().enumerate().for_each(|(at, unknown)| place[*unknown] = Some(at));
+        for (row, joint) in self.equations.joints.iter().enumerate() {
+            let (gram, rows) = &sums[row];
+            if *rows == 0 {
+                continue;
+            }
+            let unknowns = joint.unknowns(&self.equations.layout, row);
+            let nominal = DVector::from_iterator(
+                unknowns.len(),
+                unknowns.iter().map(|unknown| self.equations.nominal[*unknown]),
+            );
+            let columns = gram.view((0, 0), (unknowns.len(), unknowns.len()));
+            let effort = gram.view((0, joint.effort_column()), (unknowns.len(), 1));
+            let left = effort - columns * nominal;
+            let weight = noise[row].weight();
+            for (column, at) in unknowns.iter().enumerate().filter_map(|(c, of)| Some((c, place[*of]?))) {
+                right_side[at] += weight * left[column];
+                for (other, to) in unknowns.iter().enumerate().filter_map(|(c, of)| Some((c, place[*of]?))) {
+                    information[(at, to)] += weight * columns[(column, other)];
+                }
+            }
+        }
+        Quadratic { information, right_side }
+    }
+
+    /// What an estimate leaves of the effort of a joint.
+    fn noise(
+        &self,
+        row: usize,
+        x: &DVector<f64>,
+        (gram, rows): &(DMatrix<f64>, usize),
+        least: f64,
+        is_taken: impl Fn(usize) -> bool,
+    ) -> JointNoise {
+        let joint = &self.equations.joints[row];
+        let local = local(self.equations, row, x);
+        let used = self.free.iter().filter(|unknown| {
+            joint.unknowns(&self.equations.layout, row).contains(unknown)
+        });
+        let freedom = (float(*rows) - float(used.count())).max(1.0);
+        let rms = (quadratic(gram, &local).max(0.0) / freedom).sqrt().max(least).max(f64::MIN_POSITIVE);
+        JointNoise { rms, rows: *rows, alike: self.alike(row, &local, rms, is_taken) }
+    }
+
+    /// How many rows count as one: by how much more the gradients of the blocks differ than those of rows without a relation would.
+    fn alike(&self, row: usize, local: &DVector<f64>, rms: f64, is_taken: impl Fn(usize) -> bool) -> f64 {
+        let joint = &self.equations.joints[row];
+        let unknowns = joint.unknowns(&self.equations.layout, row);
+        let columns: Vec<usize> =
+            (0..unknowns.len()).filter(|column| self.free.contains(&unknowns[*column])).collect();
+        let mut found = vec![0.0; unknowns.len()];
+        let mut expected = vec![0.0; unknowns.len()];
+        for (at, block) in joint.blocks.iter().enumerate().filter(|(at, _)| is_taken(*at)) {
+            if joint.counts[at] == 0 {
+                continue;
+            }
+            let mut whole = block.clone();
+            whole.fill_upper_triangle_with_lower_triangle();
+            let gradient = &whole * local;
+            for &column in &columns {
+                found[column] += gradient[column] * gradient[column];
+                expected[column] += rms * rms * whole[(column, column)];
+            }
+        }
+        let ratios = columns.iter().filter(|column| expected[**column] > 0.0);
+        let ratios: Vec<f64> = ratios.map(|column| found[*column] / expected[*column]).collect();
+        let mean = ratios.iter().sum::<f64>() / float(ratios.len()).max(1.0);
+        mean.max(1.0)
+    }
+
+    /// Combinations of inertial parameters that the data say more of than was known before, and all combinations.
+    fn known_combinations(&self, sum: &Quadratic) -> [usize; 2] {
+        let n = self.inertial;
+        if n == 0 {
+            return [0, 0];
+        }
+        let prior = self.prior.view((0, 0), (n, n)).into_owned();
+        let data = sum.information.view((0, 0), (n, n)) - &prior;
+        let Some(factor) = prior.cholesky() else { return [0, n] };
+        let Some(inverse) = factor.l().try_inverse() else { return [0, n] };
+        let relative = &inverse * data * inverse.transpose();
+        let known = relative.symmetric_eigenvalues().iter().filter(|value| **value > 1.0).count();
+        [known, n]
+    }
+}
+
+/// A body whose parameters are free.
+struct FreeBody {
+    added_to: Parameters,
+    begin: Parameters,
+    metric: nalgebra::SMatrix<f64, PARAMETERS, PARAMETERS>,
+}
+
+/// The bodies whose parameters are free. A body that the description gives no mass, or one that cannot exist, is not.
+fn bodies(equations: &RecordedEquations, parameters: &FreeParameters) -> Vec<(usize, FreeBody)> {
+    let nominal = |body: usize| {
+        Parameters::from_column_slice(equations.nominal.rows_range(equations.layout.body(body)).as_slice())
+    };
+    if parameters.links {
+        let all = (0..equations.layout.bodies).filter(|body| is_body(&nominal(*body)));
+        let free = all.filter_map(|body| {
+            let about = nominal(body);
+            Some((body, FreeBody { added_to: about, begin: about, metric: metric(&about)? }))
+        });
+        return free.collect();
+    }
+    let payload = parameters.payload.and_then(|place| {
+        let ball = payload_ball(&place);
+        let metric = metric(&ball)? * PAYLOAD_IS_KNOWN;
+        Some((place.joint, FreeBody { added_to: Parameters::zeros(), begin: ball, metric }))
+    });
+    payload.into_iter().collect()
+}
+
+/// A ball at the place of the payload, in the frame of the link of the joint.
+fn payload_ball(place: &PayloadPlace) -> Parameters {
+    let moment = 0.4 * PAYLOAD_KG * PAYLOAD_RADIUS_M * PAYLOAD_RADIUS_M;
+    let ball = SpatialInertia {
+        mass_kg: PAYLOAD_KG,
+        first_moment_kg_m: Vector3::zeros(),
+        tensor_kg_m2: Matrix3::identity() * moment,
+    };
+    ball.transformed_by(&place.link_from_payload).parameters().into()
+}
+
+/// The terms of joints that are free, and those that cannot be told apart from others.
+type Terms = (Vec<(usize, JointTerm)>, Vec<(usize, Vec<usize>)>);
+
+fn free_terms(
+    equations: &RecordedEquations,
+    parameters: &FreeParameters,
+    sums: &[(DMatrix<f64>, usize)],
+) -> Terms {
+    let (mut terms, mut held) = (Vec::new(), Vec::new());
+    for (row, joint) in equations.joints.iter().enumerate() {
+        let (gram, rows) = &sums[row];
+        if *rows == 0 {
+            continue;
+        }
+        // The known effort of the rigid bodies is no unknown, so that only terms are told apart from each other here.
+        let wanted: Vec<JointTerm> = JointTerm::ALL.into_iter().filter(|term| parameters.has(*term)).collect();
+        let columns: Vec<usize> = wanted.iter().map(|term| joint.term_column(*term)).collect();
+        let part = gram.select_rows(&columns).select_columns(&columns);
+        let found = dependent(&part);
+        for (at, term) in wanted.iter().enumerate() {
+            let unknown = equations.layout.term(row, *term);
+            match &found[at] {
+                None => terms.push((unknown, *term)),
+                Some(others) => {
+                    let others = others.iter().map(|other| equations.layout.term(row, wanted[*other]));
+                    held.push((unknown, others.collect()));
+                }
+            }
+        }
+    }
+    (terms, held)
+}
+
+/// The unknowns of a joint's columns, and -1 for the recorded effort: the columns times this are what is left.
+pub(crate) fn local(equations: &RecordedEquations, row: usize, x: &DVector<f64>) -> DVector<f64> {
+    let joint = &equations.joints[row];
+    let mut local = DVector::zeros(joint.columns());
+    for (at, unknown) in joint.unknowns(&equations.layout, row).into_iter().enumerate() {
+        local[at] = x[unknown];
+    }
+    local[joint.effort_column()] = -1.0;
+    local
+}
+
+/// `v^T G v`.
+pub(crate) fn quadratic(gram: &DMatrix<f64>, v: &DVector<f64>) -> f64 {
+    v.dot(&(gram * v))
+}
+
+#[expect(clippy::cast_precision_loss, reason = "no recording has 2^53 rows")]
+pub(crate) fn float(count: usize) -> f64 {
+    count as f64
+}
+
+/// The block of another fifth of the time.
+pub(crate) fn is_in_fold(block: usize, fold: usize, folds: usize) -> bool {
+    block * folds / BLOCKS == fold
+}

@@ -1,0 +1,1 @@
+//! A motion that tells the parameters of a robot.

@@ -1,0 +1,61 @@
+//! Are the estimated parameters better on data that they were not estimated from?
+
+use nalgebra::DVector;
+
+use crate::{
+    equations::RecordedEquations,
+    estimate::{estimate, float, is_in_fold, local, quadratic},
+    unknowns::FreeParameters,
+};
+
+/// Parts of the time, each of which is left out once. Kind: choice.
+pub(crate) const FOLDS: usize = 5;
+
+/// What is left of the effort of a joint in data that were left out of the estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeldOut {
+    /// By the description, root mean square, N m or N.
+    pub before: f64,
+    /// By the parameters that were estimated from the other parts of the time, N m or N.
+    pub after: f64,
+    /// The recorded effort itself, N m or N.
+    pub effort: f64,
+    /// Rows.
+    pub rows: usize,
+}
+
+/// What is left of each driven joint: each fifth of the time by the parameters of the other four.
+pub(crate) fn held_out(equations: &RecordedEquations, free: &FreeParameters) -> Vec<HeldOut> {
+    let none = Sums::default();
+    let mut sums = vec![none; equations.joints.len()];
+    for fold in 0..FOLDS {
+        let is_left_out = |block: usize| is_in_fold(block, fold, FOLDS);
+        let Some(found) = estimate(equations, free, |block| !is_left_out(block)) else { continue };
+        for (row, sum) in sums.iter_mut().enumerate() {
+            let joint = &equations.joints[row];
+            let (gram, rows) = joint.sum(is_left_out);
+            let left = |x: &DVector<f64>| quadratic(&gram, &local(equations, row, x)).max(0.0);
+            sum.before += left(&equations.nominal);
+            sum.after += left(&found.x);
+            sum.effort += gram[(joint.effort_column(), joint.effort_column())];
+            sum.rows += rows;
+        }
+    }
+    let rms = |sum: f64, rows: usize| (sum / float(rows).max(1.0)).sqrt();
+    let of = |sum: &Sums| HeldOut {
+        before: rms(sum.before, sum.rows),
+        after: rms(sum.after, sum.rows),
+        effort: rms(sum.effort, sum.rows),
+        rows: sum.rows,
+    };
+    sums.iter().map(of).collect()
+}
+
+/// Sums of squares.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    before: f64,
+    after: f64,
+    effort: f64,
+    rows: usize,
+}

@@ -1,0 +1,201 @@
+//! What a recording says of the parameters of a robot.
+
+use congruent_dynamics::{PARAMETERS, SpatialInertia};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use crate::{
+    equations::RecordedEquations,
+    estimate::{Estimate, JointNoise, estimate},
+    held_out::{HeldOut, held_out},
+    unknowns::{FreeParameters, JointTerm, PayloadPlace},
+};
+
+/// The parameters that a recording identifies.
+#[derive(Debug, Clone)]
+pub struct Identified {
+    /// One for each driven joint.
+    pub joints: Vec<IdentifiedJoint>,
+    /// The payload, in its frame.
+    pub payload: Option<IdentifiedBody>,
+    /// The bodies, if their parameters were free, in the frames of the links of their joints.
+    pub bodies: Vec<IdentifiedBody>,
+    /// Terms that were kept as the description has them, since others have the same effect.
+    pub not_told_apart: Vec<NotToldApart>,
+    /// Combinations of the free inertial parameters that the recording says more of than was known before, and how many there are.
+    pub known_combinations: [usize; 2],
+    /// Whether the parameters are better on data that they were not estimated from.
+    pub is_better: bool,
+}
+
+/// A driven joint.
+#[derive(Debug, Clone)]
+pub struct IdentifiedJoint {
+    /// The joint, among the moving ones.
+    pub joint: usize,
+    /// Its terms that were estimated.
+    pub terms: Vec<(JointTerm, IdentifiedValue)>,
+    /// What is left of its effort in data that were left out.
+    pub held_out: HeldOut,
+    /// What is left in the data that the estimate is from.
+    pub noise: JointNoise,
+}
+
+/// A value with its uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IdentifiedValue {
+    /// As estimated.
+    pub value: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// As the description has it.
+    pub nominal: f64,
+}
+
+/// A body, and the standard errors of what it is written as.
+#[derive(Debug, Clone)]
+pub struct IdentifiedBody {
+    /// The moving joint that carries it.
+    pub joint: usize,
+    /// As estimated.
+    pub inertia: SpatialInertia,
+    /// As the description has it.
+    pub nominal: SpatialInertia,
+    /// Standard error of the mass, kg.
+    pub mass_error_kg: f64,
+    /// Standard errors of the centre of mass, m.
+    pub center_error_m: [f64; 3],
+    /// Standard errors of the tensor about the centre of mass, in the order xx, xy, xz, yy, yz, zz, kg m^2.
+    pub tensor_error_kg_m2: [f64; 6],
+}
+
+/// A term that others have the effect of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NotToldApart {
+    /// The joint, among the moving ones.
+    pub joint: usize,
+    /// The term, which was kept.
+    pub term: JointTerm,
+    /// The terms of the joint whose sum it is; none if it has no effect at all.
+    pub from: Vec<JointTerm>,
+}
+
+/// On data that were left out, what is left has to be smaller by this part at least. No unit; kind: choice.
+const BETTER: f64 = 0.01;
+
+/// The free parameters of a robot from the equations of a recording, whose efforts are torques. `None` if it has no rows, or does not
+/// determine them at all.
+pub fn identify(equations: &RecordedEquations, free: &FreeParameters) -> Option<Identified> {
+    let found = estimate(equations, free, |_| true)?;
+    let left_out = held_out(equations, free);
+    let joints = equations.joints.iter().enumerate().map(|(row, joint)| IdentifiedJoint {
+        joint: joint.joint,
+        terms: terms(equations, &found, row),
+        held_out: left_out[row],
+        noise: found.noise[row],
+    });
+    let layout = &equations.layout;
+    let place = |joint: usize| PayloadPlace { joint, link_from_payload: congruent_kinematics::Pose::identity() };
+    let bodies = if free.links { 0..layout.bodies } else { 0..0 };
+    let payload = free.payload.filter(|_| !free.links);
+    Some(Identified {
+        joints: joints.collect(),
+        payload: payload.and_then(|place| body(equations, &found, &place, true)),
+        bodies: bodies.filter_map(|joint| body(equations, &found, &place(joint), false)).collect(),
+        not_told_apart: not_told_apart(equations, &found),
+        known_combinations: found.known_combinations,
+        is_better: is_better(&left_out, &found.noise),
+    })
+}
+
+/// Whether the whole is better by a little at least, and no joint is worse by as much.
+fn is_better(left_out: &[HeldOut], noise: &[JointNoise]) -> bool {
+    let used = || left_out.iter().zip(noise).filter(|(of, _)| of.rows > 0);
+    let sum = |left: fn(&HeldOut) -> f64| used().map(|(of, noise)| (left(of) / noise.rms).powi(2)).sum::<f64>();
+    let is_worse = |(of, noise): (&HeldOut, &JointNoise)| of.after > of.before.max(noise.rms) * (1.0 + BETTER);
+    sum(|of| of.after) < sum(|of| of.before) * (1.0 - BETTER) && !used().any(is_worse)
+}
+
+fn terms(equations: &RecordedEquations, found: &Estimate, row: usize) -> Vec<(JointTerm, IdentifiedValue)> {
+    let value = |term: JointTerm| {
+        let unknown = equations.layout.term(row, term);
+        let standard_error = found.standard_error(unknown)?;
+        let value = IdentifiedValue {
+            value: found.x[unknown],
+            standard_error,
+            nominal: equations.nominal[unknown],
+        };
+        Some((term, value))
+    };
+    JointTerm::ALL.into_iter().filter_map(value).collect()
+}
+
+fn not_told_apart(equations: &RecordedEquations, found: &Estimate) -> Vec<NotToldApart> {
+    let layout = &equations.layout;
+    let of = |unknown: usize| {
+        let at = unknown - PARAMETERS * layout.bodies;
+        (at / JointTerm::ALL.len(), JointTerm::ALL[at % JointTerm::ALL.len()])
+    };
+    let each = found.held.iter().map(|(unknown, others)| {
+        let (row, term) = of(*unknown);
+        let from = others.iter().map(|other| of(*other).1).collect();
+        NotToldApart { joint: layout.joints[row], term, from }
+    });
+    each.collect()
+}
+
+/// A body as estimated, in the frame of its place; a payload is what is added to the description.
+fn body(
+    equations: &RecordedEquations,
+    found: &Estimate,
+    place: &PayloadPlace,
+    is_added: bool,
+) -> Option<IdentifiedBody> {
+    let range = equations.layout.body(place.joint);
+    let covariance = found.covariance_of(range.start)?;
+    let of = |x: &DVector<f64>| -> [f64; PARAMETERS] { std::array::from_fn(|at| x[range.start + at]) };
+    let nominal = of(&equations.nominal);
+    let mut estimated = of(&found.x);
+    if is_added {
+        estimated.iter_mut().zip(nominal).for_each(|(estimated, nominal)| *estimated -= nominal);
+    }
+    let payload_from_link = place.link_from_payload.inverse();
+    let in_place = |parameters: [f64; PARAMETERS]| {
+        SpatialInertia::from_parameters(parameters).transformed_by(&payload_from_link)
+    };
+    // By differences: mass, centre and tensor about it are no linear functions of the parameters.
+    let written = |parameters: [f64; PARAMETERS]| as_written(&in_place(parameters));
+    let about = written(estimated)?;
+    let mut derivatives = DMatrix::zeros(about.len(), PARAMETERS);
+    for at in 0..PARAMETERS {
+        let mut changed = estimated;
+        let step = STEP * (covariance[(at, at)].sqrt()).min(estimated[PARAMETERS - 1].abs().max(STEP));
+        changed[at] += step;
+        let column = (written(changed)? - &about) / step;
+        derivatives.set_column(at, &column);
+    }
+    let spread = &derivatives * covariance * derivatives.transpose();
+    let error = |at: usize| spread[(at, at)].max(0.0).sqrt();
+    Some(IdentifiedBody {
+        joint: place.joint,
+        inertia: in_place(estimated),
+        nominal: if is_added { SpatialInertia::zero() } else { in_place(nominal) },
+        mass_error_kg: error(0),
+        center_error_m: std::array::from_fn(|at| error(1 + at)),
+        tensor_error_kg_m2: std::array::from_fn(|at| error(4 + at)),
+    })
+}
+
+/// Step of the differences, as part of the standard error. No unit; kind: choice.
+const STEP: f64 = 1e-5;
+
+/// Mass, centre of mass and tensor about it; `None` without mass.
+fn as_written(inertia: &SpatialInertia) -> Option<DVector<f64>> {
+    if inertia.mass_kg <= 0.0 {
+        return None;
+    }
+    let center: Vector3<f64> = inertia.first_moment_kg_m / inertia.mass_kg;
+    let tensor = inertia.tensor_kg_m2 - SpatialInertia::point_mass(inertia.mass_kg, center).tensor_kg_m2;
+    let parts = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+    let values = std::iter::once(inertia.mass_kg).chain(center.iter().copied());
+    Some(DVector::from_iterator(10, values.chain(parts.map(|part| tensor[part]))))
+}

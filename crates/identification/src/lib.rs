@@ -1,0 +1,37 @@
+//! Friction, armature, masses and torque constants of a robot from what was recorded of it: joint positions and efforts.
+//!
+//! | step | call |
+//! |---|---|
+//! | how long the window of the derivatives is | [`Smoothing::choose`] |
+//! | rows of a recording to equations, in memory that does not grow | [`Collector`] |
+//! | what the efforts are | [`recognise`] |
+//! | the parameters, their uncertainty, and whether they are better on data that was left out | [`identify`] |
+//! | a motion that tells the parameters | [`excitation`] |
+//!
+//! Torques are linear in the parameters (`congruent_dynamics::BodyTree::regressor_into`), so that a recording of any length becomes
+//! one matrix for each joint and each part of the time.
+
+mod collect;
+mod effort_kind;
+mod equations;
+mod estimate;
+pub mod excitation;
+mod held_out;
+mod identified;
+mod pseudo_inertia;
+mod regressor_row;
+mod smoothing;
+mod solve;
+mod told_apart;
+mod unknowns;
+
+pub use collect::{Collector, Instants, RecordedRow};
+pub use effort_kind::{EffortKind, RecognisedEffort, recognise};
+pub use equations::{JointEquations, RecordedEquations};
+pub use estimate::{Estimate, JointNoise};
+pub use held_out::HeldOut;
+pub use identified::{
+    Identified, IdentifiedBody, IdentifiedJoint, IdentifiedValue, NotToldApart, identify,
+};
+pub use smoothing::{Smoothing, SmoothedInstant};
+pub use unknowns::{FreeParameters, JointTerm, PayloadPlace};

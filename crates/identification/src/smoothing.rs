@@ -1,0 +1,238 @@
+//! Positions, velocities, accelerations and efforts at one instant, from the rows around it.
+
+use std::collections::VecDeque;
+
+use congruent_description::RobotQ;
+use nalgebra::{Matrix5, Vector5};
+
+/// A polynomial is fitted to the rows of a window. Its degree: with 4, the acceleration at the middle is exact to the fifth power.
+const DEGREE: usize = 4;
+/// Fewest rows of a window: two more than the coefficients.
+const FEWEST_ROWS: usize = DEGREE + 3;
+/// Half windows that are tried, s: longer ones flatten the motion of an arm. Kind: choice.
+const LONGEST_S: f64 = 0.2;
+/// Each window that is tried is longer than the one before by this factor. Kind: choice.
+const LONGER: f64 = 1.4;
+/// A longer window is taken while it describes the positions as well as the shortest one, but for this factor: then what it leaves
+/// is noise of the encoder, not motion. No unit; kind: choice, measured on encoders of 19 bits.
+const AS_WELL: f64 = 1.15;
+/// A part of a half window that rows have to reach on both sides.
+const REACHED: f64 = 0.7;
+
+/// One row of a recording.
+#[derive(Debug, Clone)]
+pub(crate) struct KeptRow {
+    pub(crate) time_s: f64,
+    pub(crate) q: RobotQ,
+    pub(crate) effort: Vec<f64>,
+}
+
+/// The window that smooths a recording.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Smoothing {
+    /// From its middle to its end, s.
+    pub half_window_s: f64,
+}
+
+/// A joint state without noise.
+#[derive(Debug, Clone)]
+pub struct SmoothedInstant {
+    /// When, s.
+    pub time_s: f64,
+    /// Positions, rad or m.
+    pub q: RobotQ,
+    /// Velocities, rad/s or m/s.
+    pub qd: Vec<f64>,
+    /// Accelerations, rad/s^2 or m/s^2.
+    pub qdd: Vec<f64>,
+    /// Efforts as recorded; NaN where one is missing in the window.
+    pub effort: Vec<f64>,
+    /// The change of the velocities from the beginning to the end of the window, as its polynomial has it, rad/s or m/s.
+    pub velocity_change: Vec<f64>,
+}
+
+/// What the rows of a window are multiplied by: value, first and second derivative at the middle.
+struct Weights {
+    value: Vec<f64>,
+    first: Vec<f64>,
+    second: Vec<f64>,
+    third: Vec<f64>,
+}
+
+impl Smoothing {
+    /// The longest window that loses no motion: rows are those of the first minutes, in parts without gaps.
+    ///
+    /// A window is as good as the shortest one if what its polynomial leaves of the positions is as small. Of exact positions that is
+    /// the shortest, of an encoder with noise one that averages it.
+    pub fn choose(parts: &[Vec<(f64, RobotQ)>]) -> Option<Self> {
+        let mut periods: Vec<f64> =
+            parts.iter().flat_map(|part| part.windows(2).map(|pair| pair[1].0 - pair[0].0)).collect();
+        periods.retain(|period| *period > 0.0);
+        periods.sort_by(f64::total_cmp);
+        let period_s = *periods.get(periods.len() / 2)?;
+        // Wherever its middle is between two rows.
+        #[expect(clippy::cast_precision_loss, reason = "it is small")]
+        let shortest_s = period_s * FEWEST_ROWS as f64 * 0.52;
+        let least = left_by(parts, shortest_s)?;
+        let mut chosen = shortest_s;
+        let mut tried = shortest_s * LONGER;
+        while tried <= LONGEST_S {
+            let Some(left) = left_by(parts, tried) else { break };
+            let is_as_good = |(left, least): (&f64, &f64)| *left <= AS_WELL * least || *left < EXACT;
+            if !left.iter().zip(&least).all(is_as_good) {
+                break;
+            }
+            chosen = tried;
+            tried *= LONGER;
+        }
+        Some(Self { half_window_s: chosen })
+    }
+}
+
+/// Positions that a polynomial describes to this are not noisy: rounding of doubles. rad or m; kind: rounding.
+const EXACT: f64 = 1e-14;
+/// Windows of which each candidate is judged. Kind: choice.
+const JUDGED: usize = 400;
+
+/// What the polynomials of windows leave of the positions of each joint: root mean square, with the degrees of freedom.
+fn left_by(parts: &[Vec<(f64, RobotQ)>], half_window_s: f64) -> Option<Vec<f64>> {
+    let rows: usize = parts.iter().map(Vec::len).sum();
+    let every = (rows / JUDGED).max(1);
+    let mut sums: Vec<f64> = Vec::new();
+    let mut freedom = 0.0;
+    for part in parts {
+        for middle in (0..part.len()).step_by(every) {
+            let center_s = part[middle].0;
+            let from = part.partition_point(|row| row.0 < center_s - half_window_s);
+            let to = part.partition_point(|row| row.0 <= center_s + half_window_s);
+            let times: Vec<f64> = part[from..to].iter().map(|row| row.0).collect();
+            let Some(fit) = Polynomial::new(&times, center_s, half_window_s) else { continue };
+            sums.resize(part[middle].1.len(), 0.0);
+            for (joint, sum) in sums.iter_mut().enumerate() {
+                let values = part[from..to].iter().map(|row| row.1[joint]);
+                *sum += fit.left(values);
+            }
+            #[expect(clippy::cast_precision_loss, reason = "few rows")]
+            let more = (times.len() - DEGREE - 1) as f64;
+            freedom += more;
+        }
+    }
+    (freedom > 0.0).then(|| sums.iter().map(|sum| (sum / freedom).sqrt()).collect())
+}
+
+/// Powers of the times of a window, and the inverse of their normal equations.
+struct Polynomial {
+    powers: Vec<Vector5<f64>>,
+    inverse: Matrix5<f64>,
+}
+
+impl Polynomial {
+    /// `None` if the rows do not fill the window.
+    fn new(times_s: &[f64], center_s: f64, half_window_s: f64) -> Option<Self> {
+        let (first, last) = (times_s.first()?, times_s.last()?);
+        let is_filled =
+            center_s - first >= REACHED * half_window_s && last - center_s >= REACHED * half_window_s;
+        if times_s.len() < FEWEST_ROWS || !is_filled {
+            return None;
+        }
+        let powers: Vec<Vector5<f64>> = times_s
+            .iter()
+            .map(|time_s| {
+                let s = (time_s - center_s) / half_window_s;
+                Vector5::new(1.0, s, s * s, s * s * s, s * s * s * s)
+            })
+            .collect();
+        let normal = powers.iter().map(|powers| powers * powers.transpose()).sum::<Matrix5<f64>>();
+        Some(Self { inverse: normal.cholesky()?.inverse(), powers })
+    }
+
+    /// Sum of the squares of what the polynomial leaves of the values.
+    fn left(&self, values: impl Iterator<Item = f64> + Clone) -> f64 {
+        // About the first value, so that positions far from zero lose no digits.
+        let origin = values.clone().next().unwrap_or(0.0);
+        let right = self.powers.iter().zip(values.clone());
+        let right: Vector5<f64> = right.map(|(powers, value)| powers * (value - origin)).sum();
+        let coefficients = self.inverse * right;
+        let left = self.powers.iter().zip(values);
+        left.map(|(powers, value)| (value - origin - powers.dot(&coefficients)).powi(2)).sum()
+    }
+
+    fn weights(&self, half_window_s: f64) -> Weights {
+        let of = |row: usize, factor: f64| {
+            self.powers.iter().map(|powers| (self.inverse.row(row) * powers)[0] * factor).collect()
+        };
+        let h = half_window_s;
+        Weights {
+            value: of(0, 1.0),
+            first: of(1, 1.0 / h),
+            second: of(2, 2.0 / (h * h)),
+            third: of(3, 6.0 / (h * h * h)),
+        }
+    }
+}
+
+/// Rows around the next instant.
+#[derive(Debug)]
+pub(crate) struct Window {
+    smoothing: Smoothing,
+    rows: VecDeque<KeptRow>,
+    /// The middle of the next window, s.
+    next_s: Option<f64>,
+}
+
+impl Window {
+    pub(crate) fn new(smoothing: Smoothing) -> Self {
+        Self { smoothing, rows: VecDeque::new(), next_s: None }
+    }
+
+    /// Ends a part: the next row is not connected with those before.
+    pub(crate) fn break_here(&mut self) {
+        self.rows.clear();
+        self.next_s = None;
+    }
+
+    /// Adds a row, and gives each instant whose window is complete to `each`: one every half of a half window.
+    pub(crate) fn push(&mut self, row: KeptRow, mut each: impl FnMut(&SmoothedInstant)) {
+        let h = self.smoothing.half_window_s;
+        let newest_s = row.time_s;
+        let mut next_s = *self.next_s.get_or_insert(newest_s + h);
+        self.rows.push_back(row);
+        while newest_s >= next_s + h {
+            if let Some(instant) = self.instant(next_s) {
+                each(&instant);
+            }
+            next_s += h / 2.0;
+            while self.rows.front().is_some_and(|oldest| oldest.time_s < next_s - h) {
+                self.rows.pop_front();
+            }
+        }
+        self.next_s = Some(next_s);
+    }
+
+    fn instant(&self, center_s: f64) -> Option<SmoothedInstant> {
+        let h = self.smoothing.half_window_s;
+        let inside = || self.rows.iter().take_while(|row| row.time_s <= center_s + h);
+        let times: Vec<f64> = inside().map(|row| row.time_s).collect();
+        let weights = Polynomial::new(&times, center_s, h)?.weights(h);
+        let first = self.rows.front()?;
+        let joints = first.effort.len();
+        let sum = |weights: &[f64], value: &dyn Fn(&KeptRow) -> f64| -> f64 {
+            inside().zip(weights).map(|(row, weight)| weight * value(row)).sum()
+        };
+        // Derivatives of differences to the first row: a joint that does not move has none, without rounding.
+        let derivative = |weights: &[f64]| -> Vec<f64> {
+            (0..joints).map(|joint| sum(weights, &|row| row.q[joint] - first.q[joint])).collect()
+        };
+        let (second, third) = (derivative(&weights.second), derivative(&weights.third));
+        let moved = derivative(&weights.value);
+        Some(SmoothedInstant {
+            time_s: center_s,
+            q: (0..joints).map(|joint| first.q[joint] + moved[joint]).collect(),
+            qd: derivative(&weights.first),
+            // From -h to h the even terms of the velocity cancel.
+            velocity_change: second.iter().zip(&third).map(|(second, third)| (second * h).abs() + third.abs() * h * h / 2.0).collect(),
+            qdd: second,
+            effort: (0..joints).map(|joint| sum(&weights.value, &|row| row.effort[joint])).collect(),
+        })
+    }
+}

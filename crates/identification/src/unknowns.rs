@@ -1,0 +1,103 @@
+//! What is unknown of a robot, and where it stands in the vector of unknowns.
+
+use std::ops::Range;
+
+use congruent_dynamics::{BodyTree, PARAMETERS};
+use congruent_kinematics::Pose;
+use nalgebra::DVector;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// What a joint adds to the torque of the rigid bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JointTerm {
+    /// Viscous friction, N m s/rad or N s/m.
+    Viscous,
+    /// Coulomb friction, N m or N.
+    Coulomb,
+    /// Inertia of motor and gear as the joint feels it, kg m^2 or kg.
+    Armature,
+    /// A constant effort, as of a sensor that does not read zero, N m or N.
+    Offset,
+}
+
+impl JointTerm {
+    /// All, in the order of the unknowns.
+    pub const ALL: [Self; 4] = [Self::Viscous, Self::Coulomb, Self::Armature, Self::Offset];
+
+    /// Whether it cannot be negative.
+    pub(crate) fn is_positive(self) -> bool {
+        self != Self::Offset
+    }
+}
+
+/// Where a payload hangs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PayloadPlace {
+    /// The moving joint whose body carries it.
+    pub joint: usize,
+    /// The frame in which it is reported, in the frame of the link of that joint.
+    pub link_from_payload: Pose,
+}
+
+/// The parameters that are estimated. Constant efforts of joints always are.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FreeParameters {
+    /// Viscous and Coulomb friction of each joint.
+    pub friction: bool,
+    /// Armature of each joint.
+    pub armature: bool,
+    /// A body that the description does not have.
+    pub payload: Option<PayloadPlace>,
+    /// The ten inertial parameters of each body.
+    pub links: bool,
+}
+
+impl FreeParameters {
+    /// Whether a term of the joints is estimated.
+    pub(crate) fn has(&self, term: JointTerm) -> bool {
+        match term {
+            JointTerm::Viscous | JointTerm::Coulomb => self.friction,
+            JointTerm::Armature => self.armature,
+            JointTerm::Offset => true,
+        }
+    }
+}
+
+/// The vector of unknowns: ten inertial parameters of each body, then four terms of each driven joint.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Layout {
+    pub(crate) bodies: usize,
+    /// The driven joints, among the moving ones.
+    pub(crate) joints: Vec<usize>,
+}
+
+impl Layout {
+    pub(crate) fn len(&self) -> usize {
+        PARAMETERS * self.bodies + JointTerm::ALL.len() * self.joints.len()
+    }
+
+    pub(crate) fn body(&self, body: usize) -> Range<usize> {
+        PARAMETERS * body..PARAMETERS * (body + 1)
+    }
+
+    /// A term of a driven joint, by its number among these.
+    pub(crate) fn term(&self, joint: usize, term: JointTerm) -> usize {
+        PARAMETERS * self.bodies + JointTerm::ALL.len() * joint + term as usize
+    }
+
+    /// The unknowns as a description has them; terms of a joint with those of its followers.
+    pub(crate) fn nominal(&self, tree: &BodyTree) -> DVector<f64> {
+        let mut nominal = DVector::zeros(self.len());
+        nominal.rows_mut(0, PARAMETERS * self.bodies).copy_from(&tree.all_parameters());
+        for (joint, resistance) in tree.resistances().iter().enumerate() {
+            // What brakes a follower brakes its driver.
+            let (at, ratio) = tree.driver(joint);
+            nominal[self.term(at, JointTerm::Viscous)] += ratio * ratio * resistance.damping;
+            nominal[self.term(at, JointTerm::Coulomb)] += ratio.abs() * resistance.friction;
+            nominal[self.term(at, JointTerm::Armature)] += ratio * ratio * resistance.armature;
+        }
+        nominal
+    }
+}
