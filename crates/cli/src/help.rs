@@ -17,12 +17,12 @@ const GROUPS: [(&str, &[&str]); 6] = [
         "Compute",
         &["fk", "ik", "jacobian", "dynamics", "clearance", "workspace", "manipulability", "sensitivity"],
     ),
-    ("Model", &["convert", "calibrate"]),
+    ("Model", &["convert", "calibrate", "identify"]),
     ("Shell", &["schema", "completions", "man", "help"]),
 ];
 
 /// Two examples or more of each command, by its name, in the root of the project.
-const EXAMPLES: [(&str, &[&str]); 23] = [
+const EXAMPLES: [(&str, &[&str]); 24] = [
     (
         "check",
         &[
@@ -147,6 +147,14 @@ const EXAMPLES: [(&str, &[&str]); 23] = [
             "congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv --noise 0.1mm",
             "congruent calibrate robots/ur5e docs/examples/calibration/ur5e_points.csv --out calibrated",
             "congruent calibrate robots/ur5e --same-point docs/examples/calibration/ur5e_hole_1.csv",
+        ],
+    ),
+    (
+        "identify",
+        &[
+            "congruent identify robots/ur5e monday.mcap",
+            "congruent identify robots/ur5e monday.mcap --free friction,payload --out identified.urdf",
+            "congruent identify robots/ur5e monday.csv --still --free payload",
         ],
     ),
     ("schema", &["congruent schema robot", "congruent schema scenario > scenario.json"]),

@@ -33,6 +33,14 @@ congruent_input::codes! {
         POSES = "CGR-COMMAND-087", "replay::poses",
             "The log has no topic of this name with poses. `congruent describe LOG` lists its topics.\n    wrong: --measured-pose /tracker\n    right: --measured-pose /tracker/pose";
     }
+    identify {
+        EFFORT = "CGR-COMMAND-101", "identify::effort",
+            "The log has no efforts of the robot, or they are nothing that can be identified from: neither torques, nor torques without gravity, nor currents by the masses of the description. State what they are, and correct the masses of the description if they are placeholders.\n    congruent identify robots/ur5e monday.mcap --effort current";
+        MOTION = "CGR-COMMAND-102", "identify::motion",
+            "The log has no instants to identify from: no joint moves fast enough, or rows are too far apart for velocities and accelerations. At rest, masses show by gravity alone.\n    congruent identify robots/ur5e monday.mcap --still --free payload";
+        FREE = "CGR-COMMAND-103", "identify::free",
+            "What is to be identified cannot be: a link or a joint of this name is not there, or two parameters show their ratio alone, as the masses of all links and the torque constants of all motors.\n    wrong: --effort current --free links\n    right: --effort current --free links --torque-constant elbow_joint=9.2";
+    }
     python {
         ARRAY = "CGR-PYTHON-001", "python::array",
             "An array that Python code gives has a wrong shape, or a value that is not a finite number. Positions are (joints,) for one configuration and (n, joints) for many, in the order of `robot.joints`, or a dictionary by the names of joints.\n    robot.fk({\"elbow_joint\": 0.1})";

@@ -11,6 +11,7 @@ pub use congruent_description as description;
 pub use congruent_dynamics as dynamics;
 pub use congruent_dynamics_agreement as dynamics_agreement;
 pub use congruent_fault_diagnosis as fault_diagnosis;
+pub use congruent_identification as identification;
 pub use congruent_input as input;
 pub use congruent_kinematics as kinematics;
 pub use congruent_lint as lint_rules;
@@ -35,6 +36,7 @@ pub use nalgebra;
 
 mod check;
 pub mod codes;
+pub mod identify;
 #[cfg(feature = "recording")]
 mod joint_sweep;
 pub mod replay;

@@ -13,6 +13,7 @@ use congruent_analysis::{
     sensitivity::SensitivityReport,
     workspace::WorkspaceReport,
 };
+use congruent_identification::report::IdentificationReport;
 use congruent_calibration::{MeasuredCheck, report::CalibrationReport, same_point::SamePointReport};
 use congruent_configurations::configurations_schema;
 use congruent_description::robot_file_schema;
@@ -109,6 +110,7 @@ impl Document {
             "corrections from touched points, printed by `calibrate --same-point`",
             written::<SamePointReport>,
         ),
+        Self::new("identify", "parameters, printed by `identify`", written::<IdentificationReport>),
         Self::new(
             "convert",
             "model and proof, printed by `convert` and `derive`",

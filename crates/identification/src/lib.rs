@@ -19,7 +19,9 @@ pub mod excitation;
 mod held_out;
 mod identified;
 mod pseudo_inertia;
+mod recording_survey;
 mod regressor_row;
+pub mod report;
 mod smoothing;
 mod solve;
 mod told_apart;
@@ -33,5 +35,6 @@ pub use held_out::HeldOut;
 pub use identified::{
     Identified, IdentifiedBody, IdentifiedJoint, IdentifiedValue, NotToldApart, identify,
 };
-pub use smoothing::{Smoothing, SmoothedInstant};
+pub use recording_survey::{RecordingSurvey, SampledParts};
+pub use smoothing::{SmoothedInstant, Smoothing};
 pub use unknowns::{FreeParameters, JointTerm, PayloadPlace};

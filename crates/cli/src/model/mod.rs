@@ -7,6 +7,7 @@ pub(crate) mod convert;
 pub(crate) mod describe;
 mod errors_at;
 mod fixed_table;
+pub(crate) mod identify;
 pub(crate) mod lint;
 mod measured;
 mod same_point;

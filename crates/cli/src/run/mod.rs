@@ -3,6 +3,7 @@
 mod arguments;
 mod faults;
 mod index;
+pub(crate) mod log_arguments;
 pub(crate) mod replay;
 mod resumed;
 mod run_answer;

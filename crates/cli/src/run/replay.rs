@@ -12,7 +12,7 @@ use congruent::{
     other_description,
     replay::{LEFT_OUT, ReplayDraft, ReplayRequest, in_folder, replay_draft, replay_text},
     results::files::write_whole,
-    scenario::{LogClock, PoseOrigin},
+    scenario::PoseOrigin,
 };
 
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
     failure::{FAILED, Failure, unwritable, worse},
     input::AccessArguments,
     invocation,
-    run::arguments::RecordingArguments,
+    run::{arguments::RecordingArguments, log_arguments::LogArguments},
     terminal::{print::Printer, progress::waiting},
 };
 
@@ -44,15 +44,11 @@ pub(crate) struct Arguments {
     /// Replace the scenario file of an earlier call, even if you have edited it.
     #[arg(long)]
     force: bool,
-    /// The topic with the measured joint states, if several have the same joints.
-    #[arg(long, value_name = "TOPIC")]
-    joints: Option<String>,
+    #[command(flatten)]
+    of_log: LogArguments,
     /// The topic with the commanded joint states, which the measured ones are compared with.
     #[arg(long, value_name = "TOPIC")]
     setpoint: Option<String>,
-    /// Positions and velocities of joints that turn are in degrees.
-    #[arg(long)]
-    degrees: bool,
     /// Poses of this topic were measured, by a tracker or a camera. May be given several times.
     #[arg(long, value_name = "TOPIC")]
     measured_pose: Vec<String>,
@@ -62,27 +58,12 @@ pub(crate) struct Arguments {
     /// Poses of this topic were computed from the joint states by a URDF. May be given several times.
     #[arg(long, value_name = "TOPIC")]
     derived_pose: Vec<String>,
-    /// The time of a message: the stamp of its sender, or when the recorder had it. By default the stamp, where there is one.
-    #[arg(long, value_enum)]
-    clock: Option<StampChoice>,
-    /// Rate of the rows of a table without times, Hz.
-    #[arg(long, value_name = "HZ", value_parser = crate::quantity::rate_hz)]
-    rate_hz: Option<f64>,
     #[command(flatten)]
     recording: RecordingArguments,
     #[command(flatten)]
     ci: CiArguments,
     #[command(flatten)]
     access: AccessArguments,
-}
-
-/// The clock of the messages.
-#[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum StampChoice {
-    /// The stamps of the senders.
-    Stamp,
-    /// The times of the recorder.
-    Log,
 }
 
 impl Arguments {
@@ -122,17 +103,7 @@ impl Arguments {
         let poses = kinds
             .into_iter()
             .flat_map(|(topics, origin)| topics.iter().map(move |topic| (topic.clone(), origin)));
-        ReplayRequest {
-            clock: self.clock.map(|clock| match clock {
-                StampChoice::Stamp => LogClock::Stamp,
-                StampChoice::Log => LogClock::Log,
-            }),
-            rate_hz: self.rate_hz,
-            degrees: self.degrees,
-            joints: self.joints.clone(),
-            setpoint: self.setpoint.clone(),
-            poses: poses.collect(),
-        }
+        ReplayRequest { setpoint: self.setpoint.clone(), poses: poses.collect(), ..self.of_log.request() }
     }
 }
 

@@ -35,23 +35,11 @@ pub fn replay_draft(
     log: &Path,
     request: &ReplayRequest,
 ) -> Result<ReplayDraft, Findings> {
-    let names = description.robot.movable_joint_names().map(str::to_owned).collect();
-    let options = LogOptions { rate_hz: request.rate_hz, joints: names };
-    let survey = survey_log(log, &options, Some(&description.robot))?.survey;
-    // The unit of a dataset is a guess that everything behind it depends on.
-    let of_unit =
-        survey.warnings.iter().filter(|warning| warning.code == congruent_logs::codes::log::MOTOR_UNITS.name);
-    let mut taken: Vec<String> = of_unit.map(|warning| warning.message.clone()).collect();
-    let mut source = SourceSettings::new(log.display().to_string());
-    (source.clock, source.rate_hz) = (request.clock, request.rate_hz);
-    source.joints = joints(request, &survey, &mut taken);
+    let ReplayDraft { mut scenario, mut taken, survey } = joints_draft(description, log, request)?;
+    if let Some(source) = scenario.source.as_mut().filter(|source| is_found_again(request, &survey, source)) {
+        source.joints.clear();
+    }
     let mut poses = chosen_poses(description, request, &survey, &mut taken)?;
-    let mut scenario = Scenario {
-        name: name_of(log),
-        robot: description.path.display().to_string(),
-        source: Some(source),
-        ..Scenario::default()
-    };
     fit(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?;
     let is_left_out = |(topic, _): &&(String, _)| !poses.iter().any(|pose| pose.topic == *topic);
     if let Some((topic, _)) = request.poses.iter().find(is_left_out) {
@@ -64,6 +52,31 @@ pub fn replay_draft(
     if let Some(source) = &mut scenario.source {
         source.pose = poses;
     }
+    Ok(ReplayDraft { scenario, taken, survey })
+}
+
+/// The scenario of the joint states of a log alone: without poses and checks.
+pub(crate) fn joints_draft(
+    description: &RobotDescription,
+    log: &Path,
+    request: &ReplayRequest,
+) -> Result<ReplayDraft, Findings> {
+    let names = description.robot.movable_joint_names().map(str::to_owned).collect();
+    let options = LogOptions { rate_hz: request.rate_hz, joints: names };
+    let survey = survey_log(log, &options, Some(&description.robot))?.survey;
+    // The unit of a dataset is a guess that everything behind it depends on.
+    let of_unit =
+        survey.warnings.iter().filter(|warning| warning.code == congruent_logs::codes::log::MOTOR_UNITS.name);
+    let mut taken: Vec<String> = of_unit.map(|warning| warning.message.clone()).collect();
+    let mut source = SourceSettings::new(log.display().to_string());
+    (source.clock, source.rate_hz) = (request.clock, request.rate_hz);
+    source.joints = joints(request, &survey, &mut taken);
+    let scenario = Scenario {
+        name: name_of(log),
+        robot: description.path.display().to_string(),
+        source: Some(source),
+        ..Scenario::default()
+    };
     Ok(ReplayDraft { scenario, taken, survey })
 }
 
@@ -112,15 +125,18 @@ fn joints(request: &ReplayRequest, survey: &LogSurvey, taken: &mut Vec<String>) 
         taken.push(format!("setpoints: {topic}{}", rate(survey, topic)));
     }
     taken.extend(survey.robot.iter().flat_map(not_matched));
+    // Degrees that nobody has stated are refused by the run, which then looks for the joints itself.
+    let is_in_degrees = survey.robot.as_ref().is_some_and(|of| of.position_unit == PositionUnit::Degree);
+    if !request.degrees && is_in_degrees { Vec::new() } else { chosen }
+}
+
+/// Whether the log says by itself which joints are which: then they are found again at each run, as of the next log of the same robot.
+fn is_found_again(request: &ReplayRequest, survey: &LogSurvey, source: &SourceSettings) -> bool {
+    let sources = survey.robot.iter().map(|of| of.sources.len()).sum::<usize>();
     let is_plain = |of: &LoggedJointSettings| {
         LoggedJointSettings { topic: of.topic.clone(), ..LoggedJointSettings::default() } == *of
     };
-    let is_clear = request.joints.is_none() && !sources.is_empty() && chosen.iter().all(is_plain);
-    // What the log says by itself is found again at each run, as for the next log of the same robot; degrees that nobody has
-    // stated are refused there.
-    let is_in_degrees = survey.robot.as_ref().is_some_and(|of| of.position_unit == PositionUnit::Degree);
-    let is_unstated = !request.degrees && is_in_degrees;
-    if is_unstated || is_clear && chosen.len() == sources.len() { Vec::new() } else { chosen }
+    request.joints.is_none() && source.joints.len() == sources && source.joints.iter().all(is_plain)
 }
 
 /// The topic that by its name is commanded, if it has joints that another one has.

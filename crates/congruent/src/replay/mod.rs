@@ -11,6 +11,7 @@ mod request;
 mod survey_words;
 mod written;
 
+pub(crate) use draft::joints_draft;
 pub use draft::{ReplayDraft, in_folder, replay_draft};
 pub use pose_cause::explain_recorded;
 pub use request::ReplayRequest;

@@ -1,0 +1,199 @@
+//! From a robot and a log to its parameters.
+
+use std::path::Path;
+
+use congruent_description::{LinkIndex, RobotDescription, RobotQ};
+use congruent_dynamics::BodyTree;
+use congruent_identification::{
+    EffortKind, FreeParameters, Identified, PayloadPlace, RecognisedEffort, RecordedEquations, identify, recognise,
+    report::{Identification, IdentificationReport, edited_text, identification_report},
+};
+use congruent_input::{Capability, Diagnostic, Findings, display::number, known_names};
+use congruent_kinematics::{Pose, UrdfTree};
+
+use super::{
+    recorded_efforts::RecordedEfforts,
+    request::{FreeGroup, IdentifyRequest},
+};
+use crate::{codes, replay::joints_draft};
+
+/// What a log says of the parameters of a robot.
+#[derive(Debug, Clone)]
+pub struct IdentifiedLog {
+    /// The report.
+    pub report: IdentificationReport,
+    /// The URDF or MJCF with the identified parameters; `None` if nothing in it changes, or they are not better.
+    pub edited: Option<String>,
+    /// What was found in the log and taken, a line each.
+    pub taken: Vec<String>,
+}
+
+/// The parameters of a robot that a log of its joint positions and efforts identifies.
+///
+/// # Errors
+/// The log cannot be read or has no such efforts, masses are missing, or what is asked for cannot be identified.
+pub fn identify_log(
+    description: &RobotDescription,
+    log: &Path,
+    request: &IdentifyRequest,
+) -> Result<IdentifiedLog, Findings> {
+    description.check_capability(Capability::Physics)?;
+    let (free, payload_frame) = free_parameters(description, request)?;
+    let draft = joints_draft(description, log, &request.log)?;
+    let mut tree = BodyTree::new(&description.robot);
+    if let Some(gravity_m_s2) = request.gravity_m_s2 {
+        tree = tree.with_gravity(gravity_m_s2);
+    }
+    let given = given_constants(description, &tree, request)?;
+    let efforts = RecordedEfforts::open(draft.scenario, description)?;
+    let no_motion = |why: &str| {
+        let message = format!("{}: {why}", log.display());
+        Findings::from(Diagnostic::error(codes::identify::MOTION, message).with_help(
+            "efforts at rest show masses alone: --still; a motion that shows more is made by `congruent plan`",
+        ))
+    };
+    let survey = efforts.survey(request.half_window_s)?;
+    let survey = survey.ok_or_else(|| no_motion("rows are too far apart for velocities and accelerations"))?;
+    let equations = efforts.equations(&tree, &survey, request.is_still)?;
+    if equations.instants == 0 {
+        return Err(no_motion(if request.is_still { "the robot is never at rest" } else { "no joint moves" }));
+    }
+    let (equations, recognised, kind) = as_torques(equations, request, &given)?;
+    let identified = identify(&equations, &free).ok_or_else(|| no_motion("no joint has an instant with an effort"))?;
+    let report = identification_report(&Identification {
+        description,
+        log: &log.display().to_string(),
+        recognised: &recognised,
+        kind,
+        is_declared: request.effort.is_some(),
+        given_constants: &given,
+        smoothing: survey.smoothing,
+        is_still: request.is_still,
+        instants: equations.instants,
+        payload_frame: &payload_frame,
+        identified: &identified,
+    });
+    let edited = edited(description, &identified);
+    Ok(IdentifiedLog { report, edited, taken: draft.taken })
+}
+
+fn edited(description: &RobotDescription, identified: &Identified) -> Option<String> {
+    if identified.is_better { edited_text(description, identified) } else { None }
+}
+
+/// The equations with efforts that are torques, what the efforts look like, and what they were taken to be.
+fn as_torques(
+    equations: RecordedEquations,
+    request: &IdentifyRequest,
+    given: &[Option<f64>],
+) -> Result<(RecordedEquations, RecognisedEffort, EffortKind), Findings> {
+    let recognised = recognise(&equations);
+    // At rest there is no motion by which kinds would differ.
+    let by_itself = if request.is_still { EffortKind::Torque } else { recognised.kind };
+    let kind = match request.effort {
+        _ if recognised.kind == EffortKind::None => EffortKind::None,
+        Some(kind) => kind,
+        None if given.iter().any(Option::is_some) => EffortKind::Current,
+        None => by_itself,
+    };
+    let refused = |message: String| Findings::from(Diagnostic::error(codes::identify::EFFORT, message));
+    match kind {
+        EffortKind::Torque => Ok((equations, recognised, kind)),
+        EffortKind::TorqueWithoutGravity => Ok((equations.with_gravity_added(), recognised, kind)),
+        EffortKind::Current => {
+            let is_of_links = request.free.contains(&FreeGroup::Links) && given.iter().all(Option::is_none);
+            if is_of_links {
+                let message = "masses of links and torque constants show their ratio alone".to_owned();
+                let error = Diagnostic::error(codes::identify::FREE, message);
+                return Err(error.with_help("give the torque constant of a joint: --torque-constant JOINT=N_M_PER_A").into());
+            }
+            // A joint without one has no torque: its rows are left out.
+            let factors = recognised.factors.iter().zip(given);
+            let factors: Vec<f64> = factors
+                .map(|(fitted, given)| given.or(fitted.map(|(factor, _)| factor)).unwrap_or(f64::NAN))
+                .collect();
+            Ok((equations.with_factors(&factors), recognised, kind))
+        }
+        EffortKind::None => Err(refused("the log has no efforts of this robot, or they do not change".to_owned())),
+        EffortKind::Unknown => {
+            let [torque, without_gravity, current] = recognised.left.map(number);
+            Err(refused(format!(
+                "the efforts are neither torques nor currents by the masses of the description: as torques {torque} of their variance is \
+                 left, as torques without gravity {without_gravity}, as currents {current}"
+            )))
+        }
+    }
+}
+
+fn free_parameters(
+    description: &RobotDescription,
+    request: &IdentifyRequest,
+) -> Result<(FreeParameters, String), Findings> {
+    let has = |group| request.free.contains(&group);
+    if request.payload_at.is_some() && !has(FreeGroup::Payload) {
+        let message = "a link for the payload is named, and no payload is estimated".to_owned();
+        return Err(Diagnostic::error(codes::identify::FREE, message).with_help("--free friction,payload").into());
+    }
+    let (payload, frame) = payload_place(description, request)?;
+    if has(FreeGroup::Payload) && has(FreeGroup::Links) {
+        let message = "a payload and the link that carries it show their sum alone: --free payload or links".to_owned();
+        return Err(Diagnostic::error(codes::identify::FREE, message).into());
+    }
+    let free = FreeParameters {
+        friction: has(FreeGroup::Friction) && !request.is_still,
+        armature: has(FreeGroup::Armature) && !request.is_still,
+        payload: payload.filter(|_| has(FreeGroup::Payload)),
+        links: has(FreeGroup::Links),
+    };
+    Ok((free, frame))
+}
+
+/// Where the payload hangs, and the name of its frame.
+fn payload_place(
+    description: &RobotDescription,
+    request: &IdentifyRequest,
+) -> Result<(Option<PayloadPlace>, String), Findings> {
+    let robot = &description.robot;
+    let (link, link_from_payload, frame) = match &request.payload_at {
+        None => (description.tip, description.tip_from_tcp, "TCP".to_owned()),
+        Some(name) => {
+            let link = robot.find_link(name).ok_or_else(|| {
+                let error = Diagnostic::error(codes::identify::FREE, format!("there is no link \"{name}\""));
+                error.with_help(known_names(name, "links", robot.links().iter().map(|link| link.name.as_str())))
+            })?;
+            (link, None, name.clone())
+        }
+    };
+    let Some((joint, body)) = carrier(description, link) else { return Ok((None, frame)) };
+    let tree = UrdfTree::new(robot);
+    let zero = RobotQ::from(vec![0.0; robot.dof()]);
+    let pose = |link: LinkIndex| tree.root_from_link(&zero, link).map_err(|error| {
+        Findings::from(Diagnostic::error(codes::identify::FREE, error.to_string()))
+    });
+    let body_from_link = pose(body)?.inverse() * pose(link)?;
+    let link_from_payload = body_from_link * link_from_payload.map_or_else(Pose::identity, Pose::from);
+    Ok((Some(PayloadPlace { joint, link_from_payload }), frame))
+}
+
+/// The moving joint that moves a link, and the link that this joint carries.
+fn carrier(description: &RobotDescription, link: LinkIndex) -> Option<(usize, LinkIndex)> {
+    let robot = &description.robot;
+    let body = robot.body(link);
+    let joint = robot.parent_joint(body)?;
+    Some((robot.coordinate(joint)?, body))
+}
+
+/// Torque for a unit of effort of each driven joint, as the caller gives it.
+fn given_constants(
+    description: &RobotDescription,
+    tree: &BodyTree,
+    request: &IdentifyRequest,
+) -> Result<Vec<Option<f64>>, Findings> {
+    let names: Vec<&str> = description.robot.movable_joint_names().collect();
+    let driven: Vec<&str> = tree.driven_joints().iter().map(|&joint| names[joint]).collect();
+    if let Some(unknown) = request.torque_constants.keys().find(|name| !driven.contains(&name.as_str())) {
+        let error = Diagnostic::error(codes::identify::FREE, format!("there is no driven joint \"{unknown}\""));
+        return Err(error.with_help(known_names(unknown, "joints", driven)).into());
+    }
+    Ok(driven.iter().map(|name| request.torque_constants.get(*name).copied()).collect())
+}

@@ -1,0 +1,121 @@
+//! The joint states of a log, row by row, with their efforts as they were recorded.
+
+use congruent_dynamics::BodyTree;
+use congruent_identification::{Collector, Instants, RecordedEquations, RecordedRow, RecordingSurvey, SampledParts};
+use congruent_input::{Diagnostic, Findings};
+use congruent_scenario::{JointRole, LoggedEffort, Scenario};
+use congruent_twin::{
+    RunSetup,
+    setup::RecordedSetup,
+    source::{Advance, JointStateSource, RecordedSource, SourceError},
+};
+
+use crate::codes;
+
+/// A log that is read for its efforts.
+pub(super) struct RecordedEfforts {
+    setup: RunSetup,
+    recorded: RecordedSetup,
+    from_s: f64,
+    duration_s: f64,
+}
+
+/// What is read from a log.
+enum Event<'a> {
+    Row(RecordedRow<'a>),
+    /// What follows is not connected with what was before.
+    Break,
+}
+
+impl RecordedEfforts {
+    /// # Errors
+    /// The log cannot be read, or does not have the joints.
+    pub(super) fn open(
+        mut scenario: Scenario,
+        description: &congruent_description::RobotDescription,
+    ) -> Result<Self, Findings> {
+        let joints = scenario.source.iter_mut().flat_map(|source| &mut source.joints);
+        // Whatever they are: that is found out.
+        joints.filter(|of| of.role == JointRole::Measured).for_each(|of| of.effort = LoggedEffort::Torque);
+        let setup = RunSetup::new(scenario, description.clone())?;
+        let recorded = setup.recorded.clone().ok_or_else(|| unreadable("the log has no joint states"))?;
+        let mut efforts = Self { setup, recorded, from_s: 0.0, duration_s: 0.0 };
+        let mut times: Option<[f64; 2]> = None;
+        efforts.read(|event| {
+            if let Event::Row(row) = event {
+                times.get_or_insert([row.time_s; 2])[1] = row.time_s;
+            }
+            Ok(())
+        })?;
+        let [from_s, to_s] = times.unwrap_or_default();
+        (efforts.from_s, efforts.duration_s) = (from_s, to_s - from_s);
+        Ok(efforts)
+    }
+
+    /// How fast the joints move, and how long the window is; `None` if rows are too far apart.
+    pub(super) fn survey(&self, half_window_s: Option<f64>) -> Result<Option<RecordingSurvey>, Findings> {
+        let mut parts = SampledParts::new(self.from_s, self.duration_s);
+        self.read(|event| {
+            match event {
+                Event::Row(row) => parts.push(row.time_s, row.q),
+                Event::Break => parts.break_here(),
+            }
+            Ok(())
+        })?;
+        Ok(parts.survey(half_window_s))
+    }
+
+    /// The equations of the whole log.
+    pub(super) fn equations(
+        &self,
+        tree: &BodyTree,
+        survey: &RecordingSurvey,
+        is_still: bool,
+    ) -> Result<RecordedEquations, Findings> {
+        let instants = if is_still {
+            Instants::Still(survey.still_speeds())
+        } else {
+            Instants::Moving(survey.moving_speeds())
+        };
+        let mut collector = Collector::new(tree, survey.smoothing, instants, self.from_s, self.duration_s);
+        self.read(|event| match event {
+            Event::Row(row) => collector.push(row).map_err(|error| unreadable(&error.to_string())),
+            Event::Break => {
+                collector.break_here();
+                Ok(())
+            }
+        })?;
+        Ok(collector.finish())
+    }
+
+    /// Gives each row of the log to `each`, from the first on.
+    fn read(&self, mut each: impl FnMut(Event<'_>) -> Result<(), Findings>) -> Result<(), Findings> {
+        let refused = |error: SourceError| unreadable(&error.to_string());
+        let robot = &self.setup.description.robot;
+        let mut source = RecordedSource::new(&self.recorded, robot, &self.setup.start).map_err(refused)?;
+        let mut time_s = source.start_s();
+        let unknown = vec![f64::NAN; robot.dof()];
+        loop {
+            if source.begins_part() {
+                each(Event::Break)?;
+            }
+            let state = source.joints().measured;
+            let effort = if state.effort.is_empty() { &unknown[..] } else { state.effort };
+            each(Event::Row(RecordedRow { time_s, q: state.q, effort }))?;
+            loop {
+                match source.advance(0.0).map_err(refused)? {
+                    Advance::At(next_s) => {
+                        time_s = next_s;
+                        break;
+                    }
+                    Advance::Gap { .. } => each(Event::Break)?,
+                    Advance::End => return Ok(()),
+                }
+            }
+        }
+    }
+}
+
+fn unreadable(why: &str) -> Findings {
+    Diagnostic::error(codes::replay::READ, why.to_owned()).into()
+}

@@ -1,0 +1,173 @@
+//! From what was identified to its report.
+
+use congruent_description::{Robot, RobotDescription};
+use congruent_dynamics::SpatialInertia;
+
+use super::{
+    identification_report::{
+        CombinedJoint, IdentificationReport, IdentificationVerdict, ReportedBody, ReportedEffort, ReportedJoint,
+        ReportedTerm, ReportedValue, TorqueConstant,
+    },
+    lines::lines,
+};
+use crate::{
+    effort_kind::{EffortKind, RecognisedEffort},
+    identified::{Identified, IdentifiedBody, IdentifiedJoint},
+    smoothing::Smoothing,
+    unknowns::JointTerm,
+};
+
+/// An identification, to be reported.
+#[derive(Debug, Clone, Copy)]
+pub struct Identification<'a> {
+    /// The robot.
+    pub description: &'a RobotDescription,
+    /// Path of the log.
+    pub log: &'a str,
+    /// How the efforts look by themselves.
+    pub recognised: &'a RecognisedEffort,
+    /// What they were taken to be.
+    pub kind: EffortKind,
+    /// Whether the caller said so.
+    pub is_declared: bool,
+    /// The torque for a unit of effort that the caller gave, of each driven joint.
+    pub given_constants: &'a [Option<f64>],
+    /// The window.
+    pub smoothing: Smoothing,
+    /// Whether instants at rest were taken.
+    pub is_still: bool,
+    /// Instants that were used.
+    pub instants: usize,
+    /// The frame of the payload.
+    pub payload_frame: &'a str,
+    /// What was identified.
+    pub identified: &'a Identified,
+}
+
+/// The report of an identification.
+pub fn identification_report(of: &Identification<'_>) -> IdentificationReport {
+    let Identification { description, identified, .. } = *of;
+    let robot = &description.robot;
+    let is_better = identified.is_better;
+    IdentificationReport {
+        file: description.path.display().to_string(),
+        robot: description.name.clone(),
+        log: of.log.to_owned(),
+        verdict: if is_better { IdentificationVerdict::Better } else { IdentificationVerdict::NotBetter },
+        effort: effort(of),
+        half_window_s: of.smoothing.half_window_s,
+        is_of_still_poses: of.is_still,
+        instants: of.instants,
+        joints: identified.joints.iter().map(|joint| reported(robot, joint)).collect(),
+        not_told_apart: identified
+            .not_told_apart
+            .iter()
+            .map(|of| CombinedJoint { joint: name(robot, of.joint), kept: of.term, like: of.from.clone() })
+            .collect(),
+        payload: identified.payload.as_ref().map(|payload| body(robot, payload, of.payload_frame)),
+        bodies: identified.bodies.iter().map(|of| body(robot, of, &link_name(robot, of.joint))).collect(),
+        known_combinations: identified.known_combinations[0],
+        free_inertial_parameters: identified.known_combinations[1],
+        lines: is_better.then(|| lines(description, identified, of.payload_frame)),
+        written: Vec::new(),
+        warnings: Vec::new(),
+    }
+}
+
+pub(super) fn name(robot: &Robot, joint: usize) -> String {
+    robot.joint(robot.movable_joints()[joint]).name.clone()
+}
+
+pub(super) fn link_name(robot: &Robot, joint: usize) -> String {
+    robot.link(robot.joint(robot.movable_joints()[joint]).child).name.clone()
+}
+
+pub(super) fn turns(robot: &Robot, joint: usize) -> bool {
+    robot.joint(robot.movable_joints()[joint]).kind.is_angular()
+}
+
+/// The unit of a term of a joint.
+pub(super) fn unit(term: JointTerm, turns: bool) -> &'static str {
+    match (term, turns) {
+        (JointTerm::Viscous, true) => "N m s/rad",
+        (JointTerm::Viscous, false) => "N s/m",
+        (JointTerm::Coulomb | JointTerm::Offset, true) => "N m",
+        (JointTerm::Coulomb | JointTerm::Offset, false) => "N",
+        (JointTerm::Armature, true) => "kg m^2",
+        (JointTerm::Armature, false) => "kg",
+    }
+}
+
+fn reported(robot: &Robot, joint: &IdentifiedJoint) -> ReportedJoint {
+    let turns = turns(robot, joint.joint);
+    let terms = joint.terms.iter().map(|(term, value)| ReportedTerm {
+        term: *term,
+        value: ReportedValue {
+            value: value.value,
+            standard_error: value.standard_error,
+            nominal: value.nominal,
+            unit: unit(*term, turns),
+        },
+        is_significant: value.value.abs() >= SIGNIFICANT * value.standard_error,
+    });
+    ReportedJoint {
+        joint: name(robot, joint.joint),
+        instants: joint.held_out.rows,
+        effort_rms: joint.held_out.effort,
+        before_rms: joint.held_out.before,
+        after_rms: joint.held_out.after,
+        alike: joint.noise.alike,
+        unit: if turns { "N m" } else { "N" },
+        terms: terms.collect(),
+    }
+}
+
+/// Standard errors from which on a value differs from zero. Kind: choice, as usual.
+const SIGNIFICANT: f64 = 2.0;
+
+fn body(robot: &Robot, of: &IdentifiedBody, frame: &str) -> ReportedBody {
+    let center = |inertia: &SpatialInertia| -> Option<[f64; 3]> {
+        (inertia.mass_kg > 0.0).then(|| (inertia.first_moment_kg_m / inertia.mass_kg).into())
+    };
+    let about_center = of.inertia.to_link();
+    let tensor = about_center.map_or_else(nalgebra::Matrix3::zeros, |inertia| inertia.tensor_kg_m2);
+    ReportedBody {
+        joint: name(robot, of.joint),
+        frame: frame.to_owned(),
+        mass: ReportedValue {
+            value: of.inertia.mass_kg,
+            standard_error: of.mass_error_kg,
+            nominal: of.nominal.mass_kg,
+            unit: "kg",
+        },
+        center_m: center(&of.inertia).unwrap_or_default(),
+        center_error_m: of.center_error_m,
+        nominal_center_m: center(&of.nominal),
+        inertia_kg_m2: [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|at| tensor[at]),
+        inertia_error_kg_m2: of.tensor_error_kg_m2,
+    }
+}
+
+fn effort(of: &Identification<'_>) -> ReportedEffort {
+    let robot = &of.description.robot;
+    let [left_as_torque, left_as_torque_without_gravity, left_as_current] = of.recognised.left;
+    let constant = |(row, joint): (usize, &IdentifiedJoint)| {
+        let fitted = of.recognised.factors[row];
+        let given = of.given_constants.get(row).copied().flatten();
+        TorqueConstant {
+            joint: name(robot, joint.joint),
+            value: given.or(fitted.map(|(factor, _)| factor)),
+            standard_error: if given.is_some() { None } else { fitted.map(|(_, error)| error) },
+            unit: if turns(robot, joint.joint) { "N m/A" } else { "N/A" },
+        }
+    };
+    let constants = of.identified.joints.iter().enumerate().map(constant);
+    ReportedEffort {
+        kind: of.kind,
+        is_declared: of.is_declared,
+        left_as_torque,
+        left_as_torque_without_gravity,
+        left_as_current,
+        torque_constants: if of.kind == EffortKind::Current { constants.collect() } else { Vec::new() },
+    }
+}
