@@ -20,6 +20,12 @@ pub struct RecordedRow<'a> {
     pub effort: &'a [f64],
 }
 
+impl RecordedRow<'_> {
+    pub(crate) fn kept(&self) -> KeptRow {
+        KeptRow { time_s: self.time_s, q: self.q.clone(), effort: self.effort.to_vec() }
+    }
+}
+
 /// Which instants count.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Instants {
@@ -64,10 +70,9 @@ impl<'a> Collector<'a> {
     /// # Errors
     /// The row is another robot's.
     pub fn push(&mut self, row: RecordedRow<'_>) -> Result<(), DynamicsError> {
-        let kept = KeptRow { time_s: row.time_s, q: row.q.clone(), effort: row.effort.to_vec() };
         let mut outcome = Ok(());
         let Self { window, maker, equations, instants, from_s, duration_s } = self;
-        window.push(kept, |instant| {
+        window.push(row.kept(), |instant| {
             let block = block(instant.time_s - *from_s, *duration_s);
             if outcome.is_ok() {
                 outcome = add(instant, block, instants, maker, equations);

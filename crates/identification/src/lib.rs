@@ -2,7 +2,7 @@
 //!
 //! | step | call |
 //! |---|---|
-//! | how long the window of the derivatives is | [`Smoothing::choose`] |
+//! | how long the window of the derivatives is | [`SampledParts::survey`] |
 //! | rows of a recording to equations, in memory that does not grow | [`Collector`] |
 //! | what the efforts are | [`recognise`] |
 //! | the parameters, their uncertainty, and whether they are better on data that was left out | [`identify`] |

@@ -1,24 +1,31 @@
 //! What has to be known of a recording before its equations are made: the window, and how fast the joints move.
 
-use congruent_description::RobotQ;
+use congruent_dynamics::{BodyTree, DynamicsError};
 
-use crate::smoothing::{KeptRow, Smoothing, Window};
+use crate::{
+    collect::{Collector, Instants, RecordedRow},
+    effort_kind::recognise,
+    smoothing::{KeptRow, Smoothing, Window},
+};
 
 /// Parts of a recording that are looked at first. Kind: choice.
 const PARTS: f64 = 60.0;
-/// Length of each, s: two of the longest windows and a half.
+/// Length of each, s: five of the longest half windows.
 const PART_S: f64 = 1.0;
 /// A joint moves if it is faster than this part of the speed that it exceeds in a twentieth of the time. No unit; kind: choice.
 const MOVING: f64 = 0.1;
 /// A robot is still if its joints are slower than this part of it. No unit; kind: choice.
 const STILL: f64 = 0.01;
 
+/// A window is taken if it leaves at most this much more of the efforts than the best one, and no shorter one does. No unit; kind: choice.
+const AS_GOOD: f64 = 1.1;
+
 /// Parts of a recording, evenly over its time, in memory that does not grow with it.
 #[derive(Debug)]
 pub struct SampledParts {
     from_s: f64,
     period_s: f64,
-    parts: Vec<Vec<(f64, RobotQ)>>,
+    parts: Vec<Vec<KeptRow>>,
     is_connected: bool,
 }
 
@@ -34,8 +41,8 @@ impl SampledParts {
     }
 
     /// Looks at a row.
-    pub fn push(&mut self, time_s: f64, q: &RobotQ) {
-        let since_s = (time_s - self.from_s).rem_euclid(self.period_s);
+    pub fn push(&mut self, row: RecordedRow<'_>) {
+        let since_s = (row.time_s - self.from_s).rem_euclid(self.period_s);
         if since_s > PART_S {
             self.is_connected = false;
             return;
@@ -45,20 +52,17 @@ impl SampledParts {
             self.is_connected = true;
         }
         if let Some(part) = self.parts.last_mut() {
-            part.push((time_s, q.clone()));
+            part.push(row.kept());
         }
     }
 
-    /// What the parts show; `None` if they have too few rows.
-    pub fn survey(&self, half_window_s: Option<f64>) -> Option<RecordingSurvey> {
-        let chosen = half_window_s.map(|half_window_s| Smoothing { half_window_s });
-        let smoothing = chosen.or_else(|| Smoothing::choose(&self.parts))?;
+    /// What the parts show with a given window; `None` if they have too few rows for it.
+    pub fn survey_with(&self, smoothing: Smoothing) -> Option<RecordingSurvey> {
         let mut speeds: Vec<Vec<f64>> = Vec::new();
         for part in &self.parts {
             let mut window = Window::new(smoothing);
-            for (time_s, q) in part {
-                let row = KeptRow { time_s: *time_s, q: q.clone(), effort: vec![0.0; q.len()] };
-                window.push(row, |instant| {
+            for row in part {
+                window.push(row.clone(), |instant| {
                     speeds.resize(instant.qd.len(), Vec::new());
                     speeds.iter_mut().zip(&instant.qd).for_each(|(all, qd)| all.push(qd.abs()));
                 });
@@ -70,6 +74,41 @@ impl SampledParts {
         };
         let fast_speeds: Vec<f64> = speeds.iter_mut().map(fast).collect();
         (!fast_speeds.is_empty()).then_some(RecordingSurvey { smoothing, fast_speeds })
+    }
+
+    /// What the parts show, with the window by which the description explains the efforts best; `None` if they have too few rows.
+    ///
+    /// A window that is too short leaves the noise of the positions in the accelerations, one that is too long flattens the motion: both
+    /// show in the efforts. By the positions alone the noise of an encoder, which repeats its steps, is not told from motion.
+    ///
+    /// # Errors
+    /// The rows are another robot's.
+    pub fn survey(&self, tree: &BodyTree) -> Result<Option<RecordingSurvey>, DynamicsError> {
+        let mut tried: Vec<(f64, RecordingSurvey)> = Vec::new();
+        for smoothing in Smoothing::candidates(&self.parts) {
+            let Some(survey) = self.survey_with(smoothing) else { continue };
+            tried.push((self.left(tree, &survey)?, survey));
+        }
+        let best = tried.iter().map(|(left, _)| *left).fold(f64::INFINITY, f64::min);
+        let is_chosen = |(left, _): &(f64, RecordingSurvey)| *left <= AS_GOOD * best;
+        let at = tried.iter().position(is_chosen).unwrap_or(0);
+        Ok((at < tried.len()).then(|| tried.swap_remove(at).1))
+    }
+
+    /// What the description leaves of the efforts, if these may be currents.
+    fn left(&self, tree: &BodyTree, survey: &RecordingSurvey) -> Result<f64, DynamicsError> {
+        let moving = Instants::Moving(survey.moving_speeds());
+        #[expect(clippy::cast_precision_loss, reason = "there are few parts")]
+        let duration_s = self.period_s * self.parts.len() as f64;
+        let mut collector = Collector::new(tree, survey.smoothing, moving, self.from_s, duration_s);
+        for part in &self.parts {
+            collector.break_here();
+            for row in part {
+                collector.push(RecordedRow { time_s: row.time_s, q: &row.q, effort: &row.effort })?;
+            }
+        }
+        let [_, _, as_current] = recognise(&collector.finish()).left;
+        Ok(if as_current.is_nan() { f64::INFINITY } else { as_current })
     }
 }
 

@@ -12,10 +12,7 @@ const FEWEST_ROWS: usize = DEGREE + 3;
 /// Half windows that are tried, s: longer ones flatten the motion of an arm. Kind: choice.
 const LONGEST_S: f64 = 0.2;
 /// Each window that is tried is longer than the one before by this factor. Kind: choice.
-const LONGER: f64 = 1.4;
-/// A longer window is taken while it describes the positions as well as the shortest one, but for this factor: then what it leaves
-/// is noise of the encoder, not motion. No unit; kind: choice, measured on encoders of 19 bits.
-const AS_WELL: f64 = 1.15;
+const LONGER: f64 = 1.6;
 /// A part of a half window that rows have to reach on both sides.
 const REACHED: f64 = 0.7;
 
@@ -60,64 +57,23 @@ struct Weights {
 }
 
 impl Smoothing {
-    /// The longest window that loses no motion: rows are those of the first minutes, in parts without gaps.
-    ///
-    /// A window is as good as the shortest one if what its polynomial leaves of the positions is as small. Of exact positions that is
-    /// the shortest, of an encoder with noise one that averages it.
-    pub fn choose(parts: &[Vec<(f64, RobotQ)>]) -> Option<Self> {
+    /// Windows for rows at these times, from the shortest one that always has enough rows.
+    pub(crate) fn candidates(parts: &[Vec<KeptRow>]) -> Vec<Self> {
         let mut periods: Vec<f64> =
-            parts.iter().flat_map(|part| part.windows(2).map(|pair| pair[1].0 - pair[0].0)).collect();
+            parts.iter().flat_map(|part| part.windows(2).map(|pair| pair[1].time_s - pair[0].time_s)).collect();
         periods.retain(|period| *period > 0.0);
         periods.sort_by(f64::total_cmp);
-        let period_s = *periods.get(periods.len() / 2)?;
+        let Some(period_s) = periods.get(periods.len() / 2) else { return Vec::new() };
         // Wherever its middle is between two rows.
         #[expect(clippy::cast_precision_loss, reason = "it is small")]
         let shortest_s = period_s * FEWEST_ROWS as f64 * 0.52;
-        let least = left_by(parts, shortest_s)?;
-        let mut chosen = shortest_s;
-        let mut tried = shortest_s * LONGER;
-        while tried <= LONGEST_S {
-            let Some(left) = left_by(parts, tried) else { break };
-            let is_as_good = |(left, least): (&f64, &f64)| *left <= AS_WELL * least || *left < EXACT;
-            if !left.iter().zip(&least).all(is_as_good) {
-                break;
-            }
-            chosen = tried;
-            tried *= LONGER;
-        }
-        Some(Self { half_window_s: chosen })
+        let longer = std::iter::successors(Some(shortest_s), |half_window_s| Some(half_window_s * LONGER));
+        longer
+            .enumerate()
+            .take_while(|(at, half_window_s)| *at == 0 || *half_window_s <= LONGEST_S)
+            .map(|(_, half_window_s)| Self { half_window_s })
+            .collect()
     }
-}
-
-/// Positions that a polynomial describes to this are not noisy: rounding of doubles. rad or m; kind: rounding.
-const EXACT: f64 = 1e-14;
-/// Windows of which each candidate is judged. Kind: choice.
-const JUDGED: usize = 400;
-
-/// What the polynomials of windows leave of the positions of each joint: root mean square, with the degrees of freedom.
-fn left_by(parts: &[Vec<(f64, RobotQ)>], half_window_s: f64) -> Option<Vec<f64>> {
-    let rows: usize = parts.iter().map(Vec::len).sum();
-    let every = (rows / JUDGED).max(1);
-    let mut sums: Vec<f64> = Vec::new();
-    let mut freedom = 0.0;
-    for part in parts {
-        for middle in (0..part.len()).step_by(every) {
-            let center_s = part[middle].0;
-            let from = part.partition_point(|row| row.0 < center_s - half_window_s);
-            let to = part.partition_point(|row| row.0 <= center_s + half_window_s);
-            let times: Vec<f64> = part[from..to].iter().map(|row| row.0).collect();
-            let Some(fit) = Polynomial::new(&times, center_s, half_window_s) else { continue };
-            sums.resize(part[middle].1.len(), 0.0);
-            for (joint, sum) in sums.iter_mut().enumerate() {
-                let values = part[from..to].iter().map(|row| row.1[joint]);
-                *sum += fit.left(values);
-            }
-            #[expect(clippy::cast_precision_loss, reason = "few rows")]
-            let more = (times.len() - DEGREE - 1) as f64;
-            freedom += more;
-        }
-    }
-    (freedom > 0.0).then(|| sums.iter().map(|sum| (sum / freedom).sqrt()).collect())
 }
 
 /// Powers of the times of a window, and the inverse of their normal equations.
@@ -144,17 +100,6 @@ impl Polynomial {
             .collect();
         let normal = powers.iter().map(|powers| powers * powers.transpose()).sum::<Matrix5<f64>>();
         Some(Self { inverse: normal.cholesky()?.inverse(), powers })
-    }
-
-    /// Sum of the squares of what the polynomial leaves of the values.
-    fn left(&self, values: impl Iterator<Item = f64> + Clone) -> f64 {
-        // About the first value, so that positions far from zero lose no digits.
-        let origin = values.clone().next().unwrap_or(0.0);
-        let right = self.powers.iter().zip(values.clone());
-        let right: Vector5<f64> = right.map(|(powers, value)| powers * (value - origin)).sum();
-        let coefficients = self.inverse * right;
-        let left = self.powers.iter().zip(values);
-        left.map(|(powers, value)| (value - origin - powers.dot(&coefficients)).powi(2)).sum()
     }
 
     fn weights(&self, half_window_s: f64) -> Weights {

@@ -6,7 +6,7 @@ use std::path::Path;
 use congruent_description::{Robot, RobotDescription, RobotQ, load_robot};
 use congruent_dynamics::{BodyTree, JointMotionState, JointResistance, SpatialInertia};
 use congruent_identification::{
-    Collector, EffortKind, FreeParameters, Instants, JointTerm, PayloadPlace, RecordedEquations, RecordedRow,
+    Collector, EffortKind, FreeParameters, Instants, JointTerm, PayloadPlace, RecordedEquations, RecordedRow, SampledParts,
     Smoothing, identify, recognise,
 };
 use congruent_kinematics::Pose;
@@ -51,13 +51,11 @@ fn recorded(
     effort: impl Fn(usize, f64, f64) -> f64,
 ) -> RecordedEquations {
     let dof = real.dof();
-    let (rows, period_s) = (10_000, 0.004);
+    let (rows, period_s) = (10_000_usize, 0.004);
     let times = (0..rows).map(|at| f64::from(u32::try_from(at).unwrap()) * period_s);
     let positions: Vec<(f64, RobotQ)> = times.map(|time_s| (time_s, motion(time_s, robot).0)).collect();
-    let smoothing = Smoothing::choose(std::slice::from_ref(&positions)).unwrap();
-    let instants = Instants::Moving(vec![0.05; dof]);
-    let mut collector = Collector::new(description, smoothing, instants, 0.0, 40.0);
     let (mut tau, mut gravity, mut buffer) = (vec![0.0; dof], vec![0.0; dof], real.buffer());
+    let mut efforts: Vec<Vec<f64>> = Vec::new();
     for (at, (time_s, q)) in positions.iter().enumerate() {
         let (_, qd, qdd) = motion(*time_s, robot);
         real.inverse_into(&JointMotionState { q, qd: &qd, qdd: &qdd }, &mut buffer, &mut tau).unwrap();
@@ -72,8 +70,15 @@ fn recorded(
         }
         let effort: Vec<f64> =
             (0..dof).map(|joint| effort(joint, tau[joint], gravity[joint]) + 0.05 * noise(at * dof + joint)).collect();
-        collector.push(RecordedRow { time_s: *time_s, q, effort: &effort }).unwrap();
+        efforts.push(effort);
     }
+    let row = |at: usize| RecordedRow { time_s: positions[at].0, q: &positions[at].1, effort: &efforts[at] };
+    let mut parts = SampledParts::new(0.0, 40.0);
+    (0..rows).for_each(|at| parts.push(row(at)));
+    let survey = parts.survey(description).unwrap().unwrap();
+    let instants = Instants::Moving(survey.moving_speeds());
+    let mut collector = Collector::new(description, survey.smoothing, instants, 0.0, 40.0);
+    (0..rows).for_each(|at| collector.push(row(at)).unwrap());
     collector.finish()
 }
 

@@ -31,13 +31,15 @@ pub fn identification_text(report: &IdentificationReport) -> String {
         let _ = writeln!(text, "  {}", not_told_apart(combined));
     }
     if let Some(payload) = &report.payload {
-        let _ = writeln!(text, "\n  payload at {}", payload.frame);
+        let is_none = payload.mass.value <= 2.0 * payload.mass.standard_error;
+        let remark = if is_none { ": none shows" } else { "" };
+        let _ = writeln!(text, "\n  payload at {}{remark}", payload.frame);
         body(&mut text, payload, "    ");
     }
     bodies(&mut text, report);
     match &report.lines {
         Some(lines) => lines_to_write(&mut text, lines),
-        None => text.push_str("\n  no lines to write: the description predicts these efforts as well\n"),
+        None => text.push_str(&why_not_better(&report.joints)),
     }
     for file in &report.written {
         let _ = writeln!(text, "  written: {file}");
@@ -46,22 +48,40 @@ pub fn identification_text(report: &IdentificationReport) -> String {
 }
 
 fn headline(report: &IdentificationReport) -> String {
-    let sum = |of: fn(&ReportedJoint) -> f64| -> f64 {
-        let shares = report.joints.iter().filter(|joint| joint.instants > 0 && joint.effort_rms > 0.0);
-        let shares: Vec<f64> = shares.map(|joint| of(joint) / joint.effort_rms).collect();
+    let share = |of: fn(&ReportedJoint) -> f64| -> f64 {
+        let used = report.joints.iter().filter(|joint| joint.instants > 0 && joint.effort_rms > 0.0);
+        let shares: Vec<f64> = used.map(|joint| of(joint) / joint.effort_rms).collect();
         #[expect(clippy::cast_precision_loss, reason = "a robot has few joints")]
         let count = shares.len().max(1) as f64;
         100.0 * shares.iter().sum::<f64>() / count
     };
-    let (before, after) = (number(sum(|joint| joint.before_rms)), number(sum(|joint| joint.after_rms)));
+    let (before, after) = (number(share(|joint| joint.before_rms)), number(share(|joint| joint.after_rms)));
     let verdict = match report.verdict {
         IdentificationVerdict::Better => "BETTER than the description",
         IdentificationVerdict::NotBetter => "NOT BETTER than the description",
     };
     format!(
-        "{}: {verdict} ({})\n  of the efforts in data that were left out, {after} % is left, by the description {before} % (mean of the joints)\n",
+        "{}: {verdict}: {after} % of the efforts is unexplained, {before} % by the description ({})\n  mean of the joints, on data that were left out of the estimate\n",
         report.robot, report.log
     )
+}
+
+/// Why no lines are written.
+fn why_not_better(joints: &[ReportedJoint]) -> String {
+    let worst = joints
+        .iter()
+        .filter(|joint| joint.instants > 0 && joint.after_rms > joint.before_rms)
+        .max_by(|a, b| (a.after_rms / a.before_rms).total_cmp(&(b.after_rms / b.before_rms)));
+    match worst {
+        Some(joint) => format!(
+            "\n  no lines to write: efforts of {} that were left out are predicted worse ({}) than by the description ({}); free other parameters, or \
+             record a motion that shows these\n",
+            joint.joint,
+            quantity(joint.after_rms, joint.unit),
+            quantity(joint.before_rms, joint.unit)
+        ),
+        None => "\n  no lines to write: the description predicts these efforts as well\n".to_owned(),
+    }
 }
 
 fn seconds(time_s: f64) -> String {
@@ -106,7 +126,7 @@ fn with_error(value: f64, error: f64) -> String {
         return number(value);
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 12")]
-    let decimals = (1.0 - error.log10().floor()).clamp(0.0, 12.0) as usize;
+    let decimals = (1.0 - libm::log10(error).floor()).clamp(0.0, 12.0) as usize;
     format!("{value:.decimals$} ± {error:.decimals$}")
 }
 

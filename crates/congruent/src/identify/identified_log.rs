@@ -17,6 +17,9 @@ use super::{
 };
 use crate::{codes, replay::joints_draft};
 
+/// Half of the window in which efforts at rest are averaged, s. Kind: choice; rows at 50 Hz fill it.
+const STILL_HALF_WINDOW_S: f64 = 0.1;
+
 /// What a log says of the parameters of a robot.
 #[derive(Debug, Clone)]
 pub struct IdentifiedLog {
@@ -52,7 +55,9 @@ pub fn identify_log(
             "efforts at rest show masses alone: --still; a motion that shows more is made by `congruent plan`",
         ))
     };
-    let survey = efforts.survey(request.half_window_s)?;
+    // At rest, whatever averages noise is as good.
+    let half_window_s = request.half_window_s.or(request.is_still.then_some(STILL_HALF_WINDOW_S));
+    let survey = efforts.survey(&tree, half_window_s)?;
     let survey = survey.ok_or_else(|| no_motion("rows are too far apart for velocities and accelerations"))?;
     let equations = efforts.equations(&tree, &survey, request.is_still)?;
     if equations.instants == 0 {

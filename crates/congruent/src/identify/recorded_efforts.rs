@@ -1,7 +1,7 @@
 //! The joint states of a log, row by row, with their efforts as they were recorded.
 
 use congruent_dynamics::BodyTree;
-use congruent_identification::{Collector, Instants, RecordedEquations, RecordedRow, RecordingSurvey, SampledParts};
+use congruent_identification::{Collector, Instants, RecordedEquations, RecordedRow, RecordingSurvey, SampledParts, Smoothing};
 use congruent_input::{Diagnostic, Findings};
 use congruent_scenario::{JointRole, LoggedEffort, Scenario};
 use congruent_twin::{
@@ -53,16 +53,23 @@ impl RecordedEfforts {
     }
 
     /// How fast the joints move, and how long the window is; `None` if rows are too far apart.
-    pub(super) fn survey(&self, half_window_s: Option<f64>) -> Result<Option<RecordingSurvey>, Findings> {
+    pub(super) fn survey(
+        &self,
+        tree: &BodyTree,
+        half_window_s: Option<f64>,
+    ) -> Result<Option<RecordingSurvey>, Findings> {
         let mut parts = SampledParts::new(self.from_s, self.duration_s);
         self.read(|event| {
             match event {
-                Event::Row(row) => parts.push(row.time_s, row.q),
+                Event::Row(row) => parts.push(row),
                 Event::Break => parts.break_here(),
             }
             Ok(())
         })?;
-        Ok(parts.survey(half_window_s))
+        match half_window_s {
+            Some(half_window_s) => Ok(parts.survey_with(Smoothing { half_window_s })),
+            None => parts.survey(tree).map_err(|error| unreadable(&error.to_string())),
+        }
     }
 
     /// The equations of the whole log.

@@ -42,7 +42,7 @@ fn resistance(description: &RobotDescription, joint: &IdentifiedJoint) -> JointR
     let mut resistance = JointResistance::from(robot.joint(robot.movable_joints()[joint.joint]));
     for (term, value) in &joint.terms {
         // What brakes its followers stays with them.
-        let change = value.value - value.nominal;
+        let change = rounded(value.value, value.standard_error) - value.nominal;
         match term {
             JointTerm::Viscous => resistance.damping = (resistance.damping + change).max(0.0),
             JointTerm::Coulomb => resistance.friction = (resistance.friction + change).max(0.0),
@@ -51,6 +51,34 @@ fn resistance(description: &RobotDescription, joint: &IdentifiedJoint) -> JointR
         }
     }
     resistance
+}
+
+/// A value to a hundredth of its size: no unit; kind: choice. Digits that the recording does not show are not written.
+fn rounded(value: f64, size: f64) -> f64 {
+    if !(size > 0.0 && size.is_finite()) {
+        return value;
+    }
+    // A power of ten, so that the written number has few digits.
+    let step = 10.0_f64.powi(exponent(size / 100.0));
+    // Dividing by its inverse keeps 0.3 what it is.
+    if step < 1.0 { (value * (1.0 / step)).round() / (1.0 / step).round() } else { (value / step).round() * step }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "exponents of doubles are small")]
+fn exponent(size: f64) -> i32 {
+    libm::log10(size).floor() as i32
+}
+
+/// An inertia to six digits of its largest entries.
+fn rounded_inertia(inertia: &Inertia) -> Inertia {
+    const DIGITS: f64 = 1e-4;
+    let center = inertia.link_from_inertial.translation.vector;
+    let mut rounded_inertia = *inertia;
+    rounded_inertia.mass_kg = rounded(inertia.mass_kg, inertia.mass_kg * DIGITS);
+    rounded_inertia.link_from_inertial.translation.vector = center.map(|of| rounded(of, center.amax() * DIGITS));
+    let largest = inertia.tensor_kg_m2.amax();
+    rounded_inertia.tensor_kg_m2 = inertia.tensor_kg_m2.map(|of| rounded(of, largest * DIGITS));
+    rounded_inertia
 }
 
 fn has(joint: &IdentifiedJoint, wanted: JointTerm) -> bool {
@@ -68,7 +96,8 @@ fn link_inertia(description: &RobotDescription, body: &IdentifiedBody) -> Option
     for (changed, (estimated, nominal)) in changed.iter_mut().zip(estimated.iter().zip(nominal)) {
         *changed += estimated - nominal;
     }
-    is_body(&changed.into()).then(|| SpatialInertia::from_parameters(changed).to_link())?
+    let changed = is_body(&changed.into()).then(|| SpatialInertia::from_parameters(changed).to_link())??;
+    Some(rounded_inertia(&changed))
 }
 
 fn edits(description: &RobotDescription, identified: &Identified) -> (Vec<TextEdit>, Vec<String>) {
@@ -106,8 +135,9 @@ fn of_robot_file(description: &RobotDescription, identified: &Identified) -> Str
     for joint in &identified.joints {
         let body = identified.bodies.iter().find(|body| body.joint == joint.joint);
         let Some(body) = body.and_then(|body| body.inertia.to_link()) else { continue };
+        let body = rounded_inertia(&body);
         let (center, tensor) = (body.link_from_inertial.translation.vector, body.tensor_kg_m2);
-        let number = |value: f64| significant(value);
+        let number = significant;
         let _ = write!(
             text,
             "[[inertial]]\njoint = \"{}\"\nframe = \"link\"\nabout = \"com\"\nmass_kg = {}\ncom_m = [{}, {}, {}]\n\
@@ -161,7 +191,10 @@ fn of_scenario(description: &RobotDescription, identified: &Identified, payload_
     }
     if let Some((payload, inertia)) =
         identified.payload.as_ref().and_then(|payload| Some((payload, payload.inertia.to_link()?)))
+    // A mass that may be none is no payload.
+    && payload.inertia.mass_kg > 2.0 * payload.mass_error_kg
     {
+        let inertia = rounded_inertia(&inertia);
         let (center, tensor) = (inertia.link_from_inertial.translation.vector, inertia.tensor_kg_m2);
         let separator = if text.is_empty() { "" } else { "\n" };
         let link = if payload_frame == TCP { String::new() } else { format!("link = \"{payload_frame}\"\n") };
