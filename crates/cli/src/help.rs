@@ -17,12 +17,12 @@ const GROUPS: [(&str, &[&str]); 6] = [
         "Compute",
         &["fk", "ik", "jacobian", "dynamics", "clearance", "workspace", "manipulability", "sensitivity"],
     ),
-    ("Model", &["convert", "calibrate", "identify"]),
+    ("Model", &["convert", "calibrate", "identify", "plan"]),
     ("Shell", &["schema", "completions", "man", "help"]),
 ];
 
 /// Two examples or more of each command, by its name, in the root of the project.
-const EXAMPLES: [(&str, &[&str]); 24] = [
+const EXAMPLES: [(&str, &[&str]); 25] = [
     (
         "check",
         &[
@@ -155,6 +155,13 @@ const EXAMPLES: [(&str, &[&str]); 24] = [
             "congruent identify robots/ur5e monday.mcap",
             "congruent identify robots/ur5e monday.mcap --free friction,payload --out identified.urdf",
             "congruent identify robots/ur5e monday.csv --still --free payload",
+        ],
+    ),
+    (
+        "plan",
+        &[
+            "congruent plan robots/ur5e --out identification",
+            "congruent plan robots/ur5e --free payload --duration-s 10 --scenario scenarios/ur5e_pick.toml",
         ],
     ),
     ("schema", &["congruent schema robot", "congruent schema scenario > scenario.json"]),

@@ -40,6 +40,8 @@ congruent_input::codes! {
             "The log has no instants to identify from: no joint moves fast enough, or rows are too far apart for velocities and accelerations. At rest, masses show by gravity alone.\n    congruent identify robots/ur5e monday.mcap --still --free payload";
         FREE = "CGR-COMMAND-103", "identify::free",
             "What is to be identified cannot be: a link or a joint of this name is not there, or two parameters show their ratio alone, as the masses of all links and the torque constants of all motors.\n    wrong: --effort current --free links\n    right: --effort current --free links --torque-constant elbow_joint=9.2";
+        PLAN = "CGR-COMMAND-104", "identify::plan",
+            "No motion was found that stays within the limits of the robot and keeps its links away from each other and from obstacles. Ask for less clearance, or begin where there is room.\n    congruent plan robots/ur5e --clearance 5mm";
     }
     python {
         ARRAY = "CGR-PYTHON-001", "python::array",

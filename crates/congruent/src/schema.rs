@@ -111,6 +111,7 @@ impl Document {
             written::<SamePointReport>,
         ),
         Self::new("identify", "parameters, printed by `identify`", written::<IdentificationReport>),
+        Self::new("plan", "what a motion tells, printed by `plan`", written::<crate::identify::PlanReport>),
         Self::new(
             "convert",
             "model and proof, printed by `convert` and `derive`",

@@ -111,6 +111,38 @@ pub(crate) fn estimate(
     Some(Estimate { x: problem.x(&change), free: problem.free, covariance, held: problem.held, known_combinations, noise })
 }
 
+/// What a motion will tell, by the noise of its efforts.
+#[derive(Debug, Clone)]
+pub(crate) struct PlannedInformation {
+    /// The free unknowns.
+    pub(crate) free: Vec<usize>,
+    /// Their covariance.
+    pub(crate) covariance: DMatrix<f64>,
+    /// Logarithm of the determinant of the information.
+    pub(crate) log_determinant: f64,
+    /// As of an estimate.
+    pub(crate) known_combinations: [usize; 2],
+}
+
+/// What equations tell whose efforts are not known yet; `None` if they do not determine a free unknown.
+pub(crate) fn planned_information(
+    equations: &RecordedEquations,
+    free: &FreeParameters,
+    noise: &[JointNoise],
+) -> Option<PlannedInformation> {
+    let sums: Vec<(DMatrix<f64>, usize)> = equations.joints.iter().map(|joint| joint.sum(|_| true)).collect();
+    let problem = Problem::new(equations, free, &sums)?;
+    if !problem.held.is_empty() {
+        return None;
+    }
+    let sum = problem.sum(&sums, noise);
+    let factor = sum.information.clone().cholesky()?;
+    let log_determinant = 2.0 * factor.l_dirty().diagonal().iter().map(|of| libm::log(*of)).sum::<f64>();
+    let covariance = BalancedCholesky::new(sum.information.clone())?.inverse();
+    let known_combinations = problem.known_combinations(&sum);
+    Some(PlannedInformation { free: problem.free, covariance, log_determinant, known_combinations })
+}
+
 struct Problem<'a> {
     equations: &'a RecordedEquations,
     /// The free unknowns, those of each body together.

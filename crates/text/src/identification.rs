@@ -147,7 +147,8 @@ fn left(text: &mut String, joints: &[ReportedJoint]) {
     text.push_str("  left by these: in each fifth of the time, by the parameters from the other four\n");
 }
 
-fn term_name(term: JointTerm) -> &'static str {
+/// The name of a term of a joint.
+pub fn term_name(term: JointTerm) -> &'static str {
     match term {
         JointTerm::Viscous => "viscous friction",
         JointTerm::Coulomb => "Coulomb friction",

@@ -34,7 +34,7 @@ pub use conversion::{conversion_comments, conversion_remarks, conversion_text};
 pub use description::{description_text, joint_orders_text};
 pub use fault_table::fault_table_text;
 pub use findings::{MOST_FINDINGS, finding_line, finding_text, listed_findings};
-pub use identification::identification_text;
+pub use identification::{identification_text, term_name};
 pub use lint::lint_text;
 pub use log::log_text;
 pub use new_files::{new_robot_text, new_scenario_text};

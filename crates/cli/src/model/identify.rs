@@ -65,7 +65,7 @@ pub(crate) struct Arguments {
 
 /// A group of parameters.
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum Group {
+pub(super) enum Group {
     /// Viscous and Coulomb friction of each joint.
     Friction,
     /// Inertia of motor and gear of each joint.
@@ -74,6 +74,17 @@ enum Group {
     Payload,
     /// Masses, centres and inertias of all links.
     Links,
+}
+
+impl Group {
+    pub(super) fn of_library(self) -> FreeGroup {
+        match self {
+            Self::Friction => FreeGroup::Friction,
+            Self::Armature => FreeGroup::Armature,
+            Self::Payload => FreeGroup::Payload,
+            Self::Links => FreeGroup::Links,
+        }
+    }
 }
 
 /// What efforts are.
@@ -112,15 +123,9 @@ fn gravity(text: &str) -> Result<[f64; 3], String> {
 
 impl Arguments {
     fn request(&self) -> IdentifyRequest {
-        let free = self.free.iter().map(|group| match group {
-            Group::Friction => FreeGroup::Friction,
-            Group::Armature => FreeGroup::Armature,
-            Group::Payload => FreeGroup::Payload,
-            Group::Links => FreeGroup::Links,
-        });
         IdentifyRequest {
             log: self.of_log.request(),
-            free: free.collect(),
+            free: self.free.iter().map(|group| group.of_library()).collect(),
             payload_at: self.payload_at.clone(),
             effort: self.effort.map(|kind| match kind {
                 Kind::Torque => EffortKind::Torque,

@@ -10,6 +10,7 @@ mod fixed_table;
 pub(crate) mod identify;
 pub(crate) mod lint;
 mod measured;
+pub(crate) mod plan;
 mod same_point;
 mod split_values;
 mod written_model;

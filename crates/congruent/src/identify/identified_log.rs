@@ -130,7 +130,7 @@ fn as_torques(
     }
 }
 
-fn free_parameters(
+pub(super) fn free_parameters(
     description: &RobotDescription,
     request: &IdentifyRequest,
 ) -> Result<(FreeParameters, String), Findings> {

@@ -1,8 +1,10 @@
 //! Friction, masses and torque constants of a robot from a log: `congruent identify`.
 
 mod identified_log;
+mod plan;
 mod recorded_efforts;
 mod request;
 
 pub use identified_log::{IdentifiedLog, identify_log};
+pub use plan::{PLAN_FILES, PlanReport, PlanRequest, PlannedMotion, PlannedTerm, plan_excitation, plan_text};
 pub use request::{FreeGroup, IdentifyRequest};

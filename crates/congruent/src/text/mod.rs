@@ -9,6 +9,7 @@ mod comparison;
 #[cfg(feature = "recording")]
 mod joint_sweep;
 mod measured;
+mod plan;
 
 pub use check::{CheckTextParts, check_text, check_text_parts, shown_pairs, tip_differences};
 pub use comparison::comparison_text;
@@ -16,3 +17,4 @@ pub use congruent_text::*;
 #[cfg(feature = "recording")]
 pub use joint_sweep::joint_sweep_text;
 pub use measured::measured_text;
+pub use plan::plan_report_text;

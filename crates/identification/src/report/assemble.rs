@@ -87,7 +87,7 @@ pub(super) fn turns(robot: &Robot, joint: usize) -> bool {
 }
 
 /// The unit of a term of a joint.
-pub(super) fn unit(term: JointTerm, turns: bool) -> &'static str {
+pub fn term_unit(term: JointTerm, turns: bool) -> &'static str {
     match (term, turns) {
         (JointTerm::Viscous, true) => "N m s/rad",
         (JointTerm::Viscous, false) => "N s/m",
@@ -106,7 +106,7 @@ fn reported(robot: &Robot, joint: &IdentifiedJoint) -> ReportedJoint {
             value: value.value,
             standard_error: value.standard_error,
             nominal: value.nominal,
-            unit: unit(*term, turns),
+            unit: term_unit(*term, turns),
         },
         is_significant: value.value.abs() >= SIGNIFICANT * value.standard_error,
     });

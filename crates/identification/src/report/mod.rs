@@ -4,7 +4,7 @@ mod assemble;
 mod identification_report;
 mod lines;
 
-pub use assemble::{Identification, identification_report};
+pub use assemble::{Identification, identification_report, term_unit};
 pub use identification_report::{
     CombinedJoint, IdentificationReport, IdentificationVerdict, ReportedBody, ReportedEffort, ReportedJoint,
     ReportedTerm, ReportedValue, TorqueConstant, WrittenLines,

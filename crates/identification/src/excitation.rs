@@ -1,1 +1,0 @@
-//! A motion that tells the parameters of a robot.
