@@ -8,6 +8,7 @@ mod check;
 mod convert;
 mod files;
 mod goldens;
+mod identify;
 mod lint;
 mod output;
 mod run;

@@ -152,16 +152,17 @@ const EXAMPLES: [(&str, &[&str]); 25] = [
     (
         "identify",
         &[
-            "congruent identify robots/ur5e monday.mcap",
-            "congruent identify robots/ur5e monday.mcap --free friction,payload --out identified.urdf",
-            "congruent identify robots/ur5e monday.csv --still --free payload",
+            "congruent identify robots/ur5e docs/examples/log/efforts.csv",
+            "congruent identify robots/ur5e docs/examples/log/efforts.csv --free friction,armature,payload",
+            "congruent identify robots/ur5e docs/examples/log/efforts.csv --out identified.urdf",
         ],
     ),
     (
         "plan",
         &[
             "congruent plan robots/ur5e --out identification",
-            "congruent plan robots/ur5e --free payload --duration-s 10 --scenario scenarios/ur5e_pick.toml",
+            "congruent plan robots/ur5e --free payload --duration-s 10 --out ten_seconds",
+            "congruent plan robots/ur5e --scenario scenarios/ur5e_pick.toml --out picking",
         ],
     ),
     ("schema", &["congruent schema robot", "congruent schema scenario > scenario.json"]),

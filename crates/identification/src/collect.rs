@@ -114,7 +114,12 @@ fn add(
         Instants::Still(limits) if !is_still(limits) => return Ok(()),
         Instants::Still(_) => {
             let zeros = vec![0.0; instant.qd.len()];
-            still = SmoothedInstant { qd: zeros.clone(), qdd: zeros, ..instant.clone() };
+            still = SmoothedInstant {
+                qd: zeros.clone(),
+                qdd: zeros.clone(),
+                effort_rate: zeros,
+                ..instant.clone()
+            };
             &still
         }
         Instants::Moving(_) => instant,

@@ -94,10 +94,13 @@ struct Tried {
     factor: Option<(f64, f64)>,
 }
 
-/// The columns that explain an effort: the torque of the rigid bodies by the description, then those of the terms.
+/// The columns that explain an effort: the torque of the rigid bodies by the description, then gravity, which is part of it, then the terms,
+/// the delay and the effort.
 const RIGID: usize = 0;
 const TERMS: usize = 2;
-const SMALL: usize = TERMS + 5;
+const DELAY: usize = TERMS + JointTerm::ALL.len();
+const OFFSET: usize = DELAY - 1;
+const SMALL: usize = DELAY + 2;
 
 impl Tried {
     /// `None` if the effort does not change.
@@ -108,7 +111,7 @@ impl Tried {
             (map.transpose() * gram * map, rows)
         };
         let (whole, rows) = small(&|_| true);
-        let (effort, offset) = (SMALL - 1, SMALL - 2);
+        let (effort, offset) = (SMALL - 1, OFFSET);
         let variance = whole[(effort, effort)] - whole[(effort, offset)].powi(2) / float(rows).max(1.0);
         if rows == 0 || variance <= UNCHANGED * whole[(effort, effort)] {
             return None;
@@ -137,7 +140,7 @@ fn known_factor(factors: &[f64]) -> Option<(f64, f64)> {
     (mean.is_finite() && error <= KNOWN_FACTOR * mean.abs()).then_some((mean, error))
 }
 
-/// From the columns of a joint to the few: rigid bodies, gravity, the four terms, the effort.
+/// From the columns of a joint to the few.
 fn small_columns(equations: &RecordedEquations, row: usize, joint: &JointEquations) -> DMatrix<f64> {
     let mut map = DMatrix::zeros(joint.columns(), SMALL);
     let bodies = joint.term_column(JointTerm::Viscous);
@@ -149,6 +152,7 @@ fn small_columns(equations: &RecordedEquations, row: usize, joint: &JointEquatio
     for (at, term) in JointTerm::ALL.into_iter().enumerate() {
         map[(joint.term_column(term), TERMS + at)] = 1.0;
     }
+    map[(joint.delay_column(), DELAY)] = 1.0;
     map[(joint.effort_column(), SMALL - 1)] = 1.0;
     map
 }

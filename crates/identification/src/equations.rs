@@ -21,9 +21,9 @@ pub struct JointEquations {
     pub(crate) counts: Vec<usize>,
 }
 
-/// Columns of the equations of a joint behind those of its bodies and its terms: the effort of gravity by the description, and the effort
-/// that was recorded.
-const BEHIND: usize = 2;
+/// Columns of the equations of a joint behind those of its bodies and its terms: the delay of its effort, the effort of gravity by the
+/// description, and the effort that was recorded.
+const BEHIND: usize = 3;
 
 impl JointEquations {
     pub(crate) fn new(joint: usize, bodies: Vec<usize>) -> Self {
@@ -42,6 +42,10 @@ impl JointEquations {
 
     pub(crate) fn term_column(&self, term: JointTerm) -> usize {
         PARAMETERS * self.bodies.len() + term as usize
+    }
+
+    pub(crate) fn delay_column(&self) -> usize {
+        self.columns() - 3
     }
 
     pub(crate) fn gravity_column(&self) -> usize {
@@ -70,10 +74,11 @@ impl JointEquations {
         (sum, count)
     }
 
-    /// The unknown of each column but those behind.
+    /// The unknown of each column but those of gravity and of the effort.
     pub(crate) fn unknowns(&self, layout: &Layout, row: usize) -> Vec<usize> {
         let of_bodies = self.bodies.iter().flat_map(|&body| layout.body(body));
-        of_bodies.chain(JointTerm::ALL.iter().map(|&term| layout.term(row, term))).collect()
+        let of_terms = JointTerm::ALL.iter().map(|&term| layout.term(row, term));
+        of_bodies.chain(of_terms).chain(std::iter::once(layout.delay())).collect()
     }
 }
 
@@ -117,12 +122,14 @@ impl RecordedEquations {
     #[must_use]
     pub fn with_factors(mut self, factors: &[f64]) -> Self {
         for (joint, factor) in self.joints.iter_mut().zip(factors) {
-            let effort = joint.effort_column();
+            let scaled = [joint.effort_column(), joint.delay_column()];
             for block in &mut joint.blocks {
-                let mut row = block.row_mut(effort);
-                row *= *factor;
-                let mut column = block.column_mut(effort);
-                column *= *factor;
+                for at in scaled {
+                    let mut row = block.row_mut(at);
+                    row *= *factor;
+                    let mut column = block.column_mut(at);
+                    column *= *factor;
+                }
             }
         }
         self

@@ -179,6 +179,12 @@ impl<'a> Problem<'a> {
             }
             free.push(unknown);
         }
+        // Of efforts at rest, and of a motion without efforts, it has no effect.
+        let shows_delay = equations.joints.iter().zip(sums).any(|(joint, (gram, _))| {
+            let at = joint.delay_column();
+            gram[(at, at)] > 0.0
+        });
+        free.extend(shows_delay.then(|| layout.delay()));
         let mut prior = DMatrix::zeros(free.len(), free.len());
         for ((first, _), metric) in bounds.bodies.iter().zip(metrics) {
             prior.fixed_view_mut::<PARAMETERS, PARAMETERS>(*first, *first).copy_from(&metric);

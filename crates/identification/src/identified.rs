@@ -23,6 +23,8 @@ pub struct Identified {
     pub not_told_apart: Vec<NotToldApart>,
     /// Combinations of the free inertial parameters that the recording says more of than was known before, and how many there are.
     pub known_combinations: [usize; 2],
+    /// By how much efforts are recorded later than positions, s, with its standard error; `None` if it does not show.
+    pub delay_s: Option<(f64, f64)>,
     /// Whether the parameters are better on data that they were not estimated from.
     pub is_better: bool,
 }
@@ -103,6 +105,7 @@ pub fn identify(equations: &RecordedEquations, free: &FreeParameters) -> Option<
         bodies: bodies.filter_map(|joint| body(equations, &found, &place(joint), false)).collect(),
         not_told_apart: not_told_apart(equations, &found),
         known_combinations: found.known_combinations,
+        delay_s: found.standard_error(layout.delay()).map(|error| (found.x[layout.delay()], error)),
         is_better: is_better(&left_out, &found.noise),
     })
 }

@@ -68,6 +68,8 @@ impl<'a> RowMaker<'a> {
             row[of.term_column(JointTerm::Coulomb)] = if qd == 0.0 { 0.0 } else { qd.signum() };
             row[of.term_column(JointTerm::Armature)] = qdd[of.joint];
             row[of.term_column(JointTerm::Offset)] = 1.0;
+            // The torque at this time is recorded later: now it is the one of before.
+            row[of.delay_column()] = -instant.effort_rate[of.joint];
             row[of.gravity_column()] = self.folded_gravity[at];
             row[of.effort_column()] = instant.effort[of.joint];
         }

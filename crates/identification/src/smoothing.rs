@@ -44,6 +44,8 @@ pub struct SmoothedInstant {
     pub qdd: Vec<f64>,
     /// Efforts as recorded; NaN where one is missing in the window.
     pub effort: Vec<f64>,
+    /// Their derivatives by the time.
+    pub effort_rate: Vec<f64>,
     /// The change of the velocities from the beginning to the end of the window, as its polynomial has it, rad/s or m/s.
     pub velocity_change: Vec<f64>,
 }
@@ -178,6 +180,7 @@ impl Window {
             velocity_change: second.iter().zip(&third).map(|(second, third)| (second * h).abs() + third.abs() * h * h / 2.0).collect(),
             qdd: second,
             effort: (0..joints).map(|joint| sum(&weights.value, &|row| row.effort[joint])).collect(),
+            effort_rate: (0..joints).map(|joint| sum(&weights.first, &|row| row.effort[joint])).collect(),
         })
     }
 }

@@ -65,7 +65,7 @@ impl FreeParameters {
     }
 }
 
-/// The vector of unknowns: ten inertial parameters of each body, then four terms of each driven joint.
+/// The vector of unknowns: ten inertial parameters of each body, then four terms of each driven joint, then the delay of the efforts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) bodies: usize,
@@ -75,6 +75,11 @@ pub(crate) struct Layout {
 
 impl Layout {
     pub(crate) fn len(&self) -> usize {
+        self.delay() + 1
+    }
+
+    /// By how much efforts are recorded later than the positions of the same time, s: one for all joints.
+    pub(crate) fn delay(&self) -> usize {
         PARAMETERS * self.bodies + JointTerm::ALL.len() * self.joints.len()
     }
 

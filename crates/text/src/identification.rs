@@ -25,6 +25,11 @@ pub fn identification_text(report: &IdentificationReport) -> String {
         report.instants,
         seconds(report.half_window_s)
     );
+    if let (Some(delay_s), Some(error_s)) = (report.effort_delay_s, report.effort_delay_error_s) {
+        let delay = with_error(1000.0 * delay_s.abs(), 1000.0 * error_s);
+        let side = if delay_s < 0.0 { "earlier" } else { "later" };
+        let _ = writeln!(text, "  efforts are recorded {delay} ms {side} than positions");
+    }
     left(&mut text, &report.joints);
     terms(&mut text, &report.joints);
     for combined in &report.not_told_apart {

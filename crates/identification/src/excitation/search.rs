@@ -153,6 +153,7 @@ impl<'a> Search<'a> {
             qd: zeros.clone(),
             qdd: zeros.clone(),
             effort: zeros.clone(),
+            effort_rate: zeros.clone(),
             velocity_change: zeros.clone(),
         };
         Self { limits, options, maker, empty, instant, tau: zeros, tried: 0, stopped_by_effort: 0, stopped_by_distance: 0 }

@@ -58,6 +58,8 @@ pub fn identification_report(of: &Identification<'_>) -> IdentificationReport {
         half_window_s: of.smoothing.half_window_s,
         is_of_still_poses: of.is_still,
         instants: of.instants,
+        effort_delay_s: identified.delay_s.map(|(delay_s, _)| delay_s),
+        effort_delay_error_s: identified.delay_s.map(|(_, error_s)| error_s),
         joints: identified.joints.iter().map(|joint| reported(robot, joint)).collect(),
         not_told_apart: identified
             .not_told_apart

@@ -161,6 +161,10 @@ pub struct IdentificationReport {
     pub is_of_still_poses: bool,
     /// Instants that were used.
     pub instants: usize,
+    /// By how much efforts are recorded later than positions, s; negative if earlier; null if it does not show.
+    pub effort_delay_s: Option<f64>,
+    /// Its standard error, s.
+    pub effort_delay_error_s: Option<f64>,
     /// The driven joints.
     pub joints: Vec<ReportedJoint>,
     /// Terms that cannot be told apart.

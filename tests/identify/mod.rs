@@ -1,0 +1,4 @@
+//! Tests of `identify` and `plan`.
+
+mod planned;
+mod recorded;
