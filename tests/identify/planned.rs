@@ -17,7 +17,8 @@ fn the_friction_of_the_physics_is_found_from_the_planned_motion() {
         assert!(number(&planned.json()["nearest_m"]) >= 0.02, "{}", planned.stdout);
         let scenario = format!("{folder}/identification.toml");
         let out = format!("{folder}/out");
-        let changes = ["--set", "joints.friction=0.4", "--set", "joints.damping=0.9", "--set", "joints.armature=0.02"];
+        let changes =
+            ["--set", "joints.friction=0.4", "--set", "joints.damping=0.9", "--set", "joints.armature=0.02"];
         let run = congruent(&[&["run", &scenario, "--out", &out, "--no-recording"], &changes[..]].concat());
         assert_eq!(run.code, 0, "{}{}", run.stdout, run.stderr);
         let log = format!("{out}/identification/trajectory.mcap");
@@ -34,7 +35,11 @@ fn the_friction_of_the_physics_is_found_from_the_planned_motion() {
                 };
                 // The physics rounds the step of friction at zero velocity.
                 let off = (number(&of["value"]) - truth).abs();
-                assert!(off < 0.05_f64.max(4.0 * number(&of["standard_error"])), "{robot} {}: {of}", joint["joint"]);
+                assert!(
+                    off < 0.05_f64.max(4.0 * number(&of["standard_error"])),
+                    "{robot} {}: {of}",
+                    joint["joint"]
+                );
             }
         }
     }
@@ -46,6 +51,10 @@ fn a_motion_without_room_is_refused() {
     let folder = text(&scratch.path().join("narrow"));
     let refused = congruent(&["plan", "robots/ur5e", "--out", &folder, "--clearance", "2m"]);
     assert_eq!(refused.code, 2, "{}", refused.stdout);
-    assert!(refused.stderr.contains("CGR-COMMAND-104") && refused.stderr.contains("--clearance"), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("CGR-COMMAND-104") && refused.stderr.contains("--clearance"),
+        "{}",
+        refused.stderr
+    );
     assert!(!scratch.path().join("narrow").exists());
 }

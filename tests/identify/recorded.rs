@@ -22,7 +22,7 @@ fn terms<'a>(report: &'a serde_json::Value, term: &str) -> Vec<&'a serde_json::V
 fn friction_and_armature_of_a_simulator_are_found_whatever_the_log_lacks() {
     let Some(corpus) = corpus() else { return };
     let logs = [
-        ("ur5e", "p1_ur5e_clean_500hz.mcap", &[][..], 0.01),
+        ("ur5e", "p1_ur5e_clean_500hz.mcap", &[][..], 0.01_f64),
         ("ur5e", "p2_ur5e_order_missing_nan.mcap", &[], 0.01),
         ("panda", "p4_panda_two_clocks.mcap", &[], 0.02),
         ("ur5e", "p5_ur5e_degrees_prefix.mcap", &["--degrees"], 0.05),
@@ -32,7 +32,11 @@ fn friction_and_armature_of_a_simulator_are_found_whatever_the_log_lacks() {
         let answer = congruent_json(&[&["identify", &robot, &log], more].concat());
         assert_eq!(answer.code, 0, "{log}: {}", answer.stderr);
         let report = answer.json();
-        assert_eq!((&report["verdict"], &report["effort"]["kind"]), (&"better".into(), &"torque".into()), "{log}");
+        assert_eq!(
+            (&report["verdict"], &report["effort"]["kind"]),
+            (&"better".into(), &"torque".into()),
+            "{log}"
+        );
         for (term, truth) in [("viscous", 0.6), ("coulomb", 0.4)] {
             let found = terms(&report, term);
             assert!(found.len() >= 6, "{log}");

@@ -13,10 +13,10 @@ use congruent_analysis::{
     sensitivity::SensitivityReport,
     workspace::WorkspaceReport,
 };
-use congruent_identification::report::IdentificationReport;
 use congruent_calibration::{MeasuredCheck, report::CalibrationReport, same_point::SamePointReport};
 use congruent_configurations::configurations_schema;
 use congruent_description::robot_file_schema;
+use congruent_identification::report::IdentificationReport;
 use congruent_logs::LogSurvey;
 use congruent_proximity::{DisabledPairs, DistanceReport};
 use congruent_results::report::{FaultTable, RunReport};
@@ -111,7 +111,7 @@ impl Document {
             written::<SamePointReport>,
         ),
         Self::new("identify", "parameters, printed by `identify`", written::<IdentificationReport>),
-        Self::new("plan", "what a motion tells, printed by `plan`", written::<crate::identify::PlanReport>),
+        Self::new("plan", "what a motion shows, printed by `plan`", written::<crate::identify::PlanReport>),
         Self::new(
             "convert",
             "model and proof, printed by `convert` and `derive`",

@@ -5,8 +5,8 @@ use congruent_dynamics::{BodyTree, DynamicsError};
 
 use crate::{
     equations::{BLOCKS, RecordedEquations},
-    regressor_row::RowMaker,
-    smoothing::{KeptRow, SmoothedInstant, Smoothing, Window},
+    regressor_row::ColumnMaker,
+    smoothing::{KeptRow, SmoothedInstant, Smoothing, SmoothingWindow},
 };
 
 /// One instant of a recording.
@@ -38,8 +38,8 @@ pub enum Instants {
 /// Adds up the equations of a recording, in memory that does not grow with it.
 #[derive(Debug)]
 pub struct Collector<'a> {
-    window: Window,
-    maker: RowMaker<'a>,
+    window: SmoothingWindow,
+    maker: ColumnMaker<'a>,
     equations: RecordedEquations,
     instants: Instants,
     /// First instant and length of the recording, s.
@@ -56,8 +56,8 @@ impl<'a> Collector<'a> {
         from_s: f64,
         duration_s: f64,
     ) -> Self {
-        let (maker, equations) = RowMaker::new(tree);
-        Self { window: Window::new(smoothing), maker, equations, instants, from_s, duration_s }
+        let (maker, equations) = ColumnMaker::new(tree);
+        Self { window: SmoothingWindow::new(smoothing), maker, equations, instants, from_s, duration_s }
     }
 
     /// Ends a part: what follows is not connected with the rows so far.
@@ -102,7 +102,7 @@ fn add(
     instant: &SmoothedInstant,
     block: usize,
     instants: &Instants,
-    maker: &mut RowMaker<'_>,
+    maker: &mut ColumnMaker<'_>,
     equations: &mut RecordedEquations,
 ) -> Result<(), DynamicsError> {
     let speed = |joint: usize| instant.qd[joint].abs();

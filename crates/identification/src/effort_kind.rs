@@ -5,10 +5,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    equations::{JointEquations, RecordedEquations},
+    equations::{BLOCKS, JointEquations, RecordedEquations, SummedRows},
     estimate::{float, is_in_fold},
     held_out::FOLDS,
-    unknowns::JointTerm,
+    unknowns::JointUnknown,
 };
 
 /// What efforts are.
@@ -35,6 +35,8 @@ pub struct RecognisedEffort {
     /// The part of the variance of the efforts that is left as torques, as torques without gravity, and as currents; of data that
     /// were left out, the mean of the joints.
     pub left: [f64; 3],
+    /// The same of each driven joint; `None` of one whose effort does not change.
+    pub left_of_joints: Vec<Option<[f64; 3]>>,
     /// For each driven joint what its effort has to be multiplied by to be a torque, with its standard error; `None` if masses have too
     /// small a part in it.
     pub factors: Vec<Option<(f64, f64)>>,
@@ -54,23 +56,35 @@ const UNCHANGED: f64 = 1e-9;
 
 /// Recognises what the efforts are.
 pub fn recognise(equations: &RecordedEquations) -> RecognisedEffort {
-    let tried: Vec<Tried> =
-        equations.joints.iter().enumerate().filter_map(|(row, joint)| Tried::new(equations, row, joint)).collect();
-    let mut factors = vec![None; equations.joints.len()];
-    if tried.is_empty() {
-        return RecognisedEffort { kind: EffortKind::None, left: [f64::NAN; 3], factors };
+    let small = |(row, joint): (usize, &JointEquations)| {
+        let map = small_columns(equations, row, joint);
+        let block = |at: usize| {
+            let SummedRows { gram, rows } = joint.sum(|block| block == at);
+            SummedRows { gram: map.transpose() * gram * &map, rows }
+        };
+        (0..BLOCKS).map(block).collect()
+    };
+    recognise_small(&equations.joints.iter().enumerate().map(small).collect::<Vec<SmallBlocks>>())
+}
+
+/// The inner products of the few columns of a joint in each block of time, with the number of rows.
+pub(crate) type SmallBlocks = Vec<SummedRows>;
+
+/// The same from the few columns of each joint.
+pub(crate) fn recognise_small(joints: &[SmallBlocks]) -> RecognisedEffort {
+    let tried: Vec<Option<Tried>> = joints.iter().map(Tried::new).collect();
+    let used = || tried.iter().flatten();
+    let left_of_joints = tried.iter().map(|of| of.as_ref().map(|of| of.left)).collect();
+    let factors: Vec<Option<(f64, f64)>> = tried.iter().map(|of| of.as_ref()?.factor).collect();
+    if used().next().is_none() {
+        return RecognisedEffort { kind: EffortKind::None, left: [f64::NAN; 3], left_of_joints, factors };
     }
-    let left = std::array::from_fn(|kind| {
-        tried.iter().map(|of| of.left[kind]).sum::<f64>() / float(tried.len())
-    });
-    let mut sizes: Vec<f64> = Vec::new();
-    for of in &tried {
-        factors[of.row] = of.factor;
-        sizes.extend(of.factor.map(|(factor, _)| factor));
-    }
+    let left =
+        std::array::from_fn(|kind| used().map(|of| of.left[kind]).sum::<f64>() / float(used().count()));
+    let mut sizes: Vec<f64> = factors.iter().flatten().map(|(factor, _)| factor.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     let middle = sizes.get(sizes.len() / 2).copied();
-    RecognisedEffort { kind: kind(left, middle), left, factors }
+    RecognisedEffort { kind: kind(left, middle), left, left_of_joints, factors }
 }
 
 fn kind(left: [f64; 3], middle_factor: Option<f64>) -> EffortKind {
@@ -80,7 +94,8 @@ fn kind(left: [f64; 3], middle_factor: Option<f64>) -> EffortKind {
     } else {
         (torque, EffortKind::Torque)
     };
-    let is_near_one = middle_factor.is_some_and(|factor| (1.0 / STILL_TORQUE..=STILL_TORQUE).contains(&factor));
+    let is_near_one =
+        middle_factor.is_some_and(|factor| (1.0 / STILL_TORQUE..=STILL_TORQUE).contains(&factor));
     if as_torque < UNEXPLAINED && (as_torque <= AS_GOOD * current || is_near_one) {
         return kind;
     }
@@ -89,31 +104,32 @@ fn kind(left: [f64; 3], middle_factor: Option<f64>) -> EffortKind {
 
 /// A joint's effort, explained as each kind.
 struct Tried {
-    row: usize,
     left: [f64; 3],
     factor: Option<(f64, f64)>,
 }
 
 /// The columns that explain an effort: the torque of the rigid bodies by the description, then gravity, which is part of it, then the terms,
 /// the delay and the effort.
-const RIGID: usize = 0;
-const TERMS: usize = 2;
-const DELAY: usize = TERMS + JointTerm::ALL.len();
+pub(crate) const RIGID: usize = 0;
+pub(crate) const GRAVITY: usize = 1;
+pub(crate) const TERMS: usize = 2;
+pub(crate) const DELAY: usize = TERMS + JointUnknown::ALL.len();
 const OFFSET: usize = DELAY - 1;
-const SMALL: usize = DELAY + 2;
+pub(crate) const EFFORT: usize = DELAY + 1;
+pub(crate) const SMALL: usize = EFFORT + 1;
 
 impl Tried {
     /// `None` if the effort does not change.
-    fn new(equations: &RecordedEquations, row: usize, joint: &JointEquations) -> Option<Self> {
+    fn new(blocks: &SmallBlocks) -> Option<Self> {
         let small = |is_taken: &dyn Fn(usize) -> bool| {
-            let (gram, rows) = joint.sum(is_taken);
-            let map = small_columns(equations, row, joint);
-            (map.transpose() * gram * map, rows)
+            let taken = blocks.iter().enumerate().filter(|(at, _)| is_taken(*at));
+            taken.fold((DMatrix::zeros(SMALL, SMALL), 0), |(sum, rows), (_, block)| {
+                (sum + &block.gram, rows + block.rows)
+            })
         };
         let (whole, rows) = small(&|_| true);
-        let (effort, offset) = (SMALL - 1, OFFSET);
-        let variance = whole[(effort, effort)] - whole[(effort, offset)].powi(2) / float(rows).max(1.0);
-        if rows == 0 || variance <= UNCHANGED * whole[(effort, effort)] {
+        let variance = whole[(EFFORT, EFFORT)] - whole[(EFFORT, OFFSET)].powi(2) / float(rows).max(1.0);
+        if rows == 0 || variance <= UNCHANGED * whole[(EFFORT, EFFORT)] {
             return None;
         }
         let mut left = [0.0; 3];
@@ -127,7 +143,7 @@ impl Tried {
             }
             factors.push(1.0 / solutions(&known)[2][RIGID]);
         }
-        Some(Self { row, left, factor: known_factor(&factors) })
+        Some(Self { left, factor: known_factor(&factors) })
     }
 }
 
@@ -143,17 +159,17 @@ fn known_factor(factors: &[f64]) -> Option<(f64, f64)> {
 /// From the columns of a joint to the few.
 fn small_columns(equations: &RecordedEquations, row: usize, joint: &JointEquations) -> DMatrix<f64> {
     let mut map = DMatrix::zeros(joint.columns(), SMALL);
-    let bodies = joint.term_column(JointTerm::Viscous);
+    let bodies = joint.term_column(JointUnknown::Viscous);
     let unknowns = joint.unknowns(&equations.layout, row);
     for column in 0..bodies {
         map[(column, RIGID)] = equations.nominal[unknowns[column]];
     }
-    map[(joint.gravity_column(), 1)] = 1.0;
-    for (at, term) in JointTerm::ALL.into_iter().enumerate() {
+    map[(joint.gravity_column(), GRAVITY)] = 1.0;
+    for (at, term) in JointUnknown::ALL.into_iter().enumerate() {
         map[(joint.term_column(term), TERMS + at)] = 1.0;
     }
     map[(joint.delay_column(), DELAY)] = 1.0;
-    map[(joint.effort_column(), SMALL - 1)] = 1.0;
+    map[(joint.effort_column(), EFFORT)] = 1.0;
     map
 }
 
@@ -161,11 +177,11 @@ fn small_columns(equations: &RecordedEquations, row: usize, joint: &JointEquatio
 fn solutions(gram: &DMatrix<f64>) -> [DVector<f64>; 3] {
     let known = |rigid: f64, gravity: f64| {
         let mut known = DVector::zeros(SMALL);
-        (known[RIGID], known[1], known[SMALL - 1]) = (rigid, gravity, -1.0);
+        (known[RIGID], known[GRAVITY], known[EFFORT]) = (rigid, gravity, -1.0);
         known
     };
-    let terms: Vec<usize> = (TERMS..SMALL - 1).collect();
-    let with_rigid: Vec<usize> = std::iter::once(RIGID).chain(TERMS..SMALL - 1).collect();
+    let terms: Vec<usize> = (TERMS..EFFORT).collect();
+    let with_rigid: Vec<usize> = std::iter::once(RIGID).chain(TERMS..EFFORT).collect();
     [
         solved(gram, known(1.0, 0.0), &terms),
         solved(gram, known(1.0, -1.0), &terms),

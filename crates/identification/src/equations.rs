@@ -3,10 +3,18 @@
 use congruent_dynamics::{BodyTree, PARAMETERS};
 use nalgebra::{DMatrix, DVector};
 
-use crate::unknowns::{JointTerm, Layout};
+use crate::unknowns::{JointUnknown, UnknownOrder};
 
 /// The blocks of time in which equations are added up: what one of them holds is left out together. Kind: choice; four of each fifth.
 pub(crate) const BLOCKS: usize = 20;
+
+/// Inner products of the columns of some rows.
+#[derive(Debug, Clone)]
+pub(crate) struct SummedRows {
+    /// `C^T C`, symmetric.
+    pub(crate) gram: DMatrix<f64>,
+    pub(crate) rows: usize,
+}
 
 /// The equations of one driven joint.
 #[derive(Debug, Clone)]
@@ -27,8 +35,13 @@ const BEHIND: usize = 3;
 
 impl JointEquations {
     pub(crate) fn new(joint: usize, bodies: Vec<usize>) -> Self {
-        let columns = PARAMETERS * bodies.len() + JointTerm::ALL.len() + BEHIND;
-        Self { joint, bodies, blocks: vec![DMatrix::zeros(columns, columns); BLOCKS], counts: vec![0; BLOCKS] }
+        let columns = PARAMETERS * bodies.len() + JointUnknown::ALL.len() + BEHIND;
+        Self {
+            joint,
+            bodies,
+            blocks: vec![DMatrix::zeros(columns, columns); BLOCKS],
+            counts: vec![0; BLOCKS],
+        }
     }
 
     /// Rows in all blocks.
@@ -40,7 +53,7 @@ impl JointEquations {
         self.blocks.first().map_or(0, DMatrix::ncols)
     }
 
-    pub(crate) fn term_column(&self, term: JointTerm) -> usize {
+    pub(crate) fn term_column(&self, term: JointUnknown) -> usize {
         PARAMETERS * self.bodies.len() + term as usize
     }
 
@@ -61,23 +74,23 @@ impl JointEquations {
         self.counts[block] += 1;
     }
 
-    /// The sum of some blocks, symmetric, and its number of rows.
-    pub(crate) fn sum(&self, is_taken: impl Fn(usize) -> bool) -> (DMatrix<f64>, usize) {
-        let mut sum = DMatrix::zeros(self.columns(), self.columns());
-        let mut count = 0;
+    /// The sum of some blocks.
+    pub(crate) fn sum(&self, is_taken: impl Fn(usize) -> bool) -> SummedRows {
+        let mut gram = DMatrix::zeros(self.columns(), self.columns());
+        let mut rows = 0;
         for (at, block) in self.blocks.iter().enumerate().filter(|(at, _)| is_taken(*at)) {
-            sum += block;
-            count += self.counts[at];
+            gram += block;
+            rows += self.counts[at];
         }
         // Only the lower triangle was added up.
-        sum.fill_upper_triangle_with_lower_triangle();
-        (sum, count)
+        gram.fill_upper_triangle_with_lower_triangle();
+        SummedRows { gram, rows }
     }
 
     /// The unknown of each column but those of gravity and of the effort.
-    pub(crate) fn unknowns(&self, layout: &Layout, row: usize) -> Vec<usize> {
-        let of_bodies = self.bodies.iter().flat_map(|&body| layout.body(body));
-        let of_terms = JointTerm::ALL.iter().map(|&term| layout.term(row, term));
+    pub(crate) fn unknowns(&self, layout: &UnknownOrder, row: usize) -> Vec<usize> {
+        let of_bodies = self.bodies.iter().flat_map(|&body| UnknownOrder::body(body));
+        let of_terms = JointUnknown::ALL.iter().map(|&term| layout.term(row, term));
         of_bodies.chain(of_terms).chain(std::iter::once(layout.delay())).collect()
     }
 }
@@ -85,7 +98,7 @@ impl JointEquations {
 /// The equations of all driven joints.
 #[derive(Debug, Clone)]
 pub struct RecordedEquations {
-    pub(crate) layout: Layout,
+    pub(crate) layout: UnknownOrder,
     /// The unknowns as the description has them.
     pub(crate) nominal: DVector<f64>,
     /// One for each driven joint, in the order of the layout.
@@ -96,7 +109,7 @@ pub struct RecordedEquations {
 
 impl RecordedEquations {
     pub(crate) fn new(tree: &BodyTree, joints: Vec<JointEquations>) -> Self {
-        let layout = Layout { bodies: tree.dof(), joints: joints.iter().map(|of| of.joint).collect() };
+        let layout = UnknownOrder { bodies: tree.dof(), joints: joints.iter().map(|of| of.joint).collect() };
         Self { nominal: layout.nominal(tree), layout, joints, instants: 0 }
     }
 

@@ -5,11 +5,11 @@ use congruent_kinematics::least_squares::BalancedCholesky;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use crate::{
-    equations::{BLOCKS, JointEquations, RecordedEquations},
+    equations::{BLOCKS, JointEquations, RecordedEquations, SummedRows},
+    indistinct::dependent,
     pseudo_inertia::{Parameters, is_body, metric},
     solve::{Bounds, Quadratic},
-    told_apart::dependent,
-    unknowns::{FreeParameters, JointTerm, PayloadPlace},
+    unknowns::{FreeGroup, FreeUnknowns, JointUnknown, PayloadPlace, UnknownOrder},
 };
 
 /// What an estimate leaves of the effort of a joint.
@@ -31,14 +31,14 @@ impl JointNoise {
 
 /// An estimate of the free parameters.
 #[derive(Debug, Clone)]
-pub struct Estimate {
+pub struct ParameterEstimate {
     /// All unknowns: the free ones as estimated, the others as the description has them.
     pub(crate) x: DVector<f64>,
     /// The free unknowns.
     pub(crate) free: Vec<usize>,
     /// Covariance of the free unknowns.
     pub(crate) covariance: DMatrix<f64>,
-    /// Unknowns that would be free, and what they cannot be told apart from.
+    /// Unknowns that would be free, and what they cannot be distinguished from.
     pub(crate) held: Vec<(usize, Vec<usize>)>,
     /// Combinations of the free inertial parameters that the recording says more of than was known before, and how many there are.
     pub(crate) known_combinations: [usize; 2],
@@ -46,7 +46,7 @@ pub struct Estimate {
     pub noise: Vec<JointNoise>,
 }
 
-impl Estimate {
+impl ParameterEstimate {
     /// Standard error of an unknown; `None` if it was not free.
     pub(crate) fn standard_error(&self, unknown: usize) -> Option<f64> {
         let at = self.free.iter().position(|of| *of == unknown)?;
@@ -77,21 +77,23 @@ const PAYLOAD_IS_KNOWN: f64 = 0.01;
 /// The estimate from some of the blocks. `None` if no joint has rows.
 pub(crate) fn estimate(
     equations: &RecordedEquations,
-    free: &FreeParameters,
-    is_taken: impl Fn(usize) -> bool + Copy,
-) -> Option<Estimate> {
-    let sums: Vec<(DMatrix<f64>, usize)> = equations.joints.iter().map(|joint| joint.sum(is_taken)).collect();
-    let problem = Problem::new(equations, free, &sums)?;
-    let effort = |(sum, rows): &(DMatrix<f64>, usize), joint: &JointEquations| {
+    free: &FreeUnknowns,
+    is_taken: impl Fn(usize) -> bool,
+) -> Option<ParameterEstimate> {
+    let taken: Vec<usize> = (0..BLOCKS).filter(|block| is_taken(*block)).collect();
+    let sums: Vec<SummedRows> =
+        equations.joints.iter().map(|joint| joint.sum(|block| taken.contains(&block))).collect();
+    let problem = WeightedEfforts { taken, ..WeightedEfforts::new(equations, free, &sums)? };
+    let effort = |SummedRows { gram, rows }: &SummedRows, joint: &JointEquations| {
         let at = joint.effort_column();
-        (sum[(at, at)] / float(*rows).max(1.0)).sqrt()
+        (gram[(at, at)] / float(*rows).max(1.0)).sqrt()
     };
     let mut noise: Vec<JointNoise> = sums
         .iter()
         .zip(&equations.joints)
         .map(|(sum, joint)| JointNoise {
             rms: (AT_FIRST * effort(sum, joint)).max(f64::MIN_POSITIVE),
-            rows: sum.1,
+            rows: sum.rows,
             alike: 1.0,
         })
         .collect();
@@ -103,15 +105,22 @@ pub(crate) fn estimate(
         let x = problem.x(&change);
         for (row, joint) in equations.joints.iter().enumerate() {
             let least = LEAST_LEFT * effort(&sums[row], joint);
-            noise[row] = problem.noise(row, &x, &sums[row], least, is_taken);
+            noise[row] = problem.noise(row, &x, &sums[row], least);
         }
     }
     let covariance = BalancedCholesky::new(sum.information.clone())?.inverse();
     let known_combinations = problem.known_combinations(&sum);
-    Some(Estimate { x: problem.x(&change), free: problem.free, covariance, held: problem.held, known_combinations, noise })
+    Some(ParameterEstimate {
+        x: problem.x(&change),
+        free: problem.free,
+        covariance,
+        held: problem.held,
+        known_combinations,
+        noise,
+    })
 }
 
-/// What a motion will tell, by the noise of its efforts.
+/// What a motion will show, by the noise of its efforts.
 #[derive(Debug, Clone)]
 pub(crate) struct PlannedInformation {
     /// The free unknowns.
@@ -124,14 +133,14 @@ pub(crate) struct PlannedInformation {
     pub(crate) known_combinations: [usize; 2],
 }
 
-/// What equations tell whose efforts are not known yet; `None` if they do not determine a free unknown.
+/// What equations show whose efforts are not known yet; `None` if they do not determine a free unknown.
 pub(crate) fn planned_information(
     equations: &RecordedEquations,
-    free: &FreeParameters,
+    free: &FreeUnknowns,
     noise: &[JointNoise],
 ) -> Option<PlannedInformation> {
-    let sums: Vec<(DMatrix<f64>, usize)> = equations.joints.iter().map(|joint| joint.sum(|_| true)).collect();
-    let problem = Problem::new(equations, free, &sums)?;
+    let sums: Vec<SummedRows> = equations.joints.iter().map(|joint| joint.sum(|_| true)).collect();
+    let problem = WeightedEfforts::new(equations, free, &sums)?;
     if !problem.held.is_empty() {
         return None;
     }
@@ -143,7 +152,7 @@ pub(crate) fn planned_information(
     Some(PlannedInformation { free: problem.free, covariance, log_determinant, known_combinations })
 }
 
-struct Problem<'a> {
+struct WeightedEfforts<'a> {
     equations: &'a RecordedEquations,
     /// The free unknowns, those of each body together.
     free: Vec<usize>,
@@ -153,14 +162,12 @@ struct Problem<'a> {
     /// Free inertial parameters, which come first.
     inertial: usize,
     bounds: Bounds,
+    /// The blocks that the sums are of.
+    taken: Vec<usize>,
 }
 
-impl<'a> Problem<'a> {
-    fn new(
-        equations: &'a RecordedEquations,
-        parameters: &FreeParameters,
-        sums: &[(DMatrix<f64>, usize)],
-    ) -> Option<Self> {
+impl<'a> WeightedEfforts<'a> {
+    fn new(equations: &'a RecordedEquations, parameters: &FreeUnknowns, sums: &[SummedRows]) -> Option<Self> {
         let layout = &equations.layout;
         let mut free = Vec::new();
         let mut bounds = Bounds::default();
@@ -169,7 +176,7 @@ impl<'a> Problem<'a> {
             bounds.bodies.push((free.len(), parts.added_to));
             bounds.begin.push(parts.begin);
             metrics.push(parts.metric);
-            free.extend(layout.body(body));
+            free.extend(UnknownOrder::body(body));
         }
         let inertial = free.len();
         let (terms, held) = free_terms(equations, parameters, sums);
@@ -180,16 +187,24 @@ impl<'a> Problem<'a> {
             free.push(unknown);
         }
         // Of efforts at rest, and of a motion without efforts, it has no effect.
-        let shows_delay = equations.joints.iter().zip(sums).any(|(joint, (gram, _))| {
+        let shows_delay = equations.joints.iter().zip(sums).any(|(joint, sum)| {
             let at = joint.delay_column();
-            gram[(at, at)] > 0.0
+            sum.gram[(at, at)] > 0.0
         });
         free.extend(shows_delay.then(|| layout.delay()));
         let mut prior = DMatrix::zeros(free.len(), free.len());
         for ((first, _), metric) in bounds.bodies.iter().zip(metrics) {
             prior.fixed_view_mut::<PARAMETERS, PARAMETERS>(*first, *first).copy_from(&metric);
         }
-        (!free.is_empty()).then_some(Self { equations, free, held, prior, inertial, bounds })
+        (!free.is_empty()).then_some(Self {
+            equations,
+            free,
+            held,
+            prior,
+            inertial,
+            bounds,
+            taken: (0..BLOCKS).collect(),
+        })
     }
 
     /// All unknowns after a change of the free ones.
@@ -200,13 +215,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The sum of squares in changes of the free unknowns, joints by their noise.
-    fn sum(&self, sums: &[(DMatrix<f64>, usize)], noise: &[JointNoise]) -> Quadratic {
+    fn sum(&self, sums: &[SummedRows], noise: &[JointNoise]) -> Quadratic {
         let mut information = self.prior.clone();
         let mut right_side = DVector::zeros(self.free.len());
         let mut place = vec![None; self.equations.layout.len()];
         self.free.iter().enumerate().for_each(|(at, unknown)| place[*unknown] = Some(at));
         for (row, joint) in self.equations.joints.iter().enumerate() {
-            let (gram, rows) = &sums[row];
+            let SummedRows { gram, rows } = &sums[row];
             if *rows == 0 {
                 continue;
             }
@@ -234,29 +249,27 @@ impl<'a> Problem<'a> {
         &self,
         row: usize,
         x: &DVector<f64>,
-        (gram, rows): &(DMatrix<f64>, usize),
+        SummedRows { gram, rows }: &SummedRows,
         least: f64,
-        is_taken: impl Fn(usize) -> bool,
     ) -> JointNoise {
         let joint = &self.equations.joints[row];
         let local = local(self.equations, row, x);
-        let used = self.free.iter().filter(|unknown| {
-            joint.unknowns(&self.equations.layout, row).contains(unknown)
-        });
+        let used =
+            self.free.iter().filter(|unknown| joint.unknowns(&self.equations.layout, row).contains(unknown));
         let freedom = (float(*rows) - float(used.count())).max(1.0);
         let rms = (quadratic(gram, &local).max(0.0) / freedom).sqrt().max(least).max(f64::MIN_POSITIVE);
-        JointNoise { rms, rows: *rows, alike: self.alike(row, &local, rms, is_taken) }
+        JointNoise { rms, rows: *rows, alike: self.alike(row, &local, rms) }
     }
 
     /// How many rows count as one: by how much more the gradients of the blocks differ than those of rows without a relation would.
-    fn alike(&self, row: usize, local: &DVector<f64>, rms: f64, is_taken: impl Fn(usize) -> bool) -> f64 {
+    fn alike(&self, row: usize, local: &DVector<f64>, rms: f64) -> f64 {
         let joint = &self.equations.joints[row];
         let unknowns = joint.unknowns(&self.equations.layout, row);
         let columns: Vec<usize> =
             (0..unknowns.len()).filter(|column| self.free.contains(&unknowns[*column])).collect();
         let mut found = vec![0.0; unknowns.len()];
         let mut expected = vec![0.0; unknowns.len()];
-        for (at, block) in joint.blocks.iter().enumerate().filter(|(at, _)| is_taken(*at)) {
+        for (at, block) in joint.blocks.iter().enumerate().filter(|(at, _)| self.taken.contains(at)) {
             if joint.counts[at] == 0 {
                 continue;
             }
@@ -298,11 +311,11 @@ struct FreeBody {
 }
 
 /// The bodies whose parameters are free. A body that the description gives no mass, or one that cannot exist, is not.
-fn bodies(equations: &RecordedEquations, parameters: &FreeParameters) -> Vec<(usize, FreeBody)> {
+fn bodies(equations: &RecordedEquations, parameters: &FreeUnknowns) -> Vec<(usize, FreeBody)> {
     let nominal = |body: usize| {
-        Parameters::from_column_slice(equations.nominal.rows_range(equations.layout.body(body)).as_slice())
+        Parameters::from_column_slice(equations.nominal.rows_range(UnknownOrder::body(body)).as_slice())
     };
-    if parameters.links {
+    if parameters.has_group(FreeGroup::Links) {
         let all = (0..equations.layout.bodies).filter(|body| is_body(&nominal(*body)));
         let free = all.filter_map(|body| {
             let about = nominal(body);
@@ -310,7 +323,7 @@ fn bodies(equations: &RecordedEquations, parameters: &FreeParameters) -> Vec<(us
         });
         return free.collect();
     }
-    let payload = parameters.payload.and_then(|place| {
+    let payload = parameters.payload_alone().and_then(|place| {
         let ball = payload_ball(&place);
         let metric = metric(&ball)? * PAYLOAD_IS_KNOWN;
         Some((place.joint, FreeBody { added_to: Parameters::zeros(), begin: ball, metric }))
@@ -329,22 +342,19 @@ fn payload_ball(place: &PayloadPlace) -> Parameters {
     ball.transformed_by(&place.link_from_payload).parameters().into()
 }
 
-/// The terms of joints that are free, and those that cannot be told apart from others.
-type Terms = (Vec<(usize, JointTerm)>, Vec<(usize, Vec<usize>)>);
+/// The terms of joints that are free, and those that cannot be distinguished from others.
+type Terms = (Vec<(usize, JointUnknown)>, Vec<(usize, Vec<usize>)>);
 
-fn free_terms(
-    equations: &RecordedEquations,
-    parameters: &FreeParameters,
-    sums: &[(DMatrix<f64>, usize)],
-) -> Terms {
+fn free_terms(equations: &RecordedEquations, parameters: &FreeUnknowns, sums: &[SummedRows]) -> Terms {
     let (mut terms, mut held) = (Vec::new(), Vec::new());
     for (row, joint) in equations.joints.iter().enumerate() {
-        let (gram, rows) = &sums[row];
+        let SummedRows { gram, rows } = &sums[row];
         if *rows == 0 {
             continue;
         }
-        // The known effort of the rigid bodies is no unknown, so that only terms are told apart from each other here.
-        let wanted: Vec<JointTerm> = JointTerm::ALL.into_iter().filter(|term| parameters.has(*term)).collect();
+        // The known effort of the rigid bodies is no unknown, so that only terms are distinguished from each other here.
+        let wanted: Vec<JointUnknown> =
+            JointUnknown::ALL.into_iter().filter(|term| parameters.has(*term)).collect();
         let columns: Vec<usize> = wanted.iter().map(|term| joint.term_column(*term)).collect();
         let part = gram.select_rows(&columns).select_columns(&columns);
         let found = dependent(&part);

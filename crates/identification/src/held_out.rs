@@ -3,9 +3,9 @@
 use nalgebra::DVector;
 
 use crate::{
-    equations::RecordedEquations,
+    equations::{RecordedEquations, SummedRows},
     estimate::{estimate, float, is_in_fold, local, quadratic},
-    unknowns::FreeParameters,
+    unknowns::FreeUnknowns,
 };
 
 /// Parts of the time, each of which is left out once. Kind: choice.
@@ -13,7 +13,7 @@ pub(crate) const FOLDS: usize = 5;
 
 /// What is left of the effort of a joint in data that were left out of the estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeldOut {
+pub struct HeldOutEffort {
     /// By the description, root mean square, N m or N.
     pub before: f64,
     /// By the parameters that were estimated from the other parts of the time, N m or N.
@@ -25,15 +25,15 @@ pub struct HeldOut {
 }
 
 /// What is left of each driven joint: each fifth of the time by the parameters of the other four.
-pub(crate) fn held_out(equations: &RecordedEquations, free: &FreeParameters) -> Vec<HeldOut> {
-    let none = Sums::default();
+pub(crate) fn held_out(equations: &RecordedEquations, free: &FreeUnknowns) -> Vec<HeldOutEffort> {
+    let none = HeldOutSums::default();
     let mut sums = vec![none; equations.joints.len()];
     for fold in 0..FOLDS {
         let is_left_out = |block: usize| is_in_fold(block, fold, FOLDS);
         let Some(found) = estimate(equations, free, |block| !is_left_out(block)) else { continue };
         for (row, sum) in sums.iter_mut().enumerate() {
             let joint = &equations.joints[row];
-            let (gram, rows) = joint.sum(is_left_out);
+            let SummedRows { gram, rows } = joint.sum(is_left_out);
             let left = |x: &DVector<f64>| quadratic(&gram, &local(equations, row, x)).max(0.0);
             sum.before += left(&equations.nominal);
             sum.after += left(&found.x);
@@ -42,7 +42,7 @@ pub(crate) fn held_out(equations: &RecordedEquations, free: &FreeParameters) -> 
         }
     }
     let rms = |sum: f64, rows: usize| (sum / float(rows).max(1.0)).sqrt();
-    let of = |sum: &Sums| HeldOut {
+    let of = |sum: &HeldOutSums| HeldOutEffort {
         before: rms(sum.before, sum.rows),
         after: rms(sum.after, sum.rows),
         effort: rms(sum.effort, sum.rows),
@@ -53,7 +53,7 @@ pub(crate) fn held_out(equations: &RecordedEquations, free: &FreeParameters) -> 
 
 /// Sums of squares.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
+struct HeldOutSums {
     before: f64,
     after: f64,
     effort: f64,

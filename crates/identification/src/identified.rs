@@ -5,14 +5,14 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::{
     equations::RecordedEquations,
-    estimate::{Estimate, JointNoise, estimate},
-    held_out::{HeldOut, held_out},
-    unknowns::{FreeParameters, JointTerm, PayloadPlace},
+    estimate::{JointNoise, ParameterEstimate, estimate},
+    held_out::{HeldOutEffort, held_out},
+    unknowns::{FreeGroup, FreeUnknowns, JointUnknown, PayloadPlace, UnknownOrder},
 };
 
 /// The parameters that a recording identifies.
 #[derive(Debug, Clone)]
-pub struct Identified {
+pub struct IdentifiedParameters {
     /// One for each driven joint.
     pub joints: Vec<IdentifiedJoint>,
     /// The payload, in its frame.
@@ -20,7 +20,7 @@ pub struct Identified {
     /// The bodies, if their parameters were free, in the frames of the links of their joints.
     pub bodies: Vec<IdentifiedBody>,
     /// Terms that were kept as the description has them, since others have the same effect.
-    pub not_told_apart: Vec<NotToldApart>,
+    pub not_indistinct: Vec<IndistinctTerm>,
     /// Combinations of the free inertial parameters that the recording says more of than was known before, and how many there are.
     pub known_combinations: [usize; 2],
     /// By how much efforts are recorded later than positions, s, with its standard error; `None` if it does not show.
@@ -35,9 +35,9 @@ pub struct IdentifiedJoint {
     /// The joint, among the moving ones.
     pub joint: usize,
     /// Its terms that were estimated.
-    pub terms: Vec<(JointTerm, IdentifiedValue)>,
+    pub terms: Vec<(JointUnknown, IdentifiedValue)>,
     /// What is left of its effort in data that were left out.
-    pub held_out: HeldOut,
+    pub held_out: HeldOutEffort,
     /// What is left in the data that the estimate is from.
     pub noise: JointNoise,
 }
@@ -72,13 +72,13 @@ pub struct IdentifiedBody {
 
 /// A term that others have the effect of.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NotToldApart {
+pub struct IndistinctTerm {
     /// The joint, among the moving ones.
     pub joint: usize,
     /// The term, which was kept.
-    pub term: JointTerm,
+    pub term: JointUnknown,
     /// The terms of the joint whose sum it is; none if it has no effect at all.
-    pub from: Vec<JointTerm>,
+    pub from: Vec<JointUnknown>,
 }
 
 /// On data that were left out, what is left has to be smaller by this part at least. No unit; kind: choice.
@@ -86,7 +86,7 @@ const BETTER: f64 = 0.01;
 
 /// The free parameters of a robot from the equations of a recording, whose efforts are torques. `None` if it has no rows, or does not
 /// determine them at all.
-pub fn identify(equations: &RecordedEquations, free: &FreeParameters) -> Option<Identified> {
+pub fn identify(equations: &RecordedEquations, free: &FreeUnknowns) -> Option<IdentifiedParameters> {
     let found = estimate(equations, free, |_| true)?;
     let left_out = held_out(equations, free);
     let joints = equations.joints.iter().enumerate().map(|(row, joint)| IdentifiedJoint {
@@ -96,14 +96,16 @@ pub fn identify(equations: &RecordedEquations, free: &FreeParameters) -> Option<
         noise: found.noise[row],
     });
     let layout = &equations.layout;
-    let place = |joint: usize| PayloadPlace { joint, link_from_payload: congruent_kinematics::Pose::identity() };
-    let bodies = if free.links { 0..layout.bodies } else { 0..0 };
-    let payload = free.payload.filter(|_| !free.links);
-    Some(Identified {
+    let place =
+        |joint: usize| PayloadPlace { joint, link_from_payload: congruent_kinematics::Pose::identity() };
+    let bodies = if free.has_group(FreeGroup::Links) { 0..layout.bodies } else { 0..0 };
+    Some(IdentifiedParameters {
         joints: joints.collect(),
-        payload: payload.and_then(|place| body(equations, &found, &place, true)),
-        bodies: bodies.filter_map(|joint| body(equations, &found, &place(joint), false)).collect(),
-        not_told_apart: not_told_apart(equations, &found),
+        payload: free.payload_alone().and_then(|place| body(equations, &found, &place, BodyOrigin::Added)),
+        bodies: bodies
+            .filter_map(|joint| body(equations, &found, &place(joint), BodyOrigin::Described))
+            .collect(),
+        not_indistinct: not_indistinct(equations, &found),
         known_combinations: found.known_combinations,
         delay_s: found.standard_error(layout.delay()).map(|error| (found.x[layout.delay()], error)),
         is_better: is_better(&left_out, &found.noise),
@@ -111,54 +113,67 @@ pub fn identify(equations: &RecordedEquations, free: &FreeParameters) -> Option<
 }
 
 /// Whether the whole is better by a little at least, and no joint is worse by as much.
-fn is_better(left_out: &[HeldOut], noise: &[JointNoise]) -> bool {
+fn is_better(left_out: &[HeldOutEffort], noise: &[JointNoise]) -> bool {
     let used = || left_out.iter().zip(noise).filter(|(of, _)| of.rows > 0);
-    let sum = |left: fn(&HeldOut) -> f64| used().map(|(of, noise)| (left(of) / noise.rms).powi(2)).sum::<f64>();
-    let is_worse = |(of, noise): (&HeldOut, &JointNoise)| of.after > of.before.max(noise.rms) * (1.0 + BETTER);
+    let sum = |left: fn(&HeldOutEffort) -> f64| {
+        used().map(|(of, noise)| (left(of) / noise.rms).powi(2)).sum::<f64>()
+    };
+    let is_worse =
+        |(of, noise): (&HeldOutEffort, &JointNoise)| of.after > of.before.max(noise.rms) * (1.0 + BETTER);
     sum(|of| of.after) < sum(|of| of.before) * (1.0 - BETTER) && !used().any(is_worse)
 }
 
-fn terms(equations: &RecordedEquations, found: &Estimate, row: usize) -> Vec<(JointTerm, IdentifiedValue)> {
-    let value = |term: JointTerm| {
+fn terms(
+    equations: &RecordedEquations,
+    found: &ParameterEstimate,
+    row: usize,
+) -> Vec<(JointUnknown, IdentifiedValue)> {
+    let value = |term: JointUnknown| {
         let unknown = equations.layout.term(row, term);
         let standard_error = found.standard_error(unknown)?;
-        let value = IdentifiedValue {
-            value: found.x[unknown],
-            standard_error,
-            nominal: equations.nominal[unknown],
-        };
+        let value =
+            IdentifiedValue { value: found.x[unknown], standard_error, nominal: equations.nominal[unknown] };
         Some((term, value))
     };
-    JointTerm::ALL.into_iter().filter_map(value).collect()
+    JointUnknown::ALL.into_iter().filter_map(value).collect()
 }
 
-fn not_told_apart(equations: &RecordedEquations, found: &Estimate) -> Vec<NotToldApart> {
+fn not_indistinct(equations: &RecordedEquations, found: &ParameterEstimate) -> Vec<IndistinctTerm> {
     let layout = &equations.layout;
     let of = |unknown: usize| {
         let at = unknown - PARAMETERS * layout.bodies;
-        (at / JointTerm::ALL.len(), JointTerm::ALL[at % JointTerm::ALL.len()])
+        (at / JointUnknown::ALL.len(), JointUnknown::ALL[at % JointUnknown::ALL.len()])
     };
     let each = found.held.iter().map(|(unknown, others)| {
         let (row, term) = of(*unknown);
         let from = others.iter().map(|other| of(*other).1).collect();
-        NotToldApart { joint: layout.joints[row], term, from }
+        IndistinctTerm { joint: layout.joints[row], term, from }
     });
     each.collect()
+}
+
+/// Where a body comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum BodyOrigin {
+    /// The description has it.
+    Described,
+    /// It is a payload.
+    Added,
 }
 
 /// A body as estimated, in the frame of its place; a payload is what is added to the description.
 fn body(
     equations: &RecordedEquations,
-    found: &Estimate,
+    found: &ParameterEstimate,
     place: &PayloadPlace,
-    is_added: bool,
+    origin: BodyOrigin,
 ) -> Option<IdentifiedBody> {
-    let range = equations.layout.body(place.joint);
+    let range = UnknownOrder::body(place.joint);
     let covariance = found.covariance_of(range.start)?;
     let of = |x: &DVector<f64>| -> [f64; PARAMETERS] { std::array::from_fn(|at| x[range.start + at]) };
     let nominal = of(&equations.nominal);
     let mut estimated = of(&found.x);
-    if is_added {
+    if origin == BodyOrigin::Added {
         estimated.iter_mut().zip(nominal).for_each(|(estimated, nominal)| *estimated -= nominal);
     }
     let payload_from_link = place.link_from_payload.inverse();
@@ -181,7 +196,7 @@ fn body(
     Some(IdentifiedBody {
         joint: place.joint,
         inertia: in_place(estimated),
-        nominal: if is_added { SpatialInertia::zero() } else { in_place(nominal) },
+        nominal: if origin == BodyOrigin::Added { SpatialInertia::zero() } else { in_place(nominal) },
         mass_error_kg: error(0),
         center_error_m: std::array::from_fn(|at| error(1 + at)),
         tensor_error_kg_m2: std::array::from_fn(|at| error(4 + at)),

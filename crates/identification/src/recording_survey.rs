@@ -5,7 +5,7 @@ use congruent_dynamics::{BodyTree, DynamicsError};
 use crate::{
     collect::{Collector, Instants, RecordedRow},
     effort_kind::recognise,
-    smoothing::{KeptRow, Smoothing, Window},
+    smoothing::{KeptRow, Smoothing, SmoothingWindow},
 };
 
 /// Parts of a recording that are looked at first. Kind: choice.
@@ -18,7 +18,7 @@ const MOVING: f64 = 0.1;
 const STILL: f64 = 0.01;
 
 /// A window is taken if it leaves at most this much more of the efforts than the best one, and no shorter one does. No unit; kind: choice.
-const AS_GOOD: f64 = 1.1;
+pub(crate) const AS_GOOD: f64 = 1.1;
 
 /// Parts of a recording, evenly over its time, in memory that does not grow with it.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ impl SampledParts {
     pub fn survey_with(&self, smoothing: Smoothing) -> Option<RecordingSurvey> {
         let mut speeds: Vec<Vec<f64>> = Vec::new();
         for part in &self.parts {
-            let mut window = Window::new(smoothing);
+            let mut window = SmoothingWindow::new(smoothing);
             for row in part {
                 window.push(row.clone(), |instant| {
                     speeds.resize(instant.qd.len(), Vec::new());
@@ -79,7 +79,7 @@ impl SampledParts {
     /// What the parts show, with the window by which the description explains the efforts best; `None` if they have too few rows.
     ///
     /// A window that is too short leaves the noise of the positions in the accelerations, one that is too long flattens the motion: both
-    /// show in the efforts. By the positions alone the noise of an encoder, which repeats its steps, is not told from motion.
+    /// show in the efforts. By the positions alone the noise of an encoder, which repeats its steps, is not distinguished from motion.
     ///
     /// # Errors
     /// The rows are another robot's.

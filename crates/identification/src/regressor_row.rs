@@ -6,12 +6,12 @@ use nalgebra::{DMatrix, DVector};
 use crate::{
     equations::{JointEquations, RecordedEquations},
     smoothing::SmoothedInstant,
-    unknowns::JointTerm,
+    unknowns::JointUnknown,
 };
 
 /// Makes the rows of instants, in memory that is allocated once.
 #[derive(Debug)]
-pub(crate) struct RowMaker<'a> {
+pub(crate) struct ColumnMaker<'a> {
     pub(crate) tree: &'a BodyTree,
     buffer: DynamicsBuffer,
     regressor: DMatrix<f64>,
@@ -22,7 +22,7 @@ pub(crate) struct RowMaker<'a> {
     row: Vec<DVector<f64>>,
 }
 
-impl<'a> RowMaker<'a> {
+impl<'a> ColumnMaker<'a> {
     /// With the equations that its rows are added to, of all driven joints.
     pub(crate) fn new(tree: &'a BodyTree) -> (Self, RecordedEquations) {
         let n = tree.dof();
@@ -64,10 +64,10 @@ impl<'a> RowMaker<'a> {
                 }
             }
             let qd = qd[of.joint];
-            row[of.term_column(JointTerm::Viscous)] = qd;
-            row[of.term_column(JointTerm::Coulomb)] = if qd == 0.0 { 0.0 } else { qd.signum() };
-            row[of.term_column(JointTerm::Armature)] = qdd[of.joint];
-            row[of.term_column(JointTerm::Offset)] = 1.0;
+            row[of.term_column(JointUnknown::Viscous)] = qd;
+            row[of.term_column(JointUnknown::Coulomb)] = if qd == 0.0 { 0.0 } else { qd.signum() };
+            row[of.term_column(JointUnknown::Armature)] = qdd[of.joint];
+            row[of.term_column(JointUnknown::Offset)] = 1.0;
             // The torque at this time is recorded later: now it is the one of before.
             row[of.delay_column()] = -instant.effort_rate[of.joint];
             row[of.gravity_column()] = self.folded_gravity[at];

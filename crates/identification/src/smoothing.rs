@@ -51,7 +51,7 @@ pub struct SmoothedInstant {
 }
 
 /// What the rows of a window are multiplied by: value, first and second derivative at the middle.
-struct Weights {
+struct DerivativeWeights {
     value: Vec<f64>,
     first: Vec<f64>,
     second: Vec<f64>,
@@ -61,11 +61,18 @@ struct Weights {
 impl Smoothing {
     /// Windows for rows at these times, from the shortest one that always has enough rows.
     pub(crate) fn candidates(parts: &[Vec<KeptRow>]) -> Vec<Self> {
-        let mut periods: Vec<f64> =
-            parts.iter().flat_map(|part| part.windows(2).map(|pair| pair[1].time_s - pair[0].time_s)).collect();
+        let mut periods: Vec<f64> = parts
+            .iter()
+            .flat_map(|part| part.windows(2).map(|pair| pair[1].time_s - pair[0].time_s))
+            .collect();
         periods.retain(|period| *period > 0.0);
         periods.sort_by(f64::total_cmp);
         let Some(period_s) = periods.get(periods.len() / 2) else { return Vec::new() };
+        Self::of_period(*period_s).collect()
+    }
+
+    /// Windows for rows that are this far apart.
+    pub(crate) fn of_period(period_s: f64) -> impl Iterator<Item = Self> {
         // Wherever its middle is between two rows.
         #[expect(clippy::cast_precision_loss, reason = "it is small")]
         let shortest_s = period_s * FEWEST_ROWS as f64 * 0.52;
@@ -74,7 +81,6 @@ impl Smoothing {
             .enumerate()
             .take_while(|(at, half_window_s)| *at == 0 || *half_window_s <= LONGEST_S)
             .map(|(_, half_window_s)| Self { half_window_s })
-            .collect()
     }
 }
 
@@ -104,12 +110,12 @@ impl Polynomial {
         Some(Self { inverse: normal.cholesky()?.inverse(), powers })
     }
 
-    fn weights(&self, half_window_s: f64) -> Weights {
+    fn weights(&self, half_window_s: f64) -> DerivativeWeights {
         let of = |row: usize, factor: f64| {
             self.powers.iter().map(|powers| (self.inverse.row(row) * powers)[0] * factor).collect()
         };
         let h = half_window_s;
-        Weights {
+        DerivativeWeights {
             value: of(0, 1.0),
             first: of(1, 1.0 / h),
             second: of(2, 2.0 / (h * h)),
@@ -120,14 +126,14 @@ impl Polynomial {
 
 /// Rows around the next instant.
 #[derive(Debug)]
-pub(crate) struct Window {
+pub(crate) struct SmoothingWindow {
     smoothing: Smoothing,
     rows: VecDeque<KeptRow>,
     /// The middle of the next window, s.
     next_s: Option<f64>,
 }
 
-impl Window {
+impl SmoothingWindow {
     pub(crate) fn new(smoothing: Smoothing) -> Self {
         Self { smoothing, rows: VecDeque::new(), next_s: None }
     }
@@ -177,7 +183,11 @@ impl Window {
             q: (0..joints).map(|joint| first.q[joint] + moved[joint]).collect(),
             qd: derivative(&weights.first),
             // From -h to h the even terms of the velocity cancel.
-            velocity_change: second.iter().zip(&third).map(|(second, third)| (second * h).abs() + third.abs() * h * h / 2.0).collect(),
+            velocity_change: second
+                .iter()
+                .zip(&third)
+                .map(|(second, third)| (second * h).abs() + third.abs() * h * h / 2.0)
+                .collect(),
             qdd: second,
             effort: (0..joints).map(|joint| sum(&weights.value, &|row| row.effort[joint])).collect(),
             effort_rate: (0..joints).map(|joint| sum(&weights.first, &|row| row.effort[joint])).collect(),

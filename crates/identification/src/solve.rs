@@ -46,7 +46,9 @@ impl Quadratic {
         let is_free = |at: &usize| held.iter().all(|(of, _)| of != at);
         let free: Vec<usize> = (0..self.right_side.len()).filter(is_free).collect();
         let mut x = DVector::zeros(self.right_side.len());
-        held.iter().for_each(|(at, value)| x[*at] = *value);
+        for (at, value) in held {
+            x[*at] = *value;
+        }
         let rest = &self.right_side - &self.information * &x;
         let part = Self {
             information: self.information.select_rows(&free).select_columns(&free),
@@ -74,7 +76,12 @@ impl Quadratic {
 
     /// The smallest with bodies that can exist, by damped Newton steps in their triangles. Gauss-Newton steps overshoot there: the
     /// numbers of a body without extension are zero.
-    fn with_bodies(&self, from: &DVector<f64>, bounds: &Bounds, held: &[(usize, f64)]) -> Option<DVector<f64>> {
+    fn with_bodies(
+        &self,
+        from: &DVector<f64>,
+        bounds: &Bounds,
+        held: &[(usize, f64)],
+    ) -> Option<DVector<f64>> {
         let begin = bounds.begin.iter().map(Triangle::of).collect::<Option<Vec<_>>>()?;
         let mut at = Point { x: from.clone(), triangles: begin };
         at.put_bodies(bounds);
@@ -156,7 +163,9 @@ impl Point {
 
     fn jacobian(&self, bounds: &Bounds, held: &[(usize, f64)]) -> DMatrix<f64> {
         let mut jacobian = DMatrix::identity(self.x.len(), self.x.len());
-        held.iter().for_each(|(at, _)| jacobian[(*at, *at)] = 0.0);
+        for (at, _) in held {
+            jacobian[(*at, *at)] = 0.0;
+        }
         for ((first, _), triangle) in bounds.bodies.iter().zip(&self.triangles) {
             jacobian.fixed_view_mut::<PARAMETERS, PARAMETERS>(*first, *first).copy_from(&triangle.jacobian());
         }
@@ -193,15 +202,22 @@ mod tests {
     #[test]
     fn bodies_that_cannot_exist_become_the_nearest_that_can() {
         let wanted = parameters(&Matrix4::from_diagonal(&nalgebra::Vector4::new(0.02, -0.01, 0.03, 1.0)));
-        let sum = Quadratic { information: DMatrix::identity(10, 10), right_side: DVector::from_column_slice(wanted.as_slice()) };
+        let sum = Quadratic {
+            information: DMatrix::identity(10, 10),
+            right_side: DVector::from_column_slice(wanted.as_slice()),
+        };
         let begin = parameters(&Matrix4::from_diagonal(&nalgebra::Vector4::new(0.1, 0.1, 0.1, 1.0)));
-        let bounds = Bounds { bodies: vec![(0, Parameters::zeros())], begin: vec![begin], ..Bounds::default() };
+        let bounds =
+            Bounds { bodies: vec![(0, Parameters::zeros())], begin: vec![begin], ..Bounds::default() };
         let x = sum.smallest(&bounds).unwrap();
         let found = crate::pseudo_inertia::pseudo_inertia(&body(&x, 0, &Parameters::zeros()));
         let least = found.symmetric_eigenvalues().min();
         assert!(least > 0.0 && least < 2e-5, "{least}");
         // The moment about y is 0.02 + 0.03, the others are shared with what was negative: by hand, S = diag(a, 0, c) that makes
         // (c - 0.02)^2 + (a + c - 0.05)^2 + (a - 0.01)^2 smallest: a = 0.01 + 0.02/3, c = 0.02 + 0.02/3.
-        assert!((found[(0, 0)] - 0.05 / 3.0).abs() < 1e-4 && (found[(2, 2)] - 0.08 / 3.0).abs() < 1e-4, "{found}");
+        assert!(
+            (found[(0, 0)] - 0.05 / 3.0).abs() < 1e-4 && (found[(2, 2)] - 0.08 / 3.0).abs() < 1e-4,
+            "{found}"
+        );
     }
 }

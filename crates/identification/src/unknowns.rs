@@ -11,7 +11,7 @@ use serde::Serialize;
 /// What a joint adds to the torque of the rigid bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum JointTerm {
+pub enum JointUnknown {
     /// Viscous friction, N m s/rad or N s/m.
     Viscous,
     /// Coulomb friction, N m or N.
@@ -22,7 +22,7 @@ pub enum JointTerm {
     Offset,
 }
 
-impl JointTerm {
+impl JointUnknown {
     /// All, in the order of the unknowns.
     pub const ALL: [Self; 4] = [Self::Viscous, Self::Coulomb, Self::Armature, Self::Offset];
 
@@ -41,55 +41,74 @@ pub struct PayloadPlace {
     pub link_from_payload: Pose,
 }
 
-/// The parameters that are estimated. Constant efforts of joints always are.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct FreeParameters {
+/// A group of parameters that is estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FreeGroup {
     /// Viscous and Coulomb friction of each joint.
-    pub friction: bool,
-    /// Armature of each joint.
-    pub armature: bool,
+    Friction,
+    /// Armature of each joint: inertia of motor and gear.
+    Armature,
     /// A body that the description does not have.
-    pub payload: Option<PayloadPlace>,
+    Payload,
     /// The ten inertial parameters of each body.
-    pub links: bool,
+    Links,
 }
 
-impl FreeParameters {
+/// The parameters that are estimated. Constant efforts of joints always are.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FreeUnknowns {
+    /// The groups; a payload needs its place.
+    pub groups: Vec<FreeGroup>,
+    /// Where a payload hangs.
+    pub payload: Option<PayloadPlace>,
+}
+
+impl FreeUnknowns {
+    pub(crate) fn has_group(&self, group: FreeGroup) -> bool {
+        self.groups.contains(&group)
+    }
+
+    /// The place of the payload, if one is estimated: with all links free, it is part of one of them.
+    pub(crate) fn payload_alone(&self) -> Option<PayloadPlace> {
+        let is_alone = self.has_group(FreeGroup::Payload) && !self.has_group(FreeGroup::Links);
+        self.payload.filter(|_| is_alone)
+    }
+
     /// Whether a term of the joints is estimated.
-    pub(crate) fn has(&self, term: JointTerm) -> bool {
+    pub(crate) fn has(&self, term: JointUnknown) -> bool {
         match term {
-            JointTerm::Viscous | JointTerm::Coulomb => self.friction,
-            JointTerm::Armature => self.armature,
-            JointTerm::Offset => true,
+            JointUnknown::Viscous | JointUnknown::Coulomb => self.has_group(FreeGroup::Friction),
+            JointUnknown::Armature => self.has_group(FreeGroup::Armature),
+            JointUnknown::Offset => true,
         }
     }
 }
 
 /// The vector of unknowns: ten inertial parameters of each body, then four terms of each driven joint, then the delay of the efforts.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Layout {
+pub(crate) struct UnknownOrder {
     pub(crate) bodies: usize,
     /// The driven joints, among the moving ones.
     pub(crate) joints: Vec<usize>,
 }
 
-impl Layout {
+impl UnknownOrder {
     pub(crate) fn len(&self) -> usize {
         self.delay() + 1
     }
 
     /// By how much efforts are recorded later than the positions of the same time, s: one for all joints.
     pub(crate) fn delay(&self) -> usize {
-        PARAMETERS * self.bodies + JointTerm::ALL.len() * self.joints.len()
+        PARAMETERS * self.bodies + JointUnknown::ALL.len() * self.joints.len()
     }
 
-    pub(crate) fn body(&self, body: usize) -> Range<usize> {
+    pub(crate) fn body(body: usize) -> Range<usize> {
         PARAMETERS * body..PARAMETERS * (body + 1)
     }
 
     /// A term of a driven joint, by its number among these.
-    pub(crate) fn term(&self, joint: usize, term: JointTerm) -> usize {
-        PARAMETERS * self.bodies + JointTerm::ALL.len() * joint + term as usize
+    pub(crate) fn term(&self, joint: usize, term: JointUnknown) -> usize {
+        PARAMETERS * self.bodies + JointUnknown::ALL.len() * joint + term as usize
     }
 
     /// The unknowns as a description has them; terms of a joint with those of its followers.
@@ -99,9 +118,9 @@ impl Layout {
         for (joint, resistance) in tree.resistances().iter().enumerate() {
             // What brakes a follower brakes its driver.
             let (at, ratio) = tree.driver(joint);
-            nominal[self.term(at, JointTerm::Viscous)] += ratio * ratio * resistance.damping;
-            nominal[self.term(at, JointTerm::Coulomb)] += ratio.abs() * resistance.friction;
-            nominal[self.term(at, JointTerm::Armature)] += ratio * ratio * resistance.armature;
+            nominal[self.term(at, JointUnknown::Viscous)] += ratio * ratio * resistance.damping;
+            nominal[self.term(at, JointUnknown::Coulomb)] += ratio.abs() * resistance.friction;
+            nominal[self.term(at, JointUnknown::Armature)] += ratio * ratio * resistance.armature;
         }
         nominal
     }

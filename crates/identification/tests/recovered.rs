@@ -1,13 +1,15 @@
 //! Parameters that a recording was made with are found again: the efforts come from the inverse dynamics of a robot that differs from
 //! its description.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
+
 use std::path::Path;
 
 use congruent_description::{Robot, RobotDescription, RobotQ, load_robot};
 use congruent_dynamics::{BodyTree, JointMotionState, JointResistance, SpatialInertia};
 use congruent_identification::{
-    Collector, EffortKind, FreeParameters, Instants, JointTerm, PayloadPlace, RecordedEquations, RecordedRow, SampledParts,
-    Smoothing, identify, recognise,
+    Collector, EffortKind, FreeGroup, FreeUnknowns, Instants, JointUnknown, PayloadPlace, RecordedEquations,
+    RecordedRow, SampledParts, Smoothing, identify, recognise,
 };
 use congruent_kinematics::Pose;
 use nalgebra::{Matrix3, Vector3};
@@ -35,6 +37,10 @@ fn motion(time_s: f64, robot: &Robot) -> (RobotQ, Vec<f64>, Vec<f64>) {
     robot.apply_mimic_to_speeds(&mut state.1);
     robot.apply_mimic_to_speeds(&mut state.2);
     (q, state.1, state.2)
+}
+
+fn free(groups: &[FreeGroup]) -> FreeUnknowns {
+    FreeUnknowns { groups: groups.to_vec(), payload: None }
 }
 
 /// Noise of both signs that no generator of the crate makes.
@@ -68,8 +74,9 @@ fn recorded(
                 tau[driver] += ratio * tau[joint];
             }
         }
-        let effort: Vec<f64> =
-            (0..dof).map(|joint| effort(joint, tau[joint], gravity[joint]) + 0.05 * noise(at * dof + joint)).collect();
+        let effort: Vec<f64> = (0..dof)
+            .map(|joint| effort(joint, tau[joint], gravity[joint]) + 0.05 * noise(at * dof + joint))
+            .collect();
         efforts.push(effort);
     }
     let row = |at: usize| RecordedRow { time_s: positions[at].0, q: &positions[at].1, effort: &efforts[at] };
@@ -100,16 +107,16 @@ fn friction_and_armature_are_found_within_four_standard_errors() {
     let equations = recorded(&ur5e.robot, &description, &real, |_, tau, _| tau);
     let recognised = recognise(&equations);
     assert_eq!(recognised.kind, EffortKind::Torque, "{recognised:?}");
-    let free = FreeParameters { friction: true, armature: true, ..FreeParameters::default() };
-    let found = identify(&equations, &free).unwrap();
-    assert!(found.is_better && found.not_told_apart.is_empty());
+    let unknowns = free(&[FreeGroup::Friction, FreeGroup::Armature]);
+    let found = identify(&equations, &unknowns).unwrap();
+    assert!(found.is_better && found.not_indistinct.is_empty());
     for (joint, expected) in found.joints.iter().zip(&terms) {
         for (term, value) in &joint.terms {
             let expected = match term {
-                JointTerm::Viscous => expected.damping,
-                JointTerm::Coulomb => expected.friction,
-                JointTerm::Armature => expected.armature,
-                JointTerm::Offset => 0.0,
+                JointUnknown::Viscous => expected.damping,
+                JointUnknown::Coulomb => expected.friction,
+                JointUnknown::Armature => expected.armature,
+                JointUnknown::Offset => 0.0,
             };
             let error = (value.value - expected).abs();
             assert!(error < 4.0 * value.standard_error, "{}: {term:?} {value:?} {expected}", joint.joint);
@@ -136,8 +143,8 @@ fn a_payload_is_found_with_its_mass_and_center() {
     let real = description.clone().with_inertias_in_links(&inertias).unwrap();
     let equations = recorded(&ur5e.robot, &description, &real, |_, tau, _| tau);
     let place = PayloadPlace { joint: 5, link_from_payload: Pose::identity() };
-    let free = FreeParameters { payload: Some(place), ..FreeParameters::default() };
-    let found = identify(&equations, &free).unwrap();
+    let unknowns = FreeUnknowns { payload: Some(place), ..free(&[FreeGroup::Payload]) };
+    let found = identify(&equations, &unknowns).unwrap();
     let body = found.payload.expect("it is free");
     assert!(found.is_better);
     let found_center = body.inertia.first_moment_kg_m / body.inertia.mass_kg;
@@ -163,8 +170,8 @@ fn other_masses_of_links_explain_the_efforts_and_can_exist() {
         .collect();
     let real = description.clone().with_inertias_in_links(&inertias).unwrap();
     let equations = recorded(&panda.robot, &description, &real, |_, tau, _| tau);
-    let free = FreeParameters { links: true, ..FreeParameters::default() };
-    let found = identify(&equations, &free).unwrap();
+    let unknowns = free(&[FreeGroup::Links]);
+    let found = identify(&equations, &unknowns).unwrap();
     assert!(found.is_better);
     for joint in &found.joints {
         let held_out = joint.held_out;
@@ -185,7 +192,8 @@ fn currents_and_torques_without_gravity_are_recognised() {
     let description = BodyTree::new(&ur5e.robot);
     let real = description.clone().with_resistances(real_terms(6)).unwrap();
     let constants = [11.0, 12.0, 9.0, 8.0, 8.5, 7.5];
-    let currents = recognise(&recorded(&ur5e.robot, &description, &real, |joint, tau, _| tau / constants[joint]));
+    let currents =
+        recognise(&recorded(&ur5e.robot, &description, &real, |joint, tau, _| tau / constants[joint]));
     assert_eq!(currents.kind, EffortKind::Current, "{currents:?}");
     for (joint, constant) in [(1, 12.0), (2, 9.0)] {
         let (factor, error) = currents.factors[joint].expect("gravity acts on it");
@@ -193,7 +201,7 @@ fn currents_and_torques_without_gravity_are_recognised() {
     }
     let relative = recorded(&ur5e.robot, &description, &real, |_, tau, gravity| tau - gravity);
     assert_eq!(recognise(&relative).kind, EffortKind::TorqueWithoutGravity);
-    let found = identify(&relative.with_gravity_added(), &FreeParameters { friction: true, armature: true, ..FreeParameters::default() });
+    let found = identify(&relative.with_gravity_added(), &free(&[FreeGroup::Friction, FreeGroup::Armature]));
     assert!(found.unwrap().is_better);
     let none = recorded(&ur5e.robot, &description, &real, |_, _, _| 0.0);
     // Noise alone: nothing of the robot is in it.
@@ -220,13 +228,14 @@ fn still_poses_show_the_mass_of_a_payload() {
             let time_s = f64::from(pose) * 2.0 + f64::from(row) * 0.004;
             real.gravity_into(&q, &mut buffer, &mut tau).unwrap();
             let at = usize::try_from(pose * 250 + row).unwrap();
-            let effort: Vec<f64> = tau.iter().enumerate().map(|(joint, tau)| tau + 0.05 * noise(at * 6 + joint)).collect();
+            let effort: Vec<f64> =
+                tau.iter().enumerate().map(|(joint, tau)| tau + 0.05 * noise(at * 6 + joint)).collect();
             collector.push(RecordedRow { time_s, q: &q, effort: &effort }).unwrap();
         }
     }
     let place = PayloadPlace { joint: 5, link_from_payload: Pose::identity() };
-    let free = FreeParameters { payload: Some(place), ..FreeParameters::default() };
-    let found = identify(&collector.finish(), &free).unwrap();
+    let unknowns = FreeUnknowns { payload: Some(place), ..free(&[FreeGroup::Payload]) };
+    let found = identify(&collector.finish(), &unknowns).unwrap();
     let body = found.payload.unwrap();
     let found_center = body.inertia.first_moment_kg_m / body.inertia.mass_kg;
     assert!((body.inertia.mass_kg - mass_kg).abs() < 0.02, "{body:?}");

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::{
-    Check, ControllerSettings, MotionSettings, ObstacleSettings, OutputSettings, Scenario, SourceSettings, StartSettings,
+    Check, ControllerSettings, MotionSettings, ObstacleSettings, OutputSettings, Scenario, SourceSettings,
+    StartSettings,
 };
 
 /// What of a scenario a log needs: the rest has its defaults.
@@ -48,7 +49,8 @@ impl Scenario {
     /// # Panics
     /// Never: plain data is TOML.
     pub fn motion_to_toml(&self) -> String {
-        let Self { schema_version, name, robot, start, controller, motion, obstacle, check, output, .. } = self;
+        let Self { schema_version, name, robot, start, controller, motion, obstacle, check, output, .. } =
+            self;
         let (schema_version, robot) = (*schema_version, robot.as_str());
         let written =
             WrittenMotion { schema_version, name, robot, start, controller, motion, obstacle, check, output };

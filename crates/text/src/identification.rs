@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use congruent_identification::{
-    EffortKind, JointTerm,
+    EffortKind, JointUnknown,
     report::{
-        CombinedJoint, IdentificationReport, IdentificationVerdict, ReportedBody, ReportedEffort, ReportedJoint,
-        ReportedTerm, WrittenLines,
+        BodyReport, EffortReport, IdentificationReport, IdentificationVerdict, IdentifiedJointReport,
+        IndistinctTerms, TermReport, WrittenLines,
     },
 };
 use congruent_input::display::{listed, number, quantity};
@@ -32,8 +32,8 @@ pub fn identification_text(report: &IdentificationReport) -> String {
     }
     left(&mut text, &report.joints);
     terms(&mut text, &report.joints);
-    for combined in &report.not_told_apart {
-        let _ = writeln!(text, "  {}", not_told_apart(combined));
+    for combined in &report.not_indistinct {
+        let _ = writeln!(text, "  {}", not_indistinct(combined));
     }
     if let Some(payload) = &report.payload {
         let is_none = payload.mass.value <= 2.0 * payload.mass.standard_error;
@@ -53,7 +53,7 @@ pub fn identification_text(report: &IdentificationReport) -> String {
 }
 
 fn headline(report: &IdentificationReport) -> String {
-    let share = |of: fn(&ReportedJoint) -> f64| -> f64 {
+    let share = |of: fn(&IdentifiedJointReport) -> f64| -> f64 {
         let used = report.joints.iter().filter(|joint| joint.instants > 0 && joint.effort_rms > 0.0);
         let shares: Vec<f64> = used.map(|joint| of(joint) / joint.effort_rms).collect();
         #[expect(clippy::cast_precision_loss, reason = "a robot has few joints")]
@@ -72,7 +72,7 @@ fn headline(report: &IdentificationReport) -> String {
 }
 
 /// Why no lines are written.
-fn why_not_better(joints: &[ReportedJoint]) -> String {
+fn why_not_better(joints: &[IdentifiedJointReport]) -> String {
     let worst = joints
         .iter()
         .filter(|joint| joint.instants > 0 && joint.after_rms > joint.before_rms)
@@ -103,7 +103,7 @@ fn kind_words(kind: EffortKind) -> &'static str {
     }
 }
 
-fn effort_sentence(effort: &ReportedEffort) -> String {
+fn effort_sentence(effort: &EffortReport) -> String {
     let share = |left: f64| format!("{} %", number(100.0 * left));
     let by = if effort.is_declared { "as stated" } else { "as the description explains them best" };
     let [torque, without, current] =
@@ -114,7 +114,7 @@ fn effort_sentence(effort: &ReportedEffort) -> String {
     )
 }
 
-fn constants(text: &mut String, effort: &ReportedEffort) {
+fn constants(text: &mut String, effort: &EffortReport) {
     for constant in &effort.torque_constants {
         let value = match (constant.value, constant.standard_error) {
             (Some(value), Some(error)) => format!("{} {}", with_error(value, error), constant.unit),
@@ -135,7 +135,7 @@ fn with_error(value: f64, error: f64) -> String {
     format!("{value:.decimals$} ± {error:.decimals$}")
 }
 
-fn left(text: &mut String, joints: &[ReportedJoint]) {
+fn left(text: &mut String, joints: &[IdentifiedJointReport]) {
     let mut table = Table::headed(["", "instants", "effort rms", "left by description", "left by these"]);
     for joint in joints {
         let of = |value: f64| if joint.instants == 0 { "-".to_owned() } else { quantity(value, joint.unit) };
@@ -153,17 +153,17 @@ fn left(text: &mut String, joints: &[ReportedJoint]) {
 }
 
 /// The name of a term of a joint.
-pub fn term_name(term: JointTerm) -> &'static str {
+pub fn term_name(term: JointUnknown) -> &'static str {
     match term {
-        JointTerm::Viscous => "viscous friction",
-        JointTerm::Coulomb => "Coulomb friction",
-        JointTerm::Armature => "armature",
-        JointTerm::Offset => "constant effort",
+        JointUnknown::Viscous => "viscous friction",
+        JointUnknown::Coulomb => "Coulomb friction",
+        JointUnknown::Armature => "armature",
+        JointUnknown::Offset => "constant effort",
     }
 }
 
-fn terms(text: &mut String, joints: &[ReportedJoint]) {
-    let shown: Vec<JointTerm> = JointTerm::ALL
+fn terms(text: &mut String, joints: &[IdentifiedJointReport]) {
+    let shown: Vec<JointUnknown> = JointUnknown::ALL
         .into_iter()
         .filter(|term| joints.iter().any(|joint| joint.terms.iter().any(|of| of.term == *term)))
         .collect();
@@ -174,7 +174,7 @@ fn terms(text: &mut String, joints: &[ReportedJoint]) {
     let heads = shown.iter().map(|term| term_name(*term).to_owned());
     table.row(std::iter::once(String::new()).chain(heads));
     for joint in joints.iter().filter(|joint| !joint.terms.is_empty()) {
-        let cell = |term: &JointTerm| {
+        let cell = |term: &JointUnknown| {
             let of = joint.terms.iter().find(|of| of.term == *term);
             of.map_or_else(|| "as described".to_owned(), term_cell)
         };
@@ -182,34 +182,34 @@ fn terms(text: &mut String, joints: &[ReportedJoint]) {
     }
     text.push('\n');
     table.write(text, None);
-    let is_zero = |of: &ReportedTerm| !of.is_significant && of.term != JointTerm::Offset;
+    let is_zero = |of: &TermReport| !of.is_significant && of.term != JointUnknown::Offset;
     if joints.iter().flat_map(|joint| &joint.terms).any(is_zero) {
         text.push_str("  (0): differs from zero by less than two standard errors\n");
     }
 }
 
-fn term_cell(term: &ReportedTerm) -> String {
+fn term_cell(term: &TermReport) -> String {
     let value = &term.value;
-    let mark = if term.is_significant || term.term == JointTerm::Offset { "" } else { " (0)" };
+    let mark = if term.is_significant || term.term == JointUnknown::Offset { "" } else { " (0)" };
     format!("{} {}{mark}", with_error(value.value, value.standard_error), value.unit)
 }
 
-fn not_told_apart(combined: &CombinedJoint) -> String {
-    let CombinedJoint { joint, kept, like } = combined;
+fn not_indistinct(combined: &IndistinctTerms) -> String {
+    let IndistinctTerms { joint, kept, like } = combined;
     let kept = term_name(*kept);
     if like.is_empty() {
         return format!("{joint}: {kept} has no effect here; kept as described");
     }
     let like: Vec<&str> = like.iter().map(|term| term_name(*term)).collect();
-    let why = if like.contains(&term_name(JointTerm::Coulomb)) && kept == term_name(JointTerm::Offset) {
+    let why = if like.contains(&term_name(JointUnknown::Coulomb)) && kept == term_name(JointUnknown::Offset) {
         ": the joint moves in one direction alone"
     } else {
         ""
     };
-    format!("{joint}: {kept} cannot be told apart from {}{why}; kept as described", listed(&like))
+    format!("{joint}: {kept} cannot be distinguished from {}{why}; kept as described", listed(&like))
 }
 
-fn body(text: &mut String, of: &ReportedBody, indent: &str) {
+fn body(text: &mut String, of: &BodyReport, indent: &str) {
     let mass = with_error(of.mass.value, of.mass.standard_error);
     let _ = writeln!(text, "{indent}mass      {mass} kg");
     let axes = [0, 1, 2].map(|axis| with_error(1000.0 * of.center_m[axis], 1000.0 * of.center_error_m[axis]));
@@ -231,7 +231,8 @@ fn bodies(text: &mut String, report: &IdentificationReport) {
     );
     let mut table = Table::headed(["body of", "mass kg", "described", "center x mm", "y mm", "z mm"]);
     for of in &report.bodies {
-        let axes = [0, 1, 2].map(|axis| with_error(1000.0 * of.center_m[axis], 1000.0 * of.center_error_m[axis]));
+        let axes =
+            [0, 1, 2].map(|axis| with_error(1000.0 * of.center_m[axis], 1000.0 * of.center_error_m[axis]));
         let mass = with_error(of.mass.value, of.mass.standard_error);
         table.row([of.joint.clone(), mass, number(of.mass.nominal)].into_iter().chain(axes));
     }

@@ -5,8 +5,8 @@
 use std::path::PathBuf;
 
 use congruent::{
-    identification::{EffortKind, report::IdentificationVerdict},
-    identify::{FreeGroup, IdentifiedLog, IdentifyRequest, identify_log},
+    identification::{EffortKind, FreeGroup, report::IdentificationVerdict},
+    identify::{IdentifiedLog, IdentifyRequest, identify_log},
     input::Capability,
     nalgebra::Vector3,
     text::identification_text,
@@ -23,7 +23,7 @@ use crate::{
 /// Friction, armature, payload, masses and torque constants of a robot from a log of its joint positions and efforts.
 ///
 /// What the efforts are (torques, torques without gravity, currents) is recognised by the masses of the description. Each value has a
-/// standard error; what the log cannot tell apart is said. Whether the values are better is decided on data that they were not estimated
+/// standard error; what the log cannot show apart is said. Whether the values are better is decided on data that they were not estimated
 /// from: each fifth of the time by the other four. Then the lines to write are printed: of the URDF or MJCF, of robot.toml
 /// and of a scenario. Exit code 1 if they are not better.
 #[derive(Debug, clap::Args)]
@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     log: PathBuf,
     /// What is estimated, beside a constant effort of each joint.
     #[arg(long, value_delimiter = ',', value_enum, default_values = ["friction", "armature"])]
-    free: Vec<Group>,
+    free: Vec<FreeArgument>,
     /// The link that carries the payload, in whose frame it is reported; by default the TCP.
     #[arg(long, value_name = "LINK")]
     payload_at: Option<String>,
@@ -65,7 +65,7 @@ pub(crate) struct Arguments {
 
 /// A group of parameters.
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
-pub(super) enum Group {
+pub(super) enum FreeArgument {
     /// Viscous and Coulomb friction of each joint.
     Friction,
     /// Inertia of motor and gear of each joint.
@@ -76,7 +76,7 @@ pub(super) enum Group {
     Links,
 }
 
-impl Group {
+impl FreeArgument {
     pub(super) fn of_library(self) -> FreeGroup {
         match self {
             Self::Friction => FreeGroup::Friction,

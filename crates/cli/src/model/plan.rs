@@ -1,4 +1,4 @@
-//! `congruent plan`: a motion that tells the parameters of a robot.
+//! `congruent plan`: a motion that shows the parameters of a robot.
 
 #![expect(clippy::doc_markdown, reason = "the comments are printed as help, where backticks are noise")]
 
@@ -15,7 +15,7 @@ use crate::{
     failure::Failure,
     input::{ArmArguments, files_of, seed},
     invocation,
-    model::identify::Group,
+    model::identify::FreeArgument,
     output::file::NewFile,
     quantity::{Dimension, QuantityArgument},
     terminal::{print::Printer, progress::waiting},
@@ -23,7 +23,7 @@ use crate::{
 
 /// A motion for `identify`: within the limits of the robot, away from obstacles, and with the most information of all that were tried.
 ///
-/// It is a sum of sines of all driven joints that begins and ends at rest. What it will tell is printed: the standard error of each
+/// It is a sum of sines of all driven joints that begins and ends at rest. What it will show is printed: the standard error of each
 /// parameter. DIR gets the positions over time (identification.csv) and a scenario that simulates them
 /// (identification.toml), with limits and distances checked. Nothing is sent to a robot.
 #[derive(Debug, clap::Args)]
@@ -36,9 +36,9 @@ pub(crate) struct Arguments {
     /// Replace the files in it.
     #[arg(long)]
     force: bool,
-    /// What the motion shall tell.
+    /// What the motion shall show.
     #[arg(long, value_delimiter = ',', value_enum, default_values = ["friction", "armature"])]
-    free: Vec<Group>,
+    free: Vec<FreeArgument>,
     /// The link that carries the payload; by default the TCP.
     #[arg(long, value_name = "LINK")]
     payload_at: Option<String>,

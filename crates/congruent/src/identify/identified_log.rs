@@ -5,16 +5,14 @@ use std::path::Path;
 use congruent_description::{LinkIndex, RobotDescription, RobotQ};
 use congruent_dynamics::BodyTree;
 use congruent_identification::{
-    EffortKind, FreeParameters, Identified, PayloadPlace, RecognisedEffort, RecordedEquations, identify, recognise,
-    report::{Identification, IdentificationReport, edited_text, identification_report},
+    EffortKind, FreeGroup, FreeUnknowns, IdentifiedParameters, PayloadPlace, RecognisedEffort,
+    RecordedEquations, identify, recognise,
+    report::{IdentificationParts, IdentificationReport, edited_text, identification_report},
 };
 use congruent_input::{Capability, Diagnostic, Findings, display::number, known_names};
 use congruent_kinematics::{Pose, UrdfTree};
 
-use super::{
-    recorded_efforts::RecordedEfforts,
-    request::{FreeGroup, IdentifyRequest},
-};
+use super::{recorded_efforts::RecordedEfforts, request::IdentifyRequest};
 use crate::{codes, replay::joints_draft};
 
 /// Half of the window in which efforts at rest are averaged, s. Kind: choice; rows at 50 Hz fill it.
@@ -49,6 +47,9 @@ pub fn identify_log(
     }
     let given = given_constants(description, &tree, request)?;
     let efforts = RecordedEfforts::open(draft.scenario, description)?;
+    if !efforts.has_efforts {
+        return Err(no_efforts());
+    }
     let no_motion = |why: &str| {
         let message = format!("{}: {why}", log.display());
         Findings::from(Diagnostic::error(codes::identify::MOTION, message).with_help(
@@ -58,14 +59,20 @@ pub fn identify_log(
     // At rest, whatever averages noise is as good.
     let half_window_s = request.half_window_s.or(request.is_still.then_some(STILL_HALF_WINDOW_S));
     let survey = efforts.survey(&tree, half_window_s)?;
-    let survey = survey.ok_or_else(|| no_motion("rows are too far apart for velocities and accelerations"))?;
+    let survey =
+        survey.ok_or_else(|| no_motion("rows are too far apart for velocities and accelerations"))?;
     let equations = efforts.equations(&tree, &survey, request.is_still)?;
     if equations.instants == 0 {
-        return Err(no_motion(if request.is_still { "the robot is never at rest" } else { "no joint moves" }));
+        return Err(no_motion(if request.is_still {
+            "the robot is never at rest"
+        } else {
+            "no joint moves"
+        }));
     }
     let (equations, recognised, kind) = as_torques(equations, request, &given)?;
-    let identified = identify(&equations, &free).ok_or_else(|| no_motion("no joint has an instant with an effort"))?;
-    let report = identification_report(&Identification {
+    let identified =
+        identify(&equations, &free).ok_or_else(|| no_motion("no joint has an instant with an effort"))?;
+    let report = identification_report(&IdentificationParts {
         description,
         log: &log.display().to_string(),
         recognised: &recognised,
@@ -82,7 +89,14 @@ pub fn identify_log(
     Ok(IdentifiedLog { report, edited, taken: draft.taken })
 }
 
-fn edited(description: &RobotDescription, identified: &Identified) -> Option<String> {
+fn no_efforts() -> Findings {
+    let message = "the log has no efforts of this robot, or they do not change".to_owned();
+    Diagnostic::error(codes::identify::EFFORT, message)
+        .with_help("`congruent describe LOG --robot ROBOT` shows what it has of each joint")
+        .into()
+}
+
+fn edited(description: &RobotDescription, identified: &IdentifiedParameters) -> Option<String> {
     if identified.is_better { edited_text(description, identified) } else { None }
 }
 
@@ -110,7 +124,9 @@ fn as_torques(
             if is_of_links {
                 let message = "masses of links and torque constants show their ratio alone".to_owned();
                 let error = Diagnostic::error(codes::identify::FREE, message);
-                return Err(error.with_help("give the torque constant of a joint: --torque-constant JOINT=N_M_PER_A").into());
+                return Err(error
+                    .with_help("give the torque constant of a joint: --torque-constant JOINT=N_M_PER_A")
+                    .into());
             }
             // A joint without one has no torque: its rows are left out.
             let factors = recognised.factors.iter().zip(given);
@@ -119,7 +135,7 @@ fn as_torques(
                 .collect();
             Ok((equations.with_factors(&factors), recognised, kind))
         }
-        EffortKind::None => Err(refused("the log has no efforts of this robot, or they do not change".to_owned())),
+        EffortKind::None => Err(no_efforts()),
         EffortKind::Unknown => {
             let [torque, without_gravity, current] = recognised.left.map(number);
             Err(refused(format!(
@@ -133,23 +149,26 @@ fn as_torques(
 pub(super) fn free_parameters(
     description: &RobotDescription,
     request: &IdentifyRequest,
-) -> Result<(FreeParameters, String), Findings> {
+) -> Result<(FreeUnknowns, String), Findings> {
     let has = |group| request.free.contains(&group);
     if request.payload_at.is_some() && !has(FreeGroup::Payload) {
         let message = "a link for the payload is named, and no payload is estimated".to_owned();
-        return Err(Diagnostic::error(codes::identify::FREE, message).with_help("--free friction,payload").into());
+        return Err(Diagnostic::error(codes::identify::FREE, message)
+            .with_help("--free friction,payload")
+            .into());
     }
     let (payload, frame) = payload_place(description, request)?;
     if has(FreeGroup::Payload) && has(FreeGroup::Links) {
-        let message = "a payload and the link that carries it show their sum alone: --free payload or links".to_owned();
+        let message =
+            "a payload and the link that carries it show their sum alone: --free payload or links".to_owned();
         return Err(Diagnostic::error(codes::identify::FREE, message).into());
     }
-    let free = FreeParameters {
-        friction: has(FreeGroup::Friction) && !request.is_still,
-        armature: has(FreeGroup::Armature) && !request.is_still,
-        payload: payload.filter(|_| has(FreeGroup::Payload)),
-        links: has(FreeGroup::Links),
+    let is_estimated = |group: &FreeGroup| {
+        // Friction at rest has either sign, and nothing accelerates.
+        !request.is_still || !matches!(group, FreeGroup::Friction | FreeGroup::Armature)
     };
+    let groups = request.free.iter().copied().filter(is_estimated).collect();
+    let free = FreeUnknowns { groups, payload: payload.filter(|_| has(FreeGroup::Payload)) };
     Ok((free, frame))
 }
 
@@ -164,7 +183,11 @@ fn payload_place(
         Some(name) => {
             let link = robot.find_link(name).ok_or_else(|| {
                 let error = Diagnostic::error(codes::identify::FREE, format!("there is no link \"{name}\""));
-                error.with_help(known_names(name, "links", robot.links().iter().map(|link| link.name.as_str())))
+                error.with_help(known_names(
+                    name,
+                    "links",
+                    robot.links().iter().map(|link| link.name.as_str()),
+                ))
             })?;
             (link, None, name.clone())
         }
@@ -172,9 +195,10 @@ fn payload_place(
     let Some((joint, body)) = carrier(description, link) else { return Ok((None, frame)) };
     let tree = UrdfTree::new(robot);
     let zero = RobotQ::from(vec![0.0; robot.dof()]);
-    let pose = |link: LinkIndex| tree.root_from_link(&zero, link).map_err(|error| {
-        Findings::from(Diagnostic::error(codes::identify::FREE, error.to_string()))
-    });
+    let pose = |link: LinkIndex| {
+        tree.root_from_link(&zero, link)
+            .map_err(|error| Findings::from(Diagnostic::error(codes::identify::FREE, error.to_string())))
+    };
     let body_from_link = pose(body)?.inverse() * pose(link)?;
     let link_from_payload = body_from_link * link_from_payload.map_or_else(Pose::identity, Pose::from);
     Ok((Some(PayloadPlace { joint, link_from_payload }), frame))
@@ -197,7 +221,8 @@ fn given_constants(
     let names: Vec<&str> = description.robot.movable_joint_names().collect();
     let driven: Vec<&str> = tree.driven_joints().iter().map(|&joint| names[joint]).collect();
     if let Some(unknown) = request.torque_constants.keys().find(|name| !driven.contains(&name.as_str())) {
-        let error = Diagnostic::error(codes::identify::FREE, format!("there is no driven joint \"{unknown}\""));
+        let error =
+            Diagnostic::error(codes::identify::FREE, format!("there is no driven joint \"{unknown}\""));
         return Err(error.with_help(known_names(unknown, "joints", driven)).into());
     }
     Ok(driven.iter().map(|name| request.torque_constants.get(*name).copied()).collect())

@@ -7,4 +7,4 @@ mod request;
 
 pub use identified_log::{IdentifiedLog, identify_log};
 pub use plan::{PLAN_FILES, PlanReport, PlanRequest, PlannedMotion, PlannedTerm, plan_excitation, plan_text};
-pub use request::{FreeGroup, IdentifyRequest};
+pub use request::IdentifyRequest;

@@ -1,11 +1,11 @@
-//! A motion that tells the parameters of a robot: `congruent plan`.
+//! A motion that shows the parameters of a robot: `congruent plan`.
 
 use std::{fmt::Write, path::Path};
 
 use congruent_description::{RobotDescription, RobotQ};
 use congruent_dynamics::BodyTree;
 use congruent_identification::{
-    JointTerm,
+    FreeGroup, JointUnknown,
     excitation::{Excitation, ExcitationLimits, ExcitationOptions, excite},
     report::term_unit,
 };
@@ -13,25 +13,21 @@ use congruent_input::{Capability, Diagnostic, Findings, number::number as writte
 use congruent_kinematics::{Pose, Uniform, UrdfTree, range};
 use congruent_proximity::{Clearance, PairChoice};
 use congruent_scenario::{
-    Check, ClearanceCheck, ControllerKind, ControllerSettings, JointNumbers, LimitsCheck, MotionSettings, OnViolation,
-    OutputSettings,
-    PlaybackMotion, Scenario, StartSettings, TrajectoryFormat,
+    Check, ClearanceCheck, ControllerKind, ControllerSettings, JointNumbers, LimitsCheck, MotionSettings,
+    OnViolation, OutputSettings, PlaybackMotion, Scenario, StartSettings, TrajectoryFormat,
 };
 use congruent_twin::RunSetup;
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{
-    identified_log::free_parameters,
-    request::{FreeGroup, IdentifyRequest},
-};
+use super::{identified_log::free_parameters, request::IdentifyRequest};
 use crate::codes;
 
 /// What a motion is for, and how it may be.
 #[derive(Debug, Clone)]
 pub struct PlanRequest {
-    /// What it shall tell.
+    /// What it shall show.
     pub free: Vec<FreeGroup>,
     /// The link that carries the payload; the TCP if it is not named.
     pub payload_at: Option<String>,
@@ -53,7 +49,7 @@ pub struct PlannedTerm {
     /// The joint.
     pub joint: String,
     /// Which.
-    pub term: JointTerm,
+    pub term: JointUnknown,
     /// Its standard error.
     pub standard_error: f64,
     /// Its unit.
@@ -75,11 +71,11 @@ pub struct PlanReport {
     pub nearest_m: Option<f64>,
     /// The noise of efforts that the standard errors are for, as part of the largest effort of each joint.
     pub effort_noise: f64,
-    /// What it will tell of the joints.
+    /// What it will show of the joints.
     pub terms: Vec<PlannedTerm>,
     /// Standard error of the mass of a payload, kg.
     pub payload_mass_error_kg: Option<f64>,
-    /// Combinations of inertial parameters of which it tells more than is known.
+    /// Combinations of inertial parameters of which it shows more than is known.
     pub known_combinations: usize,
     /// Inertial parameters that are free.
     pub free_inertial_parameters: usize,
@@ -130,9 +126,10 @@ pub fn plan_excitation(
     let (free, _) = free_parameters(description, &identify)?;
     let robot = &description.robot;
     let tree = BodyTree::new(robot);
-    let mut distances = Distances::new(description, surroundings)?;
+    let mut distances = LinkDistances::new(description, surroundings)?;
     let limits = limits(description, request);
-    let mut is_clear = |q: &RobotQ| distances.nearest_m(q).is_none_or(|nearest_m| nearest_m >= request.clearance_m);
+    let mut is_clear =
+        |q: &RobotQ| distances.nearest_m(q).is_none_or(|nearest_m| nearest_m >= request.clearance_m);
     let center = center(description, surroundings, request, &mut is_clear)?;
     let noise = tree.driven_joints().iter().map(|&joint| {
         let largest = Some(limits.effort[joint] / USED_EFFORT).filter(|effort| effort.is_finite());
@@ -145,8 +142,8 @@ pub fn plan_excitation(
         noise: noise.collect(),
         seed: request.seed,
     };
-    let found = excite(&tree, &limits, &options, &mut is_clear)
-        .map_err(|error| no_motion(&error.to_string()))?;
+    let found =
+        excite(&tree, &limits, &options, &mut is_clear).map_err(|error| no_motion(&error.to_string()))?;
     let (table, nearest_m) = table(description, &found, &mut distances);
     let scenario = scenario(description, surroundings, &found, request);
     Ok(PlannedMotion { report: report(description, &found, nearest_m, request), table, scenario })
@@ -170,7 +167,8 @@ fn limits(description: &RobotDescription, request: &PlanRequest) -> ExcitationLi
     };
     let ranges: Vec<(f64, f64)> = joints().map(range).collect();
     let margin = |(lower, upper): &(f64, f64)| FREE_RANGE * (upper - lower);
-    let accelerations = description.accelerations.iter().map(|of| of.unwrap_or(ACCELERATION).min(ACCELERATION));
+    let accelerations =
+        description.accelerations.iter().map(|of| of.unwrap_or(ACCELERATION).min(ACCELERATION));
     ExcitationLimits {
         lower: ranges.iter().map(|range| range.0 + margin(range)).collect(),
         upper: ranges.iter().map(|range| range.1 - margin(range)).collect(),
@@ -188,7 +186,8 @@ fn center(
     is_clear: &mut impl FnMut(&RobotQ) -> bool,
 ) -> Result<RobotQ, Findings> {
     let robot = &description.robot;
-    let ranges: Vec<(f64, f64)> = robot.movable_joints().iter().map(|&joint| range(robot.joint(joint))).collect();
+    let ranges: Vec<(f64, f64)> =
+        robot.movable_joints().iter().map(|&joint| range(robot.joint(joint))).collect();
     let at = |part: &mut dyn FnMut() -> f64| -> RobotQ {
         let mut q: RobotQ = ranges.iter().map(|(lower, upper)| lower + part() * (upper - lower)).collect();
         robot.apply_mimic(&mut q);
@@ -198,18 +197,20 @@ fn center(
     let first = surroundings.map_or_else(|| at(&mut || 0.5), |setup| setup.start.clone());
     let others = std::iter::repeat_with(|| at(&mut || random.between(0.2, 0.8))).take(CENTERS);
     let mut tried = std::iter::once(first).chain(others);
-    tried.find(|q| is_clear(q)).ok_or_else(|| no_motion("no configuration has its links far enough from each other"))
+    tried
+        .find(|q| is_clear(q))
+        .ok_or_else(|| no_motion("no configuration has its links far enough from each other"))
 }
 
-/// Distances of the links at configurations.
-struct Distances {
+/// LinkDistances of the links at configurations.
+struct LinkDistances {
     clearance: Clearance,
     tree: UrdfTree,
     poses: Vec<Pose>,
     root_from_links: Vec<Isometry3<f64>>,
 }
 
-impl Distances {
+impl LinkDistances {
     fn new(description: &RobotDescription, surroundings: Option<&RunSetup>) -> Result<Self, Findings> {
         description.check_capability(Capability::Clearance)?;
         let obstacles = surroundings.map_or(&[][..], |setup| &setup.obstacles);
@@ -234,7 +235,11 @@ impl Distances {
 }
 
 /// Positions over time, and the smallest distance.
-fn table(description: &RobotDescription, found: &Excitation, distances: &mut Distances) -> (String, Option<f64>) {
+fn table(
+    description: &RobotDescription,
+    found: &Excitation,
+    distances: &mut LinkDistances,
+) -> (String, Option<f64>) {
     let robot = &description.robot;
     let motion = &found.motion;
     let mut text = String::from("time_s");
@@ -318,7 +323,7 @@ fn report(
             joint: joint.name.clone(),
             term: of.term,
             standard_error: of.standard_error,
-            unit: term_unit(of.term, joint.kind.is_angular()),
+            unit: term_unit(of.term, joint.kind),
         }
     });
     PlanReport {

@@ -1,7 +1,9 @@
 //! The joint states of a log, row by row, with their efforts as they were recorded.
 
 use congruent_dynamics::BodyTree;
-use congruent_identification::{Collector, Instants, RecordedEquations, RecordedRow, RecordingSurvey, SampledParts, Smoothing};
+use congruent_identification::{
+    Collector, Instants, RecordedEquations, RecordedRow, RecordingSurvey, SampledParts, Smoothing,
+};
 use congruent_input::{Diagnostic, Findings};
 use congruent_scenario::{JointRole, LoggedEffort, Scenario};
 use congruent_twin::{
@@ -18,10 +20,12 @@ pub(super) struct RecordedEfforts {
     recorded: RecordedSetup,
     from_s: f64,
     duration_s: f64,
+    /// Whether any row has an effort.
+    pub(super) has_efforts: bool,
 }
 
 /// What is read from a log.
-enum Event<'a> {
+enum RowOrBreak<'a> {
     Row(RecordedRow<'a>),
     /// What follows is not connected with what was before.
     Break,
@@ -39,16 +43,17 @@ impl RecordedEfforts {
         joints.filter(|of| of.role == JointRole::Measured).for_each(|of| of.effort = LoggedEffort::Torque);
         let setup = RunSetup::new(scenario, description.clone())?;
         let recorded = setup.recorded.clone().ok_or_else(|| unreadable("the log has no joint states"))?;
-        let mut efforts = Self { setup, recorded, from_s: 0.0, duration_s: 0.0 };
-        let mut times: Option<[f64; 2]> = None;
+        let mut efforts = Self { setup, recorded, from_s: 0.0, duration_s: 0.0, has_efforts: false };
+        let (mut times, mut has_efforts): (Option<[f64; 2]>, bool) = (None, false);
         efforts.read(|event| {
-            if let Event::Row(row) = event {
+            if let RowOrBreak::Row(row) = event {
                 times.get_or_insert([row.time_s; 2])[1] = row.time_s;
+                has_efforts |= row.effort.iter().any(|effort| effort.is_finite());
             }
             Ok(())
         })?;
         let [from_s, to_s] = times.unwrap_or_default();
-        (efforts.from_s, efforts.duration_s) = (from_s, to_s - from_s);
+        (efforts.from_s, efforts.duration_s, efforts.has_efforts) = (from_s, to_s - from_s, has_efforts);
         Ok(efforts)
     }
 
@@ -61,8 +66,8 @@ impl RecordedEfforts {
         let mut parts = SampledParts::new(self.from_s, self.duration_s);
         self.read(|event| {
             match event {
-                Event::Row(row) => parts.push(row),
-                Event::Break => parts.break_here(),
+                RowOrBreak::Row(row) => parts.push(row),
+                RowOrBreak::Break => parts.break_here(),
             }
             Ok(())
         })?;
@@ -86,8 +91,8 @@ impl RecordedEfforts {
         };
         let mut collector = Collector::new(tree, survey.smoothing, instants, self.from_s, self.duration_s);
         self.read(|event| match event {
-            Event::Row(row) => collector.push(row).map_err(|error| unreadable(&error.to_string())),
-            Event::Break => {
+            RowOrBreak::Row(row) => collector.push(row).map_err(|error| unreadable(&error.to_string())),
+            RowOrBreak::Break => {
                 collector.break_here();
                 Ok(())
             }
@@ -96,7 +101,7 @@ impl RecordedEfforts {
     }
 
     /// Gives each row of the log to `each`, from the first on.
-    fn read(&self, mut each: impl FnMut(Event<'_>) -> Result<(), Findings>) -> Result<(), Findings> {
+    fn read(&self, mut each: impl FnMut(RowOrBreak<'_>) -> Result<(), Findings>) -> Result<(), Findings> {
         let refused = |error: SourceError| unreadable(&error.to_string());
         let robot = &self.setup.description.robot;
         let mut source = RecordedSource::new(&self.recorded, robot, &self.setup.start).map_err(refused)?;
@@ -104,18 +109,18 @@ impl RecordedEfforts {
         let unknown = vec![f64::NAN; robot.dof()];
         loop {
             if source.begins_part() {
-                each(Event::Break)?;
+                each(RowOrBreak::Break)?;
             }
             let state = source.joints().measured;
             let effort = if state.effort.is_empty() { &unknown[..] } else { state.effort };
-            each(Event::Row(RecordedRow { time_s, q: state.q, effort }))?;
+            each(RowOrBreak::Row(RecordedRow { time_s, q: state.q, effort }))?;
             loop {
                 match source.advance(0.0).map_err(refused)? {
                     Advance::At(next_s) => {
                         time_s = next_s;
                         break;
                     }
-                    Advance::Gap { .. } => each(Event::Break)?,
+                    Advance::Gap { .. } => each(RowOrBreak::Break)?,
                     Advance::End => return Ok(()),
                 }
             }

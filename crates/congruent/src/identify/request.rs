@@ -2,23 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use congruent_identification::EffortKind;
+use congruent_identification::{EffortKind, FreeGroup};
 use nalgebra::Vector3;
 
 use crate::replay::ReplayRequest;
-
-/// A group of parameters that is estimated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FreeGroup {
-    /// Viscous and Coulomb friction of each joint.
-    Friction,
-    /// Armature of each joint: inertia of motor and gear.
-    Armature,
-    /// A payload that the description does not have.
-    Payload,
-    /// The masses, centres and inertias of all links.
-    Links,
-}
 
 /// What is identified, and what is known of the log.
 #[derive(Debug, Clone, Default)]

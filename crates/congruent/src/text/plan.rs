@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
-use congruent_identification::JointTerm;
+use congruent_identification::JointUnknown;
 use congruent_input::display::{length, number};
 use congruent_text::{layout::Table, term_name};
 
 use crate::identify::PlanReport;
 
-/// What `congruent plan` prints: the motion, and what it will tell.
+/// What `congruent plan` prints: the motion, and what it will show.
 pub fn plan_report_text(report: &PlanReport) -> String {
     let mut text = format!(
         "{}: a motion of {} s within all limits, the best of {} that were tried\n",
@@ -43,16 +43,14 @@ pub fn plan_report_text(report: &PlanReport) -> String {
 }
 
 fn terms(text: &mut String, report: &PlanReport) {
-    let shown: Vec<JointTerm> = JointTerm::ALL
-        .into_iter()
-        .filter(|term| report.terms.iter().any(|of| of.term == *term))
-        .collect();
+    let shown: Vec<JointUnknown> =
+        JointUnknown::ALL.into_iter().filter(|term| report.terms.iter().any(|of| of.term == *term)).collect();
     let mut joints: Vec<&str> = report.terms.iter().map(|of| of.joint.as_str()).collect();
     joints.dedup();
     let mut table = Table::default();
     table.row(std::iter::once(String::new()).chain(shown.iter().map(|term| term_name(*term).to_owned())));
     for joint in joints {
-        let cell = |term: &JointTerm| {
+        let cell = |term: &JointUnknown| {
             let of = report.terms.iter().find(|of| of.joint == joint && of.term == *term);
             of.map_or_else(|| "-".to_owned(), |of| format!("{} {}", number(of.standard_error), of.unit))
         };

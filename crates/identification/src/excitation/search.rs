@@ -9,9 +9,9 @@ use super::fourier::{FourierMotion, HARMONICS};
 use crate::{
     equations::RecordedEquations,
     estimate::{JointNoise, PlannedInformation, planned_information},
-    regressor_row::RowMaker,
+    regressor_row::ColumnMaker,
     smoothing::SmoothedInstant,
-    unknowns::{FreeParameters, JointTerm},
+    unknowns::{FreeUnknowns, JointUnknown, UnknownOrder},
 };
 
 /// What a motion may not exceed, of each moving joint; infinite where there is no limit.
@@ -32,8 +32,8 @@ pub struct ExcitationLimits {
 /// What a motion is for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExcitationOptions {
-    /// The parameters that it shall tell.
-    pub free: FreeParameters,
+    /// The parameters that it shall show.
+    pub free: FreeUnknowns,
     /// How long it takes, s.
     pub duration_s: f64,
     /// Where it begins and ends, rad or m.
@@ -50,12 +50,12 @@ pub struct PlannedError {
     /// The joint, among the moving ones.
     pub joint: usize,
     /// The term.
-    pub term: JointTerm,
+    pub term: JointUnknown,
     /// Its standard error.
     pub standard_error: f64,
 }
 
-/// A motion, and what it tells.
+/// A motion, and what it shows.
 #[derive(Debug, Clone)]
 pub struct Excitation {
     /// The motion.
@@ -64,7 +64,7 @@ pub struct Excitation {
     pub terms: Vec<PlannedError>,
     /// Standard error of the mass of the payload, kg.
     pub payload_mass_error_kg: Option<f64>,
-    /// Combinations of the free inertial parameters of which it tells more than is known, and their number.
+    /// Combinations of the free inertial parameters of which it shows more than is known, and their number.
     pub known_combinations: [usize; 2],
     /// Motions that were tried.
     pub tried: usize,
@@ -108,7 +108,7 @@ pub fn excite(
     options: &ExcitationOptions,
     mut is_clear: impl FnMut(&RobotQ) -> bool,
 ) -> Result<Excitation, ExcitationError> {
-    let mut search = Search::new(tree, limits, options);
+    let mut search = MotionSearch::new(tree, limits, options);
     let mut random = Uniform::seeded(options.seed);
     let mut best: Option<(f64, FourierMotion)> = None;
     for at in 0..RANDOM + REFINED {
@@ -128,13 +128,13 @@ pub fn excite(
         };
         return Err(ExcitationError::None { tried, stopped_by });
     };
-    search.told_by(motion)
+    search.shown_by(motion)
 }
 
-struct Search<'a> {
+struct MotionSearch<'a> {
     limits: &'a ExcitationLimits,
     options: &'a ExcitationOptions,
-    maker: RowMaker<'a>,
+    maker: ColumnMaker<'a>,
     empty: RecordedEquations,
     instant: SmoothedInstant,
     tau: Vec<f64>,
@@ -143,9 +143,9 @@ struct Search<'a> {
     stopped_by_distance: usize,
 }
 
-impl<'a> Search<'a> {
+impl<'a> MotionSearch<'a> {
     fn new(tree: &'a BodyTree, limits: &'a ExcitationLimits, options: &'a ExcitationOptions) -> Self {
-        let (maker, empty) = RowMaker::new(tree);
+        let (maker, empty) = ColumnMaker::new(tree);
         let zeros = vec![0.0; tree.dof()];
         let instant = SmoothedInstant {
             time_s: 0.0,
@@ -156,7 +156,17 @@ impl<'a> Search<'a> {
             effort_rate: zeros.clone(),
             velocity_change: zeros.clone(),
         };
-        Self { limits, options, maker, empty, instant, tau: zeros, tried: 0, stopped_by_effort: 0, stopped_by_distance: 0 }
+        Self {
+            limits,
+            options,
+            maker,
+            empty,
+            instant,
+            tau: zeros,
+            tried: 0,
+            stopped_by_effort: 0,
+            stopped_by_distance: 0,
+        }
     }
 
     /// A random motion, or a change of one, as large as positions, velocities and accelerations allow.
@@ -195,7 +205,12 @@ impl<'a> Search<'a> {
             motion.state_into(time_s, q, qd, qdd);
             for (joint, most) in largest.iter_mut().enumerate() {
                 let moved = q[joint] - motion.center[joint];
-                *most = [most[0].max(moved), most[1].max(-moved), most[2].max(qd[joint].abs()), most[3].max(qdd[joint].abs())];
+                *most = [
+                    most[0].max(moved),
+                    most[1].max(-moved),
+                    most[2].max(qd[joint].abs()),
+                    most[3].max(qdd[joint].abs()),
+                ];
             }
         }
         for (&joint, factors) in motion.joints.iter().zip(&mut motion.factors) {
@@ -224,7 +239,8 @@ impl<'a> Search<'a> {
         self.tried += 1;
         for _ in 0..TIMES_SMALLER {
             let (equations, is_strong_enough) = self.equations(&motion)?;
-            let information = self.information(&equations).map_or(f64::NEG_INFINITY, |found| found.log_determinant);
+            let information =
+                self.information(&equations).map_or(f64::NEG_INFINITY, |found| found.log_determinant);
             // A smaller one has still less.
             if information <= least {
                 return Ok(None);
@@ -257,7 +273,8 @@ impl<'a> Search<'a> {
             let SmoothedInstant { q, qd, qdd, .. } = &mut self.instant;
             motion.state_into(time_s, q, qd, qdd);
             self.maker.tree.inverse_into(&JointMotionState { q, qd, qdd }, &mut buffer, &mut self.tau)?;
-            is_strong_enough &= self.tau.iter().zip(&self.limits.effort).all(|(tau, limit)| tau.abs() <= *limit);
+            is_strong_enough &=
+                self.tau.iter().zip(&self.limits.effort).all(|(tau, limit)| tau.abs() <= *limit);
             let rows = self.maker.rows(&self.instant, &equations.joints)?;
             for (row, joint) in rows.iter().zip(&mut equations.joints) {
                 joint.add(0, row);
@@ -277,28 +294,34 @@ impl<'a> Search<'a> {
         planned_information(equations, &self.options.free, &noise)
     }
 
-    /// What a motion tells.
-    fn told_by(&mut self, motion: FourierMotion) -> Result<Excitation, ExcitationError> {
+    /// What a motion shows.
+    fn shown_by(&mut self, motion: FourierMotion) -> Result<Excitation, ExcitationError> {
         let (equations, _) = self.equations(&motion)?;
         let tried = self.tried;
         let none = ExcitationError::None { tried, stopped_by: "none moves a joint" };
-        let told = self.information(&equations).ok_or(none)?;
+        let shown = self.information(&equations).ok_or(none)?;
         let layout = &equations.layout;
-        let covariance: &DMatrix<f64> = &told.covariance;
+        let covariance: &DMatrix<f64> = &shown.covariance;
         let error = |unknown: usize| {
-            let at = told.free.iter().position(|of| *of == unknown)?;
+            let at = shown.free.iter().position(|of| *of == unknown)?;
             Some(covariance[(at, at)].sqrt())
         };
         let mut terms = Vec::new();
         for (row, &joint) in layout.joints.iter().enumerate() {
-            let of = JointTerm::ALL.into_iter().filter_map(|term| {
+            let of = JointUnknown::ALL.into_iter().filter_map(|term| {
                 Some(PlannedError { joint, term, standard_error: error(layout.term(row, term))? })
             });
             terms.extend(of);
         }
-        let payload = self.options.free.payload.filter(|_| !self.options.free.links);
-        let payload_mass_error_kg = payload.and_then(|place| error(layout.body(place.joint).end - 1));
-        Ok(Excitation { motion, terms, payload_mass_error_kg, known_combinations: told.known_combinations, tried })
+        let payload = self.options.free.payload_alone();
+        let payload_mass_error_kg = payload.and_then(|place| error(UnknownOrder::body(place.joint).end - 1));
+        Ok(Excitation {
+            motion,
+            terms,
+            payload_mass_error_kg,
+            known_combinations: shown.known_combinations,
+            tried,
+        })
     }
 }
 

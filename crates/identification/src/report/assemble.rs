@@ -5,21 +5,22 @@ use congruent_dynamics::SpatialInertia;
 
 use super::{
     identification_report::{
-        CombinedJoint, IdentificationReport, IdentificationVerdict, ReportedBody, ReportedEffort, ReportedJoint,
-        ReportedTerm, ReportedValue, TorqueConstant,
+        BodyReport, EffortReport, IdentificationReport, IdentificationVerdict, IdentifiedJointReport,
+        IndistinctTerms, TermReport, TorqueConstant, ValueWithError,
     },
     lines::lines,
+    names::{kind, link_name, name, term_unit},
 };
 use crate::{
     effort_kind::{EffortKind, RecognisedEffort},
-    identified::{Identified, IdentifiedBody, IdentifiedJoint},
+    identified::{IdentifiedBody, IdentifiedJoint, IdentifiedParameters},
     smoothing::Smoothing,
-    unknowns::JointTerm,
+    unknowns::JointUnknown,
 };
 
 /// An identification, to be reported.
 #[derive(Debug, Clone, Copy)]
-pub struct Identification<'a> {
+pub struct IdentificationParts<'a> {
     /// The robot.
     pub description: &'a RobotDescription,
     /// Path of the log.
@@ -41,12 +42,12 @@ pub struct Identification<'a> {
     /// The frame of the payload.
     pub payload_frame: &'a str,
     /// What was identified.
-    pub identified: &'a Identified,
+    pub identified: &'a IdentifiedParameters,
 }
 
 /// The report of an identification.
-pub fn identification_report(of: &Identification<'_>) -> IdentificationReport {
-    let Identification { description, identified, .. } = *of;
+pub fn identification_report(of: &IdentificationParts<'_>) -> IdentificationReport {
+    let IdentificationParts { description, identified, .. } = *of;
     let robot = &description.robot;
     let is_better = identified.is_better;
     IdentificationReport {
@@ -61,10 +62,10 @@ pub fn identification_report(of: &Identification<'_>) -> IdentificationReport {
         effort_delay_s: identified.delay_s.map(|(delay_s, _)| delay_s),
         effort_delay_error_s: identified.delay_s.map(|(_, error_s)| error_s),
         joints: identified.joints.iter().map(|joint| reported(robot, joint)).collect(),
-        not_told_apart: identified
-            .not_told_apart
+        not_indistinct: identified
+            .not_indistinct
             .iter()
-            .map(|of| CombinedJoint { joint: name(robot, of.joint), kept: of.term, like: of.from.clone() })
+            .map(|of| IndistinctTerms { joint: name(robot, of.joint), kept: of.term, like: of.from.clone() })
             .collect(),
         payload: identified.payload.as_ref().map(|payload| body(robot, payload, of.payload_frame)),
         bodies: identified.bodies.iter().map(|of| body(robot, of, &link_name(robot, of.joint))).collect(),
@@ -76,50 +77,26 @@ pub fn identification_report(of: &Identification<'_>) -> IdentificationReport {
     }
 }
 
-pub(super) fn name(robot: &Robot, joint: usize) -> String {
-    robot.joint(robot.movable_joints()[joint]).name.clone()
-}
-
-pub(super) fn link_name(robot: &Robot, joint: usize) -> String {
-    robot.link(robot.joint(robot.movable_joints()[joint]).child).name.clone()
-}
-
-pub(super) fn turns(robot: &Robot, joint: usize) -> bool {
-    robot.joint(robot.movable_joints()[joint]).kind.is_angular()
-}
-
-/// The unit of a term of a joint.
-pub fn term_unit(term: JointTerm, turns: bool) -> &'static str {
-    match (term, turns) {
-        (JointTerm::Viscous, true) => "N m s/rad",
-        (JointTerm::Viscous, false) => "N s/m",
-        (JointTerm::Coulomb | JointTerm::Offset, true) => "N m",
-        (JointTerm::Coulomb | JointTerm::Offset, false) => "N",
-        (JointTerm::Armature, true) => "kg m^2",
-        (JointTerm::Armature, false) => "kg",
-    }
-}
-
-fn reported(robot: &Robot, joint: &IdentifiedJoint) -> ReportedJoint {
-    let turns = turns(robot, joint.joint);
-    let terms = joint.terms.iter().map(|(term, value)| ReportedTerm {
+fn reported(robot: &Robot, joint: &IdentifiedJoint) -> IdentifiedJointReport {
+    let kind = kind(robot, joint.joint);
+    let terms = joint.terms.iter().map(|(term, value)| TermReport {
         term: *term,
-        value: ReportedValue {
+        value: ValueWithError {
             value: value.value,
             standard_error: value.standard_error,
             nominal: value.nominal,
-            unit: term_unit(*term, turns),
+            unit: term_unit(*term, kind),
         },
         is_significant: value.value.abs() >= SIGNIFICANT * value.standard_error,
     });
-    ReportedJoint {
+    IdentifiedJointReport {
         joint: name(robot, joint.joint),
         instants: joint.held_out.rows,
         effort_rms: joint.held_out.effort,
         before_rms: joint.held_out.before,
         after_rms: joint.held_out.after,
         alike: joint.noise.alike,
-        unit: if turns { "N m" } else { "N" },
+        unit: term_unit(JointUnknown::Offset, kind),
         terms: terms.collect(),
     }
 }
@@ -127,16 +104,16 @@ fn reported(robot: &Robot, joint: &IdentifiedJoint) -> ReportedJoint {
 /// Standard errors from which on a value differs from zero. Kind: choice, as usual.
 const SIGNIFICANT: f64 = 2.0;
 
-fn body(robot: &Robot, of: &IdentifiedBody, frame: &str) -> ReportedBody {
+fn body(robot: &Robot, of: &IdentifiedBody, frame: &str) -> BodyReport {
     let center = |inertia: &SpatialInertia| -> Option<[f64; 3]> {
         (inertia.mass_kg > 0.0).then(|| (inertia.first_moment_kg_m / inertia.mass_kg).into())
     };
     let about_center = of.inertia.to_link();
     let tensor = about_center.map_or_else(nalgebra::Matrix3::zeros, |inertia| inertia.tensor_kg_m2);
-    ReportedBody {
+    BodyReport {
         joint: name(robot, of.joint),
         frame: frame.to_owned(),
-        mass: ReportedValue {
+        mass: ValueWithError {
             value: of.inertia.mass_kg,
             standard_error: of.mass_error_kg,
             nominal: of.nominal.mass_kg,
@@ -150,7 +127,7 @@ fn body(robot: &Robot, of: &IdentifiedBody, frame: &str) -> ReportedBody {
     }
 }
 
-fn effort(of: &Identification<'_>) -> ReportedEffort {
+fn effort(of: &IdentificationParts<'_>) -> EffortReport {
     let robot = &of.description.robot;
     let [left_as_torque, left_as_torque_without_gravity, left_as_current] = of.recognised.left;
     let constant = |(row, joint): (usize, &IdentifiedJoint)| {
@@ -160,11 +137,11 @@ fn effort(of: &Identification<'_>) -> ReportedEffort {
             joint: name(robot, joint.joint),
             value: given.or(fitted.map(|(factor, _)| factor)),
             standard_error: if given.is_some() { None } else { fitted.map(|(_, error)| error) },
-            unit: if turns(robot, joint.joint) { "N m/A" } else { "N/A" },
+            unit: if kind(robot, joint.joint).is_angular() { "N m/A" } else { "N/A" },
         }
     };
     let constants = of.identified.joints.iter().enumerate().map(constant);
-    ReportedEffort {
+    EffortReport {
         kind: of.kind,
         is_declared: of.is_declared,
         left_as_torque,

@@ -4,7 +4,7 @@ use congruent_input::{ChangedLines, Finding};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::{effort_kind::EffortKind, unknowns::JointTerm};
+use crate::{effort_kind::EffortKind, unknowns::JointUnknown};
 
 /// Whether the identified parameters are better than those of the description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
@@ -18,7 +18,7 @@ pub enum IdentificationVerdict {
 
 /// What the efforts are.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ReportedEffort {
+pub struct EffortReport {
     /// Their kind.
     pub kind: EffortKind,
     /// Whether the caller said so; otherwise it is the kind as which the description explains them best.
@@ -49,7 +49,7 @@ pub struct TorqueConstant {
 
 /// A value with its uncertainty.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ReportedValue {
+pub struct ValueWithError {
     /// As identified.
     pub value: f64,
     /// Its standard error, with the relation of neighbouring instants.
@@ -62,19 +62,19 @@ pub struct ReportedValue {
 
 /// A term of a joint.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ReportedTerm {
+pub struct TermReport {
     /// Which.
-    pub term: JointTerm,
+    pub term: JointUnknown,
     /// Its value.
     #[serde(flatten)]
-    pub value: ReportedValue,
+    pub value: ValueWithError,
     /// Whether it differs from zero by at least two standard errors.
     pub is_significant: bool,
 }
 
 /// A driven joint.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ReportedJoint {
+pub struct IdentifiedJointReport {
     /// Its name.
     pub joint: String,
     /// Instants at which it moved fast enough.
@@ -90,29 +90,29 @@ pub struct ReportedJoint {
     /// `N m` or `N`.
     pub unit: &'static str,
     /// Its identified terms.
-    pub terms: Vec<ReportedTerm>,
+    pub terms: Vec<TermReport>,
 }
 
 /// Terms of a joint of which the recording shows the sum alone.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct CombinedJoint {
+pub struct IndistinctTerms {
     /// The joint.
     pub joint: String,
     /// The term that was kept as the description has it.
-    pub kept: JointTerm,
+    pub kept: JointUnknown,
     /// The terms that have its effect, too; none if it has no effect in this recording.
-    pub like: Vec<JointTerm>,
+    pub like: Vec<JointUnknown>,
 }
 
 /// A body: a payload, or all that fixed joints hold to the link of a joint.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ReportedBody {
+pub struct BodyReport {
     /// The joint that carries it.
     pub joint: String,
     /// The frame of its centre and its tensor: the link of the joint, or that of the payload.
     pub frame: String,
     /// Mass.
-    pub mass: ReportedValue,
+    pub mass: ValueWithError,
     /// Centre of mass in the frame, m.
     pub center_m: [f64; 3],
     /// Its standard errors, m.
@@ -154,7 +154,7 @@ pub struct IdentificationReport {
     /// Whether the parameters are better.
     pub verdict: IdentificationVerdict,
     /// What the efforts are.
-    pub effort: ReportedEffort,
+    pub effort: EffortReport,
     /// Half of the window in which positions are smoothed and derived, s.
     pub half_window_s: f64,
     /// Whether instants at rest were taken, at which gravity acts alone.
@@ -166,14 +166,14 @@ pub struct IdentificationReport {
     /// Its standard error, s.
     pub effort_delay_error_s: Option<f64>,
     /// The driven joints.
-    pub joints: Vec<ReportedJoint>,
-    /// Terms that cannot be told apart.
-    pub not_told_apart: Vec<CombinedJoint>,
+    pub joints: Vec<IdentifiedJointReport>,
+    /// Terms that cannot be distinguished.
+    pub not_indistinct: Vec<IndistinctTerms>,
     /// The payload.
-    pub payload: Option<ReportedBody>,
+    pub payload: Option<BodyReport>,
     /// The bodies, if their masses were identified.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub bodies: Vec<ReportedBody>,
+    pub bodies: Vec<BodyReport>,
     /// Combinations of the inertial parameters that were free and of which the recording says more than was known before.
     pub known_combinations: usize,
     /// Inertial parameters that were free.

@@ -7,17 +7,21 @@ use congruent_dynamics::SpatialInertia;
 use congruent_input::{TextEdit, edited, number::significant};
 
 use super::{
-    assemble::{link_name, name, turns},
     identification_report::WrittenLines,
+    names::{kind, link_name, name},
 };
 use crate::{
-    identified::{Identified, IdentifiedBody, IdentifiedJoint},
+    identified::{IdentifiedBody, IdentifiedJoint, IdentifiedParameters},
     pseudo_inertia::is_body,
-    unknowns::JointTerm,
+    unknowns::JointUnknown,
 };
 
 /// The lines of all that was identified.
-pub(super) fn lines(description: &RobotDescription, identified: &Identified, payload_frame: &str) -> WrittenLines {
+pub(super) fn lines(
+    description: &RobotDescription,
+    identified: &IdentifiedParameters,
+    payload_frame: &str,
+) -> WrittenLines {
     let (edits, not_in_description) = edits(description, identified);
     let places = description.places.parameters();
     WrittenLines {
@@ -30,7 +34,7 @@ pub(super) fn lines(description: &RobotDescription, identified: &Identified, pay
 }
 
 /// The text of the URDF or MJCF with what was identified.
-pub fn edited_text(description: &RobotDescription, identified: &Identified) -> Option<String> {
+pub fn edited_text(description: &RobotDescription, identified: &IdentifiedParameters) -> Option<String> {
     let places = description.places.parameters()?;
     let (edits, _) = edits(description, identified);
     (!edits.is_empty()).then(|| edited(&places.source().text, &edits))
@@ -44,10 +48,10 @@ fn resistance(description: &RobotDescription, joint: &IdentifiedJoint) -> JointR
         // What brakes its followers stays with them.
         let change = rounded(value.value, value.standard_error) - value.nominal;
         match term {
-            JointTerm::Viscous => resistance.damping = (resistance.damping + change).max(0.0),
-            JointTerm::Coulomb => resistance.friction = (resistance.friction + change).max(0.0),
-            JointTerm::Armature => resistance.armature = (resistance.armature + change).max(0.0),
-            JointTerm::Offset => {}
+            JointUnknown::Viscous => resistance.damping = (resistance.damping + change).max(0.0),
+            JointUnknown::Coulomb => resistance.friction = (resistance.friction + change).max(0.0),
+            JointUnknown::Armature => resistance.armature = (resistance.armature + change).max(0.0),
+            JointUnknown::Offset => {}
         }
     }
     resistance
@@ -61,7 +65,11 @@ fn rounded(value: f64, size: f64) -> f64 {
     // A power of ten, so that the written number has few digits.
     let step = 10.0_f64.powi(exponent(size / 100.0));
     // Dividing by its inverse keeps 0.3 what it is.
-    if step < 1.0 { (value * (1.0 / step)).round() / (1.0 / step).round() } else { (value / step).round() * step }
+    if step < 1.0 {
+        (value * (1.0 / step)).round() / (1.0 / step).round()
+    } else {
+        (value / step).round() * step
+    }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "exponents of doubles are small")]
@@ -75,13 +83,14 @@ fn rounded_inertia(inertia: &Inertia) -> Inertia {
     let center = inertia.link_from_inertial.translation.vector;
     let mut rounded_inertia = *inertia;
     rounded_inertia.mass_kg = rounded(inertia.mass_kg, inertia.mass_kg * DIGITS);
-    rounded_inertia.link_from_inertial.translation.vector = center.map(|of| rounded(of, center.amax() * DIGITS));
+    rounded_inertia.link_from_inertial.translation.vector =
+        center.map(|of| rounded(of, center.amax() * DIGITS));
     let largest = inertia.tensor_kg_m2.amax();
     rounded_inertia.tensor_kg_m2 = inertia.tensor_kg_m2.map(|of| rounded(of, largest * DIGITS));
     rounded_inertia
 }
 
-fn has(joint: &IdentifiedJoint, wanted: JointTerm) -> bool {
+fn has(joint: &IdentifiedJoint, wanted: JointUnknown) -> bool {
     joint.terms.iter().any(|(term, _)| *term == wanted)
 }
 
@@ -100,36 +109,38 @@ fn link_inertia(description: &RobotDescription, body: &IdentifiedBody) -> Option
     Some(rounded_inertia(&changed))
 }
 
-fn edits(description: &RobotDescription, identified: &Identified) -> (Vec<TextEdit>, Vec<String>) {
+fn edits(description: &RobotDescription, identified: &IdentifiedParameters) -> (Vec<TextEdit>, Vec<String>) {
     let (mut edits, mut missing) = (Vec::new(), Vec::new());
     let Some(places) = description.places.parameters() else { return (edits, missing) };
     let robot = &description.robot;
     let has_armature = description.urdf_path.extension().is_none_or(|extension| extension != "urdf");
     for joint in &identified.joints {
         let of = name(robot, joint.joint);
-        if has(joint, JointTerm::Viscous) || has(joint, JointTerm::Armature) && has_armature {
+        if has(joint, JointUnknown::Viscous) || has(joint, JointUnknown::Armature) && has_armature {
             match places.set_terms(&of, &resistance(description, joint)) {
                 Some(changed) => edits.extend(changed),
                 None => missing.push(format!("damping, friction and armature of {of}")),
             }
         }
     }
-    if !has_armature && identified.joints.iter().any(|joint| has(joint, JointTerm::Armature)) {
+    if !has_armature && identified.joints.iter().any(|joint| has(joint, JointUnknown::Armature)) {
         missing.push("armature: a URDF has no place for it".to_owned());
     }
     for body in &identified.bodies {
         let link = link_name(robot, body.joint);
-        let changed = link_inertia(description, body).and_then(|inertia| places.set_inertial(&link, &inertia));
+        let changed =
+            link_inertia(description, body).and_then(|inertia| places.set_inertial(&link, &inertia));
         match changed {
             Some(changed) => edits.extend(changed),
-            None => missing.push(format!("mass and inertia of link {link}: [[inertial]] has those of the whole body")),
+            None => missing
+                .push(format!("mass and inertia of link {link}: [[inertial]] has those of the whole body")),
         }
     }
     (edits, missing)
 }
 
 /// `[[inertial]]` of each joint: its body, and its terms.
-fn of_robot_file(description: &RobotDescription, identified: &Identified) -> String {
+fn of_robot_file(description: &RobotDescription, identified: &IdentifiedParameters) -> String {
     let robot = &description.robot;
     let mut text = String::new();
     for joint in &identified.joints {
@@ -155,10 +166,17 @@ fn of_robot_file(description: &RobotDescription, identified: &Identified) -> Str
             number(tensor[(1, 2)]),
         );
         let resistance = resistance(description, joint);
-        let units = if turns(robot, joint.joint) { ["kg_m2", "n_m_s_rad", "n_m"] } else { ["kg", "n_s_m", "n"] };
+        let units = if kind(robot, joint.joint).is_angular() {
+            ["kg_m2", "n_m_s_rad", "n_m"]
+        } else {
+            ["kg", "n_s_m", "n"]
+        };
         let values = [resistance.armature, resistance.damping, resistance.friction];
-        let is_known = [JointTerm::Armature, JointTerm::Viscous, JointTerm::Coulomb].map(|term| has(joint, term));
-        for (at, key) in ["armature", "damping", "friction"].into_iter().enumerate().filter(|(at, _)| is_known[*at]) {
+        let is_known = [JointUnknown::Armature, JointUnknown::Viscous, JointUnknown::Coulomb]
+            .map(|term| has(joint, term));
+        for (at, key) in
+            ["armature", "damping", "friction"].into_iter().enumerate().filter(|(at, _)| is_known[*at])
+        {
             let _ = writeln!(text, "{key}_{} = {}", units[at], number(values[at]));
         }
         text.push('\n');
@@ -167,13 +185,17 @@ fn of_robot_file(description: &RobotDescription, identified: &Identified) -> Str
 }
 
 /// `[joints]` and `[[payload]]`.
-fn of_scenario(description: &RobotDescription, identified: &Identified, payload_frame: &str) -> String {
+fn of_scenario(
+    description: &RobotDescription,
+    identified: &IdentifiedParameters,
+    payload_frame: &str,
+) -> String {
     let robot = &description.robot;
     let mut text = String::new();
     let keys = [
-        ("damping", JointTerm::Viscous, (|of| of.damping) as fn(&JointResistance) -> f64),
-        ("friction", JointTerm::Coulomb, |of| of.friction),
-        ("armature", JointTerm::Armature, |of| of.armature),
+        ("damping", JointUnknown::Viscous, (|of| of.damping) as fn(&JointResistance) -> f64),
+        ("friction", JointUnknown::Coulomb, |of| of.friction),
+        ("armature", JointUnknown::Armature, |of| of.armature),
     ];
     for (key, term, value) in keys {
         let values: Vec<String> = identified
@@ -181,7 +203,11 @@ fn of_scenario(description: &RobotDescription, identified: &Identified, payload_
             .iter()
             .filter(|joint| has(joint, term))
             .map(|joint| {
-                format!("{} = {}", name(robot, joint.joint), significant(value(&resistance(description, joint))))
+                format!(
+                    "{} = {}",
+                    name(robot, joint.joint),
+                    significant(value(&resistance(description, joint)))
+                )
             })
             .collect();
         if !values.is_empty() {
@@ -208,7 +234,14 @@ fn of_scenario(description: &RobotDescription, identified: &Identified, payload_
         );
         // A tensor that the recording does not show would be a guess.
         if has_known_tensor(payload) {
-            let entries = [("xx", (0, 0)), ("yy", (1, 1)), ("zz", (2, 2)), ("xy", (0, 1)), ("xz", (0, 2)), ("yz", (1, 2))];
+            let entries = [
+                ("xx", (0, 0)),
+                ("yy", (1, 1)),
+                ("zz", (2, 2)),
+                ("xy", (0, 1)),
+                ("xz", (0, 2)),
+                ("yz", (1, 2)),
+            ];
             let entries = entries.map(|(key, at)| format!("{key} = {}", significant(tensor[at])));
             let _ = writeln!(text, "inertia_kg_m2 = {{ {} }}", entries.join(", "));
         }
@@ -223,7 +256,7 @@ pub(super) const TCP: &str = "TCP";
 fn has_known_tensor(body: &IdentifiedBody) -> bool {
     let Some(inertia) = body.inertia.to_link() else { return false };
     let moments = [(0, 0, 0), (1, 1, 3), (2, 2, 5)];
-    moments.iter().all(|&(row, column, at)| {
-        body.tensor_error_kg_m2[at] <= inertia.tensor_kg_m2[(row, column)] / 2.0
-    })
+    moments
+        .iter()
+        .all(|&(row, column, at)| body.tensor_error_kg_m2[at] <= inertia.tensor_kg_m2[(row, column)] / 2.0)
 }

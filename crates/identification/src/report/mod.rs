@@ -3,10 +3,12 @@
 mod assemble;
 mod identification_report;
 mod lines;
+mod names;
 
-pub use assemble::{Identification, identification_report, term_unit};
+pub use assemble::{IdentificationParts, identification_report};
 pub use identification_report::{
-    CombinedJoint, IdentificationReport, IdentificationVerdict, ReportedBody, ReportedEffort, ReportedJoint,
-    ReportedTerm, ReportedValue, TorqueConstant, WrittenLines,
+    BodyReport, EffortReport, IdentificationReport, IdentificationVerdict, IdentifiedJointReport,
+    IndistinctTerms, TermReport, TorqueConstant, ValueWithError, WrittenLines,
 };
 pub use lines::edited_text;
+pub use names::term_unit;

@@ -1,4 +1,4 @@
-//! Unknowns whose effects cannot be told apart.
+//! Unknowns whose effects cannot be distinguished.
 
 use nalgebra::DMatrix;
 
