@@ -27,22 +27,6 @@ congruent_input::codes! {
         CANNOT_RUN = "CGR-COMMAND-010", "run::cannot_run",
             "The scenario cannot be run: its robot cannot be simulated, or a motion cannot be planned. The message names the value; correct it there. `congruent check ROBOT` shows what the robot lacks.\n    congruent check robots/ur5e";
     }
-    replay {
-        READ = "CGR-COMMAND-088", "replay::read",
-            "The log ends in the middle of what is read of it, or has no instant with all joints of the robot. `congruent describe LOG --robot ROBOT` shows what is there.\n    congruent describe monday.mcap --robot robots/ur5e";
-        POSES = "CGR-COMMAND-087", "replay::poses",
-            "The log has no topic of this name with poses. `congruent describe LOG` lists its topics.\n    wrong: --measured-pose /tracker\n    right: --measured-pose /tracker/pose";
-    }
-    identify {
-        EFFORT = "CGR-COMMAND-101", "identify::effort",
-            "The log has no efforts of the robot, or they are nothing that can be identified from: neither torques, nor torques without gravity, nor currents by the masses of the description. State what they are, and correct the masses of the description if they are placeholders.\n    congruent identify robots/ur5e monday.mcap --effort current";
-        MOTION = "CGR-COMMAND-102", "identify::motion",
-            "The log has no instants to identify from: no joint moves fast enough, or rows are too far apart for velocities and accelerations. At rest, masses show by gravity alone.\n    congruent identify robots/ur5e monday.mcap --still --free payload";
-        FREE = "CGR-COMMAND-103", "identify::free",
-            "What is to be identified cannot be: a link or a joint of this name is not there, or two parameters show their ratio alone, as the masses of all links and the torque constants of all motors.\n    wrong: --effort current --free links\n    right: --effort current --free links --torque-constant elbow_joint=9.2";
-        PLAN = "CGR-COMMAND-104", "identify::plan",
-            "No motion was found that stays within the limits of the robot and keeps its links away from each other and from obstacles. Ask for less clearance, or begin where there is room.\n    congruent plan robots/ur5e --clearance 5mm";
-    }
     python {
         ARRAY = "CGR-PYTHON-001", "python::array",
             "An array that Python code gives has a wrong shape, or a value that is not a finite number. Positions are (joints,) for one configuration and (n, joints) for many, in the order of `robot.joints`, or a dictionary by the names of joints.\n    robot.fk({\"elbow_joint\": 0.1})";
@@ -67,6 +51,7 @@ congruent_input::codes! {
 pub fn all_codes() -> Vec<&'static Code> {
     let mut codes = congruent_lint_report::codes::known_codes();
     codes.extend(congruent_logs::codes::ALL);
+    codes.extend(congruent_replay::codes::ALL);
     codes.extend(congruent_starter::codes::ALL);
     codes.extend(ALL);
     codes

@@ -25,6 +25,8 @@ pub use congruent_page as page;
 pub use congruent_proximity as proximity;
 #[cfg(feature = "recording")]
 pub use congruent_recording as recording;
+pub use congruent_replay as replay;
+pub use congruent_replay::identify;
 pub use congruent_results as results;
 pub use congruent_scenario as scenario;
 pub use congruent_simulation as simulation;
@@ -36,10 +38,8 @@ pub use nalgebra;
 
 mod check;
 pub mod codes;
-pub mod identify;
 #[cfg(feature = "recording")]
 mod joint_sweep;
-pub mod replay;
 mod run_comparison;
 mod run_scenario;
 pub mod schema;

@@ -78,6 +78,24 @@ pub const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "replay",
+        &[
+            "input",
+            "description",
+            "kinematics",
+            "dynamics",
+            "identification",
+            "logs",
+            "agreement",
+            "calibration",
+            "scenario",
+            "proximity",
+            "monitors",
+            "twin",
+            "results",
+        ],
+    ),
+    (
         "lint-report",
         &[
             "input",
@@ -183,6 +201,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "monitors",
             "fault-diagnosis",
             "twin",
+            "replay",
             "results",
             "recording",
             "page",

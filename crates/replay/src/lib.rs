@@ -1,7 +1,10 @@
-//! From a robot and a log to a scenario that judges the log: `congruent replay`.
+//! From a robot and a log of it to an answer: a scenario that judges the log (`congruent replay`), and its parameters (`identify/`:
+//! `congruent identify`, with the motion of `congruent plan`).
 
+pub mod codes;
 mod draft;
 mod fitted;
+pub mod identify;
 mod paired;
 mod pose_cause;
 mod pose_fit;
@@ -11,7 +14,6 @@ mod request;
 mod survey_words;
 mod written;
 
-pub(crate) use draft::joints_draft;
 pub use draft::{ReplayDraft, in_folder, replay_draft};
 pub use pose_cause::explain_recorded;
 pub use request::ReplayRequest;

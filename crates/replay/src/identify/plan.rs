@@ -352,6 +352,6 @@ pub fn plan_text(scenario: &Scenario, folder: &Path, command: &str) -> Result<St
             playback.play_csv = folder.join(&playback.play_csv).display().to_string();
         }
     }
-    let placed = crate::replay::in_folder(&placed, folder)?;
+    let placed = crate::in_folder(&placed, folder)?;
     Ok(format!("# Written by `{command}`: a motion for `congruent identify`.\n{}", placed.motion_to_toml()))
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use congruent_identification::{EffortKind, FreeGroup};
 use nalgebra::Vector3;
 
-use crate::replay::ReplayRequest;
+use crate::request::ReplayRequest;
 
 /// What is identified, and what is known of the log.
 #[derive(Debug, Clone, Default)]

@@ -13,7 +13,7 @@ use congruent_input::{Capability, Diagnostic, Findings, display::number, known_n
 use congruent_kinematics::{Pose, UrdfTree};
 
 use super::{recorded_efforts::RecordedEfforts, request::IdentifyRequest};
-use crate::{codes, replay::joints_draft};
+use crate::{codes, draft::joints_draft};
 
 /// Half of the window in which efforts at rest are averaged, s. Kind: choice; rows at 50 Hz fill it.
 const STILL_HALF_WINDOW_S: f64 = 0.1;
