@@ -1,0 +1,37 @@
+"""A driver of a robot, in a process of its own: joint states at a steady rate, for the tests of the bridge."""
+
+import argparse
+import math
+import time
+
+from congruent.ros2._messages import JointState, Kind
+from congruent.ros2._transport import open_transport
+
+JOINTS = [f"{joint}_joint" for joint in ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--hz", type=float, default=500.0)
+    parser.add_argument("--count", type=int, default=1_000_000)
+    parser.add_argument("--jump-at", type=int, default=-1)
+    parser.add_argument("--damaged-at", type=int, default=-1)
+    given = parser.parse_args()
+    transport = open_transport("cyclonedds")
+    transport.advertise("/joint_states", Kind.JOINT_STATE)
+    writer = transport._writers["/joint_states"]  # type: ignore[attr-defined]
+    while not writer.get_matched_subscriptions():
+        time.sleep(0.01)
+    started_s = time.monotonic()
+    for number in range(given.count):
+        time.sleep(max(0.0, started_s + number / given.hz - time.monotonic()))
+        turn = 0.1 * math.sin(number / given.hz)
+        q = [turn, -1.0, 1.5 if 0 <= given.jump_at <= number else 1.0, 0.0, 0.1, 0.2]
+        names = JOINTS[:4] if number == given.damaged_at else JOINTS
+        transport.publish("/joint_states", JointState(time.time(), names, q, [0.0] * 6))
+    # All that was sent has to be read before the process ends.
+    time.sleep(1.0)
+
+
+if __name__ == "__main__":
+    main()
