@@ -215,7 +215,8 @@ def test_a_killed_driver_is_stale_until_it_comes_back(watch: Any, driver: Any, l
     code, printed = watching.interrupt()
     assert code == 0 and "Traceback" not in printed, printed
     levels = [line.split()[0] for line in printed.splitlines() if "joint states:" in line]
-    assert levels == ["STALE", "OK", "STALE", "OK"], printed
+    # More of them if the machine itself has paused for a second.
+    assert levels[:2] == ["STALE", "OK"] and len(levels) >= 4, printed
 
 
 def test_a_malformed_message_does_not_end_the_watch(watch: Any, driver: Any, listener: Listener) -> None:
@@ -278,6 +279,32 @@ def rotation(quaternion_wxyz: list[float]) -> Any:
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
+
+
+def test_the_published_description_is_compared(watch: Any, start: Any, listener: Listener, root: Path) -> None:
+    watching = watch("robots/ur5e")
+    urdf = root / "robots/ur5e/ur5e.urdf"
+    publishing = start("-c", DESCRIPTION, str(urdf), "a", "a")
+    assert "SAME ROBOT" in listener.until_level("robot description", Level.OK).message
+    publishing.kill()
+    publishing = start("-c", DESCRIPTION, str(urdf), '<mass value="2.846"/>', '<mass value="2846"/>')
+    assert "forearm_link: mass 2.846 kg" in listener.until_level("robot description", Level.ERROR).message
+    publishing.kill()
+    start("-c", DESCRIPTION, str(urdf), "<robot", "<robo")
+    assert "cannot be compared" in listener.until_level("robot description", Level.WARN).message
+    assert watching.interrupt()[0] == 0
+
+
+DESCRIPTION = """
+import pathlib, sys, time
+from congruent.ros2._messages import Kind, Text
+from congruent.ros2._transport import open_transport
+transport = open_transport()
+transport.advertise("/robot_description", Kind.TEXT, kept=True)
+file, before, after = sys.argv[1:]
+transport.publish("/robot_description", Text(pathlib.Path(file).read_text().replace(before, after)))
+time.sleep(1000)
+"""
 
 
 def test_poses_of_tf_have_their_origin(watch: Any, start: Any, listener: Listener) -> None:

@@ -44,7 +44,7 @@ def _watch(options: argparse.Namespace, judge: Sequence[str] | None) -> int:
     print(f"{robot.name}: joint states on {topics['joint_states']}, verdicts on {topics['diagnostics']}; Ctrl-C ends", flush=True)
     running = Judge(judge or command_of(options.robot, options.scenario, options.until_violation))
     try:
-        watch_options = WatchOptions(topics, frames, options.model_prefix, options.model_rate, options.stale_after)
+        watch_options = WatchOptions(options.robot, topics, frames, options.model_prefix, options.model_rate, options.stale_after)
         return Watch(robot, running, transport, watch_options).run(is_stopped)
     finally:
         running.finish()

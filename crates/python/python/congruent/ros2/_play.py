@@ -19,7 +19,8 @@ from ._links import transforms
 from ._messages import JointState, Kind, Text
 from ._transport import RosError, Transport
 
-# How long other publishers of the topic are looked for: those of one machine are found within some tenths of a second.
+# How long other publishers are looked for, and readers have to find this one, before the first row: within one machine that takes
+# some tenths of a second.
 SEARCH_S = 1.0
 # A wait is cut into such parts, so that Ctrl-C ends it.
 WAIT_S = 0.05
@@ -62,10 +63,10 @@ class Player:
     def __init__(self, motion: Motion, transport: Transport, topics: dict[str, str]) -> None:
         self._motion, self._transport = motion, transport
         self._joint_states, self._tf = topics["joint_states"], topics["tf"]
-        self._refuse_a_second_publisher()
         transport.advertise(self._joint_states, Kind.JOINT_STATE)
         transport.advertise(self._tf, Kind.TRANSFORMS)
         transport.advertise(topics["robot_description"], Kind.TEXT, kept=True)
+        self._refuse_a_second_publisher()
         transport.publish(topics["robot_description"], Text(motion.urdf))
 
     @property
@@ -103,7 +104,7 @@ class Player:
         self._transport.subscribe(topic, Kind.JOINT_STATE)
         end_s = time.monotonic() + SEARCH_S
         while time.monotonic() < end_s:
-            if self._transport.publishers(topic):
+            if self._transport.publishers(topic) > 1:
                 raise RosError(
                     f"{topic} already has a publisher: a robot, or something else that plays (one that was killed counts for"
                     " 10 s more); play in another ROS_DOMAIN_ID, or under a namespace: --topic joint_states=/played/joint_states"

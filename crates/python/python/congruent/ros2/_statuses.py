@@ -10,6 +10,8 @@ from ._messages import Level, Status
 
 # For so long something that is over, such as a gap, is a warning. Its number is kept.
 WARNING_S = 5.0
+# Statuses that are no check of the judge.
+OWN_STATUSES = ("joint states", "robot description", "judge")
 # Keys of an event that are said elsewhere in its status.
 SAID_ELSEWHERE = {"kind", "check", "message"}
 
@@ -45,6 +47,7 @@ class Statuses:
         self._notes = {kind: _Notes() for kind in kinds}
         self._checks: dict[str, _Check] = {}
         self._judge = _Check(Level.WARN, "starts")
+        self._description: _Check | None = None
         self.publishers = 0
 
     def arrived(self, joints: list[str], now_s: float) -> None:
@@ -82,6 +85,10 @@ class Statuses:
         elif kind == "finished":
             self._judge = _Check(Level.OK, f"has finished: {text}", values_of(event))
 
+    def described(self, level: Level, message: str) -> None:
+        """The URDF that the robot publishes has been compared."""
+        self._description = _Check(level, message)
+
     def ended(self, code: int) -> None:
         """The judge has ended by itself. 0 and 1 are answers of it."""
         if code not in (0, 1):
@@ -101,6 +108,8 @@ class Statuses:
             is_stale = joints.level is Level.STALE and check.level is Level.OK
             checks[name] = _Check(Level.STALE, f"{joints.message}; before: {check.message}", check.values) if is_stale else check
         found = {"joint states": joints, "judge": self._judge, **checks}
+        if self._description is not None:
+            found["robot description"] = self._description
         prefix = f"congruent: {self._robot}: "
         return [Status(one.level, prefix + name, one.message, self._robot, one.values) for name, one in found.items()]
 

@@ -8,10 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from .._native import Robot
+from ._description import DescriptionCheck
 from ._judge import Judge, Line
 from ._links import transforms
-from ._messages import Diagnostics, JointState, Kind, Level, Message, Status, Transform, Transforms, Unreadable
-from ._statuses import Statuses
+from ._messages import Diagnostics, JointState, Kind, Level, Message, Status, Text, Transform, Transforms, Unreadable
+from ._statuses import OWN_STATUSES, Statuses
 from ._transport import Transport
 
 REPORT_PERIOD_S = 1.0
@@ -32,6 +33,7 @@ class PoseFrame:
 class WatchOptions:
     """What the command line of ``watch`` says."""
 
+    robot: str
     topics: dict[str, str]
     """Names of topics by the names that they have by default, without the slash."""
     pose_frames: dict[str, PoseFrame] = field(default_factory=dict)
@@ -48,6 +50,7 @@ class Watch:
         topics = options.topics
         self._joint_states, self._diagnostics, self._tf = topics["joint_states"], topics["diagnostics"], topics["tf"]
         self._statuses = Statuses(robot.name, robot.joints, self._joint_states, options.stale_after_s, time.monotonic())
+        self._description = DescriptionCheck(options.robot)
         self._links = set(robot.links)
         self._q: dict[str, float] = {}
         self._time_s: float | None = None
@@ -63,6 +66,7 @@ class Watch:
         transport.subscribe(self._joint_states, Kind.JOINT_STATE)
         transport.subscribe(self._tf, Kind.TRANSFORMS)
         transport.subscribe(self._options.topics["tf_static"], Kind.TRANSFORMS, kept=True)
+        transport.subscribe(self._options.topics["robot_description"], Kind.TEXT, kept=True)
         next_report_s = next_model_s = time.monotonic()
         while not is_stopped() and not self._judge.has_ended:
             for topic, message in transport.take(WAIT_S):
@@ -90,6 +94,8 @@ class Watch:
             self._statuses.note("malformed messages", f"{topic}: {message.reason}", time.monotonic())
         elif isinstance(message, JointState):
             self._receive_joints(message)
+        elif isinstance(message, Text):
+            self._description.compare(message.text)
         elif isinstance(message, Transforms):
             lines = [line for line in map(self._pose_line, message.transforms) if line is not None]
             if topic == self._tf:
@@ -147,6 +153,8 @@ class Watch:
     def _hear(self) -> None:
         for event in self._judge.events():
             self._statuses.judged(event, time.monotonic())
+        if self._description.result is not None:
+            self._statuses.described(*self._description.result)
 
     def _publish_model(self) -> None:
         """The stamp is that of the joint states, so that a viewer shows model and robot at the same time."""
@@ -167,7 +175,7 @@ class Watch:
         """A line of the terminal for each change. That checks are stale as well is said by the line of the joint states."""
         for status in statuses:
             before = self._levels.get(status.name)
-            is_check = status.name.rpartition(": ")[2] not in ("joint states", "judge")
+            is_check = status.name.rpartition(": ")[2] not in OWN_STATUSES
             is_quiet = is_check and status.level is not Level.ERROR and before is not Level.ERROR
             if before is not status.level and not is_quiet:
                 print(f"{status.level.name:<5} {status.name.removeprefix('congruent: ')}: {status.message}", flush=True)
