@@ -201,7 +201,7 @@ def test_a_jump_is_an_error_with_its_joint(watch: Any, driver: Any, listener: Li
 def test_a_killed_driver_is_stale_until_it_comes_back(watch: Any, driver: Any, listener: Listener) -> None:
     watching = watch("robots/ur5e")
     waits = listener.until_level("joint states", Level.STALE)
-    assert waits.message.startswith("waits for joint states on /joint_states since") and "nobody publishes it" in waits.message
+    assert waits.message.startswith("no joint states on /joint_states yet, after") and "nobody publishes it" in waits.message
     first = driver()
     listener.until_level("joint states", Level.OK)
     listener.until_level("limits", Level.OK)
@@ -227,6 +227,19 @@ def test_a_malformed_message_does_not_end_the_watch(watch: Any, driver: Any, lis
     assert warned.message == "malformed messages: 4 names, 6 positions, 6 velocities, 0 efforts"
     fine = listener.until_level("joint states", Level.OK)
     assert fine.values["malformed messages"] == "1, the last: 4 names, 6 positions, 6 velocities, 0 efforts"
+    assert watching.interrupt()[0] == 0
+
+
+def test_joint_states_of_another_robot_are_none(watch: Any, driver: Any, listener: Listener) -> None:
+    watching = watch("robots/rrr_arm")
+    driver("--hz", "50")
+
+    def told() -> str | None:
+        reports = [status for report in listener.of(Diagnostics) for status in report.statuses if "joint states" in status.name]
+        return reports[-1].message if reports and "messages of other joints" in reports[-1].values else None
+
+    message = listener.until(told, "messages of other joints")
+    assert "no joint states on /joint_states yet" in message and "messages of other joints: shoulder_pan_joint, " in message
     assert watching.interrupt()[0] == 0
 
 
@@ -450,7 +463,8 @@ def test_a_judge_that_fails_ends_the_watch(start: Any, listener: Listener, tmp_p
         (["watch", "robots/ur5e", "--measured-frame", "tracker=tool"], "FRAME=LINK, where LINK is one of base_link, base"),
         (["watch", "robots/ur5e", "--backend", "rclpy"], "rclpy is not installed: source /opt/ros/DISTRO/setup.bash"),
         (["play", "docs/examples/log/joints.csv"], "a log needs its robot: --robot ROBOT"),
-        (["play", "scenarios/no_scenario.toml"], "no_scenario.toml"),
+        (["play", "scenarios/no_scenario.toml"], "scenarios/no_scenario.toml does not exist"),
+        (["play", "robots/ur5e"], "robots/ur5e is a robot: play takes a scenario, or a log with --robot robots/ur5e"),
     ],
 )
 def test_bad_input_has_a_sentence(

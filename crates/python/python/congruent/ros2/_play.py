@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -17,6 +15,7 @@ from numpy.typing import NDArray
 from .._native import Robot, run
 from ._links import transforms
 from ._messages import JointState, Kind, Text
+from ._robots import command, urdf_of
 from ._transport import RosError, Transport
 
 # How long other publishers are looked for, and readers have to find this one, before the first row: within one machine that takes
@@ -41,6 +40,10 @@ class Motion:
 def read_motion(file: Path, robot: str | None, folder: Path) -> Motion:
     """The motion of a scenario, or of a log of the robot. The command runs the scenario, or one that it writes for the log, in
     ``folder``."""
+    if not file.exists():
+        raise RosError(f"{file} does not exist")
+    if file.suffix in (".urdf", ".xml", ".xacro") or (file / "robot.toml").exists():
+        raise RosError(f"{file} is a robot: play takes a scenario, or a log with --robot {file}")
     scenario = file
     if file.suffix != ".toml":
         if robot is None:
@@ -122,17 +125,9 @@ def rows(time_s: NDArray[float64], period_s: float) -> Iterator[int]:
             next_s = float(at_s) + period_s
 
 
-def urdf_of(robot: str) -> str:
-    """The text of the robot's URDF; of a robot without one, what the command converts it to."""
-    described = json.loads(_command("describe", robot, "--format", "json"))
-    if described.get("format") == "URDF" and described.get("urdf"):
-        return Path(described["urdf"]).read_text(encoding="utf-8")
-    return _command("convert", robot, "--to", "urdf")
-
-
 def _scenario_of_log(log: Path, robot: str, folder: Path) -> Path:
     # Exit code 1 says that the log fails its checks, and 4 that there was nothing to check: it can be played.
-    _command("replay", robot, str(log), "--out", str(folder), "--no-recording", "--quiet", accepted=(0, 1, 4))
+    command("replay", robot, str(log), "--out", str(folder), "--no-recording", "--quiet", accepted=(0, 1, 4))
     return next(folder.glob("*.toml"))
 
 
@@ -153,10 +148,3 @@ def _columns(columns: dict[str, NDArray[float64]], *ends: str) -> dict[str, NDAr
             if joint != name and np.isfinite(values).any():
                 found[joint] = values
     return found
-
-
-def _command(*words: str, accepted: tuple[int, ...] = (0,)) -> str:
-    done = subprocess.run([sys.executable, "-m", "congruent", *words], stdout=subprocess.PIPE, encoding="utf-8")
-    if done.returncode not in accepted:
-        raise RosError(f"congruent {words[0]} ended with exit code {done.returncode}")
-    return done.stdout

@@ -10,6 +10,8 @@ from ._messages import Level, Status
 
 # For so long something that is over, such as a gap, is a warning. Its number is kept.
 WARNING_S = 5.0
+# Joint states of another robot on the topic are usual, and no fault.
+OTHERS = "messages of other joints"
 # Statuses that are no check of the judge.
 OWN_STATUSES = ("joint states", "robot description", "judge")
 # Keys of an event that are said elsewhere in its status.
@@ -43,7 +45,7 @@ class Statuses:
         self._missing = list(joints)
         self._started_s, self._arrived_s = now_s, float("-inf")
         self._messages, self._counted, self._counted_s, self._rate_hz = 0, 0, now_s, 0.0
-        kinds = ("malformed messages", "messages without positions", "gaps", "messages lost", "lines refused", "messages not judged")
+        kinds = ("malformed messages", "messages without positions", "gaps", "messages lost", "lines refused", "messages not judged", OTHERS)
         self._notes = {kind: _Notes() for kind in kinds}
         self._checks: dict[str, _Check] = {}
         self._judge = _Check(Level.WARN, "starts")
@@ -129,12 +131,12 @@ class Statuses:
     def _level(self, age_s: float, now_s: float) -> tuple[Level, str]:
         if not self._messages:
             who = {0: "nobody publishes it", 1: "its publisher sends none"}.get(self.publishers, "its publishers send none")
-            wrong = [notes.last for notes in self._notes.values() if notes.count]
-            reason = f"the last message was {wrong[0]}" if wrong else who
-            return Level.STALE, f"waits for joint states on {self._topic} since {now_s - self._started_s:.1f} s: {reason}"
+            wrong = [f"{kind}: {notes.last}" for kind, notes in self._notes.items() if notes.count]
+            reason = "; ".join(wrong) or who
+            return Level.STALE, f"no joint states on {self._topic} yet, after {now_s - self._started_s:.1f} s: {reason}"
         if age_s > self._stale_after_s:
             return Level.STALE, f"no joint states on {self._topic} for {age_s:.1f} s"
-        recent = [f"{kind}: {notes.last}" for kind, notes in self._notes.items() if now_s - notes.at_s < WARNING_S]
+        recent = [f"{kind}: {notes.last}" for kind, notes in self._notes.items() if now_s - notes.at_s < WARNING_S and kind != OTHERS]
         if recent:
             return Level.WARN, "; ".join(recent)
         if self._missing:
@@ -164,7 +166,14 @@ def _put(found: dict[str, str], key: str, value: Any) -> None:
         for below, inner in value.items():
             _put(found, f"{key}.{below}", inner)
     elif value is not None:
-        found[key] = value if isinstance(value, str) else f"{value:.9g}" if isinstance(value, float) else str(value)
+        found[key] = _text(value)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, list):
+        return ", ".join(map(_text, value))
+    # Enough digits for the microseconds of a time since 1970.
+    return f"{value:.16g}" if isinstance(value, float) else str(value)
 
 
 def _name(event: Line) -> str:

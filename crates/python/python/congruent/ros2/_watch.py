@@ -8,11 +8,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from .._native import Robot
-from ._description import DescriptionCheck
 from ._judge import Judge, Line
 from ._links import transforms
 from ._messages import Diagnostics, JointState, Kind, Level, Message, Status, Text, Transform, Transforms, Unreadable
-from ._statuses import OWN_STATUSES, Statuses
+from ._published_urdf import DescriptionCheck
+from ._robots import moving_joints
+from ._statuses import OTHERS, OWN_STATUSES, Statuses
 from ._transport import Transport
 
 REPORT_PERIOD_S = 1.0
@@ -51,7 +52,7 @@ class Watch:
         self._joint_states, self._diagnostics, self._tf = topics["joint_states"], topics["diagnostics"], topics["tf"]
         self._statuses = Statuses(robot.name, robot.joints, self._joint_states, options.stale_after_s, time.monotonic())
         self._description = DescriptionCheck(options.robot)
-        self._links = set(robot.links)
+        self._links, self._moving = set(robot.links), moving_joints(options.robot)
         self._q: dict[str, float] = {}
         self._time_s: float | None = None
         self._fixed: list[Line] = []
@@ -112,21 +113,28 @@ class Watch:
             text = f"{len(message.name)} names, {position} positions, {velocity} velocities, {effort} efforts"
             self._statuses.note("malformed messages", text, now_s)
             return
-        q = finite(message.name, message.position)
+        q = self._finite(message.name, message.position)
+        if not q and not self._moving.intersection(message.name) and message.name:
+            self._statuses.note(OTHERS, ", ".join(message.name), now_s)
+            return
         if not q:
             self._statuses.note("messages without positions", f"joints {', '.join(message.name) or 'none'}", now_s)
             return
         # A sender without a clock stamps 0.
         time_s = message.time_s or time.time()
         line: Line = {"time_s": time_s, "q": q}
-        line |= {"v": v} if (v := finite(message.name, message.velocity)) else {}
-        line |= {"tau": tau} if (tau := finite(message.name, message.effort)) else {}
+        line |= {"v": v} if (v := self._finite(message.name, message.velocity)) else {}
+        line |= {"tau": tau} if (tau := self._finite(message.name, message.effort)) else {}
         self._statuses.arrived(list(q), now_s)
         self._q |= q
         self._time_s, self._has_moved = time_s, True
         self._send([line])
         self._send([{**fixed, "time_s": time_s} for fixed in self._fixed])
         self._fixed.clear()
+
+    def _finite(self, names: list[str], values: list[float]) -> dict[str, float]:
+        """Values by joint of the robot. Those that are not numbers are left out: a driver has NaN for what it does not know."""
+        return {name: value for name, value in zip(names, values) if name in self._moving and math.isfinite(value)}
 
     def _pose_line(self, one: Transform) -> Line | None:
         """The line of a transform, if it is a pose of the robot."""
@@ -179,8 +187,3 @@ class Watch:
             is_quiet = is_check and status.level is not Level.ERROR and before is not Level.ERROR
             if before is not status.level and not is_quiet:
                 print(f"{status.level.name:<5} {status.name.removeprefix('congruent: ')}: {status.message}", flush=True)
-
-
-def finite(names: list[str], values: list[float]) -> dict[str, float]:
-    """Values by joint. Those that are not numbers are left out: a driver has NaN for what it does not know."""
-    return {name: value for name, value in zip(names, values) if math.isfinite(value)}

@@ -36,8 +36,10 @@ class DescriptionCheck:
                 file = Path(folder) / "robot_description.urdf"
                 file.write_text(urdf, encoding="utf-8")
                 report = check(self._robot, against=file)
-            answer = Level.OK if report.ok else Level.ERROR, report.headline
+                headline = report.headline.replace(f"{folder}/", "")
+            answer = Level.OK if report.ok else Level.ERROR, headline
         except CongruentError as error:
-            answer = Level.WARN, f"cannot be compared: {error}"
+            text = str(error).replace(f"{folder}/", "")
+            answer = Level.WARN, f"cannot be compared: {text}"
         if urdf == self._text:
             self._result = answer
