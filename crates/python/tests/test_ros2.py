@@ -234,11 +234,11 @@ def test_joint_states_of_another_robot_are_none(watch: Any, driver: Any, listene
     watching = watch("robots/rrr_arm")
     driver("--hz", "50")
 
-    def told() -> str | None:
+    def said() -> str | None:
         reports = [status for report in listener.of(Diagnostics) for status in report.statuses if "joint states" in status.name]
         return reports[-1].message if reports and "messages of other joints" in reports[-1].values else None
 
-    message = listener.until(told, "messages of other joints")
+    message = listener.until(said, "messages of other joints")
     assert "no joint states on /joint_states yet" in message and "messages of other joints: shoulder_pan_joint, " in message
     assert watching.interrupt()[0] == 0
 
@@ -254,11 +254,11 @@ def test_bytes_of_another_type_do_not_end_a_transport() -> None:
         """Gives what a damaged message raises, then nothing."""
 
         def __init__(self) -> None:
-            self.left = [True]
+            self.damaged = [True]
 
         def take(self, N: int) -> list[Any]:
-            if self.left:
-                self.left.pop()
+            if self.damaged:
+                self.damaged.pop()
                 _idl.JointState.deserialize(b"\x00\x01\x00\x00\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff")
             return []
 

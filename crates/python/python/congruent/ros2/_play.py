@@ -82,8 +82,8 @@ class Player:
         started_s, sent = time.monotonic(), 0
         for row in rows(self._motion.time_s, rate / rows_per_s):
             due_s = started_s + float(self._motion.time_s[row] - self._motion.time_s[0]) / rate
-            while (left_s := due_s - time.monotonic()) > 0 and not is_stopped():
-                time.sleep(min(left_s, WAIT_S))
+            while (early_s := due_s - time.monotonic()) > 0 and not is_stopped():
+                time.sleep(min(early_s, WAIT_S))
             if is_stopped():
                 break
             self._publish(row, rate)
