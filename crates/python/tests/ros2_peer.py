@@ -14,14 +14,17 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--hz", type=float, default=500.0)
     parser.add_argument("--count", type=int, default=1_000_000)
+    parser.add_argument("--readers", type=int, default=2)
     parser.add_argument("--jump-at", type=int, default=-1)
     parser.add_argument("--damaged-at", type=int, default=-1)
     given = parser.parse_args()
     transport = open_transport("cyclonedds")
     transport.advertise("/joint_states", Kind.JOINT_STATE)
     writer = transport._writers["/joint_states"]  # type: ignore[attr-defined]
-    while not writer.get_matched_subscriptions():
+    # What is sent before a reader has found the writer is not for it. The readers are the test and the bridge.
+    while len(writer.get_matched_subscriptions()) < given.readers:
         time.sleep(0.01)
+    time.sleep(1.0)
     started_s = time.monotonic()
     for number in range(given.count):
         time.sleep(max(0.0, started_s + number / given.hz - time.monotonic()))

@@ -180,7 +180,7 @@ def test_every_joint_state_is_judged(watch: Any, driver: Any, listener: Listener
     listener.until_level("judge", Level.OK)
     assert driver("--hz", "500", "--count", "2500").end() == (0, "")
     arrived = listener.until_level("joint states", Level.STALE)
-    assert arrived.values["messages"] == "2500"
+    assert arrived.values["messages"] == "2500", arrived
     listener.heard.clear()
     code, printed = watching.interrupt()
     judge = listener.until(lambda: (found := listener.status("judge")) and "lines" in found.values and found, "the end of the judge")
@@ -434,7 +434,7 @@ def test_a_log_is_played(start: Any, listener: Listener, root: Path) -> None:
 
 
 def test_a_second_publisher_is_refused(start: Any, driver: Any, listener: Listener) -> None:
-    driver()
+    driver("--readers", "1")
     listener.until(lambda: listener.of(JointState), "joint states")
     code, printed = start("-m", "congruent.ros2", "play", "scenarios/ur5e_pick.toml").end()
     assert code == 2 and "/joint_states already has a publisher" in printed, printed
