@@ -15,6 +15,8 @@ Line: TypeAlias = dict[str, Any]
 # Lines that wait if the judge is slower than the robot: a minute at 500 Hz. A judge that does not keep up even so is reported,
 # and does not take the memory of the machine.
 WAITING = 30_000
+# Exit code of the command if nothing was checked.
+NOTHING_CHECKED = 4
 # A judge that is to end writes what it found, and needs no longer.
 SECONDS_TO_END = 30.0
 
@@ -36,6 +38,7 @@ class Judge:
         )
         self._waiting: queue.Queue[Line | None] = queue.Queue(WAITING)
         self._events: queue.SimpleQueue[Line] = queue.SimpleQueue()
+        self._has_lines = False
         self._writing = threading.Thread(target=self._write, daemon=True)
         self._reading = threading.Thread(target=self._read, daemon=True)
         self._writing.start()
@@ -47,6 +50,7 @@ class Judge:
             self._waiting.put_nowait(line)
         except queue.Full:
             return False
+        self._has_lines = True
         return True
 
     def events(self) -> list[Line]:
@@ -63,6 +67,11 @@ class Judge:
 
     def finish(self) -> int:
         """Ends its input, waits until it has judged the rest, and gives its exit code; 3 if it does not end."""
+        if not self._has_lines and not self.has_ended:
+            # It would take the empty input for a mistake of the caller.
+            self._process.kill()
+            self._process.wait()
+            return NOTHING_CHECKED
         try:
             self._waiting.put(None, timeout=SECONDS_TO_END)
             code = self._process.wait(SECONDS_TO_END)
@@ -95,4 +104,4 @@ class Judge:
                 event = json.loads(text)
             except ValueError:
                 event = None
-            self._events.put(event if isinstance(event, dict) else {"kind": "unreadable", "message": text.strip()})
+            self._events.put(event if isinstance(event, dict) else {"kind": "bad_line", "message": f"its answer {text.strip()}"})

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
+from . import _events as events
 from ._judge import Line
 from ._messages import Level, Status
 
@@ -14,8 +14,6 @@ WARNING_S = 5.0
 OTHERS = "messages of other joints"
 # Statuses that are no check of the judge.
 OWN_STATUSES = ("joint states", "robot description", "judge")
-# Keys of an event that are said elsewhere in its status.
-SAID_ELSEWHERE = {"kind", "check", "message"}
 
 
 @dataclass
@@ -45,10 +43,12 @@ class Statuses:
         self._missing = list(joints)
         self._started_s, self._arrived_s = now_s, float("-inf")
         self._messages, self._counted, self._counted_s, self._rate_hz = 0, 0, now_s, 0.0
-        kinds = ("malformed messages", "messages without positions", "gaps", "messages lost", "lines refused", "messages not judged", OTHERS)
+        kinds: tuple[str, ...] = ("malformed messages", "messages without positions", "gaps", "samples lost", "lines refused", "left out")
+        kinds += ("messages not judged", OTHERS)
         self._notes = {kind: _Notes() for kind in kinds}
         self._checks: dict[str, _Check] = {}
-        self._judge = _Check(Level.WARN, "starts")
+        self._names: list[str] = []
+        self._judge = _Check(Level.STALE, "begins with the first joint states")
         self._description: _Check | None = None
         self.publishers = 0
 
@@ -65,27 +65,33 @@ class Statuses:
 
     def judged(self, event: Line, now_s: float) -> None:
         """The judge has said something."""
-        kind, text = event.get("kind"), sentence(event)
+        kind = event.get("kind")
         if kind == "started":
-            self._judge = _Check(Level.OK, "watches", values_of(event))
-            for check in event.get("checks") or []:
-                name = str(check.get("check", check) if isinstance(check, dict) else check)
-                self._checks.setdefault(name, _Check(Level.OK, "not violated"))
-        elif kind == "violation":
-            self._checks[_name(event)] = _Check(Level.ERROR, text, values_of(event))
-        elif kind == "recovered":
-            self._checks[_name(event)] = _Check(Level.OK, text, values_of(event))
-        elif kind == "pose":
-            check = self._checks.setdefault("pose", _Check(Level.OK, "not violated"))
-            check.values = values_of(event)
+            self._judge = _Check(Level.OK, "watches", events.start_values(event))
+            self._names = events.check_names(event)
+            self._checks = {name: _Check(Level.OK, "not violated") for name in self._names}
+        elif kind in ("violation", "recovered"):
+            level, word = (Level.ERROR, "violated") if kind == "violation" else (Level.OK, "recovered")
+            self._change(int(event["number"]), level, word, event)
         elif kind == "gap":
-            self.note("gaps", text, now_s)
+            self.note("gaps", events.gap_sentence(event), now_s)
         elif kind == "lost":
-            self.note("messages lost", text, now_s)
-        elif kind in ("bad_line", "unreadable"):
-            self.note("lines refused", text, now_s)
+            self.note("samples lost", events.lost_sentence(event), now_s)
+        elif kind == "bad_line":
+            self.note("lines refused", str(event.get("message")), now_s)
+        elif kind == "left_out":
+            self.note("left out", str(event.get("message")), now_s)
         elif kind == "finished":
-            self._judge = _Check(Level.OK, f"has finished: {text}", values_of(event))
+            for number, change in events.failed_checks(event):
+                # What is violated now has said so.
+                if self._checks[self._names[number - 1]].level is not Level.ERROR:
+                    self._change(number, Level.ERROR, "failed", change)
+            self._judge = _Check(Level.OK, f"has finished, verdict {event.get('verdict')}", events.end_values(event))
+        elif "error" in event:
+            self._judge = _Check(Level.ERROR, events.error_sentence(event))
+
+    def _change(self, number: int, level: Level, word: str, change: Line) -> None:
+        self._checks[self._names[number - 1]] = _Check(level, f"{word}: {events.change_sentence(change)}", events.change_values(change))
 
     def described(self, level: Level, message: str) -> None:
         """The URDF that the robot publishes has been compared."""
@@ -94,7 +100,8 @@ class Statuses:
     def ended(self, code: int) -> None:
         """The judge has ended by itself. 0 and 1 are answers of it."""
         if code not in (0, 1):
-            self._judge = _Check(Level.ERROR, f"has ended with exit code {code}: nothing is judged any more")
+            reason = f": {self._judge.message}" if self._judge.level is Level.ERROR else ""
+            self._judge = _Check(Level.ERROR, f"has ended with exit code {code}{reason}; nothing is judged any more")
 
     def count_rate(self, now_s: float) -> None:
         """Ends the time over which the rate is counted."""
@@ -142,39 +149,3 @@ class Statuses:
         if self._missing:
             return Level.WARN, f"no value of {', '.join(self._missing)}, taken as 0 in the TF of the model"
         return Level.OK, "arrive"
-
-
-def sentence(event: Line) -> str:
-    """What the judge says of the event, or its values."""
-    said = event.get("message")
-    if isinstance(said, str) and said:
-        return said
-    return ", ".join(f"{key} {value}" for key, value in values_of(event).items()) or str(event.get("kind"))
-
-
-def values_of(event: Line) -> dict[str, str]:
-    """Its values by their keys, which have the units."""
-    found: dict[str, str] = {}
-    for key, value in event.items():
-        if key not in SAID_ELSEWHERE:
-            _put(found, key, value)
-    return found
-
-
-def _put(found: dict[str, str], key: str, value: Any) -> None:
-    if isinstance(value, dict):
-        for below, inner in value.items():
-            _put(found, f"{key}.{below}", inner)
-    elif value is not None:
-        found[key] = _text(value)
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, list):
-        return ", ".join(map(_text, value))
-    # Enough digits for the microseconds of a time since 1970.
-    return f"{value:.16g}" if isinstance(value, float) else str(value)
-
-
-def _name(event: Line) -> str:
-    return str(event.get("check") or "judge")
