@@ -244,6 +244,44 @@ def test_a_killed_driver_is_stale_until_it_comes_back(watch: Any, driver: Any, l
     assert levels[:2] == ["STALE", "OK"] and len(levels) >= 4, printed
 
 
+def test_what_the_judge_says_is_said() -> None:
+    """Lines of ``congruent watch`` that the stand-in does not say."""
+    from congruent.ros2._statuses import Statuses
+
+    statuses = Statuses("ur5e", [], "/joint_states", 1.0, 0.0)
+
+    def status(name: str) -> Status:
+        return {status.name.rpartition(": ")[2]: status for status in statuses.all(0.5)}[name]
+
+    statuses.arrived(["elbow_joint"], 0.0)
+    statuses.judged({"kind": "started", "checks": ["pose", "clearance", "pose"], "rate_hz": 499.123456789, "poses": []}, 0.1)
+    assert status("judge").values == {"rate_hz": "499.123457", "checks": "pose, clearance, pose"}
+    pose = {"quantity": "position_error", "limit": 0.002, "unit": "m", "bound": "at_most", "value": 0.0071, "where": "tool0"}
+    statuses.judged({"kind": "violation", "check": "pose", "number": 3, "time_s": 12.5, **pose}, 0.2)
+    assert status("pose 3").message == "violated: position error 7.1 mm at tool0, limit <= 2 mm"
+    assert status("pose 1").level is Level.OK and status("joint states").level is Level.OK
+    statuses.judged({"kind": "gap", "from_s": 12.0, "to_s": 12.18, "cause": "no_samples"}, 0.3)
+    assert status("joint states").message == "gaps: nothing came for 0.18 s, nothing is judged in it"
+    statuses.judged({"kind": "gap", "from_s": 12.0, "to_s": 2.0, "cause": "clock_went_back"}, 0.3)
+    statuses.judged({"kind": "bad_line", "line": 7, "message": "no number", "text": "{"}, 0.3)
+    statuses.judged({"kind": "left_out", "message": "controller poses began too late"}, 0.3)
+    statuses.judged({"kind": "lost", "what": "samples", "message": "the queue is full", "samples": 3}, 0.3)
+    statuses.judged({"kind": "something_new"}, 0.3)
+    values = status("joint states").values
+    assert values["gaps"] == "2, the last: the clock of the sender went back by 10 s, a new part begins"
+    assert values["lines refused"] == "1, the last: no number" and values["samples lost"] == "1, the last: 3 samples: the queue is full"
+    assert values["left out"] == "1, the last: controller poses began too late"
+    clearance = {"quantity": "distance", "limit": 0.02, "unit": "m", "bound": "at_least", "worst": {"value": 0.01, "subject": "a--b", "time_s": 1.0}}
+    report = {"checks": [{"status": "pass"}, {"status": "fail", "measures": [clearance]}, {"status": "fail", "measures": []}]}
+    statuses.judged({"kind": "finished", "verdict": "not_as_expected", "counts": {"samples": 9, "late": 0}, "report": report}, 0.4)
+    assert status("clearance").message == "failed: distance 10 mm at a--b, limit >= 20 mm"
+    assert status("pose 3").message.startswith("violated")
+    assert status("judge").values == {"verdict": "not_as_expected", "samples": "9"}
+    statuses.judged({"error": "bad input", "findings": [{"message": "unknown joint"}]}, 0.4)
+    statuses.ended(2)
+    assert status("judge").message == "has ended with exit code 2: unknown joint; nothing is judged any more"
+
+
 def test_a_malformed_message_does_not_end_the_watch(watch: Any, driver: Any, listener: Listener) -> None:
     watching = watch("robots/ur5e")
     driver("--damaged-at", "100")
@@ -410,8 +448,8 @@ def test_nothing_that_moves_a_robot_is_published(watch: Any, start: Any, driver:
     diagnostics = {"rt/diagnostics": "diagnostic_msgs::msg::dds_::DiagnosticArray_"}
     tf = {"rt/tf": "tf2_msgs::msg::dds_::TFMessage_"}
     assert publications() == diagnostics | tf
-    # Nothing has come, so nothing was checked.
-    assert watching.interrupt()[0] == 4
+    code, printed = watching.interrupt()
+    assert code == 4 and "nothing was judged: no joint states came" in printed, printed
     start("-m", "congruent.ros2", "play", "scenarios/ur5e_pick.toml", "--loop")
     listener.until(lambda: listener.of(JointState), "joint states")
     # Those of the first process were withdrawn when it ended.
@@ -490,6 +528,7 @@ def test_a_judge_that_fails_ends_the_watch(start: Any, listener: Listener, tmp_p
         (["watch", "robots/no_robot"], "does not exist"),
         (["watch", "robots/ur5e", "--topic", "joint_state=/a"], "NAME=/TOPIC, where NAME is one of joint_states, tf"),
         (["watch", "robots/ur5e", "--measured-frame", "tracker=tool"], "FRAME=LINK, where LINK is one of base_link, base"),
+        (["watch", "robots/ur5e", "--scenario", "scenarios/no_scenario.toml"], "scenarios/no_scenario.toml does not exist"),
         (["watch", "robots/ur5e", "--backend", "rclpy"], "rclpy is not installed: source /opt/ros/DISTRO/setup.bash"),
         (["play", "docs/examples/log/joints.csv"], "a log needs its robot: --robot ROBOT"),
         (["play", "scenarios/no_scenario.toml"], "scenarios/no_scenario.toml does not exist"),

@@ -39,6 +39,9 @@ def _watch(options: argparse.Namespace, judge: Sequence[str] | None) -> int:
     frames = dict(_pose_frame(text, "controller", robot) for text in options.controller_frame)
     frames |= dict(_pose_frame(text, "measured", robot) for text in options.measured_frame)
     topics = _topics(options.topic)
+    # The judge reads it when the robot moves, which is late for a mistake in its name.
+    if options.scenario is not None and not Path(options.scenario).exists():
+        raise RosError(f"{options.scenario} does not exist")
     transport = open_transport(options.backend)
     is_stopped = _stopped_by_signals()
     print(f"{robot.name}: joint states on {topics['joint_states']}, verdicts on {topics['diagnostics']}; Ctrl-C ends", flush=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from . import _events as events
-from ._judge import Line
+from ._judge import NOTHING_CHECKED, Line
 from ._messages import Level, Status
 
 # For so long something that is over, such as a gap, is a warning. Its number is kept.
@@ -98,10 +98,17 @@ class Statuses:
         self._description = _Check(level, message)
 
     def ended(self, code: int) -> None:
-        """The judge has ended by itself. 0 and 1 are answers of it."""
-        if code not in (0, 1):
+        """The judge has ended. 0 and 1 are answers of it."""
+        if code == NOTHING_CHECKED:
+            self._judge = _Check(Level.STALE, "has ended, and nothing was judged: no joint states came")
+        elif code not in (0, 1):
             reason = f": {self._judge.message}" if self._judge.level is Level.ERROR else ""
             self._judge = _Check(Level.ERROR, f"has ended with exit code {code}{reason}; nothing is judged any more")
+
+    @property
+    def judge_message(self) -> str:
+        """What the judge does, or has found."""
+        return self._judge.message
 
     def count_rate(self, now_s: float) -> None:
         """Ends the time over which the rate is counted."""

@@ -85,9 +85,9 @@ class Watch:
             self._report(is_due)
         code = self._judge.finish()
         self._hear()
-        if not is_stopped():
-            self._statuses.ended(code)
+        self._statuses.ended(code)
         self._report(True)
+        print(f"{self._robot.name}: the judge {self._statuses.judge_message}", flush=True)
         return code
 
     def _receive(self, topic: str, message: Message | Unreadable) -> None:
