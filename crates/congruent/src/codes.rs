@@ -33,6 +33,12 @@ congruent_input::codes! {
         POSES = "CGR-COMMAND-087", "replay::poses",
             "The log has no topic of this name with poses. `congruent describe LOG` lists its topics.\n    wrong: --measured-pose /tracker\n    right: --measured-pose /tracker/pose";
     }
+    watch {
+        EMPTY = "CGR-COMMAND-094", "watch::empty",
+            "The stream ended before its first message, so that there is nothing to judge. Look at what writes it: each message is one line.\n    {\"time_s\": 1.25, \"q\": {\"elbow_joint\": 0.4}}";
+        SOURCE = "CGR-COMMAND-095", "watch::source",
+            "The scenario of a stream has no [source], so that it is one of a simulation. Add [source] with any `log`, which the stream replaces, and remove [controller] and [[motion]].\n    [source]\n    log = \"stream\"";
+    }
     python {
         ARRAY = "CGR-PYTHON-001", "python::array",
             "An array that Python code gives has a wrong shape, or a value that is not a finite number. Positions are (joints,) for one configuration and (n, joints) for many, in the order of `robot.joints`, or a dictionary by the names of joints.\n    robot.fk({\"elbow_joint\": 0.1})";

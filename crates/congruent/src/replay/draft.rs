@@ -11,7 +11,11 @@ use congruent_scenario::{
 };
 
 use super::{
-    fitted::fit, poses::chosen_poses, replayed::Replayed, request::ReplayRequest, survey_words::rate,
+    fitted::fit,
+    poses::{chosen_poses, keep_known_frames},
+    replayed::Replayed,
+    request::ReplayRequest,
+    survey_words::rate,
 };
 use crate::codes;
 
@@ -38,21 +42,54 @@ pub fn replay_draft(
     let names = description.robot.movable_joint_names().map(str::to_owned).collect();
     let options = LogOptions { rate_hz: request.rate_hz, joints: names };
     let survey = survey_log(log, &options, Some(&description.robot))?.survey;
+    drafted(Drafted { description, survey, log: &log.display().to_string(), name: name_of(log) }, request, fit)
+}
+
+/// The same for a stream, of which the first messages are known. Nothing is fitted to what has not come yet: poses in frames that
+/// the robot does not have are left out.
+///
+/// # Errors
+/// What is asked for is not in them.
+pub fn stream_draft(
+    description: &RobotDescription,
+    survey: LogSurvey,
+    source: &str,
+    request: &ReplayRequest,
+) -> Result<ReplayDraft, Findings> {
+    let drafted_from = Drafted { description, survey, log: source, name: "watch".to_owned() };
+    drafted(drafted_from, request, keep_known_frames)
+}
+
+/// What a scenario is drafted from.
+struct Drafted<'a> {
+    description: &'a RobotDescription,
+    survey: LogSurvey,
+    /// The log, as the scenario names it.
+    log: &'a str,
+    name: String,
+}
+
+/// `place` fills in what the log does not say of its poses.
+fn drafted(
+    Drafted { description, survey, log, name }: Drafted<'_>,
+    request: &ReplayRequest,
+    place: fn(&Replayed<'_>, &mut Vec<LoggedPoseSettings>, &mut Vec<String>) -> Result<(), Findings>,
+) -> Result<ReplayDraft, Findings> {
     // The unit of a dataset is a guess that everything behind it depends on.
     let of_unit =
         survey.warnings.iter().filter(|warning| warning.code == congruent_logs::codes::log::MOTOR_UNITS.name);
     let mut taken: Vec<String> = of_unit.map(|warning| warning.message.clone()).collect();
-    let mut source = SourceSettings::new(log.display().to_string());
+    let mut source = SourceSettings::new(log.to_owned());
     (source.clock, source.rate_hz) = (request.clock, request.rate_hz);
     source.joints = joints(request, &survey, &mut taken);
     let mut poses = chosen_poses(description, request, &survey, &mut taken)?;
     let mut scenario = Scenario {
-        name: name_of(log),
+        name,
         robot: description.path.display().to_string(),
         source: Some(source),
         ..Scenario::default()
     };
-    fit(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?;
+    place(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?;
     let is_left_out = |(topic, _): &&(String, _)| !poses.iter().any(|pose| pose.topic == *topic);
     if let Some((topic, _)) = request.poses.iter().find(is_left_out) {
         // It was asked for: to judge the rest would look like an answer.

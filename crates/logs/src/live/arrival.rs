@@ -30,10 +30,14 @@ impl ArrivalClock {
         self.offset_ns.get_or_init(|| stamp_ns.saturating_sub(since_ns)).saturating_add(since_ns)
     }
 
+    /// The time now, ns.
+    pub fn now_ns(&self) -> i64 {
+        self.offset_ns.get().copied().unwrap_or(0).saturating_add(self.since_start_ns())
+    }
+
     /// How long ago a message came, ns.
     pub fn age_ns(&self, log_ns: i64) -> u64 {
-        let now_ns = self.offset_ns.get().copied().unwrap_or(0).saturating_add(self.since_start_ns());
-        u64::try_from(now_ns.saturating_sub(log_ns)).unwrap_or(0)
+        u64::try_from(self.now_ns().saturating_sub(log_ns)).unwrap_or(0)
     }
 
     fn since_start_ns(&self) -> i64 {
