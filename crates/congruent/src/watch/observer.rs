@@ -12,6 +12,9 @@ use super::{
     output::SharedOutput,
 };
 
+/// Rounding of times, s.
+const ROUNDING_S: f64 = 1e-9;
+
 /// What an observer looks at, and where it answers.
 pub struct Observation {
     /// Where the lines go.
@@ -52,13 +55,13 @@ impl<'a> WatchObserver<'a> {
 
     fn pose(&mut self, time_s: f64, sample: &Sample<'_>) -> Option<WatchLine> {
         let rate_hz = self.observation.pose_rate_hz?;
-        if sample.time_s < self.pose_due_s {
+        if sample.time_s + ROUNDING_S < self.pose_due_s {
             return None;
         }
         if rate_hz > 0.0 {
             // From the time that was due, so that the mean rate is the wanted one; not from one long ago, as before a gap.
-            let period_s = 1.0 / rate_hz;
-            self.pose_due_s = (self.pose_due_s + period_s).max(sample.time_s + period_s / 2.0);
+            let next_s = self.pose_due_s + 1.0 / rate_hz;
+            self.pose_due_s = if next_s > sample.time_s { next_s } else { sample.time_s + 1.0 / rate_hz };
         }
         let RobotDescription { robot, base, tip, tip_from_tcp, .. } = self.description;
         let root_from_tcp = sample.twin[tip.get()] * tip_from_tcp.unwrap_or_else(Isometry3::identity);

@@ -77,7 +77,7 @@ fn finished(end: &WatchEnd) -> String {
         others.map(|(count, one, many)| format!(", {count} {}", if *count == 1 { one } else { many })).collect();
     let samples = if counts.samples == 1 { "sample" } else { "samples" };
     let latency = latency.map_or_else(String::new, |latency| {
-        let shown = |value: f64| quantity(value, "s");
+        let shown = |value: f64| quantity(1e3 * value, "ms");
         let [median, p99, largest] = [latency.median_s, latency.p99_s, latency.largest_s].map(shown);
         format!("  answered within {median} (median), {p99} (99 %), {largest} (longest)\n")
     });
