@@ -59,8 +59,8 @@ const EXAMPLES: [(&str, &[&str]); 24] = [
     (
         "watch",
         &[
-            "congruent watch robots/ur5e < docs/examples/log/stream.jsonl",
-            "congruent watch robots/ur5e --until-violation --format json < docs/examples/log/stream.jsonl",
+            "congruent watch robots/ur5e < docs/examples/log/clean_stream.jsonl",
+            "congruent watch robots/ur5e --until-violation --format json < docs/examples/log/clean_stream.jsonl",
         ],
     ),
     (

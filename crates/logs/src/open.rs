@@ -62,7 +62,8 @@ pub fn is_log(path: &Path) -> bool {
     is_table(path)
         || is_one_of(path, &JSON_LINES)
         || is_one_of(path, &MCAPS)
-        || is_one_of(path, &[DB3]) || not_read(path).is_some()
+        || is_one_of(path, &[DB3])
+        || not_read(path).is_some()
 }
 
 /// Whether a path is a log that is a table, by its ending.

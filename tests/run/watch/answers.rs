@@ -13,7 +13,14 @@ const POSE_M: f64 = 1e-9;
 #[test]
 fn each_line_is_answered_before_the_next_is_written() {
     let mut live = Live::begin(&[
-        "watch", "robots/ur5e", "--poses", "--rate-hz", "50", "--until-violation", "--format", "json",
+        "watch",
+        "robots/ur5e",
+        "--poses",
+        "--rate-hz",
+        "50",
+        "--until-violation",
+        "--format",
+        "json",
     ]);
     for (number, time_s) in times(1.25, 50, 20).enumerate() {
         live.tell(&line(time_s, swing(time_s)));
@@ -77,7 +84,10 @@ fn bad_lines_gaps_and_unknown_joints_are_said_and_counted() {
     let [bad] = of_kind(&documents, "bad_line")[..] else { panic!("{}", answer.stdout) };
     assert_eq!((&bad["line"], &bad["text"]), (&71.into(), &"{\"time_s\": 1, ".into()), "{bad}");
     let [gap, restart] = of_kind(&documents, "gap")[..] else { panic!("{}", answer.stdout) };
-    assert_eq!((&gap["from_s"], &gap["to_s"], &gap["cause"]), (&10.99.into(), &12.0.into(), &"no_samples".into()));
+    assert_eq!(
+        (&gap["from_s"], &gap["to_s"], &gap["cause"]),
+        (&10.99.into(), &12.0.into(), &"no_samples".into())
+    );
     assert_eq!((&restart["to_s"], &restart["cause"]), (&3.0.into(), &"clock_went_back".into()));
     let [finished] = of_kind(&documents, "finished")[..] else { panic!("{}", answer.stdout) };
     let counts = &finished["counts"];
@@ -93,9 +103,17 @@ fn the_results_are_those_of_a_replay_of_the_same_lines() {
     let log = folder.write("watch.jsonl", &lines);
     let [watched, replayed] = ["watched", "replayed"].map(|name| text(&folder.path().join(name)));
     let answer = congruent_with_input(&["watch", "robots/ur5e", "--out", &watched], &lines);
-    let replay = crate::support::command::congruent(&["replay", "robots/ur5e", &log, "--out", &replayed, "--no-recording"]);
+    let replay = crate::support::command::congruent(&[
+        "replay",
+        "robots/ur5e",
+        &log,
+        "--out",
+        &replayed,
+        "--no-recording",
+    ]);
     assert_eq!((answer.code, replay.code), (0, 0), "{}\n{}{}", answer.stdout, replay.stdout, replay.stderr);
-    let report = |out: &str| crate::support::golden::read_json(&std::path::Path::new(out).join("watch/report.json"));
+    let report =
+        |out: &str| crate::support::golden::read_json(&std::path::Path::new(out).join("watch/report.json"));
     let (watched_report, replayed_report) = (report(&watched), report(&replayed));
     assert_eq!(watched_report["trajectory_sha256"], replayed_report["trajectory_sha256"]);
     assert_eq!(watched_report["checks"], replayed_report["checks"]);

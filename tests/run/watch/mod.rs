@@ -9,8 +9,14 @@ use std::fmt::Write;
 use serde_json::Value;
 
 /// Joints of the UR5e from the base on.
-const JOINTS: [&str; 6] =
-    ["shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint", "wrist_3_joint"];
+const JOINTS: [&str; 6] = [
+    "shoulder_pan_joint",
+    "shoulder_lift_joint",
+    "elbow_joint",
+    "wrist_1_joint",
+    "wrist_2_joint",
+    "wrist_3_joint",
+];
 
 /// Positions on a slow swing.
 fn swing(time_s: f64) -> [f64; 6] {
@@ -44,6 +50,7 @@ fn of_kind<'a>(documents: &'a [Value], kind: &str) -> Vec<&'a Value> {
 /// The documents of an answer.
 #[track_caller]
 fn documents(text: &str) -> Vec<Value> {
-    let document = |line| serde_json::from_str(line).unwrap_or_else(|error| panic!("no JSON: {error}\n{line}"));
+    let document =
+        |line| serde_json::from_str(line).unwrap_or_else(|error| panic!("no JSON: {error}\n{line}"));
     text.lines().map(document).collect()
 }

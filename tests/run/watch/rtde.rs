@@ -108,15 +108,28 @@ fn a_lost_connection_is_opened_again_and_its_time_is_a_gap() {
         "schema_version = 1\nname = \"limits\"\nrobot = \"ur5e\"\n[source]\nlog = \"stream\"\n[[check]]\nkind = \"limits\"\n",
     );
     let mut live = Live::begin(&[
-        "watch", "robots/ur5e", "--rtde", &address, "--rate-hz", "500", "--until-violation", "--scenario",
-        &limits_alone, "--format", "json",
+        "watch",
+        "robots/ur5e",
+        "--rtde",
+        &address,
+        "--rate-hz",
+        "500",
+        "--until-violation",
+        "--scenario",
+        &limits_alone,
+        "--format",
+        "json",
     ]);
     let mut documents = Vec::new();
     while documents.last().is_none_or(|last: &serde_json::Value| last["kind"] != "finished") {
         documents.push(live.next());
     }
     let kinds: Vec<&str> = documents.iter().map(|document| document["kind"].as_str().unwrap()).collect();
-    assert_eq!(kinds, ["started", "lost", "connected_again", "gap", "violation", "finished"], "{documents:?}");
+    assert_eq!(
+        kinds,
+        ["started", "lost", "connected_again", "gap", "violation", "finished"],
+        "{documents:?}"
+    );
     let [gap] = of_kind(&documents, "gap")[..] else { panic!("{documents:?}") };
     assert_eq!((&gap["from_s"], &gap["to_s"]), (&100.598.into(), &101.6.into()), "{gap}");
     let finished = documents.last().unwrap();

@@ -24,7 +24,10 @@ fn with_jump(rate_hz: u32, count: u32) -> Vec<String> {
             "translation_m": pose["translation_m"], "quaternion_wxyz": pose["quaternion_wxyz"],
         });
         let joints = line(time_s, q);
-        format!("{}, \"pose\": {measured}, \"origin\": \"measured\"}}", joints.trim_end_matches('}').to_owned() + "}")
+        format!(
+            "{}, \"pose\": {measured}, \"origin\": \"measured\"}}",
+            joints.trim_end_matches('}').to_owned() + "}"
+        )
     };
     poses.into_iter().enumerate().map(with_pose).collect()
 }
@@ -38,7 +41,8 @@ fn a_jump_of_an_encoder_is_said_with_its_joint_while_the_stream_goes_on() {
     let find = |check: &str| violations.iter().find(|violation| violation["check"] == check);
     let jump = find("step").unwrap_or_else(|| panic!("{}", answer.stdout));
     assert_eq!(jump["where"], "elbow_joint", "{jump}");
-    let near = |value: &Value, expected: f64, within: f64| (value.as_f64().unwrap() - expected).abs() < within;
+    let near =
+        |value: &Value, expected: f64, within: f64| (value.as_f64().unwrap() - expected).abs() < within;
     // Within three samples, and a tenth.
     assert!(near(&jump["time_s"], 4.0, 0.03) && near(&jump["value"], JUMP, 0.1 * JUMP), "{jump}");
     let pose = find("pose").unwrap_or_else(|| panic!("{}", answer.stdout));
@@ -69,7 +73,10 @@ fn a_value_that_comes_back_within_its_limit_is_said_and_the_verdict_stays() {
     let answer = congruent_with_input(&["watch", "robots/ur5e"], &lines.join("\n"));
     let shown: Vec<&str> = answer.stdout.lines().filter(|line| line.contains("limits:")).collect();
     let [violation, recovered] = shown[..] else { panic!("{}", answer.stdout) };
-    assert!(violation.starts_with("0.7 s  VIOLATION") && violation.ends_with("at elbow_joint"), "{violation}");
+    assert!(
+        violation.starts_with("0.7 s  VIOLATION") && violation.ends_with("at elbow_joint"),
+        "{violation}"
+    );
     assert!(recovered.starts_with("0.75 s  recovered"), "{recovered}");
     assert!(answer.stdout.contains("FAIL: limits") && answer.code == 1, "{}", answer.stdout);
 }
@@ -78,12 +85,19 @@ fn a_value_that_comes_back_within_its_limit_is_said_and_the_verdict_stays() {
 fn a_scenario_has_limits_of_its_own() {
     let folder = ScratchFolder::new();
     let scenario = |check: &str| {
-        format!("schema_version = 1\nname = \"cell\"\nrobot = \"nowhere\"\n\n[source]\nlog = \"stream\"\n\n[[check]]\n{check}\n")
+        format!(
+            "schema_version = 1\nname = \"cell\"\nrobot = \"nowhere\"\n\n[source]\nlog = \"stream\"\n\n[[check]]\n{check}\n"
+        )
     };
     let file = folder.write("cell.toml", &scenario("kind = \"limits\"\nmargin_deg = 150"));
     let lines: String = times(0.0, 100, 60).map(|time_s| line(time_s, swing(time_s)) + "\n").collect();
     let answer = congruent_with_input(&["watch", "robots/ur5e", "--scenario", &file], &lines);
-    assert!(answer.code == 1 && answer.stdout.contains("VIOLATION  limits"), "{}{}", answer.stdout, answer.stderr);
+    assert!(
+        answer.code == 1 && answer.stdout.contains("VIOLATION  limits"),
+        "{}{}",
+        answer.stdout,
+        answer.stderr
+    );
     // A wrong key is named with its line.
     let file = folder.write("wrong.toml", &scenario("kind = \"limits\"\nmargin = 5"));
     let answer = congruent_with_input(&["watch", "robots/ur5e", "--scenario", &file], &lines);

@@ -192,7 +192,10 @@ impl Printer {
     }
 
     /// Writes lines of an answer that goes on, each at once. A closed pipe is an error: nobody reads what follows.
-    pub(crate) fn lines<T: Serialize>(&self, text: fn(&T) -> String) -> impl FnMut(&T) -> io::Result<()> + use<T> {
+    pub(crate) fn lines<T: Serialize>(
+        &self,
+        text: fn(&T) -> String,
+    ) -> impl FnMut(&T) -> io::Result<()> + use<T> {
         let format = self.format;
         move |line| {
             let mut out = BufWriter::new(io::stdout().lock());

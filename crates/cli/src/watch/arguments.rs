@@ -91,7 +91,9 @@ impl Arguments {
         let names: Vec<String> = moving.map(|joint| joint.name.clone()).collect();
         let found = names.len();
         let joints = names.try_into().map_err(|_| {
-            let message = format!("{found} joints move from base to tip; a robot of Universal Robots has {RTDE_JOINTS}");
+            let message = format!(
+                "{found} joints move from base to tip; a robot of Universal Robots has {RTDE_JOINTS}"
+            );
             Diagnostic::error(codes::watch::JOINTS, message)
                 .with_help("give a robot file whose base and tip are those of the arm")
         })?;

@@ -18,8 +18,8 @@ use congruent::{
     watch::{SharedOutput, WatchLine, WatchOutput, WatchSetup, watch_text},
 };
 
-pub(crate) use self::arguments::Arguments;
 use self::answering::{Judged, judge};
+pub(crate) use self::arguments::Arguments;
 use crate::{failure::Failure, interrupt::flag_of_signals, terminal::print::Printer};
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {

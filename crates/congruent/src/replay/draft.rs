@@ -42,7 +42,11 @@ pub fn replay_draft(
     let names = description.robot.movable_joint_names().map(str::to_owned).collect();
     let options = LogOptions { rate_hz: request.rate_hz, joints: names };
     let survey = survey_log(log, &options, Some(&description.robot))?.survey;
-    drafted(Drafted { description, survey, log: &log.display().to_string(), name: name_of(log) }, request, fit)
+    drafted(
+        Drafted { description, survey, log: &log.display().to_string(), name: name_of(log) },
+        request,
+        fit,
+    )
 }
 
 /// The same for a stream, of which the first messages are known. Nothing is fitted to what has not come yet: poses in frames that

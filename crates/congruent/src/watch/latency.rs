@@ -38,7 +38,11 @@ impl Default for Latency {
 impl Latency {
     pub(super) fn take(&mut self, seconds: f64) {
         let step = (seconds.max(SHORTEST_S) / SHORTEST_S).log2() * STEPS;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small positive number"
+        )]
         let bin = (step as usize).min(BINS - 1);
         self.counts[bin] += 1;
         self.largest_s = self.largest_s.max(seconds);

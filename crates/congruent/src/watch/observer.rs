@@ -90,7 +90,10 @@ impl<'a> WatchObserver<'a> {
 /// The time of a message by its sender, s.
 fn time_s(EventTime { stamp_ns, log_ns, .. }: EventTime) -> f64 {
     let ns = stamp_ns.unwrap_or(log_ns);
-    #[expect(clippy::cast_precision_loss, reason = "the number that the sender has written, to its last digit")]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "the number that the sender has written, to its last digit"
+    )]
     let time_s = ns as f64 / 1e9;
     time_s
 }
@@ -109,6 +112,7 @@ impl RunObserver for WatchObserver<'_> {
         let changes = self.checks.changes(time_s, sample, checks, names);
         self.before_s = time_s;
         let mut output = self.observation.output.borrow_mut();
+        output.time_s = time_s;
         output.gaps += u64::from(gap.is_some());
         gap.iter().chain(&pose).chain(&changes).for_each(|line| output.say(line));
         if message.log_ns > self.begun_ns {

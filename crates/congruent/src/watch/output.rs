@@ -23,6 +23,8 @@ pub struct WatchOutput {
     lost_samples: u64,
     lost_connections: u64,
     pub(super) gaps: u64,
+    /// Time in the stream of the last sample, s.
+    pub(super) time_s: f64,
 }
 
 /// The output of a run, in its hands and in those of the stream.
@@ -45,6 +47,7 @@ impl WatchOutput {
             lost_samples: 0,
             lost_connections: 0,
             gaps: 0,
+            time_s: f64::NAN,
         }))
     }
 
@@ -53,6 +56,11 @@ impl WatchOutput {
         if self.broken.is_none() {
             self.broken = (self.write)(line).err();
         }
+    }
+
+    /// Time in the stream of the last sample, s.
+    pub fn time_s(&self) -> f64 {
+        self.time_s
     }
 
     /// Why a line could not be written.
@@ -76,9 +84,7 @@ impl WatchOutput {
                 let message = "the checks are slower than the stream".to_owned();
                 WatchLine::Lost(StreamLoss { what: LossCause::Samples, message, samples })
             }
-            LiveNotice::ConnectedAgain { attempts } => {
-                WatchLine::ConnectedAgain(ConnectedAgain { attempts })
-            }
+            LiveNotice::ConnectedAgain { attempts } => WatchLine::ConnectedAgain(ConnectedAgain { attempts }),
             _ => return,
         };
         self.say(&line);

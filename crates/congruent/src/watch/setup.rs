@@ -64,9 +64,12 @@ impl WatchSetup {
             (RunSetup::new_live(draft.scenario, description, &surveyed)?, draft.taken)
         };
         if setup.recorded.is_none() {
-            return Err(Diagnostic::error(codes::watch::SOURCE, "the scenario has no [source]: it is of a simulation")
-                .with_help("add [source] with log = \"stream\", and remove [controller] and [[motion]]")
-                .into());
+            return Err(Diagnostic::error(
+                codes::watch::SOURCE,
+                "the scenario has no [source]: it is of a simulation",
+            )
+            .with_help("add [source] with log = \"stream\", and remove [controller] and [[motion]]")
+            .into());
         }
         if request.is_until_violation {
             setup.scenario.check.iter_mut().for_each(|check| *check.on_violation_mut() = OnViolation::Stop);
@@ -79,7 +82,8 @@ impl WatchSetup {
         let robot = &self.setup.description.robot;
         let names: Vec<&str> = robot.movable_joint_names().collect();
         let measured = recorded.selection.joints.iter().filter(|topic| !topic.is_setpoint);
-        let mut joints: Vec<usize> = measured.flat_map(|topic| topic.joints.iter().map(|of| of.joint)).collect();
+        let mut joints: Vec<usize> =
+            measured.flat_map(|topic| topic.joints.iter().map(|of| of.joint)).collect();
         joints.sort_unstable();
         let first = recorded.selection.joints.first();
         let times = first.and_then(|first| recorded.survey.topics.iter().find(|of| of.name == first.topic));

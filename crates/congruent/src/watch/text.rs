@@ -5,22 +5,33 @@ use congruent_results::report::{quantity_words, value_and_margin};
 use congruent_text::run_text;
 
 use super::line::{
-    BadLineFound, CheckChange, GapCause, RecordingFull, StreamGap, StreamLoss, WatchEnd, WatchLine, WatchStart,
-    WatchedPose,
+    BadLineFound, CheckChange, GapCause, RecordingFull, StreamGap, StreamLoss, WatchEnd, WatchLine,
+    WatchStart, WatchedPose,
 };
 
 /// A line as text, with its end.
 pub fn watch_text(line: &WatchLine) -> String {
     match line {
         WatchLine::Started(start) => started(start),
-        WatchLine::Pose(WatchedPose { time_s, frame, child, translation_m: [x, y, z], quaternion_wxyz: q }) => {
+        WatchLine::Pose(WatchedPose {
+            time_s,
+            frame,
+            child,
+            translation_m: [x, y, z],
+            quaternion_wxyz: q,
+        }) => {
             let [w, i, j, k] = q;
-            format!("{time_s} s  {child} in {frame}: {x:.6} {y:.6} {z:.6} m, wxyz {w:.6} {i:.6} {j:.6} {k:.6}\n")
+            format!(
+                "{time_s} s  {child} in {frame}: {x:.6} {y:.6} {z:.6} m, wxyz {w:.6} {i:.6} {j:.6} {k:.6}\n"
+            )
         }
         WatchLine::Violation(change) => changed("VIOLATION", change),
         WatchLine::Recovered(change) => changed("recovered", change),
         WatchLine::Gap(StreamGap { from_s, to_s, cause: GapCause::NoSamples }) => {
-            format!("{to_s} s  gap: no sample for {}, nothing is judged in it\n", quantity(to_s - from_s, "s"))
+            format!(
+                "{to_s} s  gap: no sample for {}, nothing is judged in it\n",
+                quantity(to_s - from_s, "s")
+            )
         }
         WatchLine::Gap(StreamGap { from_s, to_s, cause: GapCause::ClockWentBack }) => {
             format!("{to_s} s  gap: the clock went back from {from_s} s, a new part begins\n")
@@ -34,7 +45,7 @@ pub fn watch_text(line: &WatchLine) -> String {
             format!("line {line} is left out: {message}: {text}\n")
         }
         WatchLine::RecordingFull(RecordingFull { file, time_s, limit_mb }) => {
-            format!("{time_s} s  {file} has {limit_mb} MB and takes no further sample\n")
+            format!("{time_s} s  {file} is full (limit {limit_mb} MB) and takes no further sample\n")
         }
         WatchLine::Finished(end) => finished(end),
     }
@@ -73,8 +84,9 @@ fn finished(end: &WatchEnd) -> String {
         (counts.lost_connections, "connection lost", "connections lost"),
     ];
     let others = others.iter().filter(|(count, ..)| *count > 0);
-    let others: String =
-        others.map(|(count, one, many)| format!(", {count} {}", if *count == 1 { one } else { many })).collect();
+    let others: String = others
+        .map(|(count, one, many)| format!(", {count} {}", if *count == 1 { one } else { many }))
+        .collect();
     let samples = if counts.samples == 1 { "sample" } else { "samples" };
     let latency = latency.map_or_else(String::new, |latency| {
         let shown = |value: f64| quantity(1e3 * value, "ms");

@@ -98,7 +98,8 @@ impl LineJoints {
             let Some(NamedNumbers(of)) = of else { return Vec::new() };
             let value = |(at, name): (usize, &String)| {
                 let same = of.get(at).filter(|(other, _)| other == name);
-                same.or_else(|| of.iter().find(|(other, _)| other == name)).map_or(f64::NAN, |(_, value)| *value)
+                same.or_else(|| of.iter().find(|(other, _)| other == name))
+                    .map_or(f64::NAN, |(_, value)| *value)
             };
             names.iter().enumerate().map(value).collect()
         };

@@ -115,6 +115,10 @@ not a line
         assert!(Arc::ptr_eq(&first.names, &second.names), "equal names are shared");
         assert_eq!(reader.topics()[pose.topic].name, "pose");
         assert_eq!(gap.cause.severity, Severity::Warning);
-        assert!(gap.cause.message.starts_with("2 lines left out; the first is line 2"), "{}", gap.cause.message);
+        assert!(
+            gap.cause.message.starts_with("2 lines left out; the first is line 2"),
+            "{}",
+            gap.cause.message
+        );
     }
 }

@@ -50,14 +50,7 @@ pub(crate) struct JsonLines<R> {
 
 impl<R: BufRead> JsonLines<R> {
     pub(crate) fn new(input: R) -> Self {
-        Self {
-            input,
-            buffer: Vec::new(),
-            line: 0,
-            names: Arc::default(),
-            topics: Vec::new(),
-            first_ns: None,
-        }
+        Self { input, buffer: Vec::new(), line: 0, names: Arc::default(), topics: Vec::new(), first_ns: None }
     }
 
     /// The topics of the lines so far.

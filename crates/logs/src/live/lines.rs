@@ -51,9 +51,10 @@ fn read(input: impl BufRead, queue: &LiveQueue) -> Result<(), Closed> {
             }
             Err(error) => {
                 let message = format!("the stream cannot be read behind line {}: {error}", lines.lines());
-                return queue.fail(Diagnostic::error(codes::log::STREAM, message).with_help(
-                    "look at what writes it; what came until then was judged",
-                ));
+                return queue.fail(
+                    Diagnostic::error(codes::log::STREAM, message)
+                        .with_help("look at what writes it; what came until then was judged"),
+                );
             }
         }
     }

@@ -100,7 +100,10 @@ impl Connection {
         self.silent = if next.is_some() { 0 } else { self.silent + 1 };
         if self.silent > MOST_SILENT {
             let silent = PERIOD * MOST_SILENT;
-            return Err(io::Error::new(ErrorKind::TimedOut, format!("nothing came for {} s", silent.as_secs_f64())));
+            return Err(io::Error::new(
+                ErrorKind::TimedOut,
+                format!("nothing came for {} s", silent.as_secs_f64()),
+            ));
         }
         Ok(next)
     }

@@ -12,9 +12,7 @@ use super::{
 };
 use crate::{
     codes,
-    event::{
-        EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedJoints, TopicContent,
-    },
+    event::{EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedJoints, TopicContent},
     options::LogOptions,
     rtde::pose_of_ur,
     table_reading::{DecimalMark, TableReading, TableText, TableTime},

@@ -12,8 +12,7 @@ use congruent_agreement::compare::Model;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use congruent_monitors::{
     Interruption, Names, PoseChange, PoseSample, Recorder, RunningCheck, SameInput, Sample, SampleStore,
-    StepForces,
-    verdict::CheckValue,
+    StepForces, verdict::CheckValue,
 };
 use congruent_proximity::{Clearance, MovingBodies, PairChoice};
 use nalgebra::Isometry3;
