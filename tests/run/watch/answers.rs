@@ -1,5 +1,7 @@
 //! Each line is answered at once; bad lines, gaps and unknown joints are said and counted.
 
+use serde_json::Value;
+
 use super::{JOINTS, documents, line, of_kind, swing, times};
 use crate::support::{
     command::{congruent_with_input, text},
@@ -50,16 +52,16 @@ fn each_line_is_answered_before_the_next_is_written() {
 #[test]
 fn the_poses_are_those_of_forward_kinematics() {
     let lines: String = times(0.0, 100, 60).map(|time_s| line(time_s, swing(time_s)) + "\n").collect();
-    let arguments = ["watch", "robots/ur5e", "--poses", "--output-rate-hz", "10", "--format", "json"];
+    let arguments = ["watch", "robots/ur5e/ur5e.urdf", "--poses", "--output-rate-hz", "10", "--format", "json"];
     let answer = congruent_with_input(&arguments, &lines);
     let documents = documents(&answer.stdout);
     let poses = of_kind(&documents, "pose");
     assert_eq!(poses.len(), 6, "{}", answer.stderr);
     for pose in poses {
-        let arguments = ["fk", "robots/ur5e", "--to", "tool0", "--configurations", "-", "--format", "json"];
+        let arguments = ["fk", "robots/ur5e/ur5e.urdf", "--to", "tool0", "--configurations", "-", "--format", "json"];
         let q = line(0.0, swing(pose["time_s"].as_f64().unwrap())).replace("\"time_s\": 0, ", "");
         let expected = congruent_with_input(&arguments, &q).json();
-        let expected = &expected["results"][0]["links"][0]["pose"]["translation_m"];
+        let expected = &expected["results"][0]["links"]["tool0"]["translation_m"];
         for axis in 0..3 {
             let difference = pose["translation_m"][axis].as_f64().unwrap() - expected[axis].as_f64().unwrap();
             assert!(difference.abs() < POSE_M, "{pose} {expected}");
@@ -116,7 +118,12 @@ fn the_results_are_those_of_a_replay_of_the_same_lines() {
         |out: &str| crate::support::golden::read_json(&std::path::Path::new(out).join("watch/report.json"));
     let (watched_report, replayed_report) = (report(&watched), report(&replayed));
     assert_eq!(watched_report["trajectory_sha256"], replayed_report["trajectory_sha256"]);
-    assert_eq!(watched_report["checks"], replayed_report["checks"]);
+    let checks = |mut report: Value| {
+        // The checks of a replay have lines in its scenario.
+        report["checks"].as_array_mut().unwrap().iter_mut().for_each(|check| check["line"] = Value::Null);
+        report["checks"].clone()
+    };
+    assert_eq!(checks(watched_report), checks(replayed_report));
     assert!(std::path::Path::new(&watched).join("watch/report.html").is_file());
 }
 

@@ -77,7 +77,7 @@ pub struct WatchedPose {
     pub time_s: f64,
     /// The link in which the pose is given.
     pub frame: String,
-    /// The link at the end of the chain. If the robot has a TCP, the pose is that of the TCP in it.
+    /// `tcp` if the robot file has a TCP, else the link at the end of the chain.
     pub child: String,
     /// Position of the TCP, m.
     pub translation_m: [f64; 3],

@@ -12,6 +12,8 @@ use super::{
     output::SharedOutput,
 };
 
+/// The frame of a TCP that is no link. In a stream a frame that is no link is taken as the TCP as well.
+const TCP: &str = "tcp";
 /// Rounding of times, s.
 const ROUNDING_S: f64 = 1e-9;
 
@@ -72,7 +74,7 @@ impl<'a> WatchObserver<'a> {
         Some(WatchLine::Pose(WatchedPose {
             time_s,
             frame: robot.link(*base).name.clone(),
-            child: robot.link(*tip).name.clone(),
+            child: if tip_from_tcp.is_some() { TCP.to_owned() } else { robot.link(*tip).name.clone() },
             translation_m: base_from_tcp.translation.vector.into(),
             quaternion_wxyz: if is_negative { wxyz.map(|part| -part) } else { wxyz },
         }))
