@@ -66,4 +66,13 @@ impl Live {
     pub(crate) fn code(&mut self) -> i32 {
         self.child.wait().expect("it ends").code().expect("by itself")
     }
+
+    /// Sends a signal.
+    #[cfg(unix)]
+    pub(crate) fn signal(&self, name: &str) {
+        let sent = std::process::Command::new("kill")
+            .args([format!("-{name}"), self.child.id().to_string()])
+            .status();
+        assert!(sent.expect("there is a command `kill`").success());
+    }
 }

@@ -52,13 +52,15 @@ fn each_line_is_answered_before_the_next_is_written() {
 #[test]
 fn the_poses_are_those_of_forward_kinematics() {
     let lines: String = times(0.0, 100, 60).map(|time_s| line(time_s, swing(time_s)) + "\n").collect();
-    let arguments = ["watch", "robots/ur5e/ur5e.urdf", "--poses", "--output-rate-hz", "10", "--format", "json"];
+    let arguments =
+        ["watch", "robots/ur5e/ur5e.urdf", "--poses", "--output-rate-hz", "10", "--format", "json"];
     let answer = congruent_with_input(&arguments, &lines);
     let documents = documents(&answer.stdout);
     let poses = of_kind(&documents, "pose");
     assert_eq!(poses.len(), 6, "{}", answer.stderr);
     for pose in poses {
-        let arguments = ["fk", "robots/ur5e/ur5e.urdf", "--to", "tool0", "--configurations", "-", "--format", "json"];
+        let arguments =
+            ["fk", "robots/ur5e/ur5e.urdf", "--to", "tool0", "--configurations", "-", "--format", "json"];
         let q = line(0.0, swing(pose["time_s"].as_f64().unwrap())).replace("\"time_s\": 0, ", "");
         let expected = congruent_with_input(&arguments, &q).json();
         let expected = &expected["results"][0]["links"]["tool0"]["translation_m"];
@@ -138,4 +140,20 @@ fn what_is_no_stream_of_the_robot_is_refused() {
         assert_eq!(answer.code, 2, "{}", answer.stdout);
         assert!(answer.stderr.contains(part), "{}", answer.stderr);
     }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_signal_ends_the_run_in_order_while_the_stream_is_open() {
+    let mut live = Live::begin(&["watch", "robots/ur5e", "--rate-hz", "100", "--format", "json"]);
+    times(0.0, 100, 50).for_each(|time_s| live.tell(&line(time_s, swing(time_s))));
+    assert_eq!(live.next()["kind"], "started");
+    live.signal("INT");
+    let finished = live.next();
+    assert_eq!(
+        (&finished["kind"], &finished["verdict"]),
+        (&"finished".into(), &"as_expected".into()),
+        "{finished}"
+    );
+    assert_eq!(live.code(), 0);
 }

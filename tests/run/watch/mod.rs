@@ -1,6 +1,7 @@
 //! `congruent watch`: streams of a UR5e that are judged while they come.
 
 mod answers;
+mod corpus;
 mod rtde;
 mod violations;
 
@@ -20,11 +21,11 @@ const JOINTS: [&str; 6] = [
 
 /// Positions on a slow swing.
 fn swing(time_s: f64) -> [f64; 6] {
-    let joint = |at: u8| {
-        let at = f64::from(at);
-        [0.3, -1.2, 1.4, -0.9, 1.1, 0.2][at as usize] + 0.3 * (0.8 * time_s + 0.7 * at).sin()
-    };
-    [0, 1, 2, 3, 4, 5].map(joint)
+    let mean = [0.3, -1.2, 1.4, -0.9, 1.1, 0.2];
+    std::array::from_fn(|joint| {
+        let phase = 0.7 * f64::from(u8::try_from(joint).unwrap());
+        mean[joint] + 0.3 * (0.8 * time_s + phase).sin()
+    })
 }
 
 /// A line with joint positions.

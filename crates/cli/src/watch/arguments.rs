@@ -43,12 +43,8 @@ pub(crate) struct Arguments {
     /// End at the first violation, with exit code 1.
     #[arg(long)]
     until_violation: bool,
-    /// Also say the pose of the TCP at each sample.
-    #[arg(long)]
-    poses: bool,
-    /// Say at most so many poses in a second.
-    #[arg(long, value_name = "HZ", requires = "poses", value_parser = crate::quantity::rate_hz)]
-    output_rate_hz: Option<f64>,
+    #[command(flatten)]
+    poses: PoseArguments,
     /// Folder for report, page and JUnit; without it nothing is written.
     #[arg(long)]
     pub(super) out: Option<PathBuf>,
@@ -57,6 +53,17 @@ pub(crate) struct Arguments {
     pub(super) recording: super::recording::RecordingArguments,
     #[command(flatten)]
     pub(super) access: AccessArguments,
+}
+
+/// Which poses are said.
+#[derive(Debug, clap::Args)]
+struct PoseArguments {
+    /// Also say the pose of the TCP at each sample.
+    #[arg(long)]
+    poses: bool,
+    /// Say at most so many poses in a second.
+    #[arg(long, value_name = "HZ", requires = "poses", value_parser = crate::quantity::rate_hz)]
+    output_rate_hz: Option<f64>,
 }
 
 impl Arguments {
@@ -75,7 +82,7 @@ impl Arguments {
 
     /// The rate of poses; 0 for each sample, `None` for none.
     pub(super) fn pose_rate_hz(&self) -> Option<f64> {
-        self.poses.then(|| self.output_rate_hz.unwrap_or(0.0))
+        self.poses.poses.then(|| self.poses.output_rate_hz.unwrap_or(0.0))
     }
 
     /// What is asked of a controller at this address, of a robot with six joints.

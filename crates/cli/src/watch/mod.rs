@@ -6,7 +6,7 @@ mod arguments;
 mod recording;
 
 use std::{
-    io::{BufReader, IsTerminal, stdin},
+    io::{BufReader, ErrorKind, IsTerminal, stdin},
     rc::Rc,
     sync::{Arc, atomic::AtomicBool},
 };
@@ -20,7 +20,11 @@ use congruent::{
 
 use self::answering::{Judged, judge};
 pub(crate) use self::arguments::Arguments;
-use crate::{failure::Failure, interrupt::flag_of_signals, terminal::print::Printer};
+use crate::{
+    failure::{BROKEN, Failure},
+    interrupt::flag_of_signals,
+    terminal::print::Printer,
+};
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let access = arguments.access.access()?;
@@ -32,9 +36,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let watched = WatchSetup::listen(&mut reader, description, &arguments.request(), &access)?;
     printer.warnings(None, &watched.setup.warnings);
     let Judged { report, counts, exit_code } = judge(arguments, &watched, reader, &output, printer)?;
-    let end = output.borrow().end(report, counts);
+    let mut end = output.borrow().end(report, counts);
+    end.exit_code = exit_code;
     output.borrow_mut().say(&WatchLine::Finished(Box::new(end)));
     match output.borrow().broken() {
+        // Whoever reads has seen enough, as `head`.
+        Some(error) if error.kind() == ErrorKind::BrokenPipe => Ok(BROKEN),
         Some(error) => Err(Failure::Machine(format!("cannot write the result: {error}"))),
         None => Ok(exit_code),
     }

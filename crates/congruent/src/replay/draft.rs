@@ -43,9 +43,14 @@ pub fn replay_draft(
     let options = LogOptions { rate_hz: request.rate_hz, joints: names };
     let survey = survey_log(log, &options, Some(&description.robot))?.survey;
     drafted(
-        Drafted { description, survey, log: &log.display().to_string(), name: name_of(log) },
+        Drafted {
+            description,
+            survey,
+            log: &log.display().to_string(),
+            name: name_of(log),
+            frames: UnknownFrames::Fitted,
+        },
         request,
-        fit,
     )
 }
 
@@ -60,8 +65,14 @@ pub fn stream_draft(
     source: &str,
     request: &ReplayRequest,
 ) -> Result<ReplayDraft, Findings> {
-    let drafted_from = Drafted { description, survey, log: source, name: "watch".to_owned() };
-    drafted(drafted_from, request, keep_known_frames)
+    let drafted_from = Drafted {
+        description,
+        survey,
+        log: source,
+        name: "watch".to_owned(),
+        frames: UnknownFrames::LeftOut,
+    };
+    drafted(drafted_from, request)
 }
 
 /// What a scenario is drafted from.
@@ -71,13 +82,20 @@ struct Drafted<'a> {
     /// The log, as the scenario names it.
     log: &'a str,
     name: String,
+    frames: UnknownFrames,
 }
 
-/// `place` fills in what the log does not say of its poses.
+/// What becomes of poses in frames that the robot does not have.
+enum UnknownFrames {
+    /// Their frames are fitted to the log.
+    Fitted,
+    /// They are not compared.
+    LeftOut,
+}
+
 fn drafted(
-    Drafted { description, survey, log, name }: Drafted<'_>,
+    Drafted { description, survey, log, name, frames }: Drafted<'_>,
     request: &ReplayRequest,
-    place: fn(&Replayed<'_>, &mut Vec<LoggedPoseSettings>, &mut Vec<String>) -> Result<(), Findings>,
 ) -> Result<ReplayDraft, Findings> {
     // The unit of a dataset is a guess that everything behind it depends on.
     let of_unit =
@@ -93,7 +111,10 @@ fn drafted(
         source: Some(source),
         ..Scenario::default()
     };
-    place(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?;
+    match frames {
+        UnknownFrames::Fitted => fit(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?,
+        UnknownFrames::LeftOut => keep_known_frames(description, &mut poses, &mut taken),
+    }
     let is_left_out = |(topic, _): &&(String, _)| !poses.iter().any(|pose| pose.topic == *topic);
     if let Some((topic, _)) = request.poses.iter().find(is_left_out) {
         // It was asked for: to judge the rest would look like an answer.

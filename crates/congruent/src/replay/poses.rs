@@ -6,7 +6,6 @@ use congruent_logs::{FramePair, LogSurvey, TopicContent, TopicSurvey};
 use congruent_scenario::{LoggedPoseSettings, PoseOrigin, PoseSettings};
 
 use super::{
-    replayed::Replayed,
     request::ReplayRequest,
     survey_words::{LEFT_OUT, rate},
 };
@@ -92,13 +91,13 @@ pub(super) fn chosen_poses(
 
 /// Takes out poses whose frame is no link of the robot: nothing can be fitted to a stream.
 pub(super) fn keep_known_frames(
-    replayed: &Replayed<'_>,
+    description: &RobotDescription,
     poses: &mut Vec<LoggedPoseSettings>,
     taken: &mut Vec<String>,
-) -> Result<(), Findings> {
+) {
     poses.retain(|pose| {
         let frame = pose.from_link.as_ref().or(pose.frame.as_ref());
-        let is_known = frame.is_some_and(|frame| is_link(replayed.description, frame));
+        let is_known = frame.is_some_and(|frame| is_link(description, frame));
         if !is_known {
             let frame = frame.map_or("", String::as_str);
             taken.push(format!(
@@ -109,7 +108,6 @@ pub(super) fn keep_known_frames(
         }
         is_known
     });
-    Ok(())
 }
 
 /// Where the poses of a pair of frames come from, if it is known.

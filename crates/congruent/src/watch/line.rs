@@ -30,6 +30,8 @@ pub enum WatchLine {
     ConnectedAgain(ConnectedAgain),
     /// A line of the stream is no message, and was left out.
     BadLine(BadLineFound),
+    /// Something began too late to be judged.
+    LeftOut(LeftOutLater),
     /// The recording has reached its limit and takes no further sample.
     RecordingFull(RecordingFull),
     /// The last line: the verdict of the run.
@@ -98,6 +100,7 @@ pub struct CheckChange {
     #[schemars(with = "String")]
     pub quantity: Quantity,
     /// The value, in `unit`; `null` if it is infinite.
+    #[schemars(with = "Option<f64>")]
     pub value: f64,
     /// The limit, in `unit`.
     pub limit: f64,
@@ -169,6 +172,13 @@ pub struct BadLineFound {
     pub message: String,
     /// How it begins.
     pub text: String,
+}
+
+/// Something that began too late to be judged.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct LeftOutLater {
+    /// What it is, and why it is not judged.
+    pub message: String,
 }
 
 /// A recording that has reached its limit.

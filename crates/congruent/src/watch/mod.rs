@@ -11,8 +11,8 @@ mod text;
 
 pub use latency::LatencyReport;
 pub use line::{
-    BadLineFound, CheckChange, ComparedStream, ConnectedAgain, GapCause, LossCause, RecordingFull,
-    StreamCounts, StreamGap, StreamLoss, WatchEnd, WatchLine, WatchStart, WatchedPose,
+    BadLineFound, CheckChange, ComparedStream, ConnectedAgain, GapCause, LeftOutLater, LossCause,
+    RecordingFull, StreamCounts, StreamGap, StreamLoss, WatchEnd, WatchLine, WatchStart, WatchedPose,
 };
 pub use observer::{Observation, WatchObserver};
 pub use output::{SharedOutput, WatchOutput, WriteLine};

@@ -7,7 +7,9 @@ use congruent_results::report::RunReport;
 
 use super::{
     latency::Latency,
-    line::{BadLineFound, ConnectedAgain, LossCause, StreamCounts, StreamLoss, WatchEnd, WatchLine},
+    line::{
+        BadLineFound, ConnectedAgain, LeftOutLater, LossCause, StreamCounts, StreamLoss, WatchEnd, WatchLine,
+    },
 };
 
 /// Writes a line; it is not held back.
@@ -84,6 +86,11 @@ impl WatchOutput {
                 let message = "the checks are slower than the stream".to_owned();
                 WatchLine::Lost(StreamLoss { what: LossCause::Samples, message, samples })
             }
+            LiveNotice::LateTopic { topic } => WatchLine::LeftOut(LeftOutLater {
+                message: format!(
+                    "poses of \"{topic}\" began when it was settled what is judged; send them from the first line on"
+                ),
+            }),
             LiveNotice::ConnectedAgain { attempts } => WatchLine::ConnectedAgain(ConnectedAgain { attempts }),
             _ => return,
         };

@@ -1,12 +1,14 @@
 //! The lines about a stream as text for people.
 
+use std::fmt::Write;
+
 use congruent_input::display::{counted, listed, quantity};
 use congruent_results::report::{quantity_words, value_and_margin};
 use congruent_text::run_text;
 
 use super::line::{
-    BadLineFound, CheckChange, GapCause, RecordingFull, StreamGap, StreamLoss, WatchEnd, WatchLine,
-    WatchStart, WatchedPose,
+    BadLineFound, CheckChange, GapCause, LeftOutLater, RecordingFull, StreamGap, StreamLoss, WatchEnd,
+    WatchLine, WatchStart, WatchedPose,
 };
 
 /// A line as text, with its end.
@@ -44,6 +46,7 @@ pub fn watch_text(line: &WatchLine) -> String {
         WatchLine::BadLine(BadLineFound { line, message, text }) => {
             format!("line {line} is left out: {message}: {text}\n")
         }
+        WatchLine::LeftOut(LeftOutLater { message }) => format!("left out: {message}\n"),
         WatchLine::RecordingFull(RecordingFull { file, time_s, limit_mb }) => {
             format!("{time_s} s  {file} is full (limit {limit_mb} MB) and takes no further sample\n")
         }
@@ -83,15 +86,15 @@ fn finished(end: &WatchEnd) -> String {
         (counts.lost_samples, "sample lost", "samples lost"),
         (counts.lost_connections, "connection lost", "connections lost"),
     ];
-    let others = others.iter().filter(|(count, ..)| *count > 0);
-    let others: String = others
-        .map(|(count, one, many)| format!(", {count} {}", if *count == 1 { one } else { many }))
-        .collect();
+    let mut text = String::new();
+    for (count, one, many) in others.into_iter().filter(|(count, ..)| *count > 0) {
+        let _ = write!(text, ", {count} {}", if count == 1 { one } else { many });
+    }
     let samples = if counts.samples == 1 { "sample" } else { "samples" };
     let latency = latency.map_or_else(String::new, |latency| {
         let shown = |value: f64| quantity(1e3 * value, "ms");
         let [median, p99, largest] = [latency.median_s, latency.p99_s, latency.largest_s].map(shown);
         format!("  answered within {median} (median), {p99} (99 %), {largest} (longest)\n")
     });
-    format!("{}  {} {samples} judged{others}\n{latency}", run_text(report), counts.samples)
+    format!("{}  {} {samples} judged{text}\n{latency}", run_text(report), counts.samples)
 }

@@ -79,7 +79,7 @@ impl<R: BufRead> JsonLines<R> {
             }
             self.line += 1;
             if length == LineLength::TooLong {
-                return Ok(Some(Err(self.bad("it is longer than 1 MiB".to_owned()))));
+                return Ok(Some(Err(self.bad("it is longer than 128 KiB".to_owned()))));
             }
             if self.buffer.trim_ascii().is_empty() {
                 continue;

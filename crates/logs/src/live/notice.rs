@@ -23,6 +23,11 @@ pub enum LiveNotice {
         /// How often it was tried.
         attempts: u32,
     },
+    /// A topic that was not there when it was found out what is judged.
+    LateTopic {
+        /// Its name.
+        topic: String,
+    },
     /// The queue was full, and the sender does not wait: these samples were not judged.
     SamplesLost {
         /// How many.

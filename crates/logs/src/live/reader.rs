@@ -32,6 +32,8 @@ pub struct LiveReader {
     topics: Vec<LogTopic>,
     /// Events that were looked at already, and are given once more.
     heard: VecDeque<LogEvent>,
+    /// Whether it was found out what the stream has: topics that come later are not judged.
+    is_surveyed: bool,
     stop: Arc<AtomicBool>,
     clock: ArrivalClock,
     on_notice: OnNotice,
@@ -55,7 +57,16 @@ impl LiveReader {
         let (sender, queue) = LiveQueue::new(Arc::clone(&stop));
         let clock = sender.clock.clone();
         std::thread::spawn(move || read(sender));
-        Self { queue, format, topics: Vec::new(), heard: VecDeque::new(), stop, clock, on_notice }
+        Self {
+            queue,
+            format,
+            topics: Vec::new(),
+            heard: VecDeque::new(),
+            is_surveyed: false,
+            stop,
+            clock,
+            on_notice,
+        }
     }
 
     /// The clock by which messages come.
@@ -66,6 +77,14 @@ impl LiveReader {
     /// Gives events once more, before those that follow.
     pub(super) fn give_again(&mut self, events: Vec<LogEvent>) {
         self.heard.extend(events);
+        self.is_surveyed = true;
+    }
+
+    fn take_topic(&mut self, topic: LogTopic) {
+        if self.is_surveyed {
+            (self.on_notice)(LiveNotice::LateTopic { topic: topic.name.clone() });
+        }
+        self.topics.push(topic);
     }
 }
 
@@ -88,7 +107,7 @@ impl LogReader for LiveReader {
             }
             match self.queue.recv_timeout(PERIOD) {
                 Ok(Arrived::Event(event)) => return Ok(Some(event)),
-                Ok(Arrived::Topic(topic)) => self.topics.push(topic),
+                Ok(Arrived::Topic(topic)) => self.take_topic(topic),
                 Ok(Arrived::Notice(notice)) => (self.on_notice)(notice),
                 Ok(Arrived::Failed(why)) => return Err(why),
                 Err(RecvTimeoutError::Timeout) => {}

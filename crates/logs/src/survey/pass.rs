@@ -79,7 +79,9 @@ pub(crate) fn survey_events(
     robot: &Robot,
 ) -> Result<SurveyedLog, Diagnostic> {
     let mut pass = Pass::default();
-    events.iter().for_each(|event| pass.take(event.clone(), reader, Some(robot)));
+    for event in events {
+        pass.take(event.clone(), reader, Some(robot));
+    }
     pass.finish(path, reader, Some(robot))
 }
 

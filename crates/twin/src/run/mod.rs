@@ -66,6 +66,8 @@ pub struct Run<'a> {
     store: SampleStore,
     /// The motion to rest, from the first violation of a check that stops the run.
     stopping: Option<Stopping>,
+    /// Whether the run ends with the present sample.
+    ends: bool,
     /// Set by whoever wants the run to end.
     interrupt: Option<&'a AtomicBool>,
     /// Who answers each sample.
@@ -139,6 +141,7 @@ impl<'a> Run<'a> {
             hash: Sha256::new(),
             store: SampleStore::new(robot.dof(), links, setup.clock.steps),
             stopping: None,
+            ends: false,
             interrupt: None,
             observer: None,
         })
@@ -274,14 +277,16 @@ impl<'a> Run<'a> {
         sample.violated_checks = checks.iter().filter(|check| check.monitor.has_failed()).count();
         store.take(&sample);
         recorder.record(&mut sample)?;
-        self.answer(checks, ends)?;
+        self.ends = ends;
+        self.answer(checks)?;
         Ok(ends)
     }
 
     /// Passes this instant and the checks to the observer.
-    fn answer(&mut self, checks: &[RunningCheck<'_>], ends: bool) -> Result<(), RunError> {
+    fn answer(&mut self, checks: &[RunningCheck<'_>]) -> Result<(), RunError> {
         let Some(mut observer) = self.observer.take() else { return Ok(()) };
         let names = std::mem::take(&mut self.names);
+        let ends = self.ends;
         let mut sample = self.sample();
         sample.is_last = ends;
         sample.violated_checks = checks.iter().filter(|check| check.monitor.has_failed()).count();

@@ -110,7 +110,9 @@ impl Run<'_> {
     fn end(&mut self, checks: &mut [RunningCheck<'_>]) {
         let mut sample = self.sample();
         sample.is_last = true;
-        checks.iter_mut().for_each(|check| check.monitor.end(&sample));
+        for check in checks {
+            check.monitor.end(&sample);
+        }
     }
 
     /// Whether nobody has ended the run. What was computed ahead until then is still taken.

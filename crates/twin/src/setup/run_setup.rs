@@ -249,12 +249,7 @@ impl RunSetup {
             return Err(beside_ranges(found, warnings));
         }
         // After all checks: messages refer to what the user has written.
-        let source = scenario.source.clone();
-        write_out(&mut scenario, &description, &clock, &start, folder);
-        if written.stream.is_some() {
-            // What a stream comes from is no file in the folder.
-            scenario.source = source;
-        }
+        write_out(&mut scenario, &description, &clock, &start, written);
         // Only the scenario's own checks have lines; default checks follow them and have none.
         let check_lines = (0..own_checks).map(|at| place.key("check").item(at).line()).collect();
         let Actuation { controller, resistances, sensors, mut payloads } = actuation;
