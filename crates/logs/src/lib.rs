@@ -23,6 +23,7 @@ mod stream;
 mod survey;
 mod table;
 mod table_reading;
+mod tcp_pose;
 mod written;
 
 pub use event::{

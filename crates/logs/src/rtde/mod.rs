@@ -7,13 +7,10 @@ mod connection;
 mod listen;
 mod outputs;
 mod package;
-mod tcp_pose;
 
 pub use connection::RtdeOptions;
 pub use listen::listen_to_rtde;
 pub use outputs::RTDE_JOINTS;
-
-pub(crate) use tcp_pose::pose_of_ur;
 
 /// The port of RTDE.
 pub const RTDE_PORT: u16 = 30_004;

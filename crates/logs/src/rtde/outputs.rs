@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use super::tcp_pose::pose_of_ur;
-use crate::event::{EventTime, LogEvent, LogTopic, LoggedJoints, TopicContent};
+use crate::{
+    event::{EventTime, LogEvent, LogTopic, LoggedJoints, TopicContent},
+    tcp_pose::pose_of_ur,
+};
 
 /// Joints of a robot of Universal Robots.
 pub const RTDE_JOINTS: usize = 6;

@@ -14,8 +14,8 @@ use crate::{
     codes,
     event::{EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedJoints, TopicContent},
     options::LogOptions,
-    rtde::pose_of_ur,
     table_reading::{DecimalMark, TableReading, TableText, TableTime},
+    tcp_pose::pose_of_ur,
 };
 
 /// A table that is read as a log.
