@@ -1,5 +1,6 @@
 //! When checks leave their limits and come back.
 
+use congruent_input::Quantity;
 use congruent_monitors::{Names, RunningCheck, Sample, verdict::InstantValue};
 
 use super::line::{CheckChange, WatchLine};
@@ -7,8 +8,8 @@ use super::line::{CheckChange, WatchLine};
 /// What was said of a check so far.
 #[derive(Debug, Clone, Copy, Default)]
 struct CheckState {
-    /// The value of the last instant that had one was outside its limit.
-    is_outside: bool,
+    /// The quantity whose value at the last instant that had one was outside its limit.
+    outside: Option<Quantity>,
     /// The check has failed, and that was said.
     has_failed: bool,
 }
@@ -34,19 +35,18 @@ impl CheckStates {
             let values = || sample.values.iter().filter(|value| value.check == number).map(|value| value.of);
             let is_outside = |of: &InstantValue| !of.bound.holds(of.value, of.limit);
             let instant = Instant { number, check, names, time_s };
-            let outside = values().find(is_outside);
-            match outside {
-                Some(value) if !state.is_outside => {
+            match (values().find(is_outside), state.outside) {
+                (Some(value), None) => {
                     changes.push(WatchLine::Violation(instant.change(&value)));
-                    *state = CheckState { is_outside: true, has_failed: true };
+                    *state = CheckState { outside: Some(value.quantity), has_failed: true };
                 }
-                Some(_) => {}
-                None => {
-                    if let Some(value) = values().next().filter(|_| state.is_outside) {
+                (None, Some(quantity)) => {
+                    if let Some(value) = values().find(|value| value.quantity == quantity) {
                         changes.push(WatchLine::Recovered(instant.change(&value)));
-                        state.is_outside = false;
+                        state.outside = None;
                     }
                 }
+                (Some(_), Some(_)) | (None, None) => {}
             }
             if check.monitor.has_failed() && !state.has_failed {
                 // Values that are found later, as a jump, or not at each instant, as a distance.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use congruent_input::display::{counted, listed, quantity};
-use congruent_results::report::{quantity_words, value_and_margin};
+use congruent_results::report::{quantity_words, share_in_full, value_and_margin};
 use congruent_text::run_text;
 
 use super::line::{
@@ -70,7 +70,13 @@ fn changed(word: &str, change: &CheckChange) -> String {
     let at = subject.as_ref().map_or_else(String::new, |subject| format!(" at {subject}"));
     let shown = |value: f64| quantity(value, unit.symbol());
     let found = value_and_margin(*of, *unit, *bound, [*value, *limit]).unwrap_or_else(|| {
-        format!("{} {}, {} {}", quantity_words(*of), shown(*value), bound.words(), shown(*limit))
+        format!(
+            "{} {}, {} {}",
+            quantity_words(*of),
+            shown(*value),
+            bound.words(),
+            share_in_full(*limit, *unit)
+        )
     });
     format!("{time_s} s  {word}  {check}: {found}{at}\n")
 }

@@ -9,7 +9,7 @@ use std::{
 use congruent_input::Diagnostic;
 
 use super::{
-    RTDE_PORT,
+    options::RtdeOptions,
     outputs::{OUTPUTS, RobotState},
     package::{DATA, PAUSE, PROTOCOL_VERSION, Package, Packages, SETUP_OUTPUTS, START, package},
 };
@@ -21,25 +21,6 @@ const CONNECTS: Duration = Duration::from_secs(2);
 const PERIOD: Duration = Duration::from_millis(100);
 /// Periods without a package after which a connection is lost: a controller gives data at its rate, whatever the arm does.
 const MOST_SILENT: u32 = 20;
-
-/// What is asked of a controller.
-#[derive(Debug, Clone)]
-pub struct RtdeOptions {
-    /// Name or address of the controller, with or without a port.
-    pub address: String,
-    /// Rate of the data packages, Hz.
-    pub rate_hz: f64,
-    /// Names of the joints, from the base on.
-    pub joints: [String; super::RTDE_JOINTS],
-}
-
-impl RtdeOptions {
-    /// The address with its port.
-    pub fn with_port(&self) -> String {
-        let has_port = self.address.rsplit_once(':').is_some_and(|(_, port)| port.parse::<u16>().is_ok());
-        if has_port { self.address.clone() } else { format!("{}:{RTDE_PORT}", self.address) }
-    }
-}
 
 /// A controller that sends data.
 pub(super) struct Connection {

@@ -8,10 +8,7 @@ use std::{
 
 use congruent_input::Diagnostic;
 
-use super::{
-    connection::{Connection, RtdeOptions},
-    outputs::topics,
-};
+use super::{connection::Connection, options::RtdeOptions, outputs::topics};
 use crate::{
     event::{EventTime, LogFormat},
     live::{Closed, LiveNotice, LiveQueue, LiveReader, OnNotice},

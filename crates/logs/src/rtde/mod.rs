@@ -5,12 +5,9 @@
 
 mod connection;
 mod listen;
+mod options;
 mod outputs;
 mod package;
 
-pub use connection::RtdeOptions;
 pub use listen::listen_to_rtde;
-pub use outputs::RTDE_JOINTS;
-
-/// The port of RTDE.
-pub const RTDE_PORT: u16 = 30_004;
+pub use options::{RTDE_JOINTS, RTDE_PORT, RtdeOptions};

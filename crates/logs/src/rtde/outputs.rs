@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
+use super::options::RTDE_JOINTS;
 use crate::{
     event::{EventTime, LogEvent, LogTopic, LoggedJoints, TopicContent},
     tcp_pose::pose_of_ur,
 };
-
-/// Joints of a robot of Universal Robots.
-pub const RTDE_JOINTS: usize = 6;
 
 /// The outputs with their types, in the order of a data package.
 pub(super) const OUTPUTS: [(&str, &str); 5] = [
