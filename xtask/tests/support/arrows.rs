@@ -132,6 +132,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "results",
         ],
     ),
+    ("live-report", &["input", "description", "logs", "scenario", "monitors", "twin", "results"]),
     (
         "text",
         &[
@@ -151,6 +152,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "results",
             "recording",
             "starter",
+            "live-report",
         ],
     ),
     (
@@ -184,6 +186,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "recording",
             "page",
             "starter",
+            "live-report",
             "text",
         ],
     ),

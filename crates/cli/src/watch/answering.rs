@@ -13,7 +13,7 @@ use congruent::{
     },
     twin::{
         Run, RunError, RunObserver, RunSetup,
-        source::{LiveState, RecordedSource},
+        source::{RecordedSource, StreamProgress},
     },
     watch::{Observation, SharedOutput, WatchLine, WatchObserver, WatchSetup},
 };
@@ -43,7 +43,7 @@ pub(super) fn judge(
     output: &SharedOutput,
     printer: &Printer,
 ) -> Result<Judged, Failure> {
-    let state = LiveState::default();
+    let state = StreamProgress::default();
     let observation = Observation {
         output: Rc::clone(output),
         state: Rc::clone(&state),
@@ -89,7 +89,7 @@ pub(super) fn judge(
 }
 
 /// The run of a stream, at its first sample.
-fn begin<'a>(setup: &'a RunSetup, reader: LiveReader, state: &LiveState) -> Result<Run<'a>, RunError> {
+fn begin<'a>(setup: &'a RunSetup, reader: LiveReader, state: &StreamProgress) -> Result<Run<'a>, RunError> {
     let recorded = setup.recorded.as_ref().expect("the setup of a stream has what was found in it");
     let source =
         RecordedSource::live(recorded, &setup.description.robot, &setup.start, reader, Rc::clone(state))?;

@@ -54,8 +54,8 @@ fn listen(
     stop: &Arc<AtomicBool>,
     output: &SharedOutput,
 ) -> Result<LiveReader, Failure> {
-    let told = Rc::clone(output);
-    let on_notice: OnNotice = Box::new(move |notice| told.borrow_mut().notice(notice));
+    let reported = Rc::clone(output);
+    let on_notice: OnNotice = Box::new(move |notice| reported.borrow_mut().notice(notice));
     if let Some(address) = &arguments.rtde {
         let options = arguments.rtde_options(address, description)?;
         return Ok(listen_to_rtde(options, Arc::clone(stop), on_notice)?);

@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// Listens to a stream of lines until its end, or until `stop` is set. Its sender waits while the run is behind, so that no line is
-/// lost. `on_notice` is told of lines that are no messages.
+/// lost. `on_notice` hears of lines that are no messages.
 pub fn listen_to_lines(
     input: impl BufRead + Send + 'static,
     stop: Arc<AtomicBool>,
@@ -71,8 +71,8 @@ mod tests {
     fn lines_come_as_events_and_bad_ones_as_notices() {
         let text = "{\"time_s\": 5, \"q\": {\"a\": 1}}\n{\n{\"time_s\": 5.5, \"q\": {\"a\": 2}}\n";
         let notices = Rc::new(RefCell::new(Vec::new()));
-        let told = Rc::clone(&notices);
-        let on_notice = Box::new(move |notice| told.borrow_mut().push(notice));
+        let reported = Rc::clone(&notices);
+        let on_notice = Box::new(move |notice| reported.borrow_mut().push(notice));
         let mut reader = listen_to_lines(text.as_bytes(), Arc::default(), on_notice);
         let mut next = || reader.next_event().unwrap();
         let (Some(LogEvent::Joints(first)), Some(LogEvent::Joints(second)), None) = (next(), next(), next())

@@ -22,7 +22,7 @@ use crate::event::{LogEvent, LogFormat, LogReader, LogTopic};
 /// How often a stream that is silent is asked whether it has to end.
 const PERIOD: Duration = Duration::from_millis(20);
 
-/// Who is told what happens to a stream.
+/// Who hears what happens to a stream.
 pub type OnNotice = Box<dyn FnMut(LiveNotice)>;
 
 /// A stream that another thread reads.

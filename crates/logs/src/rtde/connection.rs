@@ -11,7 +11,7 @@ use congruent_input::Diagnostic;
 use super::{
     options::RtdeOptions,
     outputs::{OUTPUTS, RobotState},
-    package::{DATA, PAUSE, PROTOCOL_VERSION, Package, Packages, SETUP_OUTPUTS, START, package},
+    package::{DATA, PAUSE, PROTOCOL_VERSION, Package, ReceivedPackages, SETUP_OUTPUTS, START, package},
 };
 use crate::codes;
 
@@ -25,7 +25,7 @@ const MOST_SILENT: u32 = 20;
 /// A controller that sends data.
 pub(super) struct Connection {
     stream: TcpStream,
-    packages: Packages,
+    packages: ReceivedPackages,
     recipe: u8,
     silent: u32,
 }
@@ -55,7 +55,7 @@ impl Connection {
         stream.set_read_timeout(Some(PERIOD))?;
         stream.set_write_timeout(Some(CONNECTS))?;
         stream.set_nodelay(true)?;
-        let mut opened = Self { stream, packages: Packages::default(), recipe: 0, silent: 0 };
+        let mut opened = Self { stream, packages: ReceivedPackages::default(), recipe: 0, silent: 0 };
         opened.ask(PROTOCOL_VERSION, &2_u16.to_be_bytes())?.accepted("version 2 of the protocol")?;
         let names = OUTPUTS.map(|(name, _)| name).join(",");
         let wanted = [&options.rate_hz.to_be_bytes()[..], names.as_bytes()].concat();

@@ -21,7 +21,7 @@ const LONGEST_PAUSE: Duration = Duration::from_secs(4);
 const PART_OF_PAUSE: Duration = Duration::from_millis(50);
 
 /// Connects to a controller and listens to it until `stop` is set. A connection that is lost is opened again; what the robot did
-/// meanwhile is a gap. `on_notice` is told of losses.
+/// meanwhile is a gap. `on_notice` hears of losses.
 ///
 /// # Errors
 /// The controller cannot be reached now, or refuses what is asked for.

@@ -27,11 +27,11 @@ pub(super) fn package(kind: u8, payload: &[u8]) -> Vec<u8> {
 
 /// Packages from bytes that come in any parts.
 #[derive(Debug, Default)]
-pub(super) struct Packages {
+pub(super) struct ReceivedPackages {
     received: Vec<u8>,
 }
 
-impl Packages {
+impl ReceivedPackages {
     /// The next package; `None` if it has not come as a whole within the time of the socket: what has come of it is kept.
     ///
     /// # Errors
@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn packages_are_whole_however_their_bytes_come() {
         let bytes = [package(START, &[1]), package(DATA, b"abc")].concat();
-        let (mut packages, mut input) = (Packages::default(), Slow(&bytes, false));
+        let (mut packages, mut input) = (ReceivedPackages::default(), Slow(&bytes, false));
         let mut found = Vec::new();
         let end = loop {
             match packages.next(&mut input) {
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_length_that_no_package_has_ends_the_connection() {
-        let error = Packages::default().next(&mut &[0, 2, 85, 0][..]).unwrap_err();
+        let error = ReceivedPackages::default().next(&mut &[0, 2, 85, 0][..]).unwrap_err();
         assert!(error.to_string().contains("2 bytes"), "{error}");
     }
 }

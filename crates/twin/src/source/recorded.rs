@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::{
     joint_states::{Advance, JointStateSource, SourceError, SourcePose},
-    live_state::{LivePosition, LiveState},
+    stream_progress::{StreamPosition, StreamProgress},
 };
 use crate::{codes, setup::RecordedSetup};
 
@@ -48,7 +48,7 @@ pub struct RecordedSource<'a> {
     has_next: bool,
     is_gap_given: bool,
     /// Of a stream. Its next row is read when it is wanted: the answer to a sample must not wait for it.
-    live: Option<LiveState>,
+    live: Option<StreamProgress>,
     /// Positions of the last rows, the latest at the end.
     kept: VecDeque<(f64, RobotQ)>,
     /// Poses that are later than the rows so far, in the order of their times.
@@ -82,7 +82,7 @@ impl<'a> RecordedSource<'a> {
         robot: &'a Robot,
         start: &'a RobotQ,
         reader: LiveReader,
-        state: LiveState,
+        state: StreamProgress,
     ) -> Result<Self, SourceError> {
         let stream = LogStream::new(Box::new(reader), setup.selection.clone());
         Self { live: Some(state), ..Self::begin(setup, robot, start, stream) }.at_first_row()
@@ -220,7 +220,7 @@ impl<'a> RecordedSource<'a> {
 
     fn say_how_far(&self) {
         if let Some(state) = &self.live {
-            state.set(LivePosition { message: self.now.message, counts: self.stream.joint_counts() });
+            state.set(StreamPosition { message: self.now.message, counts: self.stream.joint_counts() });
         }
     }
 

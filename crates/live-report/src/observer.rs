@@ -3,7 +3,7 @@
 use congruent_description::RobotDescription;
 use congruent_logs::{ArrivalClock, EventTime};
 use congruent_monitors::{Interruption, Names, RecordingError, RunningCheck, Sample};
-use congruent_twin::{RunObserver, source::LiveState};
+use congruent_twin::{RunObserver, source::StreamProgress};
 use nalgebra::Isometry3;
 
 use super::{
@@ -22,7 +22,7 @@ pub struct Observation {
     /// Where the lines go.
     pub output: SharedOutput,
     /// How far the stream has come.
-    pub state: LiveState,
+    pub state: StreamProgress,
     /// The clock by which its messages come.
     pub clock: ArrivalClock,
     /// Whether the pose of the TCP is said, and its largest rate, Hz; 0 for each sample.

@@ -12,7 +12,6 @@ use super::latency::LatencyReport;
 /// One line of the answer to a stream. Times are those of the stream.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
-#[non_exhaustive]
 pub enum WatchLine {
     /// The first line: what was found in the stream and is judged.
     Started(WatchStart),

@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use congruent_input::display::{counted, listed, quantity};
-use congruent_results::report::{quantity_words, share_in_full, value_and_margin};
-use congruent_text::run_text;
-
-use super::line::{
+use congruent_live_report::{
     BadLineFound, CheckChange, GapCause, LeftOutLater, RecordingFull, StreamGap, StreamLoss, WatchEnd,
     WatchLine, WatchStart, WatchedPose,
 };
+use congruent_results::report::{quantity_words, share_in_full, value_and_margin};
+
+use crate::run::run_text;
 
 /// A line as text, with its end.
 pub fn watch_text(line: &WatchLine) -> String {

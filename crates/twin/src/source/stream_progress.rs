@@ -6,7 +6,7 @@ use congruent_logs::{EventTime, JointRowCounts};
 
 /// How far a stream has come.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct LivePosition {
+pub struct StreamPosition {
     /// The times of the message whose time the present sample has.
     pub message: EventTime,
     /// What became of the messages with joint states so far.
@@ -14,4 +14,4 @@ pub struct LivePosition {
 }
 
 /// The place where a source says how far its stream has come.
-pub type LiveState = Rc<Cell<LivePosition>>;
+pub type StreamProgress = Rc<Cell<StreamPosition>>;

@@ -37,7 +37,7 @@ impl Default for Latency {
 
 impl Latency {
     pub(super) fn take(&mut self, seconds: f64) {
-        let step = (seconds.max(SHORTEST_S) / SHORTEST_S).log2() * STEPS;
+        let step = libm::log2(seconds.max(SHORTEST_S) / SHORTEST_S) * STEPS;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -67,7 +67,7 @@ impl Latency {
             if seen >= wanted {
                 #[expect(clippy::cast_precision_loss, reason = "at most 512")]
                 let end = (bin + 1) as f64;
-                return (SHORTEST_S * (end / STEPS).exp2()).min(self.largest_s);
+                return (SHORTEST_S * libm::exp2(end / STEPS)).min(self.largest_s);
             }
         }
         self.largest_s

@@ -34,7 +34,7 @@ impl CheckStates {
         for (number, (check, state)) in checks.iter().zip(&mut self.states).enumerate() {
             let values = || sample.values.iter().filter(|value| value.check == number).map(|value| value.of);
             let is_outside = |of: &InstantValue| !of.bound.holds(of.value, of.limit);
-            let instant = Instant { number, check, names, time_s };
+            let instant = ChangingCheck { number, check, names, time_s };
             match (values().find(is_outside), state.outside) {
                 (Some(value), None) => {
                     changes.push(WatchLine::Violation(instant.change(&value)));
@@ -59,15 +59,15 @@ impl CheckStates {
     }
 }
 
-/// A check at an instant.
-struct Instant<'a, 'b> {
+/// A check of which something has changed.
+struct ChangingCheck<'a, 'b> {
     number: usize,
     check: &'a RunningCheck<'b>,
     names: &'a Names,
     time_s: f64,
 }
 
-impl Instant<'_, '_> {
+impl ChangingCheck<'_, '_> {
     fn change(&self, of: &InstantValue) -> CheckChange {
         let InstantValue { quantity, unit, bound, limit, value, .. } = *of;
         let subject = self.names.subject(self.check.kind, of).map(str::to_owned);
