@@ -42,6 +42,6 @@ fn for_people_the_lines_are_counted() {
     // The number of a wrong line is that of the input.
     let mut live = Live::begin(&["fk", "robots/ur5e", "--configurations", "-"]);
     live.ask(r#"{"q": {}}"#, "configuration 1: ");
-    live.tell(r#"{"q": {"elbo": 1}}"#);
+    live.write(r#"{"q": {"elbo": 1}}"#);
     assert_eq!(live.end(), 2);
 }

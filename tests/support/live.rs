@@ -33,14 +33,14 @@ impl Live {
     }
 
     /// Writes a line.
-    pub(crate) fn tell(&mut self, line: &str) {
+    pub(crate) fn write(&mut self, line: &str) {
         writeln!(self.input.as_mut().unwrap(), "{line}").expect("the command reads");
     }
 
     /// Writes a line, and waits for a line of the answer that has this text.
     #[track_caller]
     pub(crate) fn ask(&mut self, line: &str, wanted: &str) -> String {
-        self.tell(line);
+        self.write(line);
         loop {
             let answered = self.output.recv_timeout(PATIENCE).expect("an answer before the next line");
             if answered.contains(wanted) {

@@ -25,7 +25,7 @@ fn each_line_is_answered_before_the_next_is_written() {
         "json",
     ]);
     for (number, time_s) in times(1.25, 50, 20).enumerate() {
-        live.tell(&line(time_s, swing(time_s)));
+        live.write(&line(time_s, swing(time_s)));
         if number == 0 {
             let started = live.next();
             assert_eq!(started["kind"], "started", "{started}");
@@ -37,7 +37,7 @@ fn each_line_is_answered_before_the_next_is_written() {
     // Beyond the range of the elbow, which is half a turn.
     let mut q = swing(1.65);
     q[2] = 4.0;
-    live.tell(&line(1.65, q));
+    live.write(&line(1.65, q));
     assert_eq!(live.next()["kind"], "pose");
     let violation = live.next();
     assert_eq!((&violation["kind"], &violation["check"]), (&"violation".into(), &"limits".into()));
@@ -146,7 +146,7 @@ fn what_is_no_stream_of_the_robot_is_refused() {
 #[cfg(unix)]
 fn a_signal_ends_the_run_in_order_while_the_stream_is_open() {
     let mut live = Live::begin(&["watch", "robots/ur5e", "--rate-hz", "100", "--format", "json"]);
-    times(0.0, 100, 50).for_each(|time_s| live.tell(&line(time_s, swing(time_s))));
+    times(0.0, 100, 50).for_each(|time_s| live.write(&line(time_s, swing(time_s))));
     assert_eq!(live.next()["kind"], "started");
     live.signal("INT");
     let finished = live.next();

@@ -19,11 +19,7 @@ use congruent::{
 };
 
 use super::Arguments;
-use crate::{
-    failure::{BROKEN, Failure},
-    run::no_folder,
-    terminal::print::Printer,
-};
+use crate::{failure::Failure, run::no_folder, terminal::print::Printer};
 
 #[cfg(feature = "recording")]
 use super::recording::{SharedRecording, WatchRecording};
@@ -76,16 +72,19 @@ pub(super) fn judge(
         Some(out) => written(out, setup, begin)?,
         None => unwritten(setup, begin)?,
     };
-    let mut exit_code = report.exit_code;
+    let exit_code = report.exit_code;
     #[cfg(feature = "recording")]
-    if let Some(recording) = recording.take() {
-        let finished = recording.finish(&report);
-        finished.unwrap_or_else(|error| {
-            Printer::explain(None, &Failure::Machine(error.to_string()));
-            exit_code = BROKEN;
-        });
-    }
+    let exit_code = finished(recording.take(), &report).unwrap_or(exit_code);
     Ok(Judged { counts: state.get().counts, report, exit_code })
+}
+
+/// Adds the verdict to the recording; the exit code if that cannot be written.
+#[cfg(feature = "recording")]
+fn finished(recording: Option<WatchRecording>, report: &RunReport) -> Option<u8> {
+    let error = recording?.finish(report).err()?;
+    let failure = Failure::Machine(error.to_string());
+    Printer::explain(None, &failure);
+    Some(failure.exit_code())
 }
 
 /// The run of a stream, at its first sample.

@@ -13,7 +13,7 @@ use crate::{
 
 /// How long a stream is listened to before it is judged, by its own clock, s. Kind: choice; drivers publish joints at 10 Hz and more.
 const LISTENS_S: f64 = 0.5;
-/// Fewest messages with joints that tell a rate.
+/// Fewest messages with joints that show a rate.
 const FEWEST: usize = 3;
 /// Most events that are kept until the stream is judged: of a stream without joints.
 const MOST: usize = 20_000;
@@ -56,7 +56,7 @@ pub fn survey_head(
 /// Whether the rate of a stream is known beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HeadRate {
-    /// The first message with joints tells the rest.
+    /// The first message with joints shows the rest.
     Known,
     /// It is that of the first messages.
     Unknown,
