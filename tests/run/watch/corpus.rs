@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::{documents, of_kind};
 use crate::support::{command::congruent_with_input, corpus::corpus};
 
-/// Poses and joints were written in double precision: what is left is rounding, m.
+/// Poses and joints were written in double precision: the rest is rounding, m.
 const POSE_M: f64 = 1e-8;
 
 fn joints_line(joints: &LoggedJoints) -> Value {

@@ -104,7 +104,7 @@ impl Connection {
         })
     }
 
-    /// Tells the controller to send no more.
+    /// Asks the controller to send no more.
     pub(super) fn pause(mut self) {
         // There is nothing to be done if it has gone.
         let _ = self.stream.write_all(&package(PAUSE, &[]));
