@@ -1,55 +1,8 @@
 //! Lines on standard input are answered while they come.
 
-use std::{
-    io::{BufRead, BufReader, Write},
-    process::{ChildStdin, Stdio},
-    sync::mpsc,
-    time::Duration,
-};
-
 use serde_json::Value;
 
-use crate::support::command::allowing;
-
-/// How long an answer may take on a machine that is busy; without it, a command that waits for the end would block the test.
-const PATIENCE: Duration = Duration::from_mins(1);
-
-/// A command that reads standard input line by line.
-struct Live {
-    child: std::process::Child,
-    input: Option<ChildStdin>,
-    output: mpsc::Receiver<String>,
-}
-
-impl Live {
-    fn begin(arguments: &[&str]) -> Self {
-        let mut command = allowing(arguments);
-        let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
-        let mut child = pipes.spawn().expect("the command starts");
-        let (sender, output) = mpsc::channel();
-        let lines = BufReader::new(child.stdout.take().expect("it is a pipe")).lines();
-        std::thread::spawn(move || lines.map_while(Result::ok).try_for_each(|line| sender.send(line)));
-        Self { input: child.stdin.take(), child, output }
-    }
-
-    /// Writes a line, and waits for a line of the answer that has this text.
-    #[track_caller]
-    fn ask(&mut self, line: &str, wanted: &str) -> String {
-        writeln!(self.input.as_mut().unwrap(), "{line}").expect("the command reads");
-        loop {
-            let answered = self.output.recv_timeout(PATIENCE).expect("an answer before the next line");
-            if answered.contains(wanted) {
-                return answered;
-            }
-        }
-    }
-
-    /// The exit code after the end of the lines.
-    fn end(mut self) -> i32 {
-        drop(self.input.take());
-        self.child.wait().expect("it ends").code().expect("by itself")
-    }
-}
+use crate::support::live::Live;
 
 #[test]
 fn each_line_is_answered_before_the_next_is_written() {
@@ -89,6 +42,6 @@ fn for_people_the_lines_are_counted() {
     // The number of a wrong line is that of the input.
     let mut live = Live::begin(&["fk", "robots/ur5e", "--configurations", "-"]);
     live.ask(r#"{"q": {}}"#, "configuration 1: ");
-    writeln!(live.input.as_mut().unwrap(), r#"{{"q": {{"elbo": 1}}}}"#).unwrap();
+    live.write(r#"{"q": {"elbo": 1}}"#);
     assert_eq!(live.end(), 2);
 }

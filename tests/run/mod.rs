@@ -16,3 +16,4 @@ mod servo;
 #[cfg(feature = "db3")]
 mod sqlite_bags;
 mod trajectories;
+mod watch;

@@ -4,6 +4,7 @@ pub(crate) mod changed_robot;
 pub(crate) mod command;
 pub(crate) mod corpus;
 pub(crate) mod golden;
+pub(crate) mod live;
 pub(crate) mod measurements;
 pub(crate) mod published_table;
 pub(crate) mod scratch_folder;

@@ -11,7 +11,7 @@ use congruent::{input::nearest, text::layout::paragraph};
 /// The groups of commands, in the order of the help.
 const GROUPS: [(&str, &[&str]); 6] = [
     ("Check", &["check", "lint", "describe", "explain"]),
-    ("Run", &["run", "replay", "new"]),
+    ("Run", &["run", "replay", "watch", "new"]),
     ("Look", &["view", "inspect", "compare"]),
     (
         "Compute",
@@ -22,7 +22,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
 ];
 
 /// Two examples or more of each command, by its name, in the root of the project.
-const EXAMPLES: [(&str, &[&str]); 25] = [
+const EXAMPLES: [(&str, &[&str]); 26] = [
     (
         "check",
         &[
@@ -54,6 +54,13 @@ const EXAMPLES: [(&str, &[&str]); 25] = [
         &[
             "congruent replay robots/ur5e docs/examples/log/joints.csv",
             "congruent replay robots/ur5e docs/examples/log/joints.csv --out monday --junit replay.xml",
+        ],
+    ),
+    (
+        "watch",
+        &[
+            "congruent watch robots/ur5e < docs/examples/log/clean_stream.jsonl",
+            "congruent watch robots/ur5e --until-violation --format json < docs/examples/log/clean_stream.jsonl",
         ],
     ),
     (

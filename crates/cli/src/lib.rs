@@ -28,6 +28,7 @@ mod terminal;
 mod tolerance;
 mod unfinished_junit;
 mod usage_hints;
+mod watch;
 
 pub use failure::worse;
 pub use tolerance::ToleranceArgument;
@@ -78,6 +79,7 @@ enum Command {
     Describe(model::describe::Arguments),
     Run(run::Arguments),
     Replay(run::replay::Arguments),
+    Watch(watch::Arguments),
     New(new::Arguments),
     #[cfg(feature = "recording")]
     View(recording::view::Arguments),
@@ -199,6 +201,7 @@ fn answer(command: Command, printer: &Printer) -> Result<u8, Failure> {
     match command {
         Command::Run(arguments) => run::run(&arguments, printer),
         Command::Replay(arguments) => run::replay::run(&arguments, printer),
+        Command::Watch(arguments) => watch::run(&arguments, printer),
         Command::Check(arguments) => model::check::run(&arguments, printer),
         Command::Lint(arguments) => model::lint::run(&arguments, printer),
         Command::Explain(arguments) => explain::run(&arguments.code, printer),

@@ -27,6 +27,12 @@ congruent_input::codes! {
         CANNOT_RUN = "CGR-COMMAND-010", "run::cannot_run",
             "The scenario cannot be run: its robot cannot be simulated, or a motion cannot be planned. The message names the value; correct it there. `congruent check ROBOT` shows what the robot lacks.\n    congruent check robots/ur5e";
     }
+    watch {
+        EMPTY = "CGR-COMMAND-094", "watch::empty",
+            "The stream ended before its first message, so that there is nothing to judge. Look at what writes it: each message is one line.\n    {\"time_s\": 1.25, \"q\": {\"elbow_joint\": 0.4}}";
+        SOURCE = "CGR-COMMAND-095", "watch::source",
+            "The scenario of a stream has no [source], so that it is one of a simulation. Add [source] with any `log`, which the stream replaces, and remove [controller] and [[motion]].\n    [source]\n    log = \"stream\"";
+    }
     python {
         ARRAY = "CGR-PYTHON-001", "python::array",
             "An array that Python code gives has a wrong shape, or a value that is not a finite number. Positions are (joints,) for one configuration and (n, joints) for many, in the order of `robot.joints`, or a dictionary by the names of joints.\n    robot.fk({\"elbow_joint\": 0.1})";

@@ -44,6 +44,7 @@ mod run_comparison;
 mod run_scenario;
 pub mod schema;
 pub mod text;
+pub mod watch;
 mod with_physics;
 
 pub use check::{

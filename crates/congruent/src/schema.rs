@@ -34,6 +34,7 @@ use crate::{
     check::RobotCheck,
     run_comparison::RunComparison,
     starter::{NewRobot, NewScenario},
+    watch::WatchLine,
 };
 
 #[cfg(feature = "recording")]
@@ -60,6 +61,7 @@ impl Document {
             configurations_schema,
         ),
         Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
+        Self::new("watch", "each line of the answer to a stream, printed by `watch`", written::<WatchLine>),
         Self::new(
             "faults",
             "table of faults against checks, printed by `run --faults`",

@@ -48,5 +48,11 @@ congruent_input::codes! {
             "The file is no Parquet that is read: it has no end, is damaged, or is compressed by another method than snappy, which is read without a decoder in C; or a dataset of LeRobot has no file with rows. Write it again by pyarrow.\n    wrong: pq.write_table(table, \"log.parquet\", compression=\"zstd\")\n    right: pq.write_table(table, \"log.parquet\", compression=\"snappy\")";
         MOTOR_UNITS = "CGR-LOG-023", "log::motor_units",
             "Positions of a dataset of LeRobot are values of the motor bus: -100 to 100 of the range that was calibrated, 0 to 100 for a gripper, degrees, or rad. The dataset does not say which; the calibration file of the arm does. Nothing is converted: compared with a robot, values of another unit lie beyond its limits.\n    wrong: shoulder_pan.pos from -98.2 to 99.1\n    right: shoulder_pan_position from -1.9 to 1.9, in rad";
+        LINES = "CGR-LOG-024", "log::lines",
+            "Lines of a log or stream in JSON Lines are no messages. They are not used; the message has the first of them, or each as it comes. A line has its time in s and positions by the names of joints, or a pose.\n    wrong: {\"q\": [0.4, 0.1]}\n    right: {\"time_s\": 1.25, \"q\": {\"elbow_joint\": 0.4}}";
+        STREAM = "CGR-LOG-025", "log::stream" unreadable,
+            "A stream broke off with an error of the system. What came until then was judged. Look at the program that writes it.\n    my_driver | congruent watch robots/ur5e";
+        RTDE = "CGR-LOG-026", "log::rtde" unreadable,
+            "The controller of a Universal Robot cannot be reached, or does not give what is asked for by RTDE (port 30004). Give the address of the robot, allow RTDE in its settings of network services, and look whether a firewall is between. A variable that it does not know is named.\n    congruent watch robots/ur5e --rtde 192.168.1.10";
     }
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::table_reading::TableReading;
 
 /// When something was recorded, and when it was true.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EventTime {
     /// When the recorder had it, ns since 1970 or since the start of a table.
     pub log_ns: i64,
@@ -170,6 +170,10 @@ pub enum LogFormat {
     /// A dataset of LeRobot: episodes in Parquet, each with times of its own.
     #[serde(rename = "lerobot")]
     LeRobot,
+    /// Joint states and poses in JSON, a line for each message.
+    JsonLines,
+    /// The stream of a robot of Universal Robots.
+    Rtde,
 }
 
 /// A topic of a log.

@@ -131,6 +131,16 @@ fn changed_tables_are_read_or_refused() {
 }
 
 #[test]
+fn changed_lines_are_read_or_refused() {
+    let line = |at| {
+        format!("{{\"time_s\": {}, \"q\": {{\"elbow\": {at}, \"wrist\": null}}}}", f64::from(at) / 125.0)
+    };
+    let lines: Vec<String> = (0..40).map(line).collect();
+    let read = survey_mutations(lines.join("\n").as_bytes(), "jsonl", 1500);
+    assert!(read > 500, "{read}");
+}
+
+#[test]
 fn changed_messages_are_decoded_or_refused() {
     let mut numbers = Numbers(7);
     let kinds = [

@@ -10,6 +10,7 @@ use congruent_input::{Diagnostic, absence, codes::file, open_regular, read_text,
 use crate::{
     codes, csv, db3,
     event::LogReader,
+    json_lines::JsonLinesReader,
     mcap::{McapReader, is_mcap},
     options::{CONVERT, LogOptions},
     parquet,
@@ -29,6 +30,8 @@ const MCAPS: [&str; 2] = [".mcap", ".mcap.partial"];
 const TABLES: [&str; 3] = [".csv", ".tsv", PARQUET];
 /// The ending of a table that is no text.
 const PARQUET: &str = ".parquet";
+/// Endings of files in JSON Lines.
+const JSON_LINES: [&str; 2] = [".jsonl", ".ndjson"];
 /// The ending of a bag in SQLite.
 const DB3: &str = ".db3";
 /// Endings of files of a bag that were compressed as a whole.
@@ -56,7 +59,11 @@ pub fn is_log(path: &Path) -> bool {
         return !has("robot.toml")
             && (has(METADATA) || parquet::is_dataset(path) || files_in(path).is_ok_and(is_bag));
     }
-    is_table(path) || is_one_of(path, &MCAPS) || is_one_of(path, &[DB3]) || not_read(path).is_some()
+    is_table(path)
+        || is_one_of(path, &JSON_LINES)
+        || is_one_of(path, &MCAPS)
+        || is_one_of(path, &[DB3])
+        || not_read(path).is_some()
 }
 
 /// Whether a path is a log that is a table, by its ending.
@@ -64,8 +71,8 @@ pub fn is_table(path: &Path) -> bool {
     !path.is_dir() && is_one_of(path, &TABLES)
 }
 
-/// Opens a log: an MCAP, a SQLite bag (with the feature `db3`), a table in CSV or Parquet, or a folder that rosbag2 or
-/// LeRobot wrote.
+/// Opens a log: an MCAP, a SQLite bag (with the feature `db3`), a table in CSV or Parquet, JSON Lines, or a folder that
+/// rosbag2 or LeRobot wrote.
 ///
 /// # Errors
 /// It cannot be read, or is of a format that is not; then the help says how to convert it.
@@ -85,6 +92,9 @@ pub fn open_log(path: &Path, options: &LogOptions) -> Result<Box<dyn LogReader>,
     if is_table(path) {
         let table = if is_one_of(path, &[PARQUET]) { parquet::open(path)? } else { csv::open(path)? };
         return Ok(Box::new(TableReader::new(path, table, options)?));
+    }
+    if is_one_of(path, &JSON_LINES) {
+        return Ok(Box::new(JsonLinesReader::open(path)?));
     }
     if is_one_of(path, &[DB3]) {
         return db3::open(&[path.to_owned()], Vec::new());

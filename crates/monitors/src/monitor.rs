@@ -16,6 +16,10 @@ pub trait Monitor: Send {
     /// such poses do something with it.
     fn observe_pose(&mut self, _pose: &PoseSample<'_>) {}
 
+    /// Evaluates what only the end of a run shows, at its last sample, which was observed before. A check calls it itself for a
+    /// sample that is known to be the last; of a stream nobody knows it before.
+    fn end(&mut self, _sample: &Sample<'_>) {}
+
     /// The results so far.
     fn finish(&self, names: &Names) -> Observed;
 

@@ -2,12 +2,15 @@
 
 use congruent_description::Robot;
 use congruent_proximity::Clearance;
+use congruent_scenario::CheckKind;
+
+use crate::verdict::InstantValue;
 
 /// The subject of a value that belongs to all joints together.
 pub(super) const ALL_JOINTS: &str = "all joints";
 
 /// Names for the indices in a sample.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Names {
     /// Links, in the robot's order.
     pub links: Vec<String>,
@@ -42,6 +45,18 @@ impl Names {
             pairs: Vec::new(),
             zones: Vec::new(),
         }
+    }
+
+    /// The joint or link of a value of a check; `None` where the index is of something else.
+    pub fn subject(&self, kind: CheckKind, value: &InstantValue) -> Option<&str> {
+        let of_links = match kind {
+            CheckKind::Agreement | CheckKind::Twist => true,
+            CheckKind::Tracking => value.quantity.is_of_tcp(),
+            CheckKind::Dynamics | CheckKind::Effort | CheckKind::Limits => false,
+            _ => return None,
+        };
+        let names = if of_links { &self.links } else { &self.joints };
+        Some(names.get(value.subject).map_or(ALL_JOINTS, String::as_str))
     }
 
     /// A joint by its index; all joints by the index after the last.

@@ -11,7 +11,11 @@ use congruent_scenario::{
 };
 
 use super::{
-    fitted::fit, poses::chosen_poses, replayed::Replayed, request::ReplayRequest, survey_words::rate,
+    fitted::fit,
+    poses::{chosen_poses, keep_known_frames},
+    replayed::Replayed,
+    request::ReplayRequest,
+    survey_words::rate,
 };
 use crate::codes;
 
@@ -35,12 +39,78 @@ pub fn replay_draft(
     log: &Path,
     request: &ReplayRequest,
 ) -> Result<ReplayDraft, Findings> {
-    let ReplayDraft { mut scenario, mut taken, survey } = joints_draft(description, log, request)?;
+    let whole = joints_draft(description, log, request)?;
+    with_poses(description, whole, UnknownFrames::Fitted, request)
+}
+
+/// The same for a stream, of which the first messages are known. Nothing is fitted to what has not come yet: poses in frames that
+/// the robot does not have are left out.
+///
+/// # Errors
+/// What is asked for is not in them.
+pub fn stream_draft(
+    description: &RobotDescription,
+    survey: LogSurvey,
+    source: &str,
+    request: &ReplayRequest,
+) -> Result<ReplayDraft, Findings> {
+    let whole =
+        with_joints(description, survey, NamedLog { path: source, name: "watch".to_owned() }, request);
+    with_poses(description, whole, UnknownFrames::LeftOut, request)
+}
+
+/// A log as its scenario names it, and the name of the scenario.
+struct NamedLog<'a> {
+    path: &'a str,
+    name: String,
+}
+
+/// What becomes of poses in frames that the robot does not have.
+enum UnknownFrames {
+    /// Their frames are fitted to the log.
+    Fitted,
+    /// They are not compared.
+    LeftOut,
+}
+
+/// The joint states of a log, each topic named.
+fn with_joints(
+    description: &RobotDescription,
+    survey: LogSurvey,
+    log: NamedLog<'_>,
+    request: &ReplayRequest,
+) -> ReplayDraft {
+    // The unit of a dataset is a guess that everything behind it depends on.
+    let of_unit =
+        survey.warnings.iter().filter(|warning| warning.code == congruent_logs::codes::log::MOTOR_UNITS.name);
+    let mut taken: Vec<String> = of_unit.map(|warning| warning.message.clone()).collect();
+    let mut source = SourceSettings::new(log.path.to_owned());
+    (source.clock, source.rate_hz) = (request.clock, request.rate_hz);
+    source.joints = joints(request, &survey, &mut taken);
+    let scenario = Scenario {
+        name: log.name,
+        robot: description.path.display().to_string(),
+        source: Some(source),
+        ..Scenario::default()
+    };
+    ReplayDraft { scenario, taken, survey }
+}
+
+/// The same with the poses that the robot can be compared with, and with checks.
+fn with_poses(
+    description: &RobotDescription,
+    ReplayDraft { mut scenario, mut taken, survey }: ReplayDraft,
+    frames: UnknownFrames,
+    request: &ReplayRequest,
+) -> Result<ReplayDraft, Findings> {
     if let Some(source) = scenario.source.as_mut().filter(|source| is_found_again(request, &survey, source)) {
         source.joints.clear();
     }
     let mut poses = chosen_poses(description, request, &survey, &mut taken)?;
-    fit(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?;
+    match frames {
+        UnknownFrames::Fitted => fit(&Replayed { description, scenario: &scenario }, &mut poses, &mut taken)?,
+        UnknownFrames::LeftOut => keep_known_frames(description, &mut poses, &mut taken),
+    }
     let is_left_out = |(topic, _): &&(String, _)| !poses.iter().any(|pose| pose.topic == *topic);
     if let Some((topic, _)) = request.poses.iter().find(is_left_out) {
         // It was asked for: to judge the rest would look like an answer.
@@ -55,7 +125,7 @@ pub fn replay_draft(
     Ok(ReplayDraft { scenario, taken, survey })
 }
 
-/// The scenario of the joint states of a log alone: without poses and checks.
+/// The scenario of the joint states of a log alone, each topic named: without poses and checks.
 pub(crate) fn joints_draft(
     description: &RobotDescription,
     log: &Path,
@@ -64,20 +134,8 @@ pub(crate) fn joints_draft(
     let names = description.robot.movable_joint_names().map(str::to_owned).collect();
     let options = LogOptions { rate_hz: request.rate_hz, joints: names };
     let survey = survey_log(log, &options, Some(&description.robot))?.survey;
-    // The unit of a dataset is a guess that everything behind it depends on.
-    let of_unit =
-        survey.warnings.iter().filter(|warning| warning.code == congruent_logs::codes::log::MOTOR_UNITS.name);
-    let mut taken: Vec<String> = of_unit.map(|warning| warning.message.clone()).collect();
-    let mut source = SourceSettings::new(log.display().to_string());
-    (source.clock, source.rate_hz) = (request.clock, request.rate_hz);
-    source.joints = joints(request, &survey, &mut taken);
-    let scenario = Scenario {
-        name: name_of(log),
-        robot: description.path.display().to_string(),
-        source: Some(source),
-        ..Scenario::default()
-    };
-    Ok(ReplayDraft { scenario, taken, survey })
+    let named = NamedLog { path: &log.display().to_string(), name: name_of(log) };
+    Ok(with_joints(description, survey, named, request))
 }
 
 /// The checks that robot and log allow, each with its default limits: in the scenario one can change them.

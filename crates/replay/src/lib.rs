@@ -14,7 +14,7 @@ mod request;
 mod survey_words;
 mod written;
 
-pub use draft::{ReplayDraft, in_folder, replay_draft};
+pub use draft::{ReplayDraft, in_folder, replay_draft, stream_draft};
 pub use pose_cause::explain_recorded;
 pub use request::ReplayRequest;
 pub use survey_words::LEFT_OUT;

@@ -64,6 +64,9 @@ pub(super) fn chosen_poses(
         for pair in &topic.frames {
             match origin(stated, topic, pair, description) {
                 Some(origin) => of_topic.push(settings(topic, pair, origin, description)),
+                None if topic.encoding == "json" => taken.push(format!(
+                    "{LEFT_OUT}poses without an origin: say \"origin\": \"measured\", \"controller\" or \"derived\" in their lines"
+                )),
                 None if topic.content == TopicContent::Pose => taken.push(format!(
                     "{LEFT_OUT}poses of {}: say where they come from by --measured-pose {0} or --controller-pose {0}",
                     topic.name
@@ -86,6 +89,27 @@ pub(super) fn chosen_poses(
     Ok(chosen)
 }
 
+/// Takes out poses whose frame is no link of the robot: nothing can be fitted to a stream.
+pub(super) fn keep_known_frames(
+    description: &RobotDescription,
+    poses: &mut Vec<LoggedPoseSettings>,
+    taken: &mut Vec<String>,
+) {
+    poses.retain(|pose| {
+        let frame = pose.from_link.as_ref().or(pose.frame.as_ref());
+        let is_known = frame.is_some_and(|frame| is_link(description, frame));
+        if !is_known {
+            let frame = frame.map_or("", String::as_str);
+            taken.push(format!(
+                "{LEFT_OUT}poses of {}: \"{frame}\" is no link of the robot; a scenario says where it is, by from_link and \
+                 link_from_frame under [[source.pose]]",
+                pose.topic
+            ));
+        }
+        is_known
+    });
+}
+
 /// Where the poses of a pair of frames come from, if it is known.
 fn origin(
     stated: Option<PoseOrigin>,
@@ -106,6 +130,13 @@ fn origin(
             Some(child) if is_link(&pair.frame) && is_link(child) => Some(PoseOrigin::Derived),
             _ => None,
         };
+    }
+    // So are poses of JSON Lines named, by what their sender says.
+    match topic.name.as_str() {
+        "derived" => return Some(PoseOrigin::Derived),
+        "controller" => return Some(PoseOrigin::Controller),
+        "measured" => return Some(PoseOrigin::Measured),
+        _ => {}
     }
     if has(&OF_CONTROLLERS) {
         return Some(PoseOrigin::Controller);

@@ -22,6 +22,7 @@ mod options;
 mod recording;
 mod run;
 mod same_point;
+mod watch;
 
 pub use arm::{
     clearance_text_parts, disabled_pairs_text, forward_text_parts, inverse_text, jacobian_text_parts,
@@ -43,3 +44,4 @@ pub use options::TextOptions;
 pub use recording::{disagreement_sentence, rechecked_text, recording_text};
 pub use run::run_text;
 pub use same_point::same_point_text;
+pub use watch::watch_text;

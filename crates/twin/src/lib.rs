@@ -15,5 +15,5 @@ mod stopping;
 
 pub use control::JointController;
 pub use outcome::{Outcome, RunError};
-pub use run::Run;
+pub use run::{Run, RunObserver};
 pub use setup::RunSetup;

@@ -151,6 +151,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "results",
         ],
     ),
+    ("live-report", &["input", "description", "logs", "scenario", "monitors", "twin", "results"]),
     (
         "text",
         &[
@@ -171,6 +172,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "results",
             "recording",
             "starter",
+            "live-report",
         ],
     ),
     (
@@ -206,6 +208,7 @@ pub const ARROWS: &[(&str, &[&str])] = &[
             "recording",
             "page",
             "starter",
+            "live-report",
             "text",
         ],
     ),

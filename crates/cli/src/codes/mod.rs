@@ -124,6 +124,10 @@ congruent::input::codes! {
         ROBOT = "CGR-COMMAND-068", "workspace::robot",
             "The workspace of the chain cannot be computed, as of a chain without a moving joint. Choose another chain with --base and --tip.\n    wrong: congruent workspace robots/ur5e --tip base\n    right: congruent workspace robots/ur5e --tip tool0";
     }
+    watch {
+        JOINTS = "CGR-COMMAND-096", "watch::joints",
+            "A robot of Universal Robots has six joints, and the chain from base to tip of the robot file has another number of moving joints. RTDE gives positions without names: they are those of this chain, in its order. Give a robot file whose base and tip are those of the arm.\n    congruent watch robots/ur5e --rtde 192.168.1.10";
+    }
 }
 
 #[cfg(test)]

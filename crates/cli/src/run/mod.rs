@@ -24,7 +24,6 @@ use crate::{
     terminal::{print::Printer, progress::ProgressLines},
 };
 
-#[cfg(feature = "recording")]
 pub(crate) use self::run_answer::no_folder;
 pub(crate) use self::{
     arguments::Arguments,

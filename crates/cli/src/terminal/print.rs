@@ -191,6 +191,24 @@ impl Printer {
         }
     }
 
+    /// Writes lines of an answer that goes on, each at once. A closed pipe is an error: nobody reads what follows.
+    pub(crate) fn lines<T: Serialize>(
+        &self,
+        text: fn(&T) -> String,
+    ) -> impl FnMut(&T) -> io::Result<()> + use<T> {
+        let format = self.format;
+        move |line| {
+            let mut out = BufWriter::new(io::stdout().lock());
+            match format {
+                Format::Human => {
+                    out.write_all(for_people(&text(line), text_options().colours()).as_bytes())?;
+                }
+                Format::Json | Format::Sarif => write_json(line, &mut out)?,
+            }
+            out.flush()
+        }
+    }
+
     /// Warnings, each in one line; with --verbose in full, with the text of the file. Of several inputs the name of theirs is in
     /// front of each. A warning that was printed in this call, as of a robot of several scenarios, is shorter.
     pub(crate) fn warnings(&self, input: Option<&Path>, warnings: &[Diagnostic]) {

@@ -48,6 +48,8 @@ pub(super) struct InOrder<T> {
     number: u64,
     newest_s: f64,
     given_s: f64,
+    /// Messages that are held back at most.
+    window: usize,
     /// Messages at a time that another message has, and messages that came after a later one was given.
     pub(super) repeated: u64,
     pub(super) late: u64,
@@ -61,6 +63,7 @@ impl<T> Default for InOrder<T> {
             number: 0,
             newest_s: f64::NEG_INFINITY,
             given_s: f64::NEG_INFINITY,
+            window: WINDOW,
             repeated: 0,
             late: 0,
         }
@@ -68,11 +71,16 @@ impl<T> Default for InOrder<T> {
 }
 
 impl<T> InOrder<T> {
+    /// Gives each message at once: one that is earlier than one before it is late.
+    pub(super) fn at_once() -> Self {
+        Self { window: 0, ..Self::default() }
+    }
+
     pub(super) fn push(&mut self, time_s: f64, value: T) {
         self.number += 1;
         self.newest_s = self.newest_s.max(time_s);
         self.heap.push(Timed { time_s, number: self.number, value });
-        while self.heap.len() > WINDOW || self.span_s() > SPAN_S {
+        while self.heap.len() > self.window || self.span_s() > SPAN_S {
             self.give_first();
         }
     }
@@ -130,6 +138,17 @@ mod tests {
         assert_eq!(given[4], (5.0 * 1e-3, 0));
         assert_eq!(order.repeated, (times.len() - given.len()) as u64);
         assert_eq!(order.late, 0);
+    }
+
+    #[test]
+    fn a_stream_has_its_messages_at_once() {
+        let mut order = InOrder::at_once();
+        let mut given = |time_s: f64| {
+            order.push(time_s, ());
+            order.pop().is_some()
+        };
+        assert!(given(1.0) && given(1.001) && !given(1.0) && given(1.002));
+        assert_eq!(order.late, 1);
     }
 
     #[test]

@@ -1,10 +1,14 @@
 //! All joints at one instant of a log.
 
+use crate::event::EventTime;
+
 /// The joints at one instant. A joint that no topic has is NaN.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct JointRow {
     /// Time from the origin on, s.
     pub time_s: f64,
+    /// The times of the message whose time the row has.
+    pub message: EventTime,
     /// Positions, rad or m.
     pub q: Vec<f64>,
     /// Velocities, rad/s or m/s; NaN where the log has none.
@@ -25,6 +29,7 @@ impl JointRow {
         let unknown = || vec![f64::NAN; joints];
         Self {
             time_s: 0.0,
+            message: EventTime::default(),
             q: unknown(),
             qd: unknown(),
             effort: unknown(),

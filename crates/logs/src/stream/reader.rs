@@ -83,8 +83,13 @@ impl LogStream {
     /// # Errors
     /// It cannot be read.
     pub fn open(path: &Path, options: &LogOptions, selection: StreamSelection) -> Result<Self, Diagnostic> {
-        Ok(Self {
-            reader: open_log(path, options)?,
+        Ok(Self::new(open_log(path, options)?, selection))
+    }
+
+    /// The rows and poses of a log that is open.
+    pub fn new(reader: Box<dyn LogReader>, selection: StreamSelection) -> Self {
+        Self {
+            reader,
             rows: RowMaker::new(&selection),
             poses: selection.poses.iter().cloned().map(PoseSeries::new).collect(),
             ready: VecDeque::new(),
@@ -95,7 +100,7 @@ impl LogStream {
             begins_part: false,
             has_ended: false,
             selection,
-        })
+        }
     }
 
     /// What comes next; `None` after the last.

@@ -8,7 +8,7 @@ use super::{
     joint_series::{JointTrace, SeriesPoint},
     selection::{SelectedJoint, SelectedJoints, StreamSelection},
 };
-use crate::event::LoggedJoints;
+use crate::event::{EventTime, LoggedJoints};
 
 /// How long a topic may be silent before rows no longer wait for it, s. Kind: choice; recorders write topics that are this far
 /// apart in one order.
@@ -48,7 +48,7 @@ pub(super) struct RowMaker {
     /// For each joint the longest time across which it is interpolated, as measured and as commanded.
     gaps_s: [Vec<f64>; 2],
     /// Times of rows that are not given yet.
-    pending: VecDeque<f64>,
+    pending: VecDeque<(f64, EventTime)>,
     has_ended: bool,
     row: JointRow,
     /// Instants that were left out since the last row.
@@ -70,7 +70,7 @@ impl RowMaker {
         }
         let topic = |selected: &SelectedJoints| Topic {
             selected: selected.clone(),
-            messages: InOrder::default(),
+            messages: if selection.is_live { InOrder::at_once() } else { InOrder::default() },
             names: None,
             places: Vec::new(),
             reached_s: f64::NEG_INFINITY,
@@ -134,7 +134,7 @@ impl RowMaker {
                 series[joint.joint].push(time_s, state);
             }
             if selection == 0 {
-                self.pending.push_back(time_s);
+                self.pending.push_back((time_s, message.time));
             }
             self.counts.without_positions += u64::from(!has_position);
         }
@@ -143,12 +143,13 @@ impl RowMaker {
     /// Makes the next row, if all joints are known by now or cannot be any more; returns whether there is one.
     pub(super) fn advance(&mut self) -> bool {
         self.give_what_waits();
-        while let Some(&time_s) = self.pending.front() {
+        while let Some(&(time_s, message)) = self.pending.front() {
             if !self.is_decided(time_s) {
                 return false;
             }
             self.pending.pop_front();
             if self.fill(time_s) {
+                self.row.message = message;
                 self.row.left_out = std::mem::take(&mut self.left_out);
                 self.counts.rows += 1;
                 return true;

@@ -25,6 +25,7 @@ fn rows(joints: Vec<SelectedJoints>) -> RowMaker {
         joints,
         poses: Vec::new(),
         between_s: [f64::NEG_INFINITY, f64::INFINITY],
+        is_live: false,
     })
 }
 

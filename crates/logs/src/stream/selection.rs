@@ -17,6 +17,8 @@ pub struct StreamSelection {
     pub poses: Vec<SelectedPoses>,
     /// Rows at these times are taken, s from the origin.
     pub between_s: [f64; 2],
+    /// Whether messages come while they are read: none is held back for others that may be earlier.
+    pub is_live: bool,
 }
 
 /// The joints of a topic.

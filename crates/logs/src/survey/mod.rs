@@ -15,6 +15,7 @@ mod topic;
 mod utc;
 mod words;
 
+pub(crate) use pass::survey_events;
 pub use pass::{SurveyedLog, survey_log};
 pub use report::{
     ClockKind, FramePair, GapsSurvey, JointLimitsSurvey, JointSource, JointsSurvey, LogSurvey, LoggedJoint,

@@ -71,6 +71,20 @@ pub fn survey_log(
     pass.finish(path, reader.as_ref(), robot)
 }
 
+/// Says what is in a part of a log that was read already, of a robot.
+pub(crate) fn survey_events(
+    path: &Path,
+    reader: &dyn LogReader,
+    events: &[LogEvent],
+    robot: &Robot,
+) -> Result<SurveyedLog, Diagnostic> {
+    let mut pass = Pass::default();
+    for event in events {
+        pass.take(event.clone(), reader, Some(robot));
+    }
+    pass.finish(path, reader, Some(robot))
+}
+
 impl Pass {
     fn take(&mut self, event: LogEvent, reader: &dyn LogReader, robot: Option<&Robot>) {
         match event {
@@ -155,7 +169,7 @@ impl Pass {
 fn messages(topics: &[TopicSurvey], format: LogFormat) -> u64 {
     let counts = topics.iter().map(|topic| topic.messages);
     match format {
-        LogFormat::Mcap | LogFormat::Db3 => counts.sum(),
+        LogFormat::Mcap | LogFormat::Db3 | LogFormat::JsonLines | LogFormat::Rtde => counts.sum(),
         // Rows of a UR are joints and a pose.
         LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => counts.max().unwrap_or_default(),
     }

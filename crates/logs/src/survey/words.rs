@@ -43,7 +43,9 @@ pub fn survey_words(survey: &LogSurvey, most_listed: usize) -> SurveyWords {
         about.push(format!("{parts} cannot be read, see the warnings"));
     }
     let topics = match survey.format {
-        LogFormat::Mcap | LogFormat::Db3 => survey.topics.iter().map(topic_row).collect(),
+        LogFormat::Mcap | LogFormat::Db3 | LogFormat::JsonLines | LogFormat::Rtde => {
+            survey.topics.iter().map(topic_row).collect()
+        }
         LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => Vec::new(),
     };
     SurveyWords { head, topics, about }
@@ -80,7 +82,7 @@ pub fn survey_line(survey: &LogSurvey) -> String {
 /// What an entry of a log is called.
 fn entry(survey: &LogSurvey) -> &'static str {
     match survey.format {
-        LogFormat::Mcap | LogFormat::Db3 => "message",
+        LogFormat::Mcap | LogFormat::Db3 | LogFormat::JsonLines | LogFormat::Rtde => "message",
         LogFormat::Table | LogFormat::Parquet | LogFormat::LeRobot => "row",
     }
 }
@@ -96,6 +98,8 @@ fn headline(survey: &LogSurvey) -> String {
     match survey.format {
         LogFormat::Mcap => of_bag("MCAP"),
         LogFormat::Db3 => of_bag("SQLite bag"),
+        LogFormat::JsonLines => of_bag("JSON Lines"),
+        LogFormat::Rtde => of_bag("RTDE"),
         LogFormat::Table => format!("table, {duration}, {counted_entries}"),
         LogFormat::Parquet => format!("table in Parquet, {duration}, {counted_entries}"),
         LogFormat::LeRobot => {

@@ -12,15 +12,11 @@ use super::{
 };
 use crate::{
     codes,
-    event::{
-        EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedJoints, LoggedPose, TopicContent,
-    },
+    event::{EventTime, LogEvent, LogFormat, LogGap, LogReader, LogTopic, LoggedJoints, TopicContent},
     options::LogOptions,
     table_reading::{DecimalMark, TableReading, TableText, TableTime},
+    tcp_pose::pose_of_ur,
 };
-
-/// Frame of the pose of a UR's TCP.
-const UR_FRAME: &str = "base";
 
 /// A table that is read as a log.
 pub(crate) struct TableReader {
@@ -146,7 +142,7 @@ impl TableReader {
         self.events.push_back(LogEvent::Joints(joints));
         if let Some(columns) = self.columns.tcp_pose {
             let pose = columns.map(|column| self.number(cells, column, line));
-            self.events.push_back(LogEvent::Pose(pose_of_ur(pose, time)));
+            self.events.push_back(LogEvent::Pose(pose_of_ur(pose, 1, time)));
         }
     }
 
@@ -281,22 +277,6 @@ fn ns_of_row(row: u32, rate_hz: f64) -> Option<i64> {
         reason = "a float in the range of i64, or the nearest end of it"
     )]
     ns.is_finite().then_some(ns.round() as i64)
-}
-
-/// Position in m and rotation vector in rad, as the controller of a UR gives the pose of its TCP.
-fn pose_of_ur([x, y, z, rx, ry, rz]: [f64; 6], time: EventTime) -> LoggedPose {
-    let angle = (rx * rx + ry * ry + rz * rz).sqrt();
-    // sin(angle / 2) / angle, whose limit at 0 is 1 / 2.
-    let factor = if angle > 0.0 { libm::sin(angle / 2.0) / angle } else { 0.5 };
-    LoggedPose {
-        topic: 1,
-        time,
-        is_first_of_message: true,
-        frame: UR_FRAME.to_owned(),
-        child: None,
-        child_in_frame_m: [x, y, z],
-        frame_from_child_wxyz: [libm::cos(angle / 2.0), factor * rx, factor * ry, factor * rz],
-    }
 }
 
 #[cfg(test)]

@@ -250,16 +250,21 @@ impl Monitor for TrackingMonitor {
         if let Some(since_s) = since_s {
             self.observe_rest(since_s, setpoint.q, sample);
         }
+        if sample.is_last {
+            self.end(sample);
+        }
+    }
+
+    fn end(&mut self, sample: &Sample<'_>) {
+        let Some(setpoint) = sample.joints.setpoint else { return };
         // A settling time that is required but was never measured is a failure, not a skipped check.
-        if let Some(watch) = self.settling.as_mut().filter(|watch| sample.is_last && watch.worst().is_none())
-        {
+        if let Some(watch) = self.settling.as_mut().filter(|watch| watch.worst().is_none()) {
             self.was_never_at_rest = true;
             watch.observe(f64::INFINITY, setpoint.q.len(), sample);
         }
-        if sample.is_last {
-            self.goal.observe_joints(&self.kinds, setpoint.q, sample);
-            self.goal.observe_tcp(tcp_error_m, self.tcp.tip, sample);
-        }
+        self.goal.observe_joints(&self.kinds, setpoint.q, sample);
+        let tcp_error_m = if self.goal.tcp.is_some() { self.tcp.error_m(setpoint.q, sample) } else { 0.0 };
+        self.goal.observe_tcp(tcp_error_m, self.tcp.tip, sample);
     }
 
     fn finish(&self, names: &Names) -> Observed {

@@ -100,8 +100,12 @@ impl Monitor for RecordingMonitor {
         }
         self.before_s = sample.time_s;
         if sample.is_last {
-            self.share.observe(self.used_share(), 0, sample);
+            self.end(sample);
         }
+    }
+
+    fn end(&mut self, sample: &Sample<'_>) {
+        self.share.observe(self.used_share(), 0, sample);
     }
 
     fn finish(&self, names: &Names) -> Observed {

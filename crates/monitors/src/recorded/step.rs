@@ -264,10 +264,14 @@ fn stacked(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
 impl Monitor for StepMonitor<'_> {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         if sample.is_last {
-            for of in 0..self.tracks.len() {
-                let jump = self.tracks[of].candidate.take();
-                self.take_jump(jump);
-            }
+            self.end(sample);
+        }
+    }
+
+    fn end(&mut self, _sample: &Sample<'_>) {
+        for of in 0..self.tracks.len() {
+            let jump = self.tracks[of].candidate.take();
+            self.take_jump(jump);
         }
     }
 

@@ -214,8 +214,12 @@ impl Monitor for VelocityMonitor {
             self.go_on(sample);
         }
         if sample.is_last {
-            self.judge(sample);
+            self.end(sample);
         }
+    }
+
+    fn end(&mut self, sample: &Sample<'_>) {
+        self.judge(sample);
     }
 
     fn finish(&self, names: &Names) -> Observed {

@@ -182,6 +182,29 @@ impl Check {
         }
     }
 
+    /// The same, to change it.
+    pub fn on_violation_mut(&mut self) -> &mut OnViolation {
+        match self {
+            Self::Agreement(check) => &mut check.on_violation,
+            Self::Clearance(check) => &mut check.on_violation,
+            Self::Contact(check) => &mut check.on_violation,
+            Self::CycleTime(check) => &mut check.on_violation,
+            Self::Dynamics(check) => &mut check.on_violation,
+            Self::Effort(check) => &mut check.on_violation,
+            Self::Goal(check) => &mut check.on_violation,
+            Self::Invariants(check) => &mut check.on_violation,
+            Self::Limits(check) => &mut check.on_violation,
+            Self::Pose(check) => &mut check.on_violation,
+            Self::Power(check) => &mut check.on_violation,
+            Self::Recording(check) => &mut check.on_violation,
+            Self::Step(check) => &mut check.on_violation,
+            Self::Tracking(check) => &mut check.on_violation,
+            Self::Twist(check) => &mut check.on_violation,
+            Self::Velocity(check) => &mut check.on_violation,
+            Self::Zone(check) => &mut check.on_violation,
+        }
+    }
+
     /// The values that a file may give in one of two units.
     pub fn unit_keys(&self) -> Vec<UnitKeys> {
         match self {

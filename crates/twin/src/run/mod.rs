@@ -1,7 +1,10 @@
 //! The run loop: a source of joint states, comparison with the model, clearance, checks and recording, one
 //! sample after another. It does not know what the source is.
 
+mod observer;
 mod run_loop;
+
+pub use observer::RunObserver;
 
 use std::sync::atomic::AtomicBool;
 
@@ -9,15 +12,14 @@ use congruent_agreement::compare::Model;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use congruent_monitors::{
     Interruption, Names, PoseChange, PoseSample, Recorder, RunningCheck, SameInput, Sample, SampleStore,
-    StepForces,
-    verdict::{CheckResult, CheckValue},
+    StepForces, verdict::CheckValue,
 };
 use congruent_proximity::{Clearance, MovingBodies, PairChoice};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 
 use crate::{
-    outcome::{Outcome, RunError, braked, hex},
+    outcome::RunError,
     same_poses::are_same,
     setup::RunSetup,
     source::{
@@ -64,8 +66,12 @@ pub struct Run<'a> {
     store: SampleStore,
     /// The motion to rest, from the first violation of a check that stops the run.
     stopping: Option<Stopping>,
+    /// Whether the run ends with the present sample.
+    ends: bool,
     /// Set by whoever wants the run to end.
     interrupt: Option<&'a AtomicBool>,
+    /// Who answers each sample.
+    observer: Option<Box<dyn RunObserver + 'a>>,
 }
 
 impl std::fmt::Debug for Run<'_> {
@@ -135,7 +141,9 @@ impl<'a> Run<'a> {
             hash: Sha256::new(),
             store: SampleStore::new(robot.dof(), links, setup.clock.steps),
             stopping: None,
+            ends: false,
             interrupt: None,
+            observer: None,
         })
     }
 
@@ -143,6 +151,13 @@ impl<'a> Run<'a> {
     #[must_use]
     pub fn interrupted_by(mut self, flag: Option<&'a AtomicBool>) -> Self {
         self.interrupt = flag;
+        self
+    }
+
+    /// The same run, of which `observer` sees each sample after its checks.
+    #[must_use]
+    pub fn observed_by(mut self, observer: Box<dyn RunObserver + 'a>) -> Self {
+        self.observer = Some(observer);
         self
     }
 
@@ -262,7 +277,22 @@ impl<'a> Run<'a> {
         sample.violated_checks = checks.iter().filter(|check| check.monitor.has_failed()).count();
         store.take(&sample);
         recorder.record(&mut sample)?;
+        self.ends = ends;
+        self.answer(checks)?;
         Ok(ends)
+    }
+
+    /// Passes this instant and the checks to the observer.
+    fn answer(&mut self, checks: &[RunningCheck<'_>]) -> Result<(), RunError> {
+        let Some(mut observer) = self.observer.take() else { return Ok(()) };
+        let names = std::mem::take(&mut self.names);
+        let ends = self.ends;
+        let mut sample = self.sample();
+        sample.is_last = ends;
+        sample.violated_checks = checks.iter().filter(|check| check.monitor.has_failed()).count();
+        let answered = observer.observe(&mut sample, checks, &names);
+        (self.names, self.observer) = (names, Some(observer));
+        Ok(answered?)
     }
 
     /// What is between the sample before and the present one.
@@ -347,47 +377,5 @@ impl<'a> Run<'a> {
         }
         let joints = self.source.joints();
         self.stopping.as_mut().is_none_or(|stopping| stopping.ends(self.time_s, &joints, tcp_in_root))
-    }
-
-    /// Runs to the end, or to rest after the first violation of a check that stops the run. After an error, the
-    /// outcome holds the results up to it.
-    pub fn finish(
-        &mut self,
-        checks: &mut [RunningCheck<'_>],
-        recorder: &mut dyn Recorder,
-        progress: impl FnMut(u64),
-    ) -> (Outcome, Result<(), RunError>) {
-        // An error ends the loop, but the results so far still get into the outcome.
-        let result = self.go_ahead(checks, recorder, progress);
-        let steps = self.setup.clock.steps_with(self.longer_s());
-        // The error of the run itself is the cause; one of the clean-up follows from it.
-        let servos = self.source.simulated_mut().map(SimulatedRobot::finish).transpose();
-        let (servos, result) = match servos.map(Option::unwrap_or_default) {
-            Ok(servos) => (servos, result),
-            Err(error) => (Vec::new(), result.and(Err(error.into()))),
-        };
-        let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
-        let stopped = self.stopping.as_ref().map(|stopping| {
-            let result = &mut results[stopping.check()];
-            let declared = self.setup.trajectory.declared_accelerations();
-            let robot = &self.setup.description.robot;
-            let simulated = self.source.simulated();
-            let lost = simulated.map_or(&[][..], SimulatedRobot::stopped_at_end_of_range);
-            let braked = braked(robot, declared, lost);
-            result.notes.push(stopping.note(steps, robot, &braked));
-            stopping.report(result, &self.names.joints, braked)
-        });
-        let simulated = self.source.simulated();
-        let outcome = Outcome {
-            stopped,
-            checks: results,
-            steps: self.step,
-            duration_s: self.time_s - self.start_s,
-            servos,
-            actuators: simulated.map(SimulatedRobot::actuators).unwrap_or_default(),
-            slowed: simulated.map(SimulatedRobot::slowed).unwrap_or_default().to_vec(),
-            trajectory_sha256: hex(&self.hash.finalize_reset()),
-        };
-        (outcome, result)
     }
 }

@@ -3,9 +3,9 @@
 use congruent_description::{JointKind, Robot, RobotDescription, RobotQ};
 use congruent_monitors::{RunClock, write_out_limits};
 use congruent_motion::{ACCELERATION_M_S2, DEFAULT_GAIN_PER_S, default_jerk_m_s3};
-use congruent_scenario::{MotionSettings, Scenario, ScenarioFolder, StartSettings};
+use congruent_scenario::{MotionSettings, Scenario, StartSettings};
 
-use super::surroundings::DEFAULT_REACH_M;
+use super::{surroundings::DEFAULT_REACH_M, written_at::WrittenAt};
 
 /// Fills in defaults: the duration, the whole start, limits, and the absolute paths of the robot and of files.
 pub(super) fn write_out(
@@ -13,9 +13,9 @@ pub(super) fn write_out(
     description: &RobotDescription,
     clock: &RunClock,
     start: &RobotQ,
-    folder: ScenarioFolder<'_>,
+    written: WrittenAt<'_>,
 ) {
-    write_out_paths(scenario, folder);
+    write_out_paths(scenario, written);
     let path = &description.path;
     // A robot that was made in code may have a path that does not exist.
     let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
@@ -66,13 +66,18 @@ fn write_out_profile(motion: &mut MotionSettings) {
 }
 
 /// Makes the paths of other files absolute.
-fn write_out_paths(scenario: &mut Scenario, folder: ScenarioFolder<'_>) {
+fn write_out_paths(scenario: &mut Scenario, WrittenAt { folder, stream, .. }: WrittenAt<'_>) {
     // Meshes keep their paths: those that leave the project of the folder are refused.
     if scenario.folder.is_some() || scenario.obstacle.iter().any(|obstacle| obstacle.mesh.is_some()) {
         scenario.folder = Some(folder.whole(".").display().to_string());
     }
+    let source = scenario.source.clone();
     for file in scenario.named_files_mut() {
         *file = folder.whole(file).display().to_string();
+    }
+    if stream.is_some() {
+        // What a stream comes from is no file in the folder.
+        scenario.source = source;
     }
 }
 

@@ -4,6 +4,8 @@ pub(crate) mod actuation;
 mod checks;
 mod cost;
 mod default_values;
+mod head;
+mod motions;
 mod output;
 mod recorded;
 mod run_setup;

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use congruent_description::{Obstacle, RobotDescription, RobotQ, load_robot_with};
 use congruent_dynamics::JointResistance;
 use congruent_input::{Capability, Diagnostic, Diagnostics, FileAccess, Findings, InputFile};
+use congruent_logs::SurveyedLog;
 use congruent_monitors::{
     ActuatorLimits, CheckContext, ComparedPoses, RunClock, RunDynamics, RunPayload, RunningCheck,
 };
-use congruent_motion::{MotionInput, Trajectory, codes::scenario::TARGET_LIMIT, motion_limits};
+use congruent_motion::{Trajectory, codes::scenario::TARGET_LIMIT};
 use congruent_proximity::{MovingBody, ObstacleMobility, Zone, simplified_hulls};
 use congruent_scenario::{
-    ControllerKind, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile, ScenarioFolder, numbers,
+    ControllerKind, FilePlace, Override, Scenario, ScenarioFile, ScenarioFolder, numbers,
 };
 
 use super::{
@@ -19,6 +20,8 @@ use super::{
     checks::{default_checks, examine_checks, needs_shapes},
     cost::long_run,
     default_values::write_out,
+    head::check_head,
+    motions::{trajectory, written_s},
     recorded::RecordedSetup,
     start::{inside_limits, start},
     surroundings::{FirstStep, Surroundings, jumps, mobility},
@@ -92,15 +95,42 @@ impl RunSetup {
     /// # Errors
     /// As [`RunSetup::load`].
     pub fn load_with(path: &Path, overrides: &[Override], access: &FileAccess) -> Result<Self, Findings> {
+        Self::load_for(path, overrides, access, None)
+    }
+
+    /// The same for a stream in place of the log of `[source]`, of which `stream` says what its first messages have.
+    ///
+    /// # Errors
+    /// As [`RunSetup::load`].
+    pub fn load_live(
+        path: &Path,
+        overrides: &[Override],
+        access: &FileAccess,
+        stream: &SurveyedLog,
+    ) -> Result<Self, Findings> {
+        Self::load_for(path, overrides, access, Some(stream))
+    }
+
+    fn load_for(
+        path: &Path,
+        overrides: &[Override],
+        access: &FileAccess,
+        stream: Option<&SurveyedLog>,
+    ) -> Result<Self, Findings> {
         let own = access.fresh();
-        let loaded = Self::load_noting(path, overrides, &own);
+        let loaded = Self::load_noting(path, overrides, &own, stream);
         // Also after an error: files that were read before it are inputs, too.
         access.add(&own.files());
         loaded
     }
 
     /// The same; `access` notes what is read.
-    fn load_noting(path: &Path, overrides: &[Override], access: &FileAccess) -> Result<Self, Findings> {
+    fn load_noting(
+        path: &Path,
+        overrides: &[Override],
+        access: &FileAccess,
+        stream: Option<&SurveyedLog>,
+    ) -> Result<Self, Findings> {
         let file = ScenarioFile::read_with(path, overrides, access)?;
         // Only now is it known which project the scenario belongs to.
         let access = access.inside_project_of(path)?;
@@ -121,7 +151,7 @@ impl RunSetup {
         };
         let folder = file.folder();
         let folder = ScenarioFolder { path: &folder, access: &access };
-        let written = WrittenAt { place: file.place(), folder };
+        let written = WrittenAt { place: file.place(), folder, stream };
         let built = Self::build(file.scenario.clone(), description, written);
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
@@ -149,13 +179,33 @@ impl RunSetup {
     /// # Errors
     /// Every finding, if at least one is an error.
     pub fn new(scenario: Scenario, description: RobotDescription) -> Result<Self, Findings> {
+        Self::new_for(scenario, description, None)
+    }
+
+    /// The same for a stream in place of the log of `source`, of which `stream` says what its first messages have.
+    ///
+    /// # Errors
+    /// As [`RunSetup::new`].
+    pub fn new_live(
+        scenario: Scenario,
+        description: RobotDescription,
+        stream: &SurveyedLog,
+    ) -> Result<Self, Findings> {
+        Self::new_for(scenario, description, Some(stream))
+    }
+
+    fn new_for(
+        scenario: Scenario,
+        description: RobotDescription,
+        stream: Option<&SurveyedLog>,
+    ) -> Result<Self, Findings> {
         let wrong = numbers::check(&scenario);
         if !wrong.is_empty() {
             return Err(wrong.into());
         }
         let folder = PathBuf::from(scenario.folder.clone().unwrap_or_default());
         let folder = ScenarioFolder { path: &folder, access: &FileAccess::default() };
-        Self::build(scenario, description, WrittenAt { place: FilePlace::nowhere(), folder })
+        Self::build(scenario, description, WrittenAt { place: FilePlace::nowhere(), folder, stream })
     }
 
     fn build(
@@ -163,7 +213,7 @@ impl RunSetup {
         description: RobotDescription,
         written: WrittenAt<'_>,
     ) -> Result<Self, Findings> {
-        let WrittenAt { place, folder } = written;
+        let WrittenAt { place, folder, .. } = written;
         let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
         let own_checks = scenario.check.len();
         // Before anything is checked, so that default checks go through the same examination.
@@ -199,7 +249,7 @@ impl RunSetup {
             return Err(beside_ranges(found, warnings));
         }
         // After all checks: messages refer to what the user has written.
-        write_out(&mut scenario, &description, &clock, &start, folder);
+        write_out(&mut scenario, &description, &clock, &start, written);
         // Only the scenario's own checks have lines; default checks follow them and have none.
         let check_lines = (0..own_checks).map(|at| place.key("check").item(at).line()).collect();
         let Actuation { controller, resistances, sensors, mut payloads } = actuation;
@@ -325,25 +375,6 @@ fn beside_ranges(mut found: Diagnostics, warnings: Vec<Diagnostic>) -> Findings 
     found.into()
 }
 
-/// The motions, planned one after another.
-fn trajectory(
-    scenario: &Scenario,
-    WrittenAt { place, folder }: WrittenAt<'_>,
-    description: &RobotDescription,
-    start: &RobotQ,
-    warnings: &mut Vec<Diagnostic>,
-) -> Result<Trajectory, Findings> {
-    let limits = motion_limits::build(&scenario.limits, place.key("limits"), description)?;
-    let places = place.key("motion");
-    let input = MotionInput { motions: &scenario.motion, places, limits: &limits, folder };
-    Trajectory::new(input, description, start, warnings)
-}
-
-/// The duration of the motions as the scenario gives it; 1 s for each motion without one.
-fn written_s(scenario: &Scenario) -> f64 {
-    scenario.motion.iter().map(|motion| motion.duration_s().unwrap_or(1.0)).sum()
-}
-
 /// The findings about a robot that cannot be used, at the key that names it.
 fn robot_refused(file: &ScenarioFile, mut findings: Findings) -> Findings {
     let at_key = |found: Diagnostic| file.mark(file.place().key("robot").mark(found));
@@ -357,24 +388,4 @@ fn robot_refused(file: &ScenarioFile, mut findings: Findings) -> Findings {
     );
     findings.extend([at_key(refused)]);
     findings
-}
-
-/// The checks that the reader of a file does, for a scenario that was made in code.
-fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnostic> {
-    let Scenario { schema_version, name, seed, .. } = scenario;
-    let error = if *schema_version != SCHEMA_VERSION {
-        Diagnostic::error(
-            congruent_scenario::codes::scenario::VERSION,
-            format!("schema_version = {schema_version} is not supported"),
-        )
-    } else if name.trim().is_empty() {
-        Diagnostic::error(congruent_scenario::codes::scenario::NAME, "the name is empty")
-    // The scenario is written out as TOML, whose integers are signed.
-    } else if i64::try_from(*seed).is_err() {
-        let message = format!("seed = {seed} is above {}, the largest integer of TOML", i64::MAX);
-        place.key("seed").mark(Diagnostic::error(codes::scenario::SEED, message))
-    } else {
-        return Ok(());
-    };
-    Err(error)
 }

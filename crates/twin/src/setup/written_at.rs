@@ -1,5 +1,6 @@
 //! Where a scenario is.
 
+use congruent_logs::SurveyedLog;
 use congruent_scenario::{FilePlace, ScenarioFolder};
 
 /// The place of a scenario in its file, and the folder of the files that it names.
@@ -7,4 +8,6 @@ use congruent_scenario::{FilePlace, ScenarioFolder};
 pub(super) struct WrittenAt<'a> {
     pub(super) place: FilePlace<'a>,
     pub(super) folder: ScenarioFolder<'a>,
+    /// What the first messages of a stream say, which takes the place of the log.
+    pub(super) stream: Option<&'a SurveyedLog>,
 }

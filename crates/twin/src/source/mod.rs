@@ -12,6 +12,7 @@ mod sensors;
 mod simulated_dynamics;
 mod simulated_poses;
 mod simulation;
+mod stream_progress;
 
 pub use actuators::ActuatorUse;
 pub(crate) use braking::stop_accelerations;
@@ -22,3 +23,4 @@ pub(crate) use run_source::RunSource;
 pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;
 pub use simulation::SimulationSource;
+pub use stream_progress::{StreamPosition, StreamProgress};

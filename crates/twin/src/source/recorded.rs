@@ -3,17 +3,22 @@
 use std::collections::VecDeque;
 
 use congruent_description::{Robot, RobotQ};
-use congruent_logs::{LogStream, StreamEvent, StreamedPose};
+use congruent_logs::{EventTime, LiveReader, LogStream, StreamEvent, StreamedPose};
 use congruent_monitors::{JointSample, JointStateView, SetpointView};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
-use super::joint_states::{Advance, JointStateSource, SourceError, SourcePose};
+use super::{
+    joint_states::{Advance, JointStateSource, SourceError, SourcePose},
+    stream_progress::{StreamPosition, StreamProgress},
+};
 use crate::{codes, setup::RecordedSetup};
 
 /// How long rows are kept for poses that come later in the log, s.
 const KEPT_S: f64 = 3.0;
 /// Most rows that are kept: those of 3 s at 4 kHz.
 const MOST_KEPT: usize = 12_000;
+/// Most poses that wait for a row: a stream may have poses and no joints for hours.
+const MOST_WAITING: usize = 100_000;
 
 /// The joints at one instant of the log.
 #[derive(Debug, Clone)]
@@ -26,6 +31,7 @@ struct RecordedJoints {
     setpoint_qd: Vec<f64>,
     left_out: u64,
     begins_part: bool,
+    message: EventTime,
 }
 
 /// A log, instant after instant.
@@ -41,6 +47,8 @@ pub struct RecordedSource<'a> {
     next: RecordedJoints,
     has_next: bool,
     is_gap_given: bool,
+    /// Of a stream. Its next row is read when it is wanted: the answer to a sample must not wait for it.
+    live: Option<StreamProgress>,
     /// Positions of the last rows, the latest at the end.
     kept: VecDeque<(f64, RobotQ)>,
     /// Poses that are later than the rows so far, in the order of their times.
@@ -62,6 +70,25 @@ impl<'a> RecordedSource<'a> {
     /// The log cannot be read, or has no row.
     pub fn new(setup: &'a RecordedSetup, robot: &'a Robot, start: &'a RobotQ) -> Result<Self, SourceError> {
         let stream = LogStream::open(&setup.path, &setup.options, setup.selection.clone());
+        Self::begin(setup, robot, start, stream.map_err(SourceError::new)?).at_first_row()
+    }
+
+    /// A stream at its first row; `state` is kept at how far it has come.
+    ///
+    /// # Errors
+    /// The stream cannot be read, or ends without a row.
+    pub fn live(
+        setup: &'a RecordedSetup,
+        robot: &'a Robot,
+        start: &'a RobotQ,
+        reader: LiveReader,
+        state: StreamProgress,
+    ) -> Result<Self, SourceError> {
+        let stream = LogStream::new(Box::new(reader), setup.selection.clone());
+        Self { live: Some(state), ..Self::begin(setup, robot, start, stream) }.at_first_row()
+    }
+
+    fn begin(setup: &'a RecordedSetup, robot: &'a Robot, start: &'a RobotQ, stream: LogStream) -> Self {
         let dof = robot.dof();
         let joints = RecordedJoints {
             time_s: 0.0,
@@ -72,31 +99,36 @@ impl<'a> RecordedSource<'a> {
             setpoint_qd: vec![f64::NAN; dof],
             left_out: 0,
             begins_part: false,
+            message: EventTime::default(),
         };
         let measured = setup.selection.joints.iter().filter(|topic| !topic.is_setpoint);
         let mut is_recorded = vec![false; dof];
         measured.flat_map(|topic| &topic.joints).for_each(|joint| is_recorded[joint.joint] = true);
-        let mut source = Self {
+        Self {
             setup,
             robot,
             start,
-            stream: stream.map_err(SourceError::new)?,
+            stream,
             is_recorded,
             now: joints.clone(),
             next: joints,
             has_next: true,
             is_gap_given: false,
+            live: None,
             kept: VecDeque::new(),
             waiting: VecDeque::new(),
             pose_q: start.clone(),
             no_accelerations: vec![0.0; dof],
-        };
-        source.read()?;
-        if !source.has_next {
-            return Err(SourceError::new(source.nothing()));
         }
-        source.take_next()?;
-        Ok(source)
+    }
+
+    fn at_first_row(mut self) -> Result<Self, SourceError> {
+        self.read()?;
+        if !self.has_next {
+            return Err(SourceError::new(self.nothing()));
+        }
+        self.take_next()?;
+        Ok(self)
     }
 
     fn nothing(&self) -> congruent_input::Diagnostic {
@@ -122,9 +154,13 @@ impl<'a> RecordedSource<'a> {
                 Some(StreamEvent::Pose(pose)) => {
                     let later = self.waiting.iter().rev().take_while(|of| of.time_s > pose.time_s).count();
                     self.waiting.insert(self.waiting.len() - later, pose);
+                    if self.waiting.len() > MOST_WAITING {
+                        self.waiting.pop_front();
+                    }
                 }
                 None => {
                     self.has_next = false;
+                    self.say_how_far();
                     return Ok(());
                 }
             }
@@ -134,7 +170,7 @@ impl<'a> RecordedSource<'a> {
     fn fill_next(&mut self) {
         let (row, next) = (self.stream.row(), &mut self.next);
         (next.time_s, next.left_out) = (row.time_s, row.left_out);
-        next.begins_part = self.stream.begins_part();
+        (next.begins_part, next.message) = (self.stream.begins_part(), row.message);
         next.qd.copy_from_slice(&row.qd);
         // Joints that the log does not have stay where they are.
         let held = next.qd.iter_mut().zip(&self.is_recorded).filter(|(_, is_recorded)| !**is_recorded);
@@ -160,8 +196,15 @@ impl<'a> RecordedSource<'a> {
     fn take_next(&mut self) -> Result<(), SourceError> {
         std::mem::swap(&mut self.now, &mut self.next);
         self.is_gap_given = false;
+        self.say_how_far();
+        self.keep_positions();
+        if self.live.is_some() { Ok(()) } else { self.read() }
+    }
+
+    /// Keeps the positions of this row for poses that come later.
+    fn keep_positions(&mut self) {
         if !self.waits_for_poses() {
-            return self.read();
+            return;
         }
         let oldest_s = self.now.time_s - KEPT_S;
         let is_old = |(time_s, _): &(f64, RobotQ)| *time_s < oldest_s;
@@ -173,7 +216,12 @@ impl<'a> RecordedSource<'a> {
         let mut q = reused.map_or_else(|| self.now.q.clone(), |(_, q)| q);
         q.copy_from_slice(&self.now.q);
         self.kept.push_back((self.now.time_s, q));
-        self.read()
+    }
+
+    fn say_how_far(&self) {
+        if let Some(state) = &self.live {
+            state.set(StreamPosition { message: self.now.message, counts: self.stream.joint_counts() });
+        }
     }
 
     fn waits_for_poses(&self) -> bool {
@@ -238,6 +286,10 @@ impl JointStateSource for RecordedSource<'_> {
     }
 
     fn advance(&mut self, _wanted_s: f64) -> Result<Advance, SourceError> {
+        // Behind a gap the next row was read already.
+        if self.live.is_some() && !self.is_gap_given {
+            self.read()?;
+        }
         if !self.has_next {
             return Ok(Advance::End);
         }
@@ -251,7 +303,8 @@ impl JointStateSource for RecordedSource<'_> {
     }
 
     fn is_last(&self) -> bool {
-        !self.has_next
+        // Nobody knows of a stream whether more comes.
+        self.live.is_none() && !self.has_next
     }
 
     fn next_pose(&mut self) -> Option<SourcePose<'_>> {

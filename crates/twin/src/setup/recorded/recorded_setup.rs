@@ -48,19 +48,23 @@ impl RecordedSetup {
     /// Reads the log of a scenario once; `None` without one. What is wrong with it goes into `found`, what is suspicious into `warnings`.
     pub(in crate::setup) fn new(
         scenario: &Scenario,
-        WrittenAt { place, folder }: WrittenAt<'_>,
+        WrittenAt { place, folder, stream }: WrittenAt<'_>,
         description: &RobotDescription,
         found: &mut Diagnostics,
         warnings: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
         let settings = scenario.source.as_ref()?;
         let place = place.key("source");
-        let path = direct_path(&folder.path.join(&settings.log));
-        found.keep(folder.access.note_log(&path).map_err(|error| place.key("log").mark(error)))?;
         let joints = description.robot.movable_joint_names().map(str::to_owned).collect();
         let options = LogOptions { rate_hz: settings.rate_hz, joints };
-        let surveyed = survey_log(&path, &options, Some(&description.robot));
-        let surveyed = found.keep(surveyed.map_err(|error| place.key("log").mark(error)))?;
+        let (path, surveyed) = if let Some(surveyed) = stream {
+            (PathBuf::from(&settings.log), surveyed.clone())
+        } else {
+            let path = direct_path(&folder.path.join(&settings.log));
+            let surveyed = folder.access.note_log(&path);
+            let surveyed = surveyed.and_then(|()| survey_log(&path, &options, Some(&description.robot)));
+            (path, found.keep(surveyed.map_err(|error| place.key("log").mark(error)))?)
+        };
         let survey = surveyed.survey;
         found.keep(in_order(settings, place));
         let chosen = choose(settings, place, &survey, &description.robot);
@@ -71,7 +75,7 @@ impl RecordedSetup {
         let mut chosen = found.keep(chosen)?;
         for topic in &mut chosen.topics {
             topic.maximum_gap_s =
-                settings.maximum_gap_s.unwrap_or_else(|| maximum_gap_s(&survey, &topic.topic));
+                settings.maximum_gap_s.unwrap_or_else(|| maximum_gap_s(settings, &survey, &topic.topic));
         }
         let clock = clock_of(settings, &survey, &chosen);
         let compared = found.keep(poses(settings, place, &survey, description))?;
@@ -86,12 +90,14 @@ impl RecordedSetup {
             ],
             poses: compared.iter().map(|(selected, _)| selected.clone()).collect(),
             joints: chosen.topics,
+            is_live: stream.is_some(),
         };
         let first = survey.topics.iter().find(|topic| topic.name == selection.joints[0].topic);
         Some(Self {
             clock: RunClock {
-                step_s: first.and_then(period_s).unwrap_or(UNKNOWN_PERIOD_S),
-                steps: first.map(|topic| topic.messages.saturating_sub(1)),
+                step_s: first.and_then(|topic| period_s(topic, settings)).unwrap_or(UNKNOWN_PERIOD_S),
+                // How long a stream will be nobody knows.
+                steps: first.filter(|_| stream.is_none()).map(|topic| topic.messages.saturating_sub(1)),
                 gravity_in_world: Vector3::from(scenario.simulation.gravity_m_s2),
             },
             path,
@@ -135,14 +141,16 @@ fn origin_s(survey: &LogSurvey, chosen: &ChosenJoints, clock: ClockKind) -> f64 
     if is_other_clock { first_s } else { 0.0 }
 }
 
-fn period_s(topic: &TopicSurvey) -> Option<f64> {
-    topic.times.as_ref()?.period_s.filter(|period_s| *period_s > 0.0)
+/// The period of a topic: as it is found, or as the scenario says for messages of which there are too few yet.
+fn period_s(topic: &TopicSurvey, settings: &SourceSettings) -> Option<f64> {
+    let found = topic.times.as_ref().and_then(|times| times.period_s).filter(|period_s| *period_s > 0.0);
+    found.or_else(|| settings.rate_hz.map(|rate_hz| 1.0 / rate_hz))
 }
 
 /// Five periods of a topic.
-fn maximum_gap_s(survey: &LogSurvey, topic: &str) -> f64 {
+fn maximum_gap_s(settings: &SourceSettings, survey: &LogSurvey, topic: &str) -> f64 {
     let topic = survey.topics.iter().find(|of| of.name == topic);
     topic
-        .and_then(period_s)
+        .and_then(|topic| period_s(topic, settings))
         .map_or(SHORTEST_GAP_S, |period_s| (PERIODS_OF_A_GAP * period_s).max(SHORTEST_GAP_S))
 }

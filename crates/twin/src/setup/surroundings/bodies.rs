@@ -34,7 +34,7 @@ impl Surroundings {
         trajectory: Option<&Trajectory>,
         found: &mut Diagnostics,
     ) -> Self {
-        let WrittenAt { place, folder } = written;
+        let WrittenAt { place, folder, .. } = written;
         let places = place.key("obstacle");
         let (mut moving, mut payloads) = (Vec::new(), Vec::new());
         let built = spaces::build(&scenario.obstacle, places, &spaces::OBSTACLE, folder, &description.robot);
