@@ -45,7 +45,13 @@ pub struct Collector<'a> {
     /// First instant and length of the recording, s.
     from_s: f64,
     duration_s: f64,
+    last_q: Option<RobotQ>,
 }
+
+/// Numbers that are larger are no efforts of a robot; their squares would not be numbers. N m or N; kind: choice.
+pub(crate) const LARGEST: f64 = 1e12;
+/// A joint that turns or shifts by more from one row to the next has been counted anew, as an angle from pi to -pi. rad or m; kind: choice.
+const JUMP: f64 = 3.0;
 
 impl<'a> Collector<'a> {
     /// For a recording of this length.
@@ -57,7 +63,15 @@ impl<'a> Collector<'a> {
         duration_s: f64,
     ) -> Self {
         let (maker, equations) = ColumnMaker::new(tree);
-        Self { window: SmoothingWindow::new(smoothing), maker, equations, instants, from_s, duration_s }
+        Self {
+            window: SmoothingWindow::new(smoothing),
+            maker,
+            equations,
+            instants,
+            from_s,
+            duration_s,
+            last_q: None,
+        }
     }
 
     /// Ends a part: what follows is not connected with the rows so far.
@@ -70,8 +84,15 @@ impl<'a> Collector<'a> {
     /// # Errors
     /// The row is another robot's.
     pub fn push(&mut self, row: RecordedRow<'_>) -> Result<(), DynamicsError> {
+        if self.last_q.as_ref().is_some_and(|last| jumps(last, row.q)) {
+            self.break_here();
+        }
+        match &mut self.last_q {
+            Some(last) => last.copy_from_slice(row.q),
+            None => self.last_q = Some(row.q.clone()),
+        }
         let mut outcome = Ok(());
-        let Self { window, maker, equations, instants, from_s, duration_s } = self;
+        let Self { window, maker, equations, instants, from_s, duration_s, .. } = self;
         window.push(row.kept(), |instant| {
             let block = block(instant.time_s - *from_s, *duration_s);
             if outcome.is_ok() {
@@ -85,6 +106,11 @@ impl<'a> Collector<'a> {
     pub fn finish(self) -> RecordedEquations {
         self.equations
     }
+}
+
+/// Whether a joint was counted anew between two rows.
+pub(crate) fn jumps(before: &RobotQ, after: &RobotQ) -> bool {
+    before.iter().zip(after.iter()).any(|(before, after)| (after - before).abs() > JUMP)
 }
 
 /// The block of a time since the beginning.
@@ -131,8 +157,14 @@ fn add(
             Instants::Moving(limits) => slowest(joint.joint) > limits[joint.joint],
             Instants::Still(_) => true,
         };
-        if moves && row.iter().all(|value| value.is_finite()) {
-            joint.add(block, row);
+        if moves && row.iter().all(|value| value.abs() < LARGEST) {
+            let at = joint.joint;
+            let [of_first, of_second] = instant.of_derivatives;
+            joint.add(
+                block,
+                row,
+                [instant.q_variance[at] * of_second, instant.effort_variance[at] * of_first],
+            );
             is_used = true;
         }
     }

@@ -4,16 +4,17 @@ use congruent_dynamics::{BodyTree, DynamicsBuffer, JointMotionState};
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    collect::RecordedRow,
+    collect::{LARGEST, RecordedRow},
     effort_kind::{
         DELAY, EFFORT, GRAVITY, RIGID, RecognisedEffort, SMALL, SmallBlocks, TERMS, recognise_small,
     },
     equations::{BLOCKS, SummedRows},
-    recording_survey::AS_GOOD,
     smoothing::{SmoothedInstant, Smoothing, SmoothingWindow},
     unknowns::JointUnknown,
 };
 
+/// A window is taken if it leaves at most this much more of the efforts than the best one, and no shorter one does. No unit; kind: choice.
+const AS_GOOD: f64 = 1.1;
 /// Length of a block, s; they are filled in turns, since nobody knows when the samples end. Kind: choice.
 const BLOCK_S: f64 = 1.0;
 /// A joint moves if it is faster than this, rad/s or m/s. Kind: choice; the joints of an arm in motion reach a hundred times as much.
@@ -39,7 +40,8 @@ impl EffortFit {
     /// For samples that are this far apart.
     pub fn new(tree: BodyTree, period_s: f64) -> Self {
         let joints = tree.driven_joints().len();
-        let empty: SmallBlocks = vec![SummedRows { gram: DMatrix::zeros(SMALL, SMALL), rows: 0 }; BLOCKS];
+        let empty: SmallBlocks =
+            vec![SummedRows { gram: DMatrix::zeros(SMALL, SMALL), rows: 0, armature_noise: 0.0 }; BLOCKS];
         let windows = Smoothing::of_period(period_s)
             .map(|smoothing| (SmoothingWindow::new(smoothing), vec![empty.clone(); joints]))
             .collect();
@@ -120,8 +122,8 @@ fn add(tree: &BodyTree, instant: &SmoothedInstant, effort: &DrivenEffort, joints
         row[TERMS + JointUnknown::Armature as usize] = instant.qdd[joint];
         row[TERMS + JointUnknown::Offset as usize] = 1.0;
         (row[DELAY], row[EFFORT]) = (-instant.effort_rate[joint], instant.effort[joint]);
-        if row.iter().all(|value| value.is_finite()) {
-            let SummedRows { gram, rows } = &mut blocks[block];
+        if row.iter().all(|value| value.abs() < LARGEST) {
+            let SummedRows { gram, rows, .. } = &mut blocks[block];
             gram.ger(1.0, &row, &row, 1.0);
             *rows += 1;
         }

@@ -44,9 +44,11 @@ pub struct RecognisedEffort {
 
 /// Torques whose factor is at most this, or its inverse, are torques of a robot with other masses; a motor with its gear has factors of
 /// some N m/A. No unit; kind: choice.
-const STILL_TORQUE: f64 = 2.0;
+const STILL_TORQUE: f64 = 2.5;
 /// What is left as a torque, compared with what is left as a current, which has one unknown more. No unit; kind: choice.
 const AS_GOOD: f64 = 1.5;
+/// Torques without gravity leave less than torques by this factor at least. No unit; kind: choice.
+const CLEARLY: f64 = 2.0;
 /// More than this part of the variance is not explained: no unit; kind: choice. A UR5e leaves 0.02, a Panda with its worst joint 0.3.
 const UNEXPLAINED: f64 = 0.5;
 /// A factor is known if its standard error is at most this part of it. No unit; kind: choice.
@@ -59,8 +61,8 @@ pub fn recognise(equations: &RecordedEquations) -> RecognisedEffort {
     let small = |(row, joint): (usize, &JointEquations)| {
         let map = small_columns(equations, row, joint);
         let block = |at: usize| {
-            let SummedRows { gram, rows } = joint.sum(|block| block == at);
-            SummedRows { gram: map.transpose() * gram * &map, rows }
+            let SummedRows { gram, rows, armature_noise } = joint.sum(|block| block == at);
+            SummedRows { gram: map.transpose() * gram * &map, rows, armature_noise }
         };
         (0..BLOCKS).map(block).collect()
     };
@@ -81,25 +83,27 @@ pub(crate) fn recognise_small(joints: &[SmallBlocks]) -> RecognisedEffort {
     }
     let left =
         std::array::from_fn(|kind| used().map(|of| of.left[kind]).sum::<f64>() / float(used().count()));
-    let mut sizes: Vec<f64> = factors.iter().flatten().map(|(factor, _)| factor.abs()).collect();
+    let mut sizes: Vec<f64> = factors.iter().flatten().map(|(factor, _)| *factor).collect();
     sizes.sort_by(f64::total_cmp);
     let middle = sizes.get(sizes.len() / 2).copied();
     RecognisedEffort { kind: kind(left, middle), left, left_of_joints, factors }
 }
 
-fn kind(left: [f64; 3], middle_factor: Option<f64>) -> EffortKind {
-    let [torque, without_gravity, current] = left;
-    let (as_torque, kind) = if without_gravity < torque {
-        (without_gravity, EffortKind::TorqueWithoutGravity)
-    } else {
-        (torque, EffortKind::Torque)
-    };
+fn kind([torque, without_gravity, current]: [f64; 3], middle_factor: Option<f64>) -> EffortKind {
+    if current >= UNEXPLAINED {
+        return EffortKind::Unknown;
+    }
+    let is_good = |left: f64| left <= AS_GOOD * current;
+    // A slide that stands upright has the same gravity everywhere: a constant effort takes its place, and nothing distinguishes the two.
+    if is_good(without_gravity) && without_gravity < torque / CLEARLY {
+        return EffortKind::TorqueWithoutGravity;
+    }
     let is_near_one =
         middle_factor.is_some_and(|factor| (1.0 / STILL_TORQUE..=STILL_TORQUE).contains(&factor));
-    if as_torque < UNEXPLAINED && (as_torque <= AS_GOOD * current || is_near_one) {
-        return kind;
+    if is_good(torque) || is_near_one {
+        return EffortKind::Torque;
     }
-    if current < UNEXPLAINED && middle_factor.is_some() { EffortKind::Current } else { EffortKind::Unknown }
+    if middle_factor.is_some() { EffortKind::Current } else { EffortKind::Unknown }
 }
 
 /// A joint's effort, explained as each kind.

@@ -8,12 +8,18 @@ use crate::unknowns::{JointUnknown, UnknownOrder};
 /// The blocks of time in which equations are added up: what one of them holds is left out together. Kind: choice; four of each fifth.
 pub(crate) const BLOCKS: usize = 20;
 
+/// What is taken for noise of the column of the delay, at most. No unit; kind: choice.
+const MOST_NOISE: f64 = 0.9;
+
 /// Inner products of the columns of some rows.
 #[derive(Debug, Clone)]
 pub(crate) struct SummedRows {
-    /// `C^T C`, symmetric.
+    /// `C^T C`, symmetric; without what the noise of the efforts adds to the square of the column of the delay, or the delay would seem
+    /// smaller than it is.
     pub(crate) gram: DMatrix<f64>,
     pub(crate) rows: usize,
+    /// What the noise of the positions adds to the square of the column of the armature.
+    pub(crate) armature_noise: f64,
 }
 
 /// The equations of one driven joint.
@@ -27,6 +33,8 @@ pub struct JointEquations {
     pub(crate) blocks: Vec<DMatrix<f64>>,
     /// Rows of each block.
     pub(crate) counts: Vec<usize>,
+    /// What noise adds to the squares of the columns of armature and delay in each block.
+    noise: Vec<[f64; 2]>,
 }
 
 /// Columns of the equations of a joint behind those of its bodies and its terms: the delay of its effort, the effort of gravity by the
@@ -41,6 +49,7 @@ impl JointEquations {
             bodies,
             blocks: vec![DMatrix::zeros(columns, columns); BLOCKS],
             counts: vec![0; BLOCKS],
+            noise: vec![[0.0; 2]; BLOCKS],
         }
     }
 
@@ -69,22 +78,37 @@ impl JointEquations {
         self.columns() - 1
     }
 
-    pub(crate) fn add(&mut self, block: usize, row: &DVector<f64>) {
+    /// Adds a row, with the variances of its acceleration and of the derivative of its effort.
+    pub(crate) fn add(&mut self, block: usize, row: &DVector<f64>, variances: [f64; 2]) {
+        self.noise[block].iter_mut().zip(variances).for_each(|(sum, variance)| *sum += variance);
         self.blocks[block].syger(1.0, row, row, 1.0);
         self.counts[block] += 1;
+    }
+
+    /// Forgets all rows.
+    fn clear(&mut self) {
+        self.blocks.iter_mut().for_each(|block| block.fill(0.0));
+        self.counts.fill(0);
+        self.noise.fill([0.0; 2]);
     }
 
     /// The sum of some blocks.
     pub(crate) fn sum(&self, is_taken: impl Fn(usize) -> bool) -> SummedRows {
         let mut gram = DMatrix::zeros(self.columns(), self.columns());
         let mut rows = 0;
+        let [mut armature_noise, mut delay_noise] = [0.0; 2];
         for (at, block) in self.blocks.iter().enumerate().filter(|(at, _)| is_taken(*at)) {
             gram += block;
             rows += self.counts[at];
+            armature_noise += self.noise[at][0];
+            delay_noise += self.noise[at][1];
         }
         // Only the lower triangle was added up.
         gram.fill_upper_triangle_with_lower_triangle();
-        SummedRows { gram, rows }
+        let delay = self.delay_column();
+        // Never all of it: a column that is noise alone says nothing, and stays one.
+        gram[(delay, delay)] -= delay_noise.min(MOST_NOISE * gram[(delay, delay)]);
+        SummedRows { gram, rows, armature_noise }
     }
 
     /// The unknown of each column but those of gravity and of the effort.
@@ -105,12 +129,15 @@ pub struct RecordedEquations {
     pub joints: Vec<JointEquations>,
     /// Instants that the equations are made of.
     pub instants: usize,
+    /// Relative standard errors of the factors that made torques of the efforts.
+    pub(crate) factor_errors: Vec<f64>,
 }
 
 impl RecordedEquations {
     pub(crate) fn new(tree: &BodyTree, joints: Vec<JointEquations>) -> Self {
         let layout = UnknownOrder { bodies: tree.dof(), joints: joints.iter().map(|of| of.joint).collect() };
-        Self { nominal: layout.nominal(tree), layout, joints, instants: 0 }
+        let factor_errors = vec![0.0; joints.len()];
+        Self { nominal: layout.nominal(tree), layout, joints, instants: 0, factor_errors }
     }
 
     /// The same equations with the effort of gravity added to the recorded one, of a robot that reports efforts without it.
@@ -131,11 +158,18 @@ impl RecordedEquations {
         self
     }
 
-    /// The same equations with the recorded effort of each driven joint multiplied by a factor.
+    /// The same equations with the recorded effort of each driven joint multiplied by a factor; a joint whose factor is no number has no
+    /// rows. `relative_errors` are those of the factors.
     #[must_use]
-    pub fn with_factors(mut self, factors: &[f64]) -> Self {
+    pub fn with_factors(mut self, factors: &[f64], relative_errors: &[f64]) -> Self {
+        self.factor_errors = relative_errors.to_vec();
         for (joint, factor) in self.joints.iter_mut().zip(factors) {
             let scaled = [joint.effort_column(), joint.delay_column()];
+            if !factor.is_finite() {
+                joint.clear();
+                continue;
+            }
+            joint.noise.iter_mut().for_each(|noise| noise[1] *= factor * factor);
             for block in &mut joint.blocks {
                 for at in scaled {
                     let mut row = block.row_mut(at);

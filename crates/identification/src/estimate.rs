@@ -84,7 +84,7 @@ pub(crate) fn estimate(
     let sums: Vec<SummedRows> =
         equations.joints.iter().map(|joint| joint.sum(|block| taken.contains(&block))).collect();
     let problem = WeightedEfforts { taken, ..WeightedEfforts::new(equations, free, &sums)? };
-    let effort = |SummedRows { gram, rows }: &SummedRows, joint: &JointEquations| {
+    let effort = |SummedRows { gram, rows, .. }: &SummedRows, joint: &JointEquations| {
         let at = joint.effort_column();
         (gram[(at, at)] / float(*rows).max(1.0)).sqrt()
     };
@@ -221,7 +221,7 @@ impl<'a> WeightedEfforts<'a> {
         let mut place = vec![None; self.equations.layout.len()];
         self.free.iter().enumerate().for_each(|(at, unknown)| place[*unknown] = Some(at));
         for (row, joint) in self.equations.joints.iter().enumerate() {
-            let SummedRows { gram, rows } = &sums[row];
+            let SummedRows { gram, rows, .. } = &sums[row];
             if *rows == 0 {
                 continue;
             }
@@ -249,7 +249,7 @@ impl<'a> WeightedEfforts<'a> {
         &self,
         row: usize,
         x: &DVector<f64>,
-        SummedRows { gram, rows }: &SummedRows,
+        SummedRows { gram, rows, .. }: &SummedRows,
         least: f64,
     ) -> JointNoise {
         let joint = &self.equations.joints[row];
@@ -342,13 +342,16 @@ fn payload_ball(place: &PayloadPlace) -> Parameters {
     ball.transformed_by(&place.link_from_payload).parameters().into()
 }
 
+/// Accelerations whose squares are less than so many times those of the noise show nothing. No unit; kind: choice.
+const NOISE_ALONE: f64 = 4.0;
+
 /// The terms of joints that are free, and those that cannot be distinguished from others.
 type Terms = (Vec<(usize, JointUnknown)>, Vec<(usize, Vec<usize>)>);
 
 fn free_terms(equations: &RecordedEquations, parameters: &FreeUnknowns, sums: &[SummedRows]) -> Terms {
     let (mut terms, mut held) = (Vec::new(), Vec::new());
     for (row, joint) in equations.joints.iter().enumerate() {
-        let SummedRows { gram, rows } = &sums[row];
+        let SummedRows { gram, rows, armature_noise } = &sums[row];
         if *rows == 0 {
             continue;
         }
@@ -356,7 +359,14 @@ fn free_terms(equations: &RecordedEquations, parameters: &FreeUnknowns, sums: &[
         let wanted: Vec<JointUnknown> =
             JointUnknown::ALL.into_iter().filter(|term| parameters.has(*term)).collect();
         let columns: Vec<usize> = wanted.iter().map(|term| joint.term_column(*term)).collect();
-        let part = gram.select_rows(&columns).select_columns(&columns);
+        let mut part = gram.select_rows(&columns).select_columns(&columns);
+        // An acceleration that is noise of the encoder shows no armature.
+        if let Some(at) = wanted.iter().position(|term| *term == JointUnknown::Armature)
+            && part[(at, at)] < NOISE_ALONE * armature_noise
+        {
+            part.fill_row(at, 0.0);
+            part.fill_column(at, 0.0);
+        }
         let found = dependent(&part);
         for (at, term) in wanted.iter().enumerate() {
             let unknown = equations.layout.term(row, *term);

@@ -14,7 +14,8 @@ pub(crate) const FOLDS: usize = 5;
 /// What is left of the effort of a joint in data that were left out of the estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeldOutEffort {
-    /// By the description, root mean square, N m or N.
+    /// By the description, root mean square, N m or N; the delay of the efforts and constant efforts are those that fit it best, from the
+    /// other parts of the time, since it says nothing about them.
     pub before: f64,
     /// By the parameters that were estimated from the other parts of the time, N m or N.
     pub after: f64,
@@ -30,12 +31,13 @@ pub(crate) fn held_out(equations: &RecordedEquations, free: &FreeUnknowns) -> Ve
     let mut sums = vec![none; equations.joints.len()];
     for fold in 0..FOLDS {
         let is_left_out = |block: usize| is_in_fold(block, fold, FOLDS);
-        let Some(found) = estimate(equations, free, |block| !is_left_out(block)) else { continue };
+        let known = |free: &FreeUnknowns| estimate(equations, free, |block| !is_left_out(block));
+        let (Some(found), Some(described)) = (known(free), known(&FreeUnknowns::default())) else { continue };
         for (row, sum) in sums.iter_mut().enumerate() {
             let joint = &equations.joints[row];
-            let SummedRows { gram, rows } = joint.sum(is_left_out);
+            let SummedRows { gram, rows, .. } = joint.sum(is_left_out);
             let left = |x: &DVector<f64>| quadratic(&gram, &local(equations, row, x)).max(0.0);
-            sum.before += left(&equations.nominal);
+            sum.before += left(&described.x);
             sum.after += left(&found.x);
             sum.effort += gram[(joint.effort_column(), joint.effort_column())];
             sum.rows += rows;

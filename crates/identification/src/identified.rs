@@ -20,7 +20,7 @@ pub struct IdentifiedParameters {
     /// The bodies, if their parameters were free, in the frames of the links of their joints.
     pub bodies: Vec<IdentifiedBody>,
     /// Terms that were kept as the description has them, since others have the same effect.
-    pub not_indistinct: Vec<IndistinctTerm>,
+    pub indistinct: Vec<IndistinctTerm>,
     /// Combinations of the free inertial parameters that the recording says more of than was known before, and how many there are.
     pub known_combinations: [usize; 2],
     /// By how much efforts are recorded later than positions, s, with its standard error; `None` if it does not show.
@@ -82,7 +82,10 @@ pub struct IndistinctTerm {
 }
 
 /// On data that were left out, what is left has to be smaller by this part at least. No unit; kind: choice.
-const BETTER: f64 = 0.01;
+const BETTER: f64 = 0.02;
+/// And it may be larger for no joint by more than this part: a joint that the description explains already is predicted a little worse
+/// by estimates. No unit; kind: choice.
+const WORSE: f64 = 0.1;
 
 /// The free parameters of a robot from the equations of a recording, whose efforts are torques. `None` if it has no rows, or does not
 /// determine them at all.
@@ -105,21 +108,21 @@ pub fn identify(equations: &RecordedEquations, free: &FreeUnknowns) -> Option<Id
         bodies: bodies
             .filter_map(|joint| body(equations, &found, &place(joint), BodyOrigin::Described))
             .collect(),
-        not_indistinct: not_indistinct(equations, &found),
+        indistinct: indistinct(equations, &found),
         known_combinations: found.known_combinations,
         delay_s: found.standard_error(layout.delay()).map(|error| (found.x[layout.delay()], error)),
         is_better: is_better(&left_out, &found.noise),
     })
 }
 
-/// Whether the whole is better by a little at least, and no joint is worse by as much.
+/// Whether the whole is better by a little at least, and no joint much worse.
 fn is_better(left_out: &[HeldOutEffort], noise: &[JointNoise]) -> bool {
     let used = || left_out.iter().zip(noise).filter(|(of, _)| of.rows > 0);
     let sum = |left: fn(&HeldOutEffort) -> f64| {
         used().map(|(of, noise)| (left(of) / noise.rms).powi(2)).sum::<f64>()
     };
     let is_worse =
-        |(of, noise): (&HeldOutEffort, &JointNoise)| of.after > of.before.max(noise.rms) * (1.0 + BETTER);
+        |(of, noise): (&HeldOutEffort, &JointNoise)| of.after > of.before.max(noise.rms) * (1.0 + WORSE);
     sum(|of| of.after) < sum(|of| of.before) * (1.0 - BETTER) && !used().any(is_worse)
 }
 
@@ -130,7 +133,9 @@ fn terms(
 ) -> Vec<(JointUnknown, IdentifiedValue)> {
     let value = |term: JointUnknown| {
         let unknown = equations.layout.term(row, term);
-        let standard_error = found.standard_error(unknown)?;
+        // An error of the torque constant is one of all that follows from it.
+        let by_factor = found.x[unknown] * equations.factor_errors[row];
+        let standard_error = libm::hypot(found.standard_error(unknown)?, by_factor);
         let value =
             IdentifiedValue { value: found.x[unknown], standard_error, nominal: equations.nominal[unknown] };
         Some((term, value))
@@ -138,7 +143,7 @@ fn terms(
     JointUnknown::ALL.into_iter().filter_map(value).collect()
 }
 
-fn not_indistinct(equations: &RecordedEquations, found: &ParameterEstimate) -> Vec<IndistinctTerm> {
+fn indistinct(equations: &RecordedEquations, found: &ParameterEstimate) -> Vec<IndistinctTerm> {
     let layout = &equations.layout;
     let of = |unknown: usize| {
         let at = unknown - PARAMETERS * layout.bodies;

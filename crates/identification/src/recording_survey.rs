@@ -1,11 +1,8 @@
 //! What has to be known of a recording before its equations are made: the window, and how fast the joints move.
 
-use congruent_dynamics::{BodyTree, DynamicsError};
-
 use crate::{
-    collect::{Collector, Instants, RecordedRow},
-    effort_kind::recognise,
-    smoothing::{KeptRow, Smoothing, SmoothingWindow},
+    collect::{RecordedRow, jumps},
+    smoothing::{KeptRow, SmoothedInstant, Smoothing, SmoothingWindow},
 };
 
 /// Parts of a recording that are looked at first. Kind: choice.
@@ -17,8 +14,11 @@ const MOVING: f64 = 0.1;
 /// A robot is still if its joints are slower than this part of it. No unit; kind: choice.
 const STILL: f64 = 0.01;
 
-/// A window is taken if it leaves at most this much more of the efforts than the best one, and no shorter one does. No unit; kind: choice.
-pub(crate) const AS_GOOD: f64 = 1.1;
+/// A window is long enough if this part of the squares of the accelerations is noise: by as much an armature seems smaller than it is. No
+/// unit; kind: choice.
+const NOISE: f64 = 1e-3;
+/// A joint moves if less than this part of the squares of its velocities is noise. No unit; kind: choice.
+const MOVES: f64 = 0.01;
 
 /// Parts of a recording, evenly over its time, in memory that does not grow with it.
 #[derive(Debug)]
@@ -51,6 +51,10 @@ impl SampledParts {
             self.parts.push(Vec::new());
             self.is_connected = true;
         }
+        let is_anew = |part: &Vec<KeptRow>| part.last().is_some_and(|last| jumps(&last.q, row.q));
+        if self.parts.last().is_some_and(is_anew) {
+            self.parts.push(Vec::new());
+        }
         if let Some(part) = self.parts.last_mut() {
             part.push(row.kept());
         }
@@ -58,13 +62,49 @@ impl SampledParts {
 
     /// What the parts show with a given window; `None` if they have too few rows for it.
     pub fn survey_with(&self, smoothing: Smoothing) -> Option<RecordingSurvey> {
+        self.seen_with(smoothing).map(|seen| seen.survey)
+    }
+
+    /// What the parts show, with the shortest window that averages the noise of the positions out of the accelerations; `None` if they
+    /// have too few rows. Longer windows flatten the motion.
+    pub fn survey(&self) -> Option<RecordingSurvey> {
+        let seen = Smoothing::candidates(&self.parts).into_iter().filter_map(|of| self.seen_with(of));
+        let mut seen: Vec<SeenWithWindow> = seen.collect();
+        let joints = 0..seen.last()?.means.len();
+        // What a polynomial leaves is noise, and motion that it does not describe: of the latter, some window has least.
+        let least =
+            |joint: usize| seen.iter().map(|of| of.means[joint].q_variance).fold(f64::INFINITY, f64::min);
+        let noise: Vec<f64> = joints.clone().map(least).collect();
+        // The longest window decides which joints move: its velocities have the least noise.
+        let longest = seen.last()?;
+        let moves: Vec<bool> =
+            joints.map(|joint| longest.noise_of_velocity(joint, noise[joint]) < MOVES).collect();
+        let part_of = |of: &SeenWithWindow| {
+            let moving = (0..noise.len()).filter(|joint| moves[*joint]);
+            moving.map(|joint| of.noise_of_acceleration(joint, noise[joint])).fold(0.0, f64::max)
+        };
+        let best = seen.iter().map(part_of).fold(f64::INFINITY, f64::min);
+        let at = seen.iter().position(|of| part_of(of) <= best.max(NOISE))?;
+        let mut chosen = seen.swap_remove(at).survey;
+        // The speed of a joint that stands is noise.
+        let speeds = chosen.fast_speeds.iter_mut().zip(&moves);
+        speeds.filter(|(_, moves)| !**moves).for_each(|(speed, _)| *speed = 0.0);
+        Some(chosen)
+    }
+
+    fn seen_with(&self, smoothing: Smoothing) -> Option<SeenWithWindow> {
         let mut speeds: Vec<Vec<f64>> = Vec::new();
+        let mut means: Vec<MeanSquares> = Vec::new();
         for part in &self.parts {
             let mut window = SmoothingWindow::new(smoothing);
             for row in part {
                 window.push(row.clone(), |instant| {
                     speeds.resize(instant.qd.len(), Vec::new());
-                    speeds.iter_mut().zip(&instant.qd).for_each(|(all, qd)| all.push(qd.abs()));
+                    means.resize(instant.qd.len(), MeanSquares::default());
+                    for (joint, mean) in means.iter_mut().enumerate() {
+                        speeds[joint].push(instant.qd[joint].abs());
+                        mean.add(instant, joint);
+                    }
                 });
             }
         }
@@ -73,42 +113,54 @@ impl SampledParts {
             all.get(all.len() * 19 / 20).copied().unwrap_or(0.0)
         };
         let fast_speeds: Vec<f64> = speeds.iter_mut().map(fast).collect();
-        (!fast_speeds.is_empty()).then_some(RecordingSurvey { smoothing, fast_speeds })
+        (!fast_speeds.is_empty())
+            .then(|| SeenWithWindow { survey: RecordingSurvey { smoothing, fast_speeds }, means })
+    }
+}
+
+/// Means over the instants of a window, of one joint.
+#[derive(Debug, Clone, Copy, Default)]
+struct MeanSquares {
+    count: f64,
+    qd: f64,
+    qdd: f64,
+    q_variance: f64,
+    of_derivatives: [f64; 2],
+}
+
+impl MeanSquares {
+    fn add(&mut self, instant: &SmoothedInstant, joint: usize) {
+        self.count += 1.0;
+        let part = 1.0 / self.count;
+        let mut mean = |mean: fn(&mut Self) -> &mut f64, value: f64| {
+            let mean = mean(self);
+            *mean += part * (value - *mean);
+        };
+        mean(|of| &mut of.qd, instant.qd[joint].powi(2));
+        mean(|of| &mut of.qdd, instant.qdd[joint].powi(2));
+        mean(|of| &mut of.q_variance, instant.q_variance[joint]);
+        mean(|of| &mut of.of_derivatives[0], instant.of_derivatives[0]);
+        mean(|of| &mut of.of_derivatives[1], instant.of_derivatives[1]);
+    }
+}
+
+/// What the parts show with a window.
+struct SeenWithWindow {
+    survey: RecordingSurvey,
+    means: Vec<MeanSquares>,
+}
+
+impl SeenWithWindow {
+    /// The part of the squares of the velocities that is noise, of positions with this variance.
+    fn noise_of_velocity(&self, joint: usize, variance: f64) -> f64 {
+        let of = &self.means[joint];
+        if of.qd > 0.0 { variance * of.of_derivatives[0] / of.qd } else { f64::INFINITY }
     }
 
-    /// What the parts show, with the window by which the description explains the efforts best; `None` if they have too few rows.
-    ///
-    /// A window that is too short leaves the noise of the positions in the accelerations, one that is too long flattens the motion: both
-    /// show in the efforts. By the positions alone the noise of an encoder, which repeats its steps, is not distinguished from motion.
-    ///
-    /// # Errors
-    /// The rows are another robot's.
-    pub fn survey(&self, tree: &BodyTree) -> Result<Option<RecordingSurvey>, DynamicsError> {
-        let mut tried: Vec<(f64, RecordingSurvey)> = Vec::new();
-        for smoothing in Smoothing::candidates(&self.parts) {
-            let Some(survey) = self.survey_with(smoothing) else { continue };
-            tried.push((self.left(tree, &survey)?, survey));
-        }
-        let best = tried.iter().map(|(left, _)| *left).fold(f64::INFINITY, f64::min);
-        let is_chosen = |(left, _): &(f64, RecordingSurvey)| *left <= AS_GOOD * best;
-        let at = tried.iter().position(is_chosen).unwrap_or(0);
-        Ok((at < tried.len()).then(|| tried.swap_remove(at).1))
-    }
-
-    /// What the description leaves of the efforts, if these may be currents.
-    fn left(&self, tree: &BodyTree, survey: &RecordingSurvey) -> Result<f64, DynamicsError> {
-        let moving = Instants::Moving(survey.moving_speeds());
-        #[expect(clippy::cast_precision_loss, reason = "there are few parts")]
-        let duration_s = self.period_s * self.parts.len() as f64;
-        let mut collector = Collector::new(tree, survey.smoothing, moving, self.from_s, duration_s);
-        for part in &self.parts {
-            collector.break_here();
-            for row in part {
-                collector.push(RecordedRow { time_s: row.time_s, q: &row.q, effort: &row.effort })?;
-            }
-        }
-        let [_, _, as_current] = recognise(&collector.finish()).left;
-        Ok(if as_current.is_nan() { f64::INFINITY } else { as_current })
+    /// The same of the accelerations.
+    fn noise_of_acceleration(&self, joint: usize, variance: f64) -> f64 {
+        let of = &self.means[joint];
+        if of.qdd > 0.0 { variance * of.of_derivatives[1] / of.qdd } else { f64::INFINITY }
     }
 }
 

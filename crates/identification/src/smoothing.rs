@@ -46,6 +46,12 @@ pub struct SmoothedInstant {
     pub effort: Vec<f64>,
     /// Their derivatives by the time.
     pub effort_rate: Vec<f64>,
+    /// Variance of the positions about the polynomial of the window: noise of the encoders, rad^2 or m^2.
+    pub q_variance: Vec<f64>,
+    /// The same of the efforts.
+    pub effort_variance: Vec<f64>,
+    /// By what variances of values are multiplied to be those of their first and second derivatives, 1/s^2 and 1/s^4.
+    pub of_derivatives: [f64; 2],
     /// The change of the velocities from the beginning to the end of the window, as its polynomial has it, rad/s or m/s.
     pub velocity_change: Vec<f64>,
 }
@@ -110,6 +116,18 @@ impl Polynomial {
         Some(Self { inverse: normal.cholesky()?.inverse(), powers })
     }
 
+    /// Variance of values about the polynomial that is nearest to them.
+    fn variance(&self, values: impl Iterator<Item = f64> + Clone) -> f64 {
+        let right: Vector5<f64> =
+            self.powers.iter().zip(values.clone()).map(|(powers, value)| powers * value).sum();
+        let coefficients = self.inverse * right;
+        let left = self.powers.iter().zip(values);
+        let left: f64 = left.map(|(powers, value)| (value - powers.dot(&coefficients)).powi(2)).sum();
+        #[expect(clippy::cast_precision_loss, reason = "windows have few rows")]
+        let freedom = (self.powers.len() - DEGREE - 1) as f64;
+        left / freedom
+    }
+
     fn weights(&self, half_window_s: f64) -> DerivativeWeights {
         let of = |row: usize, factor: f64| {
             self.powers.iter().map(|powers| (self.inverse.row(row) * powers)[0] * factor).collect()
@@ -166,7 +184,8 @@ impl SmoothingWindow {
         let h = self.smoothing.half_window_s;
         let inside = || self.rows.iter().take_while(|row| row.time_s <= center_s + h);
         let times: Vec<f64> = inside().map(|row| row.time_s).collect();
-        let weights = Polynomial::new(&times, center_s, h)?.weights(h);
+        let polynomial = Polynomial::new(&times, center_s, h)?;
+        let weights = polynomial.weights(h);
         let first = self.rows.front()?;
         let joints = first.effort.len();
         let sum = |weights: &[f64], value: &dyn Fn(&KeptRow) -> f64| -> f64 {
@@ -176,6 +195,10 @@ impl SmoothingWindow {
         let derivative = |weights: &[f64]| -> Vec<f64> {
             (0..joints).map(|joint| sum(weights, &|row| row.q[joint] - first.q[joint])).collect()
         };
+        let variances = |value: &dyn Fn(&KeptRow, usize) -> f64| -> Vec<f64> {
+            (0..joints).map(|joint| polynomial.variance(inside().map(|row| value(row, joint)))).collect()
+        };
+        let squares = |weights: &[f64]| weights.iter().map(|weight| weight * weight).sum::<f64>();
         let (second, third) = (derivative(&weights.second), derivative(&weights.third));
         let moved = derivative(&weights.value);
         Some(SmoothedInstant {
@@ -190,6 +213,9 @@ impl SmoothingWindow {
                 .collect(),
             qdd: second,
             effort: (0..joints).map(|joint| sum(&weights.value, &|row| row.effort[joint])).collect(),
+            q_variance: variances(&|row, joint| row.q[joint] - first.q[joint]),
+            effort_variance: variances(&|row, joint| row.effort[joint]),
+            of_derivatives: [squares(&weights.first), squares(&weights.second)],
             effort_rate: (0..joints).map(|joint| sum(&weights.first, &|row| row.effort[joint])).collect(),
         })
     }

@@ -25,7 +25,7 @@ pub(crate) struct Bounds {
 }
 
 /// Steps of the search for bodies. Kind: loop bound; some thirty are needed.
-const STEPS: usize = 300;
+const STEPS: usize = 1000;
 /// Ends the search: no unit, part of the sum. Kind: solver.
 const NO_BETTER: f64 = 1e-15;
 /// Ends the search: no step leads down. No unit; kind: solver.
@@ -82,7 +82,11 @@ impl Quadratic {
         bounds: &Bounds,
         held: &[(usize, f64)],
     ) -> Option<DVector<f64>> {
-        let begin = bounds.begin.iter().map(Triangle::of).collect::<Option<Vec<_>>>()?;
+        let begin =
+            bounds.bodies.iter().zip(&bounds.begin).map(|((first, added_to), begin)| {
+                Triangle::of(&towards(begin, &body(from, *first, added_to)))
+            });
+        let begin = begin.collect::<Option<Vec<_>>>()?;
         let mut at = Point { x: from.clone(), triangles: begin };
         at.put_bodies(bounds);
         let mut value = self.value(&at.x);
@@ -124,6 +128,24 @@ impl Quadratic {
         }
         Some(BalancedCholesky::new(information)?.solve(&(jacobian.transpose() * downhill)))
     }
+}
+
+/// The body nearest to a wanted one, on the way to it, that can exist with some room: a search from there is short.
+fn towards(begin: &Parameters, wanted: &Parameters) -> Parameters {
+    const HALVINGS: usize = 40;
+    /// Part of the way to the boundary.
+    const ROOM: f64 = 0.9;
+    if is_body(wanted) {
+        return *wanted;
+    }
+    let at = |part: f64| begin * (1.0 - part) + wanted * part;
+    let (mut inside, mut outside) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = (inside + outside) / 2.0;
+        let limit = if is_body(&at(middle)) { &mut inside } else { &mut outside };
+        *limit = middle;
+    }
+    at(ROOM * inside)
 }
 
 /// The part by which bodies of a search stay away from the boundary. No unit; kind: choice, more than what six digits round.

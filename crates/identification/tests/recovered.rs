@@ -82,7 +82,7 @@ fn recorded(
     let row = |at: usize| RecordedRow { time_s: positions[at].0, q: &positions[at].1, effort: &efforts[at] };
     let mut parts = SampledParts::new(0.0, 40.0);
     (0..rows).for_each(|at| parts.push(row(at)));
-    let survey = parts.survey(description).unwrap().unwrap();
+    let survey = parts.survey().unwrap();
     let instants = Instants::Moving(survey.moving_speeds());
     let mut collector = Collector::new(description, survey.smoothing, instants, 0.0, 40.0);
     (0..rows).for_each(|at| collector.push(row(at)).unwrap());
@@ -109,7 +109,7 @@ fn friction_and_armature_are_found_within_four_standard_errors() {
     assert_eq!(recognised.kind, EffortKind::Torque, "{recognised:?}");
     let unknowns = free(&[FreeGroup::Friction, FreeGroup::Armature]);
     let found = identify(&equations, &unknowns).unwrap();
-    assert!(found.is_better && found.not_indistinct.is_empty());
+    assert!(found.is_better && found.indistinct.is_empty());
     for (joint, expected) in found.joints.iter().zip(&terms) {
         for (term, value) in &joint.terms {
             let expected = match term {

@@ -28,12 +28,23 @@ pub fn identification_text(report: &IdentificationReport) -> String {
     if let (Some(delay_s), Some(error_s)) = (report.effort_delay_s, report.effort_delay_error_s) {
         let delay = with_error(1000.0 * delay_s.abs(), 1000.0 * error_s);
         let side = if delay_s < 0.0 { "earlier" } else { "later" };
-        let _ = writeln!(text, "  efforts are recorded {delay} ms {side} than positions");
+        let is_long = delay_s.abs() > LONGEST_DELAY * report.half_window_s;
+        let remark =
+            if is_long { ": longer than the window, so that it stands for something else" } else { "" };
+        let _ = writeln!(text, "  efforts are recorded {delay} ms {side} than positions{remark}");
+    }
+    if !report.joints_not_in_log.is_empty() {
+        let joints: Vec<&str> = report.joints_not_in_log.iter().map(String::as_str).collect();
+        let _ = writeln!(
+            text,
+            "  not in the log, so taken to stand still at their start: {}; if they moved, all values are wrong",
+            listed(&joints)
+        );
     }
     left(&mut text, &report.joints);
     terms(&mut text, &report.joints);
-    for combined in &report.not_indistinct {
-        let _ = writeln!(text, "  {}", not_indistinct(combined));
+    for combined in &report.indistinct {
+        let _ = writeln!(text, "  {}", indistinct(combined));
     }
     if let Some(payload) = &report.payload {
         let is_none = payload.mass.value <= 2.0 * payload.mass.standard_error;
@@ -52,6 +63,9 @@ pub fn identification_text(report: &IdentificationReport) -> String {
     text
 }
 
+/// Half windows up to which a delay is one: it is estimated from the derivative of the efforts. No unit; kind: choice.
+const LONGEST_DELAY: f64 = 2.0;
+
 fn headline(report: &IdentificationReport) -> String {
     let share = |of: fn(&IdentifiedJointReport) -> f64| -> f64 {
         let used = report.joints.iter().filter(|joint| joint.instants > 0 && joint.effort_rms > 0.0);
@@ -66,7 +80,7 @@ fn headline(report: &IdentificationReport) -> String {
         IdentificationVerdict::NotBetter => "NOT BETTER than the description",
     };
     format!(
-        "{}: {verdict}: {after} % of the efforts is unexplained, {before} % by the description ({})\n  mean of the joints, on data that were left out of the estimate\n",
+        "{}: {verdict} ({})\n  left of the efforts, rms: {after} %, by the description {before} %; mean of the joints, on data that were left out of the estimate\n",
         report.robot, report.log
     )
 }
@@ -105,11 +119,17 @@ fn kind_words(kind: EffortKind) -> &'static str {
 
 fn effort_sentence(effort: &EffortReport) -> String {
     let share = |left: f64| format!("{} %", number(100.0 * left));
-    let by = if effort.is_declared { "as stated" } else { "as the description explains them best" };
+    let by = if effort.is_declared { ", as stated" } else { "" };
+    let or_else = if effort.kind == EffortKind::Current && !effort.is_declared {
+        "; if they are torques of an arm with other masses, state --effort torque"
+    } else {
+        ""
+    };
     let [torque, without, current] =
         [effort.left_as_torque, effort.left_as_torque_without_gravity, effort.left_as_current].map(share);
     format!(
-        "efforts: {}, {by} (unexplained variance as torques {torque}, without gravity {without}, as currents {current})",
+        "efforts: {}{by} (variance that is left with friction fitted, if they are torques {torque}, torques without gravity {without}, currents \
+         {current}){or_else}",
         kind_words(effort.kind)
     )
 }
@@ -194,7 +214,7 @@ fn term_cell(term: &TermReport) -> String {
     format!("{} {}{mark}", with_error(value.value, value.standard_error), value.unit)
 }
 
-fn not_indistinct(combined: &IndistinctTerms) -> String {
+fn indistinct(combined: &IndistinctTerms) -> String {
     let IndistinctTerms { joint, kept, like } = combined;
     let kept = term_name(*kept);
     if like.is_empty() {

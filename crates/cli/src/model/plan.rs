@@ -51,7 +51,7 @@ pub(crate) struct Arguments {
     /// Smallest distance of links from each other and from obstacles.
     #[arg(long, value_name = "LENGTH", default_value = "20mm", value_parser = length_m)]
     clearance: f64,
-    /// Noise of the efforts for which the standard errors are given, as part of the largest effort of each joint.
+    /// Noise of the efforts for which the standard errors are given, as part of its effort limit.
     #[arg(long, value_name = "PART", default_value = "0.01", value_parser = part)]
     effort_noise: f64,
     /// A scenario whose obstacles it keeps away from, and at whose start it begins.

@@ -19,10 +19,26 @@ pub fn plan_report_text(report: &PlanReport) -> String {
     if let Some(nearest_m) = report.nearest_m {
         let _ = writeln!(text, "  links stay {} from each other and from obstacles", length(nearest_m));
     }
+    if !report.always_near.is_empty() {
+        let _ = writeln!(
+            text,
+            "  nearer wherever the robot is, so not counted: {}",
+            report.always_near.join(", ")
+        );
+    }
+    let acceleration = number(report.assumed_acceleration);
+    let _ = writeln!(
+        text,
+        "  accelerations up to {acceleration} rad/s^2 or m/s^2, unless the robot file states less"
+    );
+    if !report.without_velocity_limit.is_empty() {
+        let joints = report.without_velocity_limit.join(", ");
+        let _ = writeln!(text, "  no limit of velocity: {joints}; look at the motion before an arm makes it");
+    }
     let noise = number(100.0 * report.effort_noise);
     let _ = writeln!(
         text,
-        "\n  standard errors that it will leave, with an effort noise of {noise} % of the largest effort, at ten independent instants a second"
+        "\n  standard errors that it will leave, with efforts that are noisy by {noise} % of the effort limits, at ten independent instants a second"
     );
     terms(&mut text, report);
     if let Some(error_kg) = report.payload_mass_error_kg {

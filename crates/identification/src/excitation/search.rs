@@ -73,14 +73,23 @@ pub struct Excitation {
 /// Why there is no motion.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ExcitationError {
-    /// None that was tried stays within the limits.
-    #[error("none of {tried} motions stays within all limits; {stopped_by}")]
-    None {
+    /// Links are too close to each other or to obstacles in each.
+    #[error("none of {tried} motions keeps the links far enough from each other and from obstacles")]
+    TooClose {
         /// Motions that were tried.
         tried: usize,
-        /// What stopped most of them.
-        stopped_by: &'static str,
     },
+    /// The effort limit of a joint is too small for each.
+    #[error("each of {tried} motions exceeds the effort limit of a joint")]
+    TooStrong {
+        /// Motions that were tried.
+        tried: usize,
+        /// The joint, among the moving ones, whose limit is exceeded most often.
+        joint: usize,
+    },
+    /// No joint can move.
+    #[error("no joint can move within its limits")]
+    Still,
     /// A vector is another robot's.
     #[error(transparent)]
     Dynamics(#[from] DynamicsError),
@@ -119,15 +128,7 @@ pub fn excite(
             best = Some(found);
         }
     }
-    let tried = search.tried;
-    let Some((_, motion)) = best else {
-        let stopped_by = if search.stopped_by_effort > search.stopped_by_distance {
-            "most exceed the effort of a joint"
-        } else {
-            "most bring links too close to each other or to an obstacle"
-        };
-        return Err(ExcitationError::None { tried, stopped_by });
-    };
+    let Some((_, motion)) = best else { return Err(search.why_none()) };
     search.shown_by(motion)
 }
 
@@ -139,7 +140,8 @@ struct MotionSearch<'a> {
     instant: SmoothedInstant,
     tau: Vec<f64>,
     tried: usize,
-    stopped_by_effort: usize,
+    /// How often the effort limit of each joint was exceeded.
+    stopped_by_effort: Vec<usize>,
     stopped_by_distance: usize,
 }
 
@@ -154,6 +156,9 @@ impl<'a> MotionSearch<'a> {
             qdd: zeros.clone(),
             effort: zeros.clone(),
             effort_rate: zeros.clone(),
+            q_variance: zeros.clone(),
+            effort_variance: zeros.clone(),
+            of_derivatives: [0.0; 2],
             velocity_change: zeros.clone(),
         };
         Self {
@@ -164,7 +169,7 @@ impl<'a> MotionSearch<'a> {
             instant,
             tau: zeros,
             tried: 0,
-            stopped_by_effort: 0,
+            stopped_by_effort: vec![0; limits.effort.len()],
             stopped_by_distance: 0,
         }
     }
@@ -249,7 +254,6 @@ impl<'a> MotionSearch<'a> {
             if is_free {
                 return Ok(Some((information, motion)));
             }
-            self.stopped_by_effort += usize::from(!is_strong_enough);
             self.stopped_by_distance += usize::from(is_strong_enough);
             motion.factors.iter_mut().flatten().flatten().for_each(|of| *of *= SMALLER);
         }
@@ -273,11 +277,14 @@ impl<'a> MotionSearch<'a> {
             let SmoothedInstant { q, qd, qdd, .. } = &mut self.instant;
             motion.state_into(time_s, q, qd, qdd);
             self.maker.tree.inverse_into(&JointMotionState { q, qd, qdd }, &mut buffer, &mut self.tau)?;
-            is_strong_enough &=
-                self.tau.iter().zip(&self.limits.effort).all(|(tau, limit)| tau.abs() <= *limit);
+            for (joint, (tau, limit)) in self.tau.iter().zip(&self.limits.effort).enumerate() {
+                let is_beyond = tau.abs() > *limit;
+                self.stopped_by_effort[joint] += usize::from(is_beyond);
+                is_strong_enough &= !is_beyond;
+            }
             let rows = self.maker.rows(&self.instant, &equations.joints)?;
             for (row, joint) in rows.iter().zip(&mut equations.joints) {
-                joint.add(0, row);
+                joint.add(0, row, [0.0; 2]);
             }
         }
         Ok((equations, is_strong_enough))
@@ -294,12 +301,22 @@ impl<'a> MotionSearch<'a> {
         planned_information(equations, &self.options.free, &noise)
     }
 
+    fn why_none(&self) -> ExcitationError {
+        let (tried, efforts) = (self.tried, &self.stopped_by_effort);
+        let worst =
+            (0..efforts.len()).max_by_key(|joint| efforts[*joint]).filter(|joint| efforts[*joint] > 0);
+        match worst {
+            _ if self.stopped_by_distance > 0 => ExcitationError::TooClose { tried },
+            Some(joint) => ExcitationError::TooStrong { tried, joint },
+            None => ExcitationError::Still,
+        }
+    }
+
     /// What a motion shows.
     fn shown_by(&mut self, motion: FourierMotion) -> Result<Excitation, ExcitationError> {
         let (equations, _) = self.equations(&motion)?;
         let tried = self.tried;
-        let none = ExcitationError::None { tried, stopped_by: "none moves a joint" };
-        let shown = self.information(&equations).ok_or(none)?;
+        let shown = self.information(&equations).ok_or(ExcitationError::Still)?;
         let layout = &equations.layout;
         let covariance: &DMatrix<f64> = &shown.covariance;
         let error = |unknown: usize| {

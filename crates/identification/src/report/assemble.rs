@@ -39,6 +39,8 @@ pub struct IdentificationParts<'a> {
     pub is_still: bool,
     /// Instants that were used.
     pub instants: usize,
+    /// Joints that the log does not have.
+    pub held: &'a [String],
     /// The frame of the payload.
     pub payload_frame: &'a str,
     /// What was identified.
@@ -59,11 +61,12 @@ pub fn identification_report(of: &IdentificationParts<'_>) -> IdentificationRepo
         half_window_s: of.smoothing.half_window_s,
         is_of_still_poses: of.is_still,
         instants: of.instants,
+        joints_not_in_log: of.held.to_vec(),
         effort_delay_s: identified.delay_s.map(|(delay_s, _)| delay_s),
         effort_delay_error_s: identified.delay_s.map(|(_, error_s)| error_s),
         joints: identified.joints.iter().map(|joint| reported(robot, joint)).collect(),
-        not_indistinct: identified
-            .not_indistinct
+        indistinct: identified
+            .indistinct
             .iter()
             .map(|of| IndistinctTerms { joint: name(robot, of.joint), kept: of.term, like: of.from.clone() })
             .collect(),

@@ -161,6 +161,9 @@ pub struct IdentificationReport {
     pub is_of_still_poses: bool,
     /// Instants that were used.
     pub instants: usize,
+    /// Joints that the log does not have, which were taken to stand still at their start.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub joints_not_in_log: Vec<String>,
     /// By how much efforts are recorded later than positions, s; negative if earlier; null if it does not show.
     pub effort_delay_s: Option<f64>,
     /// Its standard error, s.
@@ -168,7 +171,7 @@ pub struct IdentificationReport {
     /// The driven joints.
     pub joints: Vec<IdentifiedJointReport>,
     /// Terms that cannot be distinguished.
-    pub not_indistinct: Vec<IndistinctTerms>,
+    pub indistinct: Vec<IndistinctTerms>,
     /// The payload.
     pub payload: Option<BodyReport>,
     /// The bodies, if their masses were identified.

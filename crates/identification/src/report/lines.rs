@@ -47,6 +47,10 @@ fn resistance(description: &RobotDescription, joint: &IdentifiedJoint) -> JointR
     for (term, value) in &joint.terms {
         // What brakes its followers stays with them.
         let change = rounded(value.value, value.standard_error) - value.nominal;
+        // What may be no difference is none.
+        if (value.value - value.nominal).abs() < SIGNIFICANT * value.standard_error {
+            continue;
+        }
         match term {
             JointUnknown::Viscous => resistance.damping = (resistance.damping + change).max(0.0),
             JointUnknown::Coulomb => resistance.friction = (resistance.friction + change).max(0.0),
@@ -56,6 +60,9 @@ fn resistance(description: &RobotDescription, joint: &IdentifiedJoint) -> JointR
     }
     resistance
 }
+
+/// Standard errors from which on a value differs from that of the description. Kind: choice, as usual.
+const SIGNIFICANT: f64 = 2.0;
 
 /// A value to a hundredth of its size: no unit; kind: choice. Digits that the recording does not show are not written.
 fn rounded(value: f64, size: f64) -> f64 {
@@ -94,6 +101,15 @@ fn has(joint: &IdentifiedJoint, wanted: JointUnknown) -> bool {
     joint.terms.iter().any(|(term, _)| *term == wanted)
 }
 
+/// The joints whose terms are written: one term of which stands for several is no value of it.
+fn written_joints(identified: &IdentifiedParameters) -> impl Iterator<Item = &IdentifiedJoint> {
+    let is_sum = |joint: &IdentifiedJoint| {
+        let mut of = identified.indistinct.iter().filter(|of| of.joint == joint.joint);
+        of.any(|of| of.term != JointUnknown::Offset && !of.from.is_empty())
+    };
+    identified.joints.iter().filter(move |joint| !is_sum(joint))
+}
+
 /// The inertia of the link of a body's joint, if all that differs from the description is in that link; `None` if that link cannot exist.
 fn link_inertia(description: &RobotDescription, body: &IdentifiedBody) -> Option<Inertia> {
     let robot = &description.robot;
@@ -114,7 +130,7 @@ fn edits(description: &RobotDescription, identified: &IdentifiedParameters) -> (
     let Some(places) = description.places.parameters() else { return (edits, missing) };
     let robot = &description.robot;
     let has_armature = description.urdf_path.extension().is_none_or(|extension| extension != "urdf");
-    for joint in &identified.joints {
+    for joint in written_joints(identified) {
         let of = name(robot, joint.joint);
         if has(joint, JointUnknown::Viscous) || has(joint, JointUnknown::Armature) && has_armature {
             match places.set_terms(&of, &resistance(description, joint)) {
@@ -123,7 +139,7 @@ fn edits(description: &RobotDescription, identified: &IdentifiedParameters) -> (
             }
         }
     }
-    if !has_armature && identified.joints.iter().any(|joint| has(joint, JointUnknown::Armature)) {
+    if !has_armature && written_joints(identified).any(|joint| has(joint, JointUnknown::Armature)) {
         missing.push("armature: a URDF has no place for it".to_owned());
     }
     for body in &identified.bodies {
@@ -198,9 +214,7 @@ fn of_scenario(
         ("armature", JointUnknown::Armature, |of| of.armature),
     ];
     for (key, term, value) in keys {
-        let values: Vec<String> = identified
-            .joints
-            .iter()
+        let values: Vec<String> = written_joints(identified)
             .filter(|joint| has(joint, term))
             .map(|joint| {
                 format!(

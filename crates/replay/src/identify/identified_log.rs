@@ -18,6 +18,9 @@ use crate::{codes, draft::joints_draft};
 /// Half of the window in which efforts at rest are averaged, s. Kind: choice; rows at 50 Hz fill it.
 const STILL_HALF_WINDOW_S: f64 = 0.1;
 
+/// What helps where a log has too little.
+const LONGER: &str = "record longer and more often, 50 Hz at least, or state a longer window: --window-ms";
+
 /// What a log says of the parameters of a robot.
 #[derive(Debug, Clone)]
 pub struct IdentifiedLog {
@@ -46,32 +49,43 @@ pub fn identify_log(
         tree = tree.with_gravity(gravity_m_s2);
     }
     let given = given_constants(description, &tree, request)?;
+    if !request.torque_constants.is_empty() && request.effort.is_some_and(|kind| kind != EffortKind::Current)
+    {
+        let message = "a torque constant is given, and the efforts are stated to be torques".to_owned();
+        let error = Diagnostic::error(codes::identify::FREE, message);
+        return Err(error.with_help("torque constants are of currents: --effort current, or neither").into());
+    }
     let efforts = RecordedEfforts::open(draft.scenario, description)?;
     if !efforts.has_efforts {
         return Err(no_efforts());
     }
-    let no_motion = |why: &str| {
-        let message = format!("{}: {why}", log.display());
-        Findings::from(Diagnostic::error(codes::identify::MOTION, message).with_help(
-            "efforts at rest show masses alone: --still; a motion that shows more is made by `congruent plan`",
-        ))
+    let no_motion = |why: &str, help: &str| {
+        let error = Diagnostic::error(codes::identify::MOTION, format!("{}: {why}", log.display()));
+        Findings::from(error.with_help(help.to_owned()))
     };
     // At rest, whatever averages noise is as good.
     let half_window_s = request.half_window_s.or(request.is_still.then_some(STILL_HALF_WINDOW_S));
-    let survey = efforts.survey(&tree, half_window_s)?;
-    let survey =
-        survey.ok_or_else(|| no_motion("rows are too far apart for velocities and accelerations"))?;
+    let survey = efforts.survey(half_window_s)?;
+    let survey = survey.ok_or_else(|| {
+        no_motion("too few rows lie within a window for velocities and accelerations", LONGER)
+    })?;
     let equations = efforts.equations(&tree, &survey, request.is_still)?;
     if equations.instants == 0 {
-        return Err(no_motion(if request.is_still {
-            "the robot is never at rest"
+        return Err(if request.is_still {
+            no_motion(
+                "the robot is never at rest for a window",
+                "leave out --still: in motion, all parameters show",
+            )
         } else {
-            "no joint moves"
-        }));
+            no_motion(
+                "no joint moves faster than the noise of its position",
+                "efforts at rest show masses: --still",
+            )
+        });
     }
     let (equations, recognised, kind) = as_torques(equations, request, &given)?;
-    let identified =
-        identify(&equations, &free).ok_or_else(|| no_motion("no joint has an instant with an effort"))?;
+    let identified = identify(&equations, &free)
+        .ok_or_else(|| no_motion("no joint has an effort while it moves", LONGER))?;
     let report = identification_report(&IdentificationParts {
         description,
         log: &log.display().to_string(),
@@ -82,6 +96,7 @@ pub fn identify_log(
         smoothing: survey.smoothing,
         is_still: request.is_still,
         instants: equations.instants,
+        held: efforts.held(),
         payload_frame: &payload_frame,
         identified: &identified,
     });
@@ -115,7 +130,6 @@ fn as_torques(
         None if given.iter().any(Option::is_some) => EffortKind::Current,
         None => by_itself,
     };
-    let refused = |message: String| Findings::from(Diagnostic::error(codes::identify::EFFORT, message));
     match kind {
         EffortKind::Torque => Ok((equations, recognised, kind)),
         EffortKind::TorqueWithoutGravity => Ok((equations.with_gravity_added(), recognised, kind)),
@@ -129,21 +143,31 @@ fn as_torques(
                     .into());
             }
             // A joint without one has no torque: its rows are left out.
-            let factors = recognised.factors.iter().zip(given);
-            let factors: Vec<f64> = factors
-                .map(|(fitted, given)| given.or(fitted.map(|(factor, _)| factor)).unwrap_or(f64::NAN))
-                .collect();
-            Ok((equations.with_factors(&factors), recognised, kind))
+            let fitted = |(fitted, given): (&Option<(f64, f64)>, &Option<f64>)| {
+                given.map(|given| (given, 0.0)).or(*fitted).unwrap_or((f64::NAN, 0.0))
+            };
+            let factors: Vec<(f64, f64)> = recognised.factors.iter().zip(given).map(fitted).collect();
+            let errors: Vec<f64> = factors.iter().map(|(factor, error)| (error / factor).abs()).collect();
+            let factors: Vec<f64> = factors.iter().map(|(factor, _)| *factor).collect();
+            Ok((equations.with_factors(&factors, &errors), recognised, kind))
         }
         EffortKind::None => Err(no_efforts()),
-        EffortKind::Unknown => {
-            let [torque, without_gravity, current] = recognised.left.map(number);
-            Err(refused(format!(
-                "the efforts are neither torques nor currents by the masses of the description: as torques {torque} of their variance is \
-                 left, as torques without gravity {without_gravity}, as currents {current}"
-            )))
-        }
+        EffortKind::Unknown => Err(unknown(&recognised)),
     }
+}
+
+fn unknown(recognised: &RecognisedEffort) -> Findings {
+    let [torque, without_gravity, current] = recognised.left.map(|left| number(100.0 * left));
+    let message = format!(
+        "the description does not explain the efforts: of their variance, {torque} % is left if they are torques, {without_gravity} % if torques \
+         without gravity, {current} % if currents"
+    );
+    Diagnostic::error(codes::identify::EFFORT, message)
+        .with_help(
+            "is this log of this robot? Of an arm on a wall state --gravity, of positions in degrees --degrees; a longer window for coarse \
+             encoders is --window-ms. --effort takes the efforts as what you say",
+        )
+        .into()
 }
 
 pub(super) fn free_parameters(
@@ -158,6 +182,11 @@ pub(super) fn free_parameters(
             .into());
     }
     let (payload, frame) = payload_place(description, request)?;
+    if has(FreeGroup::Payload) && payload.is_none() {
+        let message = format!("no joint moves {frame}, so that no effort shows what hangs there");
+        let error = Diagnostic::error(codes::identify::FREE, message);
+        return Err(error.with_help("name a link that moves: --payload-at LINK").into());
+    }
     if has(FreeGroup::Payload) && has(FreeGroup::Links) {
         let message =
             "a payload and the link that carries it show their sum alone: --free payload or links".to_owned();

@@ -1,6 +1,7 @@
 //! Friction, masses and torque constants of a robot from a log: `congruent identify`.
 
 mod identified_log;
+mod link_distances;
 mod plan;
 mod recorded_efforts;
 mod request;

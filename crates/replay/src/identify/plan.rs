@@ -6,22 +6,24 @@ use congruent_description::{RobotDescription, RobotQ};
 use congruent_dynamics::BodyTree;
 use congruent_identification::{
     FreeGroup, JointUnknown,
-    excitation::{Excitation, ExcitationLimits, ExcitationOptions, excite},
+    excitation::{Excitation, ExcitationError, ExcitationLimits, ExcitationOptions, excite},
     report::term_unit,
 };
-use congruent_input::{Capability, Diagnostic, Findings, number::number as written};
-use congruent_kinematics::{Pose, Uniform, UrdfTree, range};
-use congruent_proximity::{Clearance, PairChoice};
+use congruent_input::{Capability, Diagnostic, Findings, display::length, number::number as written};
+use congruent_kinematics::{Uniform, range};
 use congruent_scenario::{
     Check, ClearanceCheck, ControllerKind, ControllerSettings, JointNumbers, LimitsCheck, MotionSettings,
-    OnViolation, OutputSettings, PlaybackMotion, Scenario, StartSettings, TrajectoryFormat,
+    ObstacleSettings, OnViolation, OutputSettings, PlaybackMotion, Scenario, StartSettings, TrajectoryFormat,
 };
 use congruent_twin::RunSetup;
-use nalgebra::Isometry3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{identified_log::free_parameters, request::IdentifyRequest};
+use super::{
+    identified_log::free_parameters,
+    link_distances::{LinkDistances, NearestLinks},
+    request::IdentifyRequest,
+};
 use crate::codes;
 
 /// What a motion is for, and how it may be.
@@ -37,7 +39,7 @@ pub struct PlanRequest {
     pub speed: f64,
     /// Smallest distance of links from each other and from obstacles, m.
     pub clearance_m: f64,
-    /// Noise of the efforts, as part of the largest effort of each joint.
+    /// Noise of the efforts, as part of the effort limit of each joint.
     pub effort_noise: f64,
     /// Seed of the motions that are tried.
     pub seed: u64,
@@ -69,7 +71,15 @@ pub struct PlanReport {
     pub tried: usize,
     /// Smallest distance of links from each other and from obstacles in the motion, m; null without pairs.
     pub nearest_m: Option<f64>,
-    /// The noise of efforts that the standard errors are for, as part of the largest effort of each joint.
+    /// Pairs of links that are nearer than the clearance wherever the robot is: they do not count.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub always_near: Vec<String>,
+    /// Joints without a limit of velocity.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub without_velocity_limit: Vec<String>,
+    /// Largest acceleration that a joint without a limit of it has, rad/s^2 or m/s^2.
+    pub assumed_acceleration: f64,
+    /// The noise of efforts that the standard errors are for, as part of the effort limit of each joint.
     pub effort_noise: f64,
     /// What it will show of the joints.
     pub terms: Vec<PlannedTerm>,
@@ -126,11 +136,18 @@ pub fn plan_excitation(
     let (free, _) = free_parameters(description, &identify)?;
     let robot = &description.robot;
     let tree = BodyTree::new(robot);
-    let mut distances = LinkDistances::new(description, surroundings)?;
+    description.check_capability(Capability::Clearance)?;
+    if let Some(setup) = surroundings.filter(|setup| !is_same_robot(&setup.description, description)) {
+        let message =
+            format!("the scenario is of robot \"{}\", which has other joints", setup.description.name);
+        let error = Diagnostic::error(codes::identify::PLAN, message);
+        return Err(error.with_help("give a scenario of this robot, for its start and its obstacles").into());
+    }
+    let distances = LinkDistances::new(description, surroundings, request.clearance_m, request.seed);
+    let mut distances = distances.map_err(|error| no_motion(&error.to_string()))?;
     let limits = limits(description, request);
-    let mut is_clear =
-        |q: &RobotQ| distances.nearest_m(q).is_none_or(|nearest_m| nearest_m >= request.clearance_m);
-    let center = center(description, surroundings, request, &mut is_clear)?;
+    let center = center(description, surroundings, request, &mut distances)?;
+    let mut is_clear = |q: &RobotQ| is_far(distances.nearest(q).as_ref(), request);
     let noise = tree.driven_joints().iter().map(|&joint| {
         let largest = Some(limits.effort[joint] / USED_EFFORT).filter(|effort| effort.is_finite());
         request.effort_noise * largest.unwrap_or(UNKNOWN_EFFORT)
@@ -143,10 +160,43 @@ pub fn plan_excitation(
         seed: request.seed,
     };
     let found =
-        excite(&tree, &limits, &options, &mut is_clear).map_err(|error| no_motion(&error.to_string()))?;
+        excite(&tree, &limits, &options, &mut is_clear).map_err(|error| stopped(&error, description))?;
     let (table, nearest_m) = table(description, &found, &mut distances);
     let scenario = scenario(description, surroundings, &found, request);
-    Ok(PlannedMotion { report: report(description, &found, nearest_m, request), table, scenario })
+    Ok(PlannedMotion {
+        report: report(
+            description,
+            &found,
+            NearestInMotion { nearest_m, always_near: distances.always_near() },
+            request,
+        ),
+        table,
+        scenario,
+    })
+}
+
+fn is_far(nearest: Option<&NearestLinks>, request: &PlanRequest) -> bool {
+    nearest.is_none_or(|nearest| nearest.distance_m >= request.clearance_m)
+}
+
+fn is_same_robot(one: &RobotDescription, other: &RobotDescription) -> bool {
+    one.robot.movable_joint_names().eq(other.robot.movable_joint_names())
+}
+
+/// Why there is no motion, with the name of the joint.
+fn stopped(error: &ExcitationError, description: &RobotDescription) -> Findings {
+    let robot = &description.robot;
+    match error {
+        ExcitationError::TooStrong { tried, joint } => {
+            let joint = &robot.joint(robot.movable_joints()[*joint]).name;
+            let message = format!("each of {tried} motions exceeds the effort limit of {joint}");
+            let error = Diagnostic::error(codes::identify::PLAN, message);
+            error
+                .with_help("is the limit a placeholder? Correct it in the description, or lower --speed")
+                .into()
+        }
+        _ => no_motion(&error.to_string()),
+    }
 }
 
 fn no_motion(why: &str) -> Findings {
@@ -183,7 +233,7 @@ fn center(
     description: &RobotDescription,
     surroundings: Option<&RunSetup>,
     request: &PlanRequest,
-    is_clear: &mut impl FnMut(&RobotQ) -> bool,
+    distances: &mut LinkDistances,
 ) -> Result<RobotQ, Findings> {
     let robot = &description.robot;
     let ranges: Vec<(f64, f64)> =
@@ -196,42 +246,20 @@ fn center(
     let mut random = Uniform::seeded(request.seed);
     let first = surroundings.map_or_else(|| at(&mut || 0.5), |setup| setup.start.clone());
     let others = std::iter::repeat_with(|| at(&mut || random.between(0.2, 0.8))).take(CENTERS);
-    let mut tried = std::iter::once(first).chain(others);
-    tried
-        .find(|q| is_clear(q))
-        .ok_or_else(|| no_motion("no configuration has its links far enough from each other"))
-}
-
-/// LinkDistances of the links at configurations.
-struct LinkDistances {
-    clearance: Clearance,
-    tree: UrdfTree,
-    poses: Vec<Pose>,
-    root_from_links: Vec<Isometry3<f64>>,
-}
-
-impl LinkDistances {
-    fn new(description: &RobotDescription, surroundings: Option<&RunSetup>) -> Result<Self, Findings> {
-        description.check_capability(Capability::Clearance)?;
-        let obstacles = surroundings.map_or(&[][..], |setup| &setup.obstacles);
-        let clearance = Clearance::new(description, obstacles, PairChoice::Usual);
-        let clearance = clearance.map_err(|error| no_motion(&error.to_string()))?;
-        let links = description.robot.links().len();
-        Ok(Self {
-            clearance,
-            tree: UrdfTree::new(&description.robot),
-            poses: vec![Pose::identity(); links],
-            root_from_links: vec![Isometry3::identity(); links],
-        })
+    let mut nearest_there = None;
+    for q in std::iter::once(first).chain(others) {
+        let nearest = distances.nearest(&q);
+        if is_far(nearest.as_ref(), request) {
+            return Ok(q);
+        }
+        nearest_there = nearest_there.or(nearest);
     }
-
-    /// The smallest distance; `None` if no links can touch.
-    fn nearest_m(&mut self, q: &RobotQ) -> Option<f64> {
-        self.tree.root_from_links_into(q, &mut self.poses).ok()?;
-        self.root_from_links.iter_mut().zip(&self.poses).for_each(|(link, pose)| *link = pose.to_isometry());
-        self.clearance.move_links(&self.root_from_links);
-        self.clearance.nearest().map(|nearest| nearest.distance_m)
-    }
+    let there = nearest_there.map_or_else(String::new, |of| {
+        format!(": {} and {} are {} apart at the first", of.names[0], of.names[1], length(of.distance_m))
+    });
+    Err(no_motion(&format!(
+        "none of {CENTERS} configurations has its links far enough from each other{there}"
+    )))
 }
 
 /// Positions over time, and the smallest distance.
@@ -261,7 +289,7 @@ fn table(
             let _ = write!(text, ",{:.6}", q[joint]);
         }
         text.push('\n');
-        let distance_m = distances.nearest_m(&q);
+        let distance_m = distances.nearest(&q).map(|nearest| nearest.distance_m);
         nearest_m = [nearest_m, distance_m].into_iter().flatten().min_by(f64::total_cmp);
     }
     (text, nearest_m)
@@ -303,20 +331,42 @@ fn scenario(
             ..ControllerSettings::default()
         },
         motion: vec![MotionSettings::Playback(playback)],
-        obstacle: surroundings.map(|setup| setup.scenario.obstacle.clone()).unwrap_or_default(),
+        obstacle: surroundings.map(obstacles).unwrap_or_default(),
         check: vec![Check::Limits(LimitsCheck::default()), Check::Clearance(clearance)],
         output: OutputSettings { trajectory: Some(TrajectoryFormat::Mcap), ..OutputSettings::default() },
         ..Scenario::default()
     }
 }
 
+/// How near links come in a motion.
+struct NearestInMotion {
+    nearest_m: Option<f64>,
+    always_near: Vec<String>,
+}
+
+/// The obstacles of a scenario, their meshes by whole paths.
+fn obstacles(setup: &RunSetup) -> Vec<ObstacleSettings> {
+    let folder = setup.path.as_deref().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
+    let mut obstacles = setup.scenario.obstacle.clone();
+    for mesh in obstacles.iter_mut().filter_map(|obstacle| obstacle.mesh.as_mut()) {
+        let path = folder.join(&*mesh);
+        *mesh = path.canonicalize().unwrap_or(path).display().to_string();
+    }
+    obstacles
+}
+
 fn report(
     description: &RobotDescription,
     found: &Excitation,
-    nearest_m: Option<f64>,
+    nearest: NearestInMotion,
     request: &PlanRequest,
 ) -> PlanReport {
     let robot = &description.robot;
+    let joints = found.motion.joints.iter().map(|&joint| robot.joint(robot.movable_joints()[joint]));
+    let is_limited = |joint: &congruent_description::Joint| {
+        joint.limit.as_ref().and_then(|limit| limit.velocity).is_some_and(|velocity| velocity > 0.0)
+    };
+    let without_velocity_limit = joints.filter(|joint| !is_limited(joint)).map(|joint| joint.name.clone());
     let terms = found.terms.iter().map(|of| {
         let joint = robot.joint(robot.movable_joints()[of.joint]);
         PlannedTerm {
@@ -331,7 +381,10 @@ fn report(
         robot: description.name.clone(),
         duration_s: found.motion.duration_s,
         tried: found.tried,
-        nearest_m,
+        nearest_m: nearest.nearest_m,
+        always_near: nearest.always_near,
+        without_velocity_limit: without_velocity_limit.collect(),
+        assumed_acceleration: ACCELERATION,
         effort_noise: request.effort_noise,
         terms: terms.collect(),
         payload_mass_error_kg: found.payload_mass_error_kg,

@@ -57,12 +57,13 @@ impl RecordedEfforts {
         Ok(efforts)
     }
 
+    /// Joints that the log does not have.
+    pub(super) fn held(&self) -> &[String] {
+        &self.recorded.held
+    }
+
     /// How fast the joints move, and how long the window is; `None` if rows are too far apart.
-    pub(super) fn survey(
-        &self,
-        tree: &BodyTree,
-        half_window_s: Option<f64>,
-    ) -> Result<Option<RecordingSurvey>, Findings> {
+    pub(super) fn survey(&self, half_window_s: Option<f64>) -> Result<Option<RecordingSurvey>, Findings> {
         let mut parts = SampledParts::new(self.from_s, self.duration_s);
         self.read(|event| {
             match event {
@@ -71,10 +72,10 @@ impl RecordedEfforts {
             }
             Ok(())
         })?;
-        match half_window_s {
-            Some(half_window_s) => Ok(parts.survey_with(Smoothing { half_window_s })),
-            None => parts.survey(tree).map_err(|error| unreadable(&error.to_string())),
-        }
+        Ok(match half_window_s {
+            Some(half_window_s) => parts.survey_with(Smoothing { half_window_s }),
+            None => parts.survey(),
+        })
     }
 
     /// The equations of the whole log.
