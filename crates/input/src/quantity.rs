@@ -76,6 +76,10 @@ pub enum Quantity {
     EnergyError,
     /// Difference of delivered and commanded effort, relative to the commanded one.
     EffortError,
+    /// Part of the variance of recorded efforts that the description does not explain.
+    UnexplainedShare,
+    /// Distance of a point from the mean of its places, m.
+    PointSpread,
     /// Share of the instants of a log at which every joint is known.
     UsedShare,
     /// Longest time between two samples of a log, s.

@@ -13,6 +13,8 @@ pub struct CheckContext<'a> {
     pub clock: &'a RunClock,
     /// Bodies that links carry for a time.
     pub payloads: &'a [RunPayload],
+    /// Whether the joint states were recorded or arrive: no simulation.
+    pub is_recorded: bool,
     /// Joints that the source does not have: they stay at their start, and are not judged.
     pub held: &'a [String],
     /// The poses that the source has of the robot.

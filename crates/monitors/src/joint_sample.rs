@@ -36,12 +36,15 @@ pub struct JointSample<'a> {
     pub measured: JointStateView<'a>,
     /// The commanded state; `None` if the source does not know it.
     pub setpoint: Option<SetpointView<'a>>,
+    /// Efforts as they were recorded: torques, torques without gravity or currents, NaN where one is missing; empty if the source is no
+    /// log, or has none.
+    pub recorded_effort: &'a [f64],
 }
 
 impl<'a> JointSample<'a> {
     /// What was measured, without the truth and a setpoint.
     pub fn measured(state: JointStateView<'a>) -> Self {
-        Self { truth: None, measured: state, setpoint: None }
+        Self { truth: None, measured: state, setpoint: None, recorded_effort: &[] }
     }
 
     /// The state that limits are judged by: the true one, or the measured one of a source that has no other.

@@ -23,8 +23,8 @@ use super::{
         twist_limits,
     },
     recorded::{
-        FACTOR, PoseMonitor, RecordingMonitor, StepMonitor, USED_SHARE, VelocityMonitor, default_jumps,
-        default_limits,
+        FACTOR, PoseMonitor, RecordedEffortMonitor, RecordingMonitor, SPREAD_M, SamePointMonitor,
+        StepMonitor, UNEXPLAINED_SHARE, USED_SHARE, VelocityMonitor, default_jumps, default_limits,
     },
     space::{ClearanceMonitor, ContactMonitor, ZoneMonitor, examine_minimum, examine_pairs},
 };
@@ -91,6 +91,7 @@ impl<'a> RunningCheck<'a> {
             | Check::Pose(_)
             | Check::Power(_)
             | Check::Recording(_)
+            | Check::SamePoint(_)
             | Check::Step(_)
             | Check::Twist(_)
             | Check::Velocity(_)
@@ -110,6 +111,9 @@ impl<'a> RunningCheck<'a> {
             Check::Contact(check) => Box::new(ContactMonitor::new(check, context)),
             Check::CycleTime(check) => Box::new(CycleTimeMonitor::new(check, context)),
             Check::Dynamics(check) => Box::new(DynamicsMonitor::new(check, context)),
+            Check::Effort(check) if context.is_recorded => {
+                Box::new(RecordedEffortMonitor::new(check, context))
+            }
             Check::Effort(check) => Box::new(EffortMonitor::new(check, context)),
             Check::Goal(check) => Box::new(GoalMonitor::new(check, description)),
             Check::Invariants(check) => Box::new(InvariantsMonitor::new(check, context)),
@@ -117,6 +121,7 @@ impl<'a> RunningCheck<'a> {
             Check::Pose(check) => Box::new(PoseMonitor::new(check, context)),
             Check::Power(check) => Box::new(PowerMonitor::new(check, context)),
             Check::Recording(check) => Box::new(RecordingMonitor::new(check, context)),
+            Check::SamePoint(check) => Box::new(SamePointMonitor::new(check, context)),
             Check::Step(check) => Box::new(StepMonitor::new(check, context)),
             Check::Tracking(check) => Box::new(TrackingMonitor::new(check, context)),
             Check::Twist(check) => Box::new(TwistMonitor::new(check, context)),
@@ -205,6 +210,7 @@ pub fn write_out_limits(check: &mut Check, description: &RobotDescription, step_
         }
         Check::Effort(check) => {
             check.relative.get_or_insert(EFFORT_RELATIVE);
+            check.unexplained_share.get_or_insert(UNEXPLAINED_SHARE);
         }
         Check::Invariants(check) => {
             check.rotation.get_or_insert_with(|| default_rotation(&description.robot));
@@ -223,6 +229,7 @@ pub fn write_out_limits(check: &mut Check, description: &RobotDescription, step_
         Check::Recording(check) => {
             check.used_share.get_or_insert(USED_SHARE);
         }
+        Check::SamePoint(check) => fill(&mut check.spread_m, check.spread_mm, SPREAD_M),
         Check::Step(check) => {
             let [angle_rad, shift_m] = default_jumps();
             fill(&mut check.angle_rad, check.angle_deg, angle_rad);

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::RobotDescription;
-use congruent_input::{Diagnostic, Findings};
+use congruent_input::{Capability, Diagnostic, Findings};
 use congruent_logs::{JointSource, LogOptions, LogSurvey, PositionUnit, RobotOfLog, survey_log};
 use congruent_scenario::{
-    AgreementCheck, AngleUnit, Check, JointRole, LimitsCheck, LoggedJointSettings, LoggedPoseSettings,
-    PoseCheck, PoseOrigin, RecordingCheck, Scenario, SourceSettings, StepCheck, VelocityCheck,
+    AgreementCheck, AngleUnit, Check, EffortCheck, JointRole, LimitsCheck, LoggedJointSettings,
+    LoggedPoseSettings, PoseCheck, PoseOrigin, RecordingCheck, Scenario, SourceSettings, StepCheck,
+    VelocityCheck,
 };
 
 use super::{
@@ -143,6 +144,9 @@ fn checks(description: &RobotDescription, survey: &LogSurvey, poses: &[LoggedPos
     let joints = || description.robot.movable_joints().iter().map(|&joint| description.robot.joint(joint));
     let has_velocities = survey.topics.iter().filter_map(|topic| topic.joints.as_ref());
     let has_velocities = has_velocities.into_iter().any(|joints| joints.without_velocities < joints.messages);
+    let has_efforts = survey.topics.iter().filter_map(|topic| topic.joints.as_ref());
+    let has_efforts = has_efforts.into_iter().any(|joints| joints.without_efforts < joints.messages);
+    let has_masses = description.check_capability(Capability::Physics).is_ok();
     let is_measured = poses.iter().any(|pose| pose.origin == PoseOrigin::Measured);
     let all = [
         (true, Check::Recording(RecordingCheck::default())),
@@ -150,6 +154,7 @@ fn checks(description: &RobotDescription, survey: &LogSurvey, poses: &[LoggedPos
         (description.dh.is_some(), Check::Agreement(AgreementCheck::default())),
         (joints().any(|joint| joint.limit.is_some()), Check::Limits(LimitsCheck::default())),
         (has_velocities, Check::Velocity(VelocityCheck::default())),
+        (has_efforts && has_masses, Check::Effort(EffortCheck::default())),
         (!poses.is_empty(), Check::Pose(PoseCheck::default())),
         (is_measured, Check::Step(StepCheck::default())),
     ];

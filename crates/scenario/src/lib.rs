@@ -27,7 +27,7 @@ pub use bodies::{GraspSettings, PathPoseSettings};
 pub use checks::{
     AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, CycleTimeCheck, DynamicsCheck,
     EffortCheck, GoalCheck, InvariantsCheck, LimitsCheck, OnViolation, PoseCheck, PowerCheck, RecordingCheck,
-    StepCheck, TrackingCheck, TwistCheck, UnitKeys, VelocityCheck, ZoneCheck,
+    SamePointCheck, StepCheck, TrackingCheck, TwistCheck, UnitKeys, VelocityCheck, ZoneCheck,
 };
 pub use data::{Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
 pub use faults::{

@@ -130,7 +130,11 @@ impl Numbers {
             Check::Contact(check) => self.check_optional("check.force_n", check.force_n, Range::NonNegative),
             Check::CycleTime(check) => self.one("check.limit_s", check.limit_s, Range::Positive),
             Check::Dynamics(check) => self.check_optional("check.relative", check.relative, Range::Positive),
-            Check::Effort(check) => self.check_optional("check.relative", check.relative, Range::Positive),
+            Check::Effort(check) => {
+                self.check_optional("check.relative", check.relative, Range::Positive);
+                self.check_optional("check.unexplained_share", check.unexplained_share, Range::Share);
+            }
+            Check::SamePoint(check) => self.check_optional("check.still_s", check.still_s, Range::Positive),
             Check::Invariants(check) => {
                 self.check_optional("check.rotation", check.rotation, Range::Positive);
             }
@@ -157,7 +161,9 @@ impl Numbers {
             | Check::Zone(_) => {}
         }
         let range = match check {
-            Check::Agreement(_) | Check::Goal(_) | Check::Pose(_) | Check::Step(_) => Range::Positive,
+            Check::Agreement(_) | Check::Goal(_) | Check::Pose(_) | Check::SamePoint(_) | Check::Step(_) => {
+                Range::Positive
+            }
             _ => Range::NonNegative,
         };
         for keys in check.unit_keys() {

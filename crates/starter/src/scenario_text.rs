@@ -131,6 +131,7 @@ fn keys_and_purpose(check: &Check) -> (Vec<(&'static str, String)>, &'static str
         | Check::Pose(_)
         | Check::Recording(_)
         | Check::Step(_)
+        | Check::SamePoint(_)
         | Check::Velocity(_)
         | Check::Zone(_) => (Vec::new(), ""),
     }

@@ -25,7 +25,10 @@ pub const ARROWS: &[(&str, &[&str])] = &[
     ("scenario", &["input"]),
     ("motion", &["input", "tables", "description", "kinematics", "scenario"]),
     ("proximity", &["input", "description", "kinematics"]),
-    ("monitors", &["input", "description", "kinematics", "dynamics", "scenario", "proximity"]),
+    (
+        "monitors",
+        &["input", "description", "kinematics", "dynamics", "identification", "scenario", "proximity"],
+    ),
     ("fault-diagnosis", &["input", "description", "dynamics", "scenario", "proximity", "monitors"]),
     (
         "twin",

@@ -123,13 +123,9 @@ impl RowMaker {
             let series = if is_setpoint { &mut self.setpoints } else { &mut self.measured };
             let mut has_position = false;
             for (joint, place) in topic.selected.joints.iter().zip(&topic.places) {
-                let Some(mut state) = place.and_then(|place| state(&message, place, joint.si_per_unit))
-                else {
+                let Some(state) = place.and_then(|place| state(&message, place, joint.si_per_unit)) else {
                     continue;
                 };
-                if !topic.selected.takes_effort {
-                    state.effort = f64::NAN;
-                }
                 has_position = true;
                 series[joint.joint].push(time_s, state);
             }

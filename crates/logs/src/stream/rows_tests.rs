@@ -12,7 +12,7 @@ fn topic(name: &str, maximum_gap_s: f64, joints: &[(&str, usize)]) -> SelectedJo
         topic: name.to_owned(),
         is_setpoint: false,
         maximum_gap_s,
-        takes_effort: true,
+        effort_is_torque: true,
         joints: joints.iter().map(joint).collect(),
     }
 }

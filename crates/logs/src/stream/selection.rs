@@ -30,8 +30,8 @@ pub struct SelectedJoints {
     pub is_setpoint: bool,
     /// Nothing is interpolated across a longer time without messages.
     pub maximum_gap_s: f64,
-    /// Whether its efforts are taken.
-    pub takes_effort: bool,
+    /// Whether its efforts are torques and forces, N m and N: drivers write other things under this name.
+    pub effort_is_torque: bool,
     /// The joints that are taken.
     pub joints: Vec<SelectedJoint>,
 }

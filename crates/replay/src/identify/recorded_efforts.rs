@@ -5,7 +5,7 @@ use congruent_identification::{
     Collector, Instants, RecordedEquations, RecordedRow, RecordingSurvey, SampledParts, Smoothing,
 };
 use congruent_input::{Diagnostic, Findings};
-use congruent_scenario::{JointRole, LoggedEffort, Scenario};
+use congruent_scenario::Scenario;
 use congruent_twin::{
     RunSetup,
     setup::RecordedSetup,
@@ -35,12 +35,9 @@ impl RecordedEfforts {
     /// # Errors
     /// The log cannot be read, or does not have the joints.
     pub(super) fn open(
-        mut scenario: Scenario,
+        scenario: Scenario,
         description: &congruent_description::RobotDescription,
     ) -> Result<Self, Findings> {
-        let joints = scenario.source.iter_mut().flat_map(|source| &mut source.joints);
-        // Whatever they are: that is found out.
-        joints.filter(|of| of.role == JointRole::Measured).for_each(|of| of.effort = LoggedEffort::Torque);
         let setup = RunSetup::new(scenario, description.clone())?;
         let recorded = setup.recorded.clone().ok_or_else(|| unreadable("the log has no joint states"))?;
         let mut efforts = Self { setup, recorded, from_s: 0.0, duration_s: 0.0, has_efforts: false };
@@ -112,9 +109,10 @@ impl RecordedEfforts {
             if source.begins_part() {
                 each(RowOrBreak::Break)?;
             }
-            let state = source.joints().measured;
-            let effort = if state.effort.is_empty() { &unknown[..] } else { state.effort };
-            each(RowOrBreak::Row(RecordedRow { time_s, q: state.q, effort }))?;
+            let joints = source.joints();
+            let effort =
+                if joints.recorded_effort.is_empty() { &unknown[..] } else { joints.recorded_effort };
+            each(RowOrBreak::Row(RecordedRow { time_s, q: joints.measured.q, effort }))?;
             loop {
                 match source.advance(0.0).map_err(refused)? {
                     Advance::At(next_s) => {

@@ -4,7 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::on_violation::OnViolation;
-use crate::{number::optional_positive, text::variant};
+use crate::{
+    number::{optional_positive, optional_share},
+    text::variant,
+};
 
 /// The acceleration of the twin in each step, against forward dynamics by analysis at the twin's state and efforts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -19,7 +22,8 @@ pub struct DynamicsCheck {
     pub on_violation: OnViolation,
 }
 
-/// The effort that each actuator delivers in a step, against the effort that it is commanded to.
+/// The effort that each actuator delivers in a step, against the effort that it is commanded to; of a log, the recorded efforts against
+/// inverse dynamics at the recorded motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EffortCheck {
@@ -27,6 +31,10 @@ pub struct EffortCheck {
     /// far; default 0.05.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
+    /// Of a log: largest part of the variance of the effort of a joint that inverse dynamics, friction, armature and a factor leave;
+    /// default 0.5.
+    #[serde(default, deserialize_with = "optional_share", skip_serializing_if = "Option::is_none")]
+    pub unexplained_share: Option<f64>,
     /// What the run does at the first violation of the check.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,

@@ -16,7 +16,7 @@ pub use forces::{DynamicsCheck, EffortCheck, PowerCheck};
 pub use joints::{CycleTimeCheck, LimitsCheck, TrackingCheck};
 pub use on_violation::OnViolation;
 pub use pose::{AgreementCheck, GoalCheck, InvariantsCheck, TwistCheck};
-pub use recorded::{PoseCheck, RecordingCheck, StepCheck, VelocityCheck};
+pub use recorded::{PoseCheck, RecordingCheck, SamePointCheck, StepCheck, VelocityCheck};
 pub use space::{ClearanceCheck, ContactCheck, ZoneCheck};
 pub use unit_keys::UnitKeys;
 pub(crate) use unit_keys::in_two_units;
@@ -49,6 +49,8 @@ pub enum Check {
     Power(PowerCheck),
     /// How much of a log could be used.
     Recording(RecordingCheck),
+    /// A point of the tool that is at one place whenever the arm stands.
+    SamePoint(SamePointCheck),
     /// A jump of one joint's zero, as recorded poses show it.
     Step(StepCheck),
     /// The twin against its setpoint.
@@ -89,6 +91,8 @@ pub enum CheckKind {
     Power,
     /// See [`Check::Recording`].
     Recording,
+    /// See [`Check::SamePoint`].
+    SamePoint,
     /// See [`Check::Step`].
     Step,
     /// See [`Check::Tracking`].
@@ -103,7 +107,7 @@ pub enum CheckKind {
 
 impl CheckKind {
     /// Every kind, in alphabetical order.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Agreement,
         Self::Clearance,
         Self::Contact,
@@ -116,6 +120,7 @@ impl CheckKind {
         Self::Pose,
         Self::Power,
         Self::Recording,
+        Self::SamePoint,
         Self::Step,
         Self::Tracking,
         Self::Twist,
@@ -151,6 +156,7 @@ impl Check {
             Self::Pose(_) => CheckKind::Pose,
             Self::Power(_) => CheckKind::Power,
             Self::Recording(_) => CheckKind::Recording,
+            Self::SamePoint(_) => CheckKind::SamePoint,
             Self::Step(_) => CheckKind::Step,
             Self::Tracking(_) => CheckKind::Tracking,
             Self::Twist(_) => CheckKind::Twist,
@@ -174,6 +180,7 @@ impl Check {
             Self::Pose(check) => check.on_violation,
             Self::Power(check) => check.on_violation,
             Self::Recording(check) => check.on_violation,
+            Self::SamePoint(check) => check.on_violation,
             Self::Step(check) => check.on_violation,
             Self::Tracking(check) => check.on_violation,
             Self::Twist(check) => check.on_violation,
@@ -197,6 +204,7 @@ impl Check {
             Self::Pose(check) => &mut check.on_violation,
             Self::Power(check) => &mut check.on_violation,
             Self::Recording(check) => &mut check.on_violation,
+            Self::SamePoint(check) => &mut check.on_violation,
             Self::Step(check) => &mut check.on_violation,
             Self::Tracking(check) => &mut check.on_violation,
             Self::Twist(check) => &mut check.on_violation,
@@ -217,6 +225,7 @@ impl Check {
             Self::Tracking(check) => check.unit_keys().into(),
             Self::Twist(check) => check.unit_keys().into(),
             Self::Pose(check) => check.unit_keys().into(),
+            Self::SamePoint(check) => check.unit_keys().into(),
             Self::Step(check) => check.unit_keys().into(),
             Self::Dynamics(_)
             | Self::Effort(_)

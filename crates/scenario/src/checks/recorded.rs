@@ -69,6 +69,24 @@ pub struct StepCheck {
     pub on_violation: OnViolation,
 }
 
+/// A point of the tool that is at one place whenever the arm stands, such as a ball in a hole.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SamePointCheck {
+    /// Largest distance of the TCP from the mean of its places, in metres or in millimetres; default: 2 mm.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub spread_m: Option<f64>,
+    /// The same in millimetres.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub spread_mm: Option<f64>,
+    /// Shortest time for which the arm stands at a place; default: 0.5 s.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub still_s: Option<f64>,
+    /// What the run does at the first violation of the check.
+    #[serde(default, deserialize_with = "variant")]
+    pub on_violation: OnViolation,
+}
+
 /// Reported velocities against the change of the reported positions: their unit, their sign, and how late they are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -89,6 +107,17 @@ impl PoseCheck {
     /// The limits in m and rad, where they are given.
     pub fn limits(&self) -> [Option<f64>; 2] {
         self.unit_keys().map(|keys| keys.value())
+    }
+}
+
+impl SamePointCheck {
+    pub(crate) fn unit_keys(&self) -> [UnitKeys; 1] {
+        [in_two_units!(self, spread_m, spread_mm)]
+    }
+
+    /// The limit in m, if it is given.
+    pub fn limit_m(&self) -> Option<f64> {
+        self.unit_keys()[0].value()
     }
 }
 

@@ -286,6 +286,7 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
         CheckKind::Step => section.read_into(&mut found).map(Check::Step),
         CheckKind::Tracking => section.read_into(&mut found).map(Check::Tracking),
         CheckKind::Twist => section.read_into(&mut found).map(Check::Twist),
+        CheckKind::SamePoint => section.read_into(&mut found).map(Check::SamePoint),
         CheckKind::Velocity => section.read_into(&mut found).map(Check::Velocity),
         CheckKind::Zone => section.read_into(&mut found).map(Check::Zone),
     };

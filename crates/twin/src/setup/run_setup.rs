@@ -335,6 +335,7 @@ impl RunSetup {
             description: &self.description,
             clock: &self.clock,
             payloads: &self.payloads,
+            is_recorded: self.recorded.is_some(),
             held: self.recorded.as_ref().map_or(&[], |recorded| &recorded.held),
             poses: self.poses(),
             dynamics: self.declared_dynamics(),

@@ -75,7 +75,7 @@ fn copy<T: Copy>(to: &mut Vec<T>, from: &[T]) {
 
 impl SourceState {
     fn take(&mut self, source: &SimulationSource<'_>, time_s: f64, links: usize) {
-        let JointSample { truth, measured, setpoint } = source.joints();
+        let JointSample { truth, measured, setpoint, .. } = source.joints();
         (self.time_s, self.is_last) = (time_s, source.is_last());
         let truth = truth.unwrap_or(measured);
         self.truth.copy(truth.q, truth.qd, truth.effort);
@@ -207,7 +207,7 @@ impl JointStateSource for SourceAhead {
             qdd,
             effort: &joints.effort,
         });
-        JointSample { truth: Some(truth.view()), measured: measured.view(), setpoint }
+        JointSample { truth: Some(truth.view()), measured: measured.view(), setpoint, recorded_effort: &[] }
     }
 
     fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {

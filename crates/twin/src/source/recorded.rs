@@ -26,7 +26,10 @@ struct RecordedJoints {
     time_s: f64,
     q: RobotQ,
     qd: Vec<f64>,
+    /// Torques and forces; NaN where efforts are something else.
     effort: Vec<f64>,
+    /// As recorded, whatever they are.
+    recorded_effort: Vec<f64>,
     setpoint_q: RobotQ,
     setpoint_qd: Vec<f64>,
     left_out: u64,
@@ -43,6 +46,8 @@ pub struct RecordedSource<'a> {
     stream: LogStream,
     /// Joints that some topic has.
     is_recorded: Vec<bool>,
+    /// Joints whose efforts are torques and forces.
+    is_torque: Vec<bool>,
     now: RecordedJoints,
     next: RecordedJoints,
     has_next: bool,
@@ -95,6 +100,7 @@ impl<'a> RecordedSource<'a> {
             q: start.clone(),
             qd: vec![f64::NAN; dof],
             effort: vec![f64::NAN; dof],
+            recorded_effort: vec![f64::NAN; dof],
             setpoint_q: start.clone(),
             setpoint_qd: vec![f64::NAN; dof],
             left_out: 0,
@@ -102,14 +108,19 @@ impl<'a> RecordedSource<'a> {
             message: EventTime::default(),
         };
         let measured = setup.selection.joints.iter().filter(|topic| !topic.is_setpoint);
-        let mut is_recorded = vec![false; dof];
-        measured.flat_map(|topic| &topic.joints).for_each(|joint| is_recorded[joint.joint] = true);
+        let (mut is_recorded, mut is_torque) = (vec![false; dof], vec![false; dof]);
+        for (topic, joint) in measured.flat_map(|topic| topic.joints.iter().map(move |joint| (topic, joint)))
+        {
+            is_recorded[joint.joint] = true;
+            is_torque[joint.joint] = topic.effort_is_torque;
+        }
         Self {
             setup,
             robot,
             start,
             stream,
             is_recorded,
+            is_torque,
             now: joints.clone(),
             next: joints,
             has_next: true,
@@ -175,7 +186,11 @@ impl<'a> RecordedSource<'a> {
         // Joints that the log does not have stay where they are.
         let held = next.qd.iter_mut().zip(&self.is_recorded).filter(|(_, is_recorded)| !**is_recorded);
         held.for_each(|(qd, _)| *qd = 0.0);
-        next.effort.copy_from_slice(&row.effort);
+        next.recorded_effort.copy_from_slice(&row.effort);
+        let torques = next.effort.iter_mut().zip(&row.effort).zip(&self.is_torque);
+        torques.for_each(|((torque, recorded), is_torque)| {
+            *torque = if *is_torque { *recorded } else { f64::NAN };
+        });
         next.setpoint_qd.copy_from_slice(&row.setpoint_qd);
         for (q, recorded, start) in
             [(&mut next.q, &row.q, true), (&mut next.setpoint_q, &row.setpoint_q, false)]
@@ -258,7 +273,7 @@ impl JointStateSource for RecordedSource<'_> {
     }
 
     fn joints(&self) -> JointSample<'_> {
-        let RecordedJoints { q, qd, effort, setpoint_q, setpoint_qd, .. } = &self.now;
+        let RecordedJoints { q, qd, effort, recorded_effort, setpoint_q, setpoint_qd, .. } = &self.now;
         let known = |values: &'_ Vec<f64>| {
             let recorded = values.iter().zip(&self.is_recorded).filter(|(_, is_recorded)| **is_recorded);
             recorded.into_iter().any(|(value, _)| !value.is_nan())
@@ -274,7 +289,8 @@ impl JointStateSource for RecordedSource<'_> {
         });
         let (qd, effort) =
             (if known(qd) { &qd[..] } else { &[] }, if known(effort) { &effort[..] } else { &[] });
-        JointSample { truth: None, measured: JointStateView { q, qd, effort }, setpoint }
+        let recorded_effort = if known(recorded_effort) { &recorded_effort[..] } else { &[] };
+        JointSample { truth: None, measured: JointStateView { q, qd, effort }, setpoint, recorded_effort }
     }
 
     fn left_out(&self) -> u64 {

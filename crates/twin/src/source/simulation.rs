@@ -168,6 +168,7 @@ impl JointStateSource for SimulationSource<'_> {
                 qdd: setpoint.qdd,
                 effort: self.world.asked_torque(),
             }),
+            recorded_effort: &[],
         }
     }
 

@@ -216,6 +216,7 @@ impl JointStateSource for Distorted<'_> {
                 ..joints.measured
             },
             setpoint: joints.setpoint,
+            recorded_effort: &[],
         }
     }
 

@@ -57,6 +57,7 @@ fn needs_states_alone(kind: CheckKind) -> bool {
         | CheckKind::Power
         | CheckKind::Recording
         | CheckKind::Step
+        | CheckKind::SamePoint
         | CheckKind::Velocity
         | CheckKind::Twist => false,
     }

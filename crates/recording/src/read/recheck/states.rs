@@ -168,7 +168,7 @@ impl JointStateSource for RecordedStates {
         let measured = JointStateView { q: &instant.measured, qd: &[], effort: &[] };
         let setpoint = |(q, qd)| SetpointView { q, qd, qdd: &self.no_accelerations, effort: &[] };
         let setpoint = instant.setpoint.as_ref().map(|(q, qd)| (q, &qd[..])).map(setpoint);
-        JointSample { truth: Some(truth), measured, setpoint }
+        JointSample { truth: Some(truth), measured, setpoint, recorded_effort: &[] }
     }
 
     // The recorded poses of links have the digits of the viewer, those of the URDF and of the TCP have all.

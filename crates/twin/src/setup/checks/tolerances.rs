@@ -109,6 +109,7 @@ fn is_tolerance(check: &Check, keys: &UnitKeys) -> bool {
         | Check::CycleTime(_)
         | Check::Goal(_)
         | Check::Pose(_)
+        | Check::SamePoint(_)
         | Check::Step(_)
         | Check::Tracking(_) => true,
         // The others of these keys are margins.

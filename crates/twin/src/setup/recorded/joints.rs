@@ -82,7 +82,7 @@ fn all(place: FilePlace<'_>, survey: &LogSurvey, robot: &Robot) -> Result<Vec<Se
         topic: source.topic.clone(),
         is_setpoint: false,
         maximum_gap_s: 0.0,
-        takes_effort: false,
+        effort_is_torque: false,
         joints: source.joints.iter().filter_map(|joint| selected_joint(source, joint, robot)).collect(),
     };
     Ok(sources.iter().map(selected).collect())
@@ -240,12 +240,12 @@ fn joints_of(
         return Err(place.key("topic").mark(error.with_help(help)).into());
     }
     let is_setpoint = settings.role == JointRole::Setpoint;
-    let takes_effort = settings.effort == LoggedEffort::Torque;
+    let effort_is_torque = settings.effort == LoggedEffort::Torque;
     Ok(SelectedJoints {
         topic: settings.topic.clone(),
         is_setpoint,
         maximum_gap_s: 0.0,
-        takes_effort,
+        effort_is_torque,
         joints,
     })
 }
