@@ -247,6 +247,53 @@ fn what_is_not_in_the_log_is_refused_with_what_is() {
     assert!(answer.code == 2 && answer.stderr.contains("CGR-SCENARIO-091"), "{}", answer.stderr);
 }
 
+/// A log with a payload that the description does not have: torques, of which friction and a factor explain nearly all.
+#[test]
+fn recorded_efforts_are_recognised_as_torques() {
+    let scratch = ScratchFolder::new();
+    let out = text(&scratch.path().join("out"));
+    let log = "docs/examples/log/efforts.csv";
+    let answer = congruent(&["replay", "robots/ur5e", log, "--out", &out, "--no-recording"]);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    assert!(answer.stdout.contains("efforts are torques"), "{}", answer.stdout);
+    // Efforts of other joints are no torques of these.
+    let shuffled = std::fs::read_to_string(crate::support::corpus::workspace().join(log)).unwrap();
+    let shuffled = shuffled
+        .replace("elbow_joint_effort", "x")
+        .replace("shoulder_lift_joint_effort", "elbow_joint_effort");
+    let log = scratch.write("shuffled.csv", &shuffled.replace(",x,", ",shoulder_lift_joint_effort,"));
+    let answer = congruent(&["replay", "robots/ur5e", &log, "--out", &out, "--no-recording"]);
+    assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+    assert!(answer.stdout.contains("effort     fail"), "{}", answer.stdout);
+}
+
+/// Two stands, whose tool points are 1 and 100 mm apart by the model.
+#[test]
+fn a_touched_point_has_one_place() {
+    let scratch = ScratchFolder::new();
+    let run = |second: f64| {
+        let mut rows = String::from(
+            "time_s,shoulder_pan_joint,shoulder_lift_joint,elbow_joint,wrist_1_joint,wrist_2_joint,wrist_3_joint\n",
+        );
+        for row in 0..200 {
+            let pan = if row < 100 { 0.0 } else { second };
+            rows += &format!("{},{pan},-1.2,1.4,-1.6,-1.57,0\n", 0.01 * f64::from(row));
+        }
+        scratch.write("log.csv", &rows);
+        let check = "[[check]]\nkind = \"same_point\"\nspread_mm = 1\n";
+        let robot = text(&crate::support::corpus::workspace().join("robots/ur5e"));
+        let scenario = format!(
+            "schema_version = 1\nname = \"a\"\nrobot = \"{robot}\"\n[source]\nlog = \"log.csv\"\n{check}"
+        );
+        let out = text(&scratch.path().join("out"));
+        congruent(&["run", &scratch.write("a.toml", &scenario), "--out", &out, "--no-recording"])
+    };
+    let same = run(0.002);
+    assert!(same.code == 0 && same.stdout.contains("the arm stood"), "{}{}", same.stdout, same.stderr);
+    let other = run(0.2);
+    assert!(other.code == 1 && other.stdout.contains("same_point fail"), "{}{}", other.stdout, other.stderr);
+}
+
 /// Logs of the corpus: orders that change, missing joints, NaN; two clocks with drift; degrees and prefixes.
 #[test]
 fn logs_of_the_corpus_have_their_known_defects() {

@@ -47,7 +47,7 @@ impl SamePointMonitor {
             tip: context.description.tip.get(),
             tip_from_tcp: context.description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             still_s: check.still_s.unwrap_or(STILL_S),
-            spread: Watch::new(Quantity::PointSpread, SiUnit::Metre, Bound::AtMost, limit, 1),
+            spread: Watch::new(Quantity::PointSpread, SiUnit::Metre, Bound::AtMost, limit, context.dof()),
             stand: None,
             places_m: Vec::new(),
         }

@@ -11,6 +11,9 @@ use nalgebra::Isometry3;
 /// Configurations at which a pair has to be near to count as always near. Kind: choice.
 const CONFIGURATIONS: usize = 40;
 
+/// And it is nearer than this, m: neighbours and fingers are. Kind: choice.
+const ALWAYS_NEAR_M: f64 = 0.05;
+
 /// Distances of the links from each other and from obstacles.
 pub(super) struct LinkDistances {
     clearance: Clearance,
@@ -53,7 +56,7 @@ impl LinkDistances {
             };
             let mut q: RobotQ = robot.movable_joints().iter().map(place).collect();
             robot.apply_mimic(&mut q);
-            let now = distances.near(&q, clearance_m);
+            let now = distances.near(&q, clearance_m.min(ALWAYS_NEAR_M));
             near = Some(near.map_or_else(|| now.clone(), |before| &before & &now));
         }
         distances.always_near = near.unwrap_or_default();
